@@ -1,0 +1,48 @@
+#pragma once
+// Counter-based random numbers: a pure function of (seed, frame, pixel, purpose), so that frames do not depend on
+// the thread count and any pixel of any frame can be recomputed alone.
+// Philox-4x32-10: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11, 2011.
+
+#include <array>
+#include <cstdint>
+
+namespace hilcam {
+
+// What a number is drawn for; each is an independent stream. Values are part of a deterministic frame: never reuse one.
+enum class RandomPurpose : std::uint32_t {
+    kShotNoise = 1,
+    kReadNoise = 2,
+    kPathSample = 3,
+};
+
+struct RandomKey {
+    std::uint64_t seed = 0;
+    std::uint64_t frame = 0;
+};
+
+// Four independent 32-bit words. `pixel` and `index` (bounce, sample, ...) are free counters.
+inline std::array<std::uint32_t, 4> random_words(RandomKey key, RandomPurpose purpose, std::uint32_t pixel,
+                                                 std::uint32_t index = 0) {
+    // Key: seed. Counter: pixel, index + purpose, frame. index stays below 2^24 so that it never meets the purpose.
+    std::array<std::uint32_t, 4> c = {pixel, (static_cast<std::uint32_t>(purpose) << 24) ^ index,
+                                      static_cast<std::uint32_t>(key.frame), static_cast<std::uint32_t>(key.frame >> 32)};
+    std::uint32_t k0 = static_cast<std::uint32_t>(key.seed);
+    std::uint32_t k1 = static_cast<std::uint32_t>(key.seed >> 32);
+    for (int round = 0; round < 10; ++round) {
+        // Multipliers and Weyl increments from the paper's reference (Random123).
+        const std::uint64_t p0 = std::uint64_t{0xD2511F53u} * c[0];
+        const std::uint64_t p1 = std::uint64_t{0xCD9E8D57u} * c[2];
+        c = {static_cast<std::uint32_t>(p1 >> 32) ^ c[1] ^ k0, static_cast<std::uint32_t>(p1),
+             static_cast<std::uint32_t>(p0 >> 32) ^ c[3] ^ k1, static_cast<std::uint32_t>(p0)};
+        k0 += 0x9E3779B9u;
+        k1 += 0xBB67AE85u;
+    }
+    return c;
+}
+
+// Uniform in (0, 1): the middle of one of 2^23 equal cells, so neither 0 nor 1 can occur in single precision.
+inline float uniform01(std::uint32_t word) {
+    return (static_cast<float>(word >> 9) + 0.5f) * (1.0f / 8388608.0f);
+}
+
+}  // namespace hilcam

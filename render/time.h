@@ -1,0 +1,37 @@
+#pragma once
+// Instants: TAI nanoseconds inside, UTC text at the edges.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace hilcam {
+
+// Nanoseconds of International Atomic Time since 1970-01-01T00:00:00 TAI (the epoch of Linux's CLOCK_TAI).
+// int64 covers the years 1678 to 2262.
+struct TimeTai {
+    std::int64_t ns = 0;
+
+    friend constexpr auto operator<=>(TimeTai, TimeTai) = default;
+    friend constexpr TimeTai operator+(TimeTai t, std::int64_t ns) { return {t.ns + ns}; }
+    friend constexpr std::int64_t operator-(TimeTai a, TimeTai b) { return a.ns - b.ns; }
+};
+
+inline constexpr double kSecondsPerNs = 1e-9;
+
+// Reads "2026-03-20T06:00:00[.fraction][Z]" as UTC. Throws InputError when it is not such a text, or the date lies
+// outside 1960-2200. Leap seconds come from ERFA's table (eraDat); years past its end use its last value.
+TimeTai parse_utc(std::string_view text);
+// "2026-03-20T06:00:00.000Z"
+std::string format_utc(TimeTai time);
+
+// Two-part Julian dates as ERFA takes them.
+struct JulianDate {
+    double day = 0;
+    double fraction = 0;
+};
+JulianDate julian_tt(TimeTai time);
+// UT1 is taken equal to UTC (|UT1-UTC| < 0.9 s by definition, that is below 14 arcsec of Earth rotation).
+JulianDate julian_ut1(TimeTai time);
+
+}  // namespace hilcam
