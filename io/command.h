@@ -1,0 +1,60 @@
+#pragma once
+// Commands, decoded: what a sender can ask of the camera. Bytes are ccsds.h's business, transport commands_udp.h's.
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "render/pose.h"
+
+namespace hilcam {
+
+// Object 0 is the camera, 1, 2, ... the scenario's objects in their order.
+struct PoseCommand {
+    std::uint16_t object = 0;
+    // motion.time: the instant the pose is true at, simulated TAI; ns = 0 means "on arrival".
+    Motion motion;
+};
+struct SettingsCommand {
+    std::optional<double> exposure_s;
+    std::optional<double> gain_db;
+    std::optional<double> frame_rate_hz;
+};
+struct StartCommand {};
+struct StopCommand {};
+// Answered with the simulated time, so that a sender can set its time tags.
+struct PingCommand {
+    std::uint64_t token = 0;
+};
+using Command = std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand>;
+
+// Travels in the acknowledgement; the numbers are part of the protocol.
+enum class CommandStatus : std::uint8_t {
+    kAccepted = 0,
+    kBadLength = 1,        // datagram or packet shorter or longer than its header says
+    kBadHeader = 2,        // version, type, secondary header flag or sequence flags
+    kUnknownApid = 3,
+    kBadChecksum = 4,
+    kUnknownFunction = 5,
+    kBadArgument = 6,      // a number that is not finite, a quaternion that is not one, a value outside its limits
+    kUnknownObject = 7,
+    kTimeOutOfRange = 8,   // a time tag more than an hour from the simulated now
+};
+
+// What the emulator does with a decoded command. Called by the receivers' threads, one at a time per receiver.
+class CommandHandler {
+  public:
+    virtual ~CommandHandler() = default;
+    virtual CommandStatus handle(const Command& command, std::uint16_t sequence, std::int64_t arrival_monotonic_ns) = 0;
+    // Simulated time now.
+    virtual TimeTai now() const = 0;
+};
+
+// Counters of one receiver. `lost` counts gaps in the senders' sequence numbers.
+struct CommandReport {
+    std::uint64_t received = 0;
+    std::uint64_t refused = 0;
+    std::uint64_t lost = 0;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,53 @@
+#pragma once
+// Where finished frames go: a GigE Vision client, a V4L2 device, files. The loop hands every sink every frame.
+
+#include <cstdint>
+#include <string>
+
+#include "render/image.h"
+#include "render/time.h"
+
+namespace hilcam {
+
+// What travels with a frame. Monotonic times are CLOCK_MONOTONIC nanoseconds; 0 means "none".
+struct FrameRecord {
+    std::uint64_t id = 0;                         // 1, 2, 3, ... of this run; skipped frames leave a gap
+    TimeTai exposure_mid;                         // simulated time
+    std::int64_t exposure_mid_monotonic_ns = 0;   // the same instant on the machine's clock
+    double exposure_s = 0;
+    double gain_db = 0;
+    int bits = 0;                                 // significant bits of a DN
+    std::uint32_t pose_sequence = 0;              // of the newest command that this frame shows
+    std::int64_t command_arrival_monotonic_ns = 0;  // when that command arrived; 0 when no new one came since the last frame
+};
+
+struct SinkReport {
+    std::string name;               // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
+    std::uint64_t frames = 0;       // delivered
+    std::uint64_t dropped = 0;      // taken from the loop but not delivered (no client, sink too slow)
+    std::string fault;              // empty, or why the sink stopped delivering
+};
+
+class FrameSink {
+  public:
+    virtual ~FrameSink() = default;
+    // Opens what it needs and starts its own threads. Throws InputError or DeviceError. Owner thread.
+    virtual void start() = 0;
+    // Takes a copy of the frame and returns; never waits for a client or a device. Loop. The image may be
+    // overwritten as soon as this returns.
+    virtual void publish(const DnImage& frame, const FrameRecord& record) noexcept = 0;
+    // Ends the threads and closes everything; idempotent. Owner thread.
+    virtual void stop() noexcept = 0;
+    // Any thread.
+    virtual SinkReport report() const = 0;
+};
+
+// Told by sinks when the first and the last byte of a frame have left; times are CLOCK_MONOTONIC ns. Called from the
+// sink's own thread: no lock, no allocation.
+class DeliveryListener {
+  public:
+    virtual ~DeliveryListener() = default;
+    virtual void delivered(const FrameRecord& record, std::int64_t first_ns, std::int64_t last_ns) noexcept = 0;
+};
+
+}  // namespace hilcam
