@@ -44,8 +44,8 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin);
 // The Earth as a Lambert ellipsoid in direct Sun; no air, no clouds of its own.
 struct EarthConfig {
     bool visible = true;
-    Curve albedo = Curve::constant(0.3);  // scaled by the map, whose mean is taken as 1
-    std::filesystem::path albedo_map;     // equirectangular picture, left edge 180 W, top 90 N; empty: uniform
+    Curve albedo = Curve::constant(0.3);  // of a uniform Earth; with a map: a factor on its reflectance
+    std::filesystem::path albedo_map;     // equirectangular sRGB picture of reflectance, left edge 180 W, top 90 N
 };
 Fields fields(EarthConfig& config);
 

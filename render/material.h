@@ -7,6 +7,7 @@
 //   f_diff = (1 - F0_mean) albedo / pi for dielectrics, 0 for metals (Lambert).
 // Not modelled: light that scatters several times between facets, polarisation, transmission, anisotropy.
 
+#include <span>
 #include <string>
 #include <vector>
 

@@ -1,0 +1,181 @@
+#include "render/embree_scene.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <bit>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "render/check.h"
+
+namespace hilcam {
+namespace {
+
+// What differs between the two versions: how a query takes its options.
+#if RTC_VERSION_MAJOR >= 4
+RTCRayQueryFlags flags_of(Coherence c) {
+    return c == Coherence::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+}
+void intersect_16(const int* valid, RTCScene scene, Coherence coherence, RTCRayHit16& rays) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = flags_of(coherence);
+    rtcIntersect16(valid, scene, &rays, &arguments);
+}
+void occluded_16(const int* valid, RTCScene scene, Coherence coherence, RTCRay16& rays) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = flags_of(coherence);
+    rtcOccluded16(valid, scene, &rays, &arguments);
+}
+#else
+RTCIntersectContext context_of(Coherence c) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = c == Coherence::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return context;
+}
+void intersect_16(const int* valid, RTCScene scene, Coherence coherence, RTCRayHit16& rays) {
+    RTCIntersectContext context = context_of(coherence);
+    rtcIntersect16(valid, scene, &context, &rays);
+}
+void occluded_16(const int* valid, RTCScene scene, Coherence coherence, RTCRay16& rays) {
+    RTCIntersectContext context = context_of(coherence);
+    rtcOccluded16(valid, scene, &context, &rays);
+}
+#endif
+
+// All ones for the rays that exist, zero for the rest of the packet.
+void set_valid(int count, int* valid) {
+    for (int i = 0; i < kPacketSize; ++i) valid[i] = i < count ? -1 : 0;
+}
+
+void copy_rays(const RayPacket& from, RTCRay16& to) {
+    static_assert(sizeof(from.origin_x) == sizeof(to.org_x));
+    std::memcpy(to.org_x, from.origin_x.data(), sizeof(to.org_x));
+    std::memcpy(to.org_y, from.origin_y.data(), sizeof(to.org_y));
+    std::memcpy(to.org_z, from.origin_z.data(), sizeof(to.org_z));
+    std::memcpy(to.dir_x, from.dir_x.data(), sizeof(to.dir_x));
+    std::memcpy(to.dir_y, from.dir_y.data(), sizeof(to.dir_y));
+    std::memcpy(to.dir_z, from.dir_z.data(), sizeof(to.dir_z));
+    std::memcpy(to.tnear, from.nearest.data(), sizeof(to.tnear));
+    std::memcpy(to.tfar, from.farthest.data(), sizeof(to.tfar));
+    std::memset(to.time, 0, sizeof(to.time));
+    std::memset(to.flags, 0, sizeof(to.flags));
+    std::memset(to.mask, 0xFF, sizeof(to.mask));
+}
+
+}  // namespace
+
+struct EmbreeScene::Implementation {
+    RTCDevice device = nullptr;
+    RTCScene top = nullptr;
+    std::vector<RTCScene> meshes;
+    std::vector<RTCGeometry> instances;
+
+    ~Implementation() {
+        for (RTCGeometry geometry : instances) rtcReleaseGeometry(geometry);
+        for (RTCScene scene : meshes) rtcReleaseScene(scene);
+        if (top) rtcReleaseScene(top);
+        if (device) rtcReleaseDevice(device);
+    }
+    void require_no_error(const char* doing) const {
+        const RTCError error = rtcGetDeviceError(device);
+        if (error == RTC_ERROR_OUT_OF_MEMORY)
+            throw InputError(std::string("out of memory while ") + doing + "; use a mesh with fewer triangles");
+        if (error != RTC_ERROR_NONE)
+            throw DeviceError(std::string("Embree reports error ") + std::to_string(static_cast<int>(error)) + " while " +
+                              doing);
+    }
+    RTCScene build(const Mesh& mesh) const {
+        RTCScene scene = rtcNewScene(device);
+        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
+                                                 mesh.vertices_m.size());
+        void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                  3 * sizeof(std::uint32_t), mesh.triangles.size());
+        require_no_error("copying a mesh");
+        std::memcpy(vertices, mesh.vertices_m.data(), mesh.vertices_m.size() * sizeof(Vec3f));
+        std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(std::uint32_t));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene);
+        require_no_error("building a mesh's tree");
+        return scene;
+    }
+};
+
+EmbreeScene::EmbreeScene(std::span<const Mesh* const> meshes) : implementation_(std::make_unique<Implementation>()) {
+    Implementation& my = *implementation_;
+    my.device = rtcNewDevice(nullptr);
+    if (!my.device) throw DeviceError("Embree cannot start on this processor; it needs SSE2 at least");
+    my.top = rtcNewScene(my.device);
+    rtcSetSceneFlags(my.top, RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(my.top, RTC_BUILD_QUALITY_LOW);
+    for (const Mesh* mesh : meshes) {
+        my.meshes.push_back(my.build(*mesh));
+        RTCGeometry instance = rtcNewGeometry(my.device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, my.meshes.back());
+        rtcSetGeometryTimeStepCount(instance, 1);
+        rtcAttachGeometryByID(my.top, instance, static_cast<unsigned>(my.instances.size()));
+        my.instances.push_back(instance);
+    }
+}
+
+EmbreeScene::~EmbreeScene() = default;
+
+void EmbreeScene::place(std::span<const Pose> objects, Vec3d camera_world_m) {
+    Implementation& my = *implementation_;
+    HILCAM_CHECK(objects.size() == my.instances.size());
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const Mat3d r = to_matrix(objects[i].world_from_body);
+        // The only narrowing of the world: after the camera is subtracted.
+        const Vec3f t = to_float(objects[i].position_world_m - camera_world_m);
+        const Vec3f rx = to_float(r.x), ry = to_float(r.y), rz = to_float(r.z);
+        const float columns[12] = {rx.x, ry.x, rz.x, rx.y, ry.y, rz.y, rx.z, ry.z, rz.z, t.x, t.y, t.z};
+        rtcSetGeometryTransform(my.instances[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+        rtcCommitGeometry(my.instances[i]);
+    }
+    rtcCommitScene(my.top);
+}
+
+void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const {
+    alignas(64) int valid[kPacketSize];
+    set_valid(rays.count, valid);
+    RTCRayHit16 query;
+    copy_rays(rays, query.ray);
+    std::memset(query.hit.geomID, 0xFF, sizeof(query.hit.geomID));
+    std::memset(query.hit.instID[0], 0xFF, sizeof(query.hit.instID[0]));
+    intersect_16(valid, implementation_->top, coherence, query);
+    static_assert(HitPacket::kMiss == RTC_INVALID_GEOMETRY_ID);
+    std::memcpy(hits.distance.data(), query.ray.tfar, sizeof(query.ray.tfar));
+    std::memcpy(hits.u.data(), query.hit.u, sizeof(query.hit.u));
+    std::memcpy(hits.v.data(), query.hit.v, sizeof(query.hit.v));
+    std::memcpy(hits.normal_x.data(), query.hit.Ng_x, sizeof(query.hit.Ng_x));
+    std::memcpy(hits.normal_y.data(), query.hit.Ng_y, sizeof(query.hit.Ng_y));
+    std::memcpy(hits.normal_z.data(), query.hit.Ng_z, sizeof(query.hit.Ng_z));
+    std::memcpy(hits.triangle.data(), query.hit.primID, sizeof(query.hit.primID));
+    for (std::size_t i = 0; i < kPacketSize; ++i)
+        hits.object[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? HitPacket::kMiss : query.hit.instID[0][i];
+}
+
+std::uint32_t EmbreeScene::occluded(const RayPacket& rays, Coherence coherence) const {
+    alignas(64) int valid[kPacketSize];
+    set_valid(rays.count, valid);
+    RTCRay16 query;
+    copy_rays(rays, query);
+    occluded_16(valid, implementation_->top, coherence, query);
+    // Embree marks a blocked ray by tfar = -infinity.
+    std::uint32_t blocked = 0;
+    for (int i = 0; i < rays.count; ++i) blocked |= (query.tfar[i] < 0 ? 1u : 0u) << i;
+    return blocked;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,69 @@
+#pragma once
+// The acceleration structure: meshes once, instances of them placed anew each frame, rays in packets of sixteen.
+// The one unit that knows Embree (3 or 4).
+//
+// Ray space: origin at the camera, axes parallel to the world, metres, single precision. Placing an object subtracts
+// the camera in double precision first, so that near things keep their digits wherever in the world they are.
+// Precision: a hit's distance is good to a few 1e-7 of the distance to the object; objects many times farther than
+// large (10^4 and more) lose shape. Misses and hits of shared edges follow Embree's non-robust mode.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "render/mesh.h"
+#include "render/pose.h"
+
+namespace hilcam {
+
+inline constexpr int kPacketSize = 16;
+
+// Sixteen rays side by side. Directions need not be unit vectors; distances are in their lengths.
+struct alignas(64) RayPacket {
+    std::array<float, kPacketSize> origin_x, origin_y, origin_z;
+    std::array<float, kPacketSize> dir_x, dir_y, dir_z;
+    std::array<float, kPacketSize> nearest, farthest;
+    int count = 0;  // rays 0 .. count-1 are traced
+
+    void set(int i, Vec3f origin, Vec3f dir, float least, float most) {
+        const auto k = static_cast<std::size_t>(i);
+        origin_x[k] = origin.x, origin_y[k] = origin.y, origin_z[k] = origin.z;
+        dir_x[k] = dir.x, dir_y[k] = dir.y, dir_z[k] = dir.z;
+        nearest[k] = least, farthest[k] = most;
+    }
+};
+
+struct alignas(64) HitPacket {
+    static constexpr std::uint32_t kMiss = ~std::uint32_t{0};
+    std::array<float, kPacketSize> distance;           // in lengths of the ray's direction
+    std::array<float, kPacketSize> u, v;               // barycentric: corner 1, corner 2
+    std::array<float, kPacketSize> normal_x, normal_y, normal_z;  // geometric, in the object's axes, not unit
+    std::array<std::uint32_t, kPacketSize> object;     // index of the instance, or kMiss
+    std::array<std::uint32_t, kPacketSize> triangle;   // index in the object's mesh
+};
+
+// Whether the rays of a packet run side by side (from the camera, to the Sun) or anywhere.
+enum class Coherence { kCoherent, kIncoherent };
+
+class EmbreeScene {
+  public:
+    // One instance per mesh; builds the meshes' trees on all of oneTBB's threads. The meshes' vertices and triangles
+    // are copied. Throws InputError when memory runs out.
+    explicit EmbreeScene(std::span<const Mesh* const> meshes);
+    ~EmbreeScene();
+
+    // Places the objects for a frame (a pose per mesh). Loop, one thread; Embree rebuilds its small top-level tree.
+    void place(std::span<const Pose> objects, Vec3d camera_world_m);
+
+    // Any thread between two place(). No allocation.
+    void intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const;
+    // Bit i set: something lies between nearest and farthest of ray i.
+    std::uint32_t occluded(const RayPacket& rays, Coherence coherence) const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace hilcam
