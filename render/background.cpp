@@ -7,7 +7,8 @@
 
 namespace hilcam {
 
-Background::Background(const Earth& earth, const Spectrum& sun_irradiance_1au_w_m2_um, const SpectralGrid& grid)
+Background::Background(const Earth& earth, const Spectrum& sun_irradiance_1au_w_m2_um,
+                       const SpectralGrid& grid)
     : earth_(earth), sun_irradiance_1au_(sun_irradiance_1au_w_m2_um), bands_(grid), bins_(grid.size()) {}
 
 void Background::place(const WorldSnapshot& world) {
@@ -30,8 +31,8 @@ void Background::place(const WorldSnapshot& world) {
     const Vec3d earth_to_sun_m = world.bodies.sun_world_m - world.bodies.earth_world_m;
     const double earth_au = kAstronomicalUnit_m / length(earth_to_sun_m);
     sun_earth_fixed_dir_ = earth_fixed_from_world_ * normalized(earth_to_sun_m);
-    const bool eclipsed =
-        earth_.visible && intersect_earth_m(camera_earth_fixed_m_, earth_fixed_from_world_ * sun_world_dir_) >= 0;
+    const bool eclipsed = earth_.visible && intersect_earth_m(camera_earth_fixed_m_,
+                                                              earth_fixed_from_world_ * sun_world_dir_) >= 0;
     for (int b = 0; b < bins_; ++b) {
         const double at_1au = static_cast<double>(sun_irradiance_1au_[b]);
         sun_irradiance_[b] = eclipsed ? 0.0f : static_cast<float>(at_1au * au * au);
@@ -50,7 +51,8 @@ bool Background::add_earth(Vec3f origin_m, Vec3d dir, const Spectrum& weight, Sp
     const auto sun_cosine = static_cast<float>(dot(normal, sun_earth_fixed_dir_));
     if (sun_cosine <= 0) return true;
     if (earth_.map.texels.empty()) {
-        for (int b = 0; b < bins_; ++b) radiance[b] += weight[b] * sun_cosine * earth_radiance_at_zenith_sun_[b];
+        for (int b = 0; b < bins_; ++b)
+            radiance[b] += weight[b] * sun_cosine * earth_radiance_at_zenith_sun_[b];
         return true;
     }
     // Geodetic latitude is the normal's own; longitude runs with u from 180 W.

@@ -1,5 +1,6 @@
 #pragma once
-// What a ray meets that meets no object: the Earth, the Sun's disk, or black sky. Stars are point sources, not here.
+// What a ray meets that meets no object: the Earth, the Sun's disk, or black sky. Stars are point sources,
+// not here.
 
 #include "render/color_bands.h"
 #include "render/scene.h"
@@ -16,18 +17,19 @@ class Background {
 
     // Toward the Sun from the camera; the objects are so near that it serves them too.
     Vec3d sun_world_dir() const { return sun_world_dir_; }
-    // At the camera's distance from the Sun [W m^-2 um^-1]; zero in the Earth's shadow, which is taken as sharp: the
-    // middle of the Sun's disk decides.
+    // At the camera's distance from the Sun [W m^-2 um^-1]; zero in the Earth's shadow, which is taken as
+    // sharp: the middle of the Sun's disk decides.
     const Spectrum& sun_irradiance_w_m2_um() const { return sun_irradiance_; }
 
     bool earth_visible() const { return earth_.visible; }
-    // The Earth's bounding cone from the camera: axis, and sine and cosine of its half angle. Inside the Earth's largest
-    // sphere the cone is a half space.
+    // The Earth's bounding cone from the camera: axis, and sine and cosine of its half angle. Inside the
+    // Earth's largest sphere the cone is a half space.
     Vec3d earth_world_dir() const { return earth_world_dir_; }
     double earth_cone_cosine() const { return earth_cone_cosine_; }
 
-    // Adds weight * radiance of the Earth along a ray (origin relative to the camera, world axes, unit direction).
-    // Gives whether the Earth was met. Radiance: albedo E_s cos(sigma) / pi (Lambert). Loop, any thread.
+    // Adds weight * radiance of the Earth along a ray (origin relative to the camera, world axes, unit
+    // direction). Gives whether the Earth was met. Radiance: albedo E_s cos(sigma) / pi (Lambert). Loop, any
+    // thread.
     bool add_earth(Vec3f origin_m, Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
     // The same for the Sun's disk, taken as uniform: E_s / (pi sin^2 rho) inside its angular radius rho.
     void add_sun_disk(Vec3f dir, const Spectrum& weight, Spectrum& radiance) const;

@@ -1,9 +1,11 @@
 #include "render/bodies.h"
 
 #include <erfa.h>
+#include <erfam.h>
 
 #include <cmath>
 
+#include "render/check.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -36,9 +38,12 @@ Fields fields(OriginConfig& c) {
     return {
         choice("kind", c.kind, {"earth_center", "earth_fixed"},
                "what the world's origin is: the centre of the Earth, or a place that turns with it"),
-        number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360}, "of an earth_fixed origin, east positive"),
-        number("latitude_deg", c.place.latitude_rad, kDegree_rad, {-90, 90}, "of an earth_fixed origin, geodetic"),
-        number("height_km", c.place.height_m, 1e3, {-10, 1e9}, "of an earth_fixed origin above the WGS 84 ellipsoid"),
+        number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
+               "of an earth_fixed origin, east positive"),
+        number("latitude_deg", c.place.latitude_rad, kDegree_rad, {-90, 90},
+               "of an earth_fixed origin, geodetic"),
+        number("height_km", c.place.height_m, 1e3, {-10, 1e9},
+               "of an earth_fixed origin above the WGS 84 ellipsoid"),
     };
 }
 
@@ -59,8 +64,8 @@ Fields fields(EarthConfig& c) {
 }
 
 double intersect_earth_m(Vec3d origin_m, Vec3d dir) {
-    // Scaling z by a/b turns the ellipsoid into a sphere of radius a; then the closest-approach form of the quadratic,
-    // which keeps its digits for far origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).
+    // Scaling z by a/b turns the ellipsoid into a sphere of radius a; then the closest-approach form of the
+    // quadratic, which keeps its digits for far origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).
     constexpr double a = kEarthEquatorialRadius_m;
     constexpr double stretch = 1.0 / (1.0 - kEarthFlattening);
     const Vec3d o{origin_m.x, origin_m.y, origin_m.z * stretch};

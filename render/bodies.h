@@ -10,15 +10,16 @@
 
 namespace hilcam {
 
-// Geocentric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's eraEpv00 (VSOP2000 fit, good to
-// 14 km from 1900 to 2100). Light time and aberration (20 arcsec) are left out.
+// Geocentric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's eraEpv00 (VSOP2000
+// fit, good to 14 km from 1900 to 2100). Light time and aberration (20 arcsec) are left out.
 Vec3d sun_from_earth_m(TimeTai time);
 
-// The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation angle
-// (ERFA eraC2t00b), no polar motion (below 0.5 arcsec), UT1 = UTC (below 14 arcsec).
+// The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
+// angle (ERFA eraC2t00b), no polar motion (below 0.5 arcsec), UT1 = UTC (below 14 arcsec).
 Mat3d earth_fixed_from_icrf(TimeTai time);
 
-// Position on the WGS 84 ellipsoid in ITRF axes [m] (ERFA eraGd2gc). Angles in rad, height above the ellipsoid in m.
+// Position on the WGS 84 ellipsoid in ITRF axes [m] (ERFA eraGd2gc). Angles in rad, height above the
+// ellipsoid in m.
 struct Geodetic {
     double longitude_rad = 0;
     double latitude_rad = 0;
@@ -45,12 +46,14 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin);
 struct EarthConfig {
     bool visible = true;
     Curve albedo = Curve::constant(0.3);  // of a uniform Earth; with a map: a factor on its reflectance
-    std::filesystem::path albedo_map;     // equirectangular sRGB picture of reflectance, left edge 180 W, top 90 N
+    std::filesystem::path
+        albedo_map;  // equirectangular sRGB picture of reflectance, left edge 180 W, top 90 N
 };
 Fields fields(EarthConfig& config);
 
-// The nearer intersection of a ray from outside with the Earth's ellipsoid. Origin and direction in ITRF axes, metres
-// from the Earth's centre; direction of unit length. Closed form in double. Distance [m], or a negative value: no hit.
+// The nearer intersection of a ray from outside with the Earth's ellipsoid. Origin and direction in ITRF
+// axes, metres from the Earth's centre; direction of unit length. Closed form in double. Distance [m], or a
+// negative value: no hit.
 double intersect_earth_m(Vec3d origin_m, Vec3d dir);
 // The outward unit normal of the ellipsoid at a point on it (ITRF axes).
 Vec3d earth_normal(Vec3d point_m);

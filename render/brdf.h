@@ -1,6 +1,7 @@
 #pragma once
-// Evaluation and sampling of the reflection model of material.h. Directions are unit vectors; `no`, `ni`, `nh` are the
-// cosines between the shading normal and the viewer, the light and their half vector. Inline: called per ray.
+// Evaluation and sampling of the reflection model of material.h. Directions are unit vectors; `no`, `ni`,
+// `nh` are the cosines between the shading normal and the viewer, the light and their half vector. Inline:
+// called per ray.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,8 @@ inline float ggx_visibility(float alpha, float no, float ni) {
     return 0.5f / (ni * std::sqrt(no * no * (1 - a2) + a2) + no * std::sqrt(ni * ni * (1 - a2) + a2));
 }
 
-// G2 / G1 of a facet seen from the viewer: the weight of a sample of visible normals (Heitz, JCGT 7(4), 2018, eq. 19).
+// G2 / G1 of a facet seen from the viewer: the weight of a sample of visible normals (Heitz, JCGT 7(4), 2018,
+// eq. 19).
 inline float ggx_sample_weight(float alpha, float no, float ni) {
     const float a2 = alpha * alpha;
     const float lambda_o = std::sqrt(no * no * (1 - a2) + a2);
@@ -53,7 +55,8 @@ struct Frame {
     Vec3f to_local(Vec3f v) const { return {dot(v, t), dot(v, b), dot(v, n)}; }
 };
 
-// A facet normal seen from `view` (local frame, z = normal), distributed as the visible GGX normals: Heitz 2018.
+// A facet normal seen from `view` (local frame, z = normal), distributed as the visible GGX normals: Heitz
+// 2018.
 inline Vec3f sample_visible_normal(float alpha, Vec3f view, float u1, float u2) {
     const Vec3f v = normalized(Vec3f{alpha * view.x, alpha * view.y, view.z});
     const float across = v.x * v.x + v.y * v.y;

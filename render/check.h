@@ -7,9 +7,9 @@
 #include <string>
 
 // Always on: for conditions whose failure would give wrong frames.
-#define HILCAM_CHECK(condition)                                                                   \
-    do {                                                                                          \
-        if (!(condition)) ::hilcam::check_failed(#condition, __FILE__, __LINE__);                 \
+#define HILCAM_CHECK(condition)                                                   \
+    do {                                                                          \
+        if (!(condition)) ::hilcam::check_failed(#condition, __FILE__, __LINE__); \
     } while (false)
 
 // Debug builds only: for conditions tested per ray or per pixel.

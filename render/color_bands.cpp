@@ -44,8 +44,9 @@ Vec3f sample(const Texture& texture, float u, float v) {
     const int x0 = wrap(std::floor(x), texture.width), x1 = wrap(std::floor(x) + 1, texture.width);
     const int y0 = wrap(std::floor(y), texture.height), y1 = wrap(std::floor(y) + 1, texture.height);
     const auto texel = [&](int column, int row) {
-        const auto& t = texture.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) +
-                                       static_cast<std::size_t>(column)];
+        const auto& t =
+            texture.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) +
+                           static_cast<std::size_t>(column)];
         return Vec3f{linear_from_srgb(t[0]), linear_from_srgb(t[1]), linear_from_srgb(t[2])};
     };
     return (1 - fy) * ((1 - fx) * texel(x0, y0) + fx * texel(x1, y0)) +

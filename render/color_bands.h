@@ -12,8 +12,8 @@ namespace hilcam {
 // Linear value of an 8-bit sRGB code (IEC 61966-2-1:1999), 0..1.
 float linear_from_srgb(std::uint8_t code);
 
-// How much of a texel's red, green and blue each bin takes; the three sum to 1 in every bin. Blue below 0.49 um, green
-// to 0.58 um, red above (near infrared goes with red): a picture holds no more than that.
+// How much of a texel's red, green and blue each bin takes; the three sum to 1 in every bin. Blue below 0.49
+// um, green to 0.58 um, red above (near infrared goes with red): a picture holds no more than that.
 class ColorBands {
   public:
     explicit ColorBands(const SpectralGrid& grid);

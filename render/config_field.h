@@ -1,10 +1,11 @@
 #pragma once
-// One list per configuration struct says all about its keys: name with unit, meaning, range, where the value goes.
-// Parsing, range check, unknown-key check, --set and the manual's tables all come from it.
+// One list per configuration struct says all about its keys: name with unit, meaning, range, where the value
+// goes. Parsing, range check, unknown-key check, --set and the manual's tables all come from it.
 //
 //     struct PinholeConfig { double focal_length_m = 0.05; };
 //     Fields fields(PinholeConfig& c) {
-//         return {number("focal_length_mm", c.focal_length_m, 1e-3, {1e-3, 100}, "distance of the image plane")};
+//         return {number("focal_length_mm", c.focal_length_m, 1e-3, {1e-3, 100}, "distance of the image
+//         plane")};
 //     }
 //
 // Ranges are in the unit of the file (here mm), inclusive. Values are stored in SI: file value * si_per_unit.
@@ -85,8 +86,8 @@ struct SectionField {
     Fields fields;
     std::function<void()> validate;
 };
-// A list of mappings. `append` adds one default element to the owner and gives its section; references into earlier
-// elements need not stay valid, because each element is read before the next is appended.
+// A list of mappings. `append` adds one default element to the owner and gives its section; references into
+// earlier elements need not stay valid, because each element is read before the next is appended.
 struct SectionsField {
     std::function<SectionField()> append;
 };
@@ -94,8 +95,8 @@ struct SectionsField {
 struct Field {
     std::string key;
     std::string meaning;  // one line, with the unit where the key has none
-    std::variant<NumberField, IntegerField, FlagField, TextField, PathField, ChoiceField, NumbersField, Vec3Field,
-                 QuatField, CurveField, SectionField, SectionsField>
+    std::variant<NumberField, IntegerField, FlagField, TextField, PathField, ChoiceField, NumbersField,
+                 Vec3Field, QuatField, CurveField, SectionField, SectionsField>
         target;
     bool required = false;
     bool* present = nullptr;  // set when the key is given

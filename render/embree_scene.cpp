@@ -37,7 +37,8 @@ void occluded_16(const int* valid, RTCScene scene, Coherence coherence, RTCRay16
 RTCIntersectContext context_of(Coherence c) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = c == Coherence::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags = c == Coherence::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                              : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     return context;
 }
 void intersect_16(const int* valid, RTCScene scene, Coherence coherence, RTCRayHit16& rays) {
@@ -87,17 +88,18 @@ struct EmbreeScene::Implementation {
     void require_no_error(const char* doing) const {
         const RTCError error = rtcGetDeviceError(device);
         if (error == RTC_ERROR_OUT_OF_MEMORY)
-            throw InputError(std::string("out of memory while ") + doing + "; use a mesh with fewer triangles");
+            throw InputError(std::string("out of memory while ") + doing +
+                             "; use a mesh with fewer triangles");
         if (error != RTC_ERROR_NONE)
-            throw DeviceError(std::string("Embree reports error ") + std::to_string(static_cast<int>(error)) + " while " +
-                              doing);
+            throw DeviceError(std::string("Embree reports error ") + std::to_string(static_cast<int>(error)) +
+                              " while " + doing);
     }
     RTCScene build(const Mesh& mesh) const {
         RTCScene scene = rtcNewScene(device);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
-                                                 mesh.vertices_m.size());
+        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(Vec3f), mesh.vertices_m.size());
         void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                   3 * sizeof(std::uint32_t), mesh.triangles.size());
         require_no_error("copying a mesh");
@@ -112,7 +114,8 @@ struct EmbreeScene::Implementation {
     }
 };
 
-EmbreeScene::EmbreeScene(std::span<const Mesh* const> meshes) : implementation_(std::make_unique<Implementation>()) {
+EmbreeScene::EmbreeScene(std::span<const Mesh* const> meshes)
+    : implementation_(std::make_unique<Implementation>()) {
     Implementation& my = *implementation_;
     my.device = rtcNewDevice(nullptr);
     if (!my.device) throw DeviceError("Embree cannot start on this processor; it needs SSE2 at least");
@@ -163,7 +166,8 @@ void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacke
     std::memcpy(hits.normal_z.data(), query.hit.Ng_z, sizeof(query.hit.Ng_z));
     std::memcpy(hits.triangle.data(), query.hit.primID, sizeof(query.hit.primID));
     for (std::size_t i = 0; i < kPacketSize; ++i)
-        hits.object[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? HitPacket::kMiss : query.hit.instID[0][i];
+        hits.object[i] =
+            query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? HitPacket::kMiss : query.hit.instID[0][i];
 }
 
 std::uint32_t EmbreeScene::occluded(const RayPacket& rays, Coherence coherence) const {

@@ -1,11 +1,12 @@
 #pragma once
-// The acceleration structure: meshes once, instances of them placed anew each frame, rays in packets of sixteen.
-// The one unit that knows Embree (3 or 4).
+// The acceleration structure: meshes once, instances of them placed anew each frame, rays in packets of
+// sixteen. The one unit that knows Embree (3 or 4).
 //
-// Ray space: origin at the camera, axes parallel to the world, metres, single precision. Placing an object subtracts
-// the camera in double precision first, so that near things keep their digits wherever in the world they are.
-// Precision: a hit's distance is good to a few 1e-7 of the distance to the object; objects many times farther than
-// large (10^4 and more) lose shape. Misses and hits of shared edges follow Embree's non-robust mode.
+// Ray space: origin at the camera, axes parallel to the world, metres, single precision. Placing an object
+// subtracts the camera in double precision first, so that near things keep their digits wherever in the world
+// they are. Precision: a hit's distance is good to a few 1e-7 of the distance to the object; objects many
+// times farther than large (10^4 and more) lose shape. Misses and hits of shared edges follow Embree's
+// non-robust mode.
 
 #include <array>
 #include <cstdint>
@@ -36,11 +37,11 @@ struct alignas(64) RayPacket {
 
 struct alignas(64) HitPacket {
     static constexpr std::uint32_t kMiss = ~std::uint32_t{0};
-    std::array<float, kPacketSize> distance;           // in lengths of the ray's direction
-    std::array<float, kPacketSize> u, v;               // barycentric: corner 1, corner 2
+    std::array<float, kPacketSize> distance;                      // in lengths of the ray's direction
+    std::array<float, kPacketSize> u, v;                          // barycentric: corner 1, corner 2
     std::array<float, kPacketSize> normal_x, normal_y, normal_z;  // geometric, in the object's axes, not unit
-    std::array<std::uint32_t, kPacketSize> object;     // index of the instance, or kMiss
-    std::array<std::uint32_t, kPacketSize> triangle;   // index in the object's mesh
+    std::array<std::uint32_t, kPacketSize> object;                // index of the instance, or kMiss
+    std::array<std::uint32_t, kPacketSize> triangle;              // index in the object's mesh
 };
 
 // Whether the rays of a packet run side by side (from the camera, to the Sun) or anywhere.
@@ -48,12 +49,13 @@ enum class Coherence { kCoherent, kIncoherent };
 
 class EmbreeScene {
   public:
-    // One instance per mesh; builds the meshes' trees on all of oneTBB's threads. The meshes' vertices and triangles
-    // are copied. Throws InputError when memory runs out.
+    // One instance per mesh; builds the meshes' trees on all of oneTBB's threads. The meshes' vertices and
+    // triangles are copied. Throws InputError when memory runs out.
     explicit EmbreeScene(std::span<const Mesh* const> meshes);
     ~EmbreeScene();
 
-    // Places the objects for a frame (a pose per mesh). Loop, one thread; Embree rebuilds its small top-level tree.
+    // Places the objects for a frame (a pose per mesh). Loop, one thread; Embree rebuilds its small top-level
+    // tree.
     void place(std::span<const Pose> objects, Vec3d camera_world_m);
 
     // Any thread between two place(). No allocation.

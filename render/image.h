@@ -21,10 +21,10 @@ class Image {
         : width_(width),
           height_(height),
           planes_(planes),
-          data_(static_cast<T*>(::operator new[](
-              static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(planes) *
-                  sizeof(T),
-              std::align_val_t{64}))) {
+          data_(static_cast<T*>(
+              ::operator new[](static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                                   static_cast<std::size_t>(planes) * sizeof(T),
+                               std::align_val_t{64}))) {
         HILCAM_CHECK(width > 0 && height > 0 && planes > 0);
         for (T& value : all()) value = T{};
     }
@@ -32,13 +32,17 @@ class Image {
     int width() const { return width_; }
     int height() const { return height_; }
     int planes() const { return planes_; }
-    std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+    std::size_t pixels() const {
+        return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    }
     T* data() { return data_.get(); }
     const T* data() const { return data_.get(); }
     std::span<T> all() { return {data(), pixels() * static_cast<std::size_t>(planes_)}; }
     std::span<const T> all() const { return {data(), pixels() * static_cast<std::size_t>(planes_)}; }
     std::span<T> plane(int p) { return all().subspan(static_cast<std::size_t>(p) * pixels(), pixels()); }
-    std::span<const T> plane(int p) const { return all().subspan(static_cast<std::size_t>(p) * pixels(), pixels()); }
+    std::span<const T> plane(int p) const {
+        return all().subspan(static_cast<std::size_t>(p) * pixels(), pixels());
+    }
     std::span<T> row(int y, int p = 0) {
         return plane(p).subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(width_),
                                 static_cast<std::size_t>(width_));

@@ -1,7 +1,8 @@
 #pragma once
-// The newest value from one thread to another without a lock: a triple buffer. The writer always has a slot of its
-// own, the reader always has a complete value, a slow reader skips values, a slow writer never blocks it.
-// One writer thread, one reader thread (several writers: guard them with a mutex of their own). T is copied whole.
+// The newest value from one thread to another without a lock: a triple buffer. The writer always has a slot
+// of its own, the reader always has a complete value, a slow reader skips values, a slow writer never blocks
+// it. One writer thread, one reader thread (several writers: guard them with a mutex of their own). T is
+// copied whole.
 
 #include <array>
 #include <atomic>
@@ -17,7 +18,8 @@ class Latest {
     // Writer. Wait-free.
     void write(const T& value) {
         slots_[write_].value = value;
-        write_ = exchange_.exchange(static_cast<std::uint8_t>(write_ | kFresh), std::memory_order_acq_rel) & kIndex;
+        write_ = exchange_.exchange(static_cast<std::uint8_t>(write_ | kFresh), std::memory_order_acq_rel) &
+                 kIndex;
     }
     // Reader. Wait-free. The reference stays valid until the next read().
     const T& read() {

@@ -6,15 +6,16 @@
 namespace hilcam {
 namespace {
 
-// Reflectance at normal incidence between air and a dielectric (Fresnel 1823; Born & Wolf, Principles of Optics,
-// 7th ed., 1.5.2).
+// Reflectance at normal incidence between air and a dielectric (Fresnel 1823; Born & Wolf, Principles of
+// Optics, 7th ed., 1.5.2).
 double normal_reflectance_of(double refractive_index) {
     const double r = (refractive_index - 1) / (refractive_index + 1);
     return r * r;
 }
 
 bool name_matches(const std::string& pattern, const std::string& name) {
-    if (!pattern.empty() && pattern.back() == '*') return name.starts_with(pattern.substr(0, pattern.size() - 1));
+    if (!pattern.empty() && pattern.back() == '*')
+        return name.starts_with(pattern.substr(0, pattern.size() - 1));
     return pattern == name;
 }
 
@@ -30,10 +31,13 @@ Fields fields(MaterialConfig& c) {
         required(text("name", c.name, "surface of the mesh that it covers; a trailing * matches any ending")),
         text("source", c.source, "where the figures come from"),
         choice("model", c.model, {"lambert", "metal", "dielectric", "mirror"},
-               "lambert: diffuse; metal: GGX; dielectric: diffuse under a clear GGX layer; mirror: exact reflection"),
+               "lambert: diffuse; metal: GGX; dielectric: diffuse under a clear GGX layer; mirror: exact "
+               "reflection"),
         curve("reflectance", c.reflectance, {0, 1},
-              "albedo (lambert, dielectric) or reflectance at normal incidence (metal, mirror); number or [[um, value], ...]"),
-        number("roughness", c.roughness, 1, {0, 1}, "perceptual roughness of metal and dielectric; GGX alpha is its square"),
+              "albedo (lambert, dielectric) or reflectance at normal incidence (metal, mirror); number or "
+              "[[um, value], ...]"),
+        number("roughness", c.roughness, 1, {0, 1},
+               "perceptual roughness of metal and dielectric; GGX alpha is its square"),
         number("refractive_index", c.refractive_index, 1, {1, 4}, "of the clear layer of a dielectric"),
     };
 }
@@ -74,7 +78,8 @@ Material make_material(const MeshSurface& surface, const SpectralGrid& grid) {
                        static_cast<double>(surface.base_color.y), static_cast<double>(surface.base_color.x)}};
     const double metallic = std::clamp(static_cast<double>(surface.metallic), 0.0, 1.0);
     const Spectrum base = grid.average(color);
-    // glTF 2.0 specification, appendix B: dielectrics reflect 4 % at normal incidence; metals their base colour.
+    // glTF 2.0 specification, appendix B: dielectrics reflect 4 % at normal incidence; metals their base
+    // colour.
     constexpr double kDielectricF0 = 0.04;
     Material material;
     material.diffuse_albedo = scaled(base, (1 - metallic) * (1 - kDielectricF0));
@@ -89,7 +94,8 @@ Material make_material(const MeshSurface& surface, const SpectralGrid& grid) {
     return material;
 }
 
-std::vector<Material> make_materials(const Mesh& mesh, std::span<const MaterialConfig> configs, const SpectralGrid& grid) {
+std::vector<Material> make_materials(const Mesh& mesh, std::span<const MaterialConfig> configs,
+                                     const SpectralGrid& grid) {
     std::vector<Material> materials;
     for (const MeshSurface& surface : mesh.surfaces) {
         const auto named = std::find_if(configs.begin(), configs.end(), [&](const MaterialConfig& config) {

@@ -10,8 +10,8 @@
 
 namespace hilcam {
 
-// 8-bit sRGB-encoded (IEC 61966-2-1) colour picture, rows downwards from v = 1 (u right, v up as in glTF after the
-// loader's flip: row 0 is v = 0 in the mesh's own uv). Wraps around in both directions.
+// 8-bit sRGB-encoded (IEC 61966-2-1) colour picture, rows downwards from v = 1 (u right, v up as in glTF
+// after the loader's flip: row 0 is v = 0 in the mesh's own uv). Wraps around in both directions.
 struct Texture {
     std::string name;
     int width = 0;
@@ -19,8 +19,8 @@ struct Texture {
     std::vector<std::array<std::uint8_t, 3>> texels;
 };
 
-// The look that the mesh file itself gives a surface (glTF metallic-roughness terms); the scenario may replace it by
-// name with a measured material.
+// The look that the mesh file itself gives a surface (glTF metallic-roughness terms); the scenario may
+// replace it by name with a measured material.
 struct MeshSurface {
     std::string name;
     Vec3f base_color{0.5f, 0.5f, 0.5f};  // linear RGB reflectance, 0..1

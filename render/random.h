@@ -1,14 +1,15 @@
 #pragma once
-// Counter-based random numbers: a pure function of (seed, frame, pixel, purpose), so that frames do not depend on
-// the thread count and any pixel of any frame can be recomputed alone.
-// Philox-4x32-10: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11, 2011.
+// Counter-based random numbers: a pure function of (seed, frame, pixel, purpose), so that frames do not
+// depend on the thread count and any pixel of any frame can be recomputed alone. Philox-4x32-10: Salmon,
+// Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11, 2011.
 
 #include <array>
 #include <cstdint>
 
 namespace hilcam {
 
-// What a number is drawn for; each is an independent stream. Values are part of a deterministic frame: never reuse one.
+// What a number is drawn for; each is an independent stream. Values are part of a deterministic frame: never
+// reuse one.
 enum class RandomPurpose : std::uint32_t {
     kShotNoise = 1,
     kReadNoise = 2,
@@ -23,9 +24,11 @@ struct RandomKey {
 // Four independent 32-bit words. `pixel` and `index` (bounce, sample, ...) are free counters.
 inline std::array<std::uint32_t, 4> random_words(RandomKey key, RandomPurpose purpose, std::uint32_t pixel,
                                                  std::uint32_t index = 0) {
-    // Key: seed. Counter: pixel, index + purpose, frame. index stays below 2^24 so that it never meets the purpose.
+    // Key: seed. Counter: pixel, index + purpose, frame. index stays below 2^24 so that it never meets the
+    // purpose.
     std::array<std::uint32_t, 4> c = {pixel, (static_cast<std::uint32_t>(purpose) << 24) ^ index,
-                                      static_cast<std::uint32_t>(key.frame), static_cast<std::uint32_t>(key.frame >> 32)};
+                                      static_cast<std::uint32_t>(key.frame),
+                                      static_cast<std::uint32_t>(key.frame >> 32)};
     std::uint32_t k0 = static_cast<std::uint32_t>(key.seed);
     std::uint32_t k1 = static_cast<std::uint32_t>(key.seed >> 32);
     for (int round = 0; round < 10; ++round) {

@@ -1,5 +1,6 @@
 #pragma once
-// What there is to see, as it stands after loading: it does not change during a run. Poses come with each frame.
+// What there is to see, as it stands after loading: it does not change during a run. Poses come with each
+// frame.
 
 #include <string>
 #include <vector>

@@ -1,5 +1,6 @@
 #pragma once
-// Spectra: curves over wavelength as the user gives them, and their averages over the program's spectral bins.
+// Spectra: curves over wavelength as the user gives them, and their averages over the program's spectral
+// bins.
 
 #include <array>
 #include <cstddef>
@@ -19,8 +20,8 @@ struct Spectrum {
     float operator[](int i) const { return bin[static_cast<std::size_t>(i)]; }
 };
 
-// A function of wavelength by samples, linear between them. Wavelengths [um] strictly increase. Outside its range
-// a curve is constant at its end values (`reflectance: 0.3` is one sample).
+// A function of wavelength by samples, linear between them. Wavelengths [um] strictly increase. Outside its
+// range a curve is constant at its end values (`reflectance: 0.3` is one sample).
 struct Curve {
     std::vector<double> wavelength_um;
     std::vector<double> value;
@@ -53,8 +54,8 @@ class SpectralGrid {
 // Planck's law: spectral radiance of a black body [W m^-2 sr^-1 um^-1] (Planck 1901; CODATA 2018 constants).
 double planck_w_m2_sr_um(double wavelength_um, double temperature_k);
 // Mean spectral irradiance of the Sun at 1 au over each bin [W m^-2 um^-1].
-// Black body at the Sun's effective temperature, seen from 1 au: within about 10 % of the measured spectrum per
-// 0.1 um bin from 0.45 to 1.0 um, up to 25 % too high in the line-blanketed blue.
+// Black body at the Sun's effective temperature, seen from 1 au: within about 10 % of the measured spectrum
+// per 0.1 um bin from 0.45 to 1.0 um, up to 25 % too high in the line-blanketed blue.
 Spectrum solar_irradiance_1au_w_m2_um(const SpectralGrid& grid);
 
 }  // namespace hilcam

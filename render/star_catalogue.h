@@ -6,13 +6,13 @@
 namespace hilcam {
 
 struct CatalogueStar {
-    int hip = 0;                         // Hipparcos number
-    double right_ascension_rad = 0;      // ICRS at the catalogue epoch
-    double declination_rad = 0;          //
-    double pm_ra_cosdec_rad_yr = 0;      // proper motion, mu_alpha cos(delta)
-    double pm_dec_rad_yr = 0;            //
-    double magnitude_v = 0;              // Johnson V
-    double color_b_v = 0;                // Johnson B-V
+    int hip = 0;                     // Hipparcos number
+    double right_ascension_rad = 0;  // ICRS at the catalogue epoch
+    double declination_rad = 0;      //
+    double pm_ra_cosdec_rad_yr = 0;  // proper motion, mu_alpha cos(delta)
+    double pm_dec_rad_yr = 0;        //
+    double magnitude_v = 0;          // Johnson V
+    double color_b_v = 0;            // Johnson B-V
 };
 
 struct StarCatalogue {

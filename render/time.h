@@ -19,8 +19,9 @@ struct TimeTai {
 
 inline constexpr double kSecondsPerNs = 1e-9;
 
-// Reads "2026-03-20T06:00:00[.fraction][Z]" as UTC. Throws InputError when it is not such a text, or the date lies
-// outside 1960-2200. Leap seconds come from ERFA's table (eraDat); years past its end use its last value.
+// Reads "2026-03-20T06:00:00[.fraction][Z]" as UTC. Throws InputError when it is not such a text, or the date
+// lies outside 1960-2200. Leap seconds come from ERFA's table (eraDat); years past its end use its last
+// value.
 TimeTai parse_utc(std::string_view text);
 // "2026-03-20T06:00:00.000Z"
 std::string format_utc(TimeTai time);

@@ -13,10 +13,14 @@ Quat to_quat(const Mat3d& m) {
     const double root = std::sqrt(four_squares[largest]);
     const double half = 0.5 / root;
     Quat q;
-    if (largest == 0) q = {0.5 * root, (m.z.y - m.y.z) * half, (m.x.z - m.z.x) * half, (m.y.x - m.x.y) * half};
-    if (largest == 1) q = {(m.z.y - m.y.z) * half, 0.5 * root, (m.x.y + m.y.x) * half, (m.x.z + m.z.x) * half};
-    if (largest == 2) q = {(m.x.z - m.z.x) * half, (m.x.y + m.y.x) * half, 0.5 * root, (m.y.z + m.z.y) * half};
-    if (largest == 3) q = {(m.y.x - m.x.y) * half, (m.x.z + m.z.x) * half, (m.y.z + m.z.y) * half, 0.5 * root};
+    if (largest == 0)
+        q = {0.5 * root, (m.z.y - m.y.z) * half, (m.x.z - m.z.x) * half, (m.y.x - m.x.y) * half};
+    if (largest == 1)
+        q = {(m.z.y - m.y.z) * half, 0.5 * root, (m.x.y + m.y.x) * half, (m.x.z + m.z.x) * half};
+    if (largest == 2)
+        q = {(m.x.z - m.z.x) * half, (m.x.y + m.y.x) * half, 0.5 * root, (m.y.z + m.z.y) * half};
+    if (largest == 3)
+        q = {(m.y.x - m.x.y) * half, (m.x.z + m.z.x) * half, (m.y.z + m.z.y) * half, 0.5 * root};
     return normalized(q.w < 0 ? Quat{-q.w, -q.x, -q.y, -q.z} : q);
 }
 
@@ -41,7 +45,8 @@ Quat slerp(Quat a, Quat b, double u) {
         wa = std::sin((1 - u) * angle) / std::sin(angle);
         wb = std::sin(u * angle) / std::sin(angle);
     }
-    return normalized(Quat{wa * a.w + wb * b.w, wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z});
+    return normalized(
+        Quat{wa * a.w + wb * b.w, wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z});
 }
 
 }  // namespace hilcam

@@ -58,7 +58,9 @@ struct Mat3 {
     // Rows.
     Vec3<T> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 
-    friend constexpr Vec3<T> operator*(const Mat3& m, Vec3<T> v) { return {dot(m.x, v), dot(m.y, v), dot(m.z, v)}; }
+    friend constexpr Vec3<T> operator*(const Mat3& m, Vec3<T> v) {
+        return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
+    }
     friend constexpr Mat3 operator*(const Mat3& a, const Mat3& b) {
         const Mat3 t = transposed(b);
         return {{dot(a.x, t.x), dot(a.x, t.y), dot(a.x, t.z)},

@@ -1,0 +1,481 @@
+#include "render/path_tracer.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "render/brdf.h"
+
+namespace hilcam {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr auto kMost = static_cast<std::size_t>(TileTracer::kMostSamples);
+
+// A path at one of its vertices: a point on an object, what it weighs for the pixel, and how it scatters.
+struct Vertex {
+    std::uint32_t pixel;     // in the tile
+    std::uint32_t sample;    // in the pixel
+    Vec3f point_m;           // ray space
+    float offset_m;          // how far a ray must start above the surface
+    Vec3f geometric_normal;  // towards the viewer's side, unit
+    Vec3f normal;            // shading, same side
+    Vec3f view_dir;          // back along the path, unit
+    float alpha;             // GGX, as used at this vertex
+    bool specular;
+    bool mirror;
+    Spectrum weight;
+    Spectrum diffuse_albedo;
+    Spectrum normal_reflectance;
+};
+
+// A ray that continues a path.
+struct NextRay {
+    std::uint32_t from;  // vertex it leaves
+    Vec3f origin_m;
+    Vec3f dir;
+    bool mirror;      // a sharp reflection: sees the Sun's disk
+    bool sees_earth;  // its lobe takes the Earth's light from here, not from a separate sample
+    Spectrum weight;
+};
+
+float largest(const Spectrum& s, int bins) {
+    float most = 0;
+    for (int b = 0; b < bins; ++b) most = std::max(most, s[b]);
+    return most;
+}
+float mean(const Spectrum& s, int bins) {
+    float sum = 0;
+    for (int b = 0; b < bins; ++b) sum += s[b];
+    return sum / static_cast<float>(bins);
+}
+
+// The Sun's disk widens a highlight: its angular radius 4.65 mrad turns facets by half of that (Karis,
+// SIGGRAPH 2013 course notes, "representative point" widening).
+float sun_widened(float alpha) { return std::min(1.0f, alpha + 0.00233f); }
+// Behind a diffuse bounce a narrow lobe is met by luck alone; its lobe is widened to this so that the mean
+// stays and the sparkle goes (path space regularisation: Kaplanyan & Dachsbacher, CGF 32(2), 2013).
+constexpr float kAlphaBehindDiffuse = 0.25f;
+
+}  // namespace
+
+struct TileTracer::Implementation {
+    std::array<Vertex, kMost> vertices_a, vertices_b;
+    std::array<NextRay, kMost> next;
+    std::array<std::uint32_t, kMost> earth_from;
+    std::array<NextRay, kMost> earth_rays;
+    std::array<Spectrum, kMost> pixels;
+    TileStats stats;
+
+    Vertex* current = vertices_a.data();
+    Vertex* following = vertices_b.data();
+    std::size_t count = 0;
+
+    bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin, Vec3f dir,
+                     float alpha_least, Vertex& vertex) const;
+    void add_background(const FrameView& frame, Vec3f origin_m, Vec3f dir, bool sun_disk,
+                        const Spectrum& weight, Spectrum& pixel) const;
+    std::size_t primary_rays(const FrameView& frame, const PixelBox& tile, bool shade);
+    void light_from_sun(const FrameView& frame);
+    void light_from_sun_bare(const FrameView& frame);
+    std::size_t choose_next(const FrameView& frame, const PixelBox& tile, int depth,
+                            std::size_t& earth_count);
+    void light_from_earth(const FrameView& frame, std::size_t earth_count);
+    void follow(const FrameView& frame, std::size_t ray_count);
+};
+
+int tile_edge_px(int n) {
+    for (const int edge : {32, 16, 8, 4, 2, 1})
+        if (edge * edge * n * n <= TileTracer::kMostSamples) return edge;
+    HILCAM_CHECK(!"samples_per_axis is at most 32");
+    return 1;
+}
+
+TileTracer::TileTracer() : implementation_(std::make_unique<Implementation>()) {}
+TileTracer::~TileTracer() = default;
+TileTracer::TileTracer(TileTracer&&) noexcept = default;
+
+// --- geometry of a hit
+// -------------------------------------------------------------------------------------------
+
+bool TileTracer::Implementation::make_vertex(const FrameView& frame, const HitPacket& hits, int lane,
+                                             Vec3f origin, Vec3f dir, float alpha_least,
+                                             Vertex& vertex) const {
+    const auto k = static_cast<std::size_t>(lane);
+    const ObjectSurfaces& object = (*frame.objects)[hits.object[k]];
+    const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
+    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
+    const Material& material = object.materials[triangle.surface];
+
+    const Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+    const float squared = dot(geometric_raw, geometric_raw);
+    if (!(squared > 0)) return false;  // a needle without an area: nothing to see
+    const Vec3f geometric_body = geometric_raw / std::sqrt(squared);
+    const float u = hits.u[k];
+    const float v = hits.v[k];
+
+    vertex.view_dir = -normalized(dir);
+    Vec3f geometric = world_from_body * geometric_body;
+    Vec3f normal = world_from_body * object.normal_at(triangle, u, v, geometric_body);
+    if (dot(geometric, vertex.view_dir) < 0) geometric = -geometric;
+    if (dot(normal, geometric) < 0) normal = -normal;
+    // A smoothed normal that leans away from the viewer would make the surface vanish.
+    if (dot(normal, vertex.view_dir) <= 1e-4f) normal = geometric;
+    vertex.geometric_normal = geometric;
+    vertex.normal = normal;
+
+    vertex.point_m = origin + hits.distance[k] * dir;
+    // The hit point's rounding grows with the coordinates it was made of: 16 half-ulps of the greatest
+    // (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
+    const float greatest =
+        std::max({std::abs(vertex.point_m.x), std::abs(vertex.point_m.y), std::abs(vertex.point_m.z),
+                  std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)});
+    vertex.offset_m = 16 * std::numeric_limits<float>::epsilon() * greatest;
+
+    vertex.alpha = std::max(material.ggx_alpha, alpha_least);
+    vertex.specular = material.specular;
+    vertex.mirror = material.specular && vertex.alpha == 0;
+    vertex.diffuse_albedo = material.diffuse_albedo;
+    vertex.normal_reflectance = material.normal_reflectance;
+    if (material.texture >= 0) {
+        const auto& uv = object.corner_uvs[hits.triangle[k]];
+        const Spectrum scale =
+            frame.bands->spectrum(sample(object.textures[static_cast<std::size_t>(material.texture)],
+                                         (1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
+                                         (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y));
+        // The one colour of a file scales what the material mostly is: the diffuse part, or a metal's
+        // reflectance.
+        const bool metal = mean(material.diffuse_albedo, frame.bins) <= 0;
+        for (int b = 0; b < frame.bins; ++b)
+            (metal ? vertex.normal_reflectance : vertex.diffuse_albedo)[b] *= scale[b];
+    }
+    return true;
+}
+
+void TileTracer::Implementation::add_background(const FrameView& frame, Vec3f origin_m, Vec3f dir,
+                                                bool sun_disk, const Spectrum& weight,
+                                                Spectrum& pixel) const {
+    if (frame.background->add_earth(origin_m, to_double(dir), weight, pixel)) return;
+    if (sun_disk) frame.background->add_sun_disk(dir, weight, pixel);
+}
+
+// --- wave 1: from the camera
+// -------------------------------------------------------------------------------------
+
+std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, const PixelBox& tile,
+                                                     bool shade) {
+    const int n = frame.samples_per_axis;
+    const int width = tile.x1 - tile.x0;
+    const bool earth = tile.overlaps(frame.earth_box);
+    const bool sun = tile.overlaps(frame.sun_box);
+    const bool objects = tile.overlaps(frame.objects_box);
+    const float share = 1.0f / static_cast<float>(n * n);
+    Spectrum weight;
+    for (int b = 0; b < frame.bins; ++b) weight[b] = share;
+
+    RayPacket rays;
+    HitPacket hits;
+    std::array<std::uint32_t, kPacketSize> pixel_of;
+    std::array<std::uint32_t, kPacketSize> sample_of;
+    std::array<Vec3d, kPacketSize> exact_dir;
+    count = 0;
+    rays.count = 0;
+    const auto flush = [&] {
+        if (rays.count == 0) return;
+        if (objects) {
+            frame.scene->intersect(rays, Coherence::kCoherent, hits);
+            stats.primary_rays += static_cast<std::uint64_t>(rays.count);
+        } else {
+            hits.object.fill(HitPacket::kMiss);
+        }
+        for (int i = 0; i < rays.count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const Vec3f dir{rays.dir_x[k], rays.dir_y[k], rays.dir_z[k]};
+            if (hits.object[k] != HitPacket::kMiss) {
+                ++stats.object_hits;
+                Vertex& vertex = current[count];
+                if (!make_vertex(frame, hits, i, {0, 0, 0}, dir, 0, vertex)) continue;
+                vertex.pixel = pixel_of[k];
+                vertex.sample = sample_of[k];
+                vertex.weight = weight;
+                ++count;
+            } else if (shade && (earth || sun)) {
+                // The eye's own ray keeps its double precision: the Earth's limb must not crawl.
+                const Vec3d unit = normalized(exact_dir[k]);
+                if (!(earth && frame.background->add_earth({0, 0, 0}, unit, weight, pixels[pixel_of[k]])) &&
+                    sun)
+                    frame.background->add_sun_disk(to_float(unit), weight, pixels[pixel_of[k]]);
+            }
+        }
+        rays.count = 0;
+    };
+
+    // Blocks of 4 x 4 pixels, so that a packet's rays run close together.
+    const double step = 1.0 / n;
+    for (int by = tile.y0; by < tile.y1; by += 4)
+        for (int bx = tile.x0; bx < tile.x1; bx += 4)
+            for (int s = 0; s < n * n; ++s) {
+                const double dx = (s % n + 0.5) * step - frame.geometry.guard_px;
+                const double dy = (s / n + 0.5) * step - frame.geometry.guard_px;
+                for (int y = by; y < std::min(by + 4, tile.y1); ++y)
+                    for (int x = bx; x < std::min(bx + 4, tile.x1); ++x) {
+                        const auto k = static_cast<std::size_t>(rays.count);
+                        exact_dir[k] =
+                            frame.world_from_camera * frame.geometry.direction_camera(x + dx, y + dy);
+                        rays.set(rays.count, {0, 0, 0}, to_float(exact_dir[k]), 0, kInfinity);
+                        pixel_of[k] = static_cast<std::uint32_t>((y - tile.y0) * width + (x - tile.x0));
+                        sample_of[k] = static_cast<std::uint32_t>(s);
+                        if (++rays.count == kPacketSize) flush();
+                    }
+                flush();
+            }
+    return count;
+}
+
+// --- direct light
+// ------------------------------------------------------------------------------------------------
+
+void TileTracer::Implementation::light_from_sun(const FrameView& frame) {
+    const Vec3f sun = to_float(frame.background->sun_world_dir());
+    const Spectrum& irradiance = frame.background->sun_irradiance_w_m2_um();
+    if (largest(irradiance, frame.bins) <= 0) return;
+
+    RayPacket rays;
+    std::array<std::size_t, kPacketSize> vertex_of;
+    rays.count = 0;
+    const auto flush = [&] {
+        if (rays.count == 0) return;
+        const std::uint32_t blocked = frame.scene->occluded(rays, Coherence::kCoherent);
+        stats.shadow_rays += static_cast<std::uint64_t>(rays.count);
+        for (int i = 0; i < rays.count; ++i) {
+            if (blocked >> i & 1u) continue;
+            const Vertex& at = current[vertex_of[static_cast<std::size_t>(i)]];
+            const float ni = dot(at.normal, sun);
+            const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+            float lobe = 0, schlick = 0;
+            if (at.specular && !at.mirror) {
+                const Vec3f half = normalized(sun + at.view_dir);
+                const float alpha = sun_widened(at.alpha);
+                schlick = schlick_weight(dot(half, sun));
+                lobe = ggx_distribution(alpha, std::clamp(dot(at.normal, half), 0.0f, 1.0f)) *
+                       ggx_visibility(alpha, no, ni);
+            }
+            Spectrum& pixel = pixels[at.pixel];
+            for (int b = 0; b < frame.bins; ++b) {
+                const float f0 = at.normal_reflectance[b];
+                const float fresnel = f0 + (1 - f0) * schlick;
+                pixel[b] +=
+                    at.weight[b] * irradiance[b] * ni * (at.diffuse_albedo[b] * (1 / kPiF) + fresnel * lobe);
+            }
+        }
+        rays.count = 0;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vertex& at = current[i];
+        if (at.mirror || dot(at.geometric_normal, sun) <= 0 || dot(at.normal, sun) <= 0) continue;
+        vertex_of[static_cast<std::size_t>(rays.count)] = i;
+        rays.set(rays.count, at.point_m + at.offset_m * at.geometric_normal, sun, 0, kInfinity);
+        if (++rays.count == kPacketSize) flush();
+    }
+    flush();
+}
+
+void TileTracer::Implementation::light_from_earth(const FrameView& frame, std::size_t earth_count) {
+    RayPacket rays;
+    std::array<std::size_t, kPacketSize> index;
+    rays.count = 0;
+    const auto flush = [&] {
+        if (rays.count == 0) return;
+        const std::uint32_t blocked = frame.scene->occluded(rays, Coherence::kIncoherent);
+        stats.secondary_rays += static_cast<std::uint64_t>(rays.count);
+        for (int i = 0; i < rays.count; ++i) {
+            if (blocked >> i & 1u) continue;
+            const NextRay& ray = earth_rays[index[static_cast<std::size_t>(i)]];
+            frame.background->add_earth(ray.origin_m, to_double(ray.dir), ray.weight,
+                                        pixels[current[ray.from].pixel]);
+        }
+        rays.count = 0;
+    };
+    for (std::size_t i = 0; i < earth_count; ++i) {
+        index[static_cast<std::size_t>(rays.count)] = i;
+        rays.set(rays.count, earth_rays[i].origin_m, earth_rays[i].dir, 0, kInfinity);
+        if (++rays.count == kPacketSize) flush();
+    }
+    flush();
+}
+
+// --- the recursion
+// -----------------------------------------------------------------------------------------------
+
+// One ray per vertex, by chance among its lobes; dividing by the lobe's chance keeps the mean right.
+std::size_t TileTracer::Implementation::choose_next(const FrameView& frame, const PixelBox& tile, int depth,
+                                                    std::size_t& earth_count) {
+    const int bins = frame.bins;
+    const int width = tile.x1 - tile.x0;
+    const Frame earth_frame(to_float(frame.background->earth_world_dir()));
+    const auto earth_cosine = static_cast<float>(frame.background->earth_cone_cosine());
+    std::size_t ray_count = 0;
+    earth_count = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vertex& at = current[i];
+        const int px = tile.x0 + static_cast<int>(at.pixel) % width;
+        const int py = tile.y0 + static_cast<int>(at.pixel) / width;
+        const auto pixel = static_cast<std::uint32_t>(py * frame.geometry.padded_width() + px);
+        const auto random = random_words(frame.key, RandomPurpose::kPathSample, pixel,
+                                         at.sample * 64 + static_cast<std::uint32_t>(depth));
+        const float u0 = uniform01(random[0]), u1 = uniform01(random[1]), u2 = uniform01(random[2]);
+
+        const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+        const float mean_f0 = at.specular ? mean(at.normal_reflectance, bins) : 0.0f;
+        const float specular = at.specular ? mean_f0 + (1 - mean_f0) * schlick_weight(no) : 0.0f;
+        const float diffuse = mean(at.diffuse_albedo, bins);
+        if (!(specular + diffuse > 0)) continue;
+        const float specular_chance = specular / (specular + diffuse);
+
+        NextRay ray;
+        ray.from = static_cast<std::uint32_t>(i);
+        ray.origin_m = at.point_m + at.offset_m * at.geometric_normal;
+        if (u0 < specular_chance) {
+            Vec3f facet = at.normal;
+            if (!at.mirror) {
+                const Frame local(at.normal);
+                facet = local.to_world(sample_visible_normal(at.alpha, local.to_local(at.view_dir), u1, u2));
+            }
+            ray.dir = normalized(reflect(at.view_dir, facet));
+            const float ni = dot(at.normal, ray.dir);
+            if (ni <= 0 || dot(at.geometric_normal, ray.dir) <= 0) continue;
+            const float schlick = schlick_weight(dot(facet, at.view_dir));
+            const float weight = (at.mirror ? 1.0f : ggx_sample_weight(at.alpha, no, ni)) / specular_chance;
+            for (int b = 0; b < bins; ++b) {
+                const float f0 = at.normal_reflectance[b];
+                ray.weight[b] = at.weight[b] * weight * (f0 + (1 - f0) * schlick);
+            }
+            ray.mirror = at.mirror;
+            ray.sees_earth = true;
+        } else {
+            // Half of the diffuse samples look at the Earth, where it can stand above the surface at all.
+            const float to_earth = dot(at.geometric_normal, earth_frame.n);
+            const float earth_sine = std::sqrt(std::max(0.0f, 1 - earth_cosine * earth_cosine));
+            const bool earth_up = frame.background->earth_visible() && to_earth > -earth_sine;
+            const float earth_chance = earth_up ? 0.5f : 0.0f;
+            const float u = (u0 - specular_chance) / (1 - specular_chance);
+            const bool earth = u < earth_chance;
+            float weight = 1 / ((1 - specular_chance) * (earth ? earth_chance : 1 - earth_chance));
+            if (earth) {
+                // Uniform in the Earth's bounding cone: density 1 / (2 pi (1 - cos)).
+                const float z = 1 - u1 * (1 - earth_cosine);
+                const float r = std::sqrt(std::max(0.0f, 1 - z * z));
+                ray.dir = earth_frame.to_world({r * std::cos(2 * kPiF * u2), r * std::sin(2 * kPiF * u2), z});
+                weight *= 2 * (1 - earth_cosine) * std::max(0.0f, dot(at.normal, ray.dir));
+            } else {
+                ray.dir = Frame(at.normal).to_world(sample_cosine(u1, u2));
+            }
+            if (weight <= 0 || dot(at.geometric_normal, ray.dir) <= 0) continue;
+            for (int b = 0; b < bins; ++b) ray.weight[b] = at.weight[b] * weight * at.diffuse_albedo[b];
+            ray.mirror = false;
+            ray.sees_earth = false;
+            if (earth) {
+                earth_rays[earth_count++] = ray;
+                continue;
+            }
+        }
+        // at.weight of the first vertex is 1/n^2; the threshold is about a path's share of its own sample.
+        const auto samples = static_cast<float>(frame.samples_per_axis * frame.samples_per_axis);
+        if (largest(ray.weight, bins) * samples < frame.contribution_threshold) continue;
+        next[ray_count++] = ray;
+    }
+    return ray_count;
+}
+
+// Traces the chosen rays; what they meet becomes the next wave's vertices, the rest sees the background.
+void TileTracer::Implementation::follow(const FrameView& frame, std::size_t ray_count) {
+    RayPacket rays;
+    HitPacket hits;
+    std::size_t found = 0;
+    std::size_t first = 0;
+    while (first < ray_count) {
+        rays.count = static_cast<int>(std::min<std::size_t>(kPacketSize, ray_count - first));
+        for (int i = 0; i < rays.count; ++i) {
+            const NextRay& ray = next[first + static_cast<std::size_t>(i)];
+            rays.set(i, ray.origin_m, ray.dir, 0, kInfinity);
+        }
+        frame.scene->intersect(rays, Coherence::kIncoherent, hits);
+        stats.secondary_rays += static_cast<std::uint64_t>(rays.count);
+        for (int i = 0; i < rays.count; ++i) {
+            const NextRay& ray = next[first + static_cast<std::size_t>(i)];
+            const Vertex& from = current[ray.from];
+            if (hits.object[static_cast<std::size_t>(i)] == HitPacket::kMiss) {
+                if (ray.sees_earth)
+                    add_background(frame, ray.origin_m, ray.dir, ray.mirror, ray.weight, pixels[from.pixel]);
+                continue;
+            }
+            Vertex& vertex = following[found];
+            const float alpha_least = ray.sees_earth ? 0.0f : kAlphaBehindDiffuse;
+            if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, alpha_least, vertex)) continue;
+            vertex.pixel = from.pixel;
+            vertex.sample = from.sample;
+            vertex.weight = ray.weight;
+            ++found;
+        }
+        first += static_cast<std::size_t>(rays.count);
+    }
+    std::swap(current, following);
+    count = found;
+}
+
+TileStats TileTracer::trace(const FrameView& frame, const PixelBox& tile, RadianceImage& radiance) {
+    Implementation& my = *implementation_;
+    my.stats = {};
+    const int width = tile.x1 - tile.x0;
+    const auto pixel_count = static_cast<std::size_t>(width * (tile.y1 - tile.y0));
+    std::fill_n(my.pixels.begin(), pixel_count, Spectrum{});
+
+    my.primary_rays(frame, tile, true);
+    for (int depth = 1; my.count > 0; ++depth) {
+        my.light_from_sun(frame);
+        if (depth == frame.max_depth) break;
+        std::size_t earth_count = 0;
+        const std::size_t ray_count = my.choose_next(frame, tile, depth, earth_count);
+        my.light_from_earth(frame, earth_count);
+        my.follow(frame, ray_count);
+    }
+    for (int b = 0; b < frame.bins; ++b)
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            float* out = radiance.row(y, b).data() + tile.x0;
+            const Spectrum* in = my.pixels.data() + (y - tile.y0) * width;
+            for (int x = 0; x < width; ++x) out[x] = in[x][b];
+        }
+    return my.stats;
+}
+
+void TileTracer::Implementation::light_from_sun_bare(const FrameView& frame) {
+    const Vec3f sun = to_float(frame.background->sun_world_dir());
+    RayPacket rays;
+    rays.count = 0;
+    const auto flush = [&] {
+        if (rays.count > 0) frame.scene->occluded(rays, Coherence::kCoherent);
+        stats.shadow_rays += static_cast<std::uint64_t>(rays.count);
+        rays.count = 0;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        if (current[i].mirror || dot(current[i].geometric_normal, sun) <= 0 ||
+            dot(current[i].normal, sun) <= 0)
+            continue;
+        rays.set(rays.count, current[i].point_m + current[i].offset_m * current[i].geometric_normal, sun, 0,
+                 kInfinity);
+        if (++rays.count == kPacketSize) flush();
+    }
+    flush();
+}
+
+TileStats TileTracer::trace_bare(const FrameView& frame, const PixelBox& tile) {
+    Implementation& my = *implementation_;
+    my.stats = {};
+    my.primary_rays(frame, tile, false);
+    my.light_from_sun_bare(frame);
+    return my.stats;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,90 @@
+#include "render/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/check.h"
+
+namespace hilcam {
+namespace {
+
+std::uint32_t snorm16(float value) {
+    const float scaled = std::round(std::clamp(value, -1.0f, 1.0f) * 32767.0f);
+    return static_cast<std::uint16_t>(static_cast<std::int16_t>(scaled));
+}
+float from_snorm16(std::uint32_t bits) {
+    return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(bits))) *
+           (1.0f / 32767.0f);
+}
+
+std::array<Vec3d, 2> bounds_of(const Mesh& mesh) {
+    std::array<Vec3d, 2> box{Vec3d{1e300, 1e300, 1e300}, Vec3d{-1e300, -1e300, -1e300}};
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t i : triangle) {
+            const Vec3d p = to_double(mesh.vertices_m[i]);
+            box[0] = {std::min(box[0].x, p.x), std::min(box[0].y, p.y), std::min(box[0].z, p.z)};
+            box[1] = {std::max(box[1].x, p.x), std::max(box[1].y, p.y), std::max(box[1].z, p.z)};
+        }
+    return box;
+}
+
+}  // namespace
+
+std::uint32_t pack_normal(Vec3f n) {
+    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    float x = n.x / sum;
+    float y = n.y / sum;
+    if (n.z < 0) {
+        const float folded_x = (1 - std::abs(y)) * std::copysign(1.0f, x);
+        y = (1 - std::abs(x)) * std::copysign(1.0f, y);
+        x = folded_x;
+    }
+    return snorm16(x) | (snorm16(y) << 16);
+}
+
+Vec3f unpack_normal(std::uint32_t packed) {
+    float x = from_snorm16(packed & 0xFFFFu);
+    float y = from_snorm16(packed >> 16);
+    const float z = 1 - std::abs(x) - std::abs(y);
+    // Unfold the lower half without a branch.
+    const float t = std::max(-z, 0.0f);
+    x += x >= 0 ? -t : t;
+    y += y >= 0 ? -t : t;
+    return normalized(Vec3f{x, y, z});
+}
+
+ObjectSurfaces::ObjectSurfaces(SceneObject&& object)
+    : materials(std::move(object.materials)),
+      textures(std::move(object.mesh.textures)),
+      bounds_m(bounds_of(object.mesh)) {
+    const Mesh& mesh = object.mesh;
+    HILCAM_CHECK(materials.size() == mesh.surfaces.size());
+    const bool flat = mesh.normals.empty();
+    const bool textured = !mesh.uvs.empty() && std::any_of(materials.begin(), materials.end(),
+                                                           [](const Material& m) { return m.texture >= 0; });
+    if (!textured)
+        for (Material& material : materials) material.texture = -1;
+    triangles.resize(mesh.triangles.size());
+    if (textured) corner_uvs.resize(mesh.triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        triangles[i].surface = mesh.surface_of_triangle[i];
+        triangles[i].flat = flat ? 1 : 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t vertex = mesh.triangles[i][k];
+            triangles[i].corner_normals[k] = flat ? 0 : pack_normal(mesh.normals[vertex]);
+            if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
+        }
+    }
+}
+
+Vec3f ObjectSurfaces::normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) const {
+    if (triangle.flat) return geometric;
+    const Vec3f n = (1 - u - v) * unpack_normal(triangle.corner_normals[0]) +
+                    u * unpack_normal(triangle.corner_normals[1]) +
+                    v * unpack_normal(triangle.corner_normals[2]);
+    const float squared = dot(n, n);
+    // Opposite corner normals can cancel out.
+    return squared > 1e-6f ? n / std::sqrt(squared) : geometric;
+}
+
+}  // namespace hilcam
