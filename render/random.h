@@ -11,9 +11,8 @@ namespace hilcam {
 // What a number is drawn for; each is an independent stream. Values are part of a deterministic frame: never
 // reuse one.
 enum class RandomPurpose : std::uint32_t {
-    kShotNoise = 1,
-    kReadNoise = 2,
-    kPathSample = 3,
+    kSensorNoise = 1,  // word 0: shot noise, word 1: read noise
+    kPathSample = 2,   // of the light paths; index: sample and depth
 };
 
 struct RandomKey {
