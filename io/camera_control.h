@@ -13,7 +13,7 @@ struct CameraSettings {
 };
 
 struct CameraLimits {
-    int width = 0;   // sensor
+    int width = 0;  // sensor
     int height = 0;
     int bits = 0;
     double least_exposure_s = 0, most_exposure_s = 0;
@@ -21,8 +21,8 @@ struct CameraLimits {
     double least_frame_rate_hz = 0, most_frame_rate_hz = 0;
 };
 
-// Changes take effect with the next frame whose exposure has not begun. A value outside the limits changes nothing
-// and gives false. All functions: any thread, never from the loop (they may take a lock).
+// Changes take effect with the next frame whose exposure has not begun. A value outside the limits changes
+// nothing and gives false. All functions: any thread, never from the loop (they may take a lock).
 class CameraControl {
   public:
     virtual ~CameraControl() = default;

@@ -1,5 +1,6 @@
 #pragma once
-// Commands, decoded: what a sender can ask of the camera. Bytes are ccsds.h's business, transport commands_udp.h's.
+// Commands, decoded: what a sender can ask of the camera. Bytes are ccsds.h's business, transport
+// commands_udp.h's.
 
 #include <cstdint>
 #include <optional>
@@ -31,21 +32,24 @@ using Command = std::variant<PoseCommand, SettingsCommand, StartCommand, StopCom
 // Travels in the acknowledgement; the numbers are part of the protocol.
 enum class CommandStatus : std::uint8_t {
     kAccepted = 0,
-    kBadLength = 1,        // datagram or packet shorter or longer than its header says
-    kBadHeader = 2,        // version, type, secondary header flag or sequence flags
+    kBadLength = 1,  // datagram or packet shorter or longer than its header says
+    kBadHeader = 2,  // version, type, secondary header flag or sequence flags
     kUnknownApid = 3,
     kBadChecksum = 4,
     kUnknownFunction = 5,
-    kBadArgument = 6,      // a number that is not finite, a quaternion that is not one, a value outside its limits
+    kBadArgument =
+        6,  // a number that is not finite, a quaternion that is not one, a value outside its limits
     kUnknownObject = 7,
-    kTimeOutOfRange = 8,   // a time tag more than an hour from the simulated now
+    kTimeOutOfRange = 8,  // a time tag more than an hour from the simulated now
 };
 
-// What the emulator does with a decoded command. Called by the receivers' threads, one at a time per receiver.
+// What the emulator does with a decoded command. Called by the receivers' threads, one at a time per
+// receiver.
 class CommandHandler {
   public:
     virtual ~CommandHandler() = default;
-    virtual CommandStatus handle(const Command& command, std::uint16_t sequence, std::int64_t arrival_monotonic_ns) = 0;
+    virtual CommandStatus handle(const Command& command, std::uint16_t sequence,
+                                 std::int64_t arrival_monotonic_ns) = 0;
     // Simulated time now.
     virtual TimeTai now() const = 0;
 };

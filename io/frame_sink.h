@@ -1,5 +1,6 @@
 #pragma once
-// Where finished frames go: a GigE Vision client, a V4L2 device, files. The loop hands every sink every frame.
+// Where finished frames go: a GigE Vision client, a V4L2 device, files. The loop hands every sink every
+// frame.
 
 #include <cstdint>
 #include <string>
@@ -11,21 +12,22 @@ namespace hilcam {
 
 // What travels with a frame. Monotonic times are CLOCK_MONOTONIC nanoseconds; 0 means "none".
 struct FrameRecord {
-    std::uint64_t id = 0;                         // 1, 2, 3, ... of this run; skipped frames leave a gap
-    TimeTai exposure_mid;                         // simulated time
-    std::int64_t exposure_mid_monotonic_ns = 0;   // the same instant on the machine's clock
+    std::uint64_t id = 0;                        // 1, 2, 3, ... of this run; skipped frames leave a gap
+    TimeTai exposure_mid;                        // simulated time
+    std::int64_t exposure_mid_monotonic_ns = 0;  // the same instant on the machine's clock
     double exposure_s = 0;
     double gain_db = 0;
-    int bits = 0;                                 // significant bits of a DN
-    std::uint32_t pose_sequence = 0;              // of the newest command that this frame shows
-    std::int64_t command_arrival_monotonic_ns = 0;  // when that command arrived; 0 when no new one came since the last frame
+    int bits = 0;                     // significant bits of a DN
+    std::uint32_t pose_sequence = 0;  // of the newest command that this frame shows
+    std::int64_t command_arrival_monotonic_ns =
+        0;  // when that command arrived; 0 when no new one came since the last frame
 };
 
 struct SinkReport {
-    std::string name;               // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
-    std::uint64_t frames = 0;       // delivered
-    std::uint64_t dropped = 0;      // taken from the loop but not delivered (no client, sink too slow)
-    std::string fault;              // empty, or why the sink stopped delivering
+    std::string name;           // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
+    std::uint64_t frames = 0;   // delivered
+    std::uint64_t dropped = 0;  // taken from the loop but not delivered (no client, sink too slow)
+    std::string fault;          // empty, or why the sink stopped delivering
 };
 
 class FrameSink {
@@ -42,12 +44,13 @@ class FrameSink {
     virtual SinkReport report() const = 0;
 };
 
-// Told by sinks when the first and the last byte of a frame have left; times are CLOCK_MONOTONIC ns. Called from the
-// sink's own thread: no lock, no allocation.
+// Told by sinks when the first and the last byte of a frame have left; times are CLOCK_MONOTONIC ns. Called
+// from the sink's own thread: no lock, no allocation.
 class DeliveryListener {
   public:
     virtual ~DeliveryListener() = default;
-    virtual void delivered(const FrameRecord& record, std::int64_t first_ns, std::int64_t last_ns) noexcept = 0;
+    virtual void delivered(const FrameRecord& record, std::int64_t first_ns,
+                           std::int64_t last_ns) noexcept = 0;
 };
 
 }  // namespace hilcam

@@ -1,0 +1,445 @@
+#include "io/config_yaml.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+
+#include "render/check.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::uintmax_t kMostBytes = 4u << 20;
+constexpr int kDeepest = 16;
+
+template <class... F>
+struct Overloaded : F... {
+    using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+// Where a value stands: in a file, or on the command line.
+struct Place {
+    std::string name;  // file, or "--set KEY"
+    std::filesystem::path folder;
+    bool command_line = false;
+};
+
+std::string shorten(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+std::string show(const YAML::Node& node) {
+    if (!node.IsDefined() || node.IsNull()) return "nothing";
+    if (node.IsScalar()) return "'" + shorten(node.Scalar()) + "'";
+    return node.IsMap() ? "a mapping" : "a list of " + std::to_string(node.size());
+}
+
+std::string plain(double value) {
+    std::ostringstream out;
+    out.precision(10);
+    out << value;
+    return out.str();
+}
+
+std::string show(const Range& range) {
+    const bool low = std::isfinite(range.least);
+    const bool high = std::isfinite(range.most);
+    if (low && high) return plain(range.least) + " to " + plain(range.most);
+    if (low) return plain(range.least) + " or more";
+    if (high) return plain(range.most) + " or less";
+    return "any number";
+}
+
+// Levenshtein, Soviet Physics Doklady 10(8), 1966.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t change = diagonal + (a[i - 1] != b[j - 1] ? 1 : 0);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+        }
+    }
+    return row[b.size()];
+}
+
+// The part before a unit suffix: "exposure" of "exposure_ms".
+std::string_view stem(std::string_view key) { return key.substr(0, key.rfind('_')); }
+
+std::string advice_for(std::string_view key, const Fields& known) {
+    const Field* nearest = nullptr;
+    std::size_t least = std::string_view::npos;
+    for (const Field& field : known) {
+        if (field.key != key && key.find('_') != std::string_view::npos && stem(field.key) == stem(key))
+            return "; its unit here is another: " + field.key;
+        const std::size_t distance = edit_distance(key, field.key);
+        if (distance < least) least = distance, nearest = &field;
+    }
+    std::string text;
+    if (nearest && least <= 3) text = "; nearest known key: " + nearest->key;
+    text += "; known keys:";
+    for (const Field& field : known) text += " " + field.key;
+    return text;
+}
+
+std::optional<double> to_number(const YAML::Node& node) {
+    if (!node.IsScalar()) return {};
+    std::string_view text = node.Scalar();
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
+    return value;
+}
+
+struct Override {
+    std::string path;
+    YAML::Node value;
+    bool used = false;
+};
+
+class Reader {
+  public:
+    explicit Reader(std::span<const std::string> overrides) {
+        for (const std::string& text : overrides) add_override(text);
+    }
+
+    void read_file(const std::filesystem::path& file, const SectionField& section, const std::string& path,
+                   int depth) {
+        std::error_code error;
+        const auto canonical = std::filesystem::weakly_canonical(file, error);
+        if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end())
+            throw InputError(file.string() + ": the file includes itself");
+        if (std::filesystem::is_directory(file, error))
+            throw InputError(file.string() + ": found a folder; accepted: a YAML file");
+        std::ifstream in(file, std::ios::binary);
+        if (!in) throw InputError(file.string() + ": cannot be read; accepted: a YAML file");
+        const std::uintmax_t size = std::filesystem::file_size(file, error);
+        if (!error && size > kMostBytes)
+            throw InputError(file.string() + ": has " + std::to_string(size) +
+                             " bytes; accepted: at most 4 MiB");
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        open_files_.push_back(canonical);
+        read_text(text, {file.string(), file.parent_path()}, section, path, depth);
+        open_files_.pop_back();
+    }
+
+    void read_text(std::string_view text, const Place& place, const SectionField& section,
+                   const std::string& path, int depth) {
+        YAML::Node node;
+        try {
+            // An alias makes one node stand in many places; without any there is nothing to blow up.
+            node = YAML::Load(std::string(text));
+        } catch (const YAML::Exception& error) {
+            throw InputError(place.name + ":" + std::to_string(error.mark.line + 1) + ":" +
+                             std::to_string(error.mark.column + 1) + ": not YAML: " + shorten(error.msg));
+        }
+        if (!node.IsMap()) fail(place, node, path, "found " + show(node) + "; accepted: a mapping of keys");
+        read_section(node, place, section, path, depth);
+    }
+
+    void require_all_overrides_used(const SectionField& root) const {
+        for (const Override& o : overrides_)
+            if (!o.used) {
+                const std::string first = o.path.substr(0, o.path.find('.'));
+                const bool known = std::any_of(root.fields.begin(), root.fields.end(),
+                                               [&](const Field& f) { return f.key == first; });
+                throw InputError(
+                    "--set " + o.path + ": no such key" +
+                    (known ? " (a list's element must exist in the file)" : advice_for(first, root.fields)));
+            }
+    }
+
+  private:
+    std::vector<Override> overrides_;
+    std::vector<std::filesystem::path> open_files_;
+    std::size_t nodes_ = 0;
+
+    [[noreturn]] static void fail(const Place& place, const YAML::Node& node, const std::string& path,
+                                  const std::string& what) {
+        std::string where = place.name;
+        const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
+        if (!place.command_line && !mark.is_null())
+            where += ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+        throw InputError(where + ": " + (path.empty() || place.command_line ? "" : path + ": ") + what);
+    }
+
+    void add_override(const std::string& text) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw InputError("--set " + text + ": accepted: KEY=VALUE, as --set camera.exposure_ms=2");
+        try {
+            overrides_.push_back({text.substr(0, equals), YAML::Load(text.substr(equals + 1))});
+        } catch (const YAML::Exception& error) {
+            throw InputError("--set " + text.substr(0, equals) + ": not YAML: " + shorten(error.msg));
+        }
+    }
+
+    Override* override_at(const std::string& path) {
+        for (Override& o : overrides_)
+            if (o.path == path) return o.used = true, &o;
+        return nullptr;
+    }
+    bool override_below(const std::string& path) const {
+        return std::any_of(overrides_.begin(), overrides_.end(),
+                           [&](const Override& o) { return o.path.starts_with(path + "."); });
+    }
+    static std::string join(const std::string& path, const std::string& key) {
+        return path.empty() ? key : path + "." + key;
+    }
+
+    void count_node(const Place& place, const YAML::Node& node, const std::string& path, int depth) {
+        if (++nodes_ > 200000) fail(place, node, path, "the configuration has more than 200000 values");
+        if (depth > kDeepest)
+            fail(place, node, path, "nested deeper than " + std::to_string(kDeepest) + " levels");
+    }
+
+    void read_section(const YAML::Node& map, const Place& place, const SectionField& section,
+                      const std::string& path, int depth) {
+        count_node(place, map, path, depth);
+        refuse_unknown_keys(map, place, section.fields, path);
+        for (const Field& field : section.fields) {
+            const std::string field_path = join(path, field.key);
+            YAML::Node value = map[field.key];
+            Place value_place = place;
+            if (const Override* o = override_at(field_path)) {
+                value = o->value;
+                value_place = {"--set " + field_path, std::filesystem::current_path(), true};
+            }
+            const bool absent = !value.IsDefined() || value.IsNull();
+            if (absent && std::holds_alternative<SectionField>(field.target) && override_below(field_path))
+                value = YAML::Node(YAML::NodeType::Map);
+            else if (absent) {
+                if (field.required)
+                    fail(place, map, field_path, "the key is missing; it is " + field.meaning);
+                continue;
+            }
+            if (field.present) *field.present = true;
+            read_value(value, value_place, field, field_path, depth);
+        }
+        if (!section.validate) return;
+        try {
+            section.validate();
+        } catch (const InputError& error) {
+            fail(place, map, path, error.what());
+        }
+    }
+
+    static void refuse_unknown_keys(const YAML::Node& map, const Place& place, const Fields& known,
+                                    const std::string& path) {
+        std::vector<std::string> seen;
+        for (const auto& entry : map) {
+            const std::string key =
+                entry.first.IsScalar() ? entry.first.Scalar() : std::string("(not a word)");
+            if (std::none_of(known.begin(), known.end(), [&](const Field& f) { return f.key == key; }))
+                fail(place, entry.first, join(path, shorten(key)), "unknown key" + advice_for(key, known));
+            if (std::find(seen.begin(), seen.end(), key) != seen.end())
+                fail(place, entry.first, join(path, key), "the key is given twice");
+            seen.push_back(key);
+        }
+    }
+
+    void read_value(const YAML::Node& node, const Place& place, const Field& field, const std::string& path,
+                    int depth) {
+        count_node(place, node, path, depth);
+        const auto refuse = [&](const YAML::Node& at, const std::string& accepted) {
+            fail(place, at, path,
+                 "found " + show(at) + "; accepted: " + accepted + " (" + field.meaning + ")");
+        };
+        const auto number = [&](const YAML::Node& at, const Range& range) {
+            const std::optional<double> value = to_number(at);
+            if (!value || *value < range.least || *value > range.most) refuse(at, "a number, " + show(range));
+            return *value;
+        };
+        const auto list = [&](std::size_t fewest, std::size_t most) {
+            if (!node.IsSequence() || node.size() < fewest || node.size() > most)
+                refuse(node, "a list of " +
+                                 (fewest == most ? std::to_string(most)
+                                                 : std::to_string(fewest) + " to " + std::to_string(most)) +
+                                 " numbers");
+        };
+        std::visit(
+            Overloaded{
+                [&](const NumberField& f) { *f.value = number(node, f.range) * f.si_per_unit; },
+                [&](const IntegerField& f) { *f.value = integer(node, f.range, refuse); },
+                [&](const FlagField& f) {
+                    if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false"))
+                        refuse(node, "true or false");
+                    *f.value = node.Scalar() == "true";
+                },
+                [&](const TextField& f) {
+                    if (!node.IsScalar()) refuse(node, "a text");
+                    *f.value = node.Scalar();
+                },
+                [&](const PathField& f) {
+                    if (!node.IsScalar() || node.Scalar().empty()) refuse(node, "a path");
+                    *f.value = place.folder / node.Scalar();
+                },
+                [&](const ChoiceField& f) {
+                    const auto word =
+                        std::find(f.words.begin(), f.words.end(), node.IsScalar() ? node.Scalar() : "");
+                    if (word == f.words.end()) {
+                        std::string words;
+                        for (const std::string& w : f.words) words += (words.empty() ? "" : " | ") + w;
+                        refuse(node, words);
+                    }
+                    f.set(static_cast<std::size_t>(word - f.words.begin()));
+                },
+                [&](const NumbersField& f) {
+                    list(f.fewest, f.most);
+                    std::vector<double> values;
+                    for (const auto& item : node) values.push_back(number(item, f.range) * f.si_per_unit);
+                    *f.value = values;
+                },
+                [&](const Vec3Field& f) {
+                    list(3, 3);
+                    *f.value = f.si_per_unit * Vec3d{number(node[0], f.range), number(node[1], f.range),
+                                                     number(node[2], f.range)};
+                },
+                [&](const QuatField& f) {
+                    list(4, 4);
+                    const Range unit{-1.001, 1.001};
+                    const Quat q{number(node[0], unit), number(node[1], unit), number(node[2], unit),
+                                 number(node[3], unit)};
+                    if (std::abs(norm(q) - 1) > 1e-3)
+                        fail(place, node, path,
+                             "found a quaternion of norm " + plain(norm(q)) +
+                                 "; accepted: [w, x, y, z] of norm 1");
+                    *f.value = normalized(q);
+                },
+                [&](const CurveField& f) { *f.value = curve(node, f.range, number, refuse); },
+                [&](const SectionField& f) { section(node, place, f, path, depth, refuse); },
+                [&](const SectionsField& f) {
+                    if (!node.IsSequence()) refuse(node, "a list of mappings");
+                    for (std::size_t i = 0; i < node.size(); ++i)
+                        section(node[i], place, f.append(), join(path, std::to_string(i)), depth, refuse);
+                },
+            },
+            field.target);
+    }
+
+    template <class Refuse>
+    static std::int64_t integer(const YAML::Node& node, const Range& range, const Refuse& refuse) {
+        std::int64_t value = 0;
+        const std::string text = node.IsScalar() ? node.Scalar() : "";
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const auto as_double = static_cast<double>(value);
+        if (text.empty() || error != std::errc{} || end != text.data() + text.size() ||
+            as_double < range.least || as_double > range.most)
+            refuse(node, "a whole number, " + show(range));
+        return value;
+    }
+
+    template <class Number, class Refuse>
+    static Curve curve(const YAML::Node& node, const Range& range, const Number& number,
+                       const Refuse& refuse) {
+        if (node.IsScalar()) return Curve::constant(number(node, range));
+        if (!node.IsSequence() || node.size() == 0)
+            refuse(node, "a number, or [[wavelength_um, value], ...]");
+        Curve out;
+        for (const auto& pair : node) {
+            if (!pair.IsSequence() || pair.size() != 2) refuse(pair, "a pair [wavelength_um, value]");
+            const double wavelength = number(pair[0], Range{0.1, 100});
+            if (!out.value.empty() && wavelength <= out.wavelength_um.back())
+                refuse(pair[0], "wavelengths that rise from pair to pair");
+            out.wavelength_um.push_back(wavelength);
+            out.value.push_back(number(pair[1], range));
+        }
+        return out;
+    }
+
+    template <class Refuse>
+    void section(const YAML::Node& node, const Place& place, const SectionField& f, const std::string& path,
+                 int depth, const Refuse& refuse) {
+        if (node.IsScalar()) return read_file(place.folder / node.Scalar(), f, path, depth + 1);
+        if (!node.IsMap()) refuse(node, "a mapping, or the path of a file that holds it");
+        read_section(node, place, f, path, depth + 1);
+    }
+};
+
+std::string accepted_text(const Field& field) {
+    return std::visit(Overloaded{
+                          [](const NumberField& f) { return show(f.range); },
+                          [](const IntegerField& f) { return "whole, " + show(f.range); },
+                          [](const FlagField&) { return std::string("true, false"); },
+                          [](const TextField&) { return std::string("text"); },
+                          [](const PathField&) { return std::string("path"); },
+                          [](const ChoiceField& f) {
+                              std::string words;
+                              for (const std::string& w : f.words) words += (words.empty() ? "" : ", ") + w;
+                              return words;
+                          },
+                          [](const NumbersField& f) { return "list, each " + show(f.range); },
+                          [](const Vec3Field& f) { return "[x, y, z], each " + show(f.range); },
+                          [](const QuatField&) { return std::string("[w, x, y, z]"); },
+                          [](const CurveField& f) { return "number or curve, " + show(f.range); },
+                          [](const SectionField&) { return std::string("mapping or file"); },
+                          [](const SectionsField&) { return std::string("list of mappings"); },
+                      },
+                      field.target);
+}
+
+std::string default_text(const Field& field) {
+    if (field.required) return "(required)";
+    return std::visit(Overloaded{
+                          [](const NumberField& f) { return plain(*f.value / f.si_per_unit); },
+                          [](const IntegerField& f) { return std::to_string(*f.value); },
+                          [](const FlagField& f) { return std::string(*f.value ? "true" : "false"); },
+                          [](const TextField& f) { return *f.value; },
+                          [](const ChoiceField& f) { return f.words[f.get()]; },
+                          [](const CurveField& f) {
+                              return f.value->value.size() == 1 ? plain(f.value->value[0])
+                                                                : std::string("(curve)");
+                          },
+                          [](const auto&) { return std::string(); },
+                      },
+                      field.target);
+}
+
+void manual_rows(const SectionField& section, const std::string& prefix, std::string& out) {
+    for (const Field& field : section.fields) {
+        out += "| `" + prefix + field.key + "` | " + accepted_text(field) + " | " + default_text(field) +
+               " | " + field.meaning + " |\n";
+        if (const auto* nested = std::get_if<SectionField>(&field.target))
+            manual_rows(*nested, prefix + field.key + ".", out);
+        if (const auto* many = std::get_if<SectionsField>(&field.target))
+            manual_rows(many->append(), prefix + field.key + ".N.", out);
+    }
+}
+
+}  // namespace
+
+void read_config(const std::filesystem::path& file, const SectionField& root,
+                 std::span<const std::string> overrides) {
+    Reader reader(overrides);
+    reader.read_file(file, root, "", 0);
+    reader.require_all_overrides_used(root);
+}
+
+void read_config_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                      const SectionField& root, std::span<const std::string> overrides) {
+    Reader reader(overrides);
+    reader.read_text(text, {name, folder}, root, "", 0);
+    reader.require_all_overrides_used(root);
+}
+
+std::string config_manual(const SectionField& root) {
+    std::string out = "| key | accepted | default | meaning |\n|---|---|---|---|\n";
+    manual_rows(root, "", out);
+    return out;
+}
+
+}  // namespace hilcam

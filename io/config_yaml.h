@@ -1,0 +1,30 @@
+#pragma once
+// Configuration files: YAML into structs through their field lists (render/config_field.h). The only unit
+// that knows YAML.
+//
+// Every error is one InputError line: file:line:column, the key's path, what was found, what is accepted.
+// Keys that are unknown name the nearest known one. A section may be given as the path of another file,
+// relative to the naming file. An override "a.b.0.c=VALUE" replaces a value before it is read; VALUE is YAML;
+// errors in it name "--set".
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "render/config_field.h"
+
+namespace hilcam {
+
+// Reads a file of at most 4 MiB into the section. Owner thread.
+void read_config(const std::filesystem::path& file, const SectionField& root,
+                 std::span<const std::string> overrides = {});
+// The same from memory; `name` stands for the file in messages, relative paths are taken from `folder`.
+void read_config_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                      const SectionField& root, std::span<const std::string> overrides = {});
+
+// A Markdown table of the keys: key, accepted, default, meaning. Nested sections follow as rows
+// "section.key".
+std::string config_manual(const SectionField& root);
+
+}  // namespace hilcam
