@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::string_view kHeader = "hip,ra_deg,dec_deg,pm_ra_mas_yr,pm_dec_mas_yr,v_mag,b_v";
+constexpr std::string_view kHeader = "hd,ra_deg,dec_deg,pm_ra_mas_yr,pm_dec_mas_yr,v_mag,b_v";
 constexpr std::size_t kColumns = 7;
 
 // Least and most of each column.
