@@ -59,7 +59,7 @@ ObjectSurfaces::ObjectSurfaces(SceneObject&& object)
       bounds_m(bounds_of(object.mesh)) {
     const Mesh& mesh = object.mesh;
     HILCAM_CHECK(materials.size() == mesh.surfaces.size());
-    const bool flat = mesh.normals.empty();
+    const bool no_normals = mesh.normals.empty();
     const bool textured = !mesh.uvs.empty() && std::any_of(materials.begin(), materials.end(),
                                                            [](const Material& m) { return m.texture >= 0; });
     if (!textured)
@@ -68,6 +68,12 @@ ObjectSurfaces::ObjectSurfaces(SceneObject&& object)
     if (textured) corner_uvs.resize(mesh.triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         triangles[i].surface = mesh.surface_of_triangle[i];
+        // A zero normal stands for "the file has none here".
+        const auto missing = [&](std::uint32_t vertex) {
+            return !(dot(mesh.normals[vertex], mesh.normals[vertex]) > 0);
+        };
+        const bool flat =
+            no_normals || std::any_of(mesh.triangles[i].begin(), mesh.triangles[i].end(), missing);
         triangles[i].flat = flat ? 1 : 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = mesh.triangles[i][k];

@@ -1,0 +1,222 @@
+#include "io/mesh_file.h"
+
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+
+#include "io/gltf_webp.h"
+#include "render/check.h"
+
+namespace hilcam {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+    throw InputError(file.string() + ": " + what);
+}
+
+class Loader {
+  public:
+    Loader(const std::filesystem::path& file, const aiScene& scene) : file_(file), scene_(scene) {}
+
+    Mesh load() {
+        read_materials();
+        count_normals_and_uvs();
+        if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4());
+        if (mesh_.triangles.empty()) refuse(file_, "holds no triangle; accepted: a mesh with at least one");
+        return std::move(mesh_);
+    }
+
+  private:
+    const std::filesystem::path& file_;
+    const aiScene& scene_;
+    Mesh mesh_;
+    std::map<std::string, int> texture_index_;
+    bool any_normals_ = false;
+    bool any_uvs_ = false;
+
+    // One part without normals or uvs must not take them from the others, so the missing ones are filled in.
+    void count_normals_and_uvs() {
+        for (unsigned i = 0; i < scene_.mNumMeshes; ++i) {
+            any_normals_ |= scene_.mMeshes[i]->HasNormals();
+            any_uvs_ |= scene_.mMeshes[i]->HasTextureCoords(0);
+        }
+    }
+
+    void read_materials() {
+        if (scene_.mNumMaterials > 65535)
+            refuse(file_,
+                   "has " + std::to_string(scene_.mNumMaterials) + " materials; accepted: at most 65535");
+        for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
+            mesh_.surfaces.push_back(surface_of(*scene_.mMaterials[i]));
+        if (mesh_.surfaces.empty()) mesh_.surfaces.emplace_back();
+    }
+
+    MeshSurface surface_of(const aiMaterial& material) {
+        MeshSurface surface;
+        surface.name = material.GetName().C_Str();
+        aiColor4D color;
+        if (material.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS ||
+            material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS)
+            surface.base_color = {std::clamp(color.r, 0.0f, 1.0f), std::clamp(color.g, 0.0f, 1.0f),
+                                  std::clamp(color.b, 0.0f, 1.0f)};
+        ai_real value = 0;
+        if (material.Get(AI_MATKEY_METALLIC_FACTOR, value) == AI_SUCCESS)
+            surface.metallic = std::clamp(value, 0.0f, 1.0f);
+        if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == AI_SUCCESS)
+            surface.roughness = std::clamp(value, 0.0f, 1.0f);
+        aiString path;
+        for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
+            if (material.GetTexture(type, 0, &path) == AI_SUCCESS) {
+                surface.base_color_texture = texture_of(path.C_Str(), surface.name);
+                break;
+            }
+        return surface;
+    }
+
+    int texture_of(const std::string& path, const std::string& material) {
+        const auto known = texture_index_.find(path);
+        if (known != texture_index_.end()) return known->second;
+        const cv::Mat picture = decode(path, material);
+        Texture texture;
+        texture.name = path;
+        texture.width = picture.cols;
+        texture.height = picture.rows;
+        texture.texels.reserve(static_cast<std::size_t>(picture.cols) *
+                               static_cast<std::size_t>(picture.rows));
+        for (int y = 0; y < picture.rows; ++y)
+            for (int x = 0; x < picture.cols; ++x) {
+                const cv::Vec3b bgr = picture.at<cv::Vec3b>(y, x);
+                texture.texels.push_back({bgr[2], bgr[1], bgr[0]});
+            }
+        mesh_.textures.push_back(std::move(texture));
+        return texture_index_[path] = static_cast<int>(mesh_.textures.size()) - 1;
+    }
+
+    cv::Mat decode(const std::string& path, const std::string& material) const {
+        cv::Mat picture;
+        const std::string of = "texture '" + path + "' of material '" + material + "'";
+        try {
+            if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str())) {
+                if (embedded->mHeight == 0) {  // compressed: mWidth is the number of bytes
+                    const auto* bytes = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
+                    picture = cv::imdecode(cv::Mat(1, static_cast<int>(embedded->mWidth), CV_8UC1,
+                                                   const_cast<std::uint8_t*>(bytes)),
+                                           cv::IMREAD_COLOR);
+                } else {
+                    picture.create(static_cast<int>(embedded->mHeight), static_cast<int>(embedded->mWidth),
+                                   CV_8UC3);
+                    for (int i = 0; i < picture.rows * picture.cols; ++i) {
+                        const aiTexel& t = embedded->pcData[i];
+                        picture.at<cv::Vec3b>(i / picture.cols, i % picture.cols) = {t.b, t.g, t.r};
+                    }
+                }
+            } else {
+                const std::filesystem::path beside = file_.parent_path() / path;
+                if (!std::filesystem::exists(beside))
+                    refuse(file_, of + " is missing; expected at " + beside.string());
+                picture = cv::imread(beside.string(), cv::IMREAD_COLOR);
+            }
+        } catch (const cv::Exception&) {
+            picture.release();
+        }
+        if (picture.empty()) refuse(file_, of + " does not decode; accepted: PNG, JPEG, TIFF, BMP, WebP");
+        return picture;
+    }
+
+    void read_node(const aiNode& node, const aiMatrix4x4& parent) {
+        const aiMatrix4x4 body_from_node = parent * node.mTransformation;
+        for (unsigned i = 0; i < node.mNumMeshes; ++i)
+            read_part(*scene_.mMeshes[node.mMeshes[i]], body_from_node);
+        for (unsigned i = 0; i < node.mNumChildren; ++i) read_node(*node.mChildren[i], body_from_node);
+    }
+
+    void read_part(const aiMesh& part, const aiMatrix4x4& body_from_part) {
+        if (!(part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE)) return;
+        const auto base = static_cast<std::uint32_t>(mesh_.vertices_m.size());
+        require_finite(part);
+        aiMatrix3x3 normal_matrix(body_from_part);
+        const bool mirrored = normal_matrix.Determinant() < 0;
+        normal_matrix.Inverse().Transpose();
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const aiVector3D p = body_from_part * part.mVertices[i];
+            mesh_.vertices_m.push_back({p.x, p.y, p.z});
+            if (any_uvs_) {
+                const bool has = part.HasTextureCoords(0);
+                mesh_.uvs.push_back(has ? Vec2f{part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y}
+                                        : Vec2f{});
+            }
+            if (any_normals_) {
+                const aiVector3D n =
+                    part.HasNormals() ? normal_matrix * part.mNormals[i] : aiVector3D(0, 0, 0);
+                const float size = n.Length();
+                mesh_.normals.push_back(size > 0 && std::isfinite(size) ? Vec3f{n.x, n.y, n.z} / size
+                                                                        : Vec3f{});
+            }
+        }
+        const auto surface =
+            static_cast<std::uint16_t>(std::min<std::size_t>(part.mMaterialIndex, mesh_.surfaces.size() - 1));
+        for (unsigned i = 0; i < part.mNumFaces; ++i) {
+            const aiFace& face = part.mFaces[i];
+            if (face.mNumIndices != 3) continue;
+            std::array<std::uint32_t, 3> t = {face.mIndices[0], face.mIndices[1], face.mIndices[2]};
+            if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2]) continue;
+            if (std::max({t[0], t[1], t[2]}) >= part.mNumVertices)
+                refuse(file_, "triangle " + std::to_string(i) + " of part '" + part.mName.C_Str() +
+                                  "' names a vertex that does not exist");
+            if (mirrored) std::swap(t[1], t[2]);
+            for (std::uint32_t& index : t) index += base;
+            mesh_.triangles.push_back(t);
+            mesh_.surface_of_triangle.push_back(surface);
+        }
+    }
+
+    void require_finite(const aiMesh& part) const {
+        unsigned bad = 0;
+        unsigned first = 0;
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const aiVector3D& p = part.mVertices[i];
+            if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+            if (bad++ == 0) first = i;
+        }
+        if (bad > 0)
+            refuse(file_, std::to_string(bad) + " of " + std::to_string(part.mNumVertices) +
+                              " vertices of part '" + part.mName.C_Str() +
+                              "' are not finite, the first is number " + std::to_string(first));
+    }
+};
+
+std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+Mesh load_mesh(const std::filesystem::path& file) {
+    std::string kind = file.extension().string();
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::array<std::string, 5> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply"};
+    if (!std::filesystem::is_regular_file(file)) refuse(file, "no such mesh file");
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+        refuse(file, "found a file of kind '" + kind + "'; accepted: .glb .gltf .obj .stl .ply");
+    Assimp::Importer importer;
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType;
+    const aiScene* scene = nullptr;
+    if (const auto changed = kind == ".glb" ? with_plain_webp_sources(read_bytes(file)) : std::nullopt)
+        scene = importer.ReadFileFromMemory(changed->data(), changed->size(), kSteps, "glb");
+    else
+        scene = importer.ReadFile(file.string(), kSteps);
+    if (!scene) refuse(file, std::string("does not parse: ") + importer.GetErrorString());
+    return Loader(file, *scene).load();
+}
+
+}  // namespace hilcam

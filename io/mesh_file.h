@@ -1,0 +1,21 @@
+#pragma once
+// Mesh files through assimp: glTF and GLB, OBJ, STL, PLY. The only unit that knows assimp.
+//
+// The node tree is flattened with its transforms; polygons become triangles; points and lines are left out;
+// exactly degenerate triangles (a repeated corner) are dropped. Coordinates are taken as metres, axes as the
+// file has them (glTF: +y up). Normals are those of the file; a mesh without any is shaded flat. Materials
+// give glTF metallic-roughness values or the nearest the format has; textures may be embedded or beside the
+// file.
+
+#include <filesystem>
+
+#include "render/mesh.h"
+
+namespace hilcam {
+
+// Throws InputError, one line that names the file, for: a file that is absent, of an unknown kind or does not
+// parse; no triangle; a vertex that is not finite; a texture that is missing or does not decode; more than
+// 65,535 surfaces.
+Mesh load_mesh(const std::filesystem::path& file);
+
+}  // namespace hilcam
