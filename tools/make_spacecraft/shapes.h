@@ -1,0 +1,42 @@
+#pragma once
+// The building blocks of a spacecraft: sheets, boxes, tubes, bodies of revolution, crumpled foil.
+
+#include <cstdint>
+
+#include "tools/make_spacecraft/patch.h"
+
+namespace spacecraft {
+
+// An axis-aligned frame somewhere: origin and three unit axes.
+struct Placement {
+    Vec3d origin;
+    Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    Vec3d operator()(Vec3d p) const { return origin + p.x * x + p.y * y + p.z * z; }
+};
+
+// A flat sheet from `corner` along `along_u` and `along_v`.
+Patch sheet(std::string part, std::string material, Vec3d corner, Vec3d along_u, Vec3d along_v,
+            double detail);
+
+// Multi-layer insulation: a sheet crumpled like foil. Its height is a sum of facets on three scales
+// (piecewise linear noise on triangular lattices of 18, 6 and 2 cm) that bulges between its seams and is
+// pinned to them.
+Patch blanket(std::string part, std::string material, Vec3d corner, Vec3d along_u, Vec3d along_v,
+              double detail, std::uint32_t seed);
+
+// Appends the six faces of a box, each one patch.
+void add_box(std::vector<Patch>& patches, const std::string& part, const std::string& material,
+             const Placement& place, Vec3d size, double detail);
+
+// A body of revolution about the placement's z axis: profile(t) gives (radius, z) for t in [0, 1].
+Patch revolution(std::string part, std::string material, const Placement& place,
+                 std::function<std::array<double, 2>(double)> profile, int least_around, int least_along,
+                 double detail);
+
+// A round tube from a to b.
+Patch tube(std::string part, std::string material, Vec3d a, Vec3d b, double radius, double detail);
+
+// Deterministic noise in [0, 1) of a lattice point.
+double lattice_value(std::uint32_t seed, std::int64_t i, std::int64_t j);
+
+}  // namespace spacecraft
