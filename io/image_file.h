@@ -1,0 +1,22 @@
+#pragma once
+// Pictures on disk: frames as 16-bit PNG or TIFF, radiance as OpenEXR.
+
+#include <filesystem>
+
+#include "render/image.h"
+#include "render/mesh.h"
+#include "render/spectrum.h"
+
+namespace hilcam {
+
+// Frames as they are: DN, right-aligned in 16 bits. The kind follows from the ending, .png or .tiff.
+// InputError for another ending, DeviceError when the file cannot be written.
+void write_frame(const std::filesystem::path& file, const DnImage& frame);
+// One 32-bit float channel per bin, named "L_0.450_0.550um" [W m^-2 sr^-1 um^-1], or "electrons" [e-].
+void write_radiance_exr(const std::filesystem::path& file, const RadianceImage& radiance,
+                        const SpectralGrid& grid);
+void write_electrons_exr(const std::filesystem::path& file, const ElectronImage& electrons);
+// An 8-bit colour picture as a texture. InputError when it does not decode.
+Texture read_picture(const std::filesystem::path& file);
+
+}  // namespace hilcam
