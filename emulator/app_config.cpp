@@ -1,0 +1,113 @@
+#include "emulator/app_config.h"
+
+#include <limits>
+
+#include "io/config_yaml.h"
+#include "render/check.h"
+#include "render/units.h"
+
+namespace hilcam {
+
+Fields fields(PoseConfig& p) {
+    return {
+        vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "in the world"),
+        choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
+               "quaternion: attitude_wxyz; look_at: +z to a point, -y near up; nadir: +z to the Earth's centre, +y south"),
+        quaternion("attitude_wxyz", p.world_from_body, "turns body axes into world axes, scalar first"),
+        vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the world"),
+        vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the world"),
+        vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "in the world"),
+        vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "about the body axes"),
+    };
+}
+
+Fields fields(GeneratedMeshConfig& g) {
+    return {
+        required(text("program", g.program, "a generator beside hilcam, as hilcam-make-spacecraft")),
+        integer("triangles", g.triangles, {5000, 20000000}, "how many it shall make"),
+        integer("seed", g.seed, {0, 1e9}, "of its random details"),
+        number("wing_angle_deg", g.wing_angle_deg, 1, {-360, 360}, "solar wings about +y: cells look along +z at 0, +x at 90"),
+    };
+}
+
+Fields fields(MaterialSet& set) { return {sections("surfaces", set.surfaces, "materials by surface name, first match wins")}; }
+
+Fields fields(ObjectConfig& o) {
+    return {
+        required(text("name", o.name, "for messages")),
+        optional(path("mesh", o.mesh, "GLB, glTF, OBJ, STL or PLY file in metres"), o.has_mesh),
+        optional(section("generate", o.generate, "a mesh made at first use and cached, instead of a file"), o.has_generate),
+        number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
+        section("pose", o.pose, "where it stands until commands say otherwise"),
+        section("materials", o.materials, "replaces the mesh's own looks"),
+    };
+}
+
+void validate(const ObjectConfig& o) {
+    if (o.has_mesh == o.has_generate) throw InputError("an object has either 'mesh' or 'generate'; found " +
+                                                       std::string(o.has_mesh ? "both" : "neither"));
+}
+
+Fields fields(StarsConfig& s) {
+    return {
+        path("catalogue", s.catalogue, "CSV as configs/stars/hipparcos.csv; none: no stars"),
+        number("faintest_magnitude", s.faintest_magnitude, 1, {-2, 30}, "fainter ones are left out"),
+    };
+}
+
+Fields fields(QualityConfig& q) {
+    Fields list = fields(q.render);
+    list.push_back(integer("guard_px", q.guard_px, {0, 512}, "border around the frame that takes the FFT's wrap-around"));
+    return list;
+}
+
+Fields fields(CommandsConfig& c) { return {optional(section("udp", c.udp, "listen for commands"), c.has_udp)}; }
+
+Fields fields(OutputsConfig& o) {
+    return {
+        optional(section("gige", o.gige, "be a GigE Vision camera"), o.has_gige),
+        optional(section("v4l2", o.v4l2, "feed a v4l2loopback device"), o.has_v4l2),
+        optional(section("files", o.files, "write pictures"), o.has_files),
+    };
+}
+
+Fields fields(ScenarioConfig& s) {
+    return {
+        text("name", s.name, "for reports"),
+        required(text("time_utc", s.time_utc, "simulated time at the start")),
+        integer("seed", s.seed, {0, 9e15}, "of all random numbers"),
+        integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core"),
+        section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
+        required(section("camera", s.camera, "the camera's data sheet")),
+        section("camera_pose", s.camera_pose, "where the camera stands until commands say otherwise"),
+        sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
+        section("earth", s.earth, "the Earth"),
+        section("stars", s.stars, "the stars"),
+        numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1}, "edges of the spectral bins"),
+        section("quality", s.quality, "speed against accuracy"),
+        section("commands", s.commands, "where commands come from"),
+        section("outputs", s.outputs, "where frames go"),
+    };
+}
+
+void validate(const ScenarioConfig& s) {
+    parse_utc(s.time_utc);
+    SpectralGrid grid(s.spectrum_edges_um);
+}
+
+ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
+    ScenarioConfig scenario;
+    read_config(file, section_of(scenario), overrides);
+    return scenario;
+}
+
+Motion initial_motion(const PoseConfig& p, TimeTai time, const Bodies& bodies) {
+    Quat attitude = p.world_from_body;
+    if (p.attitude == PoseConfig::Attitude::kLookAt) attitude = look_along(p.look_at_m - p.position_m, p.up);
+    // +z down, +y along -north: then +x = y x z points east.
+    if (p.attitude == PoseConfig::Attitude::kNadir)
+        attitude = look_along(bodies.earth_world_m - p.position_m, Vec3d{0, 0, 1});
+    return {time, {p.position_m, attitude}, p.velocity_m_s, p.rate_body_rad_s};
+}
+
+}  // namespace hilcam

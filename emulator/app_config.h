@@ -1,0 +1,110 @@
+#pragma once
+// A scenario file: the world, the camera, the quality, and where commands come from and frames go.
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/commands_udp.h"
+#include "io/sink_files.h"
+#include "io/sink_gige.h"
+#include "io/sink_v4l2.h"
+#include "render/bodies.h"
+#include "render/material.h"
+#include "render/renderer.h"
+#include "sensor/camera_model.h"
+
+namespace hilcam {
+
+// Where a thing stands when the run begins, until commands say otherwise.
+struct PoseConfig {
+    enum class Attitude { kQuaternion, kLookAt, kNadir } attitude = Attitude::kQuaternion;
+    Vec3d position_m;
+    Quat world_from_body;
+    Vec3d look_at_m;
+    Vec3d up{0, 0, 1};
+    Vec3d velocity_m_s;
+    Vec3d rate_body_rad_s;
+};
+Fields fields(PoseConfig& pose);
+
+struct GeneratedMeshConfig {
+    std::string program;
+    std::int64_t triangles = 100000;
+    std::int64_t seed = 1;
+    double wing_angle_deg = 0;
+};
+Fields fields(GeneratedMeshConfig& mesh);
+
+struct MaterialSet {
+    std::vector<MaterialConfig> surfaces;
+};
+Fields fields(MaterialSet& set);
+
+struct ObjectConfig {
+    std::string name;
+    std::filesystem::path mesh;
+    GeneratedMeshConfig generate;
+    double scale = 1;
+    PoseConfig pose;
+    MaterialSet materials;
+    bool has_mesh = false;
+    bool has_generate = false;
+};
+Fields fields(ObjectConfig& object);
+void validate(const ObjectConfig& object);
+
+struct StarsConfig {
+    std::filesystem::path catalogue;  // empty: no stars
+    double faintest_magnitude = 8;
+};
+Fields fields(StarsConfig& stars);
+
+struct QualityConfig {
+    RenderQuality render;
+    std::int64_t guard_px = 28;
+};
+Fields fields(QualityConfig& quality);
+
+struct CommandsConfig {
+    bool has_udp = false;
+    UdpCommandConfig udp;
+};
+Fields fields(CommandsConfig& commands);
+
+struct OutputsConfig {
+    bool has_gige = false, has_v4l2 = false, has_files = false;
+    GigeConfig gige;
+    V4l2Config v4l2;
+    FilesConfig files;
+};
+Fields fields(OutputsConfig& outputs);
+
+struct ScenarioConfig {
+    std::string name;
+    std::string time_utc = "2026-01-01T00:00:00Z";
+    std::int64_t seed = 1;
+    std::int64_t threads = 0;
+    OriginConfig origin;
+    CameraModel camera;
+    PoseConfig camera_pose;
+    std::vector<ObjectConfig> objects;
+    EarthConfig earth;
+    StarsConfig stars;
+    std::vector<double> spectrum_edges_um = {0.40, 0.52, 0.62, 0.75, 0.95};
+    QualityConfig quality;
+    CommandsConfig commands;
+    OutputsConfig outputs;
+};
+Fields fields(ScenarioConfig& scenario);
+void validate(const ScenarioConfig& scenario);
+
+// Reads and checks a scenario. Throws InputError.
+ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides);
+
+// The motion that a pose config describes at an instant. Throws InputError when look_at is not defined.
+Motion initial_motion(const PoseConfig& pose, TimeTai time, const Bodies& bodies);
+
+}  // namespace hilcam

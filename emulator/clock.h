@@ -1,0 +1,65 @@
+#pragma once
+// Simulated time against the machine's monotonic clock. Times are int64 ns.
+
+#include <time.h>
+
+#include <cstdint>
+
+#include "render/time.h"
+
+namespace hilcam {
+
+inline std::int64_t monotonic_now_ns() {
+    timespec t{};
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+
+inline void sleep_until_monotonic_ns(std::int64_t ns) {
+    const timespec t{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) != 0) {
+    }
+}
+
+// Runs at real time from a start: simulated = start + (monotonic - monotonic at the start).
+class SimulatedClock {
+  public:
+    SimulatedClock(TimeTai start, std::int64_t monotonic_start_ns)
+        : start_(start), monotonic_start_ns_(monotonic_start_ns) {}
+    TimeTai at(std::int64_t monotonic_ns) const { return start_ + (monotonic_ns - monotonic_start_ns_); }
+    TimeTai now() const { return at(monotonic_now_ns()); }
+
+  private:
+    TimeTai start_;
+    std::int64_t monotonic_start_ns_;
+};
+
+// When frames are exposed in free-run: an absolute raster that never drifts and never catches up.
+//     next += period; when `now` has passed the start after next, whole periods are skipped and counted.
+class FrameSchedule {
+  public:
+    explicit FrameSchedule(std::int64_t first_ns) : next_ns_(first_ns) {}
+
+    struct Slot {
+        std::int64_t start_ns = 0;
+        std::uint64_t skipped = 0;
+    };
+    // The exposure to compute now. A start up to one period in the past still counts: that frame is late, not lost.
+    Slot take(std::int64_t now_ns, std::int64_t period_ns) {
+        Slot slot;
+        if (now_ns > next_ns_ + period_ns) {
+            slot.skipped = static_cast<std::uint64_t>((now_ns - next_ns_) / period_ns);
+            next_ns_ += static_cast<std::int64_t>(slot.skipped) * period_ns;
+        }
+        slot.start_ns = next_ns_;
+        next_ns_ += period_ns;
+        return slot;
+    }
+    // After a pause: the raster begins anew.
+    void restart(std::int64_t first_ns) { next_ns_ = first_ns; }
+
+  private:
+    std::int64_t next_ns_;
+};
+
+}  // namespace hilcam

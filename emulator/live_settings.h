@@ -1,0 +1,35 @@
+#pragma once
+// The camera's settings while it runs: changed by commands and camera interfaces, read by the loop without a lock.
+
+#include <mutex>
+
+#include "io/camera_control.h"
+#include "render/latest.h"
+#include "sensor/camera_model.h"
+
+namespace hilcam {
+
+class LiveSettings : public CameraControl {
+  public:
+    explicit LiveSettings(const CameraModel& camera);
+
+    CameraSettings settings() const override;
+    CameraLimits limits() const override { return limits_; }
+    bool set_exposure_s(double value) override;
+    bool set_gain_db(double value) override;
+    bool set_frame_rate_hz(double value) override;
+    void set_running(bool running) override;
+
+    // Loop, one thread. No lock.
+    const CameraSettings& read_in_loop() { return latest_.read(); }
+
+  private:
+    bool set(double CameraSettings::*member, double value, double least, double most);
+
+    CameraLimits limits_;
+    mutable std::mutex mutex_;
+    CameraSettings settings_;
+    Latest<CameraSettings> latest_;
+};
+
+}  // namespace hilcam

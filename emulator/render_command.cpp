@@ -1,0 +1,47 @@
+#include "emulator/render_command.h"
+
+#include "emulator/scene_loader.h"
+#include "emulator/world_state.h"
+#include "io/image_file.h"
+#include "sensor/chain.h"
+
+namespace hilcam {
+
+void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
+                    const std::filesystem::path& out) {
+    const bool exr = out.extension() == ".exr";
+    if (exr == (stage == RenderStage::kFrame))
+        throw InputError(out.string() + ": accepted: .exr for radiance and electrons, .png or .tiff for a frame");
+    const SpectralGrid grid(scenario.spectrum_edges_um);
+    const int guard_px = static_cast<int>(scenario.quality.guard_px);
+    const ImageGeometry geometry = geometry_of(scenario.camera, guard_px);
+    Renderer renderer(load_scene(scenario, grid), grid, geometry, scenario.quality.render);
+
+    const TimeTai start = parse_utc(scenario.time_utc);
+    const TimeTai time = start + static_cast<std::int64_t>(time_offset_s * 1e9);
+    const Bodies bodies = bodies_at(start, scenario.origin);
+    WorldSnapshot world;
+    world.time = time;
+    world.bodies = bodies_at(time, scenario.origin);
+    world.camera = propagate(initial_motion(scenario.camera_pose, start, bodies), time);
+    for (const ObjectConfig& object : scenario.objects)
+        world.objects.push_back(propagate(initial_motion(object.pose, start, bodies), time));
+
+    const RandomKey key{static_cast<std::uint64_t>(scenario.seed), 1};
+    RadianceImage radiance(geometry.padded_width(), geometry.padded_height(), grid.size());
+    std::vector<PointSource> points;
+    points.reserve(renderer.most_points());
+    RenderStats stats;
+    renderer.render(world, key, radiance, points, stats);
+    if (stage == RenderStage::kRadiance) return write_radiance_exr(out, radiance, grid);
+
+    SensorChain chain(scenario.camera, grid, guard_px, static_cast<int>(scenario.quality.render.samples_per_axis));
+    ElectronImage electrons(geometry.width_px, geometry.height_px);
+    chain.expose(radiance, points, scenario.camera.exposure_s, electrons);
+    if (stage == RenderStage::kElectrons) return write_electrons_exr(out, electrons);
+    DnImage frame(geometry.width_px, geometry.height_px);
+    chain.digitise(electrons, scenario.camera.gain_db, key, frame);
+    write_frame(out, frame);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,16 @@
+#pragma once
+// `hilcam render`: one picture of the scenario's first instant, at any stage of the chain.
+
+#include <filesystem>
+
+#include "emulator/app_config.h"
+
+namespace hilcam {
+
+enum class RenderStage { kRadiance, kElectrons, kFrame };
+
+// Writes radiance or mean electrons as .exr, the frame as .png or .tiff. Throws InputError, DeviceError.
+void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
+                    const std::filesystem::path& out);
+
+}  // namespace hilcam
