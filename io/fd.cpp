@@ -1,0 +1,81 @@
+#include "io/fd.h"
+
+#include <arpa/inet.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+#include "render/check.h"
+
+namespace hilcam {
+
+std::uint32_t parse_ipv4(const std::string& text, const std::string& key) {
+    in_addr address{};
+    if (inet_pton(AF_INET, text.c_str(), &address) != 1)
+        throw InputError(key + ": found '" + text +
+                         "'; accepted: an IPv4 address of this machine, as 127.0.0.1");
+    return ntohl(address.s_addr);
+}
+
+std::string format_ipv4(std::uint32_t address) {
+    const in_addr network{htonl(address)};
+    char text[INET_ADDRSTRLEN] = {};
+    inet_ntop(AF_INET, &network, text, sizeof text);
+    return text;
+}
+
+sockaddr_in socket_address(std::uint32_t address, std::uint16_t port) {
+    sockaddr_in out{};
+    out.sin_family = AF_INET;
+    out.sin_port = htons(port);
+    out.sin_addr.s_addr = htonl(address);
+    return out;
+}
+
+sockaddr_in parse_endpoint(const std::string& text) {
+    const auto colon = text.rfind(':');
+    unsigned port = 0;
+    const char* begin = text.data() + (colon == std::string::npos ? text.size() : colon + 1);
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), port);
+    if (colon == std::string::npos || error != std::errc{} || end != text.data() + text.size() || port == 0 ||
+        port > 65535)
+        throw InputError("'" + text + "': accepted: ADDRESS:PORT, as 127.0.0.1:5010");
+    return socket_address(parse_ipv4(text.substr(0, colon), text), static_cast<std::uint16_t>(port));
+}
+
+Fd open_udp(std::uint32_t address, std::uint16_t port, bool reuse) {
+    Fd fd(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    if (!fd) throw DeviceError(std::string("no UDP socket: ") + std::strerror(errno));
+    if (reuse) {
+        const int on = 1;
+        setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    }
+    const sockaddr_in where = socket_address(address, port);
+    if (bind(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) == 0) return fd;
+    const int reason = errno;
+    const std::string endpoint = format_ipv4(address) + ":" + std::to_string(port);
+    if (reason == EADDRINUSE)
+        throw DeviceError("UDP " + endpoint +
+                          " is taken by another program; stop it (ss -ulpn shows it) or choose another " +
+                          "address or port");
+    if (reason == EADDRNOTAVAIL)
+        throw DeviceError("UDP " + endpoint +
+                          ": no interface of this machine has that address; 'ip addr' lists them");
+    throw DeviceError("UDP " + endpoint + " cannot be opened: " + std::strerror(reason));
+}
+
+Fd open_wakeup() {
+    Fd fd(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+    if (!fd) throw DeviceError(std::string("no eventfd: ") + std::strerror(errno));
+    return fd;
+}
+
+void wake(const Fd& wakeup) {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const auto written = ::write(wakeup.get(), &one, sizeof one);
+}
+
+}  // namespace hilcam

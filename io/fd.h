@@ -1,0 +1,48 @@
+#pragma once
+// A file descriptor that closes itself, and IPv4 sockets.
+
+#include <netinet/in.h>
+#include <unistd.h>
+
+#include <string>
+#include <utility>
+
+namespace hilcam {
+
+class Fd {
+  public:
+    Fd() = default;
+    explicit Fd(int fd) : fd_(fd) {}
+    ~Fd() { reset(); }
+    Fd(Fd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Fd& operator=(Fd&& other) noexcept {
+        reset();
+        fd_ = std::exchange(other.fd_, -1);
+        return *this;
+    }
+    int get() const { return fd_; }
+    explicit operator bool() const { return fd_ >= 0; }
+    void reset() {
+        if (fd_ >= 0) ::close(fd_);
+        fd_ = -1;
+    }
+
+  private:
+    int fd_ = -1;
+};
+
+// Host order. Throws InputError unless the text is a dotted quad.
+std::uint32_t parse_ipv4(const std::string& text, const std::string& key);
+std::string format_ipv4(std::uint32_t address);
+sockaddr_in socket_address(std::uint32_t address, std::uint16_t port);
+// "HOST:PORT" with a numeric host.
+sockaddr_in parse_endpoint(const std::string& text);
+
+// A UDP socket bound to an address. DeviceError says who has the port and what to do. `reuse` lets several
+// sockets share a broadcast address.
+Fd open_udp(std::uint32_t address, std::uint16_t port, bool reuse = false);
+// An eventfd that wakes a poll().
+Fd open_wakeup();
+void wake(const Fd& wakeup);
+
+}  // namespace hilcam
