@@ -12,7 +12,8 @@ Fields fields(PoseConfig& p) {
     return {
         vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "in the world"),
         choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
-               "quaternion: attitude_wxyz; look_at: +z to a point, -y near up; nadir: +z to the Earth's centre, +y south"),
+               "quaternion: attitude_wxyz; look_at: +z to a point, -y near up; nadir: +z to the Earth's "
+               "centre, +y south"),
         quaternion("attitude_wxyz", p.world_from_body, "turns body axes into world axes, scalar first"),
         vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the world"),
         vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the world"),
@@ -26,17 +27,21 @@ Fields fields(GeneratedMeshConfig& g) {
         required(text("program", g.program, "a generator beside hilcam, as hilcam-make-spacecraft")),
         integer("triangles", g.triangles, {5000, 20000000}, "how many it shall make"),
         integer("seed", g.seed, {0, 1e9}, "of its random details"),
-        number("wing_angle_deg", g.wing_angle_deg, 1, {-360, 360}, "solar wings about +y: cells look along +z at 0, +x at 90"),
+        number("wing_angle_deg", g.wing_angle_deg, 1, {-360, 360},
+               "solar wings about +y: cells look along +z at 0, +x at 90"),
     };
 }
 
-Fields fields(MaterialSet& set) { return {sections("surfaces", set.surfaces, "materials by surface name, first match wins")}; }
+Fields fields(MaterialSet& set) {
+    return {sections("surfaces", set.surfaces, "materials by surface name, first match wins")};
+}
 
 Fields fields(ObjectConfig& o) {
     return {
         required(text("name", o.name, "for messages")),
         optional(path("mesh", o.mesh, "GLB, glTF, OBJ, STL or PLY file in metres"), o.has_mesh),
-        optional(section("generate", o.generate, "a mesh made at first use and cached, instead of a file"), o.has_generate),
+        optional(section("generate", o.generate, "a mesh made at first use and cached, instead of a file"),
+                 o.has_generate),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
         section("pose", o.pose, "where it stands until commands say otherwise"),
         section("materials", o.materials, "replaces the mesh's own looks"),
@@ -44,8 +49,9 @@ Fields fields(ObjectConfig& o) {
 }
 
 void validate(const ObjectConfig& o) {
-    if (o.has_mesh == o.has_generate) throw InputError("an object has either 'mesh' or 'generate'; found " +
-                                                       std::string(o.has_mesh ? "both" : "neither"));
+    if (o.has_mesh == o.has_generate)
+        throw InputError("an object has either 'mesh' or 'generate'; found " +
+                         std::string(o.has_mesh ? "both" : "neither"));
 }
 
 Fields fields(StarsConfig& s) {
@@ -57,11 +63,14 @@ Fields fields(StarsConfig& s) {
 
 Fields fields(QualityConfig& q) {
     Fields list = fields(q.render);
-    list.push_back(integer("guard_px", q.guard_px, {0, 512}, "border around the frame that takes the FFT's wrap-around"));
+    list.push_back(integer("guard_px", q.guard_px, {0, 512},
+                           "border around the frame that takes the FFT's wrap-around"));
     return list;
 }
 
-Fields fields(CommandsConfig& c) { return {optional(section("udp", c.udp, "listen for commands"), c.has_udp)}; }
+Fields fields(CommandsConfig& c) {
+    return {optional(section("udp", c.udp, "listen for commands"), c.has_udp)};
+}
 
 Fields fields(OutputsConfig& o) {
     return {
@@ -83,7 +92,8 @@ Fields fields(ScenarioConfig& s) {
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
         section("earth", s.earth, "the Earth"),
         section("stars", s.stars, "the stars"),
-        numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1}, "edges of the spectral bins"),
+        numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
+                "edges of the spectral bins"),
         section("quality", s.quality, "speed against accuracy"),
         section("commands", s.commands, "where commands come from"),
         section("outputs", s.outputs, "where frames go"),

@@ -44,7 +44,8 @@ class FrameSchedule {
         std::int64_t start_ns = 0;
         std::uint64_t skipped = 0;
     };
-    // The exposure to compute now. A start up to one period in the past still counts: that frame is late, not lost.
+    // The exposure to compute now. A start up to one period in the past still counts: that frame is late, not
+    // lost.
     Slot take(std::int64_t now_ns, std::int64_t period_ns) {
         Slot slot;
         if (now_ns > next_ns_ + period_ns) {

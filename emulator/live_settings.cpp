@@ -3,15 +3,9 @@
 namespace hilcam {
 
 LiveSettings::LiveSettings(const CameraModel& c)
-    : limits_{static_cast<int>(c.width_px),
-              static_cast<int>(c.height_px),
-              static_cast<int>(c.bits),
-              c.exposure_range_s[0],
-              c.exposure_range_s[1],
-              c.gain_range_db[0],
-              c.gain_range_db[1],
-              c.frame_rate_range_hz[0],
-              c.frame_rate_range_hz[1]},
+    : limits_{static_cast<int>(c.width_px), static_cast<int>(c.height_px), static_cast<int>(c.bits),
+              c.exposure_range_s[0],        c.exposure_range_s[1],         c.gain_range_db[0],
+              c.gain_range_db[1],           c.frame_rate_range_hz[0],      c.frame_rate_range_hz[1]},
       settings_{c.exposure_s, c.gain_db, c.frame_rate_hz, true},
       latest_(settings_) {}
 
@@ -35,7 +29,8 @@ bool LiveSettings::set_gain_db(double value) {
     return set(&CameraSettings::gain_db, value, limits_.least_gain_db, limits_.most_gain_db);
 }
 bool LiveSettings::set_frame_rate_hz(double value) {
-    return set(&CameraSettings::frame_rate_hz, value, limits_.least_frame_rate_hz, limits_.most_frame_rate_hz);
+    return set(&CameraSettings::frame_rate_hz, value, limits_.least_frame_rate_hz,
+               limits_.most_frame_rate_hz);
 }
 void LiveSettings::set_running(bool running) {
     const std::lock_guard lock(mutex_);

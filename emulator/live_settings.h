@@ -1,5 +1,6 @@
 #pragma once
-// The camera's settings while it runs: changed by commands and camera interfaces, read by the loop without a lock.
+// The camera's settings while it runs: changed by commands and camera interfaces, read by the loop without a
+// lock.
 
 #include <mutex>
 

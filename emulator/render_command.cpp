@@ -11,7 +11,8 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
                     const std::filesystem::path& out) {
     const bool exr = out.extension() == ".exr";
     if (exr == (stage == RenderStage::kFrame))
-        throw InputError(out.string() + ": accepted: .exr for radiance and electrons, .png or .tiff for a frame");
+        throw InputError(out.string() +
+                         ": accepted: .exr for radiance and electrons, .png or .tiff for a frame");
     const SpectralGrid grid(scenario.spectrum_edges_um);
     const int guard_px = static_cast<int>(scenario.quality.guard_px);
     const ImageGeometry geometry = geometry_of(scenario.camera, guard_px);
@@ -35,7 +36,8 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
     renderer.render(world, key, radiance, points, stats);
     if (stage == RenderStage::kRadiance) return write_radiance_exr(out, radiance, grid);
 
-    SensorChain chain(scenario.camera, grid, guard_px, static_cast<int>(scenario.quality.render.samples_per_axis));
+    SensorChain chain(scenario.camera, grid, guard_px,
+                      static_cast<int>(scenario.quality.render.samples_per_axis));
     ElectronImage electrons(geometry.width_px, geometry.height_px);
     chain.expose(radiance, points, scenario.camera.exposure_s, electrons);
     if (stage == RenderStage::kElectrons) return write_electrons_exr(out, electrons);

@@ -14,8 +14,8 @@ std::filesystem::path mesh_path(const ObjectConfig& object) {
     const GeneratedMeshConfig& g = object.generate;
     std::string angle = std::to_string(g.wing_angle_deg);
     angle.resize(angle.find('.') + 3);
-    return generated_mesh(g.program, {"--triangles", std::to_string(g.triangles), "--seed", std::to_string(g.seed),
-                                      "--wing-angle-deg=" + angle});
+    return generated_mesh(g.program, {"--triangles", std::to_string(g.triangles), "--seed",
+                                      std::to_string(g.seed), "--wing-angle-deg=" + angle});
 }
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace hilcam {
 
 void WorldState::History::insert(const Motion& motion) {
     auto* const end = motions.data() + count;
-    auto* at = std::lower_bound(motions.data(), end, motion, [](const Motion& a, const Motion& b) { return a.time < b.time; });
+    auto* at = std::lower_bound(motions.data(), end, motion,
+                                [](const Motion& a, const Motion& b) { return a.time < b.time; });
     if (at != end && at->time == motion.time) {
         *at = motion;  // a correction of the same instant
         return;
@@ -26,7 +27,8 @@ void WorldState::History::insert(const Motion& motion) {
 Pose WorldState::History::at(TimeTai time) const {
     const auto* const begin = motions.data();
     const auto* const end = begin + count;
-    const auto* after = std::upper_bound(begin, end, time, [](TimeTai t, const Motion& m) { return t < m.time; });
+    const auto* after =
+        std::upper_bound(begin, end, time, [](TimeTai t, const Motion& m) { return t < m.time; });
     if (after == begin) return propagate(*begin, time);
     if (after == end) return propagate(*(end - 1), time);
     return interpolate(*(after - 1), *after, time);

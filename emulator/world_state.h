@@ -1,9 +1,10 @@
 #pragma once
 // The newest known motions of camera and objects, and the world at the instant of a frame.
 //
-// Poses come with time tags, in any order. For a frame at time t: between two known motions it interpolates (cubic in
-// position, slerp in attitude), else it propagates the motion before t with its velocity and rate, or, when all known ones
-// lie after t, the first of them backwards. The last 8 motions of each thing are kept.
+// Poses come with time tags, in any order. For a frame at time t: between two known motions it interpolates
+// (cubic in position, slerp in attitude), else it propagates the motion before t with its velocity and rate,
+// or, when all known ones lie after t, the first of them backwards. The last 8 motions of each thing are
+// kept.
 
 #include <memory>
 #include <mutex>

@@ -48,7 +48,7 @@ enum class CommandStatus : std::uint8_t {
 class CommandHandler {
   public:
     virtual ~CommandHandler() = default;
-    virtual CommandStatus handle(const Command& command, std::uint16_t sequence,
+    virtual CommandStatus handle(const Command& command, std::uint32_t sequence,
                                  std::int64_t arrival_monotonic_ns) = 0;
     // Simulated time now.
     virtual TimeTai now() const = 0;

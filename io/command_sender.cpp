@@ -1,10 +1,13 @@
 #include "io/command_sender.h"
 
+
 #include <poll.h>
 #include <sys/socket.h>
 
 #include <cerrno>
 #include <cstring>
+
+#include "render/check.h"
 
 namespace hilcam {
 

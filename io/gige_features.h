@@ -53,8 +53,8 @@ struct Feature {
     std::uint32_t bytes;
     double least = 0, most = 0;
     double step = 1;
-    std::string unit;
-    std::vector<EnumEntry> entries;
+    std::string unit{};
+    std::vector<EnumEntry> entries{};
     int lsb = -1, msb = -1;  // bits of a masked register, GenICam's big-endian numbering (0 is the highest)
     bool locked_while_streaming = false;
 };

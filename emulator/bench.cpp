@@ -1,0 +1,154 @@
+#include "emulator/bench.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "emulator/emulator.h"
+#include "emulator/flight.h"
+#include "emulator/report.h"
+
+namespace hilcam {
+namespace {
+
+using nlohmann::json;
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0 : values[values.size() / 2];
+}
+
+// Feeds poses as a simulator would, 100 a second, from a thread of its own.
+class Pilot {
+  public:
+    Pilot(Emulator& emulator, const CircleFlight& flight) : emulator_(emulator), flight_(flight) {
+        thread_ = std::thread([this] {
+            const std::int64_t start_ns = monotonic_now_ns();
+            for (std::uint32_t i = 1; !stop_.load(); ++i) {
+                const std::int64_t now_ns = monotonic_now_ns();
+                const double seconds = static_cast<double>(now_ns - start_ns) * 1e-9;
+                emulator_.world().set(0, flight_.at(seconds, emulator_.clock().at(now_ns)), {i, now_ns});
+                sleep_until_monotonic_ns(now_ns + 10'000'000);
+            }
+        });
+    }
+    ~Pilot() {
+        stop_.store(true);
+        thread_.join();
+    }
+
+  private:
+    Emulator& emulator_;
+    CircleFlight flight_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+// The camera's circle about the first object, once in the time of a run, a little longer at low rates.
+CircleFlight flight_of(const ScenarioConfig& scenario, const std::vector<Motion>& motions) {
+    CircleFlight flight;
+    if (motions.size() > 1) flight.center_m = motions[1].pose.position_world_m;
+    flight.start_m = motions[0].pose.position_world_m;
+    flight.axis = flight.up = scenario.camera_pose.up;
+    flight.period_s = 120;
+    return flight;
+}
+
+struct Run {
+    double rate_hz, p50_ms, p99_ms;
+    json stages;
+    RenderStats render;
+    double floor_render_ms, fft_ms, copy_ms;
+    std::size_t triangles;
+};
+
+double copy_ms(const ScenarioConfig& scenario) {
+    const DnImage from(static_cast<int>(scenario.camera.width_px),
+                       static_cast<int>(scenario.camera.height_px));
+    DnImage to(from.width(), from.height());
+    std::vector<double> times;
+    for (int i = 0; i < 9; ++i) {
+        const std::int64_t start = monotonic_now_ns();
+        std::copy(from.all().begin(), from.all().end(), to.all().begin());
+        times.push_back(static_cast<double>(monotonic_now_ns() - start) * 1e-6);
+    }
+    return median(times);
+}
+
+Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
+    constexpr std::uint64_t kWarmUp = 20;
+    RunLimits limits;
+    limits.frames = kWarmUp + options.frames;
+    limits.paced = false;
+    limits.outputs = false;
+    Emulator emulator(scenario, limits);
+    const std::vector<Motion> motions = initial_motions(scenario, parse_utc(scenario.time_utc));
+    {
+        const Pilot pilot(emulator, flight_of(scenario, motions));
+        emulator.run([] {});
+    }
+    Run run;
+    const StageMeters& meters = emulator.loop().meters();
+    run.p50_ms = meters.interval.quantile_ms(0.5);
+    run.p99_ms = meters.interval.quantile_ms(0.99);
+    run.rate_hz = static_cast<double>(limits.frames) / emulator.seconds();
+    run.stages = stages_report(meters);
+    run.render = emulator.loop().render_stats();
+    WorldSnapshot snapshot;
+    snapshot.objects.resize(scenario.objects.size());
+    ShownCommand shown;
+    emulator.world().sample(emulator.clock().now(), snapshot, shown);
+    std::vector<double> floor, fft;
+    for (int i = 0; i < 9; ++i) {
+        floor.push_back(emulator.renderer().floor_ms(snapshot));
+        fft.push_back(emulator.chain().fft_pair_ms());
+    }
+    run.floor_render_ms = median(floor);
+    run.fft_ms = median(fft);
+    run.copy_ms = copy_ms(scenario);
+    run.triangles = emulator.renderer().triangles();
+    return run;
+}
+
+}  // namespace
+
+json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
+    std::vector<Run> runs;
+    for (int i = 0; i < options.runs; ++i) runs.push_back(run_once(scenario, options));
+    const auto median_of = [&](auto member) {
+        std::vector<double> values;
+        for (const Run& run : runs) values.push_back(run.*member);
+        return median(values);
+    };
+    const double p50 = median_of(&Run::p50_ms);
+    const double floor =
+        median_of(&Run::floor_render_ms) + median_of(&Run::fft_ms) + median_of(&Run::copy_ms);
+    const Run& last = runs.back();
+    return {
+        {"scenario", scenario.name},
+        {"width", scenario.camera.width_px},
+        {"height", scenario.camera.height_px},
+        {"triangles", last.triangles},
+        {"coverage", last.render.coverage},
+        {"frame_rate_hz", median_of(&Run::rate_hz)},
+        {"frame_ms", {{"p50", p50}, {"p99", median_of(&Run::p99_ms)}}},
+        {"stages_ms", last.stages},
+        {"floor_ms", floor},
+        {"floor_parts_ms",
+         {{"embree", median_of(&Run::floor_render_ms)},
+          {"fft_pair", median_of(&Run::fft_ms)},
+          {"copy", median_of(&Run::copy_ms)}}},
+        {"ratio_to_floor", p50 / floor},
+        {"rays",
+         {{"primary", last.render.primary_rays},
+          {"shadow", last.render.shadow_rays},
+          {"secondary", last.render.secondary_rays}}},
+        // Sampling error against sensor noise is not measured yet, so there is no figure to give.
+        {"within_noise_budget", nullptr},
+        {"runs", options.runs},
+        {"frames_per_run", options.frames},
+        {"machine", machine_report()},
+    };
+}
+
+}  // namespace hilcam

@@ -1,0 +1,20 @@
+#pragma once
+// `hilcam bench`: how fast a scenario runs here, and how far that is from what cannot be avoided.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "emulator/app_config.h"
+
+namespace hilcam {
+
+struct BenchOptions {
+    std::uint64_t frames = 120;  // per run, after 20 for warming up
+    int runs = 5;                // medians are taken over the runs
+};
+
+// The camera flies once around the first object while frames are computed as fast as the pipeline goes,
+// without outputs. floor_ms: bare Embree on the primary and shadow rays of the last frame, plus one FFT pair,
+// plus one copy of the frame.
+nlohmann::json bench(const ScenarioConfig& scenario, const BenchOptions& options);
+
+}  // namespace hilcam

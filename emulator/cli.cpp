@@ -1,0 +1,170 @@
+#include "emulator/cli.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "emulator/bench.h"
+#include "emulator/check_command.h"
+#include "emulator/emulator.h"
+#include "emulator/render_command.h"
+#include "emulator/report.h"
+#include "emulator/send_command.h"
+#include "io/config_yaml.h"
+
+namespace hilcam {
+namespace {
+
+struct Options {
+    std::filesystem::path config, out, report;
+    std::vector<std::string> overrides;
+    double duration_s = 0, time_offset_s = 0;
+    std::uint64_t frames = 0;
+    BenchOptions bench;
+    bool json = false;
+    RenderStage stage = RenderStage::kFrame;
+};
+
+// Threads of oneTBB, for as long as it lives.
+std::optional<tbb::global_control> limit_threads(const ScenarioConfig& scenario) {
+    std::optional<tbb::global_control> limit;
+    if (scenario.threads > 0)
+        limit.emplace(tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(scenario.threads));
+    return limit;
+}
+
+int run(const Options& o) {
+    const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
+    const auto threads = limit_threads(scenario);
+    RunLimits limits;
+    limits.seconds = o.duration_s;
+    limits.frames = o.frames;
+    spdlog::info("loading {}", scenario.name);
+    Emulator emulator(scenario, limits);
+    emulator.run([] { spdlog::info("running; Ctrl-C ends it"); });
+    const nlohmann::json report =
+        run_report(scenario, emulator.seconds(), emulator.loop(), emulator.delivery(),
+                   emulator.command_report(), emulator.sinks());
+    if (!o.report.empty()) write_json(o.report, report);
+    spdlog::info("{} frames in {:.1f} s, {} exposures missed", report["frames"].get<std::uint64_t>(),
+                 emulator.seconds(), report["deadline_misses"].get<std::uint64_t>());
+    for (const nlohmann::json& fault : report["faults"]) spdlog::error("{}", fault.get<std::string>());
+    return report["faults"].empty() ? 0 : 1;
+}
+
+int render(const Options& o) {
+    const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
+    const auto threads = limit_threads(scenario);
+    render_to_file(scenario, o.stage, o.time_offset_s, o.out);
+    return 0;
+}
+
+int check(const Options& o) {
+    const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
+    fmt::print("{}", check_scenario(scenario));
+    return 0;
+}
+
+int run_bench(const Options& o) {
+    const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
+    const auto threads = limit_threads(scenario);
+    const nlohmann::json result = bench(scenario, o.bench);
+    if (o.json) {
+        fmt::print("{}\n", result.dump(2));
+        return 0;
+    }
+    fmt::print("{}: {}x{}, {} triangles, {:.1f} % covered\n", scenario.name, scenario.camera.width_px,
+               scenario.camera.height_px, result["triangles"].get<std::size_t>(),
+               100 * result["coverage"].get<double>());
+    fmt::print("{:.1f} frames/s; frame p50 {:.2f} ms, p99 {:.2f} ms; floor {:.2f} ms; ratio {:.2f}\n",
+               result["frame_rate_hz"].get<double>(), result["frame_ms"]["p50"].get<double>(),
+               result["frame_ms"]["p99"].get<double>(), result["floor_ms"].get<double>(),
+               result["ratio_to_floor"].get<double>());
+    for (const auto& [stage, times] : result["stages_ms"].items())
+        fmt::print("  {:<10} p50 {:7.3f} ms  p99 {:7.3f} ms\n", stage, times["p50"].get<double>(),
+                   times["p99"].get<double>());
+    return 0;
+}
+
+void add_config(CLI::App* command, Options& o) {
+    command->add_option("config", o.config, "scenario file (YAML)")->required();
+    command->add_option("--set", o.overrides, "KEY=VALUE, replaces a value of the scenario; may be repeated")
+        ->allow_extra_args(false);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt("hilcam"));
+    spdlog::set_pattern("hilcam: %^%v%$");
+    Options o;
+    std::function<int()> action;
+    CLI::App app{"hilcam: a spacecraft's camera for the test bench"};
+    app.set_version_flag("--version", "hilcam 0.1.0");
+    app.require_subcommand(1);
+
+    CLI::App* run_app = app.add_subcommand("run", "be the camera, in real time");
+    add_config(run_app, o);
+    run_app->add_option("--duration", o.duration_s, "stop after so many seconds")
+        ->check(CLI::NonNegativeNumber);
+    run_app->add_option("--frames", o.frames, "stop after so many frames");
+    run_app->add_option("--report", o.report, "write a report (JSON) at the end");
+    run_app->callback([&] { action = [&] { return run(o); }; });
+
+    CLI::App* render_app = app.add_subcommand("render", "one picture of the first instant");
+    add_config(render_app, o);
+    const std::map<std::string, RenderStage> stages = {{"radiance", RenderStage::kRadiance},
+                                                       {"electrons", RenderStage::kElectrons},
+                                                       {"frame", RenderStage::kFrame}};
+    render_app->add_option("--stage", o.stage, "radiance, electrons or frame")
+        ->transform(CLI::CheckedTransformer(stages));
+    render_app
+        ->add_option("--out", o.out, "FILE.exr for radiance and electrons, FILE.png or .tiff for a frame")
+        ->required();
+    render_app->add_option("--time-offset-s", o.time_offset_s, "seconds after the scenario's start");
+    render_app->callback([&] { action = [&] { return render(o); }; });
+
+    CLI::App* check_app = app.add_subcommand("check", "validate a scenario and say what it needs");
+    add_config(check_app, o);
+    check_app->callback([&] { action = [&] { return check(o); }; });
+
+    CLI::App* bench_app = app.add_subcommand("bench", "measure how fast a scenario runs here");
+    add_config(bench_app, o);
+    bench_app->add_flag("--json", o.json, "machine-readable");
+    bench_app->add_option("--frames", o.bench.frames, "frames of a run")->check(CLI::Range(1, 1000000));
+    bench_app->add_option("--runs", o.bench.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
+    bench_app->callback([&] { action = [&] { return run_bench(o); }; });
+
+    CLI::App* manual_app = app.add_subcommand("manual", "the keys of a scenario file as a Markdown table");
+    manual_app->callback([&] {
+        action = [] {
+            ScenarioConfig scenario;
+            fmt::print("{}", config_manual(section_of(scenario)));
+            return 0;
+        };
+    });
+    add_send_command(app, action);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        return action();
+    } catch (const InputError& error) {
+        spdlog::error("{}", error.what());
+        return 2;
+    } catch (const std::exception& error) {
+        spdlog::error("{}", error.what());
+        return 1;
+    }
+}
+
+}  // namespace hilcam

@@ -1,0 +1,48 @@
+#include "emulator/command_dispatch.h"
+
+#include <cmath>
+
+namespace hilcam {
+namespace {
+constexpr std::int64_t kFarthestTag_ns = 3'600'000'000'000;  // an hour
+}
+
+CommandStatus CommandDispatch::handle(const Command& command, std::uint32_t sequence,
+                                      std::int64_t arrival_monotonic_ns) {
+    if (const auto* pose = std::get_if<PoseCommand>(&command))
+        return set_pose(*pose, sequence, arrival_monotonic_ns);
+    if (const auto* settings = std::get_if<SettingsCommand>(&command)) return change(*settings);
+    if (std::holds_alternative<StartCommand>(command)) settings_.set_running(true);
+    if (std::holds_alternative<StopCommand>(command)) settings_.set_running(false);
+    return CommandStatus::kAccepted;
+}
+
+CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, std::uint32_t sequence,
+                                        std::int64_t arrival_monotonic_ns) {
+    Motion motion = pose.motion;
+    const TimeTai arrival = clock_.at(arrival_monotonic_ns);
+    if (motion.time.ns == 0) motion.time = arrival;
+    // Compared without subtracting: a hostile tag must not overflow.
+    if (motion.time < arrival + -kFarthestTag_ns || arrival + kFarthestTag_ns < motion.time)
+        return CommandStatus::kTimeOutOfRange;
+    return world_.set(pose.object, motion, {sequence, arrival_monotonic_ns}) ? CommandStatus::kAccepted
+                                                                             : CommandStatus::kUnknownObject;
+}
+
+// All or nothing: a value outside its limits leaves every setting as it was.
+CommandStatus CommandDispatch::change(const SettingsCommand& s) {
+    const CameraLimits l = settings_.limits();
+    const auto inside = [](const std::optional<double>& value, double least, double most) {
+        return !value || (*value >= least && *value <= most);
+    };
+    if (!inside(s.exposure_s, l.least_exposure_s, l.most_exposure_s) ||
+        !inside(s.gain_db, l.least_gain_db, l.most_gain_db) ||
+        !inside(s.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz))
+        return CommandStatus::kBadArgument;
+    if (s.exposure_s) settings_.set_exposure_s(*s.exposure_s);
+    if (s.gain_db) settings_.set_gain_db(*s.gain_db);
+    if (s.frame_rate_hz) settings_.set_frame_rate_hz(*s.frame_rate_hz);
+    return CommandStatus::kAccepted;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,127 @@
+#include "emulator/emulator.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include "emulator/scene_loader.h"
+
+namespace hilcam {
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+void on_signal(int) { signalled = 1; }
+
+// Stops on SIGINT and SIGTERM while it lives.
+class SignalGuard {
+  public:
+    SignalGuard() {
+        signalled = 0;
+        struct sigaction action {};
+        action.sa_handler = on_signal;
+        sigaction(SIGINT, &action, &old_int_);
+        sigaction(SIGTERM, &action, &old_term_);
+    }
+    ~SignalGuard() {
+        sigaction(SIGINT, &old_int_, nullptr);
+        sigaction(SIGTERM, &old_term_, nullptr);
+    }
+
+  private:
+    struct sigaction old_int_ {
+    }, old_term_{};
+};
+
+}  // namespace
+
+std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time) {
+    const Bodies bodies = bodies_at(time, scenario.origin);
+    std::vector<Motion> motions = {initial_motion(scenario.camera_pose, time, bodies)};
+    for (const ObjectConfig& object : scenario.objects)
+        motions.push_back(initial_motion(object.pose, time, bodies));
+    return motions;
+}
+
+Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
+    : scenario_(scenario),
+      limits_(limits),
+      grid_(scenario.spectrum_edges_um),
+      clock_(parse_utc(scenario.time_utc), monotonic_now_ns()) {
+    const int guard_px = static_cast<int>(scenario.quality.guard_px);
+    const ImageGeometry geometry = geometry_of(scenario.camera, guard_px);
+    renderer_ =
+        std::make_unique<Renderer>(load_scene(scenario, grid_), grid_, geometry, scenario.quality.render);
+    chain_ = std::make_unique<SensorChain>(scenario.camera, grid_, guard_px,
+                                           static_cast<int>(scenario.quality.render.samples_per_axis));
+    // Loading took its time; the simulation starts now.
+    const TimeTai start = parse_utc(scenario.time_utc);
+    clock_ = SimulatedClock(start, monotonic_now_ns());
+    world_ = std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin);
+    settings_ = std::make_unique<LiveSettings>(scenario.camera);
+    dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, clock_);
+    const int width = geometry.width_px, height = geometry.height_px;
+    const OutputsConfig& o = scenario.outputs;
+    if (limits.outputs && o.has_gige) {
+        GigeConfig gige = o.gige;
+        if (gige.model == "hilcam" && !scenario.camera.name.empty()) gige.model = scenario.camera.name;
+        sinks_.push_back(std::make_unique<GigeSink>(gige, *settings_, &delivery_));
+    }
+    if (limits.outputs && o.has_v4l2)
+        sinks_.push_back(
+            std::make_unique<V4l2Sink>(o.v4l2, width, height, scenario.camera.frame_rate_hz, &delivery_));
+    if (limits.outputs && o.has_files) sinks_.push_back(std::make_unique<FilesSink>(o.files, width, height));
+    if (limits.outputs && scenario.commands.has_udp)
+        commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
+    loop_ = std::make_unique<FrameLoop>(
+        *renderer_, *chain_, grid_, static_cast<int>(scenario.camera.bits), *world_, *settings_, clock_,
+        sinks(), static_cast<std::uint64_t>(scenario.seed), LoopLimits{limits.frames, limits.paced});
+}
+
+Emulator::~Emulator() = default;
+
+std::vector<FrameSink*> Emulator::sinks() const {
+    std::vector<FrameSink*> out;
+    for (const auto& sink : sinks_) out.push_back(sink.get());
+    return out;
+}
+
+CommandReport Emulator::command_report() const { return commands_ ? commands_->report() : CommandReport{}; }
+
+void Emulator::run(const std::function<void()>& on_ready) {
+    const SignalGuard guard;
+    for (const auto& sink : sinks_) sink->start();
+    if (commands_) commands_->start();
+    const std::int64_t begun_ns = monotonic_now_ns();
+    loop_->start();
+    on_ready();
+    const bool terminal = isatty(STDERR_FILENO);
+    std::uint64_t frames_before = 0;
+    std::int64_t next_line_ns = begun_ns + 1'000'000'000;
+    while (!signalled && !loop_->finished()) {
+        const std::int64_t now_ns = monotonic_now_ns();
+        seconds_ = static_cast<double>(now_ns - begun_ns) * 1e-9;
+        if (limits_.seconds > 0 && seconds_ >= limits_.seconds) break;
+        if (terminal && limits_.outputs && now_ns >= next_line_ns) {
+            print_line(frames_before);
+            next_line_ns += 1'000'000'000;
+        }
+        sleep_until_monotonic_ns(now_ns + 10'000'000);
+    }
+    loop_->stop();
+    seconds_ = static_cast<double>(monotonic_now_ns() - begun_ns) * 1e-9;
+    if (commands_) commands_->stop();
+    for (const auto& sink : sinks_) sink->stop();
+}
+
+void Emulator::print_line(std::uint64_t& frames_before) {
+    const std::uint64_t frames = loop_->counters().frames.load();
+    const CommandReport commands = command_report();
+    spdlog::info(
+        "{} frames/s, command to last packet p50 {:.1f} ms p99 {:.1f} ms, {} exposures missed, {} commands "
+        "({} refused)",
+        frames - frames_before, delivery_.command_to_last.quantile_ms(0.5),
+        delivery_.command_to_last.quantile_ms(0.99), loop_->counters().deadline_misses.load(),
+        commands.received, commands.refused);
+    frames_before = frames;
+}
+
+}  // namespace hilcam

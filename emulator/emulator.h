@@ -1,0 +1,63 @@
+#pragma once
+// The emulator as a whole: builds every part of a scenario, runs it, tears it down.
+
+#include <csignal>
+#include <filesystem>
+#include <memory>
+
+#include "emulator/app_config.h"
+#include "emulator/command_dispatch.h"
+#include "emulator/frame_loop.h"
+
+namespace hilcam {
+
+struct RunLimits {
+    double seconds = 0;        // 0: until a signal
+    std::uint64_t frames = 0;  // 0: no limit
+    bool paced = true;
+    bool outputs = true;  // false: frames go nowhere, for benchmarks
+};
+
+class Emulator {
+  public:
+    // Loads the scene and allocates everything; may take seconds. Throws InputError, DeviceError.
+    Emulator(const ScenarioConfig& scenario, const RunLimits& limits);
+    ~Emulator();
+
+    // Opens sockets and devices, then runs until a limit is reached or SIGINT or SIGTERM comes. Throws
+    // DeviceError while starting. `on_ready` is called once the camera can be used.
+    void run(const std::function<void()>& on_ready);
+
+    FrameLoop& loop() { return *loop_; }
+    Renderer& renderer() { return *renderer_; }
+    SensorChain& chain() { return *chain_; }
+    WorldState& world() { return *world_; }
+    const SimulatedClock& clock() const { return clock_; }
+    double seconds() const { return seconds_; }
+    CommandReport command_report() const;
+    const DeliveryMeter& delivery() const { return delivery_; }
+    std::vector<FrameSink*> sinks() const;
+
+  private:
+    void print_line(std::uint64_t& frames_before);
+
+    ScenarioConfig scenario_;
+    RunLimits limits_;
+    SpectralGrid grid_;
+    SimulatedClock clock_;
+    DeliveryMeter delivery_;
+    std::unique_ptr<Renderer> renderer_;
+    std::unique_ptr<SensorChain> chain_;
+    std::unique_ptr<WorldState> world_;
+    std::unique_ptr<LiveSettings> settings_;
+    std::unique_ptr<CommandDispatch> dispatch_;
+    std::unique_ptr<UdpCommandReceiver> commands_;
+    std::vector<std::unique_ptr<FrameSink>> sinks_;
+    std::unique_ptr<FrameLoop> loop_;
+    double seconds_ = 0;
+};
+
+// The motions of camera and objects as the scenario begins them.
+std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time);
+
+}  // namespace hilcam

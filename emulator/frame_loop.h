@@ -1,0 +1,107 @@
+#pragma once
+// THE loop: pose -> radiance -> electrons -> DN -> sinks, frame after frame.
+//
+// Two threads, each a stage: `render` samples the world and traces, `sense` exposes, digitises and publishes.
+// While a frame is sensed the next one is rendered. Both use oneTBB's threads inside. Frames pass through two
+// slots allocated before the start; hand-over is by semaphores.
+//
+// Timing in free-run: exposure k is [s_k, s_k + exposure], s_k = s_0 + k period on CLOCK_MONOTONIC, period
+// the longer of 1 / frame rate and exposure. Rendering begins at s_k and shows the pose of the exposure's
+// middle, propagated; the frame leaves not before s_k + exposure. Example at 30 Hz and 2 ms: rendering starts
+// at 0.0, the pose is that of 1.0 ms, a frame computed in 25 ms leaves at 25 ms, the next rendering starts
+// at 33.3 ms. A start missed by more than a period is skipped and counted; frame ids leave a gap there.
+//
+// After start() both threads neither allocate nor lock nor log, but for what Embree does inside
+// rtcCommitScene.
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <semaphore>
+#include <thread>
+#include <vector>
+
+#include "emulator/clock.h"
+#include "emulator/latency.h"
+#include "emulator/live_settings.h"
+#include "emulator/world_state.h"
+#include "io/frame_sink.h"
+#include "render/renderer.h"
+#include "sensor/chain.h"
+
+namespace hilcam {
+
+// How long each stage took, per frame.
+struct StageMeters {
+    DurationHistogram setup, trace, stars, collapse, convolve, points, digitise, publish, render, sense,
+        interval;
+};
+
+struct LoopCounters {
+    std::atomic<std::uint64_t> frames{0};
+    std::atomic<std::uint64_t> deadline_misses{0};  // exposures skipped because the one before took too long
+};
+
+struct LoopLimits {
+    std::uint64_t frames = 0;  // 0: no limit
+    bool paced = true;         // false: as fast as it goes, for benchmarks
+};
+
+class FrameLoop {
+  public:
+    FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid& grid, int bits, WorldState& world,
+              LiveSettings& settings, const SimulatedClock& clock, std::vector<FrameSink*> sinks,
+              std::uint64_t seed, const LoopLimits& limits);
+    ~FrameLoop() { stop(); }
+
+    void start();
+    void stop() noexcept;
+    bool finished() const { return finished_.load(); }
+
+    const LoopCounters& counters() const { return counters_; }
+    const StageMeters& meters() const { return meters_; }
+    // Of the frame rendered last; for benchmarks, when the loop is stopped.
+    const RenderStats& render_stats() const { return stats_; }
+
+  private:
+    struct Slot {
+        RadianceImage radiance;
+        std::vector<PointSource> points;
+        FrameRecord record;
+        std::int64_t exposure_end_ns = 0;
+    };
+
+    void render_frames();
+    void sense_frames();
+    bool wait_for_exposure(FrameSchedule& schedule, FrameRecord& record, std::int64_t& start_ns,
+                           CameraSettings& settings);
+    void render_into(Slot& slot, std::int64_t start_ns, const CameraSettings& settings);
+    void sense(Slot& slot);
+
+    Renderer& renderer_;
+    SensorChain& chain_;
+    int bits_;
+    WorldState& world_;
+    LiveSettings& settings_;
+    const SimulatedClock& clock_;
+    std::vector<FrameSink*> sinks_;
+    std::uint64_t seed_;
+    LoopLimits limits_;
+
+    std::array<Slot, 2> slots_;
+    std::counting_semaphore<> free_{2}, rendered_{0};
+    WorldSnapshot snapshot_;
+    RenderStats stats_;
+    std::int64_t shown_arrival_ns_ = 0;
+    ElectronImage electrons_;
+    DnImage frame_;
+    std::int64_t last_published_ns_ = 0;
+
+    LoopCounters counters_;
+    StageMeters meters_;
+    std::atomic<bool> stopping_{false}, finished_{false};
+    std::thread render_thread_, sense_thread_;
+};
+
+}  // namespace hilcam

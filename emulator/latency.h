@@ -1,0 +1,37 @@
+#pragma once
+// Durations as a histogram: recorded from the loop and the senders without lock or allocation, read by
+// anyone.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "io/frame_sink.h"
+
+namespace hilcam {
+
+// Buckets grow by 1/32 of an octave from 1 us to over an hour: percentiles are right within 2.2 %.
+class DurationHistogram {
+  public:
+    void record(std::int64_t ns);  // any thread
+    std::uint64_t count() const { return count_.load(std::memory_order_relaxed); }
+    // The duration [ms] that a share `q` of the records does not exceed; 0 without records.
+    double quantile_ms(double q) const;
+
+  private:
+    static constexpr int kPerOctave = 32;
+    static constexpr int kOctaves = 32;
+    std::array<std::atomic<std::uint32_t>, kPerOctave * kOctaves> buckets_{};
+    std::atomic<std::uint64_t> count_{0};
+};
+
+// Latency of delivered frames, from the arrival of the newest command that a frame is the first to show, and
+// from its exposure's middle.
+class DeliveryMeter : public DeliveryListener {
+  public:
+    void delivered(const FrameRecord& record, std::int64_t first_ns, std::int64_t last_ns) noexcept override;
+
+    DurationHistogram command_to_first, command_to_last, exposure_to_last;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,23 @@
+#pragma once
+// Reports that scripts read: the JSON of `run --report` and `bench --json`. Keys are part of the interface.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "emulator/app_config.h"
+#include "emulator/frame_loop.h"
+#include "io/command.h"
+
+namespace hilcam {
+
+// Processor, cores, compiler and build, so that a figure can be judged.
+nlohmann::json machine_report();
+// Median and 99th percentile of every stage [ms].
+nlohmann::json stages_report(const StageMeters& meters);
+nlohmann::json run_report(const ScenarioConfig& scenario, double seconds, const FrameLoop& loop,
+                          const DeliveryMeter& delivery, const CommandReport& commands,
+                          const std::vector<FrameSink*>& sinks);
+// Throws DeviceError when the file cannot be written.
+void write_json(const std::filesystem::path& file, const nlohmann::json& json);
+
+}  // namespace hilcam
