@@ -36,8 +36,8 @@ struct NextRay {
     std::uint32_t from;  // vertex it leaves
     Vec3f origin_m;
     Vec3f dir;
-    bool mirror;      // a sharp reflection: sees the Sun's disk
-    bool sees_earth;  // its lobe takes the Earth's light from here, not from a separate sample
+    bool sees_earth;    // specular: meets the Earth itself; diffuse ones have a sample of their own for it
+    float alpha_least;  // of the next vertex's lobe; 0 only along mirrors, which then see the Sun's disk
     Spectrum weight;
 };
 
@@ -45,6 +45,16 @@ float largest(const Spectrum& s, int bins) {
     float most = 0;
     for (int b = 0; b < bins; ++b) most = std::max(most, s[b]);
     return most;
+}
+// Random words of a path's vertex; `use` tells apart what they are for.
+std::array<std::uint32_t, 4> random_of(const FrameView& frame, const PixelBox& tile, const Vertex& at,
+                                       int depth, std::uint32_t use) {
+    const int width = tile.x1 - tile.x0;
+    const int px = tile.x0 + static_cast<int>(at.pixel) % width;
+    const int py = tile.y0 + static_cast<int>(at.pixel) / width;
+    return random_words(frame.key, RandomPurpose::kPathSample,
+                        static_cast<std::uint32_t>(py * frame.geometry.padded_width() + px),
+                        (at.sample * 64 + static_cast<std::uint32_t>(depth)) * 2 + use);
 }
 float mean(const Spectrum& s, int bins) {
     float sum = 0;
@@ -57,15 +67,13 @@ float mean(const Spectrum& s, int bins) {
 float sun_widened(float alpha) { return std::min(1.0f, alpha + 0.00233f); }
 // Behind a diffuse bounce a narrow lobe is met by luck alone; its lobe is widened to this so that the mean
 // stays and the sparkle goes (path space regularisation: Kaplanyan & Dachsbacher, CGF 32(2), 2013).
-constexpr float kAlphaBehindDiffuse = 0.25f;
+constexpr float kAlphaBehindDiffuse = 0.4f;
 
 }  // namespace
 
 struct TileTracer::Implementation {
     std::array<Vertex, kMost> vertices_a, vertices_b;
     std::array<NextRay, kMost> next;
-    std::array<std::uint32_t, kMost> earth_from;
-    std::array<NextRay, kMost> earth_rays;
     std::array<Spectrum, kMost> pixels;
     TileStats stats;
 
@@ -80,9 +88,9 @@ struct TileTracer::Implementation {
     std::size_t primary_rays(const FrameView& frame, const PixelBox& tile, bool shade);
     void light_from_sun(const FrameView& frame);
     void light_from_sun_bare(const FrameView& frame);
-    std::size_t choose_next(const FrameView& frame, const PixelBox& tile, int depth,
-                            std::size_t& earth_count);
-    void light_from_earth(const FrameView& frame, std::size_t earth_count);
+    std::size_t choose_earth(const FrameView& frame, const PixelBox& tile, int depth);
+    void light_from_earth(const FrameView& frame, std::size_t ray_count);
+    std::size_t choose_next(const FrameView& frame, const PixelBox& tile, int depth);
     void follow(const FrameView& frame, std::size_t ray_count);
 };
 
@@ -282,7 +290,7 @@ void TileTracer::Implementation::light_from_sun(const FrameView& frame) {
     flush();
 }
 
-void TileTracer::Implementation::light_from_earth(const FrameView& frame, std::size_t earth_count) {
+void TileTracer::Implementation::light_from_earth(const FrameView& frame, std::size_t ray_count) {
     RayPacket rays;
     std::array<std::size_t, kPacketSize> index;
     rays.count = 0;
@@ -292,15 +300,15 @@ void TileTracer::Implementation::light_from_earth(const FrameView& frame, std::s
         stats.secondary_rays += static_cast<std::uint64_t>(rays.count);
         for (int i = 0; i < rays.count; ++i) {
             if (blocked >> i & 1u) continue;
-            const NextRay& ray = earth_rays[index[static_cast<std::size_t>(i)]];
+            const NextRay& ray = next[index[static_cast<std::size_t>(i)]];
             frame.background->add_earth(ray.origin_m, to_double(ray.dir), ray.weight,
                                         pixels[current[ray.from].pixel]);
         }
         rays.count = 0;
     };
-    for (std::size_t i = 0; i < earth_count; ++i) {
+    for (std::size_t i = 0; i < ray_count; ++i) {
         index[static_cast<std::size_t>(rays.count)] = i;
-        rays.set(rays.count, earth_rays[i].origin_m, earth_rays[i].dir, 0, kInfinity);
+        rays.set(rays.count, next[i].origin_m, next[i].dir, 0, kInfinity);
         if (++rays.count == kPacketSize) flush();
     }
     flush();
@@ -309,22 +317,47 @@ void TileTracer::Implementation::light_from_earth(const FrameView& frame, std::s
 // --- the recursion
 // -----------------------------------------------------------------------------------------------
 
-// One ray per vertex, by chance among its lobes; dividing by the lobe's chance keeps the mean right.
-std::size_t TileTracer::Implementation::choose_next(const FrameView& frame, const PixelBox& tile, int depth,
-                                                    std::size_t& earth_count) {
-    const int bins = frame.bins;
-    const int width = tile.x1 - tile.x0;
-    const Frame earth_frame(to_float(frame.background->earth_world_dir()));
-    const auto earth_cosine = static_cast<float>(frame.background->earth_cone_cosine());
+// A ray towards a random point of the Earth's bounding cone from every diffuse vertex it can light: density
+// 1 / (2 pi (1 - cos)) per solid angle.
+std::size_t TileTracer::Implementation::choose_earth(const FrameView& frame, const PixelBox& tile,
+                                                     int depth) {
+    if (!frame.background->earth_visible()) return 0;
+    const Frame earth(to_float(frame.background->earth_world_dir()));
+    const auto cosine = static_cast<float>(frame.background->earth_cone_cosine());
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    const float least = frame.contribution_threshold / frame.samples();
     std::size_t ray_count = 0;
-    earth_count = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const Vertex& at = current[i];
-        const int px = tile.x0 + static_cast<int>(at.pixel) % width;
-        const int py = tile.y0 + static_cast<int>(at.pixel) / width;
-        const auto pixel = static_cast<std::uint32_t>(py * frame.geometry.padded_width() + px);
-        const auto random = random_words(frame.key, RandomPurpose::kPathSample, pixel,
-                                         at.sample * 64 + static_cast<std::uint32_t>(depth));
+        // What the whole cone could give at most, against white paint under it.
+        const float most =
+            largest(at.diffuse_albedo, frame.bins) * largest(at.weight, frame.bins) * 2 * (1 - cosine);
+        if (most < least || dot(at.geometric_normal, earth.n) < -sine) continue;
+        const auto random = random_of(frame, tile, at, depth, 1);
+        const float u1 = uniform01(random[0]), u2 = uniform01(random[1]);
+        const float z = 1 - u1 * (1 - cosine);
+        const float r = std::sqrt(std::max(0.0f, 1 - z * z));
+        NextRay& ray = next[ray_count];
+        ray.dir = earth.to_world({r * std::cos(2 * kPiF * u2), r * std::sin(2 * kPiF * u2), z});
+        const float ni = dot(at.normal, ray.dir);
+        if (ni <= 0 || dot(at.geometric_normal, ray.dir) <= 0) continue;
+        // albedo / pi * cos / density
+        for (int b = 0; b < frame.bins; ++b)
+            ray.weight[b] = at.weight[b] * at.diffuse_albedo[b] * 2 * (1 - cosine) * ni;
+        ray.from = static_cast<std::uint32_t>(i);
+        ray.origin_m = at.point_m + at.offset_m * at.geometric_normal;
+        ++ray_count;
+    }
+    return ray_count;
+}
+
+// One ray per vertex, by chance specular or diffuse; dividing by the chance keeps the mean right.
+std::size_t TileTracer::Implementation::choose_next(const FrameView& frame, const PixelBox& tile, int depth) {
+    const int bins = frame.bins;
+    std::size_t ray_count = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vertex& at = current[i];
+        const auto random = random_of(frame, tile, at, depth, 0);
         const float u0 = uniform01(random[0]), u1 = uniform01(random[1]), u2 = uniform01(random[2]);
 
         const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
@@ -352,38 +385,18 @@ std::size_t TileTracer::Implementation::choose_next(const FrameView& frame, cons
                 const float f0 = at.normal_reflectance[b];
                 ray.weight[b] = at.weight[b] * weight * (f0 + (1 - f0) * schlick);
             }
-            ray.mirror = at.mirror;
             ray.sees_earth = true;
+            // A lobe met through another lobe is at least as wide as that one.
+            ray.alpha_least = at.alpha;
         } else {
-            // Half of the diffuse samples look at the Earth, where it can stand above the surface at all.
-            const float to_earth = dot(at.geometric_normal, earth_frame.n);
-            const float earth_sine = std::sqrt(std::max(0.0f, 1 - earth_cosine * earth_cosine));
-            const bool earth_up = frame.background->earth_visible() && to_earth > -earth_sine;
-            const float earth_chance = earth_up ? 0.5f : 0.0f;
-            const float u = (u0 - specular_chance) / (1 - specular_chance);
-            const bool earth = u < earth_chance;
-            float weight = 1 / ((1 - specular_chance) * (earth ? earth_chance : 1 - earth_chance));
-            if (earth) {
-                // Uniform in the Earth's bounding cone: density 1 / (2 pi (1 - cos)).
-                const float z = 1 - u1 * (1 - earth_cosine);
-                const float r = std::sqrt(std::max(0.0f, 1 - z * z));
-                ray.dir = earth_frame.to_world({r * std::cos(2 * kPiF * u2), r * std::sin(2 * kPiF * u2), z});
-                weight *= 2 * (1 - earth_cosine) * std::max(0.0f, dot(at.normal, ray.dir));
-            } else {
-                ray.dir = Frame(at.normal).to_world(sample_cosine(u1, u2));
-            }
-            if (weight <= 0 || dot(at.geometric_normal, ray.dir) <= 0) continue;
+            ray.dir = Frame(at.normal).to_world(sample_cosine(u1, u2));
+            if (dot(at.geometric_normal, ray.dir) <= 0) continue;
+            const float weight = 1 / (1 - specular_chance);
             for (int b = 0; b < bins; ++b) ray.weight[b] = at.weight[b] * weight * at.diffuse_albedo[b];
-            ray.mirror = false;
             ray.sees_earth = false;
-            if (earth) {
-                earth_rays[earth_count++] = ray;
-                continue;
-            }
+            ray.alpha_least = kAlphaBehindDiffuse;
         }
-        // at.weight of the first vertex is 1/n^2; the threshold is about a path's share of its own sample.
-        const auto samples = static_cast<float>(frame.samples_per_axis * frame.samples_per_axis);
-        if (largest(ray.weight, bins) * samples < frame.contribution_threshold) continue;
+        if (largest(ray.weight, bins) < frame.contribution_threshold / frame.samples()) continue;
         next[ray_count++] = ray;
     }
     return ray_count;
@@ -408,12 +421,12 @@ void TileTracer::Implementation::follow(const FrameView& frame, std::size_t ray_
             const Vertex& from = current[ray.from];
             if (hits.object[static_cast<std::size_t>(i)] == HitPacket::kMiss) {
                 if (ray.sees_earth)
-                    add_background(frame, ray.origin_m, ray.dir, ray.mirror, ray.weight, pixels[from.pixel]);
+                    add_background(frame, ray.origin_m, ray.dir, ray.alpha_least == 0, ray.weight,
+                                   pixels[from.pixel]);
                 continue;
             }
             Vertex& vertex = following[found];
-            const float alpha_least = ray.sees_earth ? 0.0f : kAlphaBehindDiffuse;
-            if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, alpha_least, vertex)) continue;
+            if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, vertex)) continue;
             vertex.pixel = from.pixel;
             vertex.sample = from.sample;
             vertex.weight = ray.weight;
@@ -436,10 +449,8 @@ TileStats TileTracer::trace(const FrameView& frame, const PixelBox& tile, Radian
     for (int depth = 1; my.count > 0; ++depth) {
         my.light_from_sun(frame);
         if (depth == frame.max_depth) break;
-        std::size_t earth_count = 0;
-        const std::size_t ray_count = my.choose_next(frame, tile, depth, earth_count);
-        my.light_from_earth(frame, earth_count);
-        my.follow(frame, ray_count);
+        my.light_from_earth(frame, my.choose_earth(frame, tile, depth));
+        my.follow(frame, my.choose_next(frame, tile, depth));
     }
     for (int b = 0; b < frame.bins; ++b)
         for (int y = tile.y0; y < tile.y1; ++y) {

@@ -35,6 +35,7 @@ struct FrameView {
     int samples_per_axis = 1;
     int max_depth = 1;
     float contribution_threshold = 0;
+    float samples() const { return static_cast<float>(samples_per_axis * samples_per_axis); }
     RandomKey key;
     PixelBox objects_box;  // pixels that can meet an object
     PixelBox earth_box;    // pixels that can meet the Earth
