@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+"""Includes point downwards only: emulator -> io -> sensor -> render; each third-party header stays in its few units."""
+import pathlib
+import re
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+ORDER = ["render", "sensor", "io", "emulator"]
+ONLY_IN = {
+    "embree": {"render/embree_scene.cpp"},
+    "yaml-cpp": {"io/config_yaml.cpp"},
+    "assimp": {"io/mesh_file.cpp"},
+    "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp"},
+    "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp"},
+    "erfa": {"render/bodies.cpp", "render/stars.cpp", "render/time.cpp"},
+}
+
+
+def main():
+    faults, files = [], 0
+    for folder in ORDER:
+        for path in sorted((TOP / folder).glob("*.[hc]*")):
+            files += 1
+            name = f"{folder}/{path.name}"
+            for line in path.read_text().splitlines():
+                match = re.match(r'#include ["<]([^">]+)[">]', line)
+                if not match:
+                    continue
+                target = match.group(1)
+                head = target.split("/")[0]
+                if head in ORDER and ORDER.index(head) > ORDER.index(folder):
+                    faults.append(f"{name} includes {target}, which lies above it")
+                for library, allowed in ONLY_IN.items():
+                    if head.startswith(library) and name not in allowed:
+                        faults.append(f"{name} includes {target}; only {', '.join(sorted(allowed))} may")
+    print("\n".join(faults) or f"{files} files, all includes point down")
+    sys.exit(1 if faults or files == 0 else 0)
+
+
+main()

@@ -1,0 +1,198 @@
+#!/usr/bin/python3
+"""The real program from outside: exit codes, messages, determinism, commands, GigE Vision frames with Aravis.
+
+    run_program_test.py HILCAM SOURCE_DIR
+"""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+HILCAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
+
+
+def hilcam(*arguments, **options):
+    return subprocess.run([HILCAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, **options)
+
+
+class Running:
+    """hilcam run with a GigE camera on an address of its own and commands on a port of its own."""
+
+    def __init__(self, address, port, folder, *extra):
+        self.address, self.port, self.report = address, port, pathlib.Path(folder) / "report.json"
+        self.process = subprocess.Popen(
+            [HILCAM, "run", str(SCENARIO), "--set", f"outputs.gige.interface={address}", "--set",
+             f"outputs.gige.serial=T{port}", "--set", f"commands.udp.port={port}", "--report", str(self.report), *extra],
+            stderr=subprocess.PIPE, text=True)
+
+    def __enter__(self):
+        for _ in range(200):
+            if self.send("ping").returncode == 0:
+                return self
+            time.sleep(0.05)
+        raise RuntimeError("the emulator does not answer: " + (self.process.stderr.read() if self.process.poll() else ""))
+
+    def send(self, *arguments):
+        return hilcam("send", "--to", f"127.0.0.1:{self.port}", "--timeout-ms", 300, *arguments)
+
+    def stop(self):
+        self.process.send_signal(signal.SIGINT)
+        _, log = self.process.communicate(timeout=30)
+        assert self.process.returncode == 0, log
+        return json.loads(self.report.read_text())
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.communicate()
+
+
+class ExitCodes(unittest.TestCase):
+    def refused(self, needle, *arguments):
+        result = hilcam(*arguments)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn(needle, result.stderr)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+
+    def test_bad_input_is_one_line_and_status_2(self):
+        self.refused("none.yaml: cannot be read", "check", "none.yaml")
+        self.refused("unknown key", "check", SCENARIO, "--set", "camera.exposure_us=3")
+        self.refused("accepted: a number", "check", SCENARIO, "--set", "camera.f_number=wide")
+        self.refused("no such mesh file", "check", SOURCE / "configs/scenarios/iss.yaml")
+        self.refused("is not a date and time", "check", SCENARIO, "--set", "time_utc=noon")
+        self.refused("interface 'nowhere0' does not exist; accepted: lo", "run", SCENARIO, "--set",
+                     "outputs.gige.interface=nowhere0")
+        self.refused("accepted: .exr", "render", SCENARIO, "--out", "x.png", "--stage", "radiance")
+        self.assertEqual(hilcam("fly").returncode, 2)
+
+    def test_device_faults_are_status_1_and_say_what_to_do(self):
+        result = hilcam("run", SCENARIO, "--set", "outputs.v4l2.device=/dev/video-none")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("/dev/video-none: cannot be opened", result.stderr)
+        self.assertIn("modprobe v4l2loopback", result.stderr)
+        self.assertEqual(hilcam("send", "--to", "127.0.0.1:15999", "--timeout-ms", 100, "ping").returncode, 1)
+
+    def test_check_and_version(self):
+        self.assertIn("object 1 'target'", hilcam("check", SCENARIO).stdout)
+        self.assertIn("0.1.0", hilcam("--version").stdout)
+
+
+class Pictures(unittest.TestCase):
+    def test_frames_do_not_depend_on_threads(self):
+        with tempfile.TemporaryDirectory() as folder:
+            frames = []
+            for threads in (1, 2):
+                file = pathlib.Path(folder) / f"{threads}.png"
+                self.assertEqual(hilcam("render", SCENARIO, "--out", file, "--set", f"threads={threads}").returncode, 0)
+                frames.append(file.read_bytes())
+            self.assertEqual(frames[0], frames[1])
+
+    def test_every_stage_writes_its_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for stage in ("radiance", "electrons"):
+                file = pathlib.Path(folder) / f"{stage}.exr"
+                result = hilcam("render", SCENARIO, "--stage", stage, "--out", file)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(file.read_bytes()[:4], b"\x76\x2f\x31\x01")  # OpenEXR's magic number
+
+
+class Camera(unittest.TestCase):
+    def test_aravis_takes_every_frame_and_settings_reach_the_camera(self):
+        with tempfile.TemporaryDirectory() as folder, Running("127.0.0.9", 15021, folder) as emulator:
+            import gi
+            gi.require_version("Aravis", "0.8")
+            from gi.repository import Aravis
+
+            def take(camera, count):
+                camera.gv_set_stream_options(Aravis.GvStreamOption.PACKET_SOCKET_DISABLED)
+                stream = camera.create_stream(None, None)
+                for _ in range(8):
+                    stream.push_buffer(Aravis.Buffer.new_allocate(camera.get_payload()))
+                camera.start_acquisition()
+                sizes, ids = [], []
+                while len(ids) < count:
+                    buffer = stream.timeout_pop_buffer(5_000_000)
+                    self.assertIsNotNone(buffer, "no frame within five seconds")
+                    self.assertEqual(buffer.get_status(), Aravis.BufferStatus.SUCCESS)
+                    sizes.append(len(buffer.get_data()))
+                    ids.append(buffer.get_frame_id())
+                    stream.push_buffer(buffer)
+                camera.stop_acquisition()
+                return sizes, ids
+
+            camera = Aravis.Camera.new("127.0.0.9")
+            self.assertEqual(camera.get_pixel_format_as_string(), "Mono12")
+            sizes, ids = take(camera, 60)
+            self.assertEqual(set(sizes), {256 * 192 * 2})
+            self.assertEqual(ids, list(range(ids[0], ids[0] + 60)))
+
+            for name, size in (("Mono8", 256 * 192), ("Mono16", 256 * 192 * 2)):
+                camera.set_pixel_format_from_string(name)
+                self.assertEqual(set(take(camera, 3)[0]), {size})
+            camera.set_region(32, 16, 128, 64)
+            self.assertEqual(set(take(camera, 3)[0]), {128 * 64 * 2})
+
+            camera.set_exposure_time(500)
+            camera.set_gain(6)
+            camera.set_frame_rate(50)
+            self.assertAlmostEqual(camera.get_exposure_time(), 500)
+            self.assertAlmostEqual(camera.get_frame_rate(), 50)
+            # What a command changes is what the client reads, and the other way round.
+            self.assertEqual(emulator.send("settings", "--gain-db", 3).returncode, 0)
+            self.assertAlmostEqual(camera.get_gain(), 3)
+            self.assertEqual(emulator.send("settings", "--gain-db", 99).returncode, 1)
+
+            self.assertIsNotNone(camera.acquisition(3_000_000))  # one single frame
+            self.assertIsNotNone(camera.acquisition(3_000_000))
+            del camera
+            report = emulator.stop()
+            self.assertGreater(report["frames"], 60)
+            self.assertEqual(report["commands"]["refused"], 1)
+            for key in ("frame_rate_hz", "deadline_misses", "latency_ms", "outputs", "faults", "quality"):
+                self.assertIn(key, report)
+
+    def test_a_killed_client_frees_the_camera_and_the_loop_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder, Running("127.0.0.10", 15022, folder) as emulator:
+            client = subprocess.Popen(["arv-camera-test-0.8", "-n", "127.0.0.10", "--no-packet-socket", "--duration=60"],
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            time.sleep(2)
+            client.kill()
+            client.communicate()
+            time.sleep(4)  # the heartbeat's time-out is 3 s
+            result = subprocess.run(["arv-camera-test-0.8", "-n", "127.0.0.10", "--no-packet-socket", "--duration=3"],
+                                    capture_output=True, text=True, timeout=60)
+            figures = dict(line.split("=") for line in result.stdout.replace(" ", "").splitlines()
+                           if line.startswith("n_") and "=" in line)
+            self.assertGreater(int(figures["n_completed_buffers"]), 30, result.stdout)
+            self.assertEqual(figures["n_failures"], "0", result.stdout)
+            self.assertEqual(figures["n_missing_frames"], "0", result.stdout)
+            emulator.stop()
+
+    def test_poses_are_shown_and_start_stop_work(self):
+        with tempfile.TemporaryDirectory() as folder, Running(
+                "127.0.0.11", 15023, folder, "--set", f"outputs.files.folder={folder}/frames") as emulator:
+            frames = pathlib.Path(folder) / "frames"
+            self.assertEqual(emulator.send("fly", "--from-m", 22, 15, 7, "--duration-s", 1, "--rate-hz", 50).returncode, 0)
+            self.assertEqual(emulator.send("stop").returncode, 0)
+            time.sleep(0.5)
+            before = len(list(frames.iterdir()))
+            time.sleep(0.5)
+            self.assertEqual(len(list(frames.iterdir())), before)
+            self.assertEqual(emulator.send("start").returncode, 0)
+            time.sleep(0.5)
+            self.assertGreater(len(list(frames.iterdir())), before)
+            # A camera turned away from the target sees an (almost) empty picture: the file compresses to less.
+            report = emulator.stop()
+            self.assertGreaterEqual(report["commands"]["received"], 52)
+            self.assertEqual(report["commands"]["refused"], 0)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("HILCAM_CACHE", tempfile.gettempdir() + f"/hilcam_test_cache_{os.getuid()}")
+    unittest.main(argv=[sys.argv[0]], verbosity=2)

@@ -1,0 +1,168 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "emulator/app_config.h"
+#include "emulator/clock.h"
+#include "emulator/command_dispatch.h"
+#include "emulator/flight.h"
+#include "emulator/latency.h"
+#include "io/config_yaml.h"
+#include "render/check.h"
+
+namespace hilcam {
+namespace {
+
+Motion at(std::int64_t ns, double x, double velocity = 0) {
+    Motion m;
+    m.time = {ns};
+    m.pose.position_world_m = {x, 0, 0};
+    m.velocity_world_m_s = {velocity, 0, 0};
+    return m;
+}
+double x_of(WorldState& world, std::int64_t ns) {
+    WorldSnapshot snapshot;
+    ShownCommand shown;
+    world.sample({ns}, snapshot, shown);
+    return snapshot.camera.position_world_m.x;
+}
+
+TEST(WorldState, PropagatesInterpolatesAndTakesAnyOrder) {
+    const Motion initial = at(0, 5, 1);
+    WorldState world(std::span(&initial, 1), {});
+    EXPECT_NEAR(x_of(world, 2'000'000'000), 7, 1e-12);  // the scenario's own motion
+    world.set(0, at(1'000'000'000, 10, 10), {1, 100});
+    EXPECT_NEAR(x_of(world, 1'500'000'000), 15, 1e-12);  // propagated
+    world.set(0, at(3'000'000'000, 30, 10), {2, 200});
+    world.set(0, at(2'000'000'000, 20, 10), {3, 300});  // late, but between
+    EXPECT_NEAR(x_of(world, 2'500'000'000), 25, 1e-9);
+    EXPECT_NEAR(x_of(world, 500'000'000), 5, 1e-9);  // backwards from the first command
+}
+
+TEST(WorldState, TellsTheNewestCommandItShows) {
+    const Motion initial[2] = {at(0, 0), at(0, 0)};
+    WorldState world(initial, {});
+    world.set(1, at(5, 1), {7, 900});
+    world.set(0, at(5, 1), {6, 800});
+    WorldSnapshot snapshot;
+    snapshot.objects.resize(1);
+    ShownCommand shown;
+    world.sample({5}, snapshot, shown);
+    EXPECT_EQ(shown.sequence, 7u);
+    EXPECT_FALSE(world.set(2, at(0, 0), {}));
+}
+
+TEST(WorldState, KeepsTheNewestEightMotions) {
+    const Motion initial = at(0, 0);
+    WorldState world(std::span(&initial, 1), {});
+    for (int i = 1; i <= 20; ++i) world.set(0, at(i * 1'000'000'000LL, i, 1), {1, 1});
+    world.set(0, at(1'000'000'000, -100, 1), {2, 2});  // older than all that are kept: ignored
+    EXPECT_NEAR(x_of(world, 13'500'000'000), 13.5, 1e-9);
+    EXPECT_NEAR(x_of(world, 25'000'000'000), 25, 1e-9);
+}
+
+TEST(FrameSchedule, SkipsWholePeriodsAndNeverCatchesUp) {
+    FrameSchedule schedule(1000);
+    EXPECT_EQ(schedule.take(0, 100).start_ns, 1000);
+    EXPECT_EQ(schedule.take(1150, 100).start_ns, 1100);  // late by less than a period: still made
+    const FrameSchedule::Slot slot = schedule.take(1555, 100);
+    EXPECT_EQ(slot.start_ns, 1500);
+    EXPECT_EQ(slot.skipped, 3u);
+    EXPECT_EQ(schedule.take(1555, 100).start_ns, 1600);
+}
+
+TEST(LiveSettings, RefusesWhatIsOutsideAndTheLoopSeesTheRest) {
+    CameraModel camera;
+    LiveSettings settings(camera);
+    EXPECT_FALSE(settings.set_exposure_s(1e9));
+    EXPECT_FALSE(settings.set_gain_db(std::nan("")));
+    EXPECT_TRUE(settings.set_gain_db(6));
+    EXPECT_EQ(settings.read_in_loop().gain_db, 6);
+}
+
+TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
+    CameraModel camera;
+    LiveSettings settings(camera);
+    const Motion initial = at(0, 0);
+    WorldState world(std::span(&initial, 1), {});
+    const SimulatedClock clock({1'000'000'000'000'000}, 0);
+    CommandDispatch dispatch(world, settings, clock);
+    SettingsCommand command;
+    command.gain_db = 3;
+    command.exposure_s = 1e9;
+    EXPECT_EQ(dispatch.handle(command, 1, 0), CommandStatus::kBadArgument);
+    EXPECT_EQ(settings.settings().gain_db, camera.gain_db);
+    PoseCommand pose;
+    pose.motion.time.ns = std::numeric_limits<std::int64_t>::min();
+    EXPECT_EQ(dispatch.handle(pose, 1, 0), CommandStatus::kTimeOutOfRange);
+    pose.motion.time.ns = 0;
+    EXPECT_EQ(dispatch.handle(pose, 1, 0), CommandStatus::kAccepted);
+    pose.object = 9;
+    EXPECT_EQ(dispatch.handle(pose, 1, 0), CommandStatus::kUnknownObject);
+    dispatch.handle(StopCommand{}, 1, 0);
+    EXPECT_FALSE(settings.settings().running);
+}
+
+TEST(DurationHistogram, QuantilesAreRightWithinItsBuckets) {
+    std::mt19937 engine(5);
+    std::lognormal_distribution<double> distribution(1, 1);
+    DurationHistogram histogram;
+    std::vector<double> all;
+    for (int i = 0; i < 20000; ++i) {
+        all.push_back(distribution(engine));
+        histogram.record(static_cast<std::int64_t>(all.back() * 1e6));
+    }
+    std::sort(all.begin(), all.end());
+    EXPECT_NEAR(histogram.quantile_ms(0.5) / all[10000], 1, 0.025);
+    EXPECT_NEAR(histogram.quantile_ms(0.99) / all[19800], 1, 0.025);
+    EXPECT_EQ(DurationHistogram().quantile_ms(0.5), 0);
+}
+
+TEST(CircleFlight, RatesAreTheDerivativesOfThePose) {
+    CircleFlight flight;
+    flight.center_m = {1, 2, 3};
+    flight.start_m = {1, -30, 10};
+    flight.up = {0, 0, 1};
+    const Motion m = flight.at(7, {});
+    constexpr double h = 1e-4;
+    const Motion later = flight.at(7 + h, {});
+    const Pose predicted =
+        propagate({{0}, m.pose, m.velocity_world_m_s, m.rate_body_rad_s}, TimeTai{100'000});
+    EXPECT_LT(length(predicted.position_world_m - later.pose.position_world_m), 1e-8);
+    const Quat a = predicted.world_from_body, b = later.pose.world_from_body;
+    EXPECT_NEAR(std::abs(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z), 1, 1e-12);
+    // It looks at the centre all the way.
+    const Vec3d boresight = to_matrix(m.pose.world_from_body) * Vec3d{0, 0, 1};
+    EXPECT_NEAR(dot(boresight, normalized(flight.center_m - m.pose.position_world_m)), 1, 1e-12);
+}
+
+TEST(Configs, EveryShippedScenarioLoads) {
+    int found = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(HILCAM_SOURCE_DIR "/configs/scenarios")) {
+        EXPECT_NO_THROW(load_scenario(entry.path(), {})) << entry.path();
+        ++found;
+    }
+    EXPECT_GE(found, 3);
+}
+
+TEST(Configs, EveryShippedPartLoads) {
+    for (const auto& entry : std::filesystem::directory_iterator(HILCAM_SOURCE_DIR "/configs/cameras")) {
+        CameraModel camera;
+        EXPECT_NO_THROW(read_config(entry.path(), section_of(camera))) << entry.path();
+        EXPECT_FALSE(camera.source.empty()) << entry.path();
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(HILCAM_SOURCE_DIR "/configs/quality")) {
+        QualityConfig quality;
+        EXPECT_NO_THROW(read_config(entry.path(), section_of(quality))) << entry.path();
+    }
+}
+
+TEST(Configs, AnObjectHasAMeshOrAGenerator) {
+    ObjectConfig object;
+    EXPECT_THROW(validate(object), InputError);
+}
+
+}  // namespace
+}  // namespace hilcam

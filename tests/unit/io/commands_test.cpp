@@ -1,0 +1,203 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "io/bytes.h"
+#include "io/command_codec.h"
+#include "io/command_sender.h"
+#include "io/commands_udp.h"
+
+namespace hilcam {
+namespace {
+
+std::vector<std::uint8_t> encoded(const Command& command, std::uint32_t sequence) {
+    std::vector<std::uint8_t> bytes(kMostCommandBytes);
+    bytes.resize(encode_command(command, sequence, bytes));
+    return bytes;
+}
+std::vector<std::uint8_t> with_crc(std::vector<std::uint8_t> bytes) {
+    const std::uint16_t crc = crc16(std::span(bytes).first(bytes.size() - 2));
+    bytes[bytes.size() - 2] = static_cast<std::uint8_t>(crc >> 8);
+    bytes[bytes.size() - 1] = static_cast<std::uint8_t>(crc & 0xFF);
+    return bytes;
+}
+PoseCommand some_pose() {
+    PoseCommand p;
+    p.object = 2;
+    p.motion.time.ns = 123456789;
+    p.motion.pose.position_world_m = {1.5, -2.5, 3.25};
+    p.motion.pose.world_from_body = {0.5, 0.5, -0.5, 0.5};
+    p.motion.velocity_world_m_s = {0.1, 0.2, 0.3};
+    p.motion.rate_body_rad_s = {-0.01, 0, 0.01};
+    return p;
+}
+std::string hex(std::span<const std::uint8_t> bytes) {
+    std::string out;
+    for (const std::uint8_t b : bytes) {
+        char text[4];
+        std::snprintf(text, sizeof text, "%02X ", b);
+        out += text;
+    }
+    out.pop_back();
+    return out;
+}
+
+TEST(Crc16, IsCcittFalse) {
+    const std::string text = "123456789";  // the catalogue's check value
+    EXPECT_EQ(crc16({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), 0x29B1);
+}
+
+TEST(CommandCodec, PoseComesBackAsItWent) {
+    const DecodedCommand d = decode_command(encoded(some_pose(), 77));
+    ASSERT_EQ(d.status, CommandStatus::kAccepted) << d.reason;
+    EXPECT_EQ(d.sequence, 77u);
+    const auto& p = std::get<PoseCommand>(d.command);
+    EXPECT_EQ(p.object, 2);
+    EXPECT_EQ(p.motion.time.ns, 123456789);
+    EXPECT_EQ(p.motion.pose.position_world_m.z, 3.25);
+    EXPECT_EQ(p.motion.pose.world_from_body.y, -0.5);
+    EXPECT_EQ(p.motion.rate_body_rad_s.z, 0.01);
+}
+
+TEST(CommandCodec, SettingsCarryOnlyWhatWasSet) {
+    SettingsCommand s;
+    s.gain_db = 3;
+    const auto back = std::get<SettingsCommand>(decode_command(encoded(s, 1)).command);
+    EXPECT_FALSE(back.exposure_s);
+    EXPECT_EQ(back.gain_db, 3);
+}
+
+// The worked examples of the protocol's document are what the program sends.
+TEST(CommandCodec, DocumentedBytesAreTheRealOnes) {
+    std::ifstream in(std::string(HILCAM_SOURCE_DIR) + "/docs/protocol.md");
+    std::stringstream text;
+    text << in.rdbuf();
+    EXPECT_THAT(text.str(), testing::HasSubstr(hex(encoded(PingCommand{0x1122334455667788}, 5))));
+    SettingsCommand settings;
+    settings.exposure_s = 0.002;
+    EXPECT_THAT(text.str(), testing::HasSubstr(hex(encoded(settings, 6))));
+    Acknowledgement a{5, CommandStatus::kAccepted, 5, 0x1122334455667788, TimeTai{1'000'000'000}, ""};
+    std::vector<std::uint8_t> bytes(kMostAcknowledgeBytes);
+    bytes.resize(encode_acknowledgement(a, 0, bytes));
+    EXPECT_THAT(text.str(), testing::HasSubstr(hex(bytes)));
+}
+
+TEST(CommandCodec, EachFaultIsRefusedByItsName) {
+    const std::vector<std::uint8_t> good = encoded(some_pose(), 1);
+    const auto status = [](const std::vector<std::uint8_t>& bytes) { return decode_command(bytes).status; };
+    auto bad = good;
+    bad[20] ^= 1;
+    EXPECT_EQ(status(bad), CommandStatus::kBadChecksum);
+    bad = good;
+    bad[0] = 0x39;  // version 1
+    EXPECT_EQ(status(with_crc(bad)), CommandStatus::kBadHeader);
+    bad = good;
+    bad[1] = 0x55;
+    EXPECT_EQ(status(with_crc(bad)), CommandStatus::kUnknownApid);
+    bad = good;
+    bad[7] = 99;
+    EXPECT_EQ(status(with_crc(bad)), CommandStatus::kUnknownFunction);
+    bad = good;
+    bad[6] = 2;
+    EXPECT_EQ(status(with_crc(bad)), CommandStatus::kBadHeader);
+    bad = good;
+    bad.pop_back();
+    EXPECT_EQ(status(bad), CommandStatus::kBadLength);
+    EXPECT_EQ(status({}), CommandStatus::kBadLength);
+    PoseCommand p = some_pose();
+    p.motion.pose.world_from_body.w = 0.6;
+    EXPECT_EQ(status(encoded(p, 1)), CommandStatus::kBadArgument);
+    p = some_pose();
+    p.motion.velocity_world_m_s.x = std::nan("");
+    EXPECT_EQ(status(encoded(p, 1)), CommandStatus::kBadArgument);
+    EXPECT_EQ(status(encoded(SettingsCommand{}, 1)), CommandStatus::kBadArgument);
+}
+
+// A hundred thousand damaged packets with valid and invalid checksums: refused or decoded, finite either way.
+TEST(CommandCodec, DamagedBytesGiveFiniteCommandsOrRefusals) {
+    std::uint32_t state = 12345;
+    const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
+    for (int i = 0; i < 100000; ++i) {
+        std::vector<std::uint8_t> bytes = encoded(some_pose(), 1);
+        bytes.resize(next() % 3 == 0 ? next() % bytes.size() : bytes.size());
+        for (std::uint32_t k = next() % 8; k > 0 && !bytes.empty(); --k)
+            bytes[next() % bytes.size()] = static_cast<std::uint8_t>(next());
+        if (next() % 2 && bytes.size() > 2) bytes = with_crc(bytes);
+        const DecodedCommand d = decode_command(bytes);
+        if (d.status != CommandStatus::kAccepted) continue;
+        if (const auto* p = std::get_if<PoseCommand>(&d.command)) {
+            ASSERT_TRUE(is_finite(p->motion.pose.position_world_m) &&
+                        is_finite(p->motion.velocity_world_m_s));
+            ASSERT_NEAR(norm(p->motion.pose.world_from_body), 1, 1e-12);
+        }
+    }
+}
+
+class Recorder : public CommandHandler {
+  public:
+    CommandStatus handle(const Command& command, std::uint32_t, std::int64_t) override {
+        ++handled;
+        const auto* pose = std::get_if<PoseCommand>(&command);
+        return pose && pose->object > 1 ? CommandStatus::kUnknownObject : CommandStatus::kAccepted;
+    }
+    TimeTai now() const override { return {42}; }
+    std::atomic<int> handled{0};
+};
+
+TEST(CommandsUdp, AnswersCountsAndSeparatesPackets) {
+    Recorder recorder;
+    UdpCommandReceiver receiver({"127.0.0.1", 15010}, recorder);
+    receiver.start();
+    CommandSender sender("127.0.0.1:15010");
+    EXPECT_EQ(sender.send(PingCommand{9}).token, 9u);
+    EXPECT_EQ(sender.send(PingCommand{9}).simulated_time.ns, 42);
+    EXPECT_EQ(sender.send(some_pose()).status, CommandStatus::kUnknownObject);
+
+    // Two packets in one datagram, then rubbish, then a gap in the sequence.
+    const Fd socket = open_udp(0x7F000001, 0);
+    const sockaddr_in to = parse_endpoint("127.0.0.1:15010");
+    std::vector<std::uint8_t> bytes = encoded(StartCommand{}, 0);
+    const auto second = encoded(StopCommand{}, 5);
+    bytes.insert(bytes.end(), second.begin(), second.end());
+    bytes.insert(bytes.end(), {1, 2, 3});
+    sendto(socket.get(), bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+    std::array<std::uint8_t, 256> answer;
+    Acknowledgement a;
+    std::vector<CommandStatus> statuses;
+    for (int i = 0; i < 3; ++i) {
+        const auto got = recv(socket.get(), answer.data(), answer.size(), 0);
+        ASSERT_TRUE(decode_acknowledgement({answer.data(), static_cast<std::size_t>(got)}, a));
+        statuses.push_back(a.status);
+    }
+    EXPECT_EQ(statuses,
+              (std::vector{CommandStatus::kAccepted, CommandStatus::kAccepted, CommandStatus::kBadLength}));
+    EXPECT_FALSE(a.reason.empty());
+    const CommandReport report = receiver.report();
+    EXPECT_EQ(report.received, 6u);
+    EXPECT_EQ(report.refused, 2u);
+    EXPECT_EQ(report.lost, 4u);
+    receiver.stop();
+}
+
+TEST(CommandsUdp, BusyPortSaysWhichAndWhatToDo) {
+    Recorder recorder;
+    const Fd taken = open_udp(0x7F000001, 15011);
+    UdpCommandReceiver receiver({"127.0.0.1", 15011}, recorder);
+    try {
+        receiver.start();
+        FAIL();
+    } catch (const DeviceError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("UDP 127.0.0.1:15011 is taken by another program; stop it"));
+    }
+}
+
+TEST(CommandSender, SilenceIsAnErrorThatNamesTheEndpoint) {
+    EXPECT_THROW(CommandSender("127.0.0.1"), InputError);
+    const Fd silent = open_udp(0x7F000001, 15012);
+    EXPECT_THROW(CommandSender("127.0.0.1:15012").send(PingCommand{}, 50), DeviceError);
+}
+
+}  // namespace
+}  // namespace hilcam

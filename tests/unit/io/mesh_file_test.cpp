@@ -1,0 +1,137 @@
+#include "io/mesh_file.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "io/catalogue_file.h"
+#include "io/gltf_webp.h"
+#include "io/image_file.h"
+#include "render/check.h"
+#include "render/units.h"
+
+namespace hilcam {
+namespace {
+
+using testing::HasSubstr;
+
+class Files : public testing::Test {
+  protected:
+    std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() / ("hilcam_mesh_" + std::to_string(getpid()));
+    void SetUp() override { std::filesystem::create_directories(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    std::filesystem::path write(const std::string& name, const std::string& text) {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+    template <class F>
+    std::string error_of(F&& f) {
+        try {
+            f();
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+    std::string mesh_error(const std::filesystem::path& file) {
+        return error_of([&] { load_mesh(file); });
+    }
+};
+
+const char* const kPlyHead =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+TEST_F(Files, ObjQuadBecomesTwoTrianglesWithItsMaterial) {
+    write("m.mtl", "newmtl gold\nKd 0.8 0.6 0.2\n");
+    const Mesh m = load_mesh(
+        write("m.obj", "mtllib m.mtl\nusemtl gold\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));
+    EXPECT_EQ(m.triangles.size(), 2u);
+    EXPECT_EQ(m.surfaces[m.surface_of_triangle[0]].name, "gold");
+    EXPECT_TRUE(m.normals.empty());
+}
+
+TEST_F(Files, PlyAndStlLoad) {
+    EXPECT_EQ(
+        load_mesh(write("m.ply", std::string(kPlyHead) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).triangles.size(),
+        1u);
+    EXPECT_EQ(
+        load_mesh(write("m.stl",
+                        "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                        "endloop\nendfacet\nendsolid s\n"))
+            .triangles.size(),
+        1u);
+}
+
+TEST_F(Files, BadMeshesSayWhatIsWrong) {
+    EXPECT_THAT(mesh_error(folder_ / "none.glb"), HasSubstr("none.glb: no such mesh file"));
+    EXPECT_THAT(mesh_error(write("m.txt", "x")), HasSubstr("found a file of kind '.txt'; accepted: .glb"));
+    EXPECT_THAT(mesh_error(write("m.glb", "rubbish")), HasSubstr("m.glb: does not parse"));
+    EXPECT_THAT(mesh_error(write("n.ply", std::string(kPlyHead) + "0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n")),
+                HasSubstr("n.ply: "));
+    EXPECT_THAT(mesh_error(write("d.ply", std::string(kPlyHead) + "0 0 0\n1 0 0\n0 1 0\n3 1 1 2\n")),
+                HasSubstr("holds no triangle"));
+    write("t.mtl", "newmtl a\nKd 1 1 1\nmap_Kd gone.png\n");
+    EXPECT_THAT(mesh_error(write(
+                    "t.obj", "mtllib t.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n")),
+                HasSubstr("texture 'gone.png' of material 'a' is missing"));
+    write("gone.png", "not a picture");
+    EXPECT_THAT(mesh_error(folder_ / "t.obj"), HasSubstr("does not decode"));
+}
+
+TEST_F(Files, WebpExtensionIsMovedAndBrokenLengthsAreLeftAlone) {
+    EXPECT_FALSE(with_plain_webp_sources({}));
+    std::vector<std::uint8_t> bytes(20, 0xFF);
+    EXPECT_FALSE(with_plain_webp_sources(bytes));
+}
+
+TEST_F(Files, IssLoadsWithItsTextures) {
+    const char* shared = std::getenv("HILCAM_SHARED");
+    const std::filesystem::path file =
+        std::filesystem::path(shared ? shared : HILCAM_SOURCE_DIR "/../shared") / "data/models/iss.glb";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    const Mesh m = load_mesh(file);
+    EXPECT_GT(m.triangles.size(), 200000u);
+    EXPECT_GE(m.textures.size(), 10u);
+    EXPECT_EQ(m.uvs.size(), m.vertices_m.size());
+}
+
+TEST_F(Files, CatalogueHasSiriusFirstAndRefusesRubbish) {
+    const StarCatalogue c = load_catalogue(HILCAM_SOURCE_DIR "/configs/stars/hipparcos.csv");
+    EXPECT_GT(c.stars.size(), 40000u);
+    EXPECT_EQ(c.stars[0].hd, 48915);
+    // Vega at J1991.25 (Hipparcos main catalogue, HIP 91262): 279.23410832 +38.78299311, 201.02 287.46
+    // mas/yr.
+    const auto vega =
+        std::find_if(c.stars.begin(), c.stars.end(), [](const CatalogueStar& s) { return s.hd == 172167; });
+    ASSERT_NE(vega, c.stars.end());
+    EXPECT_NEAR(vega->right_ascension_rad / kDegree_rad, 279.23410832, 2e-5);
+    EXPECT_NEAR(vega->declination_rad / kDegree_rad, 38.78299311, 2e-5);
+    EXPECT_NEAR(vega->pm_dec_rad_yr / kArcsecond_rad, 0.28746, 2e-4);
+    EXPECT_THAT(error_of([&] { load_catalogue(write("c.csv", "hd,ra_deg\n1,2,3\n")); }),
+                HasSubstr("c.csv:1: found 'hd,ra_deg'"));
+    EXPECT_THAT(error_of([&] { load_catalogue(write("d.csv", "# only\n")); }), HasSubstr("holds no star"));
+    EXPECT_THAT(error_of([&] { load_catalogue(write("e.csv", "1,400,0,0,0,1,1\n")); }), HasSubstr("e.csv:1"));
+}
+
+TEST_F(Files, FramesKeepTheirBitsOnDisk) {
+    DnImage frame(3, 2);
+    const std::uint16_t values[] = {0, 1, 4095, 65535, 256, 77};
+    std::copy(std::begin(values), std::end(values), frame.all().begin());
+    write_frame(folder_ / "f.png", frame);
+    // Signature, then IHDR says 16 bits grey.
+    std::ifstream in(folder_ / "f.png", std::ios::binary);
+    std::string head(26, 0);
+    in.read(head.data(), 26);
+    EXPECT_EQ(head[24], 16);
+    EXPECT_EQ(head[25], 0);
+    EXPECT_THROW(write_frame(folder_ / "f.jpg", frame), InputError);
+    EXPECT_THROW(write_frame(folder_ / "no" / "f.png", frame), DeviceError);
+}
+
+}  // namespace
+}  // namespace hilcam

@@ -1,0 +1,296 @@
+#include "render/renderer.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <random>
+
+#include "render/screen_bounds.h"
+#include "render/surface.h"
+#include "render/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr float kSun_w_m2_um = 1000;
+
+// A square plate of side 2 in its own xy plane, facing +z, one surface.
+SceneObject plate(const MaterialConfig& material, const SpectralGrid& grid) {
+    SceneObject object;
+    object.mesh.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    object.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    object.mesh.surface_of_triangle = {0, 0};
+    object.mesh.surfaces.resize(1);
+    object.materials = {make_material(material, grid)};
+    return object;
+}
+
+MaterialConfig lambert(double albedo) {
+    MaterialConfig m;
+    m.reflectance = Curve::constant(albedo);
+    return m;
+}
+
+// A camera at the origin that looks along +z with y down; the Sun one au away in a direction; no Earth.
+class Stage {
+  public:
+    SpectralGrid grid{{0.5, 0.6, 0.7}};
+    ImageGeometry geometry{32, 32, 4, 32};
+    RenderQuality quality;
+    Scene scene;
+    WorldSnapshot world;
+    RadianceImage radiance{40, 40, 2};
+    std::vector<PointSource> points;
+    RenderStats stats;
+
+    Stage() {
+        scene.earth.visible = false;
+        for (int b = 0; b < 2; ++b) scene.sun_irradiance_1au_w_m2_um[b] = kSun_w_m2_um;
+        world.bodies.earth_world_m = {0, 0, -1e9};
+        sun({0, 0, -1});
+    }
+    void sun(Vec3d dir) { world.bodies.sun_world_m = kAstronomicalUnit_m * normalized(dir); }
+    // Turned half about x, so that the plate's +z faces the camera.
+    void add(SceneObject object, Vec3d position, Vec3d rotation = {kPi, 0, 0}) {
+        scene.objects.push_back(std::move(object));
+        world.objects.push_back({position, from_rotation_vector(rotation)});
+    }
+    void render() {
+        Renderer renderer(scene, grid, geometry, quality);
+        points.reserve(renderer.most_points());
+        renderer.render(world, {1, 1}, radiance, points, stats);
+    }
+    float middle(int bin = 0) const { return radiance.row(20, bin)[20]; }
+};
+
+TEST(Renderer, SunlitLambertPlateHasAlbedoTimesIrradianceOverPi) {
+    Stage s;
+    s.add(plate(lambert(0.5), s.grid), {0, 0, 3});
+    const double angle = 0.6;
+    s.sun({std::sin(angle), 0, -std::cos(angle)});
+    s.quality.max_depth = 1;
+    s.render();
+    EXPECT_NEAR(s.middle() / (0.5 * kSun_w_m2_um * std::cos(angle) / kPi), 1, 1e-5);
+    EXPECT_EQ(s.middle(0), s.middle(1));
+    // Side 2 at 3 m, 32 px focal length: 21.3 px of 40 in both directions.
+    EXPECT_NEAR(s.stats.coverage, 21.33 * 21.33 / 1600, 0.03);
+}
+
+TEST(Renderer, EmptySkyIsBlack) {
+    Stage s;
+    s.render();
+    for (const float value : s.radiance.all()) ASSERT_EQ(value, 0);
+}
+
+TEST(Renderer, APlateInTheShadowOfAnotherIsDark) {
+    Stage s;
+    s.quality.max_depth = 1;
+    s.add(plate(lambert(0.5), s.grid), {0, 0, 5});
+    s.add(plate(lambert(0.5), s.grid), {3, 0, 2});
+    s.sun({1, 0, -1});  // from over the camera's right shoulder, through the second plate
+    s.render();
+    EXPECT_EQ(s.middle(), 0);
+    s.sun({-1, 0, -1});
+    s.render();
+    EXPECT_GT(s.middle(), 100);
+}
+
+TEST(Renderer, SunlitPlateShowsNoAcneAtAnyDistance) {
+    for (const double distance : {0.2, 3.0, 1000.0}) {
+        Stage s;
+        s.quality.max_depth = 1;
+        s.geometry.focal_length_px = 8 * distance + 2;  // the plate always covers the middle
+        s.add(plate(lambert(1), s.grid), {0, 0, distance});
+        const double grazing = 89.9 * kDegree_rad;
+        s.sun({std::sin(grazing), 0, -std::cos(grazing)});
+        s.render();
+        for (int y = 18; y < 22; ++y)
+            for (int x = 18; x < 22; ++x)
+                ASSERT_NEAR(
+                    s.radiance.row(y)[static_cast<std::size_t>(x)] / (kSun_w_m2_um * std::cos(grazing) / kPi),
+                    1, 1e-3)
+                    << distance;
+    }
+}
+
+TEST(Renderer, MirrorShowsAPlateAtDepthTwoAndNotAtDepthOne) {
+    MaterialConfig mirror;
+    mirror.model = ReflectionModel::kMirror;
+    mirror.reflectance = Curve::constant(0.9);
+    for (const int depth : {1, 2}) {
+        Stage s;
+        s.quality.max_depth = depth;
+        s.add(plate(mirror, s.grid), {0, 0, 4}, {kPi, 0, 0});
+        // Behind the camera, facing the mirror and a Sun that comes from the mirror's side, off to the right.
+        s.add(plate(lambert(0.5), s.grid), {0, 0, -2}, {0, 0, 0});
+        s.sun({1, 0, 1});
+        s.render();
+        const double direct = 0.5 * kSun_w_m2_um * std::cos(kPi / 4) / kPi;
+        EXPECT_NEAR(s.middle(), depth == 1 ? 0 : 0.9 * direct, 1e-3 * direct);
+    }
+}
+
+TEST(Renderer, SunsDiskInTheFieldCarriesItsIrradiance) {
+    Stage s;
+    s.quality.samples_per_axis = 16;
+    s.geometry.focal_length_px = 1500;  // the disk is 14 px wide
+    s.sun({0, 0, 1});
+    s.render();
+    double sum = 0;
+    for (const float value : s.radiance.plane(0)) sum += static_cast<double>(value);
+    // One pixel's solid angle on the axis; the field is small.
+    EXPECT_NEAR(sum / (1500.0 * 1500.0) / kSun_w_m2_um, 1, 0.01);
+}
+
+TEST(Renderer, EarthUnderTheSunHasItsLambertRadiance) {
+    Stage s;
+    s.scene.earth.visible = true;
+    for (int b = 0; b < 2; ++b) s.scene.earth.albedo[b] = 0.3f;
+    s.world.bodies.earth_world_m = {0, 0, 42e6};
+    s.render();
+    EXPECT_NEAR(s.middle() / (0.3 * kSun_w_m2_um / kPi), 1,
+                1e-3);                    // the Earth's own distance from the Sun: 6e-4
+    EXPECT_EQ(s.stats.primary_rays, 0u);  // nothing traced where only the Earth can be
+}
+
+// Earthshine on a plate that faces a fully lit Earth and has its back to the Sun: irradiance of a Lambert
+// sphere under full phase, 2/3 albedo E (R/d)^2 for d >> R (Lambert 1760).
+TEST(Renderer, EarthshineOnAPlateIsThatOfALambertSphere) {
+    Stage s;
+    s.scene.earth.visible = true;
+    for (int b = 0; b < 2; ++b) s.scene.earth.albedo[b] = 0.3f;
+    const double distance = 40 * kEarthEquatorialRadius_m;
+    // Earth off the line to the Sun by 1 degree, behind the camera; the plate looks at it, the Sun shines on
+    // its back.
+    s.world.bodies.earth_world_m = {0, std::sin(kDegree_rad) * distance, -std::cos(kDegree_rad) * distance};
+    s.sun({0, 0, 1});
+    s.add(plate(lambert(0.8), s.grid), {0, 0, 2});
+    s.quality.samples_per_axis = 8;
+    s.quality.contribution_threshold = 0;
+    s.render();
+    double sum = 0;
+    for (int y = 12; y < 28; ++y)
+        for (int x = 12; x < 28; ++x)
+            sum += static_cast<double>(s.radiance.row(y)[static_cast<std::size_t>(x)]);
+    const double irradiance = 2.0 / 3 * 0.3 * kSun_w_m2_um / (40.0 * 40.0);
+    // 16384 samples of a disk whose radiance scatters by about its mean: 3 sigma of 0.8 %, and 0.3 % of
+    // flattening.
+    EXPECT_NEAR(sum / 256 / (0.8 * irradiance / kPi), 1, 0.03);
+}
+
+// Inside a closed white Lambert box lit by nothing there is no light, and with albedo a the first bounce of
+// sunlight off one wall reaches the others: the energy that leaves a closed scene can never exceed what
+// entered.
+TEST(Renderer, GgxMetalNeverReflectsMoreThanItGets) {
+    for (const double roughness : {0.1, 0.3, 0.6, 1.0}) {
+        MaterialConfig metal;
+        metal.model = ReflectionModel::kMetal;
+        metal.reflectance = Curve::constant(1);
+        metal.roughness = roughness;
+        // Helmholtz: the albedo for light from above equals what is seen when looking at a uniform sky; sum f
+        // cos over directions by moving the Sun over the hemisphere.
+        double albedo = 0;
+        constexpr int kRings = 24, kSpokes = 24;
+        for (int i = 0; i < kRings; ++i)
+            for (int j = 0; j < kSpokes; ++j) {
+                Stage s;
+                s.geometry = {1, 1, 0, 100};
+                s.radiance = RadianceImage(1, 1, 2);
+                s.quality.max_depth = 1;
+                s.add(plate(metal, s.grid), {0, 0, 3}, {kPi, 0.5, 0});
+                const double theta = (i + 0.5) / kRings * kPi / 2, phi = 2 * kPi * (j + 0.5) / kSpokes;
+                const Vec3d local{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                  std::cos(theta)};
+                s.sun(to_matrix(s.world.objects[0].world_from_body) * local);
+                s.render();
+                albedo += static_cast<double>(s.radiance.row(0)[0]) / kSun_w_m2_um * std::sin(theta) *
+                          (kPi / 2 / kRings) * (2 * kPi / kSpokes);
+            }
+        EXPECT_LE(albedo, 1.02) << roughness;
+        EXPECT_GE(albedo, roughness < 0.9 ? 0.6 : 0.4)
+            << roughness;  // single scattering loses light when rough
+    }
+}
+
+TEST(Renderer, DoesNotDependOnTheThreadCount) {
+    const auto picture = [](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        Stage s;
+        s.quality.max_depth = 4;
+        MaterialConfig metal;
+        metal.model = ReflectionModel::kMetal;
+        s.add(plate(lambert(0.9), s.grid), {0, 0, 4}, {kPi, 0.4, 0});
+        s.add(plate(metal, s.grid), {1, 0, 4}, {kPi, -0.9, 0});
+        s.sun({0.3, 0.2, -1});
+        s.render();
+        return std::vector<float>(s.radiance.all().begin(), s.radiance.all().end());
+    };
+    EXPECT_EQ(picture(1), picture(2));
+}
+
+TEST(Renderer, StarsFallWhereTheyShouldAndObjectsHideThem) {
+    Stage s;
+    Star star;
+    star.world_dir = normalized(Vec3d{0.25, -0.125, 1});
+    star.irradiance_w_m2_um[0] = 1e-8f;
+    s.scene.stars = {star, star};
+    s.scene.stars[1].world_dir = normalized(Vec3d{0, 0, 1});
+    s.add(plate(lambert(0.5), s.grid), {0, 0, 8});  // covers 8 px around the middle
+    s.render();
+    ASSERT_EQ(s.points.size(), 1u);
+    EXPECT_NEAR(s.points[0].position_px.x, 16 + 8, 1e-4);
+    EXPECT_NEAR(s.points[0].position_px.y, 16 - 4, 1e-4);
+}
+
+TEST(Renderer, CameraInsideAMeshAndNeedleTrianglesStayFinite) {
+    Stage s;
+    SceneObject object = plate(lambert(0.5), s.grid);
+    object.mesh.vertices_m = {{-5, -5, 0.5f}, {5, -5, 0.5f},  {0, 5, 0.5f},
+                              {0, 0, 0},      {0, 1e-20f, 0}, {3, 0, 1}};
+    object.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    s.add(std::move(object), {0, 0, 0}, {0, 0, 0});
+    s.quality.max_depth = 8;
+    s.render();
+    for (const float value : s.radiance.all()) ASSERT_TRUE(std::isfinite(value));
+}
+
+TEST(ScreenBounds, HoldEveryPointOfTheBox) {
+    std::mt19937 engine(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const ImageGeometry geometry{64, 48, 8, 50};
+    for (int trial = 0; trial < 200; ++trial) {
+        const auto vec = [&](double size) {
+            return Vec3d{size * uniform(engine), size * uniform(engine), size * uniform(engine)};
+        };
+        const Pose camera{vec(10), from_rotation_vector(vec(3))};
+        const Pose object{vec(30), from_rotation_vector(vec(3))};
+        const std::array<Vec3d, 2> bounds = {Vec3d{-1, -2, -3}, Vec3d{3, 2, 1}};
+        const PixelBox box = screen_bounds(geometry, camera, object, bounds);
+        for (int i = 0; i < 50; ++i) {
+            const Vec3d p{1 + 2 * uniform(engine), 2 * uniform(engine), -1 + 2 * uniform(engine)};
+            const Vec3d in_camera =
+                transposed(to_matrix(camera.world_from_body)) *
+                (object.position_world_m + to_matrix(object.world_from_body) * p - camera.position_world_m);
+            if (in_camera.z <= 0) continue;
+            const Vec2d px = geometry.project_px(in_camera);
+            if (px.x < -8 || px.y < -8 || px.x >= 72 || px.y >= 56) continue;
+            const int x = static_cast<int>(std::floor(px.x)) + 8, y = static_cast<int>(std::floor(px.y)) + 8;
+            EXPECT_TRUE(box.overlaps({x, y, x + 1, y + 1}));
+        }
+    }
+}
+
+TEST(Surface, PackedNormalsAreGoodToTwoThousandthsOfADegree) {
+    std::mt19937 engine(1);
+    std::normal_distribution<float> normal;
+    for (int i = 0; i < 10000; ++i) {
+        const Vec3f n = normalized(Vec3f{normal(engine), normal(engine), normal(engine)});
+        const double sine = length(cross(to_double(n), to_double(unpack_normal(pack_normal(n)))));
+        EXPECT_LT(sine, 0.003 * kDegree_rad);
+        EXPECT_GT(dot(n, unpack_normal(pack_normal(n))), 0);
+    }
+}
+
+}  // namespace
+}  // namespace hilcam

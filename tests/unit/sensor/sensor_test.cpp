@@ -1,0 +1,266 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "render/check.h"
+#include "render/units.h"
+#include "sensor/chain.h"
+#include "sensor/mtf.h"
+#include "sensor/noise.h"
+#include "sensor/optics.h"
+
+namespace hilcam {
+namespace {
+
+CameraModel camera_64() {
+    CameraModel c;
+    c.width_px = c.height_px = 64;
+    c.focal_length_m = 0.05;
+    c.f_number = 4;
+    c.bits = 12;
+    c.full_well_e = 1e6;
+    return c;
+}
+
+TEST(Mtf, DiffractionOfAClearPupilIsTheTextbookFormula) {
+    for (const double s : {0.0, 0.2, 0.7, 1.0, 1.5, 1.9}) {
+        // Goodman, Introduction to Fourier Optics, eq. 6-32: x = nu / cut-off.
+        const double x = s / 2;
+        EXPECT_NEAR(pupil_otf(s, 0, 0), 2 / kPi * (std::acos(x) - x * std::sqrt(1 - x * x)), 3e-4) << s;
+    }
+    EXPECT_EQ(pupil_otf(2.0, 0, 0), 0);
+}
+
+TEST(Mtf, ObscurationLowersMiddleFrequenciesAndLiftsHighOnes) {
+    EXPECT_NEAR(pupil_otf(0, 0.5, 0), 1, 1e-3);
+    EXPECT_LT(pupil_otf(0.6, 0.5, 0), pupil_otf(0.6, 0, 0));
+    EXPECT_GT(pupil_otf(1.6, 0.5, 0), pupil_otf(1.6, 0, 0));
+}
+
+TEST(Mtf, StrongDefocusIsTheGeometricBlurDisk) {
+    // Far out of focus the OTF is 2 J1(a)/a with a = 4 pi W s at low frequencies (Hopkins 1955); 20 waves,
+    // small s.
+    for (const double s : {0.005, 0.01, 0.015}) {
+        const double a = 4 * kPi * 20 * s;
+        EXPECT_NEAR(pupil_otf(s, 0, 20), 2 * std::cyl_bessel_j(1, a) / a, 0.01) << s;
+    }
+}
+
+TEST(Mtf, RayGridOfOneIsNothingAndOfManyIsThePixel) {
+    EXPECT_DOUBLE_EQ(ray_grid_mtf(0.4, 1), 1);
+    EXPECT_NEAR(ray_grid_mtf(0.4, 1000), sinc(0.4), 1e-6);
+    EXPECT_NEAR(ray_grid_mtf(0.5, 2), std::cos(kPi / 4), 1e-12);  // two rays at +-1/4 px
+}
+
+// Electrons of a uniform field, on the axis: L A Omega T QE t dlambda lambda / (h c), one narrow bin.
+TEST(Chain, UniformFieldGivesTheClosedFormElectrons) {
+    CameraModel c = camera_64();
+    const SpectralGrid grid({0.549, 0.551});
+    SensorChain chain(c, grid, 8, 1);
+    RadianceImage radiance(80, 80, 1);
+    for (float& v : radiance.all()) v = 100;
+    ElectronImage mean(64, 64);
+    chain.expose(radiance, {}, 1e-3, mean);
+    const double d = 0.05 / 4, area = kPi / 4 * d * d, omega = std::pow(5.5e-6 / 0.05, 2);
+    const double expected =
+        100 * area * omega * 0.9 * 0.5 * 1e-3 * 0.002 * 0.55e-6 / (6.62607015e-34 * 299792458.0);
+    EXPECT_NEAR(mean.row(32)[32] / expected, 1, 1e-5);
+}
+
+TEST(Chain, FalloffIsCosineToTheFourth) {
+    CameraModel c = camera_64();
+    c.focal_length_m = 0.0005;  // 64 px are 39 degrees off the axis in the corner
+    const SpectralGrid grid({0.5, 0.6});
+    SensorChain chain(c, grid, 8, 1);
+    RadianceImage radiance(80, 80, 1);
+    for (float& v : radiance.all()) v = 1;
+    ElectronImage mean(64, 64);
+    chain.expose(radiance, {}, 1, mean);
+    const double tangent = 31.5 * 5.5e-6 / 0.0005;
+    const double cosine4 = std::pow(1 / (1 + tangent * tangent), 2);
+    const double tangent_middle = std::hypot(0.5, 0.5) * 5.5e-6 / 0.0005;
+    // The optics blur the falloff's curvature a little.
+    EXPECT_NEAR(mean.row(31)[63] / mean.row(31)[31],
+                cosine4 * std::pow(1 + tangent_middle * tangent_middle, 2), 2e-3);
+}
+
+TEST(Chain, PointKeepsItsElectronsAndCentroidWhereverItFalls) {
+    CameraModel c = camera_64();
+    c.f_number = 11;  // well sampled
+    const SpectralGrid grid({0.5, 0.6});
+    SensorChain chain(c, grid, 8, 1);
+    RadianceImage radiance(80, 80, 1);
+    PointSource point;
+    point.irradiance_w_m2_um[0] = 1e-6f;
+    const double expected = static_cast<double>(electrons_per_s_per_irradiance(c, grid)[0]) * 1e-6;
+    for (const double offset : {0.0, 0.13, 0.5, 0.77, 0.999}) {
+        point.position_px = {static_cast<float>(32 + offset), static_cast<float>(31.5 + 0.3 * offset)};
+        ElectronImage mean(64, 64);
+        chain.expose(radiance, std::span(&point, 1), 1, mean);
+        double sum = 0, x = 0, y = 0;
+        for (int j = 0; j < 64; ++j)
+            for (int i = 0; i < 64; ++i) {
+                const double v = static_cast<double>(mean.row(j)[static_cast<std::size_t>(i)]);
+                sum += v, x += v * (i + 0.5), y += v * (j + 0.5);
+            }
+        // At f/11 2 % of the Airy pattern lies farther than 30 px; cos(theta) is 1 within 1e-6.
+        EXPECT_NEAR(sum / expected, 1, 0.02) << offset;
+        EXPECT_NEAR(x / sum, static_cast<double>(point.position_px.x), 2e-3) << offset;
+        EXPECT_NEAR(y / sum, static_cast<double>(point.position_px.y), 2e-3) << offset;
+    }
+}
+
+TEST(Chain, LightFromOneEdgeDoesNotComeBackAtTheOther) {
+    const CameraModel c = camera_64();
+    const SpectralGrid grid({0.5, 0.6});
+    SensorChain chain(c, grid, 16, 1);
+    RadianceImage radiance(96, 96, 1);
+    for (int y = 0; y < 96; ++y) radiance.row(y)[16] = 1e6f;  // the frame's first column
+    ElectronImage mean(64, 64);
+    chain.expose(radiance, {}, 1e-3, mean);
+    EXPECT_LT(mean.row(32)[63], 1e-3 * static_cast<double>(mean.row(32)[0]));
+}
+
+TEST(Chain, ExtremesStayFiniteAndNotNegative) {
+    const CameraModel c = camera_64();
+    const SpectralGrid grid({0.5, 0.6});
+    SensorChain chain(c, grid, 8, 1);
+    RadianceImage radiance(80, 80, 1);
+    radiance.row(40)[40] = 1e30f;
+    PointSource point{{10, 10}, {}};
+    point.irradiance_w_m2_um[0] = 1e20f;
+    ElectronImage mean(64, 64);
+    DnImage frame(64, 64);
+    for (const double exposure_s : {1e-6, 1000.0}) {
+        chain.expose(radiance, std::span(&point, 1), exposure_s, mean);
+        for (const float v : mean.all()) ASSERT_TRUE(v >= 0 && std::isfinite(v));
+        chain.digitise(mean, 24, {1, 1}, frame);
+        for (const std::uint16_t v : frame.all()) ASSERT_LE(v, 4095);
+    }
+}
+
+TEST(Chain, FramesDoNotDependOnTheThreadCount) {
+    const auto frame_with = [](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const SpectralGrid grid({0.5, 0.6});
+        SensorChain chain(camera_64(), grid, 8, 1);
+        RadianceImage radiance(80, 80, 1);
+        for (int i = 0; i < 6400; ++i)
+            radiance.all()[static_cast<std::size_t>(i)] = static_cast<float>(i % 97);
+        ElectronImage mean(64, 64);
+        DnImage frame(64, 64);
+        chain.expose(radiance, {}, 1e-3, mean);
+        chain.digitise(mean, 0, {5, 9}, frame);
+        return std::vector<std::uint16_t>(frame.all().begin(), frame.all().end());
+    };
+    EXPECT_EQ(frame_with(1), frame_with(2));
+}
+
+// --- noise
+// ---------------------------------------------------------------------------------------------------------
+
+struct Moments {
+    double mean, variance;
+};
+Moments electrons(float mean_e, float read_noise_e, std::size_t count) {
+    DigitiserParameters p{1e9f, read_noise_e, 1, 1000, 65535};
+    const std::vector<float> in(count, mean_e);
+    std::vector<std::uint16_t> out(count);
+    digitise_row(in, p, {3, 4}, 0, out);
+    double sum = 0, squares = 0;
+    for (const std::uint16_t v : out) {
+        const double e = v - 1000.0;
+        sum += e, squares += e * e;
+    }
+    const double n = static_cast<double>(count);
+    return {sum / n, (squares - sum * sum / n) / (n - 1)};
+}
+
+TEST(Noise, ShotNoiseHasPoissonsMeanAndVarianceAtEveryLevel) {
+    constexpr std::size_t kCount = 400000;
+    for (const float mean : {0.01f, 0.5f, 3.0f, 20.0f, 31.9f, 32.0f, 100.0f, 5000.0f}) {
+        const Moments m = electrons(mean, 0, kCount);
+        const double lambda = static_cast<double>(mean), n = kCount;
+        // 4.5 standard errors of 16 figures: one false alarm in 10^4 runs. Var of a Poisson variance: (2 l^2
+        // + l)/n.
+        EXPECT_NEAR(m.mean, lambda, 4.5 * std::sqrt(lambda / n) + 1e-3) << mean;
+        EXPECT_NEAR(m.variance, lambda, 4.5 * std::sqrt((2 * lambda * lambda + lambda) / n) + 0.003 * lambda)
+            << mean;
+    }
+}
+
+// Chi-square over the counts of a Poisson of mean 4, and the same statistic for a wrong model, which it must
+// refuse.
+TEST(Noise, SmallCountsFollowPoissonsDistribution) {
+    constexpr std::size_t kCount = 100000;
+    const auto chi_square = [&](double model_mean) {
+        DigitiserParameters p{1e9f, 0, 1, 0, 65535};
+        const std::vector<float> in(kCount, 4.0f);
+        std::vector<std::uint16_t> out(kCount);
+        digitise_row(in, p, {11, 2}, 0, out);
+        std::array<double, 12> seen{};
+        for (const std::uint16_t v : out) seen[std::min<std::size_t>(v, 11)] += 1;
+        double statistic = 0, left = 1, probability = std::exp(-model_mean);
+        for (std::size_t k = 0; k < 12; ++k) {
+            const double expected = kCount * (k == 11 ? left : probability);
+            statistic += (seen[k] - expected) * (seen[k] - expected) / expected;
+            left -= probability;
+            probability *= model_mean / static_cast<double>(k + 1);
+        }
+        return statistic;
+    };
+    // 11 degrees of freedom: 31.3 is exceeded once in 1000.
+    EXPECT_LT(chi_square(4.0), 31.3);
+    EXPECT_GT(chi_square(4.05), 31.3);
+}
+
+TEST(Noise, ReadNoiseAddsItsVariance) {
+    constexpr double n = 400000;
+    const Moments m = electrons(0, 10, 400000);
+    EXPECT_NEAR(m.mean, 0, 4 * 10 / std::sqrt(n) + 1e-3);
+    // Rounding to whole DN adds 1/12.
+    EXPECT_NEAR(m.variance, 100 + 1.0 / 12, 4 * 100 * std::sqrt(2 / n));
+}
+
+TEST(Noise, QuantileMatchesTheTable) {
+    // Abramowitz & Stegun, table 26.1.
+    EXPECT_NEAR(normal_quantile(0.5f), 0, 1e-6);
+    EXPECT_NEAR(normal_quantile(0.975f), 1.959964, 1e-4);
+    EXPECT_NEAR(normal_quantile(0.001349898f), -3.0, 1e-3);
+    EXPECT_NEAR(normal_quantile(2.866516e-7f), -5.0, 1e-2);
+}
+
+TEST(Noise, FullWellAndAdcClip) {
+    DigitiserParameters p{1000, 0, 2, 10, 4095};
+    const std::vector<float> in = {0, 1e6f, NAN};
+    std::vector<std::uint16_t> out(3);
+    digitise_row(in, p, {1, 1}, 0, out);
+    EXPECT_EQ(out[0], 10);
+    EXPECT_EQ(out[1], 2010);
+    EXPECT_EQ(out[2], 10);
+    p.gain_dn_e = 100;
+    digitise_row(in, p, {1, 1}, 0, out);
+    EXPECT_EQ(out[1], 4095);
+}
+
+TEST(Noise, APixelCanBeRecomputedAlone) {
+    DigitiserParameters p{1e6f, 5, 1, 100, 65535};
+    const std::vector<float> in(300, 50.0f);
+    std::vector<std::uint16_t> all(300), one(1);
+    digitise_row(in, p, {7, 8}, 1000, all);
+    digitise_row(std::span(in).first(1), p, {7, 8}, 1299, one);
+    EXPECT_EQ(all[299], one[0]);
+}
+
+TEST(CameraModel, RefusesWhatContradictsItself) {
+    CameraModel c = camera_64();
+    c.exposure_s = 100;
+    EXPECT_THROW(validate(c), InputError);
+    c = camera_64();
+    c.offset_dn = 5000;
+    EXPECT_THROW(validate(c), InputError);
+}
+
+}  // namespace
+}  // namespace hilcam
