@@ -1,6 +1,5 @@
 #include "io/command_sender.h"
 
-
 #include <poll.h>
 #include <sys/socket.h>
 

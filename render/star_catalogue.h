@@ -6,7 +6,7 @@
 namespace hilcam {
 
 struct CatalogueStar {
-    int hd = 0;                       // Henry Draper number, 0: none
+    int hd = 0;                      // Henry Draper number, 0: none
     double right_ascension_rad = 0;  // ICRS at the catalogue epoch
     double declination_rad = 0;      //
     double pm_ra_cosdec_rad_yr = 0;  // proper motion, mu_alpha cos(delta)

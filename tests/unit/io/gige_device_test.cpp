@@ -47,8 +47,10 @@ struct Bench {
             .copy(payload);
         const std::size_t size = device.handle(bytes, from, now_ns, out);
         if (size == 0) return {};
-        ByteReader in(std::span(out).first(size));
-        Reply r{in.u16(), in.u16(), 0, {}};
+        ByteReader in(std::span<const std::uint8_t>(out.data(), size));
+        Reply r;
+        r.status = in.u16();
+        r.command = in.u16();
         in.u16();
         r.id = in.u16();
         r.payload.assign(in.rest().begin(), in.rest().end());

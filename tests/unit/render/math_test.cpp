@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "render/check.h"
 #include "render/latest.h"
 #include "render/pose.h"
 #include "render/random.h"
