@@ -153,14 +153,7 @@ class Reader {
 
     void require_all_overrides_used(const SectionField& root) const {
         for (const Override& o : overrides_)
-            if (!o.used) {
-                const std::string first = o.path.substr(0, o.path.find('.'));
-                const bool known = std::any_of(root.fields.begin(), root.fields.end(),
-                                               [&](const Field& f) { return f.key == first; });
-                throw InputError(
-                    "--set " + o.path + ": no such key" +
-                    (known ? " (a list's element must exist in the file)" : advice_for(first, root.fields)));
-            }
+            if (!o.used) throw InputError("--set " + o.path + ": " + why_unused(o.path, root.fields));
     }
 
   private:
@@ -175,6 +168,19 @@ class Reader {
         if (!place.command_line && !mark.is_null())
             where += ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
         throw InputError(where + ": " + (path.empty() || place.command_line ? "" : path + ": ") + what);
+    }
+
+    // Follows an override's path down the sections until a word is unknown.
+    static std::string why_unused(std::string_view path, const Fields& known) {
+        const std::string_view word = path.substr(0, path.find('.'));
+        const auto field =
+            std::find_if(known.begin(), known.end(), [&](const Field& f) { return f.key == word; });
+        if (field == known.end()) return "unknown key" + advice_for(word, known);
+        if (std::holds_alternative<SectionsField>(field->target))
+            return "the list '" + field->key + "' has no such element in the file";
+        const auto* nested = std::get_if<SectionField>(&field->target);
+        if (!nested || word.size() == path.size()) return "'" + field->key + "' has no keys below it";
+        return why_unused(path.substr(word.size() + 1), nested->fields);
     }
 
     void add_override(const std::string& text) {
@@ -213,22 +219,22 @@ class Reader {
         refuse_unknown_keys(map, place, section.fields, path);
         for (const Field& field : section.fields) {
             const std::string field_path = join(path, field.key);
-            YAML::Node value = map[field.key];
-            Place value_place = place;
-            if (const Override* o = override_at(field_path)) {
-                value = o->value;
-                value_place = {"--set " + field_path, std::filesystem::current_path(), true};
-            }
-            const bool absent = !value.IsDefined() || value.IsNull();
-            if (absent && std::holds_alternative<SectionField>(field.target) && override_below(field_path))
-                value = YAML::Node(YAML::NodeType::Map);
-            else if (absent) {
+            const Override* override = override_at(field_path);
+            // yaml-cpp's nodes are references: one is only ever made, never assigned.
+            const YAML::Node given = override ? override->value : map[field.key];
+            const bool absent = !given.IsDefined() || given.IsNull();
+            const bool opened =
+                absent && std::holds_alternative<SectionField>(field.target) && override_below(field_path);
+            if (absent && !opened) {
                 if (field.required)
                     fail(place, map, field_path, "the key is missing; it is " + field.meaning);
                 continue;
             }
             if (field.present) *field.present = true;
-            read_value(value, value_place, field, field_path, depth);
+            const Place value_place =
+                override ? Place{"--set " + field_path, std::filesystem::current_path(), true} : place;
+            read_value(opened ? YAML::Node(YAML::NodeType::Map) : given, value_place, field, field_path,
+                       depth);
         }
         if (!section.validate) return;
         try {

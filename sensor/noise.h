@@ -30,7 +30,5 @@ void digitise_row(std::span<const float> mean_e, const DigitiserParameters& para
 // The standard normal quantile of u in (0, 1), single precision, error below 1e-5 relative: Giles,
 // "Approximating the erfinv function", GPU Computing Gems Jade Edition, 2012.
 float normal_quantile(float u);
-// A Poisson deviate of mean < 64 from one uniform deviate, by inversion of the distribution function.
-float poisson_inversion(float mean, float u);
 
 }  // namespace hilcam

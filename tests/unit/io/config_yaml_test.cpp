@@ -113,7 +113,12 @@ TEST(ConfigYaml, OverridesReplaceAndAreChecked) {
     EXPECT_DOUBLE_EQ(read("name: x\nlist: [{}]\n", {"list.0.exposure_ms=4"}).list[0].exposure_s, 0.004);
     EXPECT_THAT(error_of("name: x\n", {"count=70"}), HasSubstr("--set count: found '70'"));
     EXPECT_THAT(error_of("name: x\n", {"cuont=7"}),
-                HasSubstr("--set cuont: no such key; nearest known key: count"));
+                HasSubstr("--set cuont: unknown key; nearest known key: count"));
+    EXPECT_THAT(error_of("name: x\n", {"inner.exposure_us=7"}),
+                HasSubstr("--set inner.exposure_us: unknown key; its unit here is another: exposure_ms"));
+    EXPECT_THAT(error_of("name: x\nlist: [{}]\n", {"list.1.exposure_ms=7"}),
+                HasSubstr("--set list.1.exposure_ms: the list 'list' has no such element"));
+    EXPECT_THAT(error_of("name: x\n", {"count.more=7"}), HasSubstr("'count' has no keys below it"));
     EXPECT_THAT(error_of("name: x\n", {"count"}), HasSubstr("accepted: KEY=VALUE"));
 }
 
