@@ -162,18 +162,23 @@ float normal_quantile(float u) { return quantile(u); }
 void digitise_row(std::span<const float> mean_e, const DigitiserParameters& parameters, RandomKey key,
                   std::uint32_t first_pixel, std::span<std::uint16_t> dn) {
     alignas(64) std::array<float, kBlock> mean, shot, read, electrons{};
-    for (std::size_t start = 0; start < mean_e.size(); start += kBlock) {
-        const std::size_t count = std::min(kBlock, mean_e.size() - start);
-        std::copy_n(mean_e.data() + start, count, mean.data());
-        std::fill(mean.begin() + static_cast<std::ptrdiff_t>(count), mean.end(), 0.0f);
-        fill_uniforms(key, first_pixel + static_cast<std::uint32_t>(start), shot.data(), read.data());
+    // Blocks start at the first pixel of a pair; a row that starts with a second one leaves one place empty.
+    std::size_t lead = first_pixel % 2;
+    std::size_t done = 0;
+    while (done < mean_e.size()) {
+        const std::size_t count = std::min(kBlock - lead, mean_e.size() - done);
+        mean.fill(0.0f);
+        std::copy_n(mean_e.data() + done, count, mean.data() + lead);
+        fill_uniforms(key, (first_pixel + static_cast<std::uint32_t>(done)) / 2, shot.data(), read.data());
         // Most blocks of a picture of space are dark all over, many others bright all over.
         const std::int32_t large = count_large(mean.data());
         if (large > 0) shoot_large(mean.data(), shot.data(), electrons.data());
         if (large < static_cast<std::int32_t>(kBlock))
             for (std::size_t i = 0; i < kBlock; i += kLanes)
                 shoot_small(mean.data() + i, shot.data() + i, electrons.data() + i);
-        convert(electrons.data(), read.data(), parameters, count, dn.data() + start);
+        convert(electrons.data() + lead, read.data() + lead, parameters, count, dn.data() + done);
+        done += count;
+        lead = 0;
     }
 }
 

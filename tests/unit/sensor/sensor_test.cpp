@@ -254,9 +254,13 @@ TEST(Noise, APixelCanBeRecomputedAlone) {
     DigitiserParameters p{1e6f, 5, 1, 100, 65535};
     const std::vector<float> in(300, 50.0f);
     std::vector<std::uint16_t> all(300), one(1);
-    digitise_row(in, p, {7, 8}, 1000, all);
-    digitise_row(std::span(in).first(1), p, {7, 8}, 1299, one);
-    EXPECT_EQ(all[299], one[0]);
+    for (const std::uint32_t first : {1000u, 1001u}) {
+        digitise_row(in, p, {7, 8}, first, all);
+        for (const std::uint32_t i : {0u, 1u, 127u, 128u, 298u, 299u}) {
+            digitise_row(std::span(in).first(1), p, {7, 8}, first + i, one);
+            EXPECT_EQ(all[i], one[0]) << first << ' ' << i;
+        }
+    }
 }
 
 TEST(CameraModel, RefusesWhatContradictsItself) {
