@@ -41,11 +41,6 @@ struct NextRay {
     Spectrum weight;
 };
 
-float largest(const Spectrum& s, int bins) {
-    float most = 0;
-    for (int b = 0; b < bins; ++b) most = std::max(most, s[b]);
-    return most;
-}
 // Random words of a path's vertex; `use` tells apart what they are for.
 std::array<std::uint32_t, 4> random_of(const FrameView& frame, const PixelBox& tile, const Vertex& at,
                                        int depth, std::uint32_t use) {
@@ -58,8 +53,15 @@ std::array<std::uint32_t, 4> random_of(const FrameView& frame, const PixelBox& t
 }
 float mean(const Spectrum& s, int bins) {
     float sum = 0;
-    for (int b = 0; b < bins; ++b) sum += s[b];
+    for (int b = 0; b < kMaxBins; ++b) sum += s[b];
     return sum / static_cast<float>(bins);
+}
+// Schlick's Fresnel reflectance per bin (CGF 13(3), 1994); the bins past the grid's size are not zero.
+Spectrum fresnel(const Spectrum& normal_reflectance, float schlick) {
+    Spectrum out;
+    for (int b = 0; b < kMaxBins; ++b)
+        out[b] = normal_reflectance[b] + (1 - normal_reflectance[b]) * schlick;
+    return out;
 }
 
 // The Sun's disk widens a highlight: its angular radius 4.65 mrad turns facets by half of that (Karis,
@@ -156,8 +158,8 @@ bool TileTracer::Implementation::make_vertex(const FrameView& frame, const HitPa
         // The one colour of a file scales what the material mostly is: the diffuse part, or a metal's
         // reflectance.
         const bool metal = mean(material.diffuse_albedo, frame.bins) <= 0;
-        for (int b = 0; b < frame.bins; ++b)
-            (metal ? vertex.normal_reflectance : vertex.diffuse_albedo)[b] *= scale[b];
+        Spectrum& scaled = metal ? vertex.normal_reflectance : vertex.diffuse_albedo;
+        scaled = scaled * scale;
     }
     return true;
 }
@@ -178,7 +180,8 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
     const int width = tile.x1 - tile.x0;
     const bool earth = tile.overlaps(frame.earth_box);
     const bool sun = tile.overlaps(frame.sun_box);
-    const bool objects = tile.overlaps(frame.objects_box);
+    const bool background = shade && (earth || sun);
+    bool objects = false;  // in the block at hand
     const float share = 1.0f / static_cast<float>(n * n);
     Spectrum weight;
     for (int b = 0; b < frame.bins; ++b) weight[b] = share;
@@ -209,7 +212,7 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
                 vertex.sample = sample_of[k];
                 vertex.weight = weight;
                 ++count;
-            } else if (shade && (earth || sun)) {
+            } else if (background) {
                 // The eye's own ray keeps its double precision: the Earth's limb must not crawl.
                 const Vec3d unit = normalized(exact_dir[k]);
                 if (!(earth && frame.background->add_earth({0, 0, 0}, unit, weight, pixels[pixel_of[k]])) &&
@@ -220,10 +223,13 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
         rays.count = 0;
     };
 
-    // Blocks of 4 x 4 pixels, so that a packet's rays run close together.
+    // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
+    static_assert(ScreenMask::kBlock_px == 4);
     const double step = 1.0 / n;
     for (int by = tile.y0; by < tile.y1; by += 4)
-        for (int bx = tile.x0; bx < tile.x1; bx += 4)
+        for (int bx = tile.x0; bx < tile.x1; bx += 4) {
+            objects = frame.object_mask->at(bx, by);
+            if (!objects && !background) continue;
             for (int s = 0; s < n * n; ++s) {
                 const double dx = (s % n + 0.5) * step - frame.geometry.guard_px;
                 const double dy = (s / n + 0.5) * step - frame.geometry.guard_px;
@@ -239,6 +245,7 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
                     }
                 flush();
             }
+        }
     return count;
 }
 
@@ -248,7 +255,7 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
 void TileTracer::Implementation::light_from_sun(const FrameView& frame) {
     const Vec3f sun = to_float(frame.background->sun_world_dir());
     const Spectrum& irradiance = frame.background->sun_irradiance_w_m2_um();
-    if (largest(irradiance, frame.bins) <= 0) return;
+    if (largest(irradiance) <= 0) return;
 
     RayPacket rays;
     std::array<std::size_t, kPacketSize> vertex_of;
@@ -270,13 +277,9 @@ void TileTracer::Implementation::light_from_sun(const FrameView& frame) {
                 lobe = ggx_distribution(alpha, std::clamp(dot(at.normal, half), 0.0f, 1.0f)) *
                        ggx_visibility(alpha, no, ni);
             }
-            Spectrum& pixel = pixels[at.pixel];
-            for (int b = 0; b < frame.bins; ++b) {
-                const float f0 = at.normal_reflectance[b];
-                const float fresnel = f0 + (1 - f0) * schlick;
-                pixel[b] +=
-                    at.weight[b] * irradiance[b] * ni * (at.diffuse_albedo[b] * (1 / kPiF) + fresnel * lobe);
-            }
+            Spectrum brdf = (1 / kPiF) * at.diffuse_albedo;
+            if (lobe > 0) brdf += lobe * fresnel(at.normal_reflectance, schlick);
+            pixels[at.pixel] += ni * (at.weight * irradiance) * brdf;
         }
         rays.count = 0;
     };
@@ -331,7 +334,7 @@ std::size_t TileTracer::Implementation::choose_earth(const FrameView& frame, con
         const Vertex& at = current[i];
         // What the whole cone could give at most, against white paint under it.
         const float most =
-            largest(at.diffuse_albedo, frame.bins) * largest(at.weight, frame.bins) * 2 * (1 - cosine);
+            largest(at.diffuse_albedo) * largest(at.weight) * 2 * (1 - cosine);
         if (most < least || dot(at.geometric_normal, earth.n) < -sine) continue;
         const auto random = random_of(frame, tile, at, depth, 1);
         const float u1 = uniform01(random[0]), u2 = uniform01(random[1]);
@@ -342,8 +345,7 @@ std::size_t TileTracer::Implementation::choose_earth(const FrameView& frame, con
         const float ni = dot(at.normal, ray.dir);
         if (ni <= 0 || dot(at.geometric_normal, ray.dir) <= 0) continue;
         // albedo / pi * cos / density
-        for (int b = 0; b < frame.bins; ++b)
-            ray.weight[b] = at.weight[b] * at.diffuse_albedo[b] * 2 * (1 - cosine) * ni;
+        ray.weight = 2 * (1 - cosine) * ni * (at.weight * at.diffuse_albedo);
         ray.from = static_cast<std::uint32_t>(i);
         ray.origin_m = at.point_m + at.offset_m * at.geometric_normal;
         ++ray_count;
@@ -381,10 +383,7 @@ std::size_t TileTracer::Implementation::choose_next(const FrameView& frame, cons
             if (ni <= 0 || dot(at.geometric_normal, ray.dir) <= 0) continue;
             const float schlick = schlick_weight(dot(facet, at.view_dir));
             const float weight = (at.mirror ? 1.0f : ggx_sample_weight(at.alpha, no, ni)) / specular_chance;
-            for (int b = 0; b < bins; ++b) {
-                const float f0 = at.normal_reflectance[b];
-                ray.weight[b] = at.weight[b] * weight * (f0 + (1 - f0) * schlick);
-            }
+            ray.weight = weight * (at.weight * fresnel(at.normal_reflectance, schlick));
             ray.sees_earth = true;
             // A lobe met through another lobe is at least as wide as that one.
             ray.alpha_least = at.alpha;
@@ -392,11 +391,11 @@ std::size_t TileTracer::Implementation::choose_next(const FrameView& frame, cons
             ray.dir = Frame(at.normal).to_world(sample_cosine(u1, u2));
             if (dot(at.geometric_normal, ray.dir) <= 0) continue;
             const float weight = 1 / (1 - specular_chance);
-            for (int b = 0; b < bins; ++b) ray.weight[b] = at.weight[b] * weight * at.diffuse_albedo[b];
+            ray.weight = weight * (at.weight * at.diffuse_albedo);
             ray.sees_earth = false;
             ray.alpha_least = kAlphaBehindDiffuse;
         }
-        if (largest(ray.weight, bins) < frame.contribution_threshold / frame.samples()) continue;
+        if (largest(ray.weight) < frame.contribution_threshold / frame.samples()) continue;
         next[ray_count++] = ray;
     }
     return ray_count;

@@ -9,24 +9,19 @@
 #include "render/embree_scene.h"
 #include "render/image.h"
 #include "render/random.h"
+#include "render/pixel_box.h"
 #include "render/ray_generator.h"
+#include "render/screen_mask.h"
 #include "render/surface.h"
 
 namespace hilcam {
-
-struct PixelBox {
-    int x0 = 0, y0 = 0, x1 = 0,
-        y1 = 0;  // x1, y1 excluded; in padded pixels (the guard band's corner is 0, 0)
-
-    bool empty() const { return x0 >= x1 || y0 >= y1; }
-    bool overlaps(const PixelBox& b) const { return x0 < b.x1 && b.x0 < x1 && y0 < b.y1 && b.y0 < y1; }
-};
 
 // What one frame's tiles share. Constant while they are traced.
 struct FrameView {
     const EmbreeScene* scene = nullptr;
     const std::vector<ObjectSurfaces>* objects = nullptr;
     std::vector<Mat3f> world_from_body;  // per object
+    const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
     const Background* background = nullptr;
     const ColorBands* bands = nullptr;
     ImageGeometry geometry;
@@ -37,7 +32,6 @@ struct FrameView {
     float contribution_threshold = 0;
     float samples() const { return static_cast<float>(samples_per_axis * samples_per_axis); }
     RandomKey key;
-    PixelBox objects_box;  // pixels that can meet an object
     PixelBox earth_box;    // pixels that can meet the Earth
     PixelBox sun_box;      // pixels that can meet the Sun's disk
 };

@@ -11,7 +11,9 @@
 #include "render/embree_scene.h"
 #include "render/path_tracer.h"
 #include "render/screen_bounds.h"
+#include "render/screen_mask.h"
 #include "render/star_field.h"
+#include "render/triangle_order.h"
 
 namespace hilcam {
 namespace {
@@ -22,9 +24,12 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::vector<const Mesh*> meshes_of(const Scene& scene) {
+std::vector<const Mesh*> ordered_meshes(Scene& scene) {
     std::vector<const Mesh*> meshes;
-    for (const SceneObject& object : scene.objects) meshes.push_back(&object.mesh);
+    for (SceneObject& object : scene.objects) {
+        order_triangles(object.mesh);
+        meshes.push_back(&object.mesh);
+    }
     return meshes;
 }
 
@@ -55,6 +60,7 @@ struct Renderer::Implementation {
     Earth earth;
     ColorBands bands;
     Background background;
+    ScreenMask object_mask;
     FrameView frame;
     int tile_px;
     int tiles_across;
@@ -65,12 +71,13 @@ struct Renderer::Implementation {
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const RenderQuality& quality)
         : triangle_count(0),
-          embree(meshes_of(scene)),
+          embree(ordered_meshes(scene)),
           objects(surfaces_of(scene)),
           stars(std::move(scene.stars)),
           earth(std::move(scene.earth)),
           bands(grid),
           background(earth, scene.sun_irradiance_1au_w_m2_um, grid),
+          object_mask(geometry),
           tile_px(tile_edge_px(static_cast<int>(quality.samples_per_axis))),
           tiles_across((geometry.padded_width() + tile_px - 1) / tile_px),
           tiles_down((geometry.padded_height() + tile_px - 1) / tile_px),
@@ -80,6 +87,7 @@ struct Renderer::Implementation {
         frame.scene = &embree;
         frame.objects = &objects;
         frame.world_from_body.resize(objects.size());
+        frame.object_mask = &object_mask;
         frame.background = &background;
         frame.bands = &bands;
         frame.geometry = geometry;
@@ -95,13 +103,11 @@ struct Renderer::Implementation {
         embree.place(world.objects, world.camera.position_world_m);
         frame.key = key;
         frame.world_from_camera = to_matrix(world.camera.world_from_body);
-        frame.objects_box = {};
+        object_mask.clear();
         for (std::size_t i = 0; i < objects.size(); ++i) {
             const Mat3d m = to_matrix(world.objects[i].world_from_body);
             frame.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
-            frame.objects_box =
-                merged(frame.objects_box,
-                       screen_bounds(frame.geometry, world.camera, world.objects[i], objects[i].bounds_m));
+            object_mask.add(world.camera, world.objects[i], objects[i].cluster_bounds_m);
         }
         frame.earth_box = background.earth_visible() ? screen_bounds_of_cone(frame.geometry, world.camera,
                                                                              background.earth_world_dir(),
@@ -118,7 +124,7 @@ struct Renderer::Implementation {
                 std::min(y + tile_px, frame.geometry.padded_height())};
     }
     bool can_see_anything(const PixelBox& box) const {
-        return box.overlaps(frame.objects_box) || box.overlaps(frame.earth_box) ||
+        return object_mask.any(box) || box.overlaps(frame.earth_box) ||
                box.overlaps(frame.sun_box);
     }
 
@@ -193,7 +199,7 @@ double Renderer::floor_ms(const WorldSnapshot& world) {
     my.place(world, {});
     const auto start = Clock::now();
     my.for_each_tile([&](int, const PixelBox& tile, TileTracer& tracer) {
-        if (tile.overlaps(my.frame.objects_box)) tracer.trace_bare(my.frame, tile);
+        if (my.object_mask.any(tile)) tracer.trace_bare(my.frame, tile);
     });
     return ms_since(start);
 }

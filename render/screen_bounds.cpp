@@ -45,19 +45,6 @@ class Bounds {
 
 }  // namespace
 
-PixelBox screen_bounds(const ImageGeometry& geometry, const Pose& camera, const Pose& object,
-                       const std::array<Vec3d, 2>& bounds_m) {
-    const Mat3d camera_from_world = transposed(to_matrix(camera.world_from_body));
-    const Mat3d camera_from_body = camera_from_world * to_matrix(object.world_from_body);
-    const Vec3d offset_m = camera_from_world * (object.position_world_m - camera.position_world_m);
-    Bounds bounds(geometry);
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        const Vec3d p{bounds_m[corner & 1u].x, bounds_m[corner >> 1 & 1u].y, bounds_m[corner >> 2 & 1u].z};
-        bounds.add(camera_from_body * p + offset_m);
-    }
-    return bounds.box(1);
-}
-
 PixelBox screen_bounds_of_cone(const ImageGeometry& geometry, const Pose& camera, Vec3d axis_world,
                                double cosine) {
     const Mat3d camera_from_world = transposed(to_matrix(camera.world_from_body));
@@ -78,12 +65,6 @@ PixelBox screen_bounds_of_cone(const ImageGeometry& geometry, const Pose& camera
     // A chord of the 64-gon leaves the curve by 1 - cos(pi/64) = 0.0012 of the radius; the cone's image is a
     // conic.
     return bounds.box(1 + 0.003 * bounds.extent_px());
-}
-
-PixelBox merged(const PixelBox& a, const PixelBox& b) {
-    if (a.empty()) return b;
-    if (b.empty()) return a;
-    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
 }  // namespace hilcam

@@ -10,15 +10,36 @@
 
 namespace hilcam {
 
-// As many bins as fit one 64-byte line of floats.
-inline constexpr int kMaxBins = 16;
+// As many bins as fit half a cache line of floats; loops over all of them are two vector instructions.
+inline constexpr int kMaxBins = 8;
 
 // A value per bin; entries past the grid's size are zero.
 struct Spectrum {
-    alignas(64) std::array<float, kMaxBins> bin{};
+    alignas(32) std::array<float, kMaxBins> bin{};
     float& operator[](int i) { return bin[static_cast<std::size_t>(i)]; }
     float operator[](int i) const { return bin[static_cast<std::size_t>(i)]; }
 };
+
+// Bin by bin, over all kMaxBins: shorter loops would be slower.
+inline Spectrum operator*(const Spectrum& a, const Spectrum& b) {
+    Spectrum out;
+    for (int i = 0; i < kMaxBins; ++i) out[i] = a[i] * b[i];
+    return out;
+}
+inline Spectrum operator*(float a, const Spectrum& b) {
+    Spectrum out;
+    for (int i = 0; i < kMaxBins; ++i) out[i] = a * b[i];
+    return out;
+}
+inline Spectrum& operator+=(Spectrum& a, const Spectrum& b) {
+    for (int i = 0; i < kMaxBins; ++i) a[i] += b[i];
+    return a;
+}
+inline float largest(const Spectrum& s) {
+    float most = s[0];
+    for (int i = 1; i < kMaxBins; ++i) most = s[i] > most ? s[i] : most;
+    return most;
+}
 
 // A function of wavelength by samples, linear between them. Wavelengths [um] strictly increase. Outside its
 // range a curve is constant at its end values (`reflectance: 0.3` is one sample).

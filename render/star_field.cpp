@@ -28,7 +28,7 @@ void add_stars(const std::vector<Star>& stars, const FrameView& frame, std::vect
         if (here.overlaps(frame.earth_box) &&
             frame.background->add_earth({0, 0, 0}, star.world_dir, nothing, ignored))
             continue;
-        if (here.overlaps(frame.objects_box)) {
+        if (frame.object_mask->at(px, py)) {
             ray.set(0, {0, 0, 0}, to_float(star.world_dir), 0, std::numeric_limits<float>::infinity());
             if (frame.scene->occluded(ray, Coherence::kIncoherent)) continue;
         }

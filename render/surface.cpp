@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/check.h"
 
@@ -17,15 +18,24 @@ float from_snorm16(std::uint32_t bits) {
            (1.0f / 32767.0f);
 }
 
-std::array<Vec3d, 2> bounds_of(const Mesh& mesh) {
-    std::array<Vec3d, 2> box{Vec3d{1e300, 1e300, 1e300}, Vec3d{-1e300, -1e300, -1e300}};
-    for (const auto& triangle : mesh.triangles)
-        for (const std::uint32_t i : triangle) {
-            const Vec3d p = to_double(mesh.vertices_m[i]);
-            box[0] = {std::min(box[0].x, p.x), std::min(box[0].y, p.y), std::min(box[0].z, p.z)};
-            box[1] = {std::max(box[1].x, p.x), std::max(box[1].y, p.y), std::max(box[1].z, p.z)};
-        }
-    return box;
+constexpr std::size_t kClusterTriangles = 256;
+
+using Box = std::array<Vec3f, 2>;
+constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr Box kNothing{Vec3f{kFar, kFar, kFar}, Vec3f{-kFar, -kFar, -kFar}};
+
+void grow(Box& box, Vec3f p) {
+    box[0] = {std::min(box[0].x, p.x), std::min(box[0].y, p.y), std::min(box[0].z, p.z)};
+    box[1] = {std::max(box[1].x, p.x), std::max(box[1].y, p.y), std::max(box[1].z, p.z)};
+}
+
+std::vector<Box> clusters_of(const Mesh& mesh) {
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (i % kClusterTriangles == 0) boxes.push_back(kNothing);
+        for (const std::uint32_t vertex : mesh.triangles[i]) grow(boxes.back(), mesh.vertices_m[vertex]);
+    }
+    return boxes;
 }
 
 }  // namespace
@@ -56,7 +66,7 @@ Vec3f unpack_normal(std::uint32_t packed) {
 ObjectSurfaces::ObjectSurfaces(SceneObject&& object)
     : materials(std::move(object.materials)),
       textures(std::move(object.mesh.textures)),
-      bounds_m(bounds_of(object.mesh)) {
+      cluster_bounds_m(clusters_of(object.mesh)) {
     const Mesh& mesh = object.mesh;
     HILCAM_CHECK(materials.size() == mesh.surfaces.size());
     const bool no_normals = mesh.normals.empty();

@@ -10,7 +10,7 @@
 
 namespace hilcam {
 
-// Unit vectors in 32 bits, octahedral with 16 bits an axis: largest error 0.002 deg (Cigolle et al., JCGT
+// Unit vectors in 32 bits, octahedral with 16 bits an axis: largest error 0.0037 deg (Cigolle et al., JCGT
 // 3(2), 2014).
 std::uint32_t pack_normal(Vec3f unit);
 Vec3f unpack_normal(std::uint32_t packed);
@@ -30,7 +30,8 @@ struct ObjectSurfaces {
     std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
     std::vector<Material> materials;
     std::vector<Texture> textures;
-    std::array<Vec3d, 2> bounds_m;  // least and greatest corner, body axes
+    // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
+    std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
 
     // The shading normal at barycentric (u, v), body axes, unit; `geometric` where the mesh has none.
     Vec3f normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) const;

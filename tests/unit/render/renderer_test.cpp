@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "render/screen_bounds.h"
+#include "render/screen_mask.h"
 #include "render/surface.h"
+#include "render/triangle_order.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -267,20 +269,24 @@ TEST(Renderer, CameraInsideAMeshAndNeedleTrianglesStayFinite) {
     for (const float value : s.radiance.all()) ASSERT_TRUE(std::isfinite(value));
 }
 
-TEST(ScreenBounds, HoldEveryPointOfTheBox) {
+TEST(ScreenMask, MarksEveryPointOfItsBoxesAndLeavesTheSkyBetweenThem) {
     std::mt19937 engine(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const ImageGeometry geometry{64, 48, 8, 50};
-    for (int trial = 0; trial < 200; ++trial) {
+    ScreenMask mask(geometry);
+    // Two boxes at the ends of a long thing.
+    const std::array<std::array<Vec3f, 2>, 2> boxes = {{{Vec3f{-9, -1, -1}, Vec3f{-7, 1, 1}},
+                                                        {Vec3f{7, -1, -1}, Vec3f{9, 1, 1}}}};
+    for (int trial = 0; trial < 300; ++trial) {
         const auto vec = [&](double size) {
             return Vec3d{size * uniform(engine), size * uniform(engine), size * uniform(engine)};
         };
         const Pose camera{vec(10), from_rotation_vector(vec(3))};
         const Pose object{vec(30), from_rotation_vector(vec(3))};
-        const std::array<Vec3d, 2> bounds = {Vec3d{-1, -2, -3}, Vec3d{3, 2, 1}};
-        const PixelBox box = screen_bounds(geometry, camera, object, bounds);
+        mask.clear();
+        mask.add(camera, object, boxes);
         for (int i = 0; i < 50; ++i) {
-            const Vec3d p{1 + 2 * uniform(engine), 2 * uniform(engine), -1 + 2 * uniform(engine)};
+            const Vec3d p{(i % 2 ? 8 : -8) + uniform(engine), uniform(engine), uniform(engine)};
             const Vec3d in_camera =
                 transposed(to_matrix(camera.world_from_body)) *
                 (object.position_world_m + to_matrix(object.world_from_body) * p - camera.position_world_m);
@@ -288,9 +294,46 @@ TEST(ScreenBounds, HoldEveryPointOfTheBox) {
             const Vec2d px = geometry.project_px(in_camera);
             if (px.x < -8 || px.y < -8 || px.x >= 72 || px.y >= 56) continue;
             const int x = static_cast<int>(std::floor(px.x)) + 8, y = static_cast<int>(std::floor(px.y)) + 8;
-            EXPECT_TRUE(box.overlaps({x, y, x + 1, y + 1}));
+            EXPECT_TRUE(mask.at(x, y));
+            EXPECT_TRUE(mask.any({x, y, x + 1, y + 1}));
         }
     }
+    mask.clear();
+    mask.add({{0, 0, 0}, {}}, {{0, 0, 20}, {}}, boxes);
+    EXPECT_TRUE(mask.at(8 + 32 - 20, 8 + 24));
+    EXPECT_TRUE(mask.at(8 + 32 + 20, 8 + 24));
+    EXPECT_FALSE(mask.at(8 + 32, 8 + 24));
+    mask.clear();
+    mask.add({{0, 0, 0}, {}}, {{0, 0, -20}, {}}, boxes);  // behind the camera
+    EXPECT_FALSE(mask.any({0, 0, 80, 64}));
+}
+
+TEST(TriangleOrder, KeepsTheTrianglesAndTheirSurfaces) {
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<float> uniform(-5, 5);
+    Mesh mesh;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const Vec3f at{uniform(engine), uniform(engine), uniform(engine)};
+        mesh.vertices_m.insert(mesh.vertices_m.end(), {at, at + Vec3f{0.1f, 0, 0}, at + Vec3f{0, 0.1f, 0}});
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        mesh.surface_of_triangle.push_back(static_cast<std::uint16_t>(i));
+    }
+    const auto path_m = [&] {
+        double sum = 0;
+        for (std::size_t i = 1; i < mesh.triangles.size(); ++i)
+            sum += static_cast<double>(length(mesh.vertices_m[mesh.triangles[i][0]] -
+                                              mesh.vertices_m[mesh.triangles[i - 1][0]]));
+        return sum;
+    };
+    const double before = path_m();
+    order_triangles(mesh);
+    std::vector<bool> seen(1000);
+    for (std::size_t i = 0; i < 1000; ++i) {
+        EXPECT_EQ(mesh.triangles[i][0], 3u * mesh.surface_of_triangle[i]);
+        seen[mesh.surface_of_triangle[i]] = true;
+    }
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), true), 1000);
+    EXPECT_LT(path_m(), 0.3 * before);
 }
 
 TEST(Surface, PackedNormalsAreGoodToFourThousandthsOfADegree) {

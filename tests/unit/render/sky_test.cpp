@@ -64,13 +64,13 @@ TEST(Spectrum, BinAverageOfALineIsItsMiddle) {
 }
 
 TEST(Spectrum, SunsBlackBodyCarriesTheSolarConstant) {
-    // 16 bins from 0.2 to 2.5 um hold 96 % of a 5772 K black body (Planck's integral by series).
+    // 8 bins from 0.2 to 2.5 um hold 96 % of a 5772 K black body (Planck's integral by series).
     std::vector<double> edges;
-    for (int i = 0; i <= 16; ++i) edges.push_back(0.2 + i * 2.3 / 16);
+    for (int i = 0; i <= 8; ++i) edges.push_back(0.2 + i * 2.3 / 8);
     const SpectralGrid grid(edges);
     const Spectrum s = solar_irradiance_1au_w_m2_um(grid);
     double total = 0;
-    for (int b = 0; b < 16; ++b) total += static_cast<double>(s[b]) * grid.width_um(b);
+    for (int b = 0; b < 8; ++b) total += static_cast<double>(s[b]) * grid.width_um(b);
     const auto below = [](double wavelength_um) {
         // Fraction of a black body's radiation below a wavelength: 15/pi^4 sum e^-nx (x^3/n + 3x^2/n^2 +
         // 6x/n^3 + 6/n^4).
