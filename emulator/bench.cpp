@@ -18,15 +18,18 @@ double median(std::vector<double> values) {
     return values.empty() ? 0 : values[values.size() / 2];
 }
 
-// Feeds poses as a simulator would, 100 a second, from a thread of its own.
+// Feeds poses as a simulator would, 100 a second, from a thread of its own: once round the target in the frames
+// of a run, so that every run sees the same views however fast it is.
 class Pilot {
   public:
-    Pilot(Emulator& emulator, const CircleFlight& flight) : emulator_(emulator), flight_(flight) {
-        thread_ = std::thread([this] {
-            const std::int64_t start_ns = monotonic_now_ns();
+    Pilot(Emulator& emulator, const CircleFlight& flight, std::uint64_t frames)
+        : emulator_(emulator), flight_(flight) {
+        const double seconds_per_frame = flight.period_s / static_cast<double>(frames);
+        thread_ = std::thread([this, seconds_per_frame] {
             for (std::uint32_t i = 1; !stop_.load(); ++i) {
                 const std::int64_t now_ns = monotonic_now_ns();
-                const double seconds = static_cast<double>(now_ns - start_ns) * 1e-9;
+                const auto frame = emulator_.loop().counters().frames.load(std::memory_order_relaxed);
+                const double seconds = seconds_per_frame * static_cast<double>(frame);
                 emulator_.world().set(0, flight_.at(seconds, emulator_.clock().at(now_ns)), {i, now_ns});
                 sleep_until_monotonic_ns(now_ns + 10'000'000);
             }
@@ -44,7 +47,7 @@ class Pilot {
     std::thread thread_;
 };
 
-// The camera's circle about the first object, once in the time of a run, a little longer at low rates.
+// The camera's circle about the first object.
 CircleFlight flight_of(const ScenarioConfig& scenario, const std::vector<Motion>& motions) {
     CircleFlight flight;
     if (motions.size() > 1) flight.center_m = motions[1].pose.position_world_m;
@@ -84,7 +87,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     Emulator emulator(scenario, limits);
     const std::vector<Motion> motions = initial_motions(scenario, parse_utc(scenario.time_utc));
     {
-        const Pilot pilot(emulator, flight_of(scenario, motions));
+        const Pilot pilot(emulator, flight_of(scenario, motions), limits.frames);
         emulator.run([] {});
     }
     Run run;

@@ -31,7 +31,7 @@ void Background::place(const WorldSnapshot& world) {
     const Vec3d earth_to_sun_m = world.bodies.sun_world_m - world.bodies.earth_world_m;
     const double earth_au = kAstronomicalUnit_m / length(earth_to_sun_m);
     sun_earth_fixed_dir_ = earth_fixed_from_world_ * normalized(earth_to_sun_m);
-    const bool eclipsed = earth_.visible && intersect_earth_m(camera_earth_fixed_m_,
+    const bool eclipsed = earth_.visible && intersect_earth(camera_earth_fixed_m_,
                                                               earth_fixed_from_world_ * sun_world_dir_) >= 0;
     for (int b = 0; b < bins_; ++b) {
         const double at_1au = static_cast<double>(sun_irradiance_1au_[b]);
@@ -45,9 +45,9 @@ bool Background::add_earth(Vec3f origin_m, Vec3d dir, const Spectrum& weight, Sp
     if (!earth_.visible) return false;
     const Vec3d origin = camera_earth_fixed_m_ + earth_fixed_from_world_ * to_double(origin_m);
     const Vec3d d = earth_fixed_from_world_ * dir;
-    const double distance_m = intersect_earth_m(origin, d);
-    if (distance_m < 0) return false;
-    const Vec3d normal = earth_normal(origin + distance_m * d);
+    const double distance = intersect_earth(origin, d);
+    if (distance < 0) return false;
+    const Vec3d normal = earth_normal(origin + distance * d);
     const auto sun_cosine = static_cast<float>(dot(normal, sun_earth_fixed_dir_));
     if (sun_cosine <= 0) return true;
     if (earth_.map.texels.empty()) {

@@ -63,25 +63,4 @@ Fields fields(EarthConfig& c) {
     };
 }
 
-double intersect_earth_m(Vec3d origin_m, Vec3d dir) {
-    // Scaling z by a/b turns the ellipsoid into a sphere of radius a; then the closest-approach form of the
-    // quadratic, which keeps its digits for far origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).
-    constexpr double a = kEarthEquatorialRadius_m;
-    constexpr double stretch = 1.0 / (1.0 - kEarthFlattening);
-    const Vec3d o{origin_m.x, origin_m.y, origin_m.z * stretch};
-    const Vec3d d{dir.x, dir.y, dir.z * stretch};
-    const double d_squared = dot(d, d);
-    const double to_closest = -dot(o, d) / d_squared;
-    const Vec3d closest = o + to_closest * d;
-    const double rest = a * a - dot(closest, closest);
-    if (rest < 0 || to_closest < 0) return -1;
-    return to_closest - std::sqrt(rest / d_squared);
-}
-
-Vec3d earth_normal(Vec3d point_m) {
-    // Gradient of x^2/a^2 + y^2/a^2 + z^2/b^2.
-    constexpr double ratio = (1.0 - kEarthFlattening) * (1.0 - kEarthFlattening);
-    return normalized(Vec3d{point_m.x, point_m.y, point_m.z / ratio});
-}
-
 }  // namespace hilcam

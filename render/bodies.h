@@ -1,12 +1,14 @@
 #pragma once
 // The Sun and the Earth: where they are, how the Earth is turned, how it reflects.
 
+#include <cmath>
 #include <filesystem>
 
 #include "render/config_field.h"
 #include "render/mesh.h"
 #include "render/pose.h"
 #include "render/spectrum.h"
+#include "render/units.h"
 
 namespace hilcam {
 
@@ -52,10 +54,28 @@ struct EarthConfig {
 Fields fields(EarthConfig& config);
 
 // The nearer intersection of a ray from outside with the Earth's ellipsoid. Origin and direction in ITRF
-// axes, metres from the Earth's centre; direction of unit length. Closed form in double. Distance [m], or a
+// axes, metres from the Earth's centre. Closed form in double. Distance in lengths of the direction, or a
 // negative value: no hit.
-double intersect_earth_m(Vec3d origin_m, Vec3d dir);
+inline double intersect_earth(Vec3d origin_m, Vec3d dir) {
+    // Scaling z by a/b turns the ellipsoid into a sphere of radius a; then the closest-approach form of the
+    // quadratic, which keeps its digits for far origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).
+    constexpr double a = kEarthEquatorialRadius_m;
+    constexpr double stretch = 1.0 / (1.0 - kEarthFlattening);
+    const Vec3d o{origin_m.x, origin_m.y, origin_m.z * stretch};
+    const Vec3d d{dir.x, dir.y, dir.z * stretch};
+    const double d_squared = dot(d, d);
+    const double to_closest = -dot(o, d) / d_squared;
+    const Vec3d closest = o + to_closest * d;
+    const double rest = a * a - dot(closest, closest);
+    if (rest < 0 || to_closest < 0) return -1;
+    return to_closest - std::sqrt(rest / d_squared);
+}
+
 // The outward unit normal of the ellipsoid at a point on it (ITRF axes).
-Vec3d earth_normal(Vec3d point_m);
+inline Vec3d earth_normal(Vec3d point_m) {
+    // Gradient of x^2/a^2 + y^2/a^2 + z^2/b^2.
+    constexpr double ratio = (1.0 - kEarthFlattening) * (1.0 - kEarthFlattening);
+    return normalized(Vec3d{point_m.x, point_m.y, point_m.z / ratio});
+}
 
 }  // namespace hilcam

@@ -181,20 +181,28 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
     const bool earth = tile.overlaps(frame.earth_box);
     const bool sun = tile.overlaps(frame.sun_box);
     const bool background = shade && (earth || sun);
-    bool objects = false;  // in the block at hand
     const float share = 1.0f / static_cast<float>(n * n);
     Spectrum weight;
     for (int b = 0; b < frame.bins; ++b) weight[b] = share;
 
     RayPacket rays;
     HitPacket hits;
-    std::array<std::uint32_t, kPacketSize> pixel_of;
-    std::array<std::uint32_t, kPacketSize> sample_of;
-    std::array<Vec3d, kPacketSize> exact_dir;
+    std::array<float, kPacketSize> x_of, y_of;  // of the packet's pixels, from the tile's corner
+    rays.origin_x.fill(0), rays.origin_y.fill(0), rays.origin_z.fill(0);
+    rays.nearest.fill(0), rays.farthest.fill(kInfinity);
+    // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
+    const Vec3d corner = frame.corner_world_dir + tile.x0 * frame.right_world_dir + tile.y0 * frame.down_world_dir;
+    const Vec3f corner_dir = to_float(corner);
+    const Vec3f right = to_float(frame.right_world_dir), down = to_float(frame.down_world_dir);
     count = 0;
-    rays.count = 0;
-    const auto flush = [&] {
-        if (rays.count == 0) return;
+
+    const auto shade_packet = [&](bool objects, float dx, float dy, std::uint32_t sample) {
+        for (std::size_t k = 0; k < kPacketSize; ++k) {
+            const float x = x_of[k] + dx, y = y_of[k] + dy;
+            rays.dir_x[k] = corner_dir.x + x * right.x + y * down.x;
+            rays.dir_y[k] = corner_dir.y + x * right.y + y * down.y;
+            rays.dir_z[k] = corner_dir.z + x * right.z + y * down.z;
+        }
         if (objects) {
             frame.scene->intersect(rays, Coherence::kCoherent, hits);
             stats.primary_rays += static_cast<std::uint64_t>(rays.count);
@@ -203,48 +211,43 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
         }
         for (int i = 0; i < rays.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            const Vec3f dir{rays.dir_x[k], rays.dir_y[k], rays.dir_z[k]};
+            const auto pixel = static_cast<std::uint32_t>(static_cast<int>(y_of[k]) * width + static_cast<int>(x_of[k]));
             if (hits.object[k] != HitPacket::kMiss) {
                 ++stats.object_hits;
                 Vertex& vertex = current[count];
+                const Vec3f dir{rays.dir_x[k], rays.dir_y[k], rays.dir_z[k]};
                 if (!make_vertex(frame, hits, i, {0, 0, 0}, dir, 0, vertex)) continue;
-                vertex.pixel = pixel_of[k];
-                vertex.sample = sample_of[k];
+                vertex.pixel = pixel;
+                vertex.sample = sample;
                 vertex.weight = weight;
                 ++count;
             } else if (background) {
                 // The eye's own ray keeps its double precision: the Earth's limb must not crawl.
-                const Vec3d unit = normalized(exact_dir[k]);
-                if (!(earth && frame.background->add_earth({0, 0, 0}, unit, weight, pixels[pixel_of[k]])) &&
-                    sun)
-                    frame.background->add_sun_disk(to_float(unit), weight, pixels[pixel_of[k]]);
+                const Vec3d dir = corner + static_cast<double>(x_of[k] + dx) * frame.right_world_dir +
+                                  static_cast<double>(y_of[k] + dy) * frame.down_world_dir;
+                if (!(earth && frame.background->add_earth({0, 0, 0}, dir, weight, pixels[pixel])) && sun)
+                    frame.background->add_sun_disk(to_float(normalized(dir)), weight, pixels[pixel]);
             }
         }
-        rays.count = 0;
     };
 
     // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
     static_assert(ScreenMask::kBlock_px == 4);
-    const double step = 1.0 / n;
+    const float step = 1.0f / static_cast<float>(n);
     for (int by = tile.y0; by < tile.y1; by += 4)
         for (int bx = tile.x0; bx < tile.x1; bx += 4) {
-            objects = frame.object_mask->at(bx, by);
+            const bool objects = frame.object_mask->at(bx, by);
             if (!objects && !background) continue;
-            for (int s = 0; s < n * n; ++s) {
-                const double dx = (s % n + 0.5) * step - frame.geometry.guard_px;
-                const double dy = (s / n + 0.5) * step - frame.geometry.guard_px;
-                for (int y = by; y < std::min(by + 4, tile.y1); ++y)
-                    for (int x = bx; x < std::min(bx + 4, tile.x1); ++x) {
-                        const auto k = static_cast<std::size_t>(rays.count);
-                        exact_dir[k] =
-                            frame.world_from_camera * frame.geometry.direction_camera(x + dx, y + dy);
-                        rays.set(rays.count, {0, 0, 0}, to_float(exact_dir[k]), 0, kInfinity);
-                        pixel_of[k] = static_cast<std::uint32_t>((y - tile.y0) * width + (x - tile.x0));
-                        sample_of[k] = static_cast<std::uint32_t>(s);
-                        if (++rays.count == kPacketSize) flush();
-                    }
-                flush();
-            }
+            rays.count = 0;
+            for (int y = by; y < std::min(by + 4, tile.y1); ++y)
+                for (int x = bx; x < std::min(bx + 4, tile.x1); ++x) {
+                    x_of[static_cast<std::size_t>(rays.count)] = static_cast<float>(x - tile.x0);
+                    y_of[static_cast<std::size_t>(rays.count)] = static_cast<float>(y - tile.y0);
+                    ++rays.count;
+                }
+            for (int s = 0; s < n * n; ++s)
+                shade_packet(objects, (static_cast<float>(s % n) + 0.5f) * step,
+                             (static_cast<float>(s / n) + 0.5f) * step, static_cast<std::uint32_t>(s));
         }
     return count;
 }

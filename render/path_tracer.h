@@ -26,6 +26,8 @@ struct FrameView {
     const ColorBands* bands = nullptr;
     ImageGeometry geometry;
     Mat3d world_from_camera;
+    // The direction through the corner of padded pixel (0, 0), and what a pixel to the right or down adds.
+    Vec3d corner_world_dir, right_world_dir, down_world_dir;
     int bins = 0;
     int samples_per_axis = 1;
     int max_depth = 1;

@@ -103,6 +103,13 @@ struct Renderer::Implementation {
         embree.place(world.objects, world.camera.position_world_m);
         frame.key = key;
         frame.world_from_camera = to_matrix(world.camera.world_from_body);
+        const auto direction = [&](double x, double y) {
+            return frame.world_from_camera * frame.geometry.direction_camera(x, y);
+        };
+        const double corner = -frame.geometry.guard_px;
+        frame.corner_world_dir = direction(corner, corner);
+        frame.right_world_dir = direction(corner + 1, corner) - frame.corner_world_dir;
+        frame.down_world_dir = direction(corner, corner + 1) - frame.corner_world_dir;
         object_mask.clear();
         for (std::size_t i = 0; i < objects.size(); ++i) {
             const Mat3d m = to_matrix(world.objects[i].world_from_body);

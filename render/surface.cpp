@@ -13,10 +13,6 @@ std::uint32_t snorm16(float value) {
     const float scaled = std::round(std::clamp(value, -1.0f, 1.0f) * 32767.0f);
     return static_cast<std::uint16_t>(static_cast<std::int16_t>(scaled));
 }
-float from_snorm16(std::uint32_t bits) {
-    return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(bits))) *
-           (1.0f / 32767.0f);
-}
 
 constexpr std::size_t kClusterTriangles = 256;
 
@@ -52,17 +48,6 @@ std::uint32_t pack_normal(Vec3f n) {
     return snorm16(x) | (snorm16(y) << 16);
 }
 
-Vec3f unpack_normal(std::uint32_t packed) {
-    float x = from_snorm16(packed & 0xFFFFu);
-    float y = from_snorm16(packed >> 16);
-    const float z = 1 - std::abs(x) - std::abs(y);
-    // Unfold the lower half without a branch.
-    const float t = std::max(-z, 0.0f);
-    x += x >= 0 ? -t : t;
-    y += y >= 0 ? -t : t;
-    return normalized(Vec3f{x, y, z});
-}
-
 ObjectSurfaces::ObjectSurfaces(SceneObject&& object)
     : materials(std::move(object.materials)),
       textures(std::move(object.mesh.textures)),
@@ -91,16 +76,6 @@ ObjectSurfaces::ObjectSurfaces(SceneObject&& object)
             if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
         }
     }
-}
-
-Vec3f ObjectSurfaces::normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) const {
-    if (triangle.flat) return geometric;
-    const Vec3f n = (1 - u - v) * unpack_normal(triangle.corner_normals[0]) +
-                    u * unpack_normal(triangle.corner_normals[1]) +
-                    v * unpack_normal(triangle.corner_normals[2]);
-    const float squared = dot(n, n);
-    // Opposite corner normals can cancel out.
-    return squared > 1e-6f ? n / std::sqrt(squared) : geometric;
 }
 
 }  // namespace hilcam

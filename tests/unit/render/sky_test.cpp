@@ -46,13 +46,13 @@ TEST(Bodies, GeostationaryPlaceIsWhereItShouldBe) {
 
 TEST(Bodies, EarthIsHitAtItsSurfaceAndMissedBesideIt) {
     constexpr double a = kEarthEquatorialRadius_m, b = a * (1 - kEarthFlattening);
-    EXPECT_NEAR(intersect_earth_m({2 * a, 0, 0}, {-1, 0, 0}), a, 1e-6);
-    EXPECT_NEAR(intersect_earth_m({0, 0, 3 * b}, {0, 0, -1}), 2 * b, 1e-6);
-    EXPECT_LT(intersect_earth_m({2 * a, a + 1, 0}, {-1, 0, 0}), 0);
-    EXPECT_LT(intersect_earth_m({2 * a, 0, 0}, {1, 0, 0}), 0);
+    EXPECT_NEAR(intersect_earth({2 * a, 0, 0}, {-1, 0, 0}), a, 1e-6);
+    EXPECT_NEAR(intersect_earth({0, 0, 3 * b}, {0, 0, -1}), 2 * b, 1e-6);
+    EXPECT_LT(intersect_earth({2 * a, a + 1, 0}, {-1, 0, 0}), 0);
+    EXPECT_LT(intersect_earth({2 * a, 0, 0}, {1, 0, 0}), 0);
     // From 10 au the limb is still sharp to centimetres.
-    EXPECT_GT(intersect_earth_m({1.5e12, a - 1, 0}, {-1, 0, 0}), 0);
-    EXPECT_LT(intersect_earth_m({1.5e12, a + 1, 0}, {-1, 0, 0}), 0);
+    EXPECT_GT(intersect_earth({1.5e12, a - 1, 0}, {-1, 0, 0}), 0);
+    EXPECT_LT(intersect_earth({1.5e12, a + 1, 0}, {-1, 0, 0}), 0);
 }
 
 TEST(Spectrum, BinAverageOfALineIsItsMiddle) {
