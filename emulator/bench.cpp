@@ -18,8 +18,8 @@ double median(std::vector<double> values) {
     return values.empty() ? 0 : values[values.size() / 2];
 }
 
-// Feeds poses as a simulator would, 100 a second, from a thread of its own: once round the target in the frames
-// of a run, so that every run sees the same views however fast it is.
+// Feeds poses as a simulator would, 100 a second, from a thread of its own: once round the target in the
+// frames of a run, so that every run sees the same views however fast it is.
 class Pilot {
   public:
     Pilot(Emulator& emulator, const CircleFlight& flight, std::uint64_t frames)

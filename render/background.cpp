@@ -32,7 +32,7 @@ void Background::place(const WorldSnapshot& world) {
     const double earth_au = kAstronomicalUnit_m / length(earth_to_sun_m);
     sun_earth_fixed_dir_ = earth_fixed_from_world_ * normalized(earth_to_sun_m);
     const bool eclipsed = earth_.visible && intersect_earth(camera_earth_fixed_m_,
-                                                              earth_fixed_from_world_ * sun_world_dir_) >= 0;
+                                                            earth_fixed_from_world_ * sun_world_dir_) >= 0;
     for (int b = 0; b < bins_; ++b) {
         const double at_1au = static_cast<double>(sun_irradiance_1au_[b]);
         sun_irradiance_[b] = eclipsed ? 0.0f : static_cast<float>(at_1au * au * au);

@@ -27,8 +27,9 @@ class Background {
     Vec3d earth_world_dir() const { return earth_world_dir_; }
     double earth_cone_cosine() const { return earth_cone_cosine_; }
 
-    // Adds weight * radiance of the Earth along a ray (origin relative to the camera, world axes, direction of any length). Gives whether the Earth was met. Radiance: albedo E_s cos(sigma) / pi (Lambert). Loop, any
-    // thread.
+    // Adds weight * radiance of the Earth along a ray (origin relative to the camera, world axes, direction
+    // of any length). Gives whether the Earth was met. Radiance: albedo E_s cos(sigma) / pi (Lambert). Loop,
+    // any thread.
     bool add_earth(Vec3f origin_m, Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
     // The same for the Sun's disk, taken as uniform: E_s / (pi sin^2 rho) inside its angular radius rho.
     void add_sun_disk(Vec3f dir, const Spectrum& weight, Spectrum& radiance) const;

@@ -61,7 +61,7 @@ class EmbreeScene {
     // Any thread between two place(). No allocation.
     void intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const;
     // Bit i set: something lies between nearest and farthest of ray i.
-    std::uint32_t occluded(const RayPacket& rays, Coherence coherence) const;
+    std::uint32_t occluded(const RayPacket& rays) const;
 
   private:
     struct Implementation;

@@ -59,8 +59,7 @@ float mean(const Spectrum& s, int bins) {
 // Schlick's Fresnel reflectance per bin (CGF 13(3), 1994); the bins past the grid's size are not zero.
 Spectrum fresnel(const Spectrum& normal_reflectance, float schlick) {
     Spectrum out;
-    for (int b = 0; b < kMaxBins; ++b)
-        out[b] = normal_reflectance[b] + (1 - normal_reflectance[b]) * schlick;
+    for (int b = 0; b < kMaxBins; ++b) out[b] = normal_reflectance[b] + (1 - normal_reflectance[b]) * schlick;
     return out;
 }
 
@@ -191,7 +190,8 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
     rays.origin_x.fill(0), rays.origin_y.fill(0), rays.origin_z.fill(0);
     rays.nearest.fill(0), rays.farthest.fill(kInfinity);
     // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
-    const Vec3d corner = frame.corner_world_dir + tile.x0 * frame.right_world_dir + tile.y0 * frame.down_world_dir;
+    const Vec3d corner =
+        frame.corner_world_dir + tile.x0 * frame.right_world_dir + tile.y0 * frame.down_world_dir;
     const Vec3f corner_dir = to_float(corner);
     const Vec3f right = to_float(frame.right_world_dir), down = to_float(frame.down_world_dir);
     count = 0;
@@ -211,7 +211,8 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
         }
         for (int i = 0; i < rays.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            const auto pixel = static_cast<std::uint32_t>(static_cast<int>(y_of[k]) * width + static_cast<int>(x_of[k]));
+            const auto pixel =
+                static_cast<std::uint32_t>(static_cast<int>(y_of[k]) * width + static_cast<int>(x_of[k]));
             if (hits.object[k] != HitPacket::kMiss) {
                 ++stats.object_hits;
                 Vertex& vertex = current[count];
@@ -265,7 +266,7 @@ void TileTracer::Implementation::light_from_sun(const FrameView& frame) {
     rays.count = 0;
     const auto flush = [&] {
         if (rays.count == 0) return;
-        const std::uint32_t blocked = frame.scene->occluded(rays, Coherence::kCoherent);
+        const std::uint32_t blocked = frame.scene->occluded(rays);
         stats.shadow_rays += static_cast<std::uint64_t>(rays.count);
         for (int i = 0; i < rays.count; ++i) {
             if (blocked >> i & 1u) continue;
@@ -302,7 +303,7 @@ void TileTracer::Implementation::light_from_earth(const FrameView& frame, std::s
     rays.count = 0;
     const auto flush = [&] {
         if (rays.count == 0) return;
-        const std::uint32_t blocked = frame.scene->occluded(rays, Coherence::kIncoherent);
+        const std::uint32_t blocked = frame.scene->occluded(rays);
         stats.secondary_rays += static_cast<std::uint64_t>(rays.count);
         for (int i = 0; i < rays.count; ++i) {
             if (blocked >> i & 1u) continue;
@@ -336,8 +337,7 @@ std::size_t TileTracer::Implementation::choose_earth(const FrameView& frame, con
     for (std::size_t i = 0; i < count; ++i) {
         const Vertex& at = current[i];
         // What the whole cone could give at most, against white paint under it.
-        const float most =
-            largest(at.diffuse_albedo) * largest(at.weight) * 2 * (1 - cosine);
+        const float most = largest(at.diffuse_albedo) * largest(at.weight) * 2 * (1 - cosine);
         if (most < least || dot(at.geometric_normal, earth.n) < -sine) continue;
         const auto random = random_of(frame, tile, at, depth, 1);
         const float u1 = uniform01(random[0]), u2 = uniform01(random[1]);
@@ -468,7 +468,7 @@ void TileTracer::Implementation::light_from_sun_bare(const FrameView& frame) {
     RayPacket rays;
     rays.count = 0;
     const auto flush = [&] {
-        if (rays.count > 0) frame.scene->occluded(rays, Coherence::kCoherent);
+        if (rays.count > 0) frame.scene->occluded(rays);
         stats.shadow_rays += static_cast<std::uint64_t>(rays.count);
         rays.count = 0;
     };

@@ -8,8 +8,8 @@
 #include "render/background.h"
 #include "render/embree_scene.h"
 #include "render/image.h"
-#include "render/random.h"
 #include "render/pixel_box.h"
+#include "render/random.h"
 #include "render/ray_generator.h"
 #include "render/screen_mask.h"
 #include "render/surface.h"
@@ -20,7 +20,7 @@ namespace hilcam {
 struct FrameView {
     const EmbreeScene* scene = nullptr;
     const std::vector<ObjectSurfaces>* objects = nullptr;
-    std::vector<Mat3f> world_from_body;  // per object
+    std::vector<Mat3f> world_from_body;       // per object
     const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
     const Background* background = nullptr;
     const ColorBands* bands = nullptr;
@@ -34,8 +34,8 @@ struct FrameView {
     float contribution_threshold = 0;
     float samples() const { return static_cast<float>(samples_per_axis * samples_per_axis); }
     RandomKey key;
-    PixelBox earth_box;    // pixels that can meet the Earth
-    PixelBox sun_box;      // pixels that can meet the Sun's disk
+    PixelBox earth_box;  // pixels that can meet the Earth
+    PixelBox sun_box;    // pixels that can meet the Sun's disk
 };
 
 struct TileStats {

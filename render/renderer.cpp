@@ -131,8 +131,7 @@ struct Renderer::Implementation {
                 std::min(y + tile_px, frame.geometry.padded_height())};
     }
     bool can_see_anything(const PixelBox& box) const {
-        return object_mask.any(box) || box.overlaps(frame.earth_box) ||
-               box.overlaps(frame.sun_box);
+        return object_mask.any(box) || box.overlaps(frame.earth_box) || box.overlaps(frame.sun_box);
     }
 
     // Runs work(tile index, tile, tracer) over all tiles on the thread pool.

@@ -275,8 +275,8 @@ TEST(ScreenMask, MarksEveryPointOfItsBoxesAndLeavesTheSkyBetweenThem) {
     const ImageGeometry geometry{64, 48, 8, 50};
     ScreenMask mask(geometry);
     // Two boxes at the ends of a long thing.
-    const std::array<std::array<Vec3f, 2>, 2> boxes = {{{Vec3f{-9, -1, -1}, Vec3f{-7, 1, 1}},
-                                                        {Vec3f{7, -1, -1}, Vec3f{9, 1, 1}}}};
+    const std::array<std::array<Vec3f, 2>, 2> boxes = {
+        {{Vec3f{-9, -1, -1}, Vec3f{-7, 1, 1}}, {Vec3f{7, -1, -1}, Vec3f{9, 1, 1}}}};
     for (int trial = 0; trial < 300; ++trial) {
         const auto vec = [&](double size) {
             return Vec3d{size * uniform(engine), size * uniform(engine), size * uniform(engine)};
@@ -321,8 +321,8 @@ TEST(TriangleOrder, KeepsTheTrianglesAndTheirSurfaces) {
     const auto path_m = [&] {
         double sum = 0;
         for (std::size_t i = 1; i < mesh.triangles.size(); ++i)
-            sum += static_cast<double>(length(mesh.vertices_m[mesh.triangles[i][0]] -
-                                              mesh.vertices_m[mesh.triangles[i - 1][0]]));
+            sum += static_cast<double>(
+                length(mesh.vertices_m[mesh.triangles[i][0]] - mesh.vertices_m[mesh.triangles[i - 1][0]]));
         return sum;
     };
     const double before = path_m();
