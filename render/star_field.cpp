@@ -30,7 +30,7 @@ void add_stars(const std::vector<Star>& stars, const FrameView& frame, std::vect
             continue;
         if (frame.object_mask->at(px, py)) {
             ray.set(0, {0, 0, 0}, to_float(star.world_dir), 0, std::numeric_limits<float>::infinity());
-            if (frame.scene->occluded(ray, Coherence::kIncoherent)) continue;
+            if (frame.scene->occluded(ray)) continue;
         }
         points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y)}, star.irradiance_w_m2_um});
     }
