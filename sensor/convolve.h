@@ -2,9 +2,9 @@
 // One FFT pair per frame: multiplies an image's spectrum by MTF_sys. Circular; the guard band takes what
 // wraps around.
 //
-// Single precision, FFTW, planned once at construction (which may take a second); run as rows, columns
-// (forward, MTF and back while they are in cache) and rows again on oneTBB. The result does not depend on the
-// thread count.
+// Single precision, FFTW, planned once at construction; run as rows, columns
+// (forward, MTF and back while they are in cache) and rows again on oneTBB. The result depends
+// neither on the thread count nor on the run.
 
 #include <functional>
 #include <memory>
