@@ -46,6 +46,9 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
       limits_(limits),
       grid_(scenario.spectrum_edges_um),
       clock_(parse_utc(scenario.time_utc), monotonic_now_ns()) {
+    // What can be wrong with outputs is said before minutes go into a scene.
+    settings_ = std::make_unique<LiveSettings>(scenario.camera);
+    if (limits.outputs) make_sinks();
     const int guard_px = static_cast<int>(scenario.quality.guard_px);
     const ImageGeometry geometry = geometry_of(scenario.camera, guard_px);
     renderer_ =
@@ -56,19 +59,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     const TimeTai start = parse_utc(scenario.time_utc);
     clock_ = SimulatedClock(start, monotonic_now_ns());
     world_ = std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin);
-    settings_ = std::make_unique<LiveSettings>(scenario.camera);
     dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, clock_);
-    const int width = geometry.width_px, height = geometry.height_px;
-    const OutputsConfig& o = scenario.outputs;
-    if (limits.outputs && o.has_gige) {
-        GigeConfig gige = o.gige;
-        if (gige.model == "hilcam" && !scenario.camera.name.empty()) gige.model = scenario.camera.name;
-        sinks_.push_back(std::make_unique<GigeSink>(gige, *settings_, &delivery_));
-    }
-    if (limits.outputs && o.has_v4l2)
-        sinks_.push_back(
-            std::make_unique<V4l2Sink>(o.v4l2, width, height, scenario.camera.frame_rate_hz, &delivery_));
-    if (limits.outputs && o.has_files) sinks_.push_back(std::make_unique<FilesSink>(o.files, width, height));
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
     loop_ = std::make_unique<FrameLoop>(
@@ -77,6 +68,21 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
 }
 
 Emulator::~Emulator() = default;
+
+void Emulator::make_sinks() {
+    const OutputsConfig& o = scenario_.outputs;
+    const int width = static_cast<int>(scenario_.camera.width_px);
+    const int height = static_cast<int>(scenario_.camera.height_px);
+    if (o.has_gige) {
+        GigeConfig gige = o.gige;
+        if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;
+        sinks_.push_back(std::make_unique<GigeSink>(gige, *settings_, &delivery_));
+    }
+    if (o.has_v4l2)
+        sinks_.push_back(
+            std::make_unique<V4l2Sink>(o.v4l2, width, height, scenario_.camera.frame_rate_hz, &delivery_));
+    if (o.has_files) sinks_.push_back(std::make_unique<FilesSink>(o.files, width, height));
+}
 
 std::vector<FrameSink*> Emulator::sinks() const {
     std::vector<FrameSink*> out;

@@ -39,6 +39,7 @@ class Emulator {
     std::vector<FrameSink*> sinks() const;
 
   private:
+    void make_sinks();
     void print_line(std::uint64_t& frames_before);
 
     ScenarioConfig scenario_;

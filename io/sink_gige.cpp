@@ -108,7 +108,7 @@ struct GigeSink::Implementation {
     std::atomic<std::uint64_t> delivered{0}, dropped{0}, resent{0}, unavailable{0};
 
     Implementation(const GigeConfig& c, CameraControl& cam, DeliveryListener* l)
-        : config(c), camera(cam), listener(l) {}
+        : config(c), camera(cam), listener(l), net(find_interface(c.interface)) {}
 
     void open();
     void serve_control();
@@ -122,7 +122,6 @@ struct GigeSink::Implementation {
 };
 
 void GigeSink::Implementation::open() {
-    net = find_interface(config.interface);
     control = open_udp(net.address, gvcp::kPort);
     try {
         broadcast = open_udp(INADDR_BROADCAST, gvcp::kPort, true);
