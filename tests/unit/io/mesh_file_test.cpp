@@ -55,6 +55,13 @@ TEST_F(Files, ObjQuadBecomesTwoTrianglesWithItsMaterial) {
     EXPECT_TRUE(m.normals.empty());
 }
 
+TEST_F(Files, AFileThatEndsItsReaderIsRefused) {
+    EXPECT_THAT(mesh_error(write("m.ply", std::string(kPlyHead) + "0 0 0\n1 0 0\n0 1 0\n")),
+                HasSubstr("m.ply: "));
+    EXPECT_THAT(mesh_error(write("n.ply", "ply\nformat ascii 1.0\nelement verte")),
+                HasSubstr("its PLY header has no end_header"));
+}
+
 TEST_F(Files, PlyAndStlLoad) {
     EXPECT_EQ(
         load_mesh(write("m.ply", std::string(kPlyHead) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).triangles.size(),
