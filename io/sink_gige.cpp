@@ -17,6 +17,7 @@
 #include "io/fd.h"
 #include "io/gige_device.h"
 #include "io/net_interface.h"
+#include "io/receiver_room.h"
 #include "render/latest.h"
 
 namespace hilcam {
@@ -25,8 +26,11 @@ namespace {
 // Slots: those waiting to be sent plus those kept for resends.
 constexpr std::size_t kSlots = 12;
 constexpr std::size_t kMostWaiting = 3;
-constexpr int kBatch =
-    8;  // packets per system call: 64 KiB at the default size, a third of the default receive buffer
+constexpr unsigned kBatch = 8;  // packets per system call: 60 KiB at the default size
+// How long a local client with a full buffer is waited for, per frame; then packets are lost as on a wire.
+constexpr std::int64_t kPatience_ns = 200'000'000;
+constexpr std::int64_t kResendPatience_ns = 20'000'000;
+constexpr std::int64_t kLookAgain_ns = 100'000;
 
 std::int64_t monotonic_ns() {
     timespec t{};
@@ -78,7 +82,9 @@ struct GigeSink::Implementation {
     NetInterface net;
     std::unique_ptr<GigeDevice> device;
     Fd control, broadcast, stream, wakeup;
+    sockaddr_in stream_address{};
     std::thread control_thread, sender_thread;
+    ReceiverRoom control_room, sender_room;  // one a thread
 
     // Control thread -> loop, control thread -> sender.
     Latest<GigeStreamState> for_loop, for_sender;
@@ -117,6 +123,8 @@ struct GigeSink::Implementation {
     void send_frame(Slot& slot);
     void resend(const gvcp::ResendRequest& request);
     void test_packet(const GigeStreamState& state, std::size_t bytes);
+    bool wait_for_room(const ReceiverRoom& room, const sockaddr_in& to, std::size_t packets,
+                       std::size_t packet_bytes, std::int64_t until_ns) const;
     std::size_t build_packet(const Slot& slot, std::uint16_t block, std::uint32_t packet,
                              std::span<std::uint8_t> header, std::span<const std::uint8_t>& payload) const;
 };
@@ -130,6 +138,8 @@ void GigeSink::Implementation::open() {
         // still find it.
     }
     stream = open_udp(net.address, 0);
+    socklen_t address_size = sizeof stream_address;
+    getsockname(stream.get(), reinterpret_cast<sockaddr*>(&stream_address), &address_size);
     wakeup = open_wakeup();
     const CameraLimits limits = camera.limits();
     const std::size_t bytes =
@@ -224,6 +234,21 @@ std::size_t GigeSink::Implementation::build_packet(const Slot& slot, std::uint16
     return gvsp::kHeaderBytes;
 }
 
+// Waits while a client on this machine has no room for so many packets. False when there is no such client or
+// time is up.
+bool GigeSink::Implementation::wait_for_room(const ReceiverRoom& room, const sockaddr_in& to,
+                                             std::size_t packets, std::size_t packet_bytes,
+                                             std::int64_t until_ns) const {
+    const std::size_t needed = packets * ReceiverRoom::bytes_of(packet_bytes);
+    while (const auto free = room.free_bytes(stream_address, to)) {
+        if (*free >= needed) return true;
+        const std::int64_t now_ns = monotonic_ns();
+        if (now_ns >= until_ns || stopping.load(std::memory_order_relaxed)) return false;
+        sleep_until_ns(now_ns + kLookAgain_ns);
+    }
+    return false;
+}
+
 void GigeSink::Implementation::resend(const gvcp::ResendRequest& request) {
     const auto block = static_cast<std::uint16_t>(request.block);
     const GigeStreamState& now = device->stream_state();
@@ -236,7 +261,10 @@ void GigeSink::Implementation::resend(const gvcp::ResendRequest& request) {
     std::uint32_t last = request.last_packet;
     // One request may not make more than one frame's worth of answers.
     last = std::min(last, slot ? slot->packets() + 1 : request.first_packet);
+    const std::int64_t until_ns = monotonic_ns() + kResendPatience_ns;
+    bool local = true;
     for (std::uint32_t id = request.first_packet; id <= last; ++id) {
+        local = local && wait_for_room(control_room, to, 1, now.packet_bytes, until_ns);
         std::size_t size = gvsp::kHeaderBytes;
         bool whole = false;
         if (slot) {
@@ -286,6 +314,7 @@ void GigeSink::Implementation::send_frame(Slot& slot) {
     std::array<mmsghdr, kBatch> messages;
     const std::int64_t first_ns = monotonic_ns();
     std::uint32_t id = 0;
+    bool local = true;
     while (id <= last) {
         // A delay asked for by the client is per packet; without one, batches keep the rate.
         const std::uint32_t batch = slot.state.packet_delay_ns > 100'000 ? 1 : kBatch;
@@ -301,6 +330,8 @@ void GigeSink::Implementation::send_frame(Slot& slot) {
             messages[count].msg_hdr.msg_iov = parts[count].data();
             messages[count].msg_hdr.msg_iovlen = payload.empty() ? 1 : 2;
         }
+        local =
+            local && wait_for_room(sender_room, to, count, slot.state.packet_bytes, first_ns + kPatience_ns);
         // What the kernel does not take now is lost like on a wire; the client asks for it again.
         sendmmsg(stream.get(), messages.data(), count, 0);
         if (id <= last) {

@@ -20,7 +20,7 @@ struct GigeConfig {
     std::string model = "hilcam";
     std::string serial = "HC000001";
     std::string user_name = "";
-    std::int64_t packet_bytes = 8192;  // before a client negotiates another
+    std::int64_t packet_bytes = 7680;  // before a client negotiates another
     double rate_bytes_s = 400e6;       // upper limit of the stream
 };
 Fields fields(GigeConfig& config);

@@ -79,6 +79,9 @@ class ExitCodes(unittest.TestCase):
         self.assertIn("modprobe v4l2loopback", result.stderr)
         self.assertEqual(hilcam("send", "--to", "127.0.0.1:15999", "--timeout-ms", 100, "ping").returncode, 1)
 
+    def test_the_manual_is_the_documented_one(self):
+        self.assertIn(hilcam("manual").stdout, (SOURCE / "docs/configuration.md").read_text())
+
     def test_check_and_version(self):
         self.assertIn("object 1 'target'", hilcam("check", SCENARIO).stdout)
         self.assertIn("0.1.0", hilcam("--version").stdout)
