@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <vector>
 
 #include "render/check.h"
 
@@ -62,8 +63,32 @@ class Image {
     std::unique_ptr<T[], Release> data_;
 };
 
-// Band-averaged spectral radiance at the aperture [W m^-2 sr^-1 um^-1], a plane per spectral bin.
-using RadianceImage = Image<float, struct RadianceQuantity>;
+// Band-averaged spectral radiance at the aperture [W m^-2 sr^-1 um^-1], a plane per spectral bin. Most of a
+// picture of space is nothing: who writes an image may mark blocks in which every plane is zero, and who
+// reads it may skip them. A new image has no marks.
+class RadianceImage : public Image<float, struct RadianceQuantity> {
+  public:
+    static constexpr int kBlock_px = 32;
+
+    RadianceImage() = default;
+    RadianceImage(int width, int height, int planes = 1)
+        : Image(width, height, planes),
+          blocks_across_((width + kBlock_px - 1) / kBlock_px),
+          dark_(static_cast<std::size_t>(blocks_across_) *
+                    static_cast<std::size_t>((height + kBlock_px - 1) / kBlock_px),
+                0) {}
+
+    // Of the block that holds pixel (x, y).
+    bool dark(int x, int y) const { return dark_[block(x, y)] != 0; }
+    void mark_dark(int x, int y, bool dark) { dark_[block(x, y)] = dark ? 1 : 0; }
+
+  private:
+    std::size_t block(int x, int y) const {
+        return static_cast<std::size_t>(y / kBlock_px * blocks_across_ + x / kBlock_px);
+    }
+    int blocks_across_ = 0;
+    std::vector<std::uint8_t> dark_;
+};
 // Charge collected in one exposure [e-].
 using ElectronImage = Image<float, struct ElectronQuantity>;
 // Digital numbers, right-aligned (a 12-bit camera uses 0..4095).

@@ -152,6 +152,14 @@ struct Renderer::Implementation {
     }
 };
 
+namespace {
+void fill_zero(RadianceImage& radiance, const PixelBox& box) {
+    for (int p = 0; p < radiance.planes(); ++p)
+        for (int y = box.y0; y < box.y1; ++y)
+            std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
+}
+}  // namespace
+
 Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const RenderQuality& quality)
     : implementation_(std::make_unique<Implementation>(std::move(scene), grid, geometry, quality)) {}
@@ -174,14 +182,15 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     const auto traced = Clock::now();
     my.for_each_tile([&](int index, const PixelBox& tile, TileTracer& tracer) {
         TileStats& tile_stats = my.tile_stats[static_cast<std::size_t>(index)];
-        if (my.can_see_anything(tile)) {
-            tile_stats = tracer.trace(my.frame, tile, radiance);
-            return;
-        }
+        const bool anything = my.can_see_anything(tile);
+        const bool was_dark = radiance.dark(tile.x0, tile.y0);
+        // Tiles smaller than the image's blocks share a mark: it stays off.
+        if (my.tile_px == RadianceImage::kBlock_px) radiance.mark_dark(tile.x0, tile.y0, !anything);
         tile_stats = {};
-        for (int b = 0; b < my.frame.bins; ++b)
-            for (int y = tile.y0; y < tile.y1; ++y)
-                std::fill(radiance.row(y, b).begin() + tile.x0, radiance.row(y, b).begin() + tile.x1, 0.0f);
+        if (anything)
+            tile_stats = tracer.trace(my.frame, tile, radiance);
+        else if (!was_dark)
+            fill_zero(radiance, tile);
     });
     stats.trace_ms = ms_since(traced);
 

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <vector>
@@ -59,17 +60,29 @@ struct SensorChain::Implementation {
     }
 
     void collapse_row(const RadianceImage& radiance, const Spectrum& factor, int y) {
+        const int width = geometry.padded_width();
+        constexpr int kBlock_px = RadianceImage::kBlock_px;
+        for (int x = 0; x < width; x += kBlock_px) {
+            const int end = std::min(x + kBlock_px, width);
+            if (radiance.dark(x, y))
+                std::fill(convolver.row(y).begin() + x, convolver.row(y).begin() + end, 0.0f);
+            else
+                collapse(radiance, factor, y, static_cast<std::size_t>(x), static_cast<std::size_t>(end));
+        }
+    }
+    void collapse(const RadianceImage& radiance, const Spectrum& factor, int y, std::size_t begin,
+                  std::size_t end) {
         float* out = convolver.row(y).data();
-        const auto width = static_cast<std::size_t>(geometry.padded_width());
         const float* first = radiance.row(y, 0).data();
-        for (std::size_t x = 0; x < width; ++x) out[x] = factor[0] * first[x];
+        for (std::size_t x = begin; x < end; ++x) out[x] = factor[0] * first[x];
         for (int b = 1; b < bins; ++b) {
             const float* in = radiance.row(y, b).data();
             const float f = factor[b];
-            for (std::size_t x = 0; x < width; ++x) out[x] += f * in[x];
+            for (std::size_t x = begin; x < end; ++x) out[x] += f * in[x];
         }
-        const float* cosine = falloff.data() + static_cast<std::size_t>(y) * width;
-        for (std::size_t x = 0; x < width; ++x) out[x] *= cosine[x];
+        const float* cosine =
+            falloff.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry.padded_width());
+        for (std::size_t x = begin; x < end; ++x) out[x] *= cosine[x];
     }
     // Ringing of a band-limited edge can dip below zero and float overflow could leave infinities; charge is
     // neither.
