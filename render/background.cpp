@@ -25,6 +25,7 @@ void Background::place(const WorldSnapshot& world) {
     earth_world_dir_ = earth_distance_m > 0 ? -camera_from_earth_m / earth_distance_m : Vec3d{0, 0, 1};
     const double earth_sine = std::min(1.0, kEarthEquatorialRadius_m / earth_distance_m);
     earth_cone_cosine_ = std::sqrt(1 - earth_sine * earth_sine);
+    earth_nearest_m_ = std::max(0.0, earth_distance_m - kEarthEquatorialRadius_m);
 
     // The inverse-square law from 1 au for the objects, and from the Earth's own distance for the Earth.
     const double au = kAstronomicalUnit_m / sun_distance_m;
@@ -62,6 +63,12 @@ bool Background::add_earth(Vec3f origin_m, Vec3d dir, const Spectrum& weight, Sp
     for (int b = 0; b < bins_; ++b)
         radiance[b] += weight[b] * sun_cosine * reflectance[b] * earth_radiance_at_zenith_sun_[b];
     return true;
+}
+
+bool Background::earth_hides(Vec3f origin_m, Vec3d dir, double distance) const {
+    const double earth = intersect_earth(
+        camera_earth_fixed_m_ + earth_fixed_from_world_ * to_double(origin_m), earth_fixed_from_world_ * dir);
+    return earth >= 0 && earth < distance;
 }
 
 void Background::add_sun_disk(Vec3f dir, const Spectrum& weight, Spectrum& radiance) const {

@@ -31,7 +31,12 @@ class Background {
     // of any length). Gives whether the Earth was met. Radiance: albedo E_s cos(sigma) / pi (Lambert). Loop,
     // any thread.
     bool add_earth(Vec3f origin_m, Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
-    // The same for the Sun's disk, taken as uniform: E_s / (pi sin^2 rho) inside its angular radius rho.
+    // Whether the Earth lies before `distance`, in lengths of the direction. Loop, any thread.
+    bool earth_hides(Vec3f origin_m, Vec3d dir, double distance) const;
+    // From the camera to the nearest that any of the Earth can be.
+    double earth_nearest_m() const { return earth_nearest_m_; }
+    // What add_earth does, for the Sun's disk, taken as uniform: E_s / (pi sin^2 rho) inside its angular
+    // radius rho.
     void add_sun_disk(Vec3f dir, const Spectrum& weight, Spectrum& radiance) const;
     double sun_disk_cosine() const { return sun_disk_cosine_; }
 
@@ -49,6 +54,7 @@ class Background {
     Vec3d sun_world_dir_{0, 0, 1};
     Vec3d earth_world_dir_{0, 0, 1};
     double earth_cone_cosine_ = 1;
+    double earth_nearest_m_ = 0;
     double sun_disk_cosine_ = 1;
 };
 

@@ -170,6 +170,14 @@ void TileTracer::Implementation::add_background(const FrameView& frame, Vec3f or
     if (sun_disk) frame.background->add_sun_disk(dir, weight, pixel);
 }
 
+// An object, and not the Earth before it.
+bool meets_object(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir) {
+    const auto k = static_cast<std::size_t>(lane);
+    if (hits.object[k] == HitPacket::kMiss) return false;
+    return !frame.earth_may_hide ||
+           !frame.background->earth_hides(origin_m, to_double(dir), static_cast<double>(hits.distance[k]));
+}
+
 // --- wave 1: from the camera
 // -------------------------------------------------------------------------------------
 
@@ -213,10 +221,10 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
             const auto k = static_cast<std::size_t>(i);
             const auto pixel =
                 static_cast<std::uint32_t>(static_cast<int>(y_of[k]) * width + static_cast<int>(x_of[k]));
-            if (hits.object[k] != HitPacket::kMiss) {
+            const Vec3f dir{rays.dir_x[k], rays.dir_y[k], rays.dir_z[k]};
+            if (meets_object(frame, hits, i, {0, 0, 0}, dir)) {
                 ++stats.object_hits;
                 Vertex& vertex = current[count];
-                const Vec3f dir{rays.dir_x[k], rays.dir_y[k], rays.dir_z[k]};
                 if (!make_vertex(frame, hits, i, {0, 0, 0}, dir, 0, vertex)) continue;
                 vertex.pixel = pixel;
                 vertex.sample = sample;
@@ -224,10 +232,11 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
                 ++count;
             } else if (background) {
                 // The eye's own ray keeps its double precision: the Earth's limb must not crawl.
-                const Vec3d dir = corner + static_cast<double>(x_of[k] + dx) * frame.right_world_dir +
-                                  static_cast<double>(y_of[k] + dy) * frame.down_world_dir;
-                if (!(earth && frame.background->add_earth({0, 0, 0}, dir, weight, pixels[pixel])) && sun)
-                    frame.background->add_sun_disk(to_float(normalized(dir)), weight, pixels[pixel]);
+                const Vec3d exact_dir = corner + static_cast<double>(x_of[k] + dx) * frame.right_world_dir +
+                                        static_cast<double>(y_of[k] + dy) * frame.down_world_dir;
+                if (!(earth && frame.background->add_earth({0, 0, 0}, exact_dir, weight, pixels[pixel])) &&
+                    sun)
+                    frame.background->add_sun_disk(to_float(normalized(exact_dir)), weight, pixels[pixel]);
             }
         }
     };
@@ -421,7 +430,7 @@ void TileTracer::Implementation::follow(const FrameView& frame, std::size_t ray_
         for (int i = 0; i < rays.count; ++i) {
             const NextRay& ray = next[first + static_cast<std::size_t>(i)];
             const Vertex& from = current[ray.from];
-            if (hits.object[static_cast<std::size_t>(i)] == HitPacket::kMiss) {
+            if (!meets_object(frame, hits, i, ray.origin_m, ray.dir)) {
                 if (ray.sees_earth)
                     add_background(frame, ray.origin_m, ray.dir, ray.alpha_least == 0, ray.weight,
                                    pixels[from.pixel]);

@@ -34,8 +34,9 @@ struct FrameView {
     float contribution_threshold = 0;
     float samples() const { return static_cast<float>(samples_per_axis * samples_per_axis); }
     RandomKey key;
-    PixelBox earth_box;  // pixels that can meet the Earth
-    PixelBox sun_box;    // pixels that can meet the Sun's disk
+    bool earth_may_hide = false;  // an object is so far away that the Earth can stand before it
+    PixelBox earth_box;           // pixels that can meet the Earth
+    PixelBox sun_box;             // pixels that can meet the Sun's disk
 };
 
 struct TileStats {

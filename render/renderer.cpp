@@ -97,6 +97,17 @@ struct Renderer::Implementation {
         frame.contribution_threshold = static_cast<float>(quality.contribution_threshold);
     }
 
+    // To the farthest point of any object.
+    double farthest_m(const WorldSnapshot& world) const {
+        double farthest_m = 0;
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            const double distance_m =
+                length(world.objects[i].position_world_m - world.camera.position_world_m);
+            farthest_m = std::max(farthest_m, distance_m + objects[i].radius_m);
+        }
+        return farthest_m;
+    }
+
     void place(const WorldSnapshot& world, RandomKey key) {
         HILCAM_CHECK(world.objects.size() == objects.size());
         background.place(world);
@@ -120,6 +131,7 @@ struct Renderer::Implementation {
                                                                              background.earth_world_dir(),
                                                                              background.earth_cone_cosine())
                                                      : PixelBox{};
+        frame.earth_may_hide = background.earth_visible() && farthest_m(world) > background.earth_nearest_m();
         frame.sun_box = screen_bounds_of_cone(frame.geometry, world.camera, background.sun_world_dir(),
                                               background.sun_disk_cosine());
     }

@@ -54,6 +54,7 @@ ObjectSurfaces::ObjectSurfaces(SceneObject&& object)
       cluster_bounds_m(clusters_of(object.mesh)) {
     const Mesh& mesh = object.mesh;
     HILCAM_CHECK(materials.size() == mesh.surfaces.size());
+    for (const Vec3f& v : mesh.vertices_m) radius_m = std::max(radius_m, length(to_double(v)));
     const bool no_normals = mesh.normals.empty();
     const bool textured = !mesh.uvs.empty() && std::any_of(materials.begin(), materials.end(),
                                                            [](const Material& m) { return m.texture >= 0; });

@@ -47,6 +47,7 @@ struct ObjectSurfaces {
     std::vector<Texture> textures;
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
+    double radius_m = 0;  // of a sphere about the body's origin that holds the object
 
     // The shading normal at barycentric (u, v), body axes, unit; `geometric` where the mesh has none.
     static Vec3f normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) {

@@ -116,6 +116,22 @@ TEST(Renderer, SunlitPlateShowsNoAcneAtAnyDistance) {
     }
 }
 
+TEST(Renderer, TheEarthHidesWhatIsBehindItAndNotWhatIsBeforeIt) {
+    for (const double plate_m : {3e5, 2e7}) {
+        Stage s;
+        s.scene.earth.visible = true;
+        for (int b = 0; b < 2; ++b) s.scene.earth.albedo[b] = 0.25f;
+        s.world.bodies.earth_world_m = {0, 0, 7e6};
+        SceneObject large = plate(lambert(0.75), s.grid);
+        for (Vec3f& v : large.mesh.vertices_m) v = 1e6f * v;
+        s.add(std::move(large), {0, 0, plate_m});
+        s.quality.max_depth = 1;
+        s.render();
+        const double albedo = plate_m < 7e6 ? 0.75 : 0.25;
+        EXPECT_NEAR(s.middle() / (albedo * kSun_w_m2_um / kPi), 1, 1e-3) << plate_m;
+    }
+}
+
 TEST(Renderer, MirrorShowsAPlateAtDepthTwoAndNotAtDepthOne) {
     MaterialConfig mirror;
     mirror.model = ReflectionModel::kMirror;
