@@ -26,8 +26,10 @@ def picture_of(buffer, bits):
     width, height = buffer.get_image_width(), buffer.get_image_height()
     kind = numpy.uint8 if bits == 8 else numpy.dtype("<u2")
     values = numpy.frombuffer(buffer.get_data(), kind, width * height).reshape(height, width)
-    # One fixed stretch for all: display gamma of 2.2 over the ADC's range.
-    shown = (values / (2**bits - 1)) ** (1 / 2.2) * 255
+    # One stretch for all: display gamma of 2.2 between the black level, which most of a picture of space is, and the
+    # ADC's end.
+    black = numpy.median(values) if numpy.median(values) < 2**bits / 8 else 0
+    shown = numpy.clip((values - black) / (2**bits - 1 - black), 0, 1) ** (1 / 2.2) * 255
     return Image.fromarray(shown.astype(numpy.uint8)).resize((TILE, TILE), Image.LANCZOS)
 
 
