@@ -80,7 +80,8 @@ class ExitCodes(unittest.TestCase):
         self.assertEqual(hilcam("send", "--to", "127.0.0.1:15999", "--timeout-ms", 100, "ping").returncode, 1)
 
     def test_the_manual_is_the_documented_one(self):
-        self.assertIn(hilcam("manual").stdout, (SOURCE / "docs/configuration.md").read_text())
+        documented = (SOURCE / "docs/configuration.md").read_text().splitlines()
+        self.assertEqual([line for line in hilcam("manual").stdout.splitlines() if line not in documented], [])
 
     def test_check_and_version(self):
         self.assertIn("object 1 'target'", hilcam("check", SCENARIO).stdout)
