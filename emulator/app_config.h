@@ -1,6 +1,7 @@
 #pragma once
 // A scenario file: the world, the camera, the quality, and where commands come from and frames go.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>

@@ -1,6 +1,8 @@
 #pragma once
 // `hilcam bench`: how fast a scenario runs here, and how far that is from what cannot be avoided.
 
+#include <cstdint>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include "emulator/app_config.h"

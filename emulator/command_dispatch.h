@@ -1,6 +1,8 @@
 #pragma once
 // What decoded commands do: poses to the world, settings to the camera.
 
+#include <cstdint>
+
 #include "emulator/clock.h"
 #include "emulator/live_settings.h"
 #include "emulator/world_state.h"

@@ -2,6 +2,7 @@
 // The emulator as a whole: builds every part of a scenario, runs it, tears it down.
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 

@@ -6,6 +6,7 @@
 // or, when all known ones lie after t, the first of them backwards. The last 8 motions of each thing are
 // kept.
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <span>

@@ -1,6 +1,7 @@
 #pragma once
 // The sending side of the command protocol: sends, waits for acknowledgements.
 
+#include <cstdint>
 #include <string>
 
 #include "io/command_codec.h"

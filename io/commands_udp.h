@@ -2,6 +2,7 @@
 // Commands over UDP: a thread of its own receives datagrams, decodes, hands over and acknowledges.
 
 #include <atomic>
+#include <cstdint>
 #include <string>
 #include <thread>
 

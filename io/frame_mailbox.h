@@ -3,6 +3,7 @@
 // when the ring is full the new frame is dropped and counted.
 
 #include <atomic>
+#include <cstdint>
 #include <semaphore>
 #include <vector>
 

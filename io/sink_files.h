@@ -1,6 +1,7 @@
 #pragma once
 // Frames as files in a folder, "frame_00000001.png", 16 bits right-aligned.
 
+#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <thread>

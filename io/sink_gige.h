@@ -7,6 +7,7 @@
 // bits, Mono16 the DN in the most significant of 16 bits; samples are little-endian. Leaders carry the
 // exposure's middle on CLOCK_MONOTONIC, 1 tick = 1 ns.
 
+#include <cstdint>
 #include <memory>
 
 #include "io/camera_control.h"

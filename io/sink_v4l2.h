@@ -6,6 +6,7 @@
 // kernel panic. `io: mmap` passes the exposure's CLOCK_MONOTONIC time to the reader; `io: write` lets the
 // module count frames instead (0.12.7 cannot do both).
 
+#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <thread>

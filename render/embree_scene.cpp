@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,16 @@ void set_valid(int count, int* valid) {
     for (int i = 0; i < kPacketSize; ++i) valid[i] = i < count ? -1 : 0;
 }
 
+// Rays that do not exist are made harmless: on processors without AVX-512 Embree takes a packet of sixteen
+// apart and looks at all of them, whatever the mask says.
+void blank_rays(int count, RTCRay16& rays) {
+    for (int i = count; i < kPacketSize; ++i) {
+        rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0;
+        rays.dir_x[i] = rays.dir_y[i] = 0, rays.dir_z[i] = 1;
+        rays.tnear[i] = 0, rays.tfar[i] = -std::numeric_limits<float>::infinity();
+    }
+}
+
 void copy_rays(const RayPacket& from, RTCRay16& to) {
     static_assert(sizeof(from.origin_x) == sizeof(to.org_x));
     std::memcpy(to.org_x, from.origin_x.data(), sizeof(to.org_x));
@@ -74,6 +85,7 @@ void copy_rays(const RayPacket& from, RTCRay16& to) {
     std::memset(to.time, 0, sizeof(to.time));
     std::memset(to.flags, 0, sizeof(to.flags));
     std::memset(to.mask, 0xFF, sizeof(to.mask));
+    blank_rays(from.count, to);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 // A camera in the terms of its data sheet (EMVA 1288 vocabulary). One YAML file is one camera.
 
+#include <cstdint>
 #include <string>
 
 #include "render/config_field.h"

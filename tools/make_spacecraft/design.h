@@ -6,6 +6,7 @@
 // middle of the bus. Bus 2.4 x 2.2 x 3.6 m, two wings of four panels, span 26.6 m, two offset dishes of 2.2
 // m.
 
+#include <cstdint>
 #include <vector>
 
 #include "tools/make_spacecraft/patch.h"
