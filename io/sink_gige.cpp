@@ -144,7 +144,7 @@ void GigeSink::Implementation::open() {
     const CameraLimits limits = camera.limits();
     const std::size_t bytes =
         std::size_t{2} * static_cast<std::size_t>(limits.width) * static_cast<std::size_t>(limits.height);
-    for (Slot& slot : slots) slot.payload.assign(bytes, 0);
+    for (Slot& slot : slots) slot.payload = std::vector<std::uint8_t>(bytes);
     GigeDevice::Effects effects;
     effects.stream_changed = [this](const GigeStreamState& state) {
         for_loop.write(state);
