@@ -7,29 +7,13 @@
 #include <limits>
 
 #include "render/brdf.h"
+#include "render/path_vertex.h"
 
 namespace hilcam {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr auto kMost = static_cast<std::size_t>(TileTracer::kMostSamples);
-
-// A path at one of its vertices: a point on an object, what it weighs for the pixel, and how it scatters.
-struct Vertex {
-    std::uint32_t pixel;     // in the tile
-    std::uint32_t sample;    // in the pixel
-    Vec3f point_m;           // ray space
-    float offset_m;          // how far a ray must start above the surface
-    Vec3f geometric_normal;  // towards the viewer's side, unit
-    Vec3f normal;            // shading, same side
-    Vec3f view_dir;          // back along the path, unit
-    float alpha;             // GGX, as used at this vertex
-    bool specular;
-    bool mirror;
-    Spectrum weight;
-    Spectrum diffuse_albedo;
-    Spectrum normal_reflectance;
-};
 
 // A ray that continues a path.
 struct NextRay {
@@ -50,11 +34,6 @@ std::array<std::uint32_t, 4> random_of(const FrameView& frame, const PixelBox& t
     return random_words(frame.key, RandomPurpose::kPathSample,
                         static_cast<std::uint32_t>(py * frame.geometry.padded_width() + px),
                         (at.sample * 64 + static_cast<std::uint32_t>(depth)) * 2 + use);
-}
-float mean(const Spectrum& s, int bins) {
-    float sum = 0;
-    for (int b = 0; b < kMaxBins; ++b) sum += s[b];
-    return sum / static_cast<float>(bins);
 }
 // Schlick's Fresnel reflectance per bin (CGF 13(3), 1994); the bins past the grid's size are not zero.
 Spectrum fresnel(const Spectrum& normal_reflectance, float schlick) {
@@ -82,8 +61,6 @@ struct TileTracer::Implementation {
     Vertex* following = vertices_b.data();
     std::size_t count = 0;
 
-    bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin, Vec3f dir,
-                     float alpha_least, Vertex& vertex) const;
     void add_background(const FrameView& frame, Vec3f origin_m, Vec3f dir, bool sun_disk,
                         const Spectrum& weight, Spectrum& pixel) const;
     std::size_t primary_rays(const FrameView& frame, const PixelBox& tile, bool shade);
@@ -106,76 +83,11 @@ TileTracer::TileTracer() : implementation_(std::make_unique<Implementation>()) {
 TileTracer::~TileTracer() = default;
 TileTracer::TileTracer(TileTracer&&) noexcept = default;
 
-// --- geometry of a hit
-// -------------------------------------------------------------------------------------------
-
-bool TileTracer::Implementation::make_vertex(const FrameView& frame, const HitPacket& hits, int lane,
-                                             Vec3f origin, Vec3f dir, float alpha_least,
-                                             Vertex& vertex) const {
-    const auto k = static_cast<std::size_t>(lane);
-    const ObjectSurfaces& object = (*frame.objects)[hits.object[k]];
-    const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
-    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
-    const Material& material = object.materials[triangle.surface];
-
-    const Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
-    const float squared = dot(geometric_raw, geometric_raw);
-    if (!(squared > 0)) return false;  // a needle without an area: nothing to see
-    const Vec3f geometric_body = geometric_raw / std::sqrt(squared);
-    const float u = hits.u[k];
-    const float v = hits.v[k];
-
-    vertex.view_dir = -normalized(dir);
-    Vec3f geometric = world_from_body * geometric_body;
-    Vec3f normal = world_from_body * object.normal_at(triangle, u, v, geometric_body);
-    if (dot(geometric, vertex.view_dir) < 0) geometric = -geometric;
-    if (dot(normal, geometric) < 0) normal = -normal;
-    // A smoothed normal that leans away from the viewer would make the surface vanish.
-    if (dot(normal, vertex.view_dir) <= 1e-4f) normal = geometric;
-    vertex.geometric_normal = geometric;
-    vertex.normal = normal;
-
-    vertex.point_m = origin + hits.distance[k] * dir;
-    // The hit point's rounding grows with the coordinates it was made of: 16 half-ulps of the greatest
-    // (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
-    const float greatest =
-        std::max({std::abs(vertex.point_m.x), std::abs(vertex.point_m.y), std::abs(vertex.point_m.z),
-                  std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)});
-    vertex.offset_m = 16 * std::numeric_limits<float>::epsilon() * greatest;
-
-    vertex.alpha = std::max(material.ggx_alpha, alpha_least);
-    vertex.specular = material.specular;
-    vertex.mirror = material.specular && vertex.alpha == 0;
-    vertex.diffuse_albedo = material.diffuse_albedo;
-    vertex.normal_reflectance = material.normal_reflectance;
-    if (material.texture >= 0) {
-        const auto& uv = object.corner_uvs[hits.triangle[k]];
-        const Spectrum scale =
-            frame.bands->spectrum(sample(object.textures[static_cast<std::size_t>(material.texture)],
-                                         (1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
-                                         (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y));
-        // The one colour of a file scales what the material mostly is: the diffuse part, or a metal's
-        // reflectance.
-        const bool metal = mean(material.diffuse_albedo, frame.bins) <= 0;
-        Spectrum& scaled = metal ? vertex.normal_reflectance : vertex.diffuse_albedo;
-        scaled = scaled * scale;
-    }
-    return true;
-}
-
 void TileTracer::Implementation::add_background(const FrameView& frame, Vec3f origin_m, Vec3f dir,
                                                 bool sun_disk, const Spectrum& weight,
                                                 Spectrum& pixel) const {
     if (frame.background->add_earth(origin_m, to_double(dir), weight, pixel)) return;
     if (sun_disk) frame.background->add_sun_disk(dir, weight, pixel);
-}
-
-// An object, and not the Earth before it.
-bool meets_object(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir) {
-    const auto k = static_cast<std::size_t>(lane);
-    if (hits.object[k] == HitPacket::kMiss) return false;
-    return !frame.earth_may_hide ||
-           !frame.background->earth_hides(origin_m, to_double(dir), static_cast<double>(hits.distance[k]));
 }
 
 // --- wave 1: from the camera

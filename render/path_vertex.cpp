@@ -1,0 +1,69 @@
+#include "render/path_vertex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hilcam {
+
+bool meets_object(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir) {
+    const auto k = static_cast<std::size_t>(lane);
+    if (hits.object[k] == HitPacket::kMiss) return false;
+    return !frame.earth_may_hide ||
+           !frame.background->earth_hides(origin_m, to_double(dir), static_cast<double>(hits.distance[k]));
+}
+
+bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+                 float alpha_least, Vertex& vertex) {
+    const auto k = static_cast<std::size_t>(lane);
+    const ObjectSurfaces& object = (*frame.objects)[hits.object[k]];
+    const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
+    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
+    const Material& material = object.materials[triangle.surface];
+
+    const Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+    const float squared = dot(geometric_raw, geometric_raw);
+    if (!(squared > 0)) return false;  // a needle without an area: nothing to see
+    const Vec3f geometric_body = geometric_raw / std::sqrt(squared);
+    const float u = hits.u[k];
+    const float v = hits.v[k];
+
+    vertex.view_dir = -normalized(dir);
+    Vec3f geometric = world_from_body * geometric_body;
+    Vec3f normal = world_from_body * object.normal_at(triangle, u, v, geometric_body);
+    if (dot(geometric, vertex.view_dir) < 0) geometric = -geometric;
+    if (dot(normal, geometric) < 0) normal = -normal;
+    // A smoothed normal that leans away from the viewer would make the surface vanish.
+    if (dot(normal, vertex.view_dir) <= 1e-4f) normal = geometric;
+    vertex.geometric_normal = geometric;
+    vertex.normal = normal;
+
+    vertex.point_m = origin_m + hits.distance[k] * dir;
+    // The hit point's rounding grows with the coordinates it was made of: 16 half-ulps of the greatest
+    // (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
+    const float greatest =
+        std::max({std::abs(vertex.point_m.x), std::abs(vertex.point_m.y), std::abs(vertex.point_m.z),
+                  std::abs(origin_m.x), std::abs(origin_m.y), std::abs(origin_m.z)});
+    vertex.offset_m = 16 * std::numeric_limits<float>::epsilon() * greatest;
+
+    vertex.alpha = std::max(material.ggx_alpha, alpha_least);
+    vertex.specular = material.specular;
+    vertex.mirror = material.specular && vertex.alpha == 0;
+    vertex.diffuse_albedo = material.diffuse_albedo;
+    vertex.normal_reflectance = material.normal_reflectance;
+    if (material.texture >= 0) {
+        const auto& uv = object.corner_uvs[hits.triangle[k]];
+        const Spectrum scale =
+            frame.bands->spectrum(sample(object.textures[static_cast<std::size_t>(material.texture)],
+                                         (1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
+                                         (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y));
+        // The one colour of a file scales what the material mostly is: the diffuse part, or a metal's
+        // reflectance.
+        const bool metal = mean(material.diffuse_albedo, frame.bins) <= 0;
+        Spectrum& scaled = metal ? vertex.normal_reflectance : vertex.diffuse_albedo;
+        scaled = scaled * scale;
+    }
+    return true;
+}
+
+}  // namespace hilcam
