@@ -65,6 +65,11 @@ bool Background::add_earth(Vec3f origin_m, Vec3d dir, const Spectrum& weight, Sp
     return true;
 }
 
+EarthRays Background::earth_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir) const {
+    return {camera_earth_fixed_m_, sun_earth_fixed_dir_, earth_fixed_from_world_ * corner_dir,
+            earth_fixed_from_world_ * right_dir, earth_fixed_from_world_ * down_dir};
+}
+
 bool Background::earth_hides(Vec3f origin_m, Vec3d dir, double distance) const {
     const double earth = intersect_earth(
         camera_earth_fixed_m_ + earth_fixed_from_world_ * to_double(origin_m), earth_fixed_from_world_ * dir);

@@ -3,6 +3,7 @@
 // not here.
 
 #include "render/color_bands.h"
+#include "render/earth_rays.h"
 #include "render/scene.h"
 
 namespace hilcam {
@@ -31,6 +32,13 @@ class Background {
     // of any length). Gives whether the Earth was met. Radiance: albedo E_s cos(sigma) / pi (Lambert). Loop,
     // any thread.
     bool add_earth(Vec3f origin_m, Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
+    // The same for many of the camera's own rays: directions corner + x right + y down in world axes, then a
+    // radiance for each cosine of the Sun's zenith angle. Not for an Earth with a map.
+    EarthRays earth_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir) const;
+    void add_earth_at(float sun_cosine, const Spectrum& weight, Spectrum& radiance) const {
+        if (sun_cosine > 0) radiance += sun_cosine * (weight * earth_radiance_at_zenith_sun_);
+    }
+    bool earth_has_map() const { return !earth_.map.texels.empty(); }
     // Whether the Earth lies before `distance`, in lengths of the direction. Loop, any thread.
     bool earth_hides(Vec3f origin_m, Vec3d dir, double distance) const;
     // From the camera to the nearest that any of the Earth can be.

@@ -105,7 +105,9 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
 
     RayPacket rays;
     HitPacket hits;
-    std::array<float, kPacketSize> x_of, y_of;  // of the packet's pixels, from the tile's corner
+    std::array<float, kPacketSize> x_of{}, y_of{};  // of the packet's pixels, from the tile's corner
+    std::array<float, kPacketSize> x_at, y_at;      // of their samples
+    EarthRays::Floats sun_cosine;
     rays.origin_x.fill(0), rays.origin_y.fill(0), rays.origin_z.fill(0);
     rays.nearest.fill(0), rays.farthest.fill(kInfinity);
     // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
@@ -113,11 +115,25 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
         frame.corner_world_dir + tile.x0 * frame.right_world_dir + tile.y0 * frame.down_world_dir;
     const Vec3f corner_dir = to_float(corner);
     const Vec3f right = to_float(frame.right_world_dir), down = to_float(frame.down_world_dir);
+    // The Earth's limb must not crawl: the eye's own rays meet it in double precision.
+    const EarthRays earth_rays =
+        frame.background->earth_rays(corner, frame.right_world_dir, frame.down_world_dir);
+    const bool plain_earth = earth && !frame.background->earth_has_map();
     count = 0;
 
+    const auto add_backdrop = [&](std::size_t k, Spectrum& pixel) {
+        if (plain_earth && sun_cosine[k] > EarthRays::kMiss) {
+            frame.background->add_earth_at(sun_cosine[k], weight, pixel);
+            return;
+        }
+        const Vec3d dir = corner + static_cast<double>(x_at[k]) * frame.right_world_dir +
+                          static_cast<double>(y_at[k]) * frame.down_world_dir;
+        if (earth && !plain_earth && frame.background->add_earth({0, 0, 0}, dir, weight, pixel)) return;
+        if (sun) frame.background->add_sun_disk(to_float(normalized(dir)), weight, pixel);
+    };
     const auto shade_packet = [&](bool objects, float dx, float dy, std::uint32_t sample) {
         for (std::size_t k = 0; k < kPacketSize; ++k) {
-            const float x = x_of[k] + dx, y = y_of[k] + dy;
+            const float x = x_at[k] = x_of[k] + dx, y = y_at[k] = y_of[k] + dy;
             rays.dir_x[k] = corner_dir.x + x * right.x + y * down.x;
             rays.dir_y[k] = corner_dir.y + x * right.y + y * down.y;
             rays.dir_z[k] = corner_dir.z + x * right.z + y * down.z;
@@ -128,6 +144,7 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
         } else {
             hits.object.fill(HitPacket::kMiss);
         }
+        if (background && plain_earth) earth_rays.sun_cosines(x_at, y_at, sun_cosine);
         for (int i = 0; i < rays.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const auto pixel =
@@ -142,12 +159,7 @@ std::size_t TileTracer::Implementation::primary_rays(const FrameView& frame, con
                 vertex.weight = weight;
                 ++count;
             } else if (background) {
-                // The eye's own ray keeps its double precision: the Earth's limb must not crawl.
-                const Vec3d exact_dir = corner + static_cast<double>(x_of[k] + dx) * frame.right_world_dir +
-                                        static_cast<double>(y_of[k] + dy) * frame.down_world_dir;
-                if (!(earth && frame.background->add_earth({0, 0, 0}, exact_dir, weight, pixels[pixel])) &&
-                    sun)
-                    frame.background->add_sun_disk(to_float(normalized(exact_dir)), weight, pixels[pixel]);
+                add_backdrop(k, pixels[pixel]);
             }
         }
     };

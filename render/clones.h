@@ -1,0 +1,9 @@
+#pragma once
+// Hot loops compiled for three levels of x86-64 and chosen at load time; with contraction off (see the build)
+// every version gives the same bits. Sanitizers cannot follow the choice, so they get one version.
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(__clang__)
+#define HILCAM_CLONES
+#else
+#define HILCAM_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#endif
