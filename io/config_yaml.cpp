@@ -78,12 +78,17 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 // The part before a unit suffix: "exposure" of "exposure_ms".
 std::string_view stem(std::string_view key) { return key.substr(0, key.rfind('_')); }
+// Units are short: "us" of "exposure_us", unlike "numbr" of "f_numbr".
+bool ends_in_unit(std::string_view key) {
+    const std::size_t at = key.rfind('_');
+    return at != std::string_view::npos && key.size() - at - 1 <= 3;
+}
 
 std::string advice_for(std::string_view key, const Fields& known) {
     const Field* nearest = nullptr;
     std::size_t least = std::string_view::npos;
     for (const Field& field : known) {
-        if (field.key != key && key.find('_') != std::string_view::npos && stem(field.key) == stem(key))
+        if (field.key != key && ends_in_unit(key) && ends_in_unit(field.key) && stem(field.key) == stem(key))
             return "; its unit here is another: " + field.key;
         const std::size_t distance = edit_distance(key, field.key);
         if (distance < least) least = distance, nearest = &field;

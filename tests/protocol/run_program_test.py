@@ -64,6 +64,7 @@ class ExitCodes(unittest.TestCase):
     def test_bad_input_is_one_line_and_status_2(self):
         self.refused("none.yaml: cannot be read", "check", "none.yaml")
         self.refused("unknown key", "check", SCENARIO, "--set", "camera.exposure_us=3")
+        self.refused("nearest known key: f_number", "check", SCENARIO, "--set", "camera.f_numbr=3")
         self.refused("accepted: a number", "check", SCENARIO, "--set", "camera.f_number=wide")
         self.refused("no such mesh file", "check", SOURCE / "configs/scenarios/iss.yaml")
         self.refused("is not a date and time", "check", SCENARIO, "--set", "time_utc=noon")
