@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/compute_priority.h"
-
 namespace hilcam {
 namespace {
 
@@ -52,7 +50,6 @@ void FrameLoop::stop() noexcept {
 // -------------------------------------------------------------------------------------------------------
 
 void FrameLoop::render_frames() {
-    const ComputePriority priority;
     FrameSchedule schedule(monotonic_now_ns());
     FrameRecord record;
     for (std::size_t turn = 0;; ++turn) {
@@ -129,7 +126,6 @@ void FrameLoop::render_into(Slot& slot, std::int64_t start_ns, const CameraSetti
 // -------------------------------------------------------------------------------------------------------
 
 void FrameLoop::sense_frames() {
-    const ComputePriority priority;
     for (std::size_t turn = 0;; ++turn) {
         rendered_.acquire();
         Slot& slot = slots_[turn % slots_.size()];

@@ -6,6 +6,7 @@
 #include <linux/sock_diag.h>
 #include <sys/socket.h>
 #include <sys/time.h>
+#include <time.h>
 
 #include <array>
 #include <bit>
@@ -14,6 +15,8 @@
 
 namespace hilcam {
 namespace {
+
+constexpr std::int64_t kLookAgain_ns = 100'000;
 
 struct Request {
     nlmsghdr header;
@@ -75,6 +78,28 @@ std::optional<std::size_t> ReceiverRoom::free_bytes(const sockaddr_in& from,
     alignas(nlmsghdr) std::array<std::uint8_t, 1024> answer;
     const ssize_t size = recv(netlink_.get(), answer.data(), answer.size(), 0);
     return size > 0 ? free_bytes_in(answer.data(), static_cast<std::size_t>(size)) : std::nullopt;
+}
+
+void ReceiverRoom::wait(const sockaddr_in& from, const sockaddr_in& to, std::size_t bytes,
+                        const std::atomic<bool>& stop) noexcept {
+    const bool unread = unread_.sin_port == to.sin_port && unread_.sin_addr.s_addr == to.sin_addr.s_addr;
+    auto free = free_bytes(from, to);
+    if (unread && free && *free < bytes) return;
+    unread_ = {};
+    std::size_t before = 0;
+    std::int64_t waited_ns = 0;
+    while (free && *free < bytes && !stop.load(std::memory_order_relaxed)) {
+        if (*free > before) waited_ns = 0;
+        before = *free;
+        if (waited_ns >= kPatience_ns) {
+            unread_ = to;
+            return;
+        }
+        const timespec pause{0, kLookAgain_ns};
+        clock_nanosleep(CLOCK_MONOTONIC, 0, &pause, nullptr);
+        waited_ns += kLookAgain_ns;
+        free = free_bytes(from, to);
+    }
 }
 
 std::size_t ReceiverRoom::bytes_of(std::size_t datagram_bytes) {

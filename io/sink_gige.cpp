@@ -27,10 +27,6 @@ namespace {
 constexpr std::size_t kSlots = 12;
 constexpr std::size_t kMostWaiting = 3;
 constexpr unsigned kBatch = 8;  // packets per system call: 60 KiB at the default size
-// How long a local client with a full buffer is waited for, per frame; then packets are lost as on a wire.
-constexpr std::int64_t kPatience_ns = 200'000'000;
-constexpr std::int64_t kResendPatience_ns = 20'000'000;
-constexpr std::int64_t kLookAgain_ns = 100'000;
 
 std::int64_t monotonic_ns() {
     timespec t{};
@@ -123,8 +119,6 @@ struct GigeSink::Implementation {
     void send_frame(Slot& slot);
     void resend(const gvcp::ResendRequest& request);
     void test_packet(const GigeStreamState& state, std::size_t bytes);
-    bool wait_for_room(const ReceiverRoom& room, const sockaddr_in& to, std::size_t packets,
-                       std::size_t packet_bytes, std::int64_t until_ns) const;
     std::size_t build_packet(const Slot& slot, std::uint16_t block, std::uint32_t packet,
                              std::span<std::uint8_t> header, std::span<const std::uint8_t>& payload) const;
 };
@@ -234,21 +228,6 @@ std::size_t GigeSink::Implementation::build_packet(const Slot& slot, std::uint16
     return gvsp::kHeaderBytes;
 }
 
-// Waits while a client on this machine has no room for so many packets. False when there is no such client or
-// time is up.
-bool GigeSink::Implementation::wait_for_room(const ReceiverRoom& room, const sockaddr_in& to,
-                                             std::size_t packets, std::size_t packet_bytes,
-                                             std::int64_t until_ns) const {
-    const std::size_t needed = packets * ReceiverRoom::bytes_of(packet_bytes);
-    while (const auto free = room.free_bytes(stream_address, to)) {
-        if (*free >= needed) return true;
-        const std::int64_t now_ns = monotonic_ns();
-        if (now_ns >= until_ns || stopping.load(std::memory_order_relaxed)) return false;
-        sleep_until_ns(now_ns + kLookAgain_ns);
-    }
-    return false;
-}
-
 void GigeSink::Implementation::resend(const gvcp::ResendRequest& request) {
     const auto block = static_cast<std::uint16_t>(request.block);
     const GigeStreamState& now = device->stream_state();
@@ -261,10 +240,8 @@ void GigeSink::Implementation::resend(const gvcp::ResendRequest& request) {
     std::uint32_t last = request.last_packet;
     // One request may not make more than one frame's worth of answers.
     last = std::min(last, slot ? slot->packets() + 1 : request.first_packet);
-    const std::int64_t until_ns = monotonic_ns() + kResendPatience_ns;
-    bool local = true;
     for (std::uint32_t id = request.first_packet; id <= last; ++id) {
-        local = local && wait_for_room(control_room, to, 1, now.packet_bytes, until_ns);
+        control_room.wait(stream_address, to, ReceiverRoom::bytes_of(now.packet_bytes), stopping);
         std::size_t size = gvsp::kHeaderBytes;
         bool whole = false;
         if (slot) {
@@ -314,7 +291,6 @@ void GigeSink::Implementation::send_frame(Slot& slot) {
     std::array<mmsghdr, kBatch> messages;
     const std::int64_t first_ns = monotonic_ns();
     std::uint32_t id = 0;
-    bool local = true;
     while (id <= last) {
         // A delay asked for by the client is per packet; without one, batches keep the rate.
         const std::uint32_t batch = slot.state.packet_delay_ns > 100'000 ? 1 : kBatch;
@@ -330,8 +306,8 @@ void GigeSink::Implementation::send_frame(Slot& slot) {
             messages[count].msg_hdr.msg_iov = parts[count].data();
             messages[count].msg_hdr.msg_iovlen = payload.empty() ? 1 : 2;
         }
-        local =
-            local && wait_for_room(sender_room, to, count, slot.state.packet_bytes, first_ns + kPatience_ns);
+        sender_room.wait(stream_address, to, count * ReceiverRoom::bytes_of(slot.state.packet_bytes),
+                         stopping);
         // What the kernel does not take now is lost like on a wire; the client asks for it again.
         sendmmsg(stream.get(), messages.data(), count, 0);
         if (id <= last) {
