@@ -103,6 +103,7 @@ void ReceiverRoom::wait(const sockaddr_in& from, const sockaddr_in& to, std::siz
 }
 
 std::size_t ReceiverRoom::bytes_of(std::size_t datagram_bytes) {
+    // SKB_TRUESIZE of Linux's include/linux/skbuff.h, 6.1 to 6.18 on x86-64; checked by a unit test.
     constexpr std::size_t kDescription = 256;  // struct sk_buff
     constexpr std::size_t kAround = 336;       // struct skb_shared_info and room for the link's header
     return std::bit_ceil(datagram_bytes + kAround) + kDescription;

@@ -26,7 +26,10 @@ namespace {
 // Slots: those waiting to be sent plus those kept for resends.
 constexpr std::size_t kSlots = 12;
 constexpr std::size_t kMostWaiting = 3;
-constexpr unsigned kBatch = 8;  // packets per system call: 60 KiB at the default size
+// Packets per system call: so many, and no more than take a third of a client's default receive buffer.
+constexpr std::size_t kMostBatch = 8;
+constexpr std::size_t kBatchBytes = 70'000;
+constexpr std::int64_t kResendPatience_ns = 20'000'000;
 
 std::int64_t monotonic_ns() {
     timespec t{};
@@ -240,8 +243,11 @@ void GigeSink::Implementation::resend(const gvcp::ResendRequest& request) {
     std::uint32_t last = request.last_packet;
     // One request may not make more than one frame's worth of answers.
     last = std::min(last, slot ? slot->packets() + 1 : request.first_packet);
+    // The control port must not go silent for a client that reads slowly.
+    const std::int64_t until_ns = monotonic_ns() + kResendPatience_ns;
     for (std::uint32_t id = request.first_packet; id <= last; ++id) {
-        control_room.wait(stream_address, to, ReceiverRoom::bytes_of(now.packet_bytes), stopping);
+        if (monotonic_ns() < until_ns)
+            control_room.wait(stream_address, to, ReceiverRoom::bytes_of(now.packet_bytes), stopping);
         std::size_t size = gvsp::kHeaderBytes;
         bool whole = false;
         if (slot) {
@@ -286,14 +292,17 @@ void GigeSink::Implementation::send_frame(Slot& slot) {
     const std::uint32_t last = slot.packets() + 1;
     const double rate_ns = static_cast<double>(slot.state.packet_bytes) / config.rate_bytes_s * 1e9;
     const double interval_ns = std::max(rate_ns, static_cast<double>(slot.state.packet_delay_ns));
-    std::array<std::array<std::uint8_t, gvsp::kLeaderBytes>, kBatch> headers;
-    std::array<std::array<iovec, 2>, kBatch> parts;
-    std::array<mmsghdr, kBatch> messages;
+    std::array<std::array<std::uint8_t, gvsp::kLeaderBytes>, kMostBatch> headers;
+    std::array<std::array<iovec, 2>, kMostBatch> parts;
+    std::array<mmsghdr, kMostBatch> messages;
+    const std::size_t packet_room = ReceiverRoom::bytes_of(slot.state.packet_bytes);
+    // A delay asked for by the client is per packet; without one, batches keep the rate.
+    const std::size_t batch = slot.state.packet_delay_ns > 100'000
+                                  ? 1
+                                  : std::clamp<std::size_t>(kBatchBytes / packet_room, 1, kMostBatch);
     const std::int64_t first_ns = monotonic_ns();
     std::uint32_t id = 0;
     while (id <= last) {
-        // A delay asked for by the client is per packet; without one, batches keep the rate.
-        const std::uint32_t batch = slot.state.packet_delay_ns > 100'000 ? 1 : kBatch;
         unsigned count = 0;
         for (; count < batch && id <= last; ++count, ++id) {
             std::span<const std::uint8_t> payload;
@@ -306,8 +315,7 @@ void GigeSink::Implementation::send_frame(Slot& slot) {
             messages[count].msg_hdr.msg_iov = parts[count].data();
             messages[count].msg_hdr.msg_iovlen = payload.empty() ? 1 : 2;
         }
-        sender_room.wait(stream_address, to, count * ReceiverRoom::bytes_of(slot.state.packet_bytes),
-                         stopping);
+        sender_room.wait(stream_address, to, count * packet_room, stopping);
         // What the kernel does not take now is lost like on a wire; the client asks for it again.
         sendmmsg(stream.get(), messages.data(), count, 0);
         if (id <= last) {

@@ -22,13 +22,14 @@ def bits_of(pixel_format):
     return {"Mono8": 8, "Mono12": 12, "Mono16": 16}[pixel_format]
 
 
-def picture_of(buffer, bits):
+def values_of(buffer, bits):
     width, height = buffer.get_image_width(), buffer.get_image_height()
     kind = numpy.uint8 if bits == 8 else numpy.dtype("<u2")
-    values = numpy.frombuffer(buffer.get_data(), kind, width * height).reshape(height, width)
-    # One stretch for all: display gamma of 2.2 between the black level, which most of a picture of space is, and the
-    # ADC's end.
-    black = numpy.median(values) if numpy.median(values) < 2**bits / 8 else 0
+    return numpy.frombuffer(buffer.get_data(), kind, width * height).reshape(height, width)
+
+
+def picture_of(values, bits, black):
+    # One stretch for all: display gamma of 2.2 from the first frame's darkest tenth to the ADC's end.
     shown = numpy.clip((values - black) / (2**bits - 1 - black), 0, 1) ** (1 / 2.2) * 255
     return Image.fromarray(shown.astype(numpy.uint8)).resize((TILE, TILE), Image.LANCZOS)
 
@@ -48,7 +49,7 @@ def main():
     for _ in range(16):
         stream.push_buffer(Aravis.Buffer.new_allocate(camera.get_payload()))
     camera.start_acquisition()
-    tiles, received, incomplete = [], 0, 0
+    tiles, received, incomplete, black = [], 0, 0, None
     begun = time.monotonic()
     while (elapsed := time.monotonic() - begun) < options.seconds:
         buffer = stream.timeout_pop_buffer(2_000_000)
@@ -57,7 +58,10 @@ def main():
         if buffer.get_status() == Aravis.BufferStatus.SUCCESS:
             received += 1
             if elapsed >= options.seconds * len(tiles) / (COLUMNS * ROWS):
-                tiles.append((buffer.get_frame_id(), elapsed, picture_of(buffer, bits)))
+                values = values_of(buffer, bits)
+                if black is None:
+                    black = numpy.percentile(values, 10)
+                tiles.append((buffer.get_frame_id(), elapsed, picture_of(values, bits, black)))
         else:
             incomplete += 1
         stream.push_buffer(buffer)
