@@ -80,8 +80,16 @@ Fields fields(OutputsConfig& o) {
     };
 }
 
+Fields fields(PluginConfig& p) {
+    return {required(path("file", p.file, "shared library that adds models (render/plugin.h)"))};
+}
+
+ScenarioConfig::ScenarioConfig() {
+    for (std::size_t i = 0; i < kBodyCount; ++i) bodies[i] = default_body(static_cast<BodyId>(i));
+}
+
 Fields fields(ScenarioConfig& s) {
-    return {
+    Fields list = {
         text("name", s.name, "for reports"),
         required(text("time_utc", s.time_utc, "simulated time at the start")),
         integer("seed", s.seed, {0, 9e15}, "of all random numbers"),
@@ -90,14 +98,21 @@ Fields fields(ScenarioConfig& s) {
         required(section("camera", s.camera, "the camera's data sheet")),
         section("camera_pose", s.camera_pose, "where the camera stands until commands say otherwise"),
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
-        section("earth", s.earth, "the Earth"),
+        section("sun", s.sun, "the Sun"),
+        section("atmosphere", s.atmosphere, "the Earth's air"),
         section("stars", s.stars, "the stars"),
         numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
                 "edges of the spectral bins"),
+        section("rays", s.models.rays, "how pixels become rays"),
+        text("radiance", s.models.radiance, "reflected | emissive, or a plug-in's"),
+        sections("plugins", s.plugins, "shared libraries that add models"),
         section("quality", s.quality, "speed against accuracy"),
         section("commands", s.commands, "where commands come from"),
         section("outputs", s.outputs, "where frames go"),
     };
+    for (std::size_t i = 0; i < kBodyCount; ++i)
+        list.push_back(section(std::string(kBodyNames[i]), s.bodies[i], "the body of that name"));
+    return list;
 }
 
 void validate(const ScenarioConfig& s) {
@@ -116,7 +131,7 @@ Motion initial_motion(const PoseConfig& p, TimeTai time, const Bodies& bodies) {
     if (p.attitude == PoseConfig::Attitude::kLookAt) attitude = look_along(p.look_at_m - p.position_m, p.up);
     // +z down, +y along -north: then +x = y x z points east.
     if (p.attitude == PoseConfig::Attitude::kNadir)
-        attitude = look_along(bodies.earth_world_m - p.position_m, Vec3d{0, 0, 1});
+        attitude = look_along(bodies.earth().world_m - p.position_m, Vec3d{0, 0, 1});
     return {time, {p.position_m, attitude}, p.velocity_m_s, p.rate_body_rad_s};
 }
 

@@ -12,9 +12,12 @@
 #include "io/sink_files.h"
 #include "io/sink_gige.h"
 #include "io/sink_v4l2.h"
+#include "render/atmosphere_config.h"
 #include "render/bodies.h"
+#include "render/body_light.h"
 #include "render/material.h"
 #include "render/renderer.h"
+#include "render/sun.h"
 #include "sensor/camera_model.h"
 
 namespace hilcam {
@@ -40,7 +43,7 @@ struct GeneratedMeshConfig {
 Fields fields(GeneratedMeshConfig& mesh);
 
 struct MaterialSet {
-    std::vector<MaterialConfig> surfaces;
+    std::vector<SurfaceConfig> surfaces;
 };
 Fields fields(MaterialSet& set);
 
@@ -83,7 +86,14 @@ struct OutputsConfig {
 };
 Fields fields(OutputsConfig& outputs);
 
+struct PluginConfig {
+    std::filesystem::path file;
+};
+Fields fields(PluginConfig& plugin);
+
 struct ScenarioConfig {
+    ScenarioConfig();
+
     std::string name;
     std::string time_utc = "2026-01-01T00:00:00Z";
     std::int64_t seed = 1;
@@ -92,9 +102,13 @@ struct ScenarioConfig {
     CameraModel camera;
     PoseConfig camera_pose;
     std::vector<ObjectConfig> objects;
-    EarthConfig earth;
+    SunConfig sun;
+    std::array<BodyConfig, kBodyCount> bodies;
+    AtmosphereConfig atmosphere;
     StarsConfig stars;
     std::vector<double> spectrum_edges_um = {0.40, 0.52, 0.62, 0.75, 0.95};
+    RenderModels models;
+    std::vector<PluginConfig> plugins;
     QualityConfig quality;
     CommandsConfig commands;
     OutputsConfig outputs;

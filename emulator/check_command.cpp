@@ -4,6 +4,8 @@
 
 #include "emulator/emulator.h"
 #include "emulator/scene_loader.h"
+#include "emulator/world_state.h"
+#include "render/sun.h"
 #include "render/units.h"
 #include "sensor/chain.h"
 #include "sensor/optics.h"
@@ -47,39 +49,15 @@ std::string camera_sheet(const ScenarioConfig& s, const SpectralGrid& grid) {
 std::string check_scenario(const ScenarioConfig& s) {
     const SpectralGrid grid(s.spectrum_edges_um);
     const TimeTai time = parse_utc(s.time_utc);
-    const std::vector<Motion> motions = initial_motions(s, time);
-    const Scene scene = load_scene(s, grid);
-    const Bodies bodies = bodies_at(time, s.origin);
-
-    std::string out = fmt::format("scenario {} at {}\n", s.name, format_utc(time)) + camera_sheet(s, grid);
-    out += fmt::format("plan\n  {} spectral bins from {:.2f} to {:.2f} um\n", grid.size(), grid.from_um(0),
-                       grid.to_um(grid.size() - 1));
-    const Vec3d camera_m = motions[0].pose.position_world_m;
-    const Mat3d camera_from_world = transposed(to_matrix(motions[0].pose.world_from_body));
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const Vec3d offset_m = motions[i + 1].pose.position_world_m - camera_m;
-        out += fmt::format("  object {} '{}': {} triangles, {} surfaces, {:.3f} m away, {}\n", i + 1,
-                           scene.objects[i].name, scene.objects[i].mesh.triangles.size(),
-                           scene.objects[i].mesh.surfaces.size(), length(offset_m),
-                           (camera_from_world * offset_m).z > 0 ? "before the camera" : "behind the camera");
-    }
-    const RenderQuality& q = s.quality.render;
-    out += fmt::format(
-        "  {} x {} rays per pixel where an object can be; paths of up to {} surfaces, dropped below {:g}\n",
-        q.samples_per_axis, q.samples_per_axis, q.max_depth, q.contribution_threshold);
-    const Vec3d sun = normalized(bodies.sun_world_m - camera_m);
-    out += fmt::format("  Sun at [{:.4f}, {:.4f}, {:.4f}] (ICRF), {:.4f} au\n", sun.x, sun.y, sun.z,
-                       length(bodies.sun_world_m - camera_m) / kAstronomicalUnit_m);
-    const double earth_m = length(bodies.earth_world_m - camera_m);
-    out +=
-        s.earth.visible
-            ? fmt::format(
-                  "  Earth's centre {:.0f} km away, {:.2f} deg wide: drawn, reflected and lighting objects\n",
-                  earth_m * 1e-3,
-                  2 * std::asin(std::min(1.0, kEarthEquatorialRadius_m / earth_m)) / kDegree_rad)
-            : std::string("  Earth: not visible by the scenario\n");
-    out += fmt::format("  {} stars to V {:.1f}\n", scene.stars.size(), s.stars.faintest_magnitude);
-    out += "  atmosphere: none\n";
+    const ImageGeometry geometry = geometry_of(s.camera, static_cast<int>(s.quality.guard_px));
+    const std::unique_ptr<Renderer> renderer = load_renderer(s, grid, geometry);
+    WorldState state(initial_motions(s, time), s.origin);
+    WorldSnapshot world;
+    world.objects.resize(s.objects.size());
+    ShownCommand shown;
+    state.sample(time, world, shown);
+    std::string out = fmt::format("scenario {} at {}\n", s.name, format_utc(time)) + camera_sheet(s, grid) + "plan\n";
+    for (const std::string& line : renderer->explain_plan(world)) out += "  " + line + "\n";
     return out;
 }
 

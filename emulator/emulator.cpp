@@ -51,8 +51,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     if (limits.outputs) make_sinks();
     const int guard_px = static_cast<int>(scenario.quality.guard_px);
     const ImageGeometry geometry = geometry_of(scenario.camera, guard_px);
-    renderer_ =
-        std::make_unique<Renderer>(load_scene(scenario, grid_), grid_, geometry, scenario.quality.render);
+    renderer_ = load_renderer(scenario, grid_, geometry);
     chain_ = std::make_unique<SensorChain>(scenario.camera, grid_, guard_px,
                                            static_cast<int>(scenario.quality.render.samples_per_axis));
     // Loading took its time; the simulation starts now.

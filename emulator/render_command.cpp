@@ -1,5 +1,6 @@
 #include "emulator/render_command.h"
 
+#include "emulator/emulator.h"
 #include "emulator/scene_loader.h"
 #include "emulator/world_state.h"
 #include "io/image_file.h"
@@ -16,24 +17,22 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
     const SpectralGrid grid(scenario.spectrum_edges_um);
     const int guard_px = static_cast<int>(scenario.quality.guard_px);
     const ImageGeometry geometry = geometry_of(scenario.camera, guard_px);
-    Renderer renderer(load_scene(scenario, grid), grid, geometry, scenario.quality.render);
+    const std::unique_ptr<Renderer> renderer = load_renderer(scenario, grid, geometry);
 
     const TimeTai start = parse_utc(scenario.time_utc);
     const TimeTai time = start + static_cast<std::int64_t>(time_offset_s * 1e9);
-    const Bodies bodies = bodies_at(start, scenario.origin);
+    WorldState state(initial_motions(scenario, start), scenario.origin);
     WorldSnapshot world;
-    world.time = time;
-    world.bodies = bodies_at(time, scenario.origin);
-    world.camera = propagate(initial_motion(scenario.camera_pose, start, bodies), time);
-    for (const ObjectConfig& object : scenario.objects)
-        world.objects.push_back(propagate(initial_motion(object.pose, start, bodies), time));
+    world.objects.resize(scenario.objects.size());
+    ShownCommand shown;
+    state.sample(time, world, shown);
 
     const RandomKey key{static_cast<std::uint64_t>(scenario.seed), 1};
     RadianceImage radiance(geometry.padded_width(), geometry.padded_height(), grid.size());
     std::vector<PointSource> points;
-    points.reserve(renderer.most_points());
+    points.reserve(renderer->most_points());
     RenderStats stats;
-    renderer.render(world, key, radiance, points, stats);
+    renderer->render(world, key, radiance, points, stats);
     if (stage == RenderStage::kRadiance) return write_radiance_exr(out, radiance, grid);
 
     SensorChain chain(scenario.camera, grid, guard_px,

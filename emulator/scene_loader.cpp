@@ -1,10 +1,14 @@
 #include "emulator/scene_loader.h"
 
+#include "io/brdf_file.h"
 #include "io/catalogue_file.h"
 #include "io/image_file.h"
 #include "io/mesh_cache.h"
 #include "io/mesh_file.h"
+#include "render/brdf_table.h"
 #include "render/check.h"
+#include "render/plugin.h"
+#include "render/sun.h"
 
 namespace hilcam {
 namespace {
@@ -20,7 +24,27 @@ std::filesystem::path mesh_path(const ObjectConfig& object) {
 
 }  // namespace
 
-Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid) {
+namespace {
+
+std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, const SpectralGrid& grid) {
+    std::vector<Material> materials;
+    for (const MeshSurface& surface : mesh.surfaces) {
+        const SurfaceConfig* config = find_surface(set.surfaces, surface.name);
+        if (!config) {
+            materials.push_back(make_material(surface, grid));
+            continue;
+        }
+        const MaterialConfig& m = config->material;
+        materials.push_back(make_material(
+            m, grid, m.table.empty() ? nullptr : std::make_shared<const BrdfTable>(read_brdf(m.table, grid))));
+        materials.back().texture = surface.base_color_texture;
+    }
+    return materials;
+}
+
+}  // namespace
+
+Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules) {
     Scene scene;
     for (const ObjectConfig& config : scenario.objects) {
         SceneObject object;
@@ -28,17 +52,39 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid) {
         object.mesh = load_mesh(mesh_path(config));
         const auto scale = static_cast<float>(config.scale);
         for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
-        object.materials = make_materials(object.mesh, config.materials.surfaces, grid);
+        object.materials = load_materials(object.mesh, config.materials, grid);
         scene.objects.push_back(std::move(object));
     }
+    const TimeTai time = parse_utc(scenario.time_utc);
     if (!scenario.stars.catalogue.empty())
-        scene.stars = stars_at(load_catalogue(scenario.stars.catalogue), parse_utc(scenario.time_utc),
+        scene.stars = stars_at(load_catalogue(scenario.stars.catalogue), time, origin_velocity_m_s(time, scenario.origin),
                                scenario.stars.faintest_magnitude, grid);
-    scene.earth.visible = scenario.earth.visible;
-    scene.earth.albedo = grid.average(scenario.earth.albedo);
-    if (!scenario.earth.albedo_map.empty()) scene.earth.map = read_picture(scenario.earth.albedo_map);
-    scene.sun_irradiance_1au_w_m2_um = solar_irradiance_1au_w_m2_um(grid);
+    for (std::size_t i = 0; i < kBodyCount; ++i) {
+        const BodyConfig& config = scenario.bodies[i];
+        SceneBody& body = scene.bodies[i];
+        body.visible = config.visible;
+        body.look = BodyLook(static_cast<BodyId>(i), config, grid);
+        if (!config.albedo_map.empty()) body.map = read_picture(config.albedo_map);
+    }
+    AtmosphereConfig air = scenario.atmosphere;
+    if (air.cache.empty()) air.cache = cache_folder();
+    if (scene.body(BodyId::kEarth).visible)
+        scene.air = modules.atmospheres.make(air.model, AtmosphereRequest{air, grid});
+    if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
+    scene.sun_irradiance_1au_w_m2_um =
+        scenario.sun.has_spectrum ? grid.average(scenario.sun.spectrum) : solar_irradiance_1au_w_m2_um(grid);
+    scene.limb_darkening = scenario.sun.limb_darkening;
     return scene;
+}
+
+std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
+                                        const ImageGeometry& geometry) {
+    Modules modules;
+    std::vector<std::filesystem::path> plugins;
+    for (const PluginConfig& plugin : scenario.plugins) plugins.push_back(plugin.file);
+    load_plugins(plugins, modules);
+    return std::make_unique<Renderer>(load_scene(scenario, grid, modules), grid, geometry, scenario.quality.render,
+                                      scenario.models, modules);
 }
 
 }  // namespace hilcam

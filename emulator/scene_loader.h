@@ -1,12 +1,17 @@
 #pragma once
-// From a scenario to what the renderer needs: meshes, materials, stars, Earth.
+// From a scenario to the renderer: models, meshes, materials, stars, bodies, air.
 
 #include "emulator/app_config.h"
+#include "render/modules.h"
+#include "render/renderer.h"
 #include "render/scene.h"
 
 namespace hilcam {
 
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
-Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid);
+Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules);
+// The same, ready to render.
+std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
+                                        const ImageGeometry& geometry);
 
 }  // namespace hilcam

@@ -34,6 +34,17 @@ Pose WorldState::History::at(TimeTai time) const {
     return interpolate(*(after - 1), *after, time);
 }
 
+Motion WorldState::History::motion_at(TimeTai time) const {
+    constexpr std::int64_t kHalf_ns = 500'000;
+    const Pose before = at(time + -kHalf_ns), after = at(time + kHalf_ns);
+    constexpr double kStep_s = 2 * kHalf_ns * kSecondsPerNs;
+    const Quat turn = conjugate(before.world_from_body) * after.world_from_body;
+    // The small rotation's vector is twice the quaternion's; its sign is the quaternion's own.
+    const double twice = turn.w < 0 ? -2 : 2;
+    return {time, at(time), (after.position_world_m - before.position_world_m) / kStep_s,
+            (twice / kStep_s) * Vec3d{turn.x, turn.y, turn.z}};
+}
+
 WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& origin) : origin_(origin) {
     for (const Motion& motion : motions) {
         auto thing = std::make_unique<Thing>();
@@ -62,7 +73,14 @@ void WorldState::sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown)
     shown = {};
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const History& history = things_[i]->latest.read();
-        (i == 0 ? world.camera : world.objects[i - 1]) = history.at(time);
+        if (i == 0) {
+            const Motion camera = history.motion_at(time);
+            world.camera = camera.pose;
+            world.camera_velocity_m_s = camera.velocity_world_m_s;
+            world.camera_rate_rad_s = camera.rate_body_rad_s;
+        } else {
+            world.objects[i - 1] = history.at(time);
+        }
         if (history.command.arrival_monotonic_ns > shown.arrival_monotonic_ns) shown = history.command;
     }
 }

@@ -44,6 +44,8 @@ class WorldState {
 
         void insert(const Motion& motion);
         Pose at(TimeTai time) const;
+        // Velocity and body rate with it: differences over a millisecond, as poses alone may be what is sent.
+        Motion motion_at(TimeTai time) const;
     };
     struct Thing {
         History written;  // the writers' copy

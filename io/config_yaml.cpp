@@ -166,13 +166,15 @@ class Reader {
     std::vector<std::filesystem::path> open_files_;
     std::size_t nodes_ = 0;
 
+    // file:line:column
+    static std::string where(const Place& place, const YAML::Node& node) {
+        const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
+        if (place.command_line || mark.is_null()) return place.name;
+        return place.name + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+    }
     [[noreturn]] static void fail(const Place& place, const YAML::Node& node, const std::string& path,
                                   const std::string& what) {
-        std::string where = place.name;
-        const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
-        if (!place.command_line && !mark.is_null())
-            where += ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
-        throw InputError(where + ": " + (path.empty() || place.command_line ? "" : path + ": ") + what);
+        throw InputError(where(place, node) + ": " + (path.empty() || place.command_line ? "" : path + ": ") + what);
     }
 
     // Follows an override's path down the sections until a word is unknown.
@@ -331,7 +333,10 @@ class Reader {
                                  "; accepted: [w, x, y, z] of norm 1");
                     *f.value = normalized(q);
                 },
-                [&](const CurveField& f) { *f.value = curve(node, f.range, number, refuse); },
+                [&](const CurveField& f) {
+                    *f.value = curve(node, f.range, number, refuse);
+                    f.value->where = where(place, node);
+                },
                 [&](const SectionField& f) { section(node, place, f, path, depth, refuse); },
                 [&](const SectionsField& f) {
                     if (!node.IsSequence()) refuse(node, "a list of mappings");

@@ -9,16 +9,88 @@
 #include "render/units.h"
 
 namespace hilcam {
+namespace {
 
-Vec3d sun_from_earth_m(TimeTai time) {
-    // TDB differs from TT by at most 2 ms (Fairhead & Bretagnon 1990), 60 m of Earth's motion.
-    const JulianDate tt = julian_tt(time);
-    double heliocentric[2][3];
-    double barycentric[2][3];
-    eraEpv00(tt.day, tt.fraction, heliocentric, barycentric);
-    const double* earth_au = heliocentric[0];
-    return -kAstronomicalUnit_m * Vec3d{earth_au[0], earth_au[1], earth_au[2]};
+constexpr double kDay_s = 86400;
+
+// Pole and prime meridian of Archinal et al. 2018 at T Julian centuries and d days of TDB since J2000 [deg].
+struct Rotation {
+    double right_ascension_deg, declination_deg, meridian_deg;
+};
+
+Rotation moon_rotation(double t, double d) {
+    const auto argument = [&](double a, double rate) { return (a + rate * d) * kDegree_rad; };
+    const double e1 = argument(125.045, -0.0529921), e2 = argument(250.089, -0.1059842),
+                 e3 = argument(260.008, 13.0120009), e4 = argument(176.625, 13.3407154),
+                 e5 = argument(357.529, 0.9856003), e6 = argument(311.589, 26.4057084),
+                 e7 = argument(134.963, 13.0649930), e8 = argument(276.617, 0.3287146),
+                 e9 = argument(34.226, 1.7484877), e10 = argument(15.134, -0.1589763),
+                 e11 = argument(119.743, 0.0036096), e12 = argument(239.961, 0.1643573),
+                 e13 = argument(25.053, 12.9590088);
+    using std::cos, std::sin;
+    return {269.9949 + 0.0031 * t - 3.8787 * sin(e1) - 0.1204 * sin(e2) + 0.0700 * sin(e3) - 0.0172 * sin(e4) +
+                0.0072 * sin(e6) - 0.0052 * sin(e10) + 0.0043 * sin(e13),
+            66.5392 + 0.0130 * t + 1.5419 * cos(e1) + 0.0239 * cos(e2) - 0.0278 * cos(e3) + 0.0068 * cos(e4) -
+                0.0029 * cos(e6) + 0.0009 * cos(e7) + 0.0008 * cos(e10) - 0.0009 * cos(e13),
+            38.3213 + 13.17635815 * d - 1.4e-12 * d * d + 3.5610 * sin(e1) + 0.1208 * sin(e2) - 0.0642 * sin(e3) +
+                0.0158 * sin(e4) + 0.0252 * sin(e5) - 0.0066 * sin(e6) - 0.0047 * sin(e7) - 0.0046 * sin(e8) +
+                0.0028 * sin(e9) + 0.0052 * sin(e10) + 0.0040 * sin(e11) + 0.0019 * sin(e12) - 0.0044 * sin(e13)};
 }
+
+// Archinal et al. 2018, table 1; periodic terms below 0.1 deg are left out, Neptune's are not.
+Rotation planet_rotation(BodyId id, double t, double d) {
+    const double n = (357.85 + 52.316 * t) * kDegree_rad;
+    switch (id) {
+        case BodyId::kMercury: return {281.0103 - 0.0328 * t, 61.4155 - 0.0049 * t, 329.5988 + 6.1385108 * d};
+        case BodyId::kVenus: return {272.76, 67.16, 160.20 - 1.4813688 * d};
+        case BodyId::kMars: return {317.68143 - 0.1061 * t, 52.88650 - 0.0609 * t, 176.630 + 350.89198226 * d};
+        case BodyId::kJupiter:
+            return {268.056595 - 0.006499 * t, 64.495303 + 0.002413 * t, 284.95 + 870.5360000 * d};
+        case BodyId::kSaturn: return {40.589 - 0.036 * t, 83.537 - 0.004 * t, 38.90 + 810.7939024 * d};
+        case BodyId::kUranus: return {257.311, -15.175, 203.81 - 501.1600928 * d};
+        case BodyId::kNeptune:
+            return {299.36 + 0.70 * std::sin(n), 43.46 - 0.51 * std::cos(n),
+                    249.978 + 541.1397757 * d - 0.48 * std::sin(n)};
+        default: return moon_rotation(t, d);
+    }
+}
+
+double tdb_days(TimeTai time) {
+    // TDB differs from TT by at most 2 ms (Fairhead & Bretagnon 1990), 60 m of the Earth's motion.
+    const JulianDate tt = julian_tt(time);
+    return (tt.day - ERFA_DJ00) + tt.fraction;
+}
+
+}  // namespace
+
+StateVector heliocentric(BodyId id, TimeTai time) {
+    const JulianDate tt = julian_tt(time);
+    constexpr double au = kAstronomicalUnit_m, per_day = kAstronomicalUnit_m / kDay_s;
+    const auto state = [&](const double pv[2][3]) {
+        return StateVector{{au * pv[0][0], au * pv[0][1], au * pv[0][2]},
+                           {per_day * pv[1][0], per_day * pv[1][1], per_day * pv[1][2]}};
+    };
+    double pv[2][3];
+    if (id == BodyId::kEarth || id == BodyId::kMoon) {
+        double barycentric[2][3];
+        eraEpv00(tt.day, tt.fraction, pv, barycentric);
+        StateVector out = state(pv);
+        if (id == BodyId::kMoon) {
+            double moon[2][3];
+            eraMoon98(tt.day, tt.fraction, moon);
+            const StateVector from_earth = state(moon);
+            out.position_m = out.position_m + from_earth.position_m;
+            out.velocity_m_s = out.velocity_m_s + from_earth.velocity_m_s;
+        }
+        return out;
+    }
+    // ERFA's numbers: 1 Mercury, 2 Venus, 3 Earth-Moon barycentre, 4 Mars ... 8 Neptune.
+    const int number = id < BodyId::kEarth ? static_cast<int>(id) + 1 : static_cast<int>(id);
+    HILCAM_CHECK(eraPlan94(tt.day, tt.fraction, number, pv) >= 0);
+    return state(pv);
+}
+
+Vec3d sun_from_earth_m(TimeTai time) { return -heliocentric(BodyId::kEarth, time).position_m; }
 
 Mat3d earth_fixed_from_icrf(TimeTai time) {
     const JulianDate tt = julian_tt(time);
@@ -28,39 +100,104 @@ Mat3d earth_fixed_from_icrf(TimeTai time) {
     return {{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
 }
 
-Vec3d earth_fixed_position_m(const Geodetic& place) {
+Mat3d body_fixed_from_icrf(BodyId id, TimeTai time) {
+    if (id == BodyId::kEarth) return earth_fixed_from_icrf(time);
+    const double d = tdb_days(time);
+    const Rotation r = planet_rotation(id, d / 36525, d);
+    // Archinal et al. 2018, figure 1: node on the ICRF equator at RA + 90, tilt 90 - Dec, then W along the body's equator.
+    const double node = (90 + r.right_ascension_deg) * kDegree_rad, tilt = (90 - r.declination_deg) * kDegree_rad;
+    const double w = std::fmod(r.meridian_deg, 360.0) * kDegree_rad;
+    const auto about_z = [](double angle) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        return Mat3d{{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+    };
+    const double c = std::cos(tilt), s = std::sin(tilt);
+    const Mat3d about_x{{1, 0, 0}, {0, c, s}, {0, -s, c}};
+    return about_z(w) * (about_x * about_z(node));
+}
+
+Vec3d earth_fixed_position_m(const Geodetic& place) { return body_fixed_position_m(BodyId::kEarth, place); }
+
+Vec3d body_fixed_position_m(BodyId id, const Geodetic& place) {
+    const Figure& figure = kFigures[index_of(id)];
+    const double flattening = 1 - figure.polar_radius_m / figure.equatorial_radius_m;
     double xyz[3];
-    HILCAM_CHECK(eraGd2gc(ERFA_WGS84, place.longitude_rad, place.latitude_rad, place.height_m, xyz) == 0);
+    HILCAM_CHECK(eraGd2gce(figure.equatorial_radius_m, flattening, place.longitude_rad, place.latitude_rad,
+                           place.height_m, xyz) == 0);
     return {xyz[0], xyz[1], xyz[2]};
 }
 
 Fields fields(OriginConfig& c) {
+    std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
     return {
-        choice("kind", c.kind, {"earth_center", "earth_fixed"},
-               "what the world's origin is: the centre of the Earth, or a place that turns with it"),
+        choice("kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed"},
+               "what the world's origin is: the centre of a body, or a place that turns with it"),
+        choice("body", c.body, names, "of body_center and body_fixed"),
         number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
-               "of an earth_fixed origin, east positive"),
+               "of a fixed origin, east positive"),
         number("latitude_deg", c.place.latitude_rad, kDegree_rad, {-90, 90},
-               "of an earth_fixed origin, geodetic"),
+               "of a fixed origin, geodetic"),
         number("height_km", c.place.height_m, 1e3, {-10, 1e9},
-               "of an earth_fixed origin above the WGS 84 ellipsoid"),
+               "of a fixed origin above the body's ellipsoid (Earth: WGS 84)"),
     };
+}
+
+Vec3d origin_velocity_m_s(TimeTai time, const OriginConfig& origin) {
+    Vec3d velocity = heliocentric(origin.center(), time).velocity_m_s;
+    if (!origin.turns()) return velocity;
+    // The place's own motion, by difference over a minute: good to mm/s, aberration needs m/s.
+    constexpr std::int64_t kStep_ns = 30'000'000'000;
+    const Vec3d place = body_fixed_position_m(origin.center(), origin.place);
+    const Vec3d before = transposed(body_fixed_from_icrf(origin.center(), time + -kStep_ns)) * place;
+    const Vec3d after = transposed(body_fixed_from_icrf(origin.center(), time + kStep_ns)) * place;
+    return velocity + (after - before) / (2 * kStep_ns * kSecondsPerNs);
+}
+
+Vec3d aberrated(Vec3d dir, Vec3d velocity_m_s) {
+    double natural[3] = {dir.x, dir.y, dir.z};
+    double v[3] = {velocity_m_s.x / kSpeedOfLight_m_s, velocity_m_s.y / kSpeedOfLight_m_s,
+                   velocity_m_s.z / kSpeedOfLight_m_s};
+    const double inverse_lorentz = std::sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    double proper[3];
+    // The distance to the Sun only feeds the Sun's light bending (4 mas at most here): as if infinite.
+    eraAb(natural, v, 1e9, inverse_lorentz, proper);
+    return {proper[0], proper[1], proper[2]};
 }
 
 Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
-    const Mat3d earth_fixed_from_world = earth_fixed_from_icrf(time);
-    Vec3d origin_from_earth_m;
-    if (origin.kind == OriginConfig::Kind::kEarthFixed)
-        origin_from_earth_m = transposed(earth_fixed_from_world) * earth_fixed_position_m(origin.place);
-    return {sun_from_earth_m(time) - origin_from_earth_m, -origin_from_earth_m, earth_fixed_from_world};
-}
+    const BodyId center = origin.center();
+    const StateVector home = heliocentric(center, time);
+    const Mat3d home_fixed_from_world = body_fixed_from_icrf(center, time);
+    Vec3d origin_from_home_m;
+    if (origin.turns())
+        origin_from_home_m = transposed(home_fixed_from_world) * body_fixed_position_m(center, origin.place);
+    const Vec3d velocity = origin_velocity_m_s(time, origin);
 
-Fields fields(EarthConfig& c) {
-    return {
-        flag("visible", c.visible, "whether the Earth is drawn, reflected and shines on the objects"),
-        curve("albedo", c.albedo, {0, 1}, "Lambert albedo, or the factor on the map's reflectance"),
-        path("albedo_map", c.albedo_map, "equirectangular picture, left edge 180 W, top 90 N; none: uniform"),
+    // As the home body's centre sees it, then from the origin.
+    const auto apparent = [&](Vec3d from_home_m) {
+        const double distance_m = length(from_home_m);
+        return distance_m * aberrated(from_home_m / distance_m, velocity) - origin_from_home_m;
     };
+    Bodies out;
+    out.sun_world_m = apparent(-home.position_m);
+    for (std::size_t i = 0; i < kBodyCount; ++i) {
+        const auto id = static_cast<BodyId>(i);
+        const bool companion = (center == BodyId::kEarth && id == BodyId::kMoon) ||
+                               (center == BodyId::kMoon && id == BodyId::kEarth);
+        TimeTai then = time;
+        StateVector there = id == center ? home : heliocentric(id, time);
+        if (id != center && !companion) {
+            // One step of light time: the planet moves less than 1e-4 of the way meanwhile.
+            const double light_s = length(there.position_m - home.position_m) / kSpeedOfLight_m_s;
+            there.position_m = there.position_m - light_s * there.velocity_m_s;
+            then = time + -static_cast<std::int64_t>(light_s * 1e9);
+            out.body[i].world_m = apparent(there.position_m - home.position_m);
+        } else {
+            out.body[i].world_m = there.position_m - home.position_m - origin_from_home_m;
+        }
+        out.body[i].fixed_from_world = id == center ? home_fixed_from_world : body_fixed_from_icrf(id, then);
+    }
+    return out;
 }
 
 }  // namespace hilcam

@@ -1,8 +1,14 @@
 #pragma once
-// The Sun and the Earth: where they are, how the Earth is turned, how it reflects.
+// The Sun, the Moon and the planets: where they are, how they are turned, how large they are.
+//
+// Positions are apparent: light time and stellar aberration for an observer who moves with the scenario's central
+// body are in them, except for that body itself and for the Moon seen from the Earth or back (0.7 arcsec).
 
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 #include "render/config_field.h"
 #include "render/mesh.h"
@@ -12,70 +18,123 @@
 
 namespace hilcam {
 
-// Geocentric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's eraEpv00 (VSOP2000
-// fit, good to 14 km from 1900 to 2100). Light time and aberration (20 arcsec) are left out.
+// Index in Bodies and Scene::bodies.
+enum class BodyId : std::uint8_t { kMercury, kVenus, kEarth, kMoon, kMars, kJupiter, kSaturn, kUranus, kNeptune };
+inline constexpr std::size_t kBodyCount = 9;
+inline constexpr std::array<std::string_view, kBodyCount> kBodyNames = {
+    "mercury", "venus", "earth", "moon", "mars", "jupiter", "saturn", "uranus", "neptune"};
+inline constexpr std::size_t index_of(BodyId id) { return static_cast<std::size_t>(id); }
+
+// An ellipsoid of revolution about its z axis.
+struct Figure {
+    double equatorial_radius_m;
+    double polar_radius_m;
+};
+// Archinal et al., Celest. Mech. Dyn. Astron. 130:22 (2018), tables 4 and 5; the Earth's is WGS 84.
+inline constexpr std::array<Figure, kBodyCount> kFigures = {{
+    {2440.53e3, 2438.26e3},
+    {6051.8e3, 6051.8e3},
+    {kEarthEquatorialRadius_m, kEarthEquatorialRadius_m*(1 - kEarthFlattening)},
+    {1737.4e3, 1737.4e3},
+    {3396.19e3, 3376.20e3},
+    {71492e3, 66854e3},
+    {60268e3, 54364e3},
+    {25559e3, 24973e3},
+    {24764e3, 24341e3},
+}};
+
+// Geocentric geometric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's eraEpv00 (VSOP2000
+// fit, good to 14 km from 1900 to 2100).
 Vec3d sun_from_earth_m(TimeTai time);
+// Heliocentric geometric position and velocity [m, m/s], ICRF axes. Earth: eraEpv00. Moon: that plus eraMoon98 (Meeus'
+// series; 10 arcsec, 50 km). Planets: eraPlan94 (Simon et al. 1994; below 20 arcsec for the inner ones, 100 for
+// Jupiter and Saturn from 1800 to 2050).
+struct StateVector {
+    Vec3d position_m, velocity_m_s;
+};
+StateVector heliocentric(BodyId id, TimeTai time);
+// The Sun's velocity about the barycentre of the solar system, below 16 m/s, is left out of aberration.
 
 // The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
 // angle (ERFA eraC2t00b), no polar motion (below 0.5 arcsec), UT1 = UTC (below 14 arcsec).
 Mat3d earth_fixed_from_icrf(TimeTai time);
+// Into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by Archinal et al. 2018 (the Moon's
+// mean-Earth frame by its series, 0.01 deg).
+Mat3d body_fixed_from_icrf(BodyId id, TimeTai time);
 
-// Position on the WGS 84 ellipsoid in ITRF axes [m] (ERFA eraGd2gc). Angles in rad, height above the
-// ellipsoid in m.
+// A place on a body: angles in rad, height above its ellipsoid in m; latitude is geodetic (of the normal).
 struct Geodetic {
     double longitude_rad = 0;
     double latitude_rad = 0;
     double height_m = 0;
 };
 Vec3d earth_fixed_position_m(const Geodetic& place);
+Vec3d body_fixed_position_m(BodyId id, const Geodetic& place);
 
-// The scenario's world origin, which may ride with the rotating Earth.
+// The scenario's world origin, which may ride with a rotating body.
 struct OriginConfig {
-    enum class Kind { kEarthCenter, kEarthFixed } kind = Kind::kEarthCenter;
-    Geodetic place;  // kEarthFixed: a geostationary longitude with height 35 786 km, say
+    enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed } kind = Kind::kEarthCenter;
+    BodyId body = BodyId::kEarth;
+    Geodetic place;  // of the fixed ones: a geostationary longitude with height 35 786 km, say
+    BodyId center() const {
+        return kind == Kind::kBodyCenter || kind == Kind::kBodyFixed ? body : BodyId::kEarth;
+    }
+    bool turns() const { return kind == Kind::kEarthFixed || kind == Kind::kBodyFixed; }
 };
 Fields fields(OriginConfig& config);
 
 // Where the bodies stand in the world at an instant.
+struct BodyState {
+    Vec3d world_m;
+    Mat3d fixed_from_world;
+};
 struct Bodies {
     Vec3d sun_world_m;
-    Vec3d earth_world_m;
-    Mat3d earth_fixed_from_world;
+    std::array<BodyState, kBodyCount> body;
+
+    BodyState& operator[](BodyId id) { return body[index_of(id)]; }
+    const BodyState& operator[](BodyId id) const { return body[index_of(id)]; }
+    const BodyState& earth() const { return (*this)[BodyId::kEarth]; }
 };
+// Loop: some hundred microseconds, no allocation.
 Bodies bodies_at(TimeTai time, const OriginConfig& origin);
 
-// The Earth as a Lambert ellipsoid in direct Sun; no air, no clouds of its own.
-struct EarthConfig {
-    bool visible = true;
-    Curve albedo = Curve::constant(0.3);  // of a uniform Earth; with a map: a factor on its reflectance
-    std::filesystem::path
-        albedo_map;  // equirectangular sRGB picture of reflectance, left edge 180 W, top 90 N
-};
-Fields fields(EarthConfig& config);
+// The velocity of the scenario's origin against the Sun [m/s], ICRF axes.
+Vec3d origin_velocity_m_s(TimeTai time, const OriginConfig& origin);
+// A direction as an observer with this velocity sees it (ERFA eraAb, relativistic, the Sun's own light bending left
+// out).
+Vec3d aberrated(Vec3d dir, Vec3d observer_velocity_m_s);
 
-// The nearer intersection of a ray from outside with the Earth's ellipsoid. Origin and direction in ITRF
-// axes, metres from the Earth's centre. Closed form in double. Distance in lengths of the direction, or a
-// negative value: no hit.
-inline double intersect_earth(Vec3d origin_m, Vec3d dir) {
+// The nearer intersection of a ray from outside with an ellipsoid. Origin and direction in its axes, metres from
+// its centre. Closed form in double. Distance in lengths of the direction, or a negative value: no hit.
+inline double intersect_ellipsoid(const Figure& figure, Vec3d origin_m, Vec3d dir) {
     // Scaling z by a/b turns the ellipsoid into a sphere of radius a; then the closest-approach form of the
     // quadratic, which keeps its digits for far origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).
-    constexpr double a = kEarthEquatorialRadius_m;
-    constexpr double stretch = 1.0 / (1.0 - kEarthFlattening);
+    const double a = figure.equatorial_radius_m;
+    const double stretch = a / figure.polar_radius_m;
     const Vec3d o{origin_m.x, origin_m.y, origin_m.z * stretch};
     const Vec3d d{dir.x, dir.y, dir.z * stretch};
     const double d_squared = dot(d, d);
     const double to_closest = -dot(o, d) / d_squared;
     const Vec3d closest = o + to_closest * d;
-    const double rest = a * a - dot(closest, closest);
+    // a^2 - c^2 as a product: both are of the same size near the limb.
+    const double distance = length(closest);
+    const double rest = (a - distance) * (a + distance);
     if (rest < 0 || to_closest < 0) return -1;
     return to_closest - std::sqrt(rest / d_squared);
 }
+inline double intersect_earth(Vec3d origin_m, Vec3d dir) {
+    return intersect_ellipsoid(kFigures[index_of(BodyId::kEarth)], origin_m, dir);
+}
 
-// The outward unit normal of the ellipsoid at a point on it (ITRF axes).
-inline Vec3d earth_normal(Vec3d point_m) {
+// The outward unit normal of an ellipsoid at a point on it.
+inline Vec3d ellipsoid_normal(const Figure& figure, Vec3d point_m) {
     // Gradient of x^2/a^2 + y^2/a^2 + z^2/b^2.
-    constexpr double ratio = (1.0 - kEarthFlattening) * (1.0 - kEarthFlattening);
-    return normalized(Vec3d{point_m.x, point_m.y, point_m.z / ratio});
+    const double ratio = figure.polar_radius_m / figure.equatorial_radius_m;
+    return normalized(Vec3d{point_m.x, point_m.y, point_m.z / (ratio * ratio)});
+}
+inline Vec3d earth_normal(Vec3d point_m) {
+    return ellipsoid_normal(kFigures[index_of(BodyId::kEarth)], point_m);
 }
 
 }  // namespace hilcam

@@ -1,83 +1,71 @@
 #pragma once
-// Evaluation and sampling of the reflection model of material.h. Directions are unit vectors; `no`, `ni`,
-// `nh` are the cosines between the shading normal and the viewer, the light and their half vector. Inline:
-// called per ray.
+// How a point of a surface scatters light: values, densities and samples of every reflection model of material.h.
+//
+// All models are isotropic, so a BRDF is a function of three cosines: of the viewer and the light to the shading
+// normal, and of the two to each other. Values are f [sr^-1], without the cosine; densities are per solid angle of
+// the light's direction. Exact reflection and transmission have no value: only sample() gives them, as `exact`.
+// Loop, any thread.
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 
-#include "render/units.h"
+#include "render/material.h"
+#include "render/spectrum.h"
 #include "render/vec.h"
 
 namespace hilcam {
 
-inline constexpr float kPiF = static_cast<float>(kPi);
-
-// (1 - cosine)^5 of Schlick's Fresnel term: F = F0 + (1 - F0) * this.
-inline float schlick_weight(float cosine) {
-    const float x = std::clamp(1.0f - cosine, 0.0f, 1.0f);
-    return x * x * x * x * x;
-}
-
-// GGX distribution of normals [sr^-1]: Walter et al. 2007, eq. 33.
-inline float ggx_distribution(float alpha, float nh) {
-    const float a2 = alpha * alpha;
-    const float t = nh * nh * (a2 - 1) + 1;
-    return a2 / (kPiF * t * t);
-}
-
-// G2 / (4 no ni), Smith height-correlated: Heitz 2014, eq. 99.
-inline float ggx_visibility(float alpha, float no, float ni) {
-    const float a2 = alpha * alpha;
-    return 0.5f / (ni * std::sqrt(no * no * (1 - a2) + a2) + no * std::sqrt(ni * ni * (1 - a2) + a2));
-}
-
-// G2 / G1 of a facet seen from the viewer: the weight of a sample of visible normals (Heitz, JCGT 7(4), 2018,
-// eq. 19).
-inline float ggx_sample_weight(float alpha, float no, float ni) {
-    const float a2 = alpha * alpha;
-    const float lambda_o = std::sqrt(no * no * (1 - a2) + a2);
-    const float lambda_i = std::sqrt(ni * ni * (1 - a2) + a2);
-    return ni * (no + lambda_o) / (ni * lambda_o + no * lambda_i);
-}
-
-// Two unit vectors that make a right-handed frame with the unit vector n: Duff et al., JCGT 6(1), 2017.
-struct Frame {
-    Vec3f t, b, n;
-    explicit Frame(Vec3f normal) : n(normal) {
-        const float sign = std::copysign(1.0f, n.z);
-        const float a = -1.0f / (sign + n.z);
-        const float c = n.x * n.y * a;
-        t = {1.0f + sign * n.x * n.x * a, sign * c, -sign * n.x};
-        b = {c, sign + n.y * n.y * a, -n.y};
-    }
-    Vec3f to_world(Vec3f v) const { return v.x * t + v.y * b + v.z * n; }
-    Vec3f to_local(Vec3f v) const { return {dot(v, t), dot(v, b), dot(v, n)}; }
+struct Cosines {
+    float no, ni, io;
 };
 
-// A facet normal seen from `view` (local frame, z = normal), distributed as the visible GGX normals: Heitz
-// 2018.
-inline Vec3f sample_visible_normal(float alpha, Vec3f view, float u1, float u2) {
-    const Vec3f v = normalized(Vec3f{alpha * view.x, alpha * view.y, view.z});
-    const float across = v.x * v.x + v.y * v.y;
-    const Vec3f t1 = across > 0 ? Vec3f{-v.y, v.x, 0} / std::sqrt(across) : Vec3f{1, 0, 0};
-    const Vec3f t2 = cross(v, t1);
-    const float r = std::sqrt(u1);
-    const float phi = 2 * kPiF * u2;
-    const float p1 = r * std::cos(phi);
-    const float s = 0.5f * (1 + v.z);
-    const float p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * std::sin(phi);
-    const Vec3f n = p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0f, 1 - p1 * p1 - p2 * p2)) * v;
-    return normalized(Vec3f{alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)});
-}
+// What scatters at one point: a material, its spectra there (textures scale them), and the width of its facet lobe
+// there (at least the material's own; see path_vertex.h).
+struct Scatterer {
+    const Material* material = nullptr;
+    float alpha = 0;
+    Spectrum base;
+    Spectrum highlight;
 
-// A direction above the local plane with density cos/pi (Malley's method, pbrt 3rd ed., 13.6.3).
-inline Vec3f sample_cosine(float u1, float u2) {
-    const float r = std::sqrt(u1);
-    const float phi = 2 * kPiF * u2;
-    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u1))};
-}
+    bool is_glass() const { return material->model == ReflectionModel::kGlass; }
+    // Some light goes in exactly one direction, which no lamp is met in by chance.
+    bool has_exact() const { return is_glass() || (alpha == 0 && material->has_facets()); }
+    // Some light goes in all directions.
+    bool has_lobes() const {
+        return !is_glass() && !(alpha == 0 && (material->model == ReflectionModel::kMetal ||
+                                               material->model == ReflectionModel::kMirror));
+    }
+};
 
-inline Vec3f reflect(Vec3f view, Vec3f normal) { return 2 * dot(view, normal) * normal - view; }
+struct BrdfSample {
+    Vec3f dir;              // towards the light, unit, world
+    Spectrum weight;        // f cos / density, or the whole reflectance where exact
+    float density = 0;      // 0 where exact
+    bool exact = false;     // a mirror's or a sheet's one direction
+    bool transmits = false; // goes on to the other side
+    bool diffuse = false;   // not of the highlight
+    bool valid = false;
+};
+
+// f for light from above the surface (no, ni > 0); zero otherwise.
+Spectrum brdf_value(const Scatterer& at, Cosines c);
+// Density of sample() for a direction, exact parts left out.
+float brdf_density(const Scatterer& at, Cosines c);
+// A direction in proportion to f cos, about. u: three uniform numbers.
+BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u);
+// The exact parts alone, one after the other: 0 reflection, 1 transmission; the weight is the whole reflectance or
+// transmittance in that direction.
+BrdfSample brdf_exact(const Scatterer& at, Vec3f normal, Vec3f view_dir, int part);
+// Transmittance of a sheet for a ray at this cosine; zero for all that is not glass.
+Spectrum sheet_transmittance(const Scatterer& at, float cosine);
+// The share of light that comes back in all directions for light from the viewer's side, about: what chooses a
+// sample's part and ends a path.
+float brdf_albedo(const Scatterer& at, float no, int bins);
+
+// Over the bins of the grid.
+inline float mean(const Spectrum& s, int bins) {
+    float sum = 0;
+    for (int b = 0; b < kMaxBins; ++b) sum += s[b];
+    return sum / static_cast<float>(bins);
+}
 
 }  // namespace hilcam

@@ -22,9 +22,9 @@ float linear_from_srgb(std::uint8_t code) { return kSrgbTable[code]; }
 ColorBands::ColorBands(const SpectralGrid& grid)
     : bins_(grid.size()),
       // 20 nm ramps, so that a bin edge near a band edge does not switch.
-      red_(grid.average({{0.57, 0.59}, {0, 1}})),
-      green_(grid.average({{0.48, 0.50, 0.57, 0.59}, {0, 1, 1, 0}})),
-      blue_(grid.average({{0.48, 0.50}, {1, 0}})) {}
+      red_(grid.average({{0.57, 0.59}, {0, 1}, {}})),
+      green_(grid.average({{0.48, 0.50, 0.57, 0.59}, {0, 1, 1, 0}, {}})),
+      blue_(grid.average({{0.48, 0.50}, {1, 0}, {}})) {}
 
 Spectrum ColorBands::spectrum(Vec3f rgb) const {
     Spectrum out;

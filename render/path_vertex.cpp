@@ -6,17 +6,10 @@
 
 namespace hilcam {
 
-bool meets_object(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir) {
-    const auto k = static_cast<std::size_t>(lane);
-    if (hits.object[k] == HitPacket::kMiss) return false;
-    return !frame.earth_may_hide ||
-           !frame.background->earth_hides(origin_m, to_double(dir), static_cast<double>(hits.distance[k]));
-}
-
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                  float alpha_least, Vertex& vertex) {
     const auto k = static_cast<std::size_t>(lane);
-    const ObjectSurfaces& object = (*frame.objects)[hits.object[k]];
+    const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
     const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
     const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
     const Material& material = object.materials[triangle.surface];
@@ -46,22 +39,18 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
                   std::abs(origin_m.x), std::abs(origin_m.y), std::abs(origin_m.z)});
     vertex.offset_m = 16 * std::numeric_limits<float>::epsilon() * greatest;
 
-    vertex.alpha = std::max(material.ggx_alpha, alpha_least);
-    vertex.specular = material.specular;
-    vertex.mirror = material.specular && vertex.alpha == 0;
-    vertex.diffuse_albedo = material.diffuse_albedo;
-    vertex.normal_reflectance = material.normal_reflectance;
+    const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
+    vertex.surface = {&material, alpha, material.base, material.highlight};
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];
         const Spectrum scale =
             frame.bands->spectrum(sample(object.textures[static_cast<std::size_t>(material.texture)],
                                          (1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
                                          (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y));
-        // The one colour of a file scales what the material mostly is: the diffuse part, or a metal's
-        // reflectance.
-        const bool metal = mean(material.diffuse_albedo, frame.bins) <= 0;
-        Spectrum& scaled = metal ? vertex.normal_reflectance : vertex.diffuse_albedo;
-        scaled = scaled * scale;
+        // The one colour of a file scales what the material mostly is.
+        const bool shiny = material.model == ReflectionModel::kMetal || material.model == ReflectionModel::kMirror;
+        vertex.surface.base = vertex.surface.base * scale;
+        if (shiny) vertex.surface.highlight = vertex.surface.highlight * scale;
     }
     return true;
 }

@@ -1,32 +1,40 @@
 #pragma once
-// From pixels to directions: a pinhole camera.
+// From pixels to the camera's rays: one of the program's exchangeable models.
 //
-// Camera axes: +x right, +y down, +z along the boresight, which meets the image at its middle (width/2,
-// height/2). The centre of pixel (0, 0) is at (0.5, 0.5) px. The guard band continues the image on all four
-// sides: pixel (-1, 0) is seen too, so that light from outside the frame can spread in.
+//   pinhole    all pixels at one instant, with the lens's distortion
+//   rolling    a pose per row: rows are read `line_time` after each other, the middle row at the frame's time
+//   pushbroom  a line camera: every row of the image is the sensor's middle row, `line_time` apart
 
-#include "render/vec.h"
+#include <span>
+
+#include "render/image_geometry.h"
+#include "render/pose.h"
 
 namespace hilcam {
 
-struct ImageGeometry {
-    int width_px = 0;
-    int height_px = 0;
-    int guard_px = 0;            // on each side
-    double focal_length_px = 0;  // focal length / pixel pitch
+// World axes. The origin counts from the camera's place at the frame's time.
+struct CameraRay {
+    Vec3d from_camera_m;
+    Vec3d dir;  // of any length
+};
 
-    int padded_width() const { return width_px + 2 * guard_px; }
-    int padded_height() const { return height_px + 2 * guard_px; }
-    // Not normalised: z = 1, so the same plane carries interpolation and projection. x, y in px of the sensor
-    // frame.
-    Vec3d direction_camera(double x_px, double y_px) const {
-        return {(x_px - 0.5 * width_px) / focal_length_px, (y_px - 0.5 * height_px) / focal_length_px, 1.0};
-    }
-    // Where a direction with z > 0 meets the image [px of the sensor frame].
-    Vec2d project_px(Vec3d direction_camera) const {
-        return {0.5 * width_px + focal_length_px * direction_camera.x / direction_camera.z,
-                0.5 * height_px + focal_length_px * direction_camera.y / direction_camera.z};
-    }
+// Directions corner + x right + y down, x and y in padded px; all from the camera's place.
+struct LinearRays {
+    Vec3d corner, right, down;
+};
+
+class RayGenerator {
+  public:
+    virtual ~RayGenerator() = default;
+
+    // Once per frame. Owner thread.
+    virtual void place(const ImageGeometry& geometry, const Motion& camera) = 0;
+    // The rays through points of the padded image [px]. Loop, any thread.
+    virtual void generate(std::span<const Vec2d> points_px, std::span<CameraRay> rays) const = 0;
+    // Where all rays are of that form; else null. Placed with the frame.
+    virtual const LinearRays* linear() const { return nullptr; }
+    // All rays leave the camera at one instant and place, where project_px() says.
+    virtual bool is_still() const { return true; }
 };
 
 }  // namespace hilcam

@@ -9,10 +9,12 @@
 
 #include "render/background.h"
 #include "render/embree_scene.h"
-#include "render/path_tracer.h"
+#include "render/path_models.h"
+#include "render/point_field.h"
+#include "render/primary_rays.h"
+#include "render/ray_generators.h"
 #include "render/screen_bounds.h"
 #include "render/screen_mask.h"
-#include "render/star_field.h"
 #include "render/triangle_order.h"
 
 namespace hilcam {
@@ -33,6 +35,12 @@ std::vector<const Mesh*> ordered_meshes(Scene& scene) {
     return meshes;
 }
 
+std::vector<std::string> names_of(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const SceneObject& object : scene.objects) names.push_back(object.name);
+    return names;
+}
+
 std::vector<ObjectSurfaces> surfaces_of(Scene& scene) {
     std::vector<ObjectSurfaces> surfaces;
     for (SceneObject& object : scene.objects) surfaces.emplace_back(std::move(object));
@@ -45,95 +53,208 @@ std::vector<ObjectSurfaces> surfaces_of(Scene& scene) {
 Fields fields(RenderQuality& q) {
     return {
         integer("samples_per_axis", q.samples_per_axis, {1, 16}, "n: each pixel is an n x n grid of rays"),
+        text("path_model", q.path_model, "direct | hemisphere | path, or a plug-in's"),
         integer("max_depth", q.max_depth, {1, 64},
                 "surfaces that a light path may meet; 1: direct sunlight only"),
         number("contribution_threshold", q.contribution_threshold, 1, {0, 1},
-               "a path whose largest weight falls below this is not followed"),
+               "a path whose largest weight falls below this ends (hemisphere), or lives on by chance (path)"),
+        flag("sun_disk", q.sun_disk, "sunlight from the whole disk: soft shadows, exact highlights"),
+        number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
+               "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they are"),
+        integer("point_samples", q.point_samples, {4, 32},
+                "an object below a pixel is measured by a grid of so many rays in each direction"),
     };
 }
+
+namespace {
+
+// The little picture of an object that is smaller than a pixel: its sphere fills it.
+ImageGeometry probe_geometry(int pixels, double radius_m, double distance_m) {
+    ImageGeometry geometry;
+    geometry.width_px = geometry.height_px = pixels;
+    // The sphere's silhouette has the tangent of its half angle as radius; 2 % of margin.
+    const double sine = std::min(0.999, radius_m / distance_m);
+    geometry.focal_length_px = 0.5 * pixels / (1.02 * sine / std::sqrt(1 - sine * sine));
+    return geometry;
+}
+
+bool any_material(const std::vector<ObjectSurfaces>& objects, const auto& says) {
+    return std::any_of(objects.begin(), objects.end(), [&](const ObjectSurfaces& object) {
+        return std::any_of(object.materials.begin(), object.materials.end(), says);
+    });
+}
+
+}  // namespace
 
 struct Renderer::Implementation {
     std::size_t triangle_count;
     EmbreeScene embree;
     std::vector<ObjectSurfaces> objects;
+    std::vector<const ObjectSurfaces*> shown;  // at their level of detail
+    std::vector<double> radii_m;
+    std::vector<std::string> names;
+    std::vector<ObjectPlan> plans;
     std::vector<Star> stars;
-    Earth earth;
+    std::array<SceneBody, kBodyCount> bodies;
+    std::unique_ptr<Atmosphere> air;
     ColorBands bands;
     Background background;
-    ScreenMask object_mask;
+    ScreenMask object_mask, full_mask;
+    std::unique_ptr<RayGenerator> rays;
+    std::unique_ptr<RadianceModel> radiance_model;
+    std::string path_model_name;
     FrameView frame;
+    // For objects below a pixel.
+    FrameView probe;
+    std::unique_ptr<RayGenerator> probe_rays;
+    ScreenMask probe_mask;
+    std::vector<Spectrum> probe_pixels;
     int tile_px;
     int tiles_across;
     int tiles_down;
-    std::vector<TileTracer> tracers;  // one per slot of the thread pool
+    // One per slot of the thread pool.
+    std::vector<std::unique_ptr<PathModel>> tracers;
+    std::vector<std::vector<Vertex>> bare_vertices;
+    std::vector<std::vector<Spectrum>> tile_pixels;
     std::vector<TileStats> tile_stats;
 
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-                   const RenderQuality& quality)
+                   const RenderQuality& quality, const RenderModels& models, const Modules& modules)
         : triangle_count(0),
           embree(ordered_meshes(scene)),
-          objects(surfaces_of(scene)),
+          names(names_of(scene)),
           stars(std::move(scene.stars)),
-          earth(std::move(scene.earth)),
+          bodies(std::move(scene.bodies)),
+          air(std::move(scene.air)),
           bands(grid),
-          background(earth, scene.sun_irradiance_1au_w_m2_um, grid),
+          background(bodies, air.get(), scene.sun_irradiance_1au_w_m2_um, scene.limb_darkening, grid),
           object_mask(geometry),
+          full_mask(geometry),
+          rays(modules.rays.make(models.rays.model, models.rays)),
+          radiance_model(modules.radiance.make(models.radiance)),
+          path_model_name(quality.path_model),
+          probe_rays(make_pinhole_rays()),
+          probe_mask(probe_geometry(static_cast<int>(quality.point_samples), 1, 2)),
           tile_px(tile_edge_px(static_cast<int>(quality.samples_per_axis))),
           tiles_across((geometry.padded_width() + tile_px - 1) / tile_px),
           tiles_down((geometry.padded_height() + tile_px - 1) / tile_px),
           tile_stats(static_cast<std::size_t>(tiles_across * tiles_down)) {
-        for (const ObjectSurfaces& object : objects) triangle_count += object.triangles.size();
-        tracers.resize(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+        objects = surfaces_of(scene);
+        plans.resize(objects.size());
+        for (const ObjectSurfaces& object : objects) {
+            triangle_count += object.triangles.size();
+            radii_m.push_back(object.radius_m);
+            shown.push_back(&object);
+        }
+        full_mask.fill();
+        probe_mask.fill();
+        probe_pixels.resize(static_cast<std::size_t>(quality.point_samples * quality.point_samples));
+        const auto slots = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+        for (std::size_t i = 0; i < slots; ++i) tracers.push_back(modules.paths.make(quality.path_model));
+        tile_pixels.resize(slots, std::vector<Spectrum>(static_cast<std::size_t>(tile_px * tile_px)));
+        bare_vertices.resize(slots);
+
         frame.scene = &embree;
-        frame.objects = &objects;
+        frame.objects = &shown;
         frame.world_from_body.resize(objects.size());
-        frame.object_mask = &object_mask;
+        frame.is_point.resize(objects.size());
         frame.background = &background;
+        frame.radiance = radiance_model.get();
         frame.bands = &bands;
+        frame.rays = rays.get();
         frame.geometry = geometry;
         frame.bins = grid.size();
         frame.samples_per_axis = static_cast<int>(quality.samples_per_axis);
         frame.max_depth = static_cast<int>(quality.max_depth);
         frame.contribution_threshold = static_cast<float>(quality.contribution_threshold);
-    }
-
-    // To the farthest point of any object.
-    double farthest_m(const WorldSnapshot& world) const {
-        double farthest_m = 0;
-        for (std::size_t i = 0; i < objects.size(); ++i) {
-            const double distance_m =
-                length(world.objects[i].position_world_m - world.camera.position_world_m);
-            farthest_m = std::max(farthest_m, distance_m + objects[i].radius_m);
-        }
-        return farthest_m;
+        frame.sun_is_disk = quality.sun_disk;
+        frame.alpha_behind_diffuse = static_cast<float>(quality.facets_behind_diffuse);
+        frame.paths_sample_lobes = tracers.front()->samples_lobes();
+        frame.has_glass = any_material(objects, [](const Material& m) { return m.model == ReflectionModel::kGlass; });
+        frame.has_emission = radiance_model->emits() &&
+                             any_material(objects, [](const Material& m) { return largest(m.emission) > 0; });
+        probe = frame;
     }
 
     void place(const WorldSnapshot& world, RandomKey key) {
         HILCAM_CHECK(world.objects.size() == objects.size());
-        background.place(world);
-        embree.place(world.objects, world.camera.position_world_m);
+        const RaySpace space = choose_ray_space(world, radii_m, rays->is_still());
+        const double pixel_rad = 1 / frame.geometry.focal_length_px;
+        background.place(world, space.origin_world_m, pixel_rad);
+        embree.place(world.objects, space.origin_world_m);
         frame.key = key;
-        frame.world_from_camera = to_matrix(world.camera.world_from_body);
-        const auto direction = [&](double x, double y) {
-            return frame.world_from_camera * frame.geometry.direction_camera(x, y);
-        };
-        const double corner = -frame.geometry.guard_px;
-        frame.corner_world_dir = direction(corner, corner);
-        frame.right_world_dir = direction(corner + 1, corner) - frame.corner_world_dir;
-        frame.down_world_dir = direction(corner, corner + 1) - frame.corner_world_dir;
+        frame.rays_world_m = space.origin_world_m;
+        frame.camera_m = world.camera.position_world_m - space.origin_world_m;
+        frame.start_before_m = space.start_before_m;
+        rays->place(frame.geometry, {world.time, world.camera, world.camera_velocity_m_s, world.camera_rate_rad_s});
+
+        // Rows with poses of their own meet objects anywhere: no mask, no boxes.
+        const bool still = rays->is_still();
         object_mask.clear();
+        double farthest_m = 0;
         for (std::size_t i = 0; i < objects.size(); ++i) {
             const Mat3d m = to_matrix(world.objects[i].world_from_body);
             frame.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
-            object_mask.add(world.camera, world.objects[i], objects[i].cluster_bounds_m);
+            plans[i] = plan_object(frame.geometry, world, world.objects[i], radii_m[i]);
+            frame.is_point[i] = plans[i].use == ObjectUse::kPoint;
+            if (!frame.is_point[i] && still &&
+                !object_mask.add(world.camera, world.objects[i], objects[i].cluster_bounds_m))
+                plans[i].use = ObjectUse::kHidden;
+            farthest_m = std::max(farthest_m, plans[i].distance_m + radii_m[i]);
         }
-        frame.earth_box = background.earth_visible() ? screen_bounds_of_cone(frame.geometry, world.camera,
-                                                                             background.earth_world_dir(),
-                                                                             background.earth_cone_cosine())
-                                                     : PixelBox{};
-        frame.earth_may_hide = background.earth_visible() && farthest_m(world) > background.earth_nearest_m();
-        frame.sun_box = screen_bounds_of_cone(frame.geometry, world.camera, background.sun_world_dir(),
-                                              background.sun_disk_cosine());
+        frame.object_mask = still ? &object_mask : &full_mask;
+        const PixelBox everything{0, 0, frame.geometry.padded_width(), frame.geometry.padded_height()};
+        frame.body_box_count = background.disks().size();
+        for (std::size_t i = 0; i < frame.body_box_count; ++i) {
+            const PlacedBody& body = background.disks()[i];
+            frame.body_boxes[i] = still ? screen_bounds_of_cone(frame.geometry, world.camera, body.world_dir, body.cone_cosine)
+                                        : everything;
+        }
+        frame.bodies_may_hide = farthest_m > background.nearest_m();
+        frame.sun_box = still ? screen_bounds_of_cone(frame.geometry, world.camera, background.sun_camera_dir(),
+                                                      background.sun_disk_cosine())
+                              : everything;
+    }
+
+    // Irradiance at the camera of an object that is smaller than a pixel: its little picture, added up.
+    Spectrum irradiance_of_point(const WorldSnapshot& world, std::size_t i, RandomKey key) {
+        const auto pixels = static_cast<int>(probe_mask.width());
+        const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
+        WorldSnapshot view = world;
+        const Vec3d up = std::abs(to_object_m.z) < 0.9 * plans[i].distance_m ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
+        view.camera.world_from_body = look_along(to_object_m, up);
+        // Ray space amid this object alone.
+        const double reach_m = 1.01 * radii_m[i];
+        probe.geometry = probe_geometry(pixels, radii_m[i], plans[i].distance_m);
+        probe.samples_per_axis = 1;
+        probe.key = key;
+        probe.rays_world_m = frame.rays_world_m;
+        probe.camera_m = frame.camera_m;
+        probe.world_from_body = frame.world_from_body;
+        std::fill(probe.is_point.begin(), probe.is_point.end(), std::uint8_t{0});
+        probe_rays->place(probe.geometry, {view.time, view.camera, {}, {}});
+        probe.rays = probe_rays.get();
+        probe.object_mask = &probe_mask;
+        probe.body_box_count = 0;
+        probe.sun_box = {};
+        probe.start_at_m = world.objects[i].position_world_m - frame.rays_world_m;
+        probe.start_before_m = reach_m;
+
+        Spectrum sum;
+        TileStats stats;
+        const int edge = tile_edge_px(1);
+        for (int y = 0; y < pixels; y += edge)
+            for (int x = 0; x < pixels; x += edge) {
+                const PixelBox box{x, y, std::min(x + edge, pixels), std::min(y + edge, pixels)};
+                const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
+                std::fill_n(probe_pixels.begin(), count, Spectrum{});
+                Tile tile{probe, box, {probe_pixels.data(), count}, stats};
+                tracers.front()->trace(tile);
+                for (std::size_t k = 0; k < count; ++k) sum += probe_pixels[k];
+            }
+        // A pixel's solid angle; the field is a fraction of a pixel of the camera, so cosines are 1.
+        const double pixel_rad = 1 / probe.geometry.focal_length_px;
+        return static_cast<float>(pixel_rad * pixel_rad) * sum;
     }
 
     PixelBox tile(int index) const {
@@ -143,18 +264,31 @@ struct Renderer::Implementation {
                 std::min(y + tile_px, frame.geometry.padded_height())};
     }
     bool can_see_anything(const PixelBox& box) const {
-        return object_mask.any(box) || box.overlaps(frame.earth_box) || box.overlaps(frame.sun_box);
+        return frame.object_mask->any(box) || frame.may_see_body(box) || box.overlaps(frame.sun_box);
     }
 
-    // Runs work(tile index, tile, tracer) over all tiles on the thread pool.
+    // Runs work(tile index, tile, slot of the thread) over all tiles on the thread pool.
     template <class Work>
     void for_each_tile(const Work& work) {
         tbb::parallel_for(
             tbb::blocked_range<int>(0, tiles_across * tiles_down), [&](const tbb::blocked_range<int>& range) {
-                TileTracer& tracer =
-                    tracers[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
-                for (int i = range.begin(); i < range.end(); ++i) work(i, tile(i), tracer);
+                const auto slot = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+                for (int i = range.begin(); i < range.end(); ++i) work(i, tile(i), slot);
             });
+    }
+
+    void trace_tile(const PixelBox& box, std::size_t slot, TileStats& stats, RadianceImage& radiance) {
+        const int width = box.x1 - box.x0;
+        const std::span<Spectrum> pixels(tile_pixels[slot].data(), static_cast<std::size_t>(width * (box.y1 - box.y0)));
+        std::fill(pixels.begin(), pixels.end(), Spectrum{});
+        Tile tile{frame, box, pixels, stats};
+        tracers[slot]->trace(tile);
+        for (int b = 0; b < frame.bins; ++b)
+            for (int y = box.y0; y < box.y1; ++y) {
+                float* out = radiance.row(y, b).data() + box.x0;
+                const Spectrum* in = pixels.data() + (y - box.y0) * width;
+                for (int x = 0; x < width; ++x) out[x] = in[x][b];
+            }
     }
 
     TileStats total() const {
@@ -172,12 +306,14 @@ void fill_zero(RadianceImage& radiance, const PixelBox& box) {
 }
 }  // namespace
 
-Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-                   const RenderQuality& quality)
-    : implementation_(std::make_unique<Implementation>(std::move(scene), grid, geometry, quality)) {}
+Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry, const RenderQuality& quality,
+                   const RenderModels& models, const Modules& modules)
+    : implementation_(std::make_unique<Implementation>(std::move(scene), grid, geometry, quality, models, modules)) {}
 Renderer::~Renderer() = default;
 
-std::size_t Renderer::most_points() const { return implementation_->stars.size(); }
+std::size_t Renderer::most_points() const {
+    return implementation_->stars.size() + implementation_->objects.size() + kBodyCount;
+}
 std::size_t Renderer::triangles() const { return implementation_->triangle_count; }
 const ImageGeometry& Renderer::geometry() const { return implementation_->frame.geometry; }
 
@@ -192,7 +328,7 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     stats.setup_ms = ms_since(start);
 
     const auto traced = Clock::now();
-    my.for_each_tile([&](int index, const PixelBox& tile, TileTracer& tracer) {
+    my.for_each_tile([&](int index, const PixelBox& tile, std::size_t slot) {
         TileStats& tile_stats = my.tile_stats[static_cast<std::size_t>(index)];
         const bool anything = my.can_see_anything(tile);
         const bool was_dark = radiance.dark(tile.x0, tile.y0);
@@ -200,16 +336,27 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
         if (my.tile_px == RadianceImage::kBlock_px) radiance.mark_dark(tile.x0, tile.y0, !anything);
         tile_stats = {};
         if (anything)
-            tile_stats = tracer.trace(my.frame, tile, radiance);
+            my.trace_tile(tile, slot, tile_stats, radiance);
         else if (!was_dark)
             fill_zero(radiance, tile);
     });
     stats.trace_ms = ms_since(traced);
 
-    const auto starred = Clock::now();
+    const auto pointed = Clock::now();
     points.clear();
-    add_stars(my.stars, my.frame, points);
-    stats.points_ms = ms_since(starred);
+    const PointField field(my.frame, world);
+    field.add_stars(my.stars, points);
+    for (const PlacedBody& body : my.background.points())
+        field.add(body.world_dir, body.distance_m, my.background.point_irradiance(body), points);
+    for (std::size_t i = 0; i < my.objects.size(); ++i)
+        if (my.frame.is_point[i]) {
+            const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
+            const double distance_m = my.plans[i].distance_m;
+            if (field.sees(to_object_m / distance_m))
+                field.add(to_object_m / distance_m, distance_m - 1.01 * my.radii_m[i], my.irradiance_of_point(world, i, key),
+                          points);
+        }
+    stats.points_ms = ms_since(pointed);
 
     const TileStats sum = my.total();
     const int n = my.frame.samples_per_axis;
@@ -221,12 +368,24 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
         (static_cast<double>(my.frame.geometry.padded_width()) * my.frame.geometry.padded_height() * n * n);
 }
 
+std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
+    Implementation& my = *implementation_;
+    my.place(world, {});
+    std::vector<std::size_t> triangles;
+    for (const ObjectSurfaces& object : my.objects) triangles.push_back(object.triangles.size());
+    return explain({my.frame, my.plans, my.names, triangles, my.path_model_name, my.stars.size()}, world);
+}
+
 double Renderer::floor_ms(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
     my.place(world, {});
+    for (std::vector<Vertex>& vertices : my.bare_vertices) vertices.resize(PathModel::kMostSamples);
     const auto start = Clock::now();
-    my.for_each_tile([&](int, const PixelBox& tile, TileTracer& tracer) {
-        if (my.object_mask.any(tile)) tracer.trace_bare(my.frame, tile);
+    my.for_each_tile([&](int, const PixelBox& box, std::size_t slot) {
+        if (!my.frame.object_mask->any(box)) return;
+        TileStats stats;
+        Tile tile{my.frame, box, my.tile_pixels[slot], stats};
+        trace_bare_rays(tile, my.bare_vertices[slot]);
     });
     return ms_since(start);
 }

@@ -1,22 +1,22 @@
 #pragma once
 // The radiance engine: a scene and a world snapshot in, a radiance image and a list of point sources out.
 //
-// Radiance is equation (1) of Peng et al. 2011 without air and emission: direct Sun E_s cos(sigma) f_r with a
-// shadow ray, plus light from the hemisphere by recursion up to max_depth: mirror-like surfaces along one
-// sampled facet, diffuse ones along one cosine-distributed direction (Malley), each weighted by f_r cos /
-// pdf. A recursion stops when it leaves the scene, when its weight falls below contribution_threshold, or at
-// max_depth. The Earth is an ellipsoid in double precision; the Sun is a point at its distance for shading;
-// stars are points.
+// Radiance is equation (1) of Peng et al. 2011. What it is made of are exchangeable models (modules.h): the camera's
+// rays (ray_generator.h), how light is followed (path_model.h), what a surface sends by itself (radiance_model.h), and
+// the air (atmosphere.h). Before each frame a plan decides what this one needs (plan.h).
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "render/config_field.h"
 #include "render/image.h"
+#include "render/image_geometry.h"
+#include "render/modules.h"
+#include "render/plan.h"
 #include "render/point_source.h"
 #include "render/random.h"
-#include "render/ray_generator.h"
 #include "render/scene.h"
 
 namespace hilcam {
@@ -24,10 +24,20 @@ namespace hilcam {
 // Speed against accuracy; every value here is a named choice of the user.
 struct RenderQuality {
     std::int64_t samples_per_axis = 1;     // n: a regular n x n grid of rays in each pixel
+    std::string path_model = "path";
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
-    double contribution_threshold = 1e-3;  // a path whose largest weight is below this is not followed
+    double contribution_threshold = 1e-3;  // see path_model.h
+    bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
+    double facets_behind_diffuse = 0.4;    // least GGX alpha there; 0: as they are
+    std::int64_t point_samples = 24;       // of an object below a pixel, along one axis of its little picture
 };
 Fields fields(RenderQuality& quality);
+
+// The chosen models, by name.
+struct RenderModels {
+    RayConfig rays;
+    std::string radiance = "reflected";
+};
 
 struct RenderStats {
     std::uint64_t primary_rays = 0;
@@ -36,14 +46,14 @@ struct RenderStats {
     double coverage = 0;   // share of the frame's samples that meet an object
     double setup_ms = 0;   // instances, plan, background
     double trace_ms = 0;   // rays and shading
-    double points_ms = 0;  // stars
+    double points_ms = 0;  // stars, and what is smaller than a pixel
 };
 
 class Renderer {
   public:
     // Builds the acceleration structures; takes the scene over. Throws InputError. Owner thread.
-    Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-             const RenderQuality& quality);
+    Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry, const RenderQuality& quality,
+             const RenderModels& models = {}, const Modules& modules = {});
     ~Renderer();
 
     // Fills `radiance` (padded size, a plane per bin) and `points` (cleared first; capacity reserved by
@@ -56,6 +66,9 @@ class Renderer {
     std::size_t most_points() const;
     std::size_t triangles() const;
     const ImageGeometry& geometry() const;
+
+    // What a frame of this world needs and why, a line each. Not for the loop.
+    std::vector<std::string> explain_plan(const WorldSnapshot& world);
 
     // Time that bare Embree needs for the primary and shadow rays of this frame, on the same threads [ms]:
     // the floor that no renderer built on it can go below. Not for the loop.

@@ -2,10 +2,14 @@
 // What there is to see, as it stands after loading: it does not change during a run. Poses come with each
 // frame.
 
+#include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "render/atmosphere.h"
 #include "render/bodies.h"
+#include "render/body_light.h"
 #include "render/material.h"
 #include "render/mesh.h"
 #include "render/stars.h"
@@ -18,23 +22,29 @@ struct SceneObject {
     std::vector<Material> materials;  // one per surface of the mesh
 };
 
-struct Earth {
-    bool visible = true;
-    Spectrum albedo;
-    Texture map;  // empty: uniform
+struct SceneBody {
+    bool visible = false;
+    BodyLook look;
+    Texture map;  // empty: uniform. Relative to its mean where the look is tied to a magnitude
 };
 
 struct Scene {
     std::vector<SceneObject> objects;
     std::vector<Star> stars;
-    Earth earth;
+    std::array<SceneBody, kBodyCount> bodies;  // by BodyId
+    std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
     Spectrum sun_irradiance_1au_w_m2_um;
+    bool limb_darkening = true;
+
+    SceneBody& body(BodyId id) { return bodies[index_of(id)]; }
 };
 
 // One instant of the world: what a frame shows. objects: a pose per Scene::objects.
 struct WorldSnapshot {
     TimeTai time;
     Pose camera;
+    Vec3d camera_velocity_m_s;  // in the world; for cameras whose rows are not of one instant
+    Vec3d camera_rate_rad_s;    // about the camera's axes
     std::vector<Pose> objects;
     Bodies bodies;
 };

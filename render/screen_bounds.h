@@ -3,7 +3,7 @@
 
 #include "render/pixel_box.h"
 #include "render/pose.h"
-#include "render/ray_generator.h"
+#include "render/image_geometry.h"
 
 namespace hilcam {
 

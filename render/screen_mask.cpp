@@ -13,11 +13,14 @@ ScreenMask::ScreenMask(const ImageGeometry& geometry)
 
 void ScreenMask::clear() { std::fill(blocks_.begin(), blocks_.end(), std::uint8_t{0}); }
 
-void ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m) {
+void ScreenMask::fill() { std::fill(blocks_.begin(), blocks_.end(), std::uint8_t{1}); }
+
+bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m) {
     const Mat3d camera_from_world = transposed(to_matrix(camera.world_from_body));
     const Mat3d camera_from_body = camera_from_world * to_matrix(object.world_from_body);
     const Mat3d axes = transposed(camera_from_body);  // rows: the body's axes in the camera's
     const Vec3d offset_m = camera_from_world * (object.position_world_m - camera.position_world_m);
+    bool any_marked = false;
     for (const auto& [least_m, most_m] : boxes_m) {
         const Vec3d from = camera_from_body * to_double(least_m) + offset_m;
         const Vec3d size = to_double(most_m) - to_double(least_m);
@@ -31,21 +34,40 @@ void ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std
             if (corner & 4u) p = p + edges[2];
             if (!(p.z > 1e-9 * (std::abs(p.x) + std::abs(p.y)))) continue;
             ++in_front;
-            const Vec2d px = geometry_.project_px(p);
-            least_x = std::min(least_x, px.x), most_x = std::max(most_x, px.x);
-            least_y = std::min(least_y, px.y), most_y = std::max(most_y, px.y);
+            const double x = p.x / p.z, y = p.y / p.z;
+            least_x = std::min(least_x, x), most_x = std::max(most_x, x);
+            least_y = std::min(least_y, y), most_y = std::max(most_y, y);
         }
         if (in_front == 0) continue;
         // A box that reaches through the camera's plane has no outline.
         if (in_front < 8) {
-            std::fill(blocks_.begin(), blocks_.end(), std::uint8_t{1});
-            return;
+            fill();
+            return true;
         }
-        mark(least_x, least_y, most_x, most_y);
+        any_marked |= mark({least_x, least_y}, {most_x, most_y});
     }
+    return any_marked;
 }
 
-void ScreenMask::mark(double least_x, double least_y, double most_x, double most_y) {
+// least, most: of the box's outline on the plane at distance 1.
+bool ScreenMask::mark(Vec2d least, Vec2d most) {
+    double least_x = 1e300, least_y = 1e300, most_x = -1e300, most_y = -1e300;
+    const auto grow = [&](double x, double y) {
+        const Vec2d px = geometry_.project_px({x, y, 1});
+        least_x = std::min(least_x, px.x), most_x = std::max(most_x, px.x);
+        least_y = std::min(least_y, px.y), most_y = std::max(most_y, px.y);
+    };
+    // A lens bends the outline: its sides are followed in steps, and what is between them gets a margin.
+    const int steps = geometry_.distortion.none() ? 1 : 8;
+    for (int i = 0; i <= steps; ++i) {
+        const double u = static_cast<double>(i) / steps;
+        const double x = least.x + u * (most.x - least.x), y = least.y + u * (most.y - least.y);
+        grow(x, least.y), grow(x, most.y), grow(least.x, y), grow(most.x, y);
+    }
+    if (steps > 1) {
+        const double margin = 0.02 * std::max(most_x - least_x, most_y - least_y);
+        least_x -= margin, least_y -= margin, most_x += margin, most_y += margin;
+    }
     // A quarter of a pixel covers the rounding of rays to single precision.
     const auto block = [&](double px, int blocks) {
         const double at = std::floor((px + geometry_.guard_px) / kBlock_px);
@@ -57,6 +79,7 @@ void ScreenMask::mark(double least_x, double least_y, double most_x, double most
     const int y1 = std::min(down_ - 1, block(most_y + 0.25, down_));
     for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x) blocks_[static_cast<std::size_t>(y * across_ + x)] = 1;
+    return x0 <= x1 && y0 <= y1;
 }
 
 bool ScreenMask::any(const PixelBox& box) const {

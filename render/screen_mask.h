@@ -10,7 +10,7 @@
 
 #include "render/pixel_box.h"
 #include "render/pose.h"
-#include "render/ray_generator.h"
+#include "render/image_geometry.h"
 
 namespace hilcam {
 
@@ -19,9 +19,12 @@ class ScreenMask {
     explicit ScreenMask(const ImageGeometry& geometry);
 
     void clear();
-    // Marks what the boxes [least corner, greatest corner; body axes, m] of an object can cover. Loop; no
-    // allocation.
-    void add(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m);
+    // Everything.
+    void fill();
+    int width() const { return geometry_.width_px; }
+    // Marks what the boxes [least corner, greatest corner; body axes, m] of an object can cover. Gives whether there
+    // was anything. Loop; no allocation.
+    bool add(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m);
 
     // The block that holds a pixel (padded px).
     bool at(int x, int y) const {
@@ -36,7 +39,7 @@ class ScreenMask {
     int across_, down_;
     std::vector<std::uint8_t> blocks_;
 
-    void mark(double least_x, double least_y, double most_x, double most_y);
+    bool mark(Vec2d least, Vec2d most);
 };
 
 }  // namespace hilcam

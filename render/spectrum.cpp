@@ -53,29 +53,26 @@ Spectrum SpectralGrid::average(const Curve& curve) const {
     return out;
 }
 
+void require_cover(const Curve& curve, const SpectralGrid& grid, const std::string& what) {
+    constexpr double kRounding_um = 1e-9;
+    if (curve.wavelength_um.size() < 2) return;
+    const double from = grid.from_um(0), to = grid.to_um(grid.size() - 1);
+    if (curve.wavelength_um.front() <= from + kRounding_um && curve.wavelength_um.back() >= to - kRounding_um) return;
+    const auto text = [](double value) {
+        std::string digits = std::to_string(value);
+        return digits.substr(0, digits.find('.') + 4);
+    };
+    throw InputError((curve.where.empty() ? "" : curve.where + ": ") + what + ": the curve reaches from " +
+                     text(curve.wavelength_um.front()) + " to " + text(curve.wavelength_um.back()) +
+                     " um; the scenario's spectrum_edges_um need " + text(from) + " to " + text(to) + " um");
+}
+
 double planck_w_m2_sr_um(double wavelength_um, double temperature_k) {
     const double wavelength_m = wavelength_um * 1e-6;
     const double x = kPlanck_j_s * kSpeedOfLight_m_s / (wavelength_m * kBoltzmann_j_k * temperature_k);
     // 2 h c^2 / lambda^5 / (e^x - 1) per metre of wavelength; 1e-6 makes it per um.
     return 2 * kPlanck_j_s * kSpeedOfLight_m_s * kSpeedOfLight_m_s / std::pow(wavelength_m, 5) /
            std::expm1(x) * 1e-6;
-}
-
-Spectrum solar_irradiance_1au_w_m2_um(const SpectralGrid& grid) {
-    const double sine = kSunRadius_m / kAstronomicalUnit_m;
-    Spectrum out;
-    for (int b = 0; b < grid.size(); ++b) {
-        // Simpson's rule on 16 pieces: Planck's curve is smooth, the error is below 1e-6.
-        constexpr int kPieces = 16;
-        const double step = grid.width_um(b) / kPieces;
-        double sum = 0;
-        for (int i = 0; i <= kPieces; ++i) {
-            const double factor = i == 0 || i == kPieces ? 1 : (i % 2 ? 4 : 2);
-            sum += factor * planck_w_m2_sr_um(grid.from_um(b) + i * step, kSunEffectiveTemperature_k);
-        }
-        out[b] = static_cast<float>(kPi * sine * sine * sum / (3 * kPieces));
-    }
-    return out;
 }
 
 }  // namespace hilcam

@@ -35,6 +35,7 @@ inline Spectrum& operator+=(Spectrum& a, const Spectrum& b) {
     for (int i = 0; i < kMaxBins; ++i) a[i] += b[i];
     return a;
 }
+inline Spectrum operator+(Spectrum a, const Spectrum& b) { return a += b; }
 inline float largest(const Spectrum& s) {
     float most = s[0];
     for (int i = 1; i < kMaxBins; ++i) most = s[i] > most ? s[i] : most;
@@ -46,8 +47,9 @@ inline float largest(const Spectrum& s) {
 struct Curve {
     std::vector<double> wavelength_um;
     std::vector<double> value;
+    std::string where;  // the file and line that gave it, for messages
 
-    static Curve constant(double value) { return {{0.55}, {value}}; }
+    static Curve constant(double value) { return {{0.55}, {value}, {}}; }
     double at(double wavelength_um) const;
     // The exact mean of this curve over [from, to] [um].
     double mean(double from_um, double to_um) const;
@@ -72,11 +74,10 @@ class SpectralGrid {
     std::vector<double> edges_um_;
 };
 
+// Refuses a curve of two knots or more that does not reach from the first to the last bin: nothing is extrapolated in
+// silence. A constant covers all. `what` begins the message. InputError.
+void require_cover(const Curve& curve, const SpectralGrid& grid, const std::string& what);
+
 // Planck's law: spectral radiance of a black body [W m^-2 sr^-1 um^-1] (Planck 1901; CODATA 2018 constants).
 double planck_w_m2_sr_um(double wavelength_um, double temperature_k);
-// Mean spectral irradiance of the Sun at 1 au over each bin [W m^-2 um^-1].
-// Black body at the Sun's effective temperature, seen from 1 au: within about 10 % of the measured spectrum
-// per 0.1 um bin from 0.45 to 1.0 um, up to 25 % too high in the line-blanketed blue.
-Spectrum solar_irradiance_1au_w_m2_um(const SpectralGrid& grid);
-
 }  // namespace hilcam

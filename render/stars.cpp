@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/bodies.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -34,8 +35,8 @@ Spectrum star_irradiance_w_m2_um(double magnitude_v, double color_b_v, const Spe
     return out;
 }
 
-std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double faintest_magnitude,
-                           const SpectralGrid& grid) {
+std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, Vec3d observer_velocity_m_s,
+                           double faintest_magnitude, const SpectralGrid& grid) {
     // Julian epoch to Julian date: J2000.0 is JD 2451545.0 TT, a Julian year has 365.25 days.
     const double epoch_days = (catalogue.epoch_year - 2000.0) * 365.25;
     const JulianDate now = julian_tt(time);
@@ -49,7 +50,8 @@ std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double 
                   2451545.0, epoch_days, now.day, now.fraction, &ra, &dec, &pm_ra, &pm_dec, &parallax,
                   &velocity);
         Star out;
-        out.world_dir = {std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
+        out.world_dir = aberrated({std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)},
+                                  observer_velocity_m_s);
         out.irradiance_w_m2_um = star_irradiance_w_m2_um(star.magnitude_v, star.color_b_v, grid);
         out.magnitude_v = static_cast<float>(star.magnitude_v);
         stars.push_back(out);

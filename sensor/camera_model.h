@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/config_field.h"
-#include "render/ray_generator.h"
+#include "render/image_geometry.h"
 
 namespace hilcam {
 
@@ -18,6 +18,7 @@ struct CameraModel {
     std::int64_t height_px = 1024;
     double pitch_m = 5.5e-6;
     double focal_length_m = 0.016;
+    std::vector<double> distortion;  // k1, k2, p1, p2, k3 as OpenCV orders them; fewer: the rest are 0
 
     // Optics.
     double f_number = 4;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/sun.h"
 #include "render/units.h"
 #include "sensor/optics.h"
 

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
 
 #include "render/bodies.h"
+#include "render/body_light.h"
 #include "render/check.h"
 #include "render/earth_rays.h"
 #include "render/stars.h"
+#include "render/sun.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -60,32 +63,57 @@ TEST(Bodies, EarthIsHitAtItsSurfaceAndMissedBesideIt) {
 
 TEST(Spectrum, BinAverageOfALineIsItsMiddle) {
     const SpectralGrid grid({0.4, 0.6, 0.9});
-    const Spectrum s = grid.average({{0.4, 0.9}, {0, 1}});
+    const Spectrum s = grid.average({{0.4, 0.9}, {0, 1}, {}});
     EXPECT_NEAR(s[0], 0.2, 1e-6);
     EXPECT_NEAR(s[1], 0.7, 1e-6);
     EXPECT_EQ(s[2], 0);
 }
 
-TEST(Spectrum, SunsBlackBodyCarriesTheSolarConstant) {
-    // 8 bins from 0.2 to 2.5 um hold 96 % of a 5772 K black body (Planck's integral by series).
+// ASTM G173-03's extraterrestrial column: its integral from 0.28 to 2.5 um is 1314.88 W m^-2 by the trapezoidal rule on the
+// full table; single values from the table itself.
+TEST(Sun, SpectrumIsThatOfTheTable) {
     std::vector<double> edges;
-    for (int i = 0; i <= 8; ++i) edges.push_back(0.2 + i * 2.3 / 8);
+    for (int i = 0; i <= 8; ++i) edges.push_back(0.28 + i * 2.22 / 8);
     const SpectralGrid grid(edges);
     const Spectrum s = solar_irradiance_1au_w_m2_um(grid);
     double total = 0;
     for (int b = 0; b < 8; ++b) total += static_cast<double>(s[b]) * grid.width_um(b);
-    const auto below = [](double wavelength_um) {
-        // Fraction of a black body's radiation below a wavelength: 15/pi^4 sum e^-nx (x^3/n + 3x^2/n^2 +
-        // 6x/n^3 + 6/n^4).
-        const double x = kPlanck_j_s * kSpeedOfLight_m_s /
-                         (wavelength_um * 1e-6 * kBoltzmann_j_k * kSunEffectiveTemperature_k);
-        double sum = 0;
-        for (int n = 1; n < 50; ++n)
-            sum += std::exp(-n * x) *
-                   (x * x * x / n + 3 * x * x / (n * n) + 6 * x / std::pow(n, 3) + 6 / std::pow(n, 4));
-        return 15 / std::pow(kPi, 4) * sum;
-    };
-    EXPECT_NEAR(total / ((below(2.5) - below(0.2)) * kTotalSolarIrradiance_w_m2), 1, 2e-3);
+    EXPECT_NEAR(total, 1314.88, 0.5);
+    EXPECT_NEAR(solar_irradiance_1au_w_m2_um(SpectralGrid({0.55, 0.555}))[0], 1870.2, 0.1);
+    EXPECT_THROW(solar_irradiance_1au_w_m2_um(SpectralGrid({0.25, 0.3})), InputError);
+}
+
+// The mean over the disk is 1 by definition; at 0.541 um the limb (mu = 0.2) has 0.4738 of the middle's radiance:
+// Neckel & Labs 1994, 0.26073 + 1.27428 mu - 1.30352 mu^2 + ....
+TEST(Sun, LimbDarkeningKeepsTheMeanAndFollowsTheTable) {
+    const SpectralGrid grid({0.4, 0.5, 0.541, 0.5425, 0.9});
+    const SunDisk disk(grid, true);
+    for (int b = 0; b < grid.size(); ++b) {
+        double mean = 0;
+        constexpr int kSteps = 2000;
+        for (int i = 0; i < kSteps; ++i) {
+            const double mu = (i + 0.5) / kSteps;
+            mean += 2 * mu * static_cast<double>(disk.relative_radiance(static_cast<float>(mu))[b]) / kSteps;
+        }
+        EXPECT_NEAR(mean, 1, 1e-4);
+    }
+    EXPECT_NEAR(disk.relative_radiance(0.2f)[2] / disk.relative_radiance(1)[2], 0.4737, 2e-3);
+    EXPECT_EQ(SunDisk(grid, false).relative_radiance(0.3f)[0], 1);
+}
+
+TEST(Spectrum, ACurveThatDoesNotReachIsRefusedWithItsPlace) {
+    const SpectralGrid grid({0.4, 0.9});
+    const Curve shorter{{0.45, 0.9}, {1, 1}, "paint.yaml:3:14"};
+    try {
+        require_cover(shorter, grid, "reflectance");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("paint.yaml:3:14: reflectance: the curve reaches from 0.450 to 0.900"),
+                  std::string::npos)
+            << error.what();
+    }
+    EXPECT_NO_THROW(require_cover(Curve::constant(0.3), grid, "reflectance"));
+    EXPECT_NO_THROW(require_cover({{0.4, 0.9}, {1, 1}, {}}, grid, "reflectance"));
 }
 
 TEST(Spectrum, RefusesBadEdges) {
@@ -113,10 +141,90 @@ TEST(Stars, ProperMotionMovesSirius) {
     catalogue.stars.push_back({48915, 101.28854 * kDegree_rad, -16.71314 * kDegree_rad,
                                -546.01e-3 * kArcsecond_rad, -1223.07e-3 * kArcsecond_rad, -1.44, 0});
     const SpectralGrid grid({0.5, 0.6});
-    const Vec3d d = stars_at(catalogue, parse_utc("2000-01-01T11:58:56Z"), 8, grid)[0].world_dir;
+    const Vec3d d = stars_at(catalogue, parse_utc("2000-01-01T11:58:56Z"), {}, 8, grid)[0].world_dir;
     EXPECT_NEAR(std::atan2(d.y, d.x) / kDegree_rad, 101.287155, 2e-5);
     EXPECT_NEAR(std::asin(d.z) / kDegree_rad, -16.716116, 2e-5);
-    EXPECT_TRUE(stars_at(catalogue, parse_utc("2000-01-01T12:00:00Z"), -2, grid).empty());
+    EXPECT_TRUE(stars_at(catalogue, parse_utc("2000-01-01T12:00:00Z"), {}, -2, grid).empty());
+}
+
+// A star at right angles to a motion of 30 km/s stands 20.6 arcsec forward (v/c).
+TEST(Stars, AberrationTurnsThemForward) {
+    const Vec3d seen = aberrated({1, 0, 0}, {0, 30e3, 0});
+    EXPECT_NEAR(std::atan2(seen.y, seen.x) / kArcsecond_rad, 30e3 / kSpeedOfLight_m_s / kArcsecond_rad, 1e-3);
+    EXPECT_NEAR(length(aberrated({0, 1, 0}, {0, 30e3, 0})), 1, 1e-12);
+}
+
+// The Moon's near side: the Earth stays within 8.2 deg of its prime meridian and 6.9 deg of its equator (librations).
+TEST(Bodies, TheMoonTurnsItsNearSideToTheEarth) {
+    double most_longitude = 0, most_latitude = 0;
+    for (int day = 0; day < 365; ++day) {
+        const TimeTai time = parse_utc("2026-01-01T00:00:00Z") + day * 86'400'000'000'000LL;
+        const Bodies bodies = bodies_at(time, {});
+        const BodyState& moon = bodies[BodyId::kMoon];
+        const Vec3d earth = normalized(moon.fixed_from_world * (bodies.earth().world_m - moon.world_m));
+        most_longitude = std::max(most_longitude, std::abs(std::atan2(earth.y, earth.x)) / kDegree_rad);
+        most_latitude = std::max(most_latitude, std::abs(std::asin(earth.z)) / kDegree_rad);
+        // Perigee and apogee: 356,400 to 406,700 km.
+        EXPECT_GT(length(moon.world_m), 356.3e6);
+        EXPECT_LT(length(moon.world_m), 406.8e6);
+    }
+    EXPECT_GT(most_longitude, 5);
+    EXPECT_LT(most_longitude, 8.3);
+    EXPECT_GT(most_latitude, 6);
+    EXPECT_LT(most_latitude, 7);
+}
+
+// Total eclipse of 2026-08-12: greatest at 17:45:51 UT, the Moon's shadow axis passes 0.898 Earth radii from the
+// geocentre (gamma; NASA/GSFC eclipse catalogue, F. Espenak).
+TEST(Bodies, TheMoonsShadowMissesTheEarthsMiddleByGamma) {
+    const Bodies bodies = bodies_at(parse_utc("2026-08-12T17:45:51Z"), {});
+    const Vec3d moon = bodies[BodyId::kMoon].world_m, axis = normalized(moon - bodies.sun_world_m);
+    const Vec3d nearest = moon - dot(moon, axis) * axis;
+    EXPECT_NEAR(length(nearest) / kEarthEquatorialRadius_m, 0.898, 0.02);
+}
+
+// Mars at opposition on 2027-02-19, 0.678 au away (JPL); Jupiter's opposition 2026-01-10, 4.232 au.
+TEST(Bodies, PlanetsAreWhereTheAlmanacHasThem) {
+    const auto distance_au = [](const char* utc, BodyId id) {
+        return length(bodies_at(parse_utc(utc), {})[id].world_m) / kAstronomicalUnit_m;
+    };
+    EXPECT_NEAR(distance_au("2027-02-19T16:00:00Z", BodyId::kMars), 0.678, 0.001);
+    EXPECT_NEAR(distance_au("2026-01-10T09:00:00Z", BodyId::kJupiter), 4.232, 0.002);
+}
+
+// Light time and aberration put the Sun 20.5 arcsec behind its geometric place along the ecliptic.
+TEST(Bodies, TheSunStandsTwentyArcsecondsBack) {
+    const TimeTai time = parse_utc("2026-03-20T14:46:00Z");
+    const Vec3d geometric = normalized(sun_from_earth_m(time));
+    const Vec3d apparent = normalized(bodies_at(time, {}).sun_world_m);
+    EXPECT_NEAR(length(apparent - geometric) / kArcsecond_rad, 20.5, 0.4);
+}
+
+// Point and disk of a body have the same light, whatever the law: the sum of its radiance over the disk against
+// disk_albedo. The Moon at 40 degrees: V = -12.73 + 0.026 x 40 + 4e-9 x 40^4 (Krisciunas & Schaefer 1991).
+TEST(BodyLight, DiskSumsUpToTheMagnitude) {
+    const SpectralGrid grid({0.545, 0.555});
+    for (const BodyId id : {BodyId::kMoon, BodyId::kMars, BodyId::kJupiter}) {
+        const BodyLook look(id, default_body(id), grid);
+        for (const double phase : {0.0, 40 * kDegree_rad}) {
+            const Vec3d sun{std::sin(phase), 0, std::cos(phase)};
+            double sum = 0;
+            constexpr int kGrid = 1000;
+            for (int i = 0; i < kGrid; ++i)
+                for (int j = 0; j < kGrid; ++j) {
+                    const double x = 2 * (i + 0.5) / kGrid - 1, y = 2 * (j + 0.5) / kGrid - 1;
+                    if (x * x + y * y >= 1) continue;
+                    const Vec3d n{x, y, std::sqrt(1 - x * x - y * y)};
+                    sum += static_cast<double>(look.reflectance_sr(static_cast<float>(dot(n, sun)), static_cast<float>(n.z),
+                                                                   static_cast<float>(sun.z))[0]) *
+                           4 / (kGrid * kGrid);
+                }
+            EXPECT_NEAR(sum / static_cast<double>(look.disk_albedo(phase)[0]), 1, 2e-3) << static_cast<int>(id);
+            const double ratio = kFigures[index_of(id)].equatorial_radius_m / kAstronomicalUnit_m;
+            EXPECT_NEAR(-2.5 * std::log10(sum * ratio * ratio) - 26.76, magnitude_v_1au(id, phase), 0.005);
+        }
+    }
+    EXPECT_NEAR(magnitude_v_1au(BodyId::kMoon, 0) + 5 * std::log10(384400e3 / kAstronomicalUnit_m), -12.73, 0.01);
 }
 
 // The vector form says what the scalar one says, from low orbit to the Moon, limb included.
@@ -131,7 +239,7 @@ TEST(EarthRays, AgreeWithTheSingleRay) {
             1.2 * kEarthEquatorialRadius_m / length(camera) / 16;  // a little more than the disk
         const Vec3d corner = normalized(-camera), right = size * normalized(cross(corner, Vec3d{0, 0, 1}));
         const Vec3d down = cross(corner, right);
-        const EarthRays rays(camera, sun, corner, right, down);
+        const EarthRays rays(kFigures[index_of(BodyId::kEarth)], camera, sun, corner, right, down);
         for (int block = 0; block < 100; ++block) {
             EarthRays::Floats x, y, cosine;
             for (std::size_t i = 0; i < EarthRays::kCount; ++i)

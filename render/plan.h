@@ -1,0 +1,53 @@
+#pragma once
+// The requirement plan: what a frame needs, decided anew before each one, so that nothing else is computed.
+// Each decision has its reason; `hilcam check` prints them.
+
+#include <string>
+#include <vector>
+
+#include "render/frame_view.h"
+#include "render/scene.h"
+
+namespace hilcam {
+
+enum class ObjectUse : std::uint8_t {
+    kHidden,  // outside the field: casts shadow and is reflected, no ray of the camera looks for it
+    kPoint,   // smaller than a pixel: a point source with the flux of its own little picture
+    kMesh     // traced
+};
+
+struct ObjectPlan {
+    ObjectUse use = ObjectUse::kHidden;
+    double distance_m = 0;  // of its middle from the camera
+    double size_px = 0;     // of the sphere that holds it
+    std::size_t level = 0;  // of detail: 0 is the mesh itself
+};
+
+// Distances of which the camera sees the objects; decides where ray space begins (frame_view.h).
+struct RaySpace {
+    Vec3d origin_world_m;
+    double start_before_m = 0;  // 0: rays begin at the camera
+};
+// radius_m: of the sphere about each object's origin that holds it. rays_still: false keeps ray space at the
+// camera.
+RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> radius_m, bool rays_still);
+
+// size_px below which a thing is a point.
+inline constexpr double kPoint_px = 1.0;
+
+ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world, const Pose& object,
+                       double radius_m);
+
+// A frame that is planned, and what its plan is about.
+struct PlannedFrame {
+    const FrameView& frame;
+    std::span<const ObjectPlan> plans;  // per object, as the next two
+    std::span<const std::string> names;
+    std::span<const std::size_t> triangles;
+    const std::string& path_model;
+    std::size_t stars;
+};
+// The plan in words, a line each with its reason.
+std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapshot& world);
+
+}  // namespace hilcam

@@ -1,0 +1,59 @@
+#pragma once
+// Rays that ask whether a lamp is seen, sixteen at a time; through glass if there is any.
+
+#include <array>
+#include <limits>
+
+#include "render/tile.h"
+
+namespace hilcam {
+
+// What sheets of glass between origin and lamp let pass; zero where something else is met. Loop, any thread.
+Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir);
+
+// Payload: what the caller needs to know of a ray again. Lit is called as lit(payload, transmittance) for
+// every ray that gets through, in order; transmittance is null where nothing is in the way.
+template <class Payload, class Lit>
+class ShadowRays {
+  public:
+    ShadowRays(const FrameView& frame, std::uint64_t& counter, Lit lit)
+        : frame_(frame), counter_(counter), lit_(std::move(lit)) {
+        rays_.count = 0;
+    }
+    ~ShadowRays() { flush(); }
+    ShadowRays(const ShadowRays&) = delete;
+    ShadowRays& operator=(const ShadowRays&) = delete;
+
+    void add(Vec3f origin_m, Vec3f dir, const Payload& payload) {
+        payloads_[static_cast<std::size_t>(rays_.count)] = payload;
+        rays_.set(rays_.count, origin_m, dir, 0, std::numeric_limits<float>::infinity());
+        if (++rays_.count == kPacketSize) flush();
+    }
+
+  private:
+    const FrameView& frame_;
+    std::uint64_t& counter_;
+    Lit lit_;
+    RayPacket rays_;
+    std::array<Payload, kPacketSize> payloads_;
+
+    void flush() {
+        if (rays_.count == 0) return;
+        const std::uint32_t blocked = frame_.scene->occluded(rays_);
+        counter_ += static_cast<std::uint64_t>(rays_.count);
+        for (int i = 0; i < rays_.count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            if (!(blocked >> i & 1u)) {
+                lit_(payloads_[k], nullptr);
+            } else if (frame_.has_glass) {
+                const Spectrum passed =
+                    passed_through_glass(frame_, {rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]},
+                                         {rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]});
+                if (largest(passed) > 0) lit_(payloads_[k], &passed);
+            }
+        }
+        rays_.count = 0;
+    }
+};
+
+}  // namespace hilcam
