@@ -39,7 +39,6 @@ struct FrameView {
     double start_before_m = 0; // > 0: the camera's rays begin this far before start_at_m
     Vec3d start_at_m;          // in ray space
     int bins = 0;
-    int samples_per_axis = 1;
     int max_depth = 1;
     float contribution_threshold = 0;
     bool sun_is_disk = false;  // shadows and highlights of a disk, by sampling; else of its middle
@@ -53,7 +52,6 @@ struct FrameView {
     std::size_t body_box_count = 0;
     PixelBox sun_box;  // pixels that can meet the Sun's disk
 
-    float samples() const { return static_cast<float>(samples_per_axis * samples_per_axis); }
     bool may_see_body(const PixelBox& box) const {
         for (std::size_t i = 0; i < body_box_count; ++i)
             if (box.overlaps(body_boxes[i])) return true;

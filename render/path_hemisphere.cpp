@@ -94,12 +94,11 @@ class HemispherePaths final : public PathModel {
     void follow(Tile& tile, std::span<const Vertex> vertices) {
         if (vertices.empty()) return;
         tile.frame.radiance->add_light(tile, vertices, LampLight::kQuadrature);
-        if (vertices.front().depth >= tile.frame.max_depth) return;
         for (const Vertex& at : vertices) follow(tile, children(tile, at));
     }
 
     std::size_t choose(const FrameView& frame, const Vertex& at) {
-        const float least = frame.contribution_threshold / frame.samples();
+        const float least = frame.contribution_threshold;
         std::size_t count = 0;
         const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
         Scatterer surface = at.surface;
@@ -118,7 +117,8 @@ class HemispherePaths final : public PathModel {
             if (largest(weight) >= least)
                 rays_[count++] = {at.start(!sample.transmits), sample.dir, weight, true};
         }
-        if (!surface.has_lobes()) return count;
+        // At the last surface only exact directions go on, to the background.
+        if (!surface.has_lobes() || at.depth >= frame.max_depth) return count;
         const Frame local(at.normal);
         for (const Vec3f& direction : kHemisphere) {
             const Vec3f dir = local.to_world(direction);
@@ -135,7 +135,8 @@ class HemispherePaths final : public PathModel {
     std::span<const Vertex> children(Tile& tile, const Vertex& at) {
         const FrameView& frame = tile.frame;
         const std::size_t ray_count = choose(frame, at);
-        Level& level = levels_[at.depth];
+        const bool last = at.depth >= frame.max_depth;
+        Level& level = levels_[at.depth - 1];
         RayPacket packet;
         HitPacket hits;
         std::size_t found = 0;
@@ -153,6 +154,7 @@ class HemispherePaths final : public PathModel {
                     add_background(tile, at, ray);
                     continue;
                 }
+                if (last) continue;
                 Vertex& vertex = level.vertices[found];
                 if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, 0, vertex)) continue;
                 vertex.pixel = at.pixel, vertex.sample = at.sample;

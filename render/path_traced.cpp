@@ -32,8 +32,8 @@ class TracedPaths final : public PathModel {
         std::size_t count = trace_primary_rays(tile, {current_, kMost});
         for (int depth = 1; count > 0; ++depth) {
             tile.frame.radiance->add_light(tile, {current_, count}, LampLight::kSampled);
-            if (depth == tile.frame.max_depth) break;
-            count = follow(tile, choose(tile, count));
+            const bool last = depth == tile.frame.max_depth;
+            count = follow(tile, choose(tile, count, last), last);
         }
     }
 
@@ -46,17 +46,19 @@ class TracedPaths final : public PathModel {
     Vertex* current_ = a_.data();
     Vertex* following_ = b_.data();
 
-    std::size_t choose(Tile& tile, std::size_t count) {
+    // At the last surface only exact directions go on: no lamp has been counted in them.
+    std::size_t choose(Tile& tile, std::size_t count, bool last) {
         const FrameView& frame = tile.frame;
-        const float least = frame.contribution_threshold / frame.samples();
+        const float least = frame.contribution_threshold;
         std::size_t ray_count = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const Vertex& at = current_[i];
+            if (last && !at.surface.has_exact()) continue;
             const auto random = tile.random_of(at, 0);
             const BrdfSample sample =
                 brdf_sample(at.surface, at.normal, at.view_dir,
                             {uniform01(random[0]), uniform01(random[1]), uniform01(random[2])});
-            if (!sample.valid || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) continue;
+            if (!sample.valid || (last && !sample.exact) || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) continue;
             Spectrum weight = at.weight * sample.weight;
             const float most = largest(weight);
             if (!(most > 0)) continue;
@@ -75,8 +77,9 @@ class TracedPaths final : public PathModel {
         return ray_count;
     }
 
-    // Traces the chosen rays; what they meet becomes the next wave's vertices, the rest sees the background.
-    std::size_t follow(Tile& tile, std::size_t ray_count) {
+    // Traces the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest sees the
+    // background.
+    std::size_t follow(Tile& tile, std::size_t ray_count, bool last) {
         const FrameView& frame = tile.frame;
         RayPacket rays;
         HitPacket hits;
@@ -100,6 +103,7 @@ class TracedPaths final : public PathModel {
                     add_background(tile, ray);
                     continue;
                 }
+                if (last) continue;
                 Vertex& vertex = following_[found];
                 if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, vertex)) continue;
                 vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;

@@ -24,17 +24,18 @@ RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> ra
 }
 
 ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world, const Pose& object,
-                       double radius_m) {
+                       double radius_m, RayDensity density) {
     ObjectPlan plan;
     const Vec3d to_object_m = object.position_world_m - world.camera.position_world_m;
     plan.distance_m = length(to_object_m);
-    if (plan.distance_m <= radius_m) {
-        plan.size_px = geometry.padded_width();
-        plan.use = ObjectUse::kMesh;
-        return plan;
-    }
+    plan.use = ObjectUse::kMesh;
+    plan.samples_per_axis = density.samples_per_axis;
+    plan.size_px = geometry.padded_width();
+    if (plan.distance_m <= radius_m) return plan;
     plan.size_px = 2 * radius_m / plan.distance_m * geometry.focal_length_px;
-    plan.use = plan.size_px < kPoint_px ? ObjectUse::kPoint : ObjectUse::kMesh;
+    if (plan.size_px < kPoints_px) plan.use = ObjectUse::kPoints;
+    const double across = std::ceil(density.rays_across / plan.size_px);
+    plan.samples_per_axis = std::max(density.samples_per_axis, static_cast<int>(std::min(16.0, across)));
     return plan;
 }
 
@@ -44,8 +45,7 @@ const char* reason(ObjectUse use) {
     switch (use) {
         case ObjectUse::kHidden:
             return "no ray looks for it (outside the field); it still shades and is reflected";
-        case ObjectUse::kPoint:
-            return "a point with the flux of its own little picture (smaller than a pixel)";
+        case ObjectUse::kPoints: return "points with the flux of its own little picture (below 8 pixels)";
         case ObjectUse::kMesh:
             return "traced (in the field)";
     }
@@ -90,7 +90,7 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
         (line << ... << parts);
         lines.push_back(line.str());
     };
-    add(f.bins, " spectral bins; ", f.samples_per_axis, " x ", f.samples_per_axis, " rays per pixel");
+    add(f.bins, " spectral bins; ", planned.samples_per_axis, " x ", planned.samples_per_axis, " rays per pixel");
     add("path model ", planned.path_model, ", ", f.max_depth, " surfaces deep, paths end below ",
         f.contribution_threshold);
     add("rays begin at the ", f.start_before_m > 0 ? "objects (far away against their size)" : "camera");

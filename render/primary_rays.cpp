@@ -20,8 +20,7 @@ class PrimaryRays {
           sun_(background && tile.box.overlaps(frame_.sun_box)),
           linear_(frame_.rays->linear()),
           plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)) {
-        weight_.bin.fill(0);
-        for (int b = 0; b < frame_.bins; ++b) weight_[b] = 1 / frame_.samples();
+        std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
         rays_.nearest.fill(0), rays_.farthest.fill(kInfinity);
         if (linear_) {
             // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
@@ -30,7 +29,7 @@ class PrimaryRays {
     }
 
     std::size_t trace() {
-        const int n = frame_.samples_per_axis;
+        const int n = tile_.samples_per_axis;
         const float step = 1.0f / static_cast<float>(n);
         // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
         static_assert(ScreenMask::kBlock_px == 4);

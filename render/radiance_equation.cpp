@@ -9,9 +9,9 @@
 namespace hilcam {
 namespace {
 
-// The Sun's disk widens a highlight: its angular radius of 4.65 mrad turns facets by half of that (Karis,
-// SIGGRAPH 2013 course notes, "representative point" widening).
-float sun_widened(float alpha) { return std::min(1.0f, alpha + 0.00233f); }
+// The Sun's disk widens a highlight: its angular radius of 4.65 mrad turns facets by half of that, and slopes of independent
+// causes add by their squares.
+float sun_widened(float alpha) { return std::min(1.0f, std::sqrt(alpha * alpha + 0.00233f * 0.00233f)); }
 
 bool in_cone(const BodyLamp& lamp, Vec3f dir) {
     const Vec3f axis = to_float(lamp.world_dir);
@@ -29,8 +29,8 @@ bool is_weighed(const FrameView& frame, const Vertex& at) {
 // stands over the surface's horizon.
 bool lamp_counts(const FrameView& frame, const Vertex& at, const BodyLamp& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
-    const float least = frame.contribution_threshold / frame.samples();
-    if (largest(at.weight) * largest(lamp.most_over_sun) * solid_angle < least) return false;
+    if (largest(at.weight) * largest(lamp.most_over_sun) * solid_angle < frame.contribution_threshold)
+        return false;
     return dot(at.geometric_normal, to_float(lamp.world_dir)) >= -std::sqrt(lamp.cone_sine_squared);
 }
 

@@ -61,8 +61,10 @@ Fields fields(RenderQuality& q) {
         flag("sun_disk", q.sun_disk, "sunlight from the whole disk: soft shadows, exact highlights"),
         number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
                "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they are"),
-        integer("point_samples", q.point_samples, {4, 32},
-                "an object below a pixel is measured by a grid of so many rays in each direction"),
+        integer("rays_across", q.rays_across, {0, 4096},
+                "an object of some pixels gets more rays per pixel, up to 16 x 16, until so many go across it"),
+        integer("point_samples", q.point_samples, {16, 512},
+                "an object of a few pixels or less is measured by a grid of so many rays in each direction"),
     };
 }
 
@@ -94,6 +96,7 @@ struct Renderer::Implementation {
     std::vector<double> radii_m;
     std::vector<std::string> names;
     std::vector<ObjectPlan> plans;
+    std::vector<PixelBox> object_boxes;  // pixels that can meet an object
     std::vector<Star> stars;
     std::array<SceneBody, kBodyCount> bodies;
     std::unique_ptr<Atmosphere> air;
@@ -109,6 +112,10 @@ struct Renderer::Implementation {
     std::unique_ptr<RayGenerator> probe_rays;
     ScreenMask probe_mask;
     std::vector<Spectrum> probe_pixels;
+    Mat3d probe_view;  // world from its camera
+    static constexpr int kMostCells = 16;
+    int samples_per_axis;
+    int rays_across;
     int tile_px;
     int tiles_across;
     int tiles_down;
@@ -135,12 +142,15 @@ struct Renderer::Implementation {
           path_model_name(quality.path_model),
           probe_rays(make_pinhole_rays()),
           probe_mask(probe_geometry(static_cast<int>(quality.point_samples), 1, 2)),
-          tile_px(tile_edge_px(static_cast<int>(quality.samples_per_axis))),
+          samples_per_axis(static_cast<int>(quality.samples_per_axis)),
+          rays_across(static_cast<int>(quality.rays_across)),
+          tile_px(tile_edge_px(samples_per_axis)),
           tiles_across((geometry.padded_width() + tile_px - 1) / tile_px),
           tiles_down((geometry.padded_height() + tile_px - 1) / tile_px),
           tile_stats(static_cast<std::size_t>(tiles_across * tiles_down)) {
         objects = surfaces_of(scene);
         plans.resize(objects.size());
+        object_boxes.resize(objects.size());
         for (const ObjectSurfaces& object : objects) {
             triangle_count += object.triangles.size();
             radii_m.push_back(object.radius_m);
@@ -151,7 +161,7 @@ struct Renderer::Implementation {
         probe_pixels.resize(static_cast<std::size_t>(quality.point_samples * quality.point_samples));
         const auto slots = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
         for (std::size_t i = 0; i < slots; ++i) tracers.push_back(modules.paths.make(quality.path_model));
-        tile_pixels.resize(slots, std::vector<Spectrum>(static_cast<std::size_t>(tile_px * tile_px)));
+        tile_pixels.resize(slots, std::vector<Spectrum>(PathModel::kMostSamples));
         bare_vertices.resize(slots);
 
         frame.scene = &embree;
@@ -164,7 +174,6 @@ struct Renderer::Implementation {
         frame.rays = rays.get();
         frame.geometry = geometry;
         frame.bins = grid.size();
-        frame.samples_per_axis = static_cast<int>(quality.samples_per_axis);
         frame.max_depth = static_cast<int>(quality.max_depth);
         frame.contribution_threshold = static_cast<float>(quality.contribution_threshold);
         frame.sun_is_disk = quality.sun_disk;
@@ -174,6 +183,16 @@ struct Renderer::Implementation {
         frame.has_emission = radiance_model->emits() &&
                              any_material(objects, [](const Material& m) { return largest(m.emission) > 0; });
         probe = frame;
+        probe.rays = probe_rays.get();
+        probe.object_mask = &probe_mask;
+    }
+
+    // Of the sphere that holds it.
+    PixelBox box_of(const WorldSnapshot& world, std::size_t i) const {
+        const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
+        const double sine = std::min(1.0, radii_m[i] / plans[i].distance_m);
+        return screen_bounds_of_cone(frame.geometry, world.camera, to_object_m / plans[i].distance_m,
+                                     std::sqrt(1 - sine * sine));
     }
 
     void place(const WorldSnapshot& world, RandomKey key) {
@@ -195,11 +214,13 @@ struct Renderer::Implementation {
         for (std::size_t i = 0; i < objects.size(); ++i) {
             const Mat3d m = to_matrix(world.objects[i].world_from_body);
             frame.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
-            plans[i] = plan_object(frame.geometry, world, world.objects[i], radii_m[i]);
-            frame.is_point[i] = plans[i].use == ObjectUse::kPoint;
+            plans[i] = plan_object(frame.geometry, world, world.objects[i], radii_m[i], {samples_per_axis, rays_across});
+            frame.is_point[i] = plans[i].use == ObjectUse::kPoints;
             if (!frame.is_point[i] && still &&
                 !object_mask.add(world.camera, world.objects[i], objects[i].cluster_bounds_m))
                 plans[i].use = ObjectUse::kHidden;
+            if (!frame.is_point[i] && plans[i].samples_per_axis > samples_per_axis)
+                object_boxes[i] = box_of(world, i);
             farthest_m = std::max(farthest_m, plans[i].distance_m + radii_m[i]);
         }
         frame.object_mask = still ? &object_mask : &full_mask;
@@ -216,45 +237,72 @@ struct Renderer::Implementation {
                               : everything;
     }
 
-    // Irradiance at the camera of an object that is smaller than a pixel: its little picture, added up.
-    Spectrum irradiance_of_point(const WorldSnapshot& world, std::size_t i, RandomKey key) {
-        const auto pixels = static_cast<int>(probe_mask.width());
+    // An object of a few pixels or less: its little picture, added up in cells of a fraction of a pixel, each a point at
+    // the middle of its light.
+    void add_points(const WorldSnapshot& world, std::size_t i, RandomKey key, const PointField& field,
+                    std::vector<PointSource>& points) {
         const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-        WorldSnapshot view = world;
-        const Vec3d up = std::abs(to_object_m.z) < 0.9 * plans[i].distance_m ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
-        view.camera.world_from_body = look_along(to_object_m, up);
-        // Ray space amid this object alone.
-        const double reach_m = 1.01 * radii_m[i];
+        const Vec3d dir = to_object_m / plans[i].distance_m;
+        if (!field.sees(dir)) return;
+        const int pixels = trace_probe(world, i, key);
+        const double nearest_m = plans[i].distance_m - 1.01 * radii_m[i];
+        // A pixel's solid angle; the field is a few pixels of the camera, so cosines are 1.
+        const double pixel_rad = 1 / probe.geometry.focal_length_px;
+        const auto solid_angle = static_cast<float>(pixel_rad * pixel_rad);
+        const int cells = std::clamp(static_cast<int>(std::ceil(2 * plans[i].size_px)), 1, kMostCells);
+        for (int cy = 0; cy < cells; ++cy)
+            for (int cx = 0; cx < cells; ++cx) {
+                Spectrum sum;
+                double x_sum = 0, y_sum = 0, light = 0;
+                for (int y = cy * pixels / cells; y < (cy + 1) * pixels / cells; ++y)
+                    for (int x = cx * pixels / cells; x < (cx + 1) * pixels / cells; ++x) {
+                        const Spectrum& here = probe_pixels[static_cast<std::size_t>(y * pixels + x)];
+                        const auto amount = static_cast<double>(mean(here, frame.bins));
+                        sum += here;
+                        x_sum += amount * (x + 0.5), y_sum += amount * (y + 0.5), light += amount;
+                    }
+                if (!(light > 0)) continue;
+                const Vec3d at = probe_view * probe.geometry.direction_camera(x_sum / light, y_sum / light);
+                field.add(normalized(at), nearest_m, solid_angle * sum, points);
+            }
+    }
+
+    // Fills probe_pixels with the object's little picture; gives its width.
+    int trace_probe(const WorldSnapshot& world, std::size_t i, RandomKey key) {
+        const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
+        // Turned against the camera's rows, so that an edge along them does not fall on a row of rays.
+        const Vec3d up = std::abs(to_object_m.z) < 0.9 * plans[i].distance_m ? Vec3d{0.31, 0.17, 1} : Vec3d{1, 0.31, 0.17};
+        Pose camera = world.camera;
+        camera.world_from_body = look_along(to_object_m, up);
+        probe_view = to_matrix(camera.world_from_body);
+        const int pixels = probe_mask.width();
         probe.geometry = probe_geometry(pixels, radii_m[i], plans[i].distance_m);
-        probe.samples_per_axis = 1;
         probe.key = key;
         probe.rays_world_m = frame.rays_world_m;
         probe.camera_m = frame.camera_m;
-        probe.world_from_body = frame.world_from_body;
-        std::fill(probe.is_point.begin(), probe.is_point.end(), std::uint8_t{0});
-        probe_rays->place(probe.geometry, {view.time, view.camera, {}, {}});
-        probe.rays = probe_rays.get();
-        probe.object_mask = &probe_mask;
-        probe.body_box_count = 0;
-        probe.sun_box = {};
+        std::copy(frame.world_from_body.begin(), frame.world_from_body.end(), probe.world_from_body.begin());
+        // The others are in the way only if they are before it, which the point itself is asked.
+        std::fill(probe.is_point.begin(), probe.is_point.end(), std::uint8_t{1});
+        probe.is_point[i] = 0;
         probe.start_at_m = world.objects[i].position_world_m - frame.rays_world_m;
-        probe.start_before_m = reach_m;
+        probe.start_before_m = 1.01 * radii_m[i];
+        probe_rays->place(probe.geometry, {world.time, camera, {}, {}});
 
-        Spectrum sum;
-        TileStats stats;
         const int edge = tile_edge_px(1);
+        TileStats stats;
         for (int y = 0; y < pixels; y += edge)
             for (int x = 0; x < pixels; x += edge) {
                 const PixelBox box{x, y, std::min(x + edge, pixels), std::min(y + edge, pixels)};
-                const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
-                std::fill_n(probe_pixels.begin(), count, Spectrum{});
-                Tile tile{probe, box, {probe_pixels.data(), count}, stats};
+                const int width = box.x1 - box.x0;
+                const std::span<Spectrum> part(tile_pixels.front().data(),
+                                               static_cast<std::size_t>(width * (box.y1 - box.y0)));
+                std::fill(part.begin(), part.end(), Spectrum{});
+                Tile tile{probe, box, 1, part, stats};
                 tracers.front()->trace(tile);
-                for (std::size_t k = 0; k < count; ++k) sum += probe_pixels[k];
+                for (int row = box.y0; row < box.y1; ++row)
+                    std::copy_n(part.begin() + (row - box.y0) * width, width, probe_pixels.begin() + row * pixels + box.x0);
             }
-        // A pixel's solid angle; the field is a fraction of a pixel of the camera, so cosines are 1.
-        const double pixel_rad = 1 / probe.geometry.focal_length_px;
-        return static_cast<float>(pixel_rad * pixel_rad) * sum;
+        return pixels;
     }
 
     PixelBox tile(int index) const {
@@ -277,17 +325,35 @@ struct Renderer::Implementation {
             });
     }
 
+    // What the smallest thing in the box asks for.
+    int samples_in(const PixelBox& box) const {
+        int n = samples_per_axis;
+        for (std::size_t i = 0; i < objects.size(); ++i)
+            if (plans[i].use == ObjectUse::kMesh && plans[i].samples_per_axis > n && box.overlaps(object_boxes[i]))
+                n = plans[i].samples_per_axis;
+        return n;
+    }
+
     void trace_tile(const PixelBox& box, std::size_t slot, TileStats& stats, RadianceImage& radiance) {
+        const int n = samples_in(box);
+        const int edge = tile_edge_px(n);
+        for (int y = box.y0; y < box.y1; y += edge)
+            for (int x = box.x0; x < box.x1; x += edge)
+                trace_part({x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)}, n, slot, stats, radiance);
+    }
+
+    void trace_part(const PixelBox& box, int n, std::size_t slot, TileStats& stats, RadianceImage& radiance) {
+        const float share = 1 / static_cast<float>(n * n);
         const int width = box.x1 - box.x0;
         const std::span<Spectrum> pixels(tile_pixels[slot].data(), static_cast<std::size_t>(width * (box.y1 - box.y0)));
         std::fill(pixels.begin(), pixels.end(), Spectrum{});
-        Tile tile{frame, box, pixels, stats};
+        Tile tile{frame, box, n, pixels, stats};
         tracers[slot]->trace(tile);
         for (int b = 0; b < frame.bins; ++b)
             for (int y = box.y0; y < box.y1; ++y) {
                 float* out = radiance.row(y, b).data() + box.x0;
                 const Spectrum* in = pixels.data() + (y - box.y0) * width;
-                for (int x = 0; x < width; ++x) out[x] = in[x][b];
+                for (int x = 0; x < width; ++x) out[x] = share * in[x][b];
             }
     }
 
@@ -312,7 +378,8 @@ Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& g
 Renderer::~Renderer() = default;
 
 std::size_t Renderer::most_points() const {
-    return implementation_->stars.size() + implementation_->objects.size() + kBodyCount;
+        const std::size_t cells = Implementation::kMostCells * Implementation::kMostCells;
+    return implementation_->stars.size() + implementation_->objects.size() * cells + kBodyCount;
 }
 std::size_t Renderer::triangles() const { return implementation_->triangle_count; }
 const ImageGeometry& Renderer::geometry() const { return implementation_->frame.geometry; }
@@ -349,17 +416,11 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     for (const PlacedBody& body : my.background.points())
         field.add(body.world_dir, body.distance_m, my.background.point_irradiance(body), points);
     for (std::size_t i = 0; i < my.objects.size(); ++i)
-        if (my.frame.is_point[i]) {
-            const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-            const double distance_m = my.plans[i].distance_m;
-            if (field.sees(to_object_m / distance_m))
-                field.add(to_object_m / distance_m, distance_m - 1.01 * my.radii_m[i], my.irradiance_of_point(world, i, key),
-                          points);
-        }
+        if (my.frame.is_point[i]) my.add_points(world, i, key, field, points);
     stats.points_ms = ms_since(pointed);
 
     const TileStats sum = my.total();
-    const int n = my.frame.samples_per_axis;
+    const int n = my.samples_per_axis;
     stats.primary_rays = sum.primary_rays;
     stats.shadow_rays = sum.shadow_rays;
     stats.secondary_rays = sum.secondary_rays;
@@ -373,7 +434,7 @@ std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     my.place(world, {});
     std::vector<std::size_t> triangles;
     for (const ObjectSurfaces& object : my.objects) triangles.push_back(object.triangles.size());
-    return explain({my.frame, my.plans, my.names, triangles, my.path_model_name, my.stars.size()}, world);
+    return explain({my.frame, my.plans, my.names, triangles, my.path_model_name, my.stars.size(), my.samples_per_axis}, world);
 }
 
 double Renderer::floor_ms(const WorldSnapshot& world) {
@@ -384,7 +445,7 @@ double Renderer::floor_ms(const WorldSnapshot& world) {
     my.for_each_tile([&](int, const PixelBox& box, std::size_t slot) {
         if (!my.frame.object_mask->any(box)) return;
         TileStats stats;
-        Tile tile{my.frame, box, my.tile_pixels[slot], stats};
+        Tile tile{my.frame, box, my.samples_per_axis, my.tile_pixels[slot], stats};
         trace_bare_rays(tile, my.bare_vertices[slot]);
     });
     return ms_since(start);

@@ -24,7 +24,8 @@ struct TileStats {
 struct Tile {
     const FrameView& frame;
     PixelBox box;
-    std::span<Spectrum> pixels;  // radiance, row by row
+    int samples_per_axis;        // n: an n x n grid of rays in each pixel
+    std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
     TileStats& stats;
 
     // Random words of a path's vertex; `use` (below 16) tells apart what they are for.

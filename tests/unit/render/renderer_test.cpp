@@ -11,75 +11,10 @@
 #include "render/surface.h"
 #include "render/triangle_order.h"
 #include "render/units.h"
+#include "tests/support/stage.h"
 
 namespace hilcam {
 namespace {
-
-constexpr float kSun_w_m2_um = 1000;
-
-// A square plate of side 2 in its own xy plane, facing +z, one surface.
-SceneObject plate(const MaterialConfig& material, const SpectralGrid& grid) {
-    SceneObject object;
-    object.mesh.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    object.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    object.mesh.surface_of_triangle = {0, 0};
-    object.mesh.surfaces.resize(1);
-    object.materials = {make_material(material, grid)};
-    return object;
-}
-
-MaterialConfig lambert(double albedo) {
-    MaterialConfig m;
-    m.reflectance = Curve::constant(albedo);
-    return m;
-}
-
-// A scene without air.
-Scene copy_of(const Scene& scene) {
-    Scene copy;
-    copy.objects = scene.objects;
-    copy.stars = scene.stars;
-    copy.bodies = scene.bodies;
-    copy.sun_irradiance_1au_w_m2_um = scene.sun_irradiance_1au_w_m2_um;
-    copy.limb_darkening = scene.limb_darkening;
-    return copy;
-}
-
-// A camera at the origin that looks along +z with y down; the Sun one au away in a direction; no Earth.
-class Stage {
-  public:
-    SpectralGrid grid{{0.5, 0.6, 0.7}};
-    ImageGeometry geometry{32, 32, 4, 32, {}};
-    RenderQuality quality;
-    Scene scene;
-    WorldSnapshot world;
-    RadianceImage radiance{40, 40, 2};
-    std::vector<PointSource> points;
-    RenderStats stats;
-
-    Stage() {
-        for (int b = 0; b < 2; ++b) scene.sun_irradiance_1au_w_m2_um[b] = kSun_w_m2_um;
-        world.bodies[BodyId::kEarth].world_m = {0, 0, -1e9};
-        sun({0, 0, -1});
-    }
-    void earth(double albedo) {
-        BodyConfig config = default_body(BodyId::kEarth);
-        config.albedo = Curve::constant(albedo);
-        scene.body(BodyId::kEarth) = {true, BodyLook(BodyId::kEarth, config, grid), {}};
-    }
-    void sun(Vec3d dir) { world.bodies.sun_world_m = kAstronomicalUnit_m * normalized(dir); }
-    // Turned half about x, so that the plate's +z faces the camera.
-    void add(SceneObject object, Vec3d position, Vec3d rotation = {kPi, 0, 0}) {
-        scene.objects.push_back(std::move(object));
-        world.objects.push_back({position, from_rotation_vector(rotation)});
-    }
-    void render() {
-        Renderer renderer(copy_of(scene), grid, geometry, quality);
-        points.reserve(renderer.most_points());
-        renderer.render(world, {1, 1}, radiance, points, stats);
-    }
-    float middle(int bin = 0) const { return radiance.row(20, bin)[20]; }
-};
 
 TEST(Renderer, SunlitLambertPlateHasAlbedoTimesIrradianceOverPi) {
     Stage s;
