@@ -5,6 +5,7 @@
 #include "io/image_file.h"
 #include "io/mesh_cache.h"
 #include "io/mesh_file.h"
+#include "io/mesh_level_cache.h"
 #include "render/brdf_table.h"
 #include "render/check.h"
 #include "render/plugin.h"
@@ -52,6 +53,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
         object.mesh = load_mesh(mesh_path(config));
         const auto scale = static_cast<float>(config.scale);
         for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
+        if (scenario.quality.render.lod_error_px > 0) object.levels = cached_levels(object.mesh, cache_folder());
         object.materials = load_materials(object.mesh, config.materials, grid);
         scene.objects.push_back(std::move(object));
     }

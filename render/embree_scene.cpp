@@ -21,6 +21,8 @@ namespace {
 // processors with AVX-512, as the compiler leaves rubbish above a 16-bit mask (Embree pull request 574,
 // 2025).
 constexpr Coherence kOcclusion = Coherence::kIncoherent;
+// Trees with spatial splits take longer to build and suit long thin triangles, as simplified meshes have.
+constexpr std::size_t kSpatialSplits = 1000000;
 
 // What differs between the two versions: how a query takes its options.
 #if RTC_VERSION_MAJOR >= 4
@@ -93,12 +95,14 @@ void copy_rays(const RayPacket& from, RTCRay16& to) {
 struct EmbreeScene::Implementation {
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
-    std::vector<RTCScene> meshes;
+    std::vector<std::vector<RTCScene>> levels;  // per object
+    std::vector<std::size_t> shown;             // level of each
     std::vector<RTCGeometry> instances;
 
     ~Implementation() {
         for (RTCGeometry geometry : instances) rtcReleaseGeometry(geometry);
-        for (RTCScene scene : meshes) rtcReleaseScene(scene);
+        for (const std::vector<RTCScene>& scenes : levels)
+            for (RTCScene scene : scenes) rtcReleaseScene(scene);
         if (top) rtcReleaseScene(top);
         if (device) rtcReleaseDevice(device);
     }
@@ -113,7 +117,7 @@ struct EmbreeScene::Implementation {
     }
     RTCScene build(const Mesh& mesh) const {
         RTCScene scene = rtcNewScene(device);
-        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetSceneBuildQuality(scene, mesh.triangles.size() < kSpatialSplits ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                  sizeof(Vec3f), mesh.vertices_m.size());
@@ -131,7 +135,7 @@ struct EmbreeScene::Implementation {
     }
 };
 
-EmbreeScene::EmbreeScene(std::span<const Mesh* const> meshes)
+EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects)
     : implementation_(std::make_unique<Implementation>()) {
     Implementation& my = *implementation_;
     my.device = rtcNewDevice(nullptr);
@@ -139,10 +143,12 @@ EmbreeScene::EmbreeScene(std::span<const Mesh* const> meshes)
     my.top = rtcNewScene(my.device);
     rtcSetSceneFlags(my.top, RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(my.top, RTC_BUILD_QUALITY_LOW);
-    for (const Mesh* mesh : meshes) {
-        my.meshes.push_back(my.build(*mesh));
+    for (const std::vector<const Mesh*>& meshes : objects) {
+        std::vector<RTCScene>& scenes = my.levels.emplace_back();
+        for (const Mesh* mesh : meshes) scenes.push_back(my.build(*mesh));
+        my.shown.push_back(0);
         RTCGeometry instance = rtcNewGeometry(my.device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, my.meshes.back());
+        rtcSetGeometryInstancedScene(instance, scenes.front());
         rtcSetGeometryTimeStepCount(instance, 1);
         rtcAttachGeometryByID(my.top, instance, static_cast<unsigned>(my.instances.size()));
         my.instances.push_back(instance);
@@ -151,13 +157,15 @@ EmbreeScene::EmbreeScene(std::span<const Mesh* const> meshes)
 
 EmbreeScene::~EmbreeScene() = default;
 
-void EmbreeScene::place(std::span<const Pose> objects, Vec3d camera_world_m) {
+void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size_t> levels, Vec3d origin_world_m) {
     Implementation& my = *implementation_;
-    HILCAM_CHECK(objects.size() == my.instances.size());
+    HILCAM_CHECK(objects.size() == my.instances.size() && levels.size() == objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (my.shown[i] != levels[i])
+            rtcSetGeometryInstancedScene(my.instances[i], my.levels[i][my.shown[i] = levels[i]]);
         const Mat3d r = to_matrix(objects[i].world_from_body);
         // The only narrowing of the world: after the camera is subtracted.
-        const Vec3f t = to_float(objects[i].position_world_m - camera_world_m);
+        const Vec3f t = to_float(objects[i].position_world_m - origin_world_m);
         const Vec3f rx = to_float(r.x), ry = to_float(r.y), rz = to_float(r.z);
         const float columns[12] = {rx.x, ry.x, rz.x, rx.y, ry.y, rz.y, rx.z, ry.z, rz.z, t.x, t.y, t.z};
         rtcSetGeometryTransform(my.instances[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);

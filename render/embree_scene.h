@@ -2,8 +2,8 @@
 // The acceleration structure: meshes once, instances of them placed anew each frame, rays in packets of
 // sixteen. The one unit that knows Embree (3 or 4).
 //
-// Ray space: origin at the camera, axes parallel to the world, metres, single precision. Placing an object
-// subtracts the camera in double precision first, so that near things keep their digits wherever in the world
+// Ray space (frame_view.h): axes parallel to the world, metres, single precision. Placing an object
+// subtracts its origin in double precision first, so that near things keep their digits wherever in the world
 // they are. Precision: a hit's distance is good to a few 1e-7 of the distance to the object; objects many
 // times farther than large (10^4 and more) lose shape. Misses and hits of shared edges follow Embree's
 // non-robust mode.
@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "render/mesh.h"
 #include "render/pose.h"
@@ -49,14 +50,14 @@ enum class Coherence { kCoherent, kIncoherent };
 
 class EmbreeScene {
   public:
-    // One instance per mesh; builds the meshes' trees on all of oneTBB's threads. The meshes' vertices and
-    // triangles are copied. Throws InputError when memory runs out.
-    explicit EmbreeScene(std::span<const Mesh* const> meshes);
+        // One instance per object, each with its levels of detail, the mesh itself first; builds their trees on all of
+    // oneTBB's threads. Vertices and triangles are copied. Throws InputError when memory runs out.
+    explicit EmbreeScene(std::span<const std::vector<const Mesh*>> objects);
     ~EmbreeScene();
 
-    // Places the objects for a frame (a pose per mesh). Loop, one thread; Embree rebuilds its small top-level
-    // tree.
-    void place(std::span<const Pose> objects, Vec3d camera_world_m);
+        // Places the objects for a frame, each at one of its levels. Loop, one thread; Embree rebuilds its small
+    // top-level tree.
+    void place(std::span<const Pose> objects, std::span<const std::size_t> levels, Vec3d origin_world_m);
 
     // Any thread between two place(). No allocation.
     void intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const;

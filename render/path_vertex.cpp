@@ -44,7 +44,7 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];
         const Spectrum scale =
-            frame.bands->spectrum(sample(object.textures[static_cast<std::size_t>(material.texture)],
+            frame.bands->spectrum(sample((*object.textures)[static_cast<std::size_t>(material.texture)],
                                          (1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
                                          (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y));
         // The one colour of a file scales what the material mostly is.

@@ -96,8 +96,7 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
     add("rays begin at the ", f.start_before_m > 0 ? "objects (far away against their size)" : "camera");
     for (std::size_t i = 0; i < planned.plans.size(); ++i) {
         const ObjectPlan& plan = planned.plans[i];
-        add("object ", i + 1, " '", planned.names[i], "', ", planned.triangles[i], " triangles, ",
-            plan.distance_m, " m away, ", plan.size_px, " px: ", reason(plan.use));
+        add("object ", i + 1, " '", planned.names[i], "', ", planned.triangles[i], " triangles (level ", plan.level, "), ", plan.distance_m, " m away, ", plan.size_px, " px: ", reason(plan.use));
     }
     lines.push_back(sun_line(f, world));
     for (std::size_t i = 0; i < f.background->disks().size(); ++i) lines.push_back(body_line(f, i));

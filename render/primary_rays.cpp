@@ -145,7 +145,7 @@ class PrimaryRays {
             const auto pixel =
                 static_cast<std::uint32_t>(static_cast<int>(y_of_[k]) * width + static_cast<int>(x_of_[k]));
             if (objects && meets_object(k)) {
-                ++tile_.stats.object_hits;
+                tile_.stats.covered_px += 1.0 / (tile_.samples_per_axis * tile_.samples_per_axis);
                 add_vertex(i, pixel, sample);
             } else if (bodies_ || sun_) {
                 add_backdrop(k, sun_cosine[k], tile_.pixels[pixel]);

@@ -26,26 +26,51 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::vector<const Mesh*> ordered_meshes(Scene& scene) {
-    std::vector<const Mesh*> meshes;
+// Per object its meshes, from fine to coarse, their triangles ordered for the cache.
+std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene) {
+    std::vector<std::vector<const Mesh*>> objects;
     for (SceneObject& object : scene.objects) {
+        std::vector<const Mesh*>& meshes = objects.emplace_back();
         order_triangles(object.mesh);
         meshes.push_back(&object.mesh);
+        for (MeshLevel& level : object.levels) {
+            order_triangles(level.mesh);
+            meshes.push_back(&level.mesh);
+        }
     }
-    return meshes;
+    return objects;
 }
 
-std::vector<std::string> names_of(const Scene& scene) {
-    std::vector<std::string> names;
-    for (const SceneObject& object : scene.objects) names.push_back(object.name);
-    return names;
+// An object's surfaces at its levels of detail.
+struct ShownObject {
+    std::string name;
+    std::vector<ObjectSurfaces> levels;
+    std::vector<double> error_m;  // of each
+};
+
+// What a level has flattened makes its facets' lobes wider: slopes add by their squares.
+std::vector<Material> widened(std::vector<Material> materials, const std::vector<float>& flattened_alpha) {
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (materials[i].has_facets() && materials[i].ggx_alpha > 0 && flattened_alpha[i] > 0)
+            materials[i].ggx_alpha = std::min(1.0f, std::hypot(materials[i].ggx_alpha, flattened_alpha[i]));
+    return materials;
 }
 
-std::vector<ObjectSurfaces> surfaces_of(Scene& scene) {
-    std::vector<ObjectSurfaces> surfaces;
-    for (SceneObject& object : scene.objects) surfaces.emplace_back(std::move(object));
+std::vector<ShownObject> shown_objects(Scene& scene) {
+    std::vector<ShownObject> objects;
+    for (SceneObject& object : scene.objects) {
+        ShownObject& out = objects.emplace_back();
+        out.name = object.name;
+        const auto textures = std::make_shared<const std::vector<Texture>>(std::move(object.mesh.textures));
+        out.levels.emplace_back(object.mesh, object.materials, textures);
+        out.error_m.push_back(0);
+        for (const MeshLevel& level : object.levels) {
+            out.levels.emplace_back(level.mesh, widened(object.materials, level.flattened_alpha), textures);
+            out.error_m.push_back(level.error_m);
+        }
+    }
     scene.objects.clear();
-    return surfaces;
+    return objects;
 }
 
 }  // namespace
@@ -61,6 +86,8 @@ Fields fields(RenderQuality& q) {
         flag("sun_disk", q.sun_disk, "sunlight from the whole disk: soft shadows, exact highlights"),
         number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
                "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they are"),
+        number("lod_error_px", q.lod_error_px, 1, {0, 16},
+               "a mesh may be this far off, in pixels, where it is drawn from a coarser level; 0: never"),
         integer("rays_across", q.rays_across, {0, 4096},
                 "an object of some pixels gets more rays per pixel, up to 16 x 16, until so many go across it"),
         integer("point_samples", q.point_samples, {16, 512},
@@ -80,9 +107,10 @@ ImageGeometry probe_geometry(int pixels, double radius_m, double distance_m) {
     return geometry;
 }
 
-bool any_material(const std::vector<ObjectSurfaces>& objects, const auto& says) {
-    return std::any_of(objects.begin(), objects.end(), [&](const ObjectSurfaces& object) {
-        return std::any_of(object.materials.begin(), object.materials.end(), says);
+bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
+    return std::any_of(objects.begin(), objects.end(), [&](const ShownObject& object) {
+        const std::vector<Material>& materials = object.levels.front().materials;
+        return std::any_of(materials.begin(), materials.end(), says);
     });
 }
 
@@ -91,10 +119,11 @@ bool any_material(const std::vector<ObjectSurfaces>& objects, const auto& says) 
 struct Renderer::Implementation {
     std::size_t triangle_count;
     EmbreeScene embree;
-    std::vector<ObjectSurfaces> objects;
-    std::vector<const ObjectSurfaces*> shown;  // at their level of detail
+    std::vector<ShownObject> objects;
+    std::vector<std::size_t> levels;           // of detail that each is shown at
+    std::vector<const ObjectSurfaces*> shown;  // at that level
     std::vector<double> radii_m;
-    std::vector<std::string> names;
+    double lod_error_px;
     std::vector<ObjectPlan> plans;
     std::vector<PixelBox> object_boxes;  // pixels that can meet an object
     std::vector<Star> stars;
@@ -129,7 +158,7 @@ struct Renderer::Implementation {
                    const RenderQuality& quality, const RenderModels& models, const Modules& modules)
         : triangle_count(0),
           embree(ordered_meshes(scene)),
-          names(names_of(scene)),
+          lod_error_px(quality.lod_error_px),
           stars(std::move(scene.stars)),
           bodies(std::move(scene.bodies)),
           air(std::move(scene.air)),
@@ -148,13 +177,14 @@ struct Renderer::Implementation {
           tiles_across((geometry.padded_width() + tile_px - 1) / tile_px),
           tiles_down((geometry.padded_height() + tile_px - 1) / tile_px),
           tile_stats(static_cast<std::size_t>(tiles_across * tiles_down)) {
-        objects = surfaces_of(scene);
+        objects = shown_objects(scene);
+        levels.resize(objects.size());
         plans.resize(objects.size());
         object_boxes.resize(objects.size());
-        for (const ObjectSurfaces& object : objects) {
-            triangle_count += object.triangles.size();
-            radii_m.push_back(object.radius_m);
-            shown.push_back(&object);
+        for (const ShownObject& object : objects) {
+            triangle_count += object.levels.front().triangles.size();
+            radii_m.push_back(object.levels.front().radius_m);
+            shown.push_back(&object.levels.front());
         }
         full_mask.fill();
         probe_mask.fill();
@@ -187,6 +217,19 @@ struct Renderer::Implementation {
         probe.object_mask = &probe_mask;
     }
 
+    // The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
+    void choose_levels(const WorldSnapshot& world) {
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            const double nearest_m =
+                length(world.objects[i].position_world_m - world.camera.position_world_m) - radii_m[i];
+            const double error_m = lod_error_px * std::max(0.0, nearest_m) / frame.geometry.focal_length_px;
+            std::size_t level = 0;
+            while (level + 1 < objects[i].levels.size() && objects[i].error_m[level + 1] <= error_m) ++level;
+            levels[i] = level;
+            shown[i] = &objects[i].levels[level];
+        }
+    }
+
     // Of the sphere that holds it.
     PixelBox box_of(const WorldSnapshot& world, std::size_t i) const {
         const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
@@ -200,11 +243,12 @@ struct Renderer::Implementation {
         const RaySpace space = choose_ray_space(world, radii_m, rays->is_still());
         const double pixel_rad = 1 / frame.geometry.focal_length_px;
         background.place(world, space.origin_world_m, pixel_rad);
-        embree.place(world.objects, space.origin_world_m);
         frame.key = key;
         frame.rays_world_m = space.origin_world_m;
         frame.camera_m = world.camera.position_world_m - space.origin_world_m;
         frame.start_before_m = space.start_before_m;
+        choose_levels(world);
+        embree.place(world.objects, levels, space.origin_world_m);
         rays->place(frame.geometry, {world.time, world.camera, world.camera_velocity_m_s, world.camera_rate_rad_s});
 
         // Rows with poses of their own meet objects anywhere: no mask, no boxes.
@@ -214,10 +258,12 @@ struct Renderer::Implementation {
         for (std::size_t i = 0; i < objects.size(); ++i) {
             const Mat3d m = to_matrix(world.objects[i].world_from_body);
             frame.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
+            const std::size_t level = levels[i];
             plans[i] = plan_object(frame.geometry, world, world.objects[i], radii_m[i], {samples_per_axis, rays_across});
+            plans[i].level = level;
             frame.is_point[i] = plans[i].use == ObjectUse::kPoints;
             if (!frame.is_point[i] && still &&
-                !object_mask.add(world.camera, world.objects[i], objects[i].cluster_bounds_m))
+                !object_mask.add(world.camera, world.objects[i], shown[i]->cluster_bounds_m))
                 plans[i].use = ObjectUse::kHidden;
             if (!frame.is_point[i] && plans[i].samples_per_axis > samples_per_axis)
                 object_boxes[i] = box_of(world, i);
@@ -420,21 +466,21 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     stats.points_ms = ms_since(pointed);
 
     const TileStats sum = my.total();
-    const int n = my.samples_per_axis;
     stats.primary_rays = sum.primary_rays;
     stats.shadow_rays = sum.shadow_rays;
     stats.secondary_rays = sum.secondary_rays;
-    stats.coverage =
-        static_cast<double>(sum.object_hits) /
-        (static_cast<double>(my.frame.geometry.padded_width()) * my.frame.geometry.padded_height() * n * n);
+    stats.coverage = sum.covered_px / (static_cast<double>(my.frame.geometry.padded_width()) *
+                                       my.frame.geometry.padded_height());
 }
 
 std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
     my.place(world, {});
     std::vector<std::size_t> triangles;
-    for (const ObjectSurfaces& object : my.objects) triangles.push_back(object.triangles.size());
-    return explain({my.frame, my.plans, my.names, triangles, my.path_model_name, my.stars.size(), my.samples_per_axis}, world);
+    std::vector<std::string> names;
+    for (const ShownObject& object : my.objects) names.push_back(object.name);
+    for (const ObjectSurfaces* surfaces : my.shown) triangles.push_back(surfaces->triangles.size());
+    return explain({my.frame, my.plans, names, triangles, my.path_model_name, my.stars.size(), my.samples_per_axis}, world);
 }
 
 double Renderer::floor_ms(const WorldSnapshot& world) {

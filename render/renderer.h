@@ -29,6 +29,7 @@ struct RenderQuality {
     double contribution_threshold = 1e-3;  // see path_model.h
     bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
     double facets_behind_diffuse = 0.4;    // least GGX alpha there; 0: as they are
+    double lod_error_px = 0.25;            // of a coarser level of detail; 0: the mesh itself, always
     std::int64_t rays_across = 128;        // of a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
     std::int64_t point_samples = 96;       // of an object of few pixels, along one axis of its little picture
 };

@@ -12,6 +12,7 @@
 #include "render/body_light.h"
 #include "render/material.h"
 #include "render/mesh.h"
+#include "render/mesh_lod.h"
 #include "render/stars.h"
 
 namespace hilcam {
@@ -20,6 +21,7 @@ struct SceneObject {
     std::string name;
     Mesh mesh;                        // body axes, metres
     std::vector<Material> materials;  // one per surface of the mesh
+    std::vector<MeshLevel> levels;    // coarser ones, from fine to coarse; may be empty
 };
 
 struct SceneBody {

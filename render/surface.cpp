@@ -48,11 +48,11 @@ std::uint32_t pack_normal(Vec3f n) {
     return snorm16(x) | (snorm16(y) << 16);
 }
 
-ObjectSurfaces::ObjectSurfaces(SceneObject&& object)
-    : materials(std::move(object.materials)),
-      textures(std::move(object.mesh.textures)),
-      cluster_bounds_m(clusters_of(object.mesh)) {
-    const Mesh& mesh = object.mesh;
+ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials_of_surfaces,
+                               std::shared_ptr<const std::vector<Texture>> textures_of_object)
+    : materials(std::move(materials_of_surfaces)),
+      textures(std::move(textures_of_object)),
+      cluster_bounds_m(clusters_of(mesh)) {
     HILCAM_CHECK(materials.size() == mesh.surfaces.size());
     for (const Vec3f& v : mesh.vertices_m) radius_m = std::max(radius_m, length(to_double(v)));
     const bool no_normals = mesh.normals.empty();

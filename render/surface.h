@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "render/scene.h"
@@ -39,12 +40,14 @@ static_assert(sizeof(PackedTriangle) == 16);
 
 // An object as rays see it.
 struct ObjectSurfaces {
-    explicit ObjectSurfaces(SceneObject&& object);
+    // materials: one per surface of the mesh; texture of a material indexes the textures.
+    ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials,
+                   std::shared_ptr<const std::vector<Texture>> textures);
 
     std::vector<PackedTriangle> triangles;
     std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
     std::vector<Material> materials;
-    std::vector<Texture> textures;
+    std::shared_ptr<const std::vector<Texture>> textures;  // shared by an object's levels of detail
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     double radius_m = 0;  // of a sphere about the body's origin that holds the object

@@ -12,11 +12,12 @@
 namespace hilcam {
 
 struct TileStats {
-    std::uint64_t primary_rays = 0, shadow_rays = 0, secondary_rays = 0, object_hits = 0;
+    std::uint64_t primary_rays = 0, shadow_rays = 0, secondary_rays = 0;
+    double covered_px = 0;  // by objects
 
     TileStats& operator+=(const TileStats& other) {
         primary_rays += other.primary_rays, shadow_rays += other.shadow_rays;
-        secondary_rays += other.secondary_rays, object_hits += other.object_hits;
+        secondary_rays += other.secondary_rays, covered_px += other.covered_px;
         return *this;
     }
 };
