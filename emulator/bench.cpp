@@ -63,6 +63,7 @@ struct Run {
     RenderStats render;
     double floor_render_ms, fft_ms, copy_ms;
     std::size_t triangles;
+    json path_models;
 };
 
 double copy_ms(const ScenarioConfig& scenario) {
@@ -76,6 +77,19 @@ double copy_ms(const ScenarioConfig& scenario) {
         times.push_back(static_cast<double>(monotonic_now_ns() - start) * 1e-6);
     }
     return median(times);
+}
+
+json path_models(Renderer& renderer, const WorldSnapshot& world) {
+    json out;
+    for (const PathModelSpeed& speed : renderer.path_model_speeds(world, Modules(), 5)) {
+        const auto rays = static_cast<double>(speed.rays);
+        out[speed.name] = {{"rays", speed.rays},
+                           {"frame_ms", speed.frame_ms},
+                           {"mrays_s", rays / speed.frame_ms * 1e-3},
+                           {"bare_mrays_s", rays / speed.bare_ms * 1e-3},
+                           {"ratio_to_bare", speed.frame_ms / speed.bare_ms}};
+    }
+    return out;
 }
 
 Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
@@ -110,6 +124,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     run.fft_ms = median(fft);
     run.copy_ms = copy_ms(scenario);
     run.triangles = emulator.renderer().triangles();
+    if (options.path_models) run.path_models = path_models(emulator.renderer(), snapshot);
     return run;
 }
 
@@ -148,6 +163,7 @@ json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
           {"secondary", last.render.secondary_rays}}},
         // Sampling error against sensor noise is not measured yet, so there is no figure to give.
         {"within_noise_budget", nullptr},
+        {"path_models", last.path_models},
         {"runs", options.runs},
         {"frames_per_run", options.frames},
         {"machine", machine_report()},

@@ -12,6 +12,7 @@ namespace hilcam {
 struct BenchOptions {
     std::uint64_t frames = 120;  // per run, after 20 for warming up
     int runs = 5;                // medians are taken over the runs
+    bool path_models = false;    // also a frame with each path model, against bare Embree on the same rays
 };
 
 // The camera flies once around the first object while frames are computed as fast as the pipeline goes,

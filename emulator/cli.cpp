@@ -89,6 +89,10 @@ int run_bench(const Options& o) {
     for (const auto& [stage, times] : result["stages_ms"].items())
         fmt::print("  {:<10} p50 {:7.3f} ms  p99 {:7.3f} ms\n", stage, times["p50"].get<double>(),
                    times["p99"].get<double>());
+    for (const auto& [name, speed] : result["path_models"].items())
+        fmt::print("  path model {:<10} {:9} rays  {:8.1f} ms  {:6.2f} Mrays/s, bare Embree {:6.2f} Mrays/s, ratio {:.2f}\n", name,
+                   speed["rays"].get<std::uint64_t>(), speed["frame_ms"].get<double>(), speed["mrays_s"].get<double>(),
+                   speed["bare_mrays_s"].get<double>(), speed["ratio_to_bare"].get<double>());
     return 0;
 }
 
@@ -137,6 +141,7 @@ int run_command_line(int argc, char** argv) {
     CLI::App* bench_app = app.add_subcommand("bench", "measure how fast a scenario runs here");
     add_config(bench_app, o);
     bench_app->add_flag("--json", o.json, "machine-readable");
+    bench_app->add_flag("--path-models", o.bench.path_models, "also each path model against bare Embree on the same rays");
     bench_app->add_option("--frames", o.bench.frames, "frames of a run")->check(CLI::Range(1, 1000000));
     bench_app->add_option("--runs", o.bench.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
     bench_app->callback([&] { action = [&] { return run_bench(o); }; });

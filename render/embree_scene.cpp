@@ -6,7 +6,12 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <tbb/blocked_range.h>
+#include <tbb/concurrent_vector.h>
+#include <tbb/parallel_for.h>
+
 #include <bit>
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -99,6 +104,13 @@ struct EmbreeScene::Implementation {
     std::vector<std::size_t> shown;             // level of each
     std::vector<RTCGeometry> instances;
 
+    struct Recorded {
+        RayPacket rays;
+        Coherence coherence;
+        bool occlusion;
+    };
+    std::unique_ptr<tbb::concurrent_vector<Recorded>> recorded;
+
     ~Implementation() {
         for (RTCGeometry geometry : instances) rtcReleaseGeometry(geometry);
         for (const std::vector<RTCScene>& scenes : levels)
@@ -175,6 +187,7 @@ void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size
 }
 
 void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const {
+    if (implementation_->recorded) implementation_->recorded->push_back({rays, coherence, false});
     alignas(64) int valid[kPacketSize];
     set_valid(rays.count, valid);
     RTCRayHit16 query;
@@ -196,6 +209,7 @@ void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacke
 }
 
 std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
+    if (implementation_->recorded) implementation_->recorded->push_back({rays, kOcclusion, true});
     alignas(64) int valid[kPacketSize];
     set_valid(rays.count, valid);
     RTCRay16 query;
@@ -205,6 +219,30 @@ std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
     std::uint32_t blocked = 0;
     for (int i = 0; i < rays.count; ++i) blocked |= (query.tfar[i] < 0 ? 1u : 0u) << i;
     return blocked;
+}
+
+void EmbreeScene::start_recording() {
+    implementation_->recorded = std::make_unique<tbb::concurrent_vector<Implementation::Recorded>>();
+}
+
+EmbreeScene::Replay EmbreeScene::replay() {
+    const auto packets = std::move(implementation_->recorded);
+    Replay out;
+    for (const Implementation::Recorded& packet : *packets) out.rays += static_cast<std::uint64_t>(packet.rays.count);
+    const auto start = std::chrono::steady_clock::now();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets->size(), 64),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          HitPacket hits;
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              const Implementation::Recorded& packet = (*packets)[i];
+                              if (packet.occlusion)
+                                  occluded(packet.rays);
+                              else
+                                  intersect(packet.rays, packet.coherence, hits);
+                          }
+                      });
+    out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return out;
 }
 
 }  // namespace hilcam

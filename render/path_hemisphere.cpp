@@ -2,7 +2,7 @@
 // directions of equal area, each traced to the next target, at which the same is done again.
 //
 // What the sum cannot resolve is taken apart from it: exact reflection and transmission follow their own
-// direction; facet lobes narrower than the directions are apart (GGX alpha below kNarrow) are taken as
+// direction; facet lobes narrower than the directions are apart (GGX alpha below kNarrowAlpha) are taken as
 // mirrors with the lobe's albedo; bodies smaller than the directions are apart are lamps (radiance_model.h).
 // The weights are scaled so that the cosines of the 60 sum to pi / (2 pi / 60): a white furnace stays white.
 
@@ -23,7 +23,6 @@ namespace {
 
 constexpr std::size_t kDirections = 60;
 constexpr std::size_t kMostRays = kDirections + 2;  // and the exact two
-constexpr float kNarrow = 0.35f;
 
 // All 120 triangles' middles: the orbit of one point under the symmetries of the dodecahedron, kept where z >
 // 0. The plane z = 0 is one of its 15 planes of symmetry, so that exactly half of them are above it.
@@ -82,7 +81,8 @@ class HemispherePaths final : public PathModel {
     struct Ray {
         Vec3f origin_m, dir;
         Spectrum weight;
-        bool exact;
+        bool exact;     // sees bodies, which are lamps for the others
+        bool sees_sun;  // exact by itself: no highlight has counted the Sun
     };
     struct Level {
         std::array<Vertex, kMostRays> vertices;
@@ -102,7 +102,7 @@ class HemispherePaths final : public PathModel {
         std::size_t count = 0;
         const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
         Scatterer surface = at.surface;
-        const bool narrow = surface.alpha > 0 && surface.alpha < kNarrow;
+        const bool narrow = surface.alpha > 0 && surface.alpha < kNarrowAlpha;
         float share = 1;  // of the lobe that the one direction stands for
         if (narrow) {
             share = surface.material->model == ReflectionModel::kMirror ? 1 : surface.material->facets(no);
@@ -115,7 +115,7 @@ class HemispherePaths final : public PathModel {
             if (!sample.valid || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) continue;
             const Spectrum weight = share * (at.weight * sample.weight);
             if (largest(weight) >= least)
-                rays_[count++] = {at.start(!sample.transmits), sample.dir, weight, true};
+                rays_[count++] = {at.start(!sample.transmits), sample.dir, weight, true, !narrow};
         }
         // At the last surface only exact directions go on, to the background.
         if (!surface.has_lobes() || at.depth >= frame.max_depth) return count;
@@ -127,7 +127,7 @@ class HemispherePaths final : public PathModel {
             const Spectrum weight = (kSolidAngle * direction.z) * (at.weight * brdf_value(surface, c));
             // All directions together against the threshold.
             if (static_cast<float>(kDirections) * largest(weight) >= least && largest(weight) > 0)
-                rays_[count++] = {at.start(), dir, weight, false};
+                rays_[count++] = {at.start(), dir, weight, false, false};
         }
         return count;
     }
@@ -172,7 +172,7 @@ class HemispherePaths final : public PathModel {
         Spectrum weight = ray.weight;
         if (!ray.exact && !(background.camera_in_air() && lamp_density(tile.frame, at, ray.dir) == 0)) return;
         if (background.add_bodies(ray.origin_m, to_double(ray.dir), weight, tile.pixels[at.pixel])) return;
-        if (ray.exact) background.add_sun_disk(to_double(ray.dir), weight, tile.pixels[at.pixel]);
+        if (ray.sees_sun) background.add_sun_disk(to_double(ray.dir), weight, tile.pixels[at.pixel]);
     }
 };
 

@@ -118,11 +118,13 @@ void add_lamplight(Tile& tile, std::span<const Vertex> vertices, LampLight how) 
                 const float ni = dot(at.normal, dir);
                 if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
                 const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
+                Scatterer surface = at.surface;
+                if (how == LampLight::kQuadrature && surface.alpha < kNarrowAlpha) surface.alpha = 0;
                 float density = cone_density(lamp) * kQuadrature;
                 if (how == LampLight::kSampled)
                     density = lamp_density(frame, at, dir) +
                               (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
-                const Spectrum weight = (ni / density) * (at.weight * brdf_value(at.surface, c));
+                const Spectrum weight = (ni / density) * (at.weight * brdf_value(surface, c));
                 if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
             }
         }

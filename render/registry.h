@@ -32,6 +32,11 @@ class Registry {
             throw InputError(kind_ + ": found '" + name + "'; accepted: " + names());
         return found->second(arguments...);
     }
+    std::vector<std::string> list() const {
+        std::vector<std::string> all;
+        for (const auto& [name, factory] : factories_) all.push_back(name);
+        return all;
+    }
     std::string names() const {
         std::string list;
         for (const auto& [name, factory] : factories_) list += (list.empty() ? "" : " | ") + name;

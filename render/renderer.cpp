@@ -116,6 +116,14 @@ bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
 
 }  // namespace
 
+namespace {
+void fill_zero(RadianceImage& radiance, const PixelBox& box) {
+    for (int p = 0; p < radiance.planes(); ++p)
+        for (int y = box.y0; y < box.y1; ++y)
+            std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
+}
+}  // namespace
+
 struct Renderer::Implementation {
     std::size_t triangle_count;
     EmbreeScene embree;
@@ -403,6 +411,21 @@ struct Renderer::Implementation {
             }
     }
 
+    void trace_all(RadianceImage& radiance) {
+        for_each_tile([&](int index, const PixelBox& tile, std::size_t slot) {
+            TileStats& stats = tile_stats[static_cast<std::size_t>(index)];
+            const bool anything = can_see_anything(tile);
+            const bool was_dark = radiance.dark(tile.x0, tile.y0);
+            // Tiles smaller than the image's blocks share a mark: it stays off.
+            if (tile_px == RadianceImage::kBlock_px) radiance.mark_dark(tile.x0, tile.y0, !anything);
+            stats = {};
+            if (anything)
+                trace_tile(tile, slot, stats, radiance);
+            else if (!was_dark)
+                fill_zero(radiance, tile);
+        });
+    }
+
     TileStats total() const {
         TileStats sum;
         for (const TileStats& stats : tile_stats) sum += stats;
@@ -410,13 +433,6 @@ struct Renderer::Implementation {
     }
 };
 
-namespace {
-void fill_zero(RadianceImage& radiance, const PixelBox& box) {
-    for (int p = 0; p < radiance.planes(); ++p)
-        for (int y = box.y0; y < box.y1; ++y)
-            std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
-}
-}  // namespace
 
 Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry, const RenderQuality& quality,
                    const RenderModels& models, const Modules& modules)
@@ -441,18 +457,7 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     stats.setup_ms = ms_since(start);
 
     const auto traced = Clock::now();
-    my.for_each_tile([&](int index, const PixelBox& tile, std::size_t slot) {
-        TileStats& tile_stats = my.tile_stats[static_cast<std::size_t>(index)];
-        const bool anything = my.can_see_anything(tile);
-        const bool was_dark = radiance.dark(tile.x0, tile.y0);
-        // Tiles smaller than the image's blocks share a mark: it stays off.
-        if (my.tile_px == RadianceImage::kBlock_px) radiance.mark_dark(tile.x0, tile.y0, !anything);
-        tile_stats = {};
-        if (anything)
-            my.trace_tile(tile, slot, tile_stats, radiance);
-        else if (!was_dark)
-            fill_zero(radiance, tile);
-    });
+    my.trace_all(radiance);
     stats.trace_ms = ms_since(traced);
 
     const auto pointed = Clock::now();
@@ -481,6 +486,37 @@ std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     for (const ShownObject& object : my.objects) names.push_back(object.name);
     for (const ObjectSurfaces* surfaces : my.shown) triangles.push_back(surfaces->triangles.size());
     return explain({my.frame, my.plans, names, triangles, my.path_model_name, my.stars.size(), my.samples_per_axis}, world);
+}
+
+std::vector<PathModelSpeed> Renderer::path_model_speeds(const WorldSnapshot& world, const Modules& modules, int runs) {
+    Implementation& my = *implementation_;
+    RadianceImage radiance(my.frame.geometry.padded_width(), my.frame.geometry.padded_height(), my.frame.bins);
+    const auto median = [](std::vector<double> values) {
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    };
+    std::vector<PathModelSpeed> speeds;
+    std::vector<std::unique_ptr<PathModel>> used = std::move(my.tracers);
+    const bool samples_lobes = my.frame.paths_sample_lobes;
+    for (const std::string& name : modules.paths.list()) {
+        my.tracers.clear();
+        for (std::size_t i = 0; i < used.size(); ++i) my.tracers.push_back(modules.paths.make(name));
+        my.frame.paths_sample_lobes = my.tracers.front()->samples_lobes();
+        my.place(world, {});
+        std::vector<double> frame_ms;
+        // The first round is for the caches, the last one is recorded.
+        for (int run = 0; run < runs + 2; ++run) {
+            if (run == runs + 1) my.embree.start_recording();
+            const auto start = Clock::now();
+            my.trace_all(radiance);
+            if (run > 0 && run <= runs) frame_ms.push_back(ms_since(start));
+        }
+        const EmbreeScene::Replay replay = my.embree.replay();
+        speeds.push_back({name, replay.rays, median(frame_ms), replay.milliseconds});
+    }
+    my.tracers = std::move(used);
+    my.frame.paths_sample_lobes = samples_lobes;
+    return speeds;
 }
 
 double Renderer::floor_ms(const WorldSnapshot& world) {

@@ -51,6 +51,14 @@ struct RenderStats {
     double points_ms = 0;  // stars, and what is smaller than a pixel
 };
 
+// How fast a path model is against Embree alone on the same rays.
+struct PathModelSpeed {
+    std::string name;
+    std::uint64_t rays = 0;  // of all kinds, of one frame
+    double frame_ms = 0;
+    double bare_ms = 0;  // Embree alone
+};
+
 class Renderer {
   public:
     // Builds the acceleration structures; takes the scene over. Throws InputError. Owner thread.
@@ -75,6 +83,9 @@ class Renderer {
     // Time that bare Embree needs for the primary and shadow rays of this frame, on the same threads [ms]:
     // the floor that no renderer built on it can go below. Not for the loop.
     double floor_ms(const WorldSnapshot& world);
+
+    // One frame with every path model of the registry, medians of `runs`. Not for the loop.
+    std::vector<PathModelSpeed> path_model_speeds(const WorldSnapshot& world, const Modules& modules, int runs);
 
   private:
     struct Implementation;

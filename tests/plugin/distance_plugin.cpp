@@ -1,0 +1,33 @@
+// An example of a plug-in: a path model that gives the distance of what the camera sees [m] instead of its radiance, in
+// every bin. Built by tests/CMakeLists.txt; used in a scenario by
+//     plugins: [{file: libdistance_plugin.so}]
+//     quality: {path_model: distance}
+
+#include <array>
+
+#include "render/plugin.h"
+#include "render/primary_rays.h"
+
+namespace {
+
+class DistancePaths final : public hilcam::PathModel {
+  public:
+    void trace(hilcam::Tile& tile) override {
+        const std::size_t count = hilcam::trace_primary_rays(tile, vertices_);
+        for (const hilcam::Vertex& at : std::span(vertices_.data(), count)) {
+            const auto distance_m = static_cast<float>(length(hilcam::to_double(at.point_m) - tile.frame.camera_m));
+            for (int b = 0; b < tile.frame.bins; ++b) tile.pixels[at.pixel][b] += distance_m;
+        }
+    }
+
+  private:
+    std::array<hilcam::Vertex, kMostSamples> vertices_;
+};
+
+void add(hilcam::Modules& modules) {
+    modules.paths.add("distance", [] { return std::make_unique<DistancePaths>(); });
+}
+
+}  // namespace
+
+HILCAM_PLUGIN(add)
