@@ -36,6 +36,20 @@ Fields fields(MaterialSet& set) {
     return {sections("surfaces", set.surfaces, "materials by surface name, first match wins")};
 }
 
+Fields fields(JointConfig& j) {
+    return {
+        required(text("node", j.node, "of the mesh file that turns, with all below it; a trailing * matches any ending")),
+        vector3("pivot_m", j.pivot_m, 1, {-1e6, 1e6}, "a point of the axis, in the object's axes"),
+        vector3("axis", j.axis, 1, {-1e6, 1e6}, "its direction, in the object's axes"),
+        number("angle_deg", j.angle_rad, kDegree_rad, {-36000, 36000}, "turned from the file's own state, right-handed"),
+        number("rate_deg_s", j.rate_rad_s, kDegree_rad, {-1e5, 1e5}, "how fast it turns from the start on"),
+    };
+}
+
+void validate(const JointConfig& j) {
+    if (!(length(j.axis) > 1e-9)) throw InputError("'axis' has no direction");
+}
+
 Fields fields(ObjectConfig& o) {
     return {
         required(text("name", o.name, "for messages")),
@@ -45,6 +59,7 @@ Fields fields(ObjectConfig& o) {
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
         section("pose", o.pose, "where it stands until commands say otherwise"),
         section("materials", o.materials, "replaces the mesh's own looks"),
+        sections("joints", o.joints, "parts that turn; commands number them from 1"),
     };
 }
 

@@ -47,6 +47,17 @@ struct MaterialSet {
 };
 Fields fields(MaterialSet& set);
 
+// A part of an object that turns about an axis: a solar wing, a gimbal.
+struct JointConfig {
+    std::string node;
+    Vec3d pivot_m;
+    Vec3d axis{0, 0, 1};
+    double angle_rad = 0;
+    double rate_rad_s = 0;
+};
+Fields fields(JointConfig& joint);
+void validate(const JointConfig& joint);
+
 struct ObjectConfig {
     std::string name;
     std::filesystem::path mesh;
@@ -54,6 +65,7 @@ struct ObjectConfig {
     double scale = 1;
     PoseConfig pose;
     MaterialSet materials;
+    std::vector<JointConfig> joints;
     bool has_mesh = false;
     bool has_generate = false;
 };

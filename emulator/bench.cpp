@@ -112,7 +112,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     run.stages = stages_report(meters);
     run.render = emulator.loop().render_stats();
     WorldSnapshot snapshot;
-    snapshot.objects.resize(scenario.objects.size());
+    snapshot.objects.resize(emulator.world().placed_objects());
     ShownCommand shown;
     emulator.world().sample(emulator.clock().now(), snapshot, shown);
     std::vector<double> floor, fft;

@@ -11,22 +11,36 @@ CommandStatus CommandDispatch::handle(const Command& command, std::uint32_t sequ
                                       std::int64_t arrival_monotonic_ns) {
     if (const auto* pose = std::get_if<PoseCommand>(&command))
         return set_pose(*pose, sequence, arrival_monotonic_ns);
+    if (const auto* joint = std::get_if<JointCommand>(&command))
+        return turn(*joint, sequence, arrival_monotonic_ns);
     if (const auto* settings = std::get_if<SettingsCommand>(&command)) return change(*settings);
     if (std::holds_alternative<StartCommand>(command)) settings_.set_running(true);
     if (std::holds_alternative<StopCommand>(command)) settings_.set_running(false);
     return CommandStatus::kAccepted;
 }
 
+// A tag of 0 is the arrival; false for one too far from it.
+bool CommandDispatch::resolve(TimeTai& tag, TimeTai arrival) {
+    if (tag.ns == 0) tag = arrival;
+    // Compared without subtracting: a hostile tag must not overflow.
+    return !(tag < arrival + -kFarthestTag_ns || arrival + kFarthestTag_ns < tag);
+}
+
 CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, std::uint32_t sequence,
                                         std::int64_t arrival_monotonic_ns) {
     Motion motion = pose.motion;
-    const TimeTai arrival = clock_.at(arrival_monotonic_ns);
-    if (motion.time.ns == 0) motion.time = arrival;
-    // Compared without subtracting: a hostile tag must not overflow.
-    if (motion.time < arrival + -kFarthestTag_ns || arrival + kFarthestTag_ns < motion.time)
-        return CommandStatus::kTimeOutOfRange;
+    if (!resolve(motion.time, clock_.at(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
     return world_.set(pose.object, motion, {sequence, arrival_monotonic_ns}) ? CommandStatus::kAccepted
                                                                              : CommandStatus::kUnknownObject;
+}
+
+CommandStatus CommandDispatch::turn(const JointCommand& joint, std::uint32_t sequence,
+                                    std::int64_t arrival_monotonic_ns) {
+    WorldState::JointMotion motion{joint.time, joint.angle_rad, joint.rate_rad_s};
+    if (!resolve(motion.time, clock_.at(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
+    return world_.set_joint(joint.object, joint.joint, motion, {sequence, arrival_monotonic_ns})
+               ? CommandStatus::kAccepted
+               : CommandStatus::kUnknownObject;
 }
 
 // All or nothing: a value outside its limits leaves every setting as it was.

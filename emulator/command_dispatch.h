@@ -22,6 +22,8 @@ class CommandDispatch : public CommandHandler {
   private:
     CommandStatus set_pose(const PoseCommand& pose, std::uint32_t sequence,
                            std::int64_t arrival_monotonic_ns);
+    CommandStatus turn(const JointCommand& joint, std::uint32_t sequence, std::int64_t arrival_monotonic_ns);
+    static bool resolve(TimeTai& tag, TimeTai arrival);
     CommandStatus change(const SettingsCommand& settings);
 
     WorldState& world_;

@@ -41,6 +41,14 @@ std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time
     return motions;
 }
 
+std::vector<Joint> joints_of(const ScenarioConfig& scenario) {
+    std::vector<Joint> joints;
+    for (std::size_t i = 0; i < scenario.objects.size(); ++i)
+        for (const JointConfig& joint : scenario.objects[i].joints)
+            joints.push_back({i, joint.pivot_m, normalized(joint.axis), joint.angle_rad, joint.rate_rad_s});
+    return joints;
+}
+
 Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     : scenario_(scenario),
       limits_(limits),
@@ -57,7 +65,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     // Loading took its time; the simulation starts now.
     const TimeTai start = parse_utc(scenario.time_utc);
     clock_ = SimulatedClock(start, monotonic_now_ns());
-    world_ = std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin);
+    world_ = std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
     dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, clock_);
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);

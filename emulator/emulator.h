@@ -61,5 +61,7 @@ class Emulator {
 
 // The motions of camera and objects as the scenario begins them.
 std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time);
+// All objects' turning parts, object by object.
+std::vector<Joint> joints_of(const ScenarioConfig& scenario);
 
 }  // namespace hilcam

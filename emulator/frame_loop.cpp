@@ -30,7 +30,7 @@ FrameLoop::FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid&
         slot.radiance = RadianceImage(g.padded_width(), g.padded_height(), grid.size());
         slot.points.reserve(renderer.most_points());
     }
-    snapshot_.objects.resize(world.things() - 1);
+    snapshot_.objects.resize(world.placed_objects());
     electrons_ = ElectronImage(g.width_px, g.height_px);
     frame_ = DnImage(g.width_px, g.height_px);
 }

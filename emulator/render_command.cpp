@@ -21,9 +21,9 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
 
     const TimeTai start = parse_utc(scenario.time_utc);
     const TimeTai time = start + static_cast<std::int64_t>(time_offset_s * 1e9);
-    WorldState state(initial_motions(scenario, start), scenario.origin);
+    WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
     WorldSnapshot world;
-    world.objects.resize(scenario.objects.size());
+    world.objects.resize(state.placed_objects());
     ShownCommand shown;
     state.sample(time, world, shown);
 

@@ -1,5 +1,8 @@
 #include "emulator/scene_loader.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "io/brdf_file.h"
 #include "io/catalogue_file.h"
 #include "io/image_file.h"
@@ -43,20 +46,35 @@ std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, c
     return materials;
 }
 
+SceneObject make_object(const ObjectConfig& config, Mesh mesh, const ScenarioConfig& scenario,
+                        const SpectralGrid& grid) {
+    SceneObject object;
+    object.name = config.name;
+    object.mesh = std::move(mesh);
+    const auto scale = static_cast<float>(config.scale);
+    for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
+    if (scenario.quality.render.lod_error_px > 0) object.levels = cached_levels(object.mesh, cache_folder());
+    object.materials = load_materials(object.mesh, config.materials, grid);
+    return object;
+}
+
 }  // namespace
 
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules) {
     Scene scene;
+    // The objects in their order, then all their turning parts: as WorldState places them.
+    std::vector<SceneObject> parts;
     for (const ObjectConfig& config : scenario.objects) {
-        SceneObject object;
-        object.name = config.name;
-        object.mesh = load_mesh(mesh_path(config));
-        const auto scale = static_cast<float>(config.scale);
-        for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
-        if (scenario.quality.render.lod_error_px > 0) object.levels = cached_levels(object.mesh, cache_folder());
-        object.materials = load_materials(object.mesh, config.materials, grid);
-        scene.objects.push_back(std::move(object));
+        std::vector<std::string> nodes;
+        for (const JointConfig& joint : config.joints) nodes.push_back(joint.node);
+        std::vector<Mesh> meshes = load_mesh_parts(mesh_path(config), nodes);
+        for (std::size_t k = 0; k < meshes.size(); ++k) {
+            SceneObject object = make_object(config, std::move(meshes[k]), scenario, grid);
+            if (k > 0) object.name.append("/").append(nodes[k - 1]);
+            (k == 0 ? scene.objects : parts).push_back(std::move(object));
+        }
     }
+    std::move(parts.begin(), parts.end(), std::back_inserter(scene.objects));
     const TimeTai time = parse_utc(scenario.time_utc);
     if (!scenario.stars.catalogue.empty())
         scene.stars = stars_at(load_catalogue(scenario.stars.catalogue), time, origin_velocity_m_s(time, scenario.origin),

@@ -22,6 +22,9 @@ struct SendOptions {
     std::array<double, 3> position_m{}, velocity_m_s{}, rate_deg_s{}, look_at_m{}, up{0, 0, 1};
     std::array<double, 4> attitude{1, 0, 0, 0};
     bool looks = false;
+    // joint
+    unsigned joint = 1;
+    double angle_deg = 0, joint_rate_deg_s = 0;
     // settings
     double exposure_ms = 0, gain_db = 0, frame_rate_hz = 0;
     // fly
@@ -135,6 +138,21 @@ void add_send_command(CLI::App& app, std::function<int()>& action) {
     pose->callback([&action, options, look] {
         options->looks = look->count() > 0;
         action = [options] { return send_one(*options, pose_of(*options)); };
+    });
+
+    CLI::App* joint = send->add_subcommand("joint", "turn a part of an object, true on arrival");
+    joint->add_option("--object", options->object, "1, 2, ...: the scenario's objects")->required()->check(CLI::Range(1, 65535));
+    joint->add_option("--joint", options->joint, "1, 2, ...: its joints")->check(CLI::Range(1, 65535));
+    joint->add_option("--angle-deg", options->angle_deg, "from the file's own state")->required();
+    joint->add_option("--rate-deg-s", options->joint_rate_deg_s, "from then on");
+    joint->callback([&action, options] {
+        action = [options] {
+            return send_one(*options, JointCommand{static_cast<std::uint16_t>(options->object),
+                                                   static_cast<std::uint16_t>(options->joint),
+                                                   {},
+                                                   options->angle_deg * kDegree_rad,
+                                                   options->joint_rate_deg_s * kDegree_rad});
+        };
     });
 
     CLI::App* circle = send->add_subcommand("fly", "fly on a circle around a point, looking at it");

@@ -5,6 +5,16 @@
 #include "render/check.h"
 
 namespace hilcam {
+namespace {
+
+// The pose of a part that is turned about its joint: object_from_part takes p to pivot + R (p - pivot).
+Pose turned(const Pose& object, const Joint& joint, double angle_rad) {
+    const Quat turn = from_rotation_vector(angle_rad * joint.axis);
+    const Vec3d shift_m = joint.pivot_m - to_matrix(turn) * joint.pivot_m;
+    return {object.position_world_m + to_matrix(object.world_from_body) * shift_m, object.world_from_body * turn};
+}
+
+}  // namespace
 
 void WorldState::History::insert(const Motion& motion) {
     auto* const end = motions.data() + count;
@@ -45,25 +55,41 @@ Motion WorldState::History::motion_at(TimeTai time) const {
             (twice / kStep_s) * Vec3d{turn.x, turn.y, turn.z}};
 }
 
-WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& origin) : origin_(origin) {
-    for (const Motion& motion : motions) {
+WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& origin, std::span<const Joint> joints)
+    : joints_(joints.begin(), joints.end()), objects_(motions.size() - 1), origin_(origin) {
+    const auto add = [&](const Motion& motion) {
         auto thing = std::make_unique<Thing>();
         thing->written.insert(motion);
         thing->latest.write(thing->written);
         things_.push_back(std::move(thing));
-    }
+    };
+    for (const Motion& motion : motions) add(motion);
+    for (const Joint& joint : joints)
+        add({motions.front().time, {{joint.angle_rad, 0, 0}, {}}, {joint.rate_rad_s, 0, 0}, {}});
     HILCAM_CHECK(!things_.empty());
 }
 
 bool WorldState::set(std::size_t thing, const Motion& motion, ShownCommand command) {
-    if (thing >= things_.size()) return false;
+    return thing <= objects_ && write(*things_[thing], motion, command);
+}
+
+bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m, ShownCommand command) {
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+        if (joints_[i].object + 1 == object && ++number == joint)
+            return write(*things_[1 + objects_ + i], {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}},
+                         command);
+    return false;
+}
+
+bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command) {
     const std::lock_guard lock(writers_);
-    History& history = things_[thing]->written;
+    History& history = thing.written;
     // What the scenario file said holds only until the first command.
     if (history.command.arrival_monotonic_ns == 0) history.count = 0;
     history.insert(motion);
     history.command = command;
-    things_[thing]->latest.write(history);
+    thing.latest.write(history);
     return true;
 }
 
@@ -78,8 +104,11 @@ void WorldState::sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown)
             world.camera = camera.pose;
             world.camera_velocity_m_s = camera.velocity_world_m_s;
             world.camera_rate_rad_s = camera.rate_body_rad_s;
-        } else {
+        } else if (i <= objects_) {
             world.objects[i - 1] = history.at(time);
+        } else {
+            const Joint& joint = joints_[i - 1 - objects_];
+            world.objects[i - 1] = turned(world.objects[joint.object], joint, history.at(time).position_world_m.x);
         }
         if (history.command.arrival_monotonic_ns > shown.arrival_monotonic_ns) shown = history.command;
     }

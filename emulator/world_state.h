@@ -24,15 +24,33 @@ struct ShownCommand {
     std::int64_t arrival_monotonic_ns = 0;  // 0: none yet
 };
 
+// A part of an object that turns about an axis (object's axes, unit).
+struct Joint {
+    std::size_t object = 0;  // 0: the first object
+    Vec3d pivot_m;
+    Vec3d axis{0, 0, 1};
+    double angle_rad = 0;
+    double rate_rad_s = 0;
+};
+
 class WorldState {
   public:
     // motions[0] is the camera, then the objects. Owner thread.
-    WorldState(std::span<const Motion> motions, const OriginConfig& origin);
+    WorldState(std::span<const Motion> motions, const OriginConfig& origin, std::span<const Joint> joints = {});
 
-    std::size_t things() const { return things_.size(); }
     // Any thread but the loop. False when there is no such thing.
     bool set(std::size_t thing, const Motion& motion, ShownCommand command);
-    // Loop, one thread. `world.objects` must have room for all objects. No allocation, no lock.
+    // The angle of an object's joint at an instant, and how fast it turns from then on. object, joint: from 1. False when
+    // there is no such joint.
+    struct JointMotion {
+        TimeTai time;
+        double angle_rad = 0;
+        double rate_rad_s = 0;
+    };
+    bool set_joint(std::size_t object, std::size_t joint, const JointMotion& motion, ShownCommand command);
+    // Objects and joints: what `world.objects` must have room for.
+    std::size_t placed_objects() const { return things_.size() - 1; }
+    // Loop, one thread. `world.objects` must have room for placed_objects(): the objects, then the joints' parts. No allocation, no lock.
     void sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown);
 
   private:
@@ -53,7 +71,11 @@ class WorldState {
     };
     std::mutex writers_;
     std::vector<std::unique_ptr<Thing>> things_;
+    std::vector<Joint> joints_;  // their angles are the last of things_, as the x of a position
+    std::size_t objects_;
     OriginConfig origin_;
+
+    bool write(Thing& thing, const Motion& motion, ShownCommand command);
 };
 
 }  // namespace hilcam

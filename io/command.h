@@ -16,6 +16,14 @@ struct PoseCommand {
     // motion.time: the instant the pose is true at, simulated TAI; ns = 0 means "on arrival".
     Motion motion;
 };
+// The angle of an object's turning part. object and joint: from 1, in the scenario's order.
+struct JointCommand {
+    std::uint16_t object = 0;
+    std::uint16_t joint = 0;
+    TimeTai time;  // ns = 0: on arrival
+    double angle_rad = 0;
+    double rate_rad_s = 0;  // from then on
+};
 struct SettingsCommand {
     std::optional<double> exposure_s;
     std::optional<double> gain_db;
@@ -27,7 +35,9 @@ struct StopCommand {};
 struct PingCommand {
     std::uint64_t token = 0;
 };
-using Command = std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand>;
+// In the order of their function codes.
+using Command =
+    std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand, JointCommand>;
 
 // Travels in the acknowledgement; the numbers are part of the protocol.
 enum class CommandStatus : std::uint8_t {

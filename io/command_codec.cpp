@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-enum Function : std::uint8_t { kPose = 1, kSettings = 2, kStart = 3, kStop = 4, kPing = 5 };
+enum Function : std::uint8_t { kPose = 1, kSettings = 2, kStart = 3, kStop = 4, kPing = 5, kJoint = 6 };
 constexpr std::uint8_t kAcknowledgeBit = 0x80;
 constexpr std::size_t kSecondaryBytes = 8;
 constexpr std::size_t kCrcBytes = 2;
@@ -26,6 +26,8 @@ int payload_bytes(std::uint8_t function) {
             return 0;
         case kPing:
             return 8;
+        case kJoint:
+            return 2 + 2 + 8 + 2 * 8;
         default:
             return -1;
     }
@@ -79,6 +81,20 @@ Refusal read_settings(ByteReader& in, SettingsCommand& settings) {
     return {};
 }
 
+Refusal read_joint(ByteReader& in, JointCommand& joint) {
+    joint.object = in.u16();
+    joint.joint = in.u16();
+    joint.time.ns = in.i64();
+    joint.angle_rad = in.f64();
+    joint.rate_rad_s = in.f64();
+    if (!std::isfinite(joint.angle_rad) || !std::isfinite(joint.rate_rad_s))
+        return {CommandStatus::kBadArgument, "angle or rate is not finite"};
+    // A hundred thousand turns, a thousand a second: beyond these a number is a mistake.
+    if (std::abs(joint.angle_rad) > 6.3e5 || std::abs(joint.rate_rad_s) > 6300)
+        return {CommandStatus::kBadArgument, "angle or rate is out of range"};
+    return {};
+}
+
 Refusal check_header(const SpacePacketHeader& h, std::size_t size) {
     if (h.total_bytes() != size) return {CommandStatus::kBadLength, "length field and packet differ"};
     if (h.version != 0 || !h.command || !h.secondary_header || h.sequence_flags != 3)
@@ -99,6 +115,8 @@ Refusal read_body(ByteReader& in, std::uint8_t function, Command& command) {
         case kStop:
             command.emplace<StopCommand>();
             return {};
+        case kJoint:
+            return read_joint(in, command.emplace<JointCommand>());
         default:
             command.emplace<PingCommand>().token = in.u64();
             return {};
@@ -142,7 +160,7 @@ DecodedCommand decode_command(std::span<const std::uint8_t> packet) {
     if (crc16(packet) != 0) return refuse({CommandStatus::kBadChecksum, "CRC-16 does not match"});
     if (version != kProtocolVersion) return refuse({CommandStatus::kBadHeader, "protocol version is not 1"});
     const int expected = payload_bytes(out.function);
-    if (expected < 0) return refuse({CommandStatus::kUnknownFunction, "function code is not 1 to 5"});
+    if (expected < 0) return refuse({CommandStatus::kUnknownFunction, "function code is not 1 to 6"});
     if (in.left() != static_cast<std::size_t>(expected) + kCrcBytes)
         return refuse({CommandStatus::kBadLength, "payload is not as long as its function's"});
     return refuse(read_body(in, out.function, out.command));
@@ -165,6 +183,9 @@ std::size_t encode_command(const Command& command, std::uint32_t sequence, std::
         out.f64(settings->frame_rate_hz.value_or(0));
     } else if (const auto* ping = std::get_if<PingCommand>(&command)) {
         out.u64(ping->token);
+    } else if (const auto* joint = std::get_if<JointCommand>(&command)) {
+        out.u16(joint->object).u16(joint->joint).u64(static_cast<std::uint64_t>(joint->time.ns));
+        out.f64(joint->angle_rad).f64(joint->rate_rad_s);
     }
     return finish(bytes, true, kCommandApid, static_cast<std::uint16_t>(sequence & 0x3FFF), out.size());
 }

@@ -30,19 +30,23 @@ namespace {
 
 class Loader {
   public:
-    Loader(const std::filesystem::path& file, const aiScene& scene) : file_(file), scene_(scene) {}
+    // part: which of `nodes` to take, or -1 for what none of them takes.
+    Loader(const std::filesystem::path& file, const aiScene& scene, std::span<const std::string> nodes, int part)
+        : file_(file), scene_(scene), nodes_(nodes), part_(part) {}
 
     Mesh load() {
         read_materials();
         count_normals_and_uvs();
-        if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4());
-        if (mesh_.triangles.empty()) refuse(file_, "holds no triangle; accepted: a mesh with at least one");
+        if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1);
+        if (mesh_.triangles.empty()) refuse_empty();
         return std::move(mesh_);
     }
 
   private:
     const std::filesystem::path& file_;
     const aiScene& scene_;
+    std::span<const std::string> nodes_;
+    int part_;
     Mesh mesh_;
     std::map<std::string, int> texture_index_;
     bool any_normals_ = false;
@@ -137,11 +141,38 @@ class Loader {
         return picture;
     }
 
-    void read_node(const aiNode& node, const aiMatrix4x4& parent) {
+    // Which of the names takes a node, or -1.
+    int taken_by(const std::string& name) const {
+        for (std::size_t k = 0; k < nodes_.size(); ++k) {
+            const std::string& pattern = nodes_[k];
+            const bool open = !pattern.empty() && pattern.back() == '*';
+            if (open ? name.starts_with(pattern.substr(0, pattern.size() - 1)) : name == pattern)
+                return static_cast<int>(k);
+        }
+        return -1;
+    }
+
+    // above: the part that a node further up belongs to.
+    void read_node(const aiNode& node, const aiMatrix4x4& parent, int above) {
+        const int own = taken_by(node.mName.C_Str());
+        const int part = own >= 0 ? own : above;
         const aiMatrix4x4 body_from_node = parent * node.mTransformation;
-        for (unsigned i = 0; i < node.mNumMeshes; ++i)
-            read_part(*scene_.mMeshes[node.mMeshes[i]], body_from_node);
-        for (unsigned i = 0; i < node.mNumChildren; ++i) read_node(*node.mChildren[i], body_from_node);
+        if (part == part_)
+            for (unsigned i = 0; i < node.mNumMeshes; ++i) read_part(*scene_.mMeshes[node.mMeshes[i]], body_from_node);
+        for (unsigned i = 0; i < node.mNumChildren; ++i) read_node(*node.mChildren[i], body_from_node, part);
+    }
+
+    [[noreturn]] void refuse_empty() const {
+        if (part_ < 0)
+            refuse(file_, nodes_.empty() ? "holds no triangle; accepted: a mesh with at least one"
+                                         : "holds no triangle besides its parts");
+        std::string names;
+        list_names(*scene_.mRootNode, names);
+        refuse(file_, "no triangle under a node '" + nodes_[static_cast<std::size_t>(part_)] + "'; its nodes:" + names);
+    }
+    static void list_names(const aiNode& node, std::string& names) {
+        if (names.size() < 400) names.append(" ").append(node.mName.C_Str());
+        for (unsigned i = 0; i < node.mNumChildren; ++i) list_names(*node.mChildren[i], names);
     }
 
     void read_part(const aiMesh& part, const aiMatrix4x4& body_from_part) {
@@ -259,7 +290,9 @@ void require_survivable(const std::filesystem::path& file,
 
 }  // namespace
 
-Mesh load_mesh(const std::filesystem::path& file) {
+Mesh load_mesh(const std::filesystem::path& file) { return std::move(load_mesh_parts(file, {}).front()); }
+
+std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes) {
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::array<std::string, 5> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply"};
@@ -273,7 +306,10 @@ Mesh load_mesh(const std::filesystem::path& file) {
     Assimp::Importer importer;
     const aiScene* scene = import(importer, file, changed);
     if (!scene) refuse(file, std::string("does not parse: ") + importer.GetErrorString());
-    return Loader(file, *scene).load();
+    std::vector<Mesh> meshes;
+    for (int part = -1; part < static_cast<int>(nodes.size()); ++part)
+        meshes.push_back(Loader(file, *scene, nodes, part).load());
+    return meshes;
 }
 
 }  // namespace hilcam

@@ -9,13 +9,12 @@
 
 #include "render/background.h"
 #include "render/embree_scene.h"
-#include "render/path_models.h"
+#include "render/object_probe.h"
 #include "render/point_field.h"
 #include "render/primary_rays.h"
-#include "render/ray_generators.h"
 #include "render/screen_bounds.h"
 #include "render/screen_mask.h"
-#include "render/triangle_order.h"
+#include "render/shown_object.h"
 
 namespace hilcam {
 namespace {
@@ -26,51 +25,16 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Per object its meshes, from fine to coarse, their triangles ordered for the cache.
-std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene) {
-    std::vector<std::vector<const Mesh*>> objects;
-    for (SceneObject& object : scene.objects) {
-        std::vector<const Mesh*>& meshes = objects.emplace_back();
-        order_triangles(object.mesh);
-        meshes.push_back(&object.mesh);
-        for (MeshLevel& level : object.levels) {
-            order_triangles(level.mesh);
-            meshes.push_back(&level.mesh);
-        }
-    }
-    return objects;
+bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
+    return std::any_of(objects.begin(), objects.end(), [&](const ShownObject& object) {
+        return std::any_of(object.materials().begin(), object.materials().end(), says);
+    });
 }
 
-// An object's surfaces at its levels of detail.
-struct ShownObject {
-    std::string name;
-    std::vector<ObjectSurfaces> levels;
-    std::vector<double> error_m;  // of each
-};
-
-// What a level has flattened makes its facets' lobes wider: slopes add by their squares.
-std::vector<Material> widened(std::vector<Material> materials, const std::vector<float>& flattened_alpha) {
-    for (std::size_t i = 0; i < materials.size(); ++i)
-        if (materials[i].has_facets() && materials[i].ggx_alpha > 0 && flattened_alpha[i] > 0)
-            materials[i].ggx_alpha = std::min(1.0f, std::hypot(materials[i].ggx_alpha, flattened_alpha[i]));
-    return materials;
-}
-
-std::vector<ShownObject> shown_objects(Scene& scene) {
-    std::vector<ShownObject> objects;
-    for (SceneObject& object : scene.objects) {
-        ShownObject& out = objects.emplace_back();
-        out.name = object.name;
-        const auto textures = std::make_shared<const std::vector<Texture>>(std::move(object.mesh.textures));
-        out.levels.emplace_back(object.mesh, object.materials, textures);
-        out.error_m.push_back(0);
-        for (const MeshLevel& level : object.levels) {
-            out.levels.emplace_back(level.mesh, widened(object.materials, level.flattened_alpha), textures);
-            out.error_m.push_back(level.error_m);
-        }
-    }
-    scene.objects.clear();
-    return objects;
+void fill_zero(RadianceImage& radiance, const PixelBox& box) {
+    for (int p = 0; p < radiance.planes(); ++p)
+        for (int y = box.y0; y < box.y1; ++y)
+            std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
 }
 
 }  // namespace
@@ -95,35 +59,6 @@ Fields fields(RenderQuality& q) {
     };
 }
 
-namespace {
-
-// The little picture of an object that is smaller than a pixel: its sphere fills it.
-ImageGeometry probe_geometry(int pixels, double radius_m, double distance_m) {
-    ImageGeometry geometry;
-    geometry.width_px = geometry.height_px = pixels;
-    // The sphere's silhouette has the tangent of its half angle as radius; 2 % of margin.
-    const double sine = std::min(0.999, radius_m / distance_m);
-    geometry.focal_length_px = 0.5 * pixels / (1.02 * sine / std::sqrt(1 - sine * sine));
-    return geometry;
-}
-
-bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
-    return std::any_of(objects.begin(), objects.end(), [&](const ShownObject& object) {
-        const std::vector<Material>& materials = object.levels.front().materials;
-        return std::any_of(materials.begin(), materials.end(), says);
-    });
-}
-
-}  // namespace
-
-namespace {
-void fill_zero(RadianceImage& radiance, const PixelBox& box) {
-    for (int p = 0; p < radiance.planes(); ++p)
-        for (int y = box.y0; y < box.y1; ++y)
-            std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
-}
-}  // namespace
-
 struct Renderer::Implementation {
     std::size_t triangle_count;
     EmbreeScene embree;
@@ -144,13 +79,7 @@ struct Renderer::Implementation {
     std::unique_ptr<RadianceModel> radiance_model;
     std::string path_model_name;
     FrameView frame;
-    // For objects below a pixel.
-    FrameView probe;
-    std::unique_ptr<RayGenerator> probe_rays;
-    ScreenMask probe_mask;
-    std::vector<Spectrum> probe_pixels;
-    Mat3d probe_view;  // world from its camera
-    static constexpr int kMostCells = 16;
+    std::unique_ptr<ObjectProbe> probe;  // for objects of a few pixels
     int samples_per_axis;
     int rays_across;
     int tile_px;
@@ -177,8 +106,6 @@ struct Renderer::Implementation {
           rays(modules.rays.make(models.rays.model, models.rays)),
           radiance_model(modules.radiance.make(models.radiance)),
           path_model_name(quality.path_model),
-          probe_rays(make_pinhole_rays()),
-          probe_mask(probe_geometry(static_cast<int>(quality.point_samples), 1, 2)),
           samples_per_axis(static_cast<int>(quality.samples_per_axis)),
           rays_across(static_cast<int>(quality.rays_across)),
           tile_px(tile_edge_px(samples_per_axis)),
@@ -191,12 +118,10 @@ struct Renderer::Implementation {
         object_boxes.resize(objects.size());
         for (const ShownObject& object : objects) {
             triangle_count += object.levels.front().triangles.size();
-            radii_m.push_back(object.levels.front().radius_m);
+            radii_m.push_back(object.radius_m());
             shown.push_back(&object.levels.front());
         }
         full_mask.fill();
-        probe_mask.fill();
-        probe_pixels.resize(static_cast<std::size_t>(quality.point_samples * quality.point_samples));
         const auto slots = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
         for (std::size_t i = 0; i < slots; ++i) tracers.push_back(modules.paths.make(quality.path_model));
         tile_pixels.resize(slots, std::vector<Spectrum>(PathModel::kMostSamples));
@@ -220,9 +145,7 @@ struct Renderer::Implementation {
         frame.has_glass = any_material(objects, [](const Material& m) { return m.model == ReflectionModel::kGlass; });
         frame.has_emission = radiance_model->emits() &&
                              any_material(objects, [](const Material& m) { return largest(m.emission) > 0; });
-        probe = frame;
-        probe.rays = probe_rays.get();
-        probe.object_mask = &probe_mask;
+        probe = std::make_unique<ObjectProbe>(frame, static_cast<int>(quality.point_samples));
     }
 
     // The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
@@ -289,74 +212,6 @@ struct Renderer::Implementation {
         frame.sun_box = still ? screen_bounds_of_cone(frame.geometry, world.camera, background.sun_camera_dir(),
                                                       background.sun_disk_cosine())
                               : everything;
-    }
-
-    // An object of a few pixels or less: its little picture, added up in cells of a fraction of a pixel, each a point at
-    // the middle of its light.
-    void add_points(const WorldSnapshot& world, std::size_t i, RandomKey key, const PointField& field,
-                    std::vector<PointSource>& points) {
-        const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-        const Vec3d dir = to_object_m / plans[i].distance_m;
-        if (!field.sees(dir)) return;
-        const int pixels = trace_probe(world, i, key);
-        const double nearest_m = plans[i].distance_m - 1.01 * radii_m[i];
-        // A pixel's solid angle; the field is a few pixels of the camera, so cosines are 1.
-        const double pixel_rad = 1 / probe.geometry.focal_length_px;
-        const auto solid_angle = static_cast<float>(pixel_rad * pixel_rad);
-        const int cells = std::clamp(static_cast<int>(std::ceil(2 * plans[i].size_px)), 1, kMostCells);
-        for (int cy = 0; cy < cells; ++cy)
-            for (int cx = 0; cx < cells; ++cx) {
-                Spectrum sum;
-                double x_sum = 0, y_sum = 0, light = 0;
-                for (int y = cy * pixels / cells; y < (cy + 1) * pixels / cells; ++y)
-                    for (int x = cx * pixels / cells; x < (cx + 1) * pixels / cells; ++x) {
-                        const Spectrum& here = probe_pixels[static_cast<std::size_t>(y * pixels + x)];
-                        const auto amount = static_cast<double>(mean(here, frame.bins));
-                        sum += here;
-                        x_sum += amount * (x + 0.5), y_sum += amount * (y + 0.5), light += amount;
-                    }
-                if (!(light > 0)) continue;
-                const Vec3d at = probe_view * probe.geometry.direction_camera(x_sum / light, y_sum / light);
-                field.add(normalized(at), nearest_m, solid_angle * sum, points);
-            }
-    }
-
-    // Fills probe_pixels with the object's little picture; gives its width.
-    int trace_probe(const WorldSnapshot& world, std::size_t i, RandomKey key) {
-        const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-        // Turned against the camera's rows, so that an edge along them does not fall on a row of rays.
-        const Vec3d up = std::abs(to_object_m.z) < 0.9 * plans[i].distance_m ? Vec3d{0.31, 0.17, 1} : Vec3d{1, 0.31, 0.17};
-        Pose camera = world.camera;
-        camera.world_from_body = look_along(to_object_m, up);
-        probe_view = to_matrix(camera.world_from_body);
-        const int pixels = probe_mask.width();
-        probe.geometry = probe_geometry(pixels, radii_m[i], plans[i].distance_m);
-        probe.key = key;
-        probe.rays_world_m = frame.rays_world_m;
-        probe.camera_m = frame.camera_m;
-        std::copy(frame.world_from_body.begin(), frame.world_from_body.end(), probe.world_from_body.begin());
-        // The others are in the way only if they are before it, which the point itself is asked.
-        std::fill(probe.is_point.begin(), probe.is_point.end(), std::uint8_t{1});
-        probe.is_point[i] = 0;
-        probe.start_at_m = world.objects[i].position_world_m - frame.rays_world_m;
-        probe.start_before_m = 1.01 * radii_m[i];
-        probe_rays->place(probe.geometry, {world.time, camera, {}, {}});
-
-        const int edge = tile_edge_px(1);
-        TileStats stats;
-        for (int y = 0; y < pixels; y += edge)
-            for (int x = 0; x < pixels; x += edge) {
-                const PixelBox box{x, y, std::min(x + edge, pixels), std::min(y + edge, pixels)};
-                const int width = box.x1 - box.x0;
-                const std::span<Spectrum> part(tile_pixels.front().data(),
-                                               static_cast<std::size_t>(width * (box.y1 - box.y0)));
-                std::fill(part.begin(), part.end(), Spectrum{});
-                Tile tile{probe, box, 1, part, stats};
-                tracers.front()->trace(tile);
-                for (int row = box.y0; row < box.y1; ++row)
-                    std::copy_n(part.begin() + (row - box.y0) * width, width, probe_pixels.begin() + row * pixels + box.x0);
-            }
-        return pixels;
     }
 
     PixelBox tile(int index) const {
@@ -440,7 +295,7 @@ Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& g
 Renderer::~Renderer() = default;
 
 std::size_t Renderer::most_points() const {
-        const std::size_t cells = Implementation::kMostCells * Implementation::kMostCells;
+        const std::size_t cells = ObjectProbe::kMostCells * ObjectProbe::kMostCells;
     return implementation_->stars.size() + implementation_->objects.size() * cells + kBodyCount;
 }
 std::size_t Renderer::triangles() const { return implementation_->triangle_count; }
@@ -467,7 +322,8 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     for (const PlacedBody& body : my.background.points())
         field.add(body.world_dir, body.distance_m, my.background.point_irradiance(body), points);
     for (std::size_t i = 0; i < my.objects.size(); ++i)
-        if (my.frame.is_point[i]) my.add_points(world, i, key, field, points);
+        if (my.frame.is_point[i])
+            my.probe->add_points(my.frame, world, i, my.plans[i], my.radii_m[i], *my.tracers.front(), field, points);
     stats.points_ms = ms_since(pointed);
 
     const TileStats sum = my.total();

@@ -54,6 +54,35 @@ TEST(WorldState, TellsTheNewestCommandItShows) {
     EXPECT_FALSE(world.set(2, at(0, 0), {}));
 }
 
+// A wing that turns about +y through (0, 2, 1) of a body that itself stands turned and moved.
+TEST(WorldState, AJointTurnsItsPartAboutItsAxis) {
+    const Motion initial[2] = {at(0, 0), {{0}, {{5, 0, 0}, from_rotation_vector({0, 0, kPi / 2})}, {}, {}}};
+    const Joint joint{0, {0, 2, 1}, {0, 1, 0}, 0.3, 0.1};
+    WorldState world(initial, {}, std::span(&joint, 1));
+    EXPECT_EQ(world.placed_objects(), 2u);
+    WorldSnapshot snapshot;
+    snapshot.objects.resize(2);
+    ShownCommand shown;
+    const auto place_of = [&](std::int64_t ns, Vec3d p) {
+        world.sample({ns}, snapshot, shown);
+        const Pose& part = snapshot.objects[1];
+        return part.position_world_m + to_matrix(part.world_from_body) * p;
+    };
+    // The pivot stays; a point 1 m over it goes 1 m sideways when turned by a right angle.
+    const Vec3d pivot = place_of(0, {0, 2, 1});
+    EXPECT_NEAR(length(pivot - Vec3d{5 - 2, 0, 1}), 0, 1e-12);
+    EXPECT_NEAR(length(place_of(9'000'000'000, {0, 2, 1}) - pivot), 0, 1e-9);
+    // 0.3 + 0.1 t: after 2 s the point is turned by 0.5 about the body's y, the world's -x.
+    const Vec3d over = place_of(2'000'000'000, {0, 2, 2});
+    EXPECT_NEAR(length(over - (pivot + Vec3d{0, std::sin(0.5), std::cos(0.5)})), 0, 1e-9);
+    EXPECT_TRUE(world.set_joint(1, 1, {{3'000'000'000}, kPi / 2, 0}, {8, 1}));
+    EXPECT_NEAR(length(place_of(4'000'000'000, {0, 2, 2}) - (pivot + Vec3d{0, 1, 0})), 0, 1e-9);
+    EXPECT_EQ(shown.sequence, 8u);
+    EXPECT_FALSE(world.set_joint(1, 2, {}, {}));
+    EXPECT_FALSE(world.set_joint(2, 1, {}, {}));
+    EXPECT_FALSE(world.set(2, at(0, 0), {}));  // a part is no object
+}
+
 TEST(WorldState, KeepsTheNewestEightMotions) {
     const Motion initial = at(0, 0);
     WorldState world(std::span(&initial, 1), {});

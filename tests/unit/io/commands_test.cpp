@@ -68,6 +68,20 @@ TEST(CommandCodec, SettingsCarryOnlyWhatWasSet) {
     EXPECT_EQ(back.gain_db, 3);
 }
 
+TEST(CommandCodec, JointComesBackAndWildAnglesAreRefused) {
+    JointCommand joint{2, 3, {77}, -1.5, 0.25};
+    const auto back = std::get<JointCommand>(decode_command(encoded(joint, 4)).command);
+    EXPECT_EQ(back.object, 2);
+    EXPECT_EQ(back.joint, 3);
+    EXPECT_EQ(back.time.ns, 77);
+    EXPECT_EQ(back.angle_rad, -1.5);
+    EXPECT_EQ(back.rate_rad_s, 0.25);
+    joint.angle_rad = 1e9;
+    EXPECT_EQ(decode_command(encoded(joint, 4)).status, CommandStatus::kBadArgument);
+    joint.angle_rad = std::nan("");
+    EXPECT_EQ(decode_command(encoded(joint, 4)).status, CommandStatus::kBadArgument);
+}
+
 // The worked examples of the protocol's document are what the program sends.
 TEST(CommandCodec, DocumentedBytesAreTheRealOnes) {
     std::ifstream in(std::string(HILCAM_SOURCE_DIR) + "/docs/protocol.md");

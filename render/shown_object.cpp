@@ -1,0 +1,52 @@
+#include "render/shown_object.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/triangle_order.h"
+
+namespace hilcam {
+namespace {
+
+// What a level has flattened makes its facets' lobes wider: slopes add by their squares.
+std::vector<Material> widened(std::vector<Material> materials, const std::vector<float>& flattened_alpha) {
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (materials[i].has_facets() && materials[i].ggx_alpha > 0 && flattened_alpha[i] > 0)
+            materials[i].ggx_alpha = std::min(1.0f, std::hypot(materials[i].ggx_alpha, flattened_alpha[i]));
+    return materials;
+}
+
+}  // namespace
+
+std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene) {
+    std::vector<std::vector<const Mesh*>> objects;
+    for (SceneObject& object : scene.objects) {
+        std::vector<const Mesh*>& meshes = objects.emplace_back();
+        order_triangles(object.mesh);
+        meshes.push_back(&object.mesh);
+        for (MeshLevel& level : object.levels) {
+            order_triangles(level.mesh);
+            meshes.push_back(&level.mesh);
+        }
+    }
+    return objects;
+}
+
+std::vector<ShownObject> shown_objects(Scene& scene) {
+    std::vector<ShownObject> objects;
+    for (SceneObject& object : scene.objects) {
+        ShownObject& out = objects.emplace_back();
+        out.name = object.name;
+        const auto textures = std::make_shared<const std::vector<Texture>>(std::move(object.mesh.textures));
+        out.levels.emplace_back(object.mesh, object.materials, textures);
+        out.error_m.push_back(0);
+        for (const MeshLevel& level : object.levels) {
+            out.levels.emplace_back(level.mesh, widened(object.materials, level.flattened_alpha), textures);
+            out.error_m.push_back(level.error_m);
+        }
+    }
+    scene.objects.clear();
+    return objects;
+}
+
+}  // namespace hilcam
