@@ -48,9 +48,13 @@ int run(const Options& o) {
     spdlog::info("loading {}", scenario.name);
     Emulator emulator(scenario, limits);
     emulator.run([] { spdlog::info("running; Ctrl-C ends it"); });
-    const nlohmann::json report =
+    nlohmann::json report =
         run_report(scenario, emulator.seconds(), emulator.loop(), emulator.delivery(),
                    emulator.command_report(), emulator.sinks());
+    const std::uint64_t outside = emulator.renderer().rays_outside_air();
+    report["quality"]["rays_outside_atmosphere"] = outside;
+    if (outside > 0)
+        spdlog::warn("{} rays left the atmosphere's table and were given its nearest geometry", outside);
     if (!o.report.empty()) write_json(o.report, report);
     spdlog::info("{} frames in {:.1f} s, {} exposures missed", report["frames"].get<std::uint64_t>(),
                  emulator.seconds(), report["deadline_misses"].get<std::uint64_t>());

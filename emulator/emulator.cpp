@@ -66,6 +66,11 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     const TimeTai start = parse_utc(scenario.time_utc);
     clock_ = SimulatedClock(start, monotonic_now_ns());
     world_ = std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
+    WorldSnapshot first;
+    first.objects.resize(world_->placed_objects());
+    ShownCommand shown;
+    world_->sample(start, first, shown);
+    renderer_->require_air(first);
     dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, clock_);
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);

@@ -27,6 +27,8 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
     ShownCommand shown;
     state.sample(time, world, shown);
 
+    renderer->require_air(world);
+
     const RandomKey key{static_cast<std::uint64_t>(scenario.seed), 1};
     RadianceImage radiance(geometry.padded_width(), geometry.padded_height(), grid.size());
     std::vector<PointSource> points;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
+#include "io/atmosphere_file.h"
 #include "io/brdf_file.h"
 #include "io/catalogue_file.h"
 #include "io/image_file.h"
@@ -88,8 +90,11 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     }
     AtmosphereConfig air = scenario.atmosphere;
     if (air.cache.empty()) air.cache = cache_folder();
-    if (scene.body(BodyId::kEarth).visible)
-        scene.air = modules.atmospheres.make(air.model, AtmosphereRequest{air, grid});
+    if (scene.body(BodyId::kEarth).visible) {
+        std::optional<AtmosphereTable> table;
+        if (!air.table.empty()) table = read_atmosphere(air.table, grid);
+        scene.air = modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
+    }
     if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
     scene.sun_irradiance_1au_w_m2_um =
         scenario.sun.has_spectrum ? grid.average(scenario.sun.spectrum) : solar_irradiance_1au_w_m2_um(grid);

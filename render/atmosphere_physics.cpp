@@ -68,7 +68,7 @@ Fields fields(AtmosphereConfig& c) {
         number("ozone_du", c.ozone_du, 1, {0, 1000}, "precomputed: Dobson units"),
         number("ground_albedo", c.ground_albedo, 1, {0, 1}, "precomputed: for light between ground and sky"),
         path("cache", c.cache, "precomputed: folder for its tables; none: hilcam's own"),
-        path("table", c.table, "table: CSV or MODTRAN tape7.scn, as docs/atmosphere.md describes"),
+        path("table", c.table, "table: CSV of values or of MODTRAN runs, as docs/atmosphere.md describes"),
     };
 }
 

@@ -271,6 +271,20 @@ Atmosphere::Sight Background::air_before(Vec3d dir, double distance_m) const {
     return sight;
 }
 
+std::string Background::air_missing(Vec3d dir) const {
+    for (const PlacedBody& body : disks()) {
+        const Figure& figure = kFigures[index_of(body.id)];
+        const Vec3d d = body.fixed_from_world * dir;
+        const double distance = intersect_ellipsoid(figure, body.camera_m, d);
+        if (distance < 0) continue;
+        if (!has_air(body.id)) return {};
+        const Vec3d sd = stretched(figure, d);
+        return air_->missing(stretched(figure, body.camera_m), normalized(sd), distance * length(sd),
+                             normalized(stretched(figure, body.sun_dir)));
+    }
+    return {};
+}
+
 EarthRays Background::plain_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir) const {
     const Mat3d& fixed = plain_->fixed_from_world;
     return {kFigures[index_of(plain_->id)], plain_->camera_m,  plain_->sun_dir,

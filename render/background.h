@@ -96,6 +96,9 @@ class Background {
     // Light and transmittance of the air before an object at a distance; only where camera_in_air().
     Atmosphere::Sight air_before(Vec3d dir, double distance_m) const;
 
+    // What the air lacks for a ray of the camera (Atmosphere::missing).
+    std::string air_missing(Vec3d dir) const;
+
     // The one body in view that EarthRays can do sixteen at a time, or null.
     const PlacedBody* plain_body() const { return plain_; }
     EarthRays plain_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir) const;

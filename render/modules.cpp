@@ -25,6 +25,7 @@ Modules::Modules() {
     radiance.add("emissive", [] { return make_radiance_equation(true); });
     atmospheres.add("none", [](const AtmosphereRequest&) { return std::unique_ptr<Atmosphere>(); });
     atmospheres.add("precomputed", make_precomputed_atmosphere);
+    atmospheres.add("table", make_table_atmosphere);
 }
 
 }  // namespace hilcam

@@ -375,6 +375,26 @@ std::vector<PathModelSpeed> Renderer::path_model_speeds(const WorldSnapshot& wor
     return speeds;
 }
 
+void Renderer::require_air(const WorldSnapshot& world) {
+    Implementation& my = *implementation_;
+    if (!my.air) return;
+    my.place(world, {});
+    const ImageGeometry& g = my.frame.geometry;
+    const Mat3d world_from_camera = to_matrix(world.camera.world_from_body);
+    constexpr int kSteps = 48;
+    for (int y = 0; y <= kSteps; ++y)
+        for (int x = 0; x <= kSteps; ++x) {
+            const Vec3d dir = world_from_camera * normalized(g.direction_camera(x * g.width_px / static_cast<double>(kSteps),
+                                                                                y * g.height_px / static_cast<double>(kSteps)));
+            const std::string missing = my.background.air_missing(dir);
+            if (!missing.empty()) throw InputError("atmosphere: the camera sees a " + missing);
+        }
+}
+
+std::uint64_t Renderer::rays_outside_air() const {
+    return implementation_->air ? implementation_->air->rays_outside() : 0;
+}
+
 double Renderer::floor_ms(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
     my.place(world, {});

@@ -80,6 +80,11 @@ class Renderer {
     // What a frame of this world needs and why, a line each. Not for the loop.
     std::vector<std::string> explain_plan(const WorldSnapshot& world);
 
+    // Throws InputError where the atmosphere does not cover what the camera sees of the Earth: what is missing. For the
+    // first instant of a run; what leaves the table later is counted. Not for the loop.
+    void require_air(const WorldSnapshot& world);
+    std::uint64_t rays_outside_air() const;
+
     // Time that bare Embree needs for the primary and shadow rays of this frame, on the same threads [ms]:
     // the floor that no renderer built on it can go below. Not for the loop.
     double floor_ms(const WorldSnapshot& world);
