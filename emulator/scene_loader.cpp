@@ -86,7 +86,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
         SceneBody& body = scene.bodies[i];
         body.visible = config.visible;
         body.look = BodyLook(static_cast<BodyId>(i), config, grid);
-        if (!config.albedo_map.empty()) body.map = read_picture(config.albedo_map);
+        if (!config.albedo_map.empty()) body.map = MipTexture(read_picture(config.albedo_map));
     }
     AtmosphereConfig air = scenario.atmosphere;
     if (air.cache.empty()) air.cache = cache_folder();

@@ -29,19 +29,8 @@ bool can_cover(double cosine_to_sun, double body_cone_cosine, double sun_disk_co
 }
 
 // Mean colour of a map over the sphere.
-Vec3f mean_texel(const Texture& map) {
-    Vec3d sum;
-    double weights = 0;
-    for (int y = 0; y < map.height; ++y) {
-        const double weight = std::cos(kPi * ((y + 0.5) / map.height - 0.5));
-        for (int x = 0; x < map.width; ++x) {
-            const auto& t = map.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                                       static_cast<std::size_t>(x)];
-            sum = sum + weight * to_double(Vec3f{linear_from_srgb(t[0]), linear_from_srgb(t[1]), linear_from_srgb(t[2])});
-            weights += weight;
-        }
-    }
-    return to_float(sum / weights);
+Vec3f mean_texel(const MipTexture& map) {
+    return map.mean([](double v) { return std::cos(kPi * (v - 0.5)); });
 }
 
 }  // namespace
@@ -57,7 +46,7 @@ Background::Background(const std::array<SceneBody, kBodyCount>& bodies, const At
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         map_factor_[i].bin.fill(1);
         map_mean_[i].bin.fill(1);
-        if (scene_[i].map.texels.empty()) continue;
+        if (scene_[i].map.empty()) continue;
         const Spectrum mean = bands_.spectrum(mean_texel(scene_[i].map));
         if (scene_[i].look.plain_lambert()) {
             map_mean_[i] = mean;
@@ -102,6 +91,7 @@ PlacedBody Background::placed(BodyId id, const WorldSnapshot& world) const {
 
 void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad) {
     bodies_ = world.bodies;
+    pixel_rad_ = pixel_rad;
     objects_from_camera_m_ = objects_world_m - world.camera.position_world_m;
     const Vec3d to_sun_m = world.bodies.sun_world_m - objects_world_m;
     const double sun_distance_m = length(to_sun_m);
@@ -145,7 +135,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
     if (disk_count_ > 0 && !air_) {
         const PlacedBody& body = disks_[0];
         const SceneBody& scene = scene_[index_of(body.id)];
-        if (scene.look.plain_lambert() && scene.map.texels.empty() && !body.may_be_eclipsed) {
+        if (scene.look.plain_lambert() && scene.map.empty() && !body.may_be_eclipsed) {
             plain_ = &disks_[0];
             plain_radiance_ = static_cast<float>(1 / kPi) * (scene.look.albedo() * body.irradiance_w_m2_um);
         }
@@ -221,11 +211,15 @@ Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec
     } else if (mu0 <= 0) {
         return {};
     }
-    if (!scene.map.texels.empty()) {
+    if (!scene.map.empty()) {
         // Latitude is the normal's own; longitude runs with u from 180 W.
         const auto u = static_cast<float>(std::atan2(normal.y, normal.x) / (2 * kPi) + 0.5);
         const auto v = static_cast<float>(0.5 - std::asin(std::clamp(normal.z, -1.0, 1.0)) / kPi);
-        light = light * bands_.spectrum(sample(scene.map, u, v)) * map_factor_[i];
+        // A pixel on the ground, against the equator's length.
+        const double slant = std::max(0.25, dot(normal, to_viewer_dir));
+        const double footprint = pixel_rad_ * length(point_m - body.camera_m) /
+                                 (std::sqrt(slant) * 2 * kPi * figure.equatorial_radius_m);
+        light = light * bands_.spectrum(scene.map.sample(u, v, static_cast<float>(footprint))) * map_factor_[i];
     }
     if (body.may_be_eclipsed)
         light = light * sun_seen_from(bodies_.body[i].world_m + transposed(body.fixed_from_world) * point_m, body.id);

@@ -130,6 +130,7 @@ class Background {
     Vec3d sun_world_dir_{0, 0, 1}, sun_camera_dir_{0, 0, 1};
     double sun_disk_cosine_ = 1;
     double nearest_m_ = 0;
+    double pixel_rad_ = 0;
     bool camera_in_air_ = false;
 
     PlacedBody placed(BodyId id, const WorldSnapshot& world) const;

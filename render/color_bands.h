@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 #include "render/mesh.h"
 #include "render/spectrum.h"
@@ -24,7 +26,24 @@ class ColorBands {
     Spectrum red_, green_, blue_;
 };
 
-// Bilinear, wrapping around in both directions; (0, 0) is the outer corner of texel (0, 0). Linear RGB, 0..1.
-Vec3f sample(const Texture& texture, float u, float v);
+// A picture and its halves: each level has half the width and height of the one before, averaged in linear light (Williams,
+// "Pyramidal parametrics", SIGGRAPH 83), kept as 8-bit sRGB.
+class MipTexture {
+  public:
+    MipTexture() = default;
+    explicit MipTexture(Texture texture);
+
+    bool empty() const { return levels_.empty(); }
+    int width() const { return levels_.front().width; }
+    int height() const { return levels_.front().height; }
+    // Linear RGB, 0..1, averaged over about `footprint` (share of the picture's width that is asked for; 0: none). Bilinear
+    // in a level and linear between two, wrapping around in both directions; (0, 0) is the outer corner of texel (0, 0).
+    Vec3f sample(float u, float v, float footprint) const;
+    // Of all texels, weighted by `row_weight(v)`, v of the row's middle.
+    Vec3f mean(const std::function<double(double)>& row_weight) const;
+
+  private:
+    std::vector<Texture> levels_;
+};
 
 }  // namespace hilcam

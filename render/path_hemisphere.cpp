@@ -60,6 +60,9 @@ std::array<Vec3f, kDirections> make_directions() {
 
 const std::array<Vec3f, kDirections> kHemisphere = make_directions();
 
+// Each direction stands for so wide a cone.
+constexpr float kSpread_rad = 0.3f;
+
 // Solid angle of a direction, scaled so that the sum of cosines is pi.
 const float kSolidAngle = [] {
     float sum = 0;
@@ -156,7 +159,7 @@ class HemispherePaths final : public PathModel {
                 }
                 if (last) continue;
                 Vertex& vertex = level.vertices[found];
-                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, 0, vertex)) continue;
+                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, 0, {at.footprint_m, ray.exact ? 0.0f : kSpread_rad}, vertex)) continue;
                 vertex.pixel = at.pixel, vertex.sample = at.sample;
                 vertex.depth = static_cast<std::uint16_t>(at.depth + 1);
                 vertex.weight = ray.weight;

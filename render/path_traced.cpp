@@ -24,6 +24,12 @@ struct NextRay {
     float density;      // of the direction [sr^-1]; 0: exact
     float alpha_least;  // of the next vertex's facet lobe
     Spectrum weight;
+
+    // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
+    RayWidth width() const {
+        const float spread = density > 0 ? std::min(0.5f, 0.25f / std::sqrt(density)) : 0.0f;
+        return {from->footprint_m, spread};
+    }
 };
 
 class TracedPaths final : public PathModel {
@@ -105,7 +111,7 @@ class TracedPaths final : public PathModel {
                 }
                 if (last) continue;
                 Vertex& vertex = following_[found];
-                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, vertex)) continue;
+                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, ray.width(), vertex)) continue;
                 vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
                 vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
                 vertex.weight = ray.weight;

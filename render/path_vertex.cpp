@@ -7,7 +7,7 @@
 namespace hilcam {
 
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
-                 float alpha_least, Vertex& vertex) {
+                 float alpha_least, RayWidth width, Vertex& vertex) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
     const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
@@ -31,6 +31,7 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     vertex.geometric_normal = geometric;
     vertex.normal = normal;
 
+    vertex.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
     vertex.point_m = origin_m + hits.distance[k] * dir;
     // The hit point's rounding grows with the coordinates it was made of: 16 half-ulps of the greatest
     // (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
@@ -43,10 +44,13 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     vertex.surface = {&material, alpha, material.base, material.highlight};
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];
-        const Spectrum scale =
-            frame.bands->spectrum(sample((*object.textures)[static_cast<std::size_t>(material.texture)],
-                                         (1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
-                                         (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y));
+        const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];
+        // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor of four.
+        const float slant = 1 / std::max(0.25f, dot(geometric, vertex.view_dir));
+        const float footprint = vertex.footprint_m * std::sqrt(slant) * object.uv_per_m[hits.triangle[k]];
+        const Spectrum scale = frame.bands->spectrum(
+            texture.sample((1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
+                           (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y, footprint));
         // The one colour of a file scales what the material mostly is.
         const bool shiny = material.model == ReflectionModel::kMetal || material.model == ReflectionModel::kMirror;
         vertex.surface.base = vertex.surface.base * scale;

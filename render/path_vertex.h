@@ -18,6 +18,7 @@ struct Vertex {
     Vec3f geometric_normal;  // towards the viewer's side, unit
     Vec3f normal;            // shading, same side
     Vec3f view_dir;          // back along the path, unit
+    float footprint_m;       // how wide the ray was when it came
     Spectrum weight;
     Scatterer surface;
 
@@ -27,8 +28,12 @@ struct Vertex {
 
 // Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's. The
 // facet lobe is at least `alpha_least` wide. False where there is nothing to see: a triangle without an area. Loop,
-// any thread.
+// any thread. footprint_m: width of the ray where it began, spread_rad: by how much it widens.
+struct RayWidth {
+    float footprint_m = 0;
+    float spread_rad = 0;
+};
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
-                 float alpha_least, Vertex& vertex);
+                 float alpha_least, RayWidth width, Vertex& vertex);
 
 }  // namespace hilcam

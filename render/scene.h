@@ -10,6 +10,7 @@
 #include "render/atmosphere.h"
 #include "render/bodies.h"
 #include "render/body_light.h"
+#include "render/color_bands.h"
 #include "render/material.h"
 #include "render/mesh.h"
 #include "render/mesh_lod.h"
@@ -27,7 +28,7 @@ struct SceneObject {
 struct SceneBody {
     bool visible = false;
     BodyLook look;
-    Texture map;  // empty: uniform. Relative to its mean where the look is tied to a magnitude
+    MipTexture map;  // empty: uniform. Relative to its mean where the look is tied to a magnitude
 };
 
 struct Scene {

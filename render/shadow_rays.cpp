@@ -16,7 +16,7 @@ Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir)
         frame.scene->intersect(ray, Coherence::kIncoherent, hit);
         if (hit.object[0] == HitPacket::kMiss) return passed;
         Vertex vertex;
-        if (!make_vertex(frame, hit, 0, origin_m, dir, 0, vertex)) return {};
+        if (!make_vertex(frame, hit, 0, origin_m, dir, 0, {}, vertex)) return {};
         if (!vertex.surface.is_glass()) return {};
         passed = passed * sheet_transmittance(vertex.surface, dot(vertex.normal, vertex.view_dir));
         origin_m = vertex.start(false);

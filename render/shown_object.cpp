@@ -37,7 +37,9 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
     for (SceneObject& object : scene.objects) {
         ShownObject& out = objects.emplace_back();
         out.name = object.name;
-        const auto textures = std::make_shared<const std::vector<Texture>>(std::move(object.mesh.textures));
+        std::vector<MipTexture> pictures;
+        for (Texture& texture : object.mesh.textures) pictures.emplace_back(std::move(texture));
+        const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));
         out.levels.emplace_back(object.mesh, object.materials, textures);
         out.error_m.push_back(0);
         for (const MeshLevel& level : object.levels) {

@@ -34,6 +34,15 @@ std::vector<Box> clusters_of(const Mesh& mesh) {
     return boxes;
 }
 
+// Square root of the areas' ratio.
+float density_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+    const Vec3f a = mesh.vertices_m[t[0]];
+    const float area = length(cross(mesh.vertices_m[t[1]] - a, mesh.vertices_m[t[2]] - a));
+    const Vec2f p = mesh.uvs[t[0]], q = mesh.uvs[t[1]], r = mesh.uvs[t[2]];
+    const float uv_area = std::abs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+    return area > 0 ? std::sqrt(uv_area / area) : 0.0f;
+}
+
 }  // namespace
 
 std::uint32_t pack_normal(Vec3f n) {
@@ -49,7 +58,7 @@ std::uint32_t pack_normal(Vec3f n) {
 }
 
 ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials_of_surfaces,
-                               std::shared_ptr<const std::vector<Texture>> textures_of_object)
+                               std::shared_ptr<const std::vector<MipTexture>> textures_of_object)
     : materials(std::move(materials_of_surfaces)),
       textures(std::move(textures_of_object)),
       cluster_bounds_m(clusters_of(mesh)) {
@@ -61,7 +70,10 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
     if (!textured)
         for (Material& material : materials) material.texture = -1;
     triangles.resize(mesh.triangles.size());
-    if (textured) corner_uvs.resize(mesh.triangles.size());
+    if (textured) {
+        corner_uvs.resize(mesh.triangles.size());
+        uv_per_m.resize(mesh.triangles.size());
+    }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         triangles[i].surface = mesh.surface_of_triangle[i];
         // A zero normal stands for "the file has none here".
@@ -76,6 +88,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
             triangles[i].corner_normals[k] = flat ? 0 : pack_normal(mesh.normals[vertex]);
             if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
         }
+        if (textured) uv_per_m[i] = density_of(mesh, mesh.triangles[i]);
     }
 }
 

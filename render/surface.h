@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/color_bands.h"
 #include "render/scene.h"
 
 namespace hilcam {
@@ -42,12 +43,13 @@ static_assert(sizeof(PackedTriangle) == 16);
 struct ObjectSurfaces {
     // materials: one per surface of the mesh; texture of a material indexes the textures.
     ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials,
-                   std::shared_ptr<const std::vector<Texture>> textures);
+                   std::shared_ptr<const std::vector<MipTexture>> textures);
 
     std::vector<PackedTriangle> triangles;
     std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
+    std::vector<float> uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
     std::vector<Material> materials;
-    std::shared_ptr<const std::vector<Texture>> textures;  // shared by an object's levels of detail
+    std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     double radius_m = 0;  // of a sphere about the body's origin that holds the object

@@ -222,6 +222,107 @@ TEST(Renderer, CameraInsideAMeshAndNeedleTrianglesStayFinite) {
     for (const float value : s.radiance.all()) ASSERT_TRUE(std::isfinite(value));
 }
 
+// A checkerboard too fine for the pixels is grey, without moire; one that they resolve is black and white.
+TEST(Renderer, TexturesAreAveragedOverAPixel) {
+    for (const bool fine : {true, false}) {
+        Stage s;
+        SceneObject board = plate(lambert(1), s.grid);
+        Texture checkers;
+        checkers.width = checkers.height = fine ? 512 : 4;
+        for (int y = 0; y < checkers.height; ++y)
+            for (int x = 0; x < checkers.width; ++x) {
+                const auto c = static_cast<std::uint8_t>((x + y) % 2 ? 255 : 0);
+                checkers.texels.push_back({c, c, c});
+            }
+        board.mesh.textures = {checkers};
+        board.mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        board.materials[0].texture = 0;
+        s.add(std::move(board), {0, 0, 3});
+        s.quality.max_depth = 1;
+        s.quality.rays_across = 0;
+        s.render();
+        const double white = kSun_w_m2_um / kPi;
+        float least = 1e9f, most = 0;
+        for (int y = 14; y < 26; ++y)
+            for (int x = 14; x < 26; ++x) {
+                least = std::min(least, s.radiance.row(y)[static_cast<std::size_t>(x)]);
+                most = std::max(most, s.radiance.row(y)[static_cast<std::size_t>(x)]);
+            }
+        EXPECT_NEAR(least / white, fine ? 0.5 : 0, fine ? 0.02 : 0.1);
+        EXPECT_NEAR(most / white, fine ? 0.5 : 1, fine ? 0.02 : 0.1);
+    }
+}
+
+// Models that a frame does not need cost it nothing: no ray, no look into the air, no point.
+TEST(Renderer, NothingUnneededIsTraced) {
+    Stage s;
+    s.quality.max_depth = 1;
+    s.render();  // an empty sky
+    EXPECT_EQ(s.stats.primary_rays + s.stats.shadow_rays + s.stats.secondary_rays, 0u);
+    s.add(plate(lambert(0.5), s.grid), {0, 0, -3});  // behind the camera
+    s.render();
+    EXPECT_EQ(s.stats.primary_rays, 0u);
+    s.world.objects[0].position_world_m = {0, 0, 3};
+    s.sun({0, 0, 1});  // on its back
+    s.render();
+    EXPECT_GT(s.stats.primary_rays, 0u);
+    EXPECT_EQ(s.stats.shadow_rays, 0u);
+    s.sun({0, 0, -1});
+    s.render();
+    const auto shadow_rays = s.stats.shadow_rays;
+    EXPECT_GT(shadow_rays, 0u);
+    EXPECT_EQ(s.stats.secondary_rays, 0u);  // no body, no depth
+    // The Earth out of the field adds its own light, and no primary ray.
+    const auto primary_rays = s.stats.primary_rays;
+    s.earth(0.3);
+    s.world.bodies[BodyId::kEarth].world_m = {30e6, 0, -30e6};
+    s.quality.contribution_threshold = 0;
+    s.render();
+    EXPECT_EQ(s.stats.primary_rays, primary_rays);
+    EXPECT_EQ(s.stats.shadow_rays, shadow_rays);
+    EXPECT_GT(s.stats.secondary_rays, 0u);
+    // Below the threshold it is not asked.
+    s.quality.contribution_threshold = 0.05;
+    s.render();
+    EXPECT_EQ(s.stats.secondary_rays, 0u);
+    EXPECT_TRUE(s.points.empty());
+}
+
+TEST(Renderer, TheLensBendsWhatItSeesAndTheMaskFollows) {
+    Stage s;
+    s.geometry.distortion.k1 = -0.3;
+    // A small plate off the axis: its middle falls where Brown's formula says.
+    SceneObject small = plate(lambert(1), s.grid);
+    for (Vec3f& v : small.mesh.vertices_m) v = 0.1f * v;
+    s.add(std::move(small), {1.2, 0, 3});
+    s.quality.rays_across = 256;
+    s.quality.max_depth = 1;
+    s.render();
+    const double x = 0.4, bent = x * (1 - 0.3 * x * x);
+    EXPECT_NEAR(s.light().centroid_px.x, 16 + 32 * bent, 0.05);
+    EXPECT_NEAR(s.light().centroid_px.y, 16, 0.02);
+}
+
+// Rows read one after another: a camera that turns draws an upright edge aslant.
+TEST(Renderer, RollingRowsHaveAPoseOfTheirOwn) {
+    Stage s;
+    s.models.rays = {"rolling", 1e-3};
+    s.quality.max_depth = 1;
+    s.add(plate(lambert(1), s.grid), {0, 0, 3});
+    // 0.5 rad/s about -y turns the boresight to -x: things move to the right by 32 px 0.5 mrad each row.
+    s.world.camera_rate_rad_s = {0, -0.5, 0};
+    s.render();
+    const auto left_edge = [&](int row) {
+        for (int x = 0; x < 40; ++x)
+            if (s.radiance.row(row)[static_cast<std::size_t>(x)] > 0) return x;
+        return -1;
+    };
+    s.models.rays.line_time_s = 0.02;
+    s.render();
+    // From row 12 to row 28: 16 rows of 20 ms, 0.16 rad, 5.1 px and a little more off the axis.
+    EXPECT_NEAR(left_edge(28) - left_edge(12), 5.3, 1.1);
+}
+
 TEST(ScreenMask, MarksEveryPointOfItsBoxesAndLeavesTheSkyBetweenThem) {
     std::mt19937 engine(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
