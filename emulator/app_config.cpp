@@ -38,10 +38,12 @@ Fields fields(MaterialSet& set) {
 
 Fields fields(JointConfig& j) {
     return {
-        required(text("node", j.node, "of the mesh file that turns, with all below it; a trailing * matches any ending")),
+        required(text("node", j.node,
+                      "of the mesh file that turns, with all below it; a trailing * matches any ending")),
         vector3("pivot_m", j.pivot_m, 1, {-1e6, 1e6}, "a point of the axis, in the object's axes"),
         vector3("axis", j.axis, 1, {-1e6, 1e6}, "its direction, in the object's axes"),
-        number("angle_deg", j.angle_rad, kDegree_rad, {-36000, 36000}, "turned from the file's own state, right-handed"),
+        number("angle_deg", j.angle_rad, kDegree_rad, {-36000, 36000},
+               "turned from the file's own state, right-handed"),
         number("rate_deg_s", j.rate_rad_s, kDegree_rad, {-1e5, 1e5}, "how fast it turns from the start on"),
     };
 }

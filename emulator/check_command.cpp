@@ -57,7 +57,8 @@ std::string check_scenario(const ScenarioConfig& s) {
     ShownCommand shown;
     state.sample(time, world, shown);
     renderer->require_air(world);
-    std::string out = fmt::format("scenario {} at {}\n", s.name, format_utc(time)) + camera_sheet(s, grid) + "plan\n";
+    std::string out =
+        fmt::format("scenario {} at {}\n", s.name, format_utc(time)) + camera_sheet(s, grid) + "plan\n";
     for (const std::string& line : renderer->explain_plan(world)) out += "  " + line + "\n";
     return out;
 }

@@ -48,9 +48,8 @@ int run(const Options& o) {
     spdlog::info("loading {}", scenario.name);
     Emulator emulator(scenario, limits);
     emulator.run([] { spdlog::info("running; Ctrl-C ends it"); });
-    nlohmann::json report =
-        run_report(scenario, emulator.seconds(), emulator.loop(), emulator.delivery(),
-                   emulator.command_report(), emulator.sinks());
+    nlohmann::json report = run_report(scenario, emulator.seconds(), emulator.loop(), emulator.delivery(),
+                                       emulator.command_report(), emulator.sinks());
     const std::uint64_t outside = emulator.renderer().rays_outside_air();
     report["quality"]["rays_outside_atmosphere"] = outside;
     if (outside > 0)
@@ -94,9 +93,12 @@ int run_bench(const Options& o) {
         fmt::print("  {:<10} p50 {:7.3f} ms  p99 {:7.3f} ms\n", stage, times["p50"].get<double>(),
                    times["p99"].get<double>());
     for (const auto& [name, speed] : result["path_models"].items())
-        fmt::print("  path model {:<10} {:9} rays  {:8.1f} ms  {:6.2f} Mrays/s, bare Embree {:6.2f} Mrays/s, ratio {:.2f}\n", name,
-                   speed["rays"].get<std::uint64_t>(), speed["frame_ms"].get<double>(), speed["mrays_s"].get<double>(),
-                   speed["bare_mrays_s"].get<double>(), speed["ratio_to_bare"].get<double>());
+        fmt::print(
+            "  path model {:<10} {:9} rays  {:8.1f} ms  {:6.2f} Mrays/s, bare Embree {:6.2f} Mrays/s, ratio "
+            "{:.2f}\n",
+            name, speed["rays"].get<std::uint64_t>(), speed["frame_ms"].get<double>(),
+            speed["mrays_s"].get<double>(), speed["bare_mrays_s"].get<double>(),
+            speed["ratio_to_bare"].get<double>());
     return 0;
 }
 
@@ -145,7 +147,8 @@ int run_command_line(int argc, char** argv) {
     CLI::App* bench_app = app.add_subcommand("bench", "measure how fast a scenario runs here");
     add_config(bench_app, o);
     bench_app->add_flag("--json", o.json, "machine-readable");
-    bench_app->add_flag("--path-models", o.bench.path_models, "also each path model against bare Embree on the same rays");
+    bench_app->add_flag("--path-models", o.bench.path_models,
+                        "also each path model against bare Embree on the same rays");
     bench_app->add_option("--frames", o.bench.frames, "frames of a run")->check(CLI::Range(1, 1000000));
     bench_app->add_option("--runs", o.bench.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
     bench_app->callback([&] { action = [&] { return run_bench(o); }; });

@@ -65,7 +65,8 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     // Loading took its time; the simulation starts now.
     const TimeTai start = parse_utc(scenario.time_utc);
     clock_ = SimulatedClock(start, monotonic_now_ns());
-    world_ = std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
+    world_ =
+        std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
     WorldSnapshot first;
     first.objects.resize(world_->placed_objects());
     ShownCommand shown;

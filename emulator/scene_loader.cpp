@@ -42,7 +42,8 @@ std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, c
         }
         const MaterialConfig& m = config->material;
         materials.push_back(make_material(
-            m, grid, m.table.empty() ? nullptr : std::make_shared<const BrdfTable>(read_brdf(m.table, grid))));
+            m, grid,
+            m.table.empty() ? nullptr : std::make_shared<const BrdfTable>(read_brdf(m.table, grid))));
         materials.back().texture = surface.base_color_texture;
     }
     return materials;
@@ -79,8 +80,9 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     std::move(parts.begin(), parts.end(), std::back_inserter(scene.objects));
     const TimeTai time = parse_utc(scenario.time_utc);
     if (!scenario.stars.catalogue.empty())
-        scene.stars = stars_at(load_catalogue(scenario.stars.catalogue), time, origin_velocity_m_s(time, scenario.origin),
-                               scenario.stars.faintest_magnitude, grid);
+        scene.stars =
+            stars_at(load_catalogue(scenario.stars.catalogue), time,
+                     origin_velocity_m_s(time, scenario.origin), scenario.stars.faintest_magnitude, grid);
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         const BodyConfig& config = scenario.bodies[i];
         SceneBody& body = scene.bodies[i];
@@ -93,7 +95,8 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     if (scene.body(BodyId::kEarth).visible) {
         std::optional<AtmosphereTable> table;
         if (!air.table.empty()) table = read_atmosphere(air.table, grid);
-        scene.air = modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
+        scene.air =
+            modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
     }
     if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
     scene.sun_irradiance_1au_w_m2_um =
@@ -108,8 +111,8 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
     std::vector<std::filesystem::path> plugins;
     for (const PluginConfig& plugin : scenario.plugins) plugins.push_back(plugin.file);
     load_plugins(plugins, modules);
-    return std::make_unique<Renderer>(load_scene(scenario, grid, modules), grid, geometry, scenario.quality.render,
-                                      scenario.models, modules);
+    return std::make_unique<Renderer>(load_scene(scenario, grid, modules), grid, geometry,
+                                      scenario.quality.render, scenario.models, modules);
 }
 
 }  // namespace hilcam

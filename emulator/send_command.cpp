@@ -141,7 +141,9 @@ void add_send_command(CLI::App& app, std::function<int()>& action) {
     });
 
     CLI::App* joint = send->add_subcommand("joint", "turn a part of an object, true on arrival");
-    joint->add_option("--object", options->object, "1, 2, ...: the scenario's objects")->required()->check(CLI::Range(1, 65535));
+    joint->add_option("--object", options->object, "1, 2, ...: the scenario's objects")
+        ->required()
+        ->check(CLI::Range(1, 65535));
     joint->add_option("--joint", options->joint, "1, 2, ...: its joints")->check(CLI::Range(1, 65535));
     joint->add_option("--angle-deg", options->angle_deg, "from the file's own state")->required();
     joint->add_option("--rate-deg-s", options->joint_rate_deg_s, "from then on");

@@ -11,7 +11,8 @@ namespace {
 Pose turned(const Pose& object, const Joint& joint, double angle_rad) {
     const Quat turn = from_rotation_vector(angle_rad * joint.axis);
     const Vec3d shift_m = joint.pivot_m - to_matrix(turn) * joint.pivot_m;
-    return {object.position_world_m + to_matrix(object.world_from_body) * shift_m, object.world_from_body * turn};
+    return {object.position_world_m + to_matrix(object.world_from_body) * shift_m,
+            object.world_from_body * turn};
 }
 
 }  // namespace
@@ -55,7 +56,8 @@ Motion WorldState::History::motion_at(TimeTai time) const {
             (twice / kStep_s) * Vec3d{turn.x, turn.y, turn.z}};
 }
 
-WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& origin, std::span<const Joint> joints)
+WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& origin,
+                       std::span<const Joint> joints)
     : joints_(joints.begin(), joints.end()), objects_(motions.size() - 1), origin_(origin) {
     const auto add = [&](const Motion& motion) {
         auto thing = std::make_unique<Thing>();
@@ -73,12 +75,13 @@ bool WorldState::set(std::size_t thing, const Motion& motion, ShownCommand comma
     return thing <= objects_ && write(*things_[thing], motion, command);
 }
 
-bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m, ShownCommand command) {
+bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m,
+                           ShownCommand command) {
     std::size_t number = 0;
     for (std::size_t i = 0; i < joints_.size(); ++i)
         if (joints_[i].object + 1 == object && ++number == joint)
-            return write(*things_[1 + objects_ + i], {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}},
-                         command);
+            return write(*things_[1 + objects_ + i],
+                         {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}}, command);
     return false;
 }
 
@@ -108,7 +111,8 @@ void WorldState::sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown)
             world.objects[i - 1] = history.at(time);
         } else {
             const Joint& joint = joints_[i - 1 - objects_];
-            world.objects[i - 1] = turned(world.objects[joint.object], joint, history.at(time).position_world_m.x);
+            world.objects[i - 1] =
+                turned(world.objects[joint.object], joint, history.at(time).position_world_m.x);
         }
         if (history.command.arrival_monotonic_ns > shown.arrival_monotonic_ns) shown = history.command;
     }

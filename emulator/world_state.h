@@ -36,12 +36,13 @@ struct Joint {
 class WorldState {
   public:
     // motions[0] is the camera, then the objects. Owner thread.
-    WorldState(std::span<const Motion> motions, const OriginConfig& origin, std::span<const Joint> joints = {});
+    WorldState(std::span<const Motion> motions, const OriginConfig& origin,
+               std::span<const Joint> joints = {});
 
     // Any thread but the loop. False when there is no such thing.
     bool set(std::size_t thing, const Motion& motion, ShownCommand command);
-    // The angle of an object's joint at an instant, and how fast it turns from then on. object, joint: from 1. False when
-    // there is no such joint.
+    // The angle of an object's joint at an instant, and how fast it turns from then on. object, joint:
+    // from 1. False when there is no such joint.
     struct JointMotion {
         TimeTai time;
         double angle_rad = 0;
@@ -50,7 +51,8 @@ class WorldState {
     bool set_joint(std::size_t object, std::size_t joint, const JointMotion& motion, ShownCommand command);
     // Objects and joints: what `world.objects` must have room for.
     std::size_t placed_objects() const { return things_.size() - 1; }
-    // Loop, one thread. `world.objects` must have room for placed_objects(): the objects, then the joints' parts. No allocation, no lock.
+    // Loop, one thread. `world.objects` must have room for placed_objects(): the objects, then the joints'
+    // parts. No allocation, no lock.
     void sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown);
 
   private:

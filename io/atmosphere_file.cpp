@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t kAxes = AtmosphereTable::kAxes;
 constexpr std::size_t kMostCells = 2'000'000;
-constexpr std::array<const char*, kAxes> kAxisNames = {"sun_zenith_deg", "view_zenith_deg", "azimuth_deg", "height_km"};
+constexpr std::array<const char*, kAxes> kAxisNames = {"sun_zenith_deg", "view_zenith_deg", "azimuth_deg",
+                                                       "height_km"};
 constexpr std::array<double, kAxes> kAxisMost = {90, 90, 180, 1e6};
 constexpr std::array<double, kAxes> kAxisUnit = {kDegree_rad, kDegree_rad, kDegree_rad, 1000};
 
@@ -31,7 +32,9 @@ struct Sample {
 };
 using Samples = std::map<Geometry, std::vector<Sample>>;
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+    throw InputError(where + ": " + what);
+}
 
 std::string plain(double value) {
     std::array<char, 32> text{};
@@ -61,14 +64,15 @@ Geometry read_geometry(const std::string& where, const std::vector<std::string>&
     Geometry out{};
     for (std::size_t k = 0; k < kAxes; ++k)
         if (!to_number(cells[k], out[k]) || out[k] < 0 || out[k] > kAxisMost[k])
-            refuse(where, std::string(kAxisNames[k]) + ": found '" + cells[k] + "'; accepted: a number from 0 to " +
-                              plain(kAxisMost[k]));
+            refuse(where, std::string(kAxisNames[k]) + ": found '" + cells[k] +
+                              "'; accepted: a number from 0 to " + plain(kAxisMost[k]));
     return out;
 }
 
 void require_physical(const std::string& where, const Sample& s) {
     if (!(s.tau_1 >= 0 && s.tau_1 <= 1 && s.tau_2 >= 0 && s.tau_2 <= 1))
-        refuse(where, "a transmittance is not within 0 to 1: tau_1 " + plain(s.tau_1) + ", tau_2 " + plain(s.tau_2));
+        refuse(where,
+               "a transmittance is not within 0 to 1: tau_1 " + plain(s.tau_1) + ", tau_2 " + plain(s.tau_2));
     if (!(s.radiance_sr >= 0 && s.sky >= 0 && s.radiance_sr < 100 && s.sky < 10))
         refuse(where, "path radiance or sky irradiance is negative or more than the Sun can give");
 }
@@ -99,11 +103,13 @@ std::vector<Sample> read_run(const std::filesystem::path& file, const Geometry& 
     };
     if (names.empty()) refuse(file.string(), "has no line of column names that begins with WAVLEN or FREQ");
     const std::size_t trans = column({"TOT_TRANS", "TRANS"}), scatter = column({"SOL_SCAT"}),
-                      ground = column({"GRND_RFLT"}), direct = column({"DRCT_RFLT"}), path = column({"REF_SOL"}),
-                      sun = column({"TOA_SUN", "SOL@OBS"});
+                      ground = column({"GRND_RFLT"}), direct = column({"DRCT_RFLT"}),
+                      path = column({"REF_SOL"}), sun = column({"TOA_SUN", "SOL@OBS"});
     if (names[sun] == "SOL@OBS" && geometry[AtmosphereTable::kHeight] < 100)
-        refuse(file.string(), "has no column TOA_SUN, and SOL@OBS is the Sun's only for an observer above 100 km");
-    const bool frequency = names[0].starts_with("FREQ"), nanometres = names[0].find("NM") != std::string::npos;
+        refuse(file.string(),
+               "has no column TOA_SUN, and SOL@OBS is the Sun's only for an observer above 100 km");
+    const bool frequency = names[0].starts_with("FREQ"),
+               nanometres = names[0].find("NM") != std::string::npos;
     const double mu_s = std::cos(geometry[AtmosphereTable::kSunZenith] * kDegree_rad);
     std::vector<Sample> samples;
     while (std::getline(in, line)) {
@@ -116,12 +122,15 @@ std::vector<Sample> read_run(const std::filesystem::path& file, const Geometry& 
         if (v.empty()) continue;  // units
         if (v.front() <= -9999) break;
         const std::string where = file.string() + ":" + std::to_string(number);
-        if (v.size() < names.size()) refuse(where, "found " + std::to_string(v.size()) + " numbers for " + std::to_string(names.size()) + " columns");
+        if (v.size() < names.size())
+            refuse(where, "found " + std::to_string(v.size()) + " numbers for " +
+                              std::to_string(names.size()) + " columns");
         if (v[0] <= 0) refuse(where, "found " + plain(v[0]) + " as wavelength or frequency");
         Sample s;
         s.wavelength_um = frequency ? 1e4 / v[0] : (nanometres ? v[0] * 1e-3 : v[0]);
         if (!(v[sun] > 0)) refuse(where, "the Sun's irradiance is not above 0");
-        // tau_1 from the way Sun - ground - observer; the diffuse part of the ground's light against its direct one.
+        // tau_1 from the way Sun - ground - observer; the diffuse part of the ground's light against its
+        // direct one.
         s.tau_2 = v[trans];
         s.tau_1 = s.tau_2 > 0 ? std::min(1.0, v[path] / (v[sun] * s.tau_2)) : 0;
         s.radiance_sr = v[scatter] / v[sun];
@@ -139,7 +148,8 @@ Samples read_rows(const std::filesystem::path& file) {
     std::ifstream in(file);
     if (!in) refuse(file.string(), "cannot be read; accepted: a table of an atmosphere in CSV");
     const std::string grid = "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,";
-    const std::string values = grid + "wavelength_um,tau_1,tau_2,path_radiance_sr,sky_irradiance", runs = grid + "file";
+    const std::string values = grid + "wavelength_um,tau_1,tau_2,path_radiance_sr,sky_irradiance",
+                      runs = grid + "file";
     Samples out;
     std::string line;
     std::size_t columns = 0;
@@ -149,13 +159,15 @@ Samples read_rows(const std::filesystem::path& file) {
         if (line.empty() || line.starts_with('#')) continue;
         if (columns == 0) {
             if (line != values && line != runs)
-                refuse(where, "found '" + line.substr(0, 60) + "'; accepted: '" + values + "' or '" + runs + "'");
+                refuse(where,
+                       "found '" + line.substr(0, 60) + "'; accepted: '" + values + "' or '" + runs + "'");
             columns = line == values ? kAxes + 5 : kAxes + 1;
             continue;
         }
         const std::vector<std::string> cells = split(line, ',');
         if (cells.size() != columns)
-            refuse(where, "found " + std::to_string(cells.size()) + " columns; accepted: " + std::to_string(columns));
+            refuse(where, "found " + std::to_string(cells.size()) +
+                              " columns; accepted: " + std::to_string(columns));
         const Geometry geometry = read_geometry(where, cells);
         if (columns == kAxes + 1) {
             if (!out.emplace(geometry, read_run(file.parent_path() / cells[kAxes], geometry)).second)
@@ -164,9 +176,11 @@ Samples read_rows(const std::filesystem::path& file) {
         }
         std::array<double, 5> v{};
         for (std::size_t k = 0; k < v.size(); ++k)
-            if (!to_number(cells[kAxes + k], v[k])) refuse(where, "found '" + cells[kAxes + k] + "'; accepted: a number");
+            if (!to_number(cells[kAxes + k], v[k]))
+                refuse(where, "found '" + cells[kAxes + k] + "'; accepted: a number");
         const Sample sample{v[0], v[1], v[2], v[3], v[4]};
-        if (!(sample.wavelength_um >= 0.1 && sample.wavelength_um <= 100)) refuse(where, "wavelength_um: accepted: 0.1 to 100");
+        if (!(sample.wavelength_um >= 0.1 && sample.wavelength_um <= 100))
+            refuse(where, "wavelength_um: accepted: 0.1 to 100");
         require_physical(where, sample);
         out[geometry].push_back(sample);
     }
@@ -174,7 +188,8 @@ Samples read_rows(const std::filesystem::path& file) {
     return out;
 }
 
-AtmosphereTable::Cell cell_of(const std::string& where, std::vector<Sample> samples, const SpectralGrid& grid) {
+AtmosphereTable::Cell cell_of(const std::string& where, std::vector<Sample> samples,
+                              const SpectralGrid& grid) {
     std::sort(samples.begin(), samples.end(),
               [](const Sample& a, const Sample& b) { return a.wavelength_um < b.wavelength_um; });
     std::array<Curve, 4> curves;
@@ -187,10 +202,12 @@ AtmosphereTable::Cell cell_of(const std::string& where, std::vector<Sample> samp
             curves[k].value.push_back(values[k]);
         }
     }
-    if (samples.size() < 2) refuse(where, "has one wavelength; needed: at least two, about the scenario's bins");
+    if (samples.size() < 2)
+        refuse(where, "has one wavelength; needed: at least two, about the scenario's bins");
     curves[0].where = where;
     require_cover(curves[0], grid, "wavelengths");
-    return {grid.average(curves[0]), grid.average(curves[1]), grid.average(curves[2]), grid.average(curves[3])};
+    return {grid.average(curves[0]), grid.average(curves[1]), grid.average(curves[2]),
+            grid.average(curves[3])};
 }
 
 std::string name_of(const Geometry& g) {
@@ -214,12 +231,14 @@ AtmosphereTable read_atmosphere(const std::filesystem::path& file, const Spectra
         std::sort(axis.begin(), axis.end());
         axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
         cells *= axis.size();
-        if (cells > kMostCells) refuse(file.string(), "its geometries make more than two million combinations");
+        if (cells > kMostCells)
+            refuse(file.string(), "its geometries make more than two million combinations");
     }
     AtmosphereTable table;
     for (std::size_t i = 0; i < cells; ++i) {
         Geometry g{};
-        for (std::size_t k = kAxes, rest = i; k-- > 0; rest /= axes[k].size()) g[k] = axes[k][rest % axes[k].size()];
+        for (std::size_t k = kAxes, rest = i; k-- > 0; rest /= axes[k].size())
+            g[k] = axes[k][rest % axes[k].size()];
         const auto found = samples.find(g);
         if (found == samples.end()) refuse(file.string(), "has no geometry " + name_of(g));
         table.cells.push_back(cell_of(file.string() + ", " + name_of(g), found->second, grid));

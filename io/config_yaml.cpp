@@ -174,7 +174,8 @@ class Reader {
     }
     [[noreturn]] static void fail(const Place& place, const YAML::Node& node, const std::string& path,
                                   const std::string& what) {
-        throw InputError(where(place, node) + ": " + (path.empty() || place.command_line ? "" : path + ": ") + what);
+        throw InputError(where(place, node) + ": " + (path.empty() || place.command_line ? "" : path + ": ") +
+                         what);
     }
 
     // Follows an override's path down the sections until a word is unknown.

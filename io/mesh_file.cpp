@@ -31,7 +31,8 @@ namespace {
 class Loader {
   public:
     // part: which of `nodes` to take, or -1 for what none of them takes.
-    Loader(const std::filesystem::path& file, const aiScene& scene, std::span<const std::string> nodes, int part)
+    Loader(const std::filesystem::path& file, const aiScene& scene, std::span<const std::string> nodes,
+           int part)
         : file_(file), scene_(scene), nodes_(nodes), part_(part) {}
 
     Mesh load() {
@@ -158,7 +159,8 @@ class Loader {
         const int part = own >= 0 ? own : above;
         const aiMatrix4x4 body_from_node = parent * node.mTransformation;
         if (part == part_)
-            for (unsigned i = 0; i < node.mNumMeshes; ++i) read_part(*scene_.mMeshes[node.mMeshes[i]], body_from_node);
+            for (unsigned i = 0; i < node.mNumMeshes; ++i)
+                read_part(*scene_.mMeshes[node.mMeshes[i]], body_from_node);
         for (unsigned i = 0; i < node.mNumChildren; ++i) read_node(*node.mChildren[i], body_from_node, part);
     }
 
@@ -168,7 +170,8 @@ class Loader {
                                          : "holds no triangle besides its parts");
         std::string names;
         list_names(*scene_.mRootNode, names);
-        refuse(file_, "no triangle under a node '" + nodes_[static_cast<std::size_t>(part_)] + "'; its nodes:" + names);
+        refuse(file_, "no triangle under a node '" + nodes_[static_cast<std::size_t>(part_)] +
+                          "'; its nodes:" + names);
     }
     static void list_names(const aiNode& node, std::string& names) {
         if (names.size() < 400) names.append(" ").append(node.mName.C_Str());

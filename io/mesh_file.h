@@ -20,9 +20,9 @@ namespace hilcam {
 // parse; no triangle; a vertex that is not finite; a texture that is missing or does not decode; more than
 // 65,535 surfaces.
 Mesh load_mesh(const std::filesystem::path& file);
-// The same, taken apart: first what none of the names takes, then for each name the nodes of that name ("*" at the end
-// matches any ending) with all below them. All in the file's axes. InputError also for a name that takes nothing; the
-// message lists the nodes.
+// The same, taken apart: first what none of the names takes, then for each name the nodes of that name ("*"
+// at the end matches any ending) with all below them. All in the file's axes. InputError also for a name that
+// takes nothing; the message lists the nodes.
 std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes);
 
 }  // namespace hilcam

@@ -3,13 +3,12 @@
 // Tables made at start-up from atmosphere_physics.h and kept on disk: transmittance to space T(height,
 // direction); the light of second and higher orders at a point, taken as coming
 // from all sides alike,
-// psi(height, Sun), order by order; the sky's irradiance on the ground. A ray adds up single scattering and psi
-// along itself with steps that crowd where it is lowest. Against a Monte Carlo of the same air:
+// psi(height, Sun), order by order; the sky's irradiance on the ground. A ray adds up single scattering and
+// psi along itself with steps that crowd where it is lowest. Against a Monte Carlo of the same air:
 // tests/closed_form/atmosphere_test.cpp, within 5 %.
 
 #include <tbb/parallel_for.h>
 #include <unistd.h>
-
 
 #include <algorithm>
 #include <array>
@@ -218,8 +217,8 @@ class PrecomputedAtmosphere final : public Atmosphere {
     }
 
     // A piece of a ray whose source is even; the extinction inside it is not left out: (1 - e^-x) / x.
-    static void add_piece(const Spectrum& source, const Spectrum& extinction, float length_m, Spectrum& transmittance,
-                          Spectrum& light) {
+    static void add_piece(const Spectrum& source, const Spectrum& extinction, float length_m,
+                          Spectrum& transmittance, Spectrum& light) {
         const Spectrum passed = exp_of(length_m * extinction);
         for (int b = 0; b < kMaxBins; ++b) {
             const float x = length_m * extinction[b];
@@ -244,7 +243,8 @@ class PrecomputedAtmosphere final : public Atmosphere {
             Spectrum scattering = here.rayleigh;
             scattering += here.aerosol;
             source += scattering * multiple_(sun_coordinate(mu_s), height_coordinate(r));
-            add_piece(source, here.extinction, static_cast<float>(step.length_m), out.transmittance, out.radiance_sr);
+            add_piece(source, here.extinction, static_cast<float>(step.length_m), out.transmittance,
+                      out.radiance_sr);
         });
     }
 
@@ -264,8 +264,8 @@ class PrecomputedAtmosphere final : public Atmosphere {
             }
     }
 
-    // psi, order by order: the mean over all directions of the light that arrives after n scatterings or reflections,
-    // then of what that light sends on, until an order adds a thousandth.
+    // psi, order by order: the mean over all directions of the light that arrives after n scatterings or
+    // reflections, then of what that light sends on, until an order adds a thousandth.
     void fill_multiple() {
         constexpr int kMostOrders = 30;
         Orders last = next_order(nullptr);
@@ -276,7 +276,8 @@ class PrecomputedAtmosphere final : public Atmosphere {
             for (std::size_t i = 0; i < total.cells().size(); ++i) {
                 total.cells()[i] += last.mean.cells()[i];
                 for (int b = 0; b < kMaxBins; ++b)
-                    if (total.cells()[i][b] > 0) most = std::max(most, last.mean.cells()[i][b] / total.cells()[i][b]);
+                    if (total.cells()[i][b] > 0)
+                        most = std::max(most, last.mean.cells()[i][b] / total.cells()[i][b]);
             }
             if (most < 1e-3f) break;
         }
@@ -293,8 +294,10 @@ class PrecomputedAtmosphere final : public Atmosphere {
         tbb::parallel_for(0, multiple_.height() + 1, [&](int y) {
             // One more row: the ground itself, for irradiance.
             const bool on_ground = y == multiple_.height();
-            const double r = on_ground ? kGround_m
-                                       : std::min(height_at(static_cast<double>(y) / (multiple_.height() - 1)), kTop_m - 1);
+            const double r =
+                on_ground
+                    ? kGround_m
+                    : std::min(height_at(static_cast<double>(y) / (multiple_.height() - 1)), kTop_m - 1);
             for (int x = 0; x < multiple_.width(); ++x) {
                 const double mu_s = sun_at(static_cast<double>(x) / (multiple_.width() - 1));
                 const Vec3d origin{0, 0, r}, sun{std::sqrt(std::max(0.0, 1 - mu_s * mu_s)), 0, mu_s};
@@ -304,12 +307,14 @@ class PrecomputedAtmosphere final : public Atmosphere {
                         const double u = (i + 0.5) / kRings, phi = kPi * (j + 0.5) / kSpokes;
                         const double mu = on_ground ? std::sqrt(1 - u) : 1 - 2 * u;
                         const double sine = std::sqrt(1 - mu * mu);
-                        sum += arriving(origin, {sine * std::cos(phi), sine * std::sin(phi), mu}, sun, previous);
+                        sum +=
+                            arriving(origin, {sine * std::cos(phi), sine * std::sin(phi), mu}, sun, previous);
                     }
                 if (!on_ground)
                     out.mean.at(x, y) = (1.0f / (kRings * kSpokes)) * sum;
                 else
-                    out.ground.at(x, 0) = out.ground.at(x, 1) = static_cast<float>(kPi / (kRings * kSpokes)) * sum;
+                    out.ground.at(x, 0) = out.ground.at(x, 1) =
+                        static_cast<float>(kPi / (kRings * kSpokes)) * sum;
             }
         });
         return out;
@@ -331,9 +336,11 @@ class PrecomputedAtmosphere final : public Atmosphere {
             const AirAt here = air_.at(radius - kGround_m);
             Spectrum source;
             if (previous)
-                source = (here.rayleigh + here.aerosol) * previous->mean(sun_coordinate(mu_s), height_coordinate(radius));
+                source = (here.rayleigh + here.aerosol) *
+                         previous->mean(sun_coordinate(mu_s), height_coordinate(radius));
             else
-                source = (rayleigh_phase * here.rayleigh + aerosol_phase * here.aerosol) * to_sun(radius, mu_s);
+                source =
+                    (rayleigh_phase * here.rayleigh + aerosol_phase * here.aerosol) * to_sun(radius, mu_s);
             add_piece(source, here.extinction, static_cast<float>(step.length_m), passed, light);
         });
         if (!ground) return light;

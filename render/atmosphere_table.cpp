@@ -15,8 +15,8 @@ constexpr double kGround_m = kEarthEquatorialRadius_m;
 constexpr double kAbove_m = 100e3;  // where the last height ends to be the viewer's own
 
 using Geometry = std::array<double, AtmosphereTable::kAxes>;
-constexpr std::array<const char*, AtmosphereTable::kAxes> kNames = {"zenith angle of the Sun", "zenith angle of the viewer",
-                                                                    "azimuth", "height of the viewer"};
+constexpr std::array<const char*, AtmosphereTable::kAxes> kNames = {
+    "zenith angle of the Sun", "zenith angle of the viewer", "azimuth", "height of the viewer"};
 
 double angle_between(Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); }
 
@@ -77,15 +77,16 @@ class TableAtmosphere final : public Atmosphere {
             const bool is_height = k == AtmosphereTable::kHeight;
             if (g[k] >= axis.front() - 1e-9 && (is_height || g[k] <= axis.back() + 1e-9)) continue;
             const double unit = is_height ? 1000 : kDegree_rad;
-            return std::string(kNames[k]) + " of " + std::to_string(g[k] / unit) + "; the table reaches from " +
-                   std::to_string(axis.front() / unit) + " to " + std::to_string(axis.back() / unit) +
-                   (is_height ? " km" : " deg");
+            return std::string(kNames[k]) + " of " + std::to_string(g[k] / unit) +
+                   "; the table reaches from " + std::to_string(axis.front() / unit) + " to " +
+                   std::to_string(axis.back() / unit) + (is_height ? " km" : " deg");
         }
         return {};
     }
     std::uint64_t rays_outside() const override { return outside_.load(std::memory_order_relaxed); }
     std::string describe() const override {
-        return "table of " + std::to_string(table_.cells.size()) + " geometries; rays that miss the ground are clear";
+        return "table of " + std::to_string(table_.cells.size()) +
+               " geometries; rays that miss the ground are clear";
     }
 
   private:
@@ -94,7 +95,8 @@ class TableAtmosphere final : public Atmosphere {
 
     // tau_1 and the sky do not depend on the viewer: as for one straight above, at the greatest height.
     Geometry straight_down(Vec3d point_m, Vec3d sun_dir) const {
-        return {angle_between(normalized(point_m), sun_dir), table_.axes[AtmosphereTable::kViewZenith].front(),
+        return {angle_between(normalized(point_m), sun_dir),
+                table_.axes[AtmosphereTable::kViewZenith].front(),
                 table_.axes[AtmosphereTable::kAzimuth].front(), table_.axes[AtmosphereTable::kHeight].back()};
     }
 
@@ -104,7 +106,8 @@ class TableAtmosphere final : public Atmosphere {
         bool inside = true;
         for (std::size_t k = 0; k < g.size(); ++k) {
             const std::vector<double>& axis = table_.axes[k];
-            inside &= g[k] >= axis.front() - 1e-9 && (k == AtmosphereTable::kHeight || g[k] <= axis.back() + 1e-9);
+            inside &=
+                g[k] >= axis.front() - 1e-9 && (k == AtmosphereTable::kHeight || g[k] <= axis.back() + 1e-9);
             const double value = std::clamp(g[k], axis.front(), axis.back());
             const auto above = std::upper_bound(axis.begin(), axis.end(), value);
             high[k] = static_cast<std::size_t>(std::min(above, axis.end() - 1) - axis.begin());

@@ -25,7 +25,8 @@ double cone_cosine_of(double radius_m, double distance_m) {
 // Whether a body as large as this, in this direction, can touch the Sun's disk.
 bool can_cover(double cosine_to_sun, double body_cone_cosine, double sun_disk_cosine) {
     return std::acos(std::clamp(cosine_to_sun, -1.0, 1.0)) <
-           std::acos(std::clamp(body_cone_cosine, -1.0, 1.0)) + std::acos(std::clamp(sun_disk_cosine, -1.0, 1.0));
+           std::acos(std::clamp(body_cone_cosine, -1.0, 1.0)) +
+               std::acos(std::clamp(sun_disk_cosine, -1.0, 1.0));
 }
 
 // Mean colour of a map over the sphere.
@@ -36,7 +37,8 @@ Vec3f mean_texel(const MipTexture& map) {
 }  // namespace
 
 Background::Background(const std::array<SceneBody, kBodyCount>& bodies, const Atmosphere* air,
-                       const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening, const SpectralGrid& grid)
+                       const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening,
+                       const SpectralGrid& grid)
     : scene_(bodies),
       air_(air),
       sun_irradiance_1au_(sun_irradiance_1au_w_m2_um),
@@ -121,10 +123,12 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
         const Spectrum most = scene_[index_of(body.id)].look.reflectance_sr(1, 0, 1);
         const float sun_share = body.irradiance_w_m2_um[0] / std::max(1e-30f, sun_irradiance_1au_[0]);
         const Vec3d to_body_m = world.bodies[body.id].world_m - objects_world_m;
-        const double radius_m = kFigures[index_of(body.id)].equatorial_radius_m + (has_air(body.id) ? air_->top_m() : 0);
+        const double radius_m =
+            kFigures[index_of(body.id)].equatorial_radius_m + (has_air(body.id) ? air_->top_m() : 0);
         const double sine = std::min(1.0, radius_m / length(to_body_m));
         lamps_[lamp_count_++] = {normalized(to_body_m), static_cast<float>(sine * sine),
-                                 static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))), sun_share * most};
+                                 static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
+                                 sun_share * most};
     }
 
     const double au = kAstronomicalUnit_m / sun_distance_m;
@@ -155,7 +159,8 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
         if (!scene_[i].visible || i == index_of(standing_on)) continue;
         const Vec3d to_body = bodies_.body[i].world_m - place_world_m;
         const double body_m = length(to_body);
-        const double radius_m = kFigures[i].equatorial_radius_m + (has_air(static_cast<BodyId>(i)) ? air_->top_m() : 0);
+        const double radius_m =
+            kFigures[i].equatorial_radius_m + (has_air(static_cast<BodyId>(i)) ? air_->top_m() : 0);
         if (body_m - radius_m < sun_m &&
             can_cover(dot(to_body, sun_dir) / body_m, cone_cosine_of(radius_m, body_m), disk_cosine))
             before[count++] = i;
@@ -165,7 +170,8 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
     // The disk in rings of equal area and spokes, weighted by its own radiance; good to 0.3 % of the whole.
     constexpr int kRings = 12, kSpokes = 24;
     const double sine = std::sqrt(std::max(0.0, 1 - disk_cosine * disk_cosine));
-    const Vec3d side = normalized(std::abs(sun_dir.x) < 0.9 ? cross(sun_dir, Vec3d{1, 0, 0}) : cross(sun_dir, Vec3d{0, 1, 0}));
+    const Vec3d side = normalized(std::abs(sun_dir.x) < 0.9 ? cross(sun_dir, Vec3d{1, 0, 0})
+                                                            : cross(sun_dir, Vec3d{0, 1, 0}));
     const Vec3d up = cross(sun_dir, side);
     Spectrum seen, all;
     for (int ring = 0; ring < kRings; ++ring) {
@@ -173,7 +179,8 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
         const Spectrum radiance = disk_.relative_radiance(static_cast<float>(std::sqrt(1 - r * r)));
         for (int spoke = 0; spoke < kSpokes; ++spoke) {
             const double phi = 2 * kPi * (spoke + 0.5 * (ring % 2)) / kSpokes;
-            const Vec3d dir = normalized(sun_dir + (r * sine * std::cos(phi)) * side + (r * sine * std::sin(phi)) * up);
+            const Vec3d dir =
+                normalized(sun_dir + (r * sine * std::cos(phi)) * side + (r * sine * std::sin(phi)) * up);
             Spectrum passed = radiance;
             for (std::size_t k = 0; k < count; ++k) {
                 const std::size_t i = before[k];
@@ -201,8 +208,9 @@ Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec
     const Figure& figure = kFigures[i];
     const Vec3d normal = ellipsoid_normal(figure, point_m);
     const double mu0 = dot(normal, body.sun_dir);
-    Spectrum light = scene.look.reflectance_sr(static_cast<float>(mu0), static_cast<float>(dot(normal, to_viewer_dir)),
-                                               static_cast<float>(dot(body.sun_dir, to_viewer_dir)));
+    Spectrum light =
+        scene.look.reflectance_sr(static_cast<float>(mu0), static_cast<float>(dot(normal, to_viewer_dir)),
+                                  static_cast<float>(dot(body.sun_dir, to_viewer_dir)));
     if (has_air(body.id)) {
         // tau_1 dims the Sun; the sky adds its own light on the ground, taken as Lambert.
         const Vec3d p = stretched(figure, point_m), s = normalized(stretched(figure, body.sun_dir));
@@ -219,10 +227,12 @@ Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec
         const double slant = std::max(0.25, dot(normal, to_viewer_dir));
         const double footprint = pixel_rad_ * length(point_m - body.camera_m) /
                                  (std::sqrt(slant) * 2 * kPi * figure.equatorial_radius_m);
-        light = light * bands_.spectrum(scene.map.sample(u, v, static_cast<float>(footprint))) * map_factor_[i];
+        light =
+            light * bands_.spectrum(scene.map.sample(u, v, static_cast<float>(footprint))) * map_factor_[i];
     }
     if (body.may_be_eclipsed)
-        light = light * sun_seen_from(bodies_.body[i].world_m + transposed(body.fixed_from_world) * point_m, body.id);
+        light = light *
+                sun_seen_from(bodies_.body[i].world_m + transposed(body.fixed_from_world) * point_m, body.id);
     return body.irradiance_w_m2_um * light;
 }
 
@@ -259,8 +269,9 @@ Atmosphere::Sight Background::air_before(Vec3d dir, double distance_m) const {
                                             [](const PlacedBody& body) { return body.id == BodyId::kEarth; });
     const Figure& figure = kFigures[index_of(earth.id)];
     const Vec3d d = stretched(figure, earth.fixed_from_world * normalized(dir));
-    Atmosphere::Sight sight = air_->look(stretched(figure, earth.camera_m), normalized(d), distance_m * length(d),
-                                         normalized(stretched(figure, earth.sun_dir)));
+    Atmosphere::Sight sight =
+        air_->look(stretched(figure, earth.camera_m), normalized(d), distance_m * length(d),
+                   normalized(stretched(figure, earth.sun_dir)));
     sight.radiance_sr = sight.radiance_sr * earth.irradiance_w_m2_um;
     return sight;
 }
@@ -281,15 +292,19 @@ std::string Background::air_missing(Vec3d dir) const {
 
 EarthRays Background::plain_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir) const {
     const Mat3d& fixed = plain_->fixed_from_world;
-    return {kFigures[index_of(plain_->id)], plain_->camera_m,  plain_->sun_dir,
-            fixed * corner_dir,             fixed * right_dir, fixed * down_dir};
+    return {kFigures[index_of(plain_->id)],
+            plain_->camera_m,
+            plain_->sun_dir,
+            fixed * corner_dir,
+            fixed * right_dir,
+            fixed * down_dir};
 }
 
 bool Background::hides_from(Vec3d origin_m, Vec3d dir, double distance) const {
     for (const PlacedBody& body : disks()) {
-        const double met = intersect_ellipsoid(kFigures[index_of(body.id)],
-                                               body.camera_m + body.fixed_from_world * origin_m,
-                                               body.fixed_from_world * dir);
+        const double met =
+            intersect_ellipsoid(kFigures[index_of(body.id)], body.camera_m + body.fixed_from_world * origin_m,
+                                body.fixed_from_world * dir);
         if (met >= 0 && met < distance) return true;
     }
     return false;
@@ -298,7 +313,8 @@ bool Background::hides_from(Vec3d origin_m, Vec3d dir, double distance) const {
 void Background::add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const {
     const Vec3d d = normalized(dir);
     const Vec3d across = cross(d, sun_camera_dir_);
-    const double sine_squared = dot(across, across), disk_sine_squared = 1 - sun_disk_cosine_ * sun_disk_cosine_;
+    const double sine_squared = dot(across, across),
+                 disk_sine_squared = 1 - sun_disk_cosine_ * sun_disk_cosine_;
     if (sine_squared > disk_sine_squared || dot(d, sun_camera_dir_) < 0) return;
     const double mu = std::sqrt(std::max(0.0, 1 - sine_squared / disk_sine_squared));
     radiance += static_cast<float>(1 / (kPi * disk_sine_squared)) *
@@ -313,8 +329,10 @@ Spectrum Background::point_irradiance(const PlacedBody& body) const {
     const double phase = std::acos(std::clamp(dot(to_camera, body.sun_dir), -1.0, 1.0));
     // Of the ellipse that it shows: semi-axes a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's latitude.
     const double sine = to_camera.z;
-    const double area_ratio = a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);
-    Spectrum out = static_cast<float>(area_ratio) * (body.irradiance_w_m2_um * scene_[i].look.disk_albedo(phase) * map_mean_[i]);
+    const double area_ratio =
+        a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);
+    Spectrum out = static_cast<float>(area_ratio) *
+                   (body.irradiance_w_m2_um * scene_[i].look.disk_albedo(phase) * map_mean_[i]);
     return out;
 }
 

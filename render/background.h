@@ -1,6 +1,7 @@
 #pragma once
-// What a ray meets that meets no object: the Moon and the planets with their air, the Sun's disk, or black sky. Stars
-// are point sources, not here. Also how much of the Sun reaches a place: distance, and eclipses by bodies.
+// What a ray meets that meets no object: the Moon and the planets with their air, the Sun's disk, or black
+// sky. Stars are point sources, not here. Also how much of the Sun reaches a place: distance, and eclipses by
+// bodies.
 
 #include <array>
 #include <vector>
@@ -14,24 +15,24 @@ namespace hilcam {
 
 // A body that shines on the objects: the cone that holds it.
 struct BodyLamp {
-    Vec3d world_dir;  // from the objects
-    float cone_sine_squared;   // of its half angle; 1 inside it
-    float one_minus_cosine;    // of its half angle, with all its digits where it is small
-    Spectrum most_over_sun;  // of its radiance, per unit of solar irradiance [sr^-1]
+    Vec3d world_dir;          // from the objects
+    float cone_sine_squared;  // of its half angle; 1 inside it
+    float one_minus_cosine;   // of its half angle, with all its digits where it is small
+    Spectrum most_over_sun;   // of its radiance, per unit of solar irradiance [sr^-1]
 };
 
 // A body for one frame. Body axes: its own; "from" the body's centre.
 struct PlacedBody {
     BodyId id{};
-    Vec3d world_dir;          // from the camera to its centre
-    double distance_m = 0;    // of the centre from the camera
-    double cone_cosine = 1;   // of the cone that holds it and its air; half a space inside it
-    double disk_cosine = 1;   // of the body without air
-    Vec3d camera_m;           // the camera in body axes
-    Vec3d sun_dir;            // in body axes
+    Vec3d world_dir;         // from the camera to its centre
+    double distance_m = 0;   // of the centre from the camera
+    double cone_cosine = 1;  // of the cone that holds it and its air; half a space inside it
+    double disk_cosine = 1;  // of the body without air
+    Vec3d camera_m;          // the camera in body axes
+    Vec3d sun_dir;           // in body axes
     Mat3d fixed_from_world;
-    Spectrum irradiance_w_m2_um;  // of the Sun at the body
-    bool may_be_eclipsed = false; // another body can stand between it and the Sun
+    Spectrum irradiance_w_m2_um;   // of the Sun at the body
+    bool may_be_eclipsed = false;  // another body can stand between it and the Sun
 };
 
 class Background {
@@ -40,8 +41,8 @@ class Background {
     Background(const std::array<SceneBody, kBodyCount>& bodies, const Atmosphere* air,
                const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening, const SpectralGrid& grid);
 
-    // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h). pixel_rad: bodies
-    // smaller than this are points, not here.
+    // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h).
+    // pixel_rad: bodies smaller than this are points, not here.
     void place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad);
 
     // The Sun as the objects have it: direction, and irradiance with eclipses and air [W m^-2 um^-1].
@@ -62,9 +63,9 @@ class Background {
     // The camera is in air, so that objects are seen through it.
     bool camera_in_air() const { return camera_in_air_; }
 
-    // Adds weight * radiance of the nearest body along a ray (origin relative to the objects, world axes, direction
-    // of any length), air included. Gives whether a body was met; air alone is not, and dims `weight` for what is
-    // behind it. Loop, any thread.
+    // Adds weight * radiance of the nearest body along a ray (origin relative to the objects, world axes,
+    // direction of any length), air included. Gives whether a body was met; air alone is not, and dims
+    // `weight` for what is behind it. Loop, any thread.
     bool add_bodies(Vec3f origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
         return add_bodies_from(to_double(origin_m) + objects_from_camera_m_, dir, weight, radiance);
     }
@@ -83,8 +84,8 @@ class Background {
     bool add_bodies_seen(Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
         return add_bodies_from({}, dir, weight, radiance);
     }
-    // What they do, for the Sun's disk: mean radiance E_s / (pi sin^2 rho) inside its angular radius rho, darker to the
-    // edge. No eclipse: what stands before it is in the way of the ray itself.
+    // What they do, for the Sun's disk: mean radiance E_s / (pi sin^2 rho) inside its angular radius rho,
+    // darker to the edge. No eclipse: what stands before it is in the way of the ray itself.
     void add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
     // Whether a body lies before `distance`, in lengths of the direction. Loop, any thread.
     bool hides(Vec3f origin_m, Vec3d dir, double distance) const {

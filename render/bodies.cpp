@@ -28,30 +28,37 @@ Rotation moon_rotation(double t, double d) {
                  e11 = argument(119.743, 0.0036096), e12 = argument(239.961, 0.1643573),
                  e13 = argument(25.053, 12.9590088);
     using std::cos, std::sin;
-    return {269.9949 + 0.0031 * t - 3.8787 * sin(e1) - 0.1204 * sin(e2) + 0.0700 * sin(e3) - 0.0172 * sin(e4) +
-                0.0072 * sin(e6) - 0.0052 * sin(e10) + 0.0043 * sin(e13),
+    return {269.9949 + 0.0031 * t - 3.8787 * sin(e1) - 0.1204 * sin(e2) + 0.0700 * sin(e3) -
+                0.0172 * sin(e4) + 0.0072 * sin(e6) - 0.0052 * sin(e10) + 0.0043 * sin(e13),
             66.5392 + 0.0130 * t + 1.5419 * cos(e1) + 0.0239 * cos(e2) - 0.0278 * cos(e3) + 0.0068 * cos(e4) -
                 0.0029 * cos(e6) + 0.0009 * cos(e7) + 0.0008 * cos(e10) - 0.0009 * cos(e13),
-            38.3213 + 13.17635815 * d - 1.4e-12 * d * d + 3.5610 * sin(e1) + 0.1208 * sin(e2) - 0.0642 * sin(e3) +
-                0.0158 * sin(e4) + 0.0252 * sin(e5) - 0.0066 * sin(e6) - 0.0047 * sin(e7) - 0.0046 * sin(e8) +
-                0.0028 * sin(e9) + 0.0052 * sin(e10) + 0.0040 * sin(e11) + 0.0019 * sin(e12) - 0.0044 * sin(e13)};
+            38.3213 + 13.17635815 * d - 1.4e-12 * d * d + 3.5610 * sin(e1) + 0.1208 * sin(e2) -
+                0.0642 * sin(e3) + 0.0158 * sin(e4) + 0.0252 * sin(e5) - 0.0066 * sin(e6) - 0.0047 * sin(e7) -
+                0.0046 * sin(e8) + 0.0028 * sin(e9) + 0.0052 * sin(e10) + 0.0040 * sin(e11) +
+                0.0019 * sin(e12) - 0.0044 * sin(e13)};
 }
 
 // Archinal et al. 2018, table 1; periodic terms below 0.1 deg are left out, Neptune's are not.
 Rotation planet_rotation(BodyId id, double t, double d) {
     const double n = (357.85 + 52.316 * t) * kDegree_rad;
     switch (id) {
-        case BodyId::kMercury: return {281.0103 - 0.0328 * t, 61.4155 - 0.0049 * t, 329.5988 + 6.1385108 * d};
-        case BodyId::kVenus: return {272.76, 67.16, 160.20 - 1.4813688 * d};
-        case BodyId::kMars: return {317.68143 - 0.1061 * t, 52.88650 - 0.0609 * t, 176.630 + 350.89198226 * d};
+        case BodyId::kMercury:
+            return {281.0103 - 0.0328 * t, 61.4155 - 0.0049 * t, 329.5988 + 6.1385108 * d};
+        case BodyId::kVenus:
+            return {272.76, 67.16, 160.20 - 1.4813688 * d};
+        case BodyId::kMars:
+            return {317.68143 - 0.1061 * t, 52.88650 - 0.0609 * t, 176.630 + 350.89198226 * d};
         case BodyId::kJupiter:
             return {268.056595 - 0.006499 * t, 64.495303 + 0.002413 * t, 284.95 + 870.5360000 * d};
-        case BodyId::kSaturn: return {40.589 - 0.036 * t, 83.537 - 0.004 * t, 38.90 + 810.7939024 * d};
-        case BodyId::kUranus: return {257.311, -15.175, 203.81 - 501.1600928 * d};
+        case BodyId::kSaturn:
+            return {40.589 - 0.036 * t, 83.537 - 0.004 * t, 38.90 + 810.7939024 * d};
+        case BodyId::kUranus:
+            return {257.311, -15.175, 203.81 - 501.1600928 * d};
         case BodyId::kNeptune:
             return {299.36 + 0.70 * std::sin(n), 43.46 - 0.51 * std::cos(n),
                     249.978 + 541.1397757 * d - 0.48 * std::sin(n)};
-        default: return moon_rotation(t, d);
+        default:
+            return moon_rotation(t, d);
     }
 }
 
@@ -104,8 +111,10 @@ Mat3d body_fixed_from_icrf(BodyId id, TimeTai time) {
     if (id == BodyId::kEarth) return earth_fixed_from_icrf(time);
     const double d = tdb_days(time);
     const Rotation r = planet_rotation(id, d / 36525, d);
-    // Archinal et al. 2018, figure 1: node on the ICRF equator at RA + 90, tilt 90 - Dec, then W along the body's equator.
-    const double node = (90 + r.right_ascension_deg) * kDegree_rad, tilt = (90 - r.declination_deg) * kDegree_rad;
+    // Archinal et al. 2018, figure 1: node on the ICRF equator at RA + 90, tilt 90 - Dec, then W along the
+    // body's equator.
+    const double node = (90 + r.right_ascension_deg) * kDegree_rad,
+                 tilt = (90 - r.declination_deg) * kDegree_rad;
     const double w = std::fmod(r.meridian_deg, 360.0) * kDegree_rad;
     const auto about_z = [](double angle) {
         const double c = std::cos(angle), s = std::sin(angle);
@@ -135,8 +144,7 @@ Fields fields(OriginConfig& c) {
         choice("body", c.body, names, "of body_center and body_fixed"),
         number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
                "of a fixed origin, east positive"),
-        number("latitude_deg", c.place.latitude_rad, kDegree_rad, {-90, 90},
-               "of a fixed origin, geodetic"),
+        number("latitude_deg", c.place.latitude_rad, kDegree_rad, {-90, 90}, "of a fixed origin, geodetic"),
         number("height_km", c.place.height_m, 1e3, {-10, 1e9},
                "of a fixed origin above the body's ellipsoid (Earth: WGS 84)"),
     };

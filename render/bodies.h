@@ -1,8 +1,9 @@
 #pragma once
 // The Sun, the Moon and the planets: where they are, how they are turned, how large they are.
 //
-// Positions are apparent: light time and stellar aberration for an observer who moves with the scenario's central
-// body are in them, except for that body itself and for the Moon seen from the Earth or back (0.7 arcsec).
+// Positions are apparent: light time and stellar aberration for an observer who moves with the scenario's
+// central body are in them, except for that body itself and for the Moon seen from the Earth or back (0.7
+// arcsec).
 
 #include <array>
 #include <cmath>
@@ -19,7 +20,17 @@
 namespace hilcam {
 
 // Index in Bodies and Scene::bodies.
-enum class BodyId : std::uint8_t { kMercury, kVenus, kEarth, kMoon, kMars, kJupiter, kSaturn, kUranus, kNeptune };
+enum class BodyId : std::uint8_t {
+    kMercury,
+    kVenus,
+    kEarth,
+    kMoon,
+    kMars,
+    kJupiter,
+    kSaturn,
+    kUranus,
+    kNeptune
+};
 inline constexpr std::size_t kBodyCount = 9;
 inline constexpr std::array<std::string_view, kBodyCount> kBodyNames = {
     "mercury", "venus", "earth", "moon", "mars", "jupiter", "saturn", "uranus", "neptune"};
@@ -43,12 +54,12 @@ inline constexpr std::array<Figure, kBodyCount> kFigures = {{
     {24764e3, 24341e3},
 }};
 
-// Geocentric geometric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's eraEpv00 (VSOP2000
-// fit, good to 14 km from 1900 to 2100).
+// Geocentric geometric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's eraEpv00
+// (VSOP2000 fit, good to 14 km from 1900 to 2100).
 Vec3d sun_from_earth_m(TimeTai time);
-// Heliocentric geometric position and velocity [m, m/s], ICRF axes. Earth: eraEpv00. Moon: that plus eraMoon98 (Meeus'
-// series; 10 arcsec, 50 km). Planets: eraPlan94 (Simon et al. 1994; below 20 arcsec for the inner ones, 100 for
-// Jupiter and Saturn from 1800 to 2050).
+// Heliocentric geometric position and velocity [m, m/s], ICRF axes. Earth: eraEpv00. Moon: that plus
+// eraMoon98 (Meeus' series; 10 arcsec, 50 km). Planets: eraPlan94 (Simon et al. 1994; below 20 arcsec for the
+// inner ones, 100 for Jupiter and Saturn from 1800 to 2050).
 struct StateVector {
     Vec3d position_m, velocity_m_s;
 };
@@ -58,8 +69,8 @@ StateVector heliocentric(BodyId id, TimeTai time);
 // The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
 // angle (ERFA eraC2t00b), no polar motion (below 0.5 arcsec), UT1 = UTC (below 14 arcsec).
 Mat3d earth_fixed_from_icrf(TimeTai time);
-// Into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by Archinal et al. 2018 (the Moon's
-// mean-Earth frame by its series, 0.01 deg).
+// Into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by Archinal et al. 2018
+// (the Moon's mean-Earth frame by its series, 0.01 deg).
 Mat3d body_fixed_from_icrf(BodyId id, TimeTai time);
 
 // A place on a body: angles in rad, height above its ellipsoid in m; latitude is geodetic (of the normal).
@@ -101,12 +112,12 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin);
 
 // The velocity of the scenario's origin against the Sun [m/s], ICRF axes.
 Vec3d origin_velocity_m_s(TimeTai time, const OriginConfig& origin);
-// A direction as an observer with this velocity sees it (ERFA eraAb, relativistic, the Sun's own light bending left
-// out).
+// A direction as an observer with this velocity sees it (ERFA eraAb, relativistic, the Sun's own light
+// bending left out).
 Vec3d aberrated(Vec3d dir, Vec3d observer_velocity_m_s);
 
-// The nearer intersection of a ray from outside with an ellipsoid. Origin and direction in its axes, metres from
-// its centre. Closed form in double. Distance in lengths of the direction, or a negative value: no hit.
+// The nearer intersection of a ray from outside with an ellipsoid. Origin and direction in its axes, metres
+// from its centre. Closed form in double. Distance in lengths of the direction, or a negative value: no hit.
 inline double intersect_ellipsoid(const Figure& figure, Vec3d origin_m, Vec3d dir) {
     // Scaling z by a/b turns the ellipsoid into a sphere of radius a; then the closest-approach form of the
     // quadratic, which keeps its digits for far origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).

@@ -1,10 +1,11 @@
 #pragma once
-// How a point of a surface scatters light: values, densities and samples of every reflection model of material.h.
+// How a point of a surface scatters light: values, densities and samples of every reflection model of
+// material.h.
 //
-// All models are isotropic, so a BRDF is a function of three cosines: of the viewer and the light to the shading
-// normal, and of the two to each other. Values are f [sr^-1], without the cosine; densities are per solid angle of
-// the light's direction. Exact reflection and transmission have no value: only sample() gives them, as `exact`.
-// Loop, any thread.
+// All models are isotropic, so a BRDF is a function of three cosines: of the viewer and the light to the
+// shading normal, and of the two to each other. Values are f [sr^-1], without the cosine; densities are per
+// solid angle of the light's direction. Exact reflection and transmission have no value: only sample() gives
+// them, as `exact`. Loop, any thread.
 
 #include <array>
 
@@ -18,8 +19,8 @@ struct Cosines {
     float no, ni, io;
 };
 
-// What scatters at one point: a material, its spectra there (textures scale them), and the width of its facet lobe
-// there (at least the material's own; see path_vertex.h).
+// What scatters at one point: a material, its spectra there (textures scale them), and the width of its facet
+// lobe there (at least the material's own; see path_vertex.h).
 struct Scatterer {
     const Material* material = nullptr;
     float alpha = 0;
@@ -37,12 +38,12 @@ struct Scatterer {
 };
 
 struct BrdfSample {
-    Vec3f dir;              // towards the light, unit, world
-    Spectrum weight;        // f cos / density, or the whole reflectance where exact
-    float density = 0;      // 0 where exact
-    bool exact = false;     // a mirror's or a sheet's one direction
-    bool transmits = false; // goes on to the other side
-    bool diffuse = false;   // not of the highlight
+    Vec3f dir;               // towards the light, unit, world
+    Spectrum weight;         // f cos / density, or the whole reflectance where exact
+    float density = 0;       // 0 where exact
+    bool exact = false;      // a mirror's or a sheet's one direction
+    bool transmits = false;  // goes on to the other side
+    bool diffuse = false;    // not of the highlight
     bool valid = false;
 };
 
@@ -52,13 +53,13 @@ Spectrum brdf_value(const Scatterer& at, Cosines c);
 float brdf_density(const Scatterer& at, Cosines c);
 // A direction in proportion to f cos, about. u: three uniform numbers.
 BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u);
-// The exact parts alone, one after the other: 0 reflection, 1 transmission; the weight is the whole reflectance or
-// transmittance in that direction.
+// The exact parts alone, one after the other: 0 reflection, 1 transmission; the weight is the whole
+// reflectance or transmittance in that direction.
 BrdfSample brdf_exact(const Scatterer& at, Vec3f normal, Vec3f view_dir, int part);
 // Transmittance of a sheet for a ray at this cosine; zero for all that is not glass.
 Spectrum sheet_transmittance(const Scatterer& at, float cosine);
-// The share of light that comes back in all directions for light from the viewer's side, about: what chooses a
-// sample's part and ends a path.
+// The share of light that comes back in all directions for light from the viewer's side, about: what chooses
+// a sample's part and ends a path.
 float brdf_albedo(const Scatterer& at, float no, int bins);
 
 // Over the bins of the grid.

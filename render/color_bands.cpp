@@ -70,7 +70,9 @@ Texture halved(const Texture& t) {
     Texture out;
     out.width = std::max(1, t.width / 2), out.height = std::max(1, t.height / 2);
     out.texels.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
-    const auto range = [](int i, int from, int to) { return std::array<int, 2>{i * from / to, (i + 1) * from / to}; };
+    const auto range = [](int i, int from, int to) {
+        return std::array<int, 2>{i * from / to, (i + 1) * from / to};
+    };
     for (int y = 0; y < out.height; ++y)
         for (int x = 0; x < out.width; ++x) {
             const auto rows = range(y, t.height, out.height), columns = range(x, t.width, out.width);
@@ -78,10 +80,12 @@ Texture halved(const Texture& t) {
             for (int row = rows[0]; row < rows[1]; ++row)
                 for (int column = columns[0]; column < columns[1]; ++column)
                     for (std::size_t c = 0; c < 3; ++c)
-                        sum[c] += linear_from_srgb(t.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(t.width) +
-                                                            static_cast<std::size_t>(column)][c]);
+                        sum[c] += linear_from_srgb(
+                            t.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(t.width) +
+                                     static_cast<std::size_t>(column)][c]);
             const auto count = static_cast<float>((rows[1] - rows[0]) * (columns[1] - columns[0]));
-            auto& texel = out.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) + static_cast<std::size_t>(x)];
+            auto& texel = out.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) +
+                                     static_cast<std::size_t>(x)];
             for (std::size_t c = 0; c < 3; ++c) texel[c] = srgb_from_linear(sum[c] / count);
         }
     return out;
@@ -96,7 +100,8 @@ MipTexture::MipTexture(Texture texture) {
 }
 
 Vec3f MipTexture::sample(float u, float v, float footprint) const {
-    const float level = footprint > 0 ? std::log2(std::max(1.0f, footprint * static_cast<float>(width()))) : 0.0f;
+    const float level =
+        footprint > 0 ? std::log2(std::max(1.0f, footprint * static_cast<float>(width()))) : 0.0f;
     const auto last = static_cast<float>(levels_.size() - 1);
     const float at = std::min(level, last);
     const auto low = static_cast<std::size_t>(at);
@@ -112,8 +117,10 @@ Vec3f MipTexture::mean(const std::function<double(double)>& row_weight) const {
     for (int y = 0; y < t.height; ++y) {
         const double weight = row_weight((y + 0.5) / t.height);
         for (int x = 0; x < t.width; ++x) {
-            const auto& c = t.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(t.width) + static_cast<std::size_t>(x)];
-            sum = sum + weight * to_double(Vec3f{linear_from_srgb(c[0]), linear_from_srgb(c[1]), linear_from_srgb(c[2])});
+            const auto& c = t.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(t.width) +
+                                     static_cast<std::size_t>(x)];
+            sum = sum + weight * to_double(Vec3f{linear_from_srgb(c[0]), linear_from_srgb(c[1]),
+                                                 linear_from_srgb(c[2])});
             weights += weight;
         }
     }

@@ -26,8 +26,8 @@ class ColorBands {
     Spectrum red_, green_, blue_;
 };
 
-// A picture and its halves: each level has half the width and height of the one before, averaged in linear light (Williams,
-// "Pyramidal parametrics", SIGGRAPH 83), kept as 8-bit sRGB.
+// A picture and its halves: each level has half the width and height of the one before, averaged in linear
+// light (Williams, "Pyramidal parametrics", SIGGRAPH 83), kept as 8-bit sRGB.
 class MipTexture {
   public:
     MipTexture() = default;
@@ -36,8 +36,9 @@ class MipTexture {
     bool empty() const { return levels_.empty(); }
     int width() const { return levels_.front().width; }
     int height() const { return levels_.front().height; }
-    // Linear RGB, 0..1, averaged over about `footprint` (share of the picture's width that is asked for; 0: none). Bilinear
-    // in a level and linear between two, wrapping around in both directions; (0, 0) is the outer corner of texel (0, 0).
+    // Linear RGB, 0..1, averaged over about `footprint` (share of the picture's width that is asked for; 0:
+    // none). Bilinear in a level and linear between two, wrapping around in both directions; (0, 0) is the
+    // outer corner of texel (0, 0).
     Vec3f sample(float u, float v, float footprint) const;
     // Of all texels, weighted by `row_weight(v)`, v of the row's middle.
     Vec3f mean(const std::function<double(double)>& row_weight) const;

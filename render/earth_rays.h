@@ -16,7 +16,8 @@ struct EarthRays {
 
     // The camera and the Sun's direction in the body's axes, from its centre [m]; directions of rays are
     // corner + x right + y down, of any length.
-    EarthRays(const Figure& figure, Vec3d camera_m, Vec3d sun_dir, Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir);
+    EarthRays(const Figure& figure, Vec3d camera_m, Vec3d sun_dir, Vec3d corner_dir, Vec3d right_dir,
+              Vec3d down_dir);
 
     // The cosine of the Sun's zenith angle where the rays at (x, y) meet the ground, or kMiss. Loop, any
     // thread.

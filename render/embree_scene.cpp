@@ -129,7 +129,8 @@ struct EmbreeScene::Implementation {
     }
     RTCScene build(const Mesh& mesh) const {
         RTCScene scene = rtcNewScene(device);
-        rtcSetSceneBuildQuality(scene, mesh.triangles.size() < kSpatialSplits ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetSceneBuildQuality(scene, mesh.triangles.size() < kSpatialSplits ? RTC_BUILD_QUALITY_HIGH
+                                                                              : RTC_BUILD_QUALITY_MEDIUM);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                  sizeof(Vec3f), mesh.vertices_m.size());
@@ -169,7 +170,8 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects)
 
 EmbreeScene::~EmbreeScene() = default;
 
-void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size_t> levels, Vec3d origin_world_m) {
+void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size_t> levels,
+                        Vec3d origin_world_m) {
     Implementation& my = *implementation_;
     HILCAM_CHECK(objects.size() == my.instances.size() && levels.size() == objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -228,7 +230,8 @@ void EmbreeScene::start_recording() {
 EmbreeScene::Replay EmbreeScene::replay() {
     const auto packets = std::move(implementation_->recorded);
     Replay out;
-    for (const Implementation::Recorded& packet : *packets) out.rays += static_cast<std::uint64_t>(packet.rays.count);
+    for (const Implementation::Recorded& packet : *packets)
+        out.rays += static_cast<std::uint64_t>(packet.rays.count);
     const auto start = std::chrono::steady_clock::now();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets->size(), 64),
                       [&](const tbb::blocked_range<std::size_t>& range) {
@@ -241,7 +244,8 @@ EmbreeScene::Replay EmbreeScene::replay() {
                                   intersect(packet.rays, packet.coherence, hits);
                           }
                       });
-    out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    out.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return out;
 }
 

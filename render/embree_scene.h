@@ -50,12 +50,13 @@ enum class Coherence { kCoherent, kIncoherent };
 
 class EmbreeScene {
   public:
-        // One instance per object, each with its levels of detail, the mesh itself first; builds their trees on all of
+    // One instance per object, each with its levels of detail, the mesh itself first; builds their trees on
+    // all of
     // oneTBB's threads. Vertices and triangles are copied. Throws InputError when memory runs out.
     explicit EmbreeScene(std::span<const std::vector<const Mesh*>> objects);
     ~EmbreeScene();
 
-        // Places the objects for a frame, each at one of its levels. Loop, one thread; Embree rebuilds its small
+    // Places the objects for a frame, each at one of its levels. Loop, one thread; Embree rebuilds its small
     // top-level tree.
     void place(std::span<const Pose> objects, std::span<const std::size_t> levels, Vec3d origin_world_m);
 

@@ -1,9 +1,9 @@
 #pragma once
 // What the rays of one frame share: scene, camera, background, quality.
 //
-// Ray space: world axes, metres, single precision, counted from `rays_world_m`. That is the camera, unless everything
-// is far away against its own size: then it is a point amid the objects, and the camera's rays begin just before them,
-// so that a target keeps its digits at any distance.
+// Ray space: world axes, metres, single precision, counted from `rays_world_m`. That is the camera, unless
+// everything is far away against its own size: then it is a point amid the objects, and the camera's rays
+// begin just before them, so that a target keeps its digits at any distance.
 
 #include <array>
 #include <vector>
@@ -11,8 +11,8 @@
 #include "render/background.h"
 #include "render/color_bands.h"
 #include "render/embree_scene.h"
-#include "render/pixel_box.h"
 #include "render/image_geometry.h"
+#include "render/pixel_box.h"
 #include "render/random.h"
 #include "render/ray_generator.h"
 #include "render/screen_mask.h"
@@ -27,17 +27,17 @@ struct FrameView {
     const EmbreeScene* scene = nullptr;
     const std::vector<const ObjectSurfaces*>* objects = nullptr;  // each at its level of detail
     std::vector<Mat3f> world_from_body;                           // per object
-    std::vector<std::uint8_t> is_point;        // per object: drawn as a point, the camera's rays pass it
-    const ScreenMask* object_mask = nullptr;   // pixels that can meet an object
+    std::vector<std::uint8_t> is_point;       // per object: drawn as a point, the camera's rays pass it
+    const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
     const ColorBands* bands = nullptr;
     const RayGenerator* rays = nullptr;
     ImageGeometry geometry;
-    Vec3d rays_world_m;        // origin of ray space
-    Vec3d camera_m;            // the camera in ray space
-    double start_before_m = 0; // > 0: the camera's rays begin this far before start_at_m
-    Vec3d start_at_m;          // in ray space
+    Vec3d rays_world_m;         // origin of ray space
+    Vec3d camera_m;             // the camera in ray space
+    double start_before_m = 0;  // > 0: the camera's rays begin this far before start_at_m
+    Vec3d start_at_m;           // in ray space
     int bins = 0;
     int max_depth = 1;
     float contribution_threshold = 0;
@@ -47,7 +47,7 @@ struct FrameView {
     bool paths_sample_lobes = false;  // a path's own directions meet lamps too: both are weighed
     float alpha_behind_diffuse = 0;   // facet lobes met behind a diffuse bounce are at least this wide
     RandomKey key;
-    bool bodies_may_hide = false;  // an object is so far away that a body can stand before it
+    bool bodies_may_hide = false;                 // an object is so far away that a body can stand before it
     std::array<PixelBox, kBodyCount> body_boxes;  // pixels that can meet a body of disks() or its air
     std::size_t body_box_count = 0;
     PixelBox sun_box;  // pixels that can meet the Sun's disk
@@ -67,7 +67,8 @@ struct FrameView {
         }
         return plain;
     }
-    // Where a ray of the camera begins in ray space; from_camera_m is not zero when rows have poses of their own.
+    // Where a ray of the camera begins in ray space; from_camera_m is not zero when rows have poses of their
+    // own.
     Vec3f start_of(Vec3d unit_dir, Vec3d from_camera_m = {}) const {
         const Vec3d eye_m = camera_m + from_camera_m;
         if (start_before_m <= 0) return to_float(eye_m);

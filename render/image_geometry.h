@@ -5,8 +5,10 @@
 // height/2). The centre of pixel (0, 0) is at (0.5, 0.5) px. The guard band continues the image on all four
 // sides: pixel (-1, 0) is seen too, so that light from outside the frame can spread in.
 //
-// Distortion: Brown, Photogrammetric Engineering 32 (1966), as OpenCV has it. With x, y = X/Z, Y/Z and r^2 = x^2 + y^2
-//   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise with p1 and p2 changed over.
+// Distortion: Brown, Photogrammetric Engineering 32 (1966), as OpenCV has it. With x, y = X/Z, Y/Z and r^2 =
+// x^2 + y^2
+//   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y' likewise with p1 and p2 changed
+//   over.
 
 #include <cmath>
 
@@ -24,7 +26,8 @@ struct LensDistortion {
         return {p.x * radial + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x),
                 p.y * radial + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
     }
-    // By Newton's method with the matrix of derivatives; 1e-12 after some steps where the lens does not fold over.
+    // By Newton's method with the matrix of derivatives; 1e-12 after some steps where the lens does not fold
+    // over.
     Vec2d undistorted(Vec2d q) const {
         Vec2d p = q;
         for (int step = 0; step < 12; ++step) {

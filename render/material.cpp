@@ -26,7 +26,9 @@ Spectrum multiple_facets(const Spectrum& normal_reflectance, float e_average, in
 
 // Mean albedo of one reflection at a facet lobe; the facet's Fresnel term or 1.
 float lobe_albedo(float alpha, float refractive_index, float cosine) {
-    const auto fresnel = [&](float c) { return refractive_index > 0 ? fresnel_dielectric(refractive_index, c) : 1.0f; };
+    const auto fresnel = [&](float c) {
+        return refractive_index > 0 ? fresnel_dielectric(refractive_index, c) : 1.0f;
+    };
     if (alpha == 0) return fresnel(cosine);
     const float no = std::max(cosine, 1e-3f);
     const Vec3f view{std::sqrt(std::max(0.0f, 1 - no * no)), 0, no};
@@ -38,9 +40,11 @@ float lobe_albedo(float alpha, float refractive_index, float cosine) {
         const float u1 = 1 - left * left * left;
         double ring = 0;
         for (int j = 0; j < kGrid; ++j) {
-            const Vec3f facet = sample_visible_normal(alpha, view, u1, (static_cast<float>(j) + 0.5f) / kGrid);
+            const Vec3f facet =
+                sample_visible_normal(alpha, view, u1, (static_cast<float>(j) + 0.5f) / kGrid);
             const float ni = reflect(view, facet).z;
-            if (ni > 0) ring += static_cast<double>(fresnel(dot(view, facet)) * ggx_sample_weight(alpha, no, ni));
+            if (ni > 0)
+                ring += static_cast<double>(fresnel(dot(view, facet)) * ggx_sample_weight(alpha, no, ni));
         }
         sum += 3 * static_cast<double>(left * left) * ring;
     }
@@ -54,36 +58,47 @@ Fields fields(MaterialConfig& c) {
     return {
         text("source", c.source, "where the figures come from"),
         choice("model", c.model,
-               {"lambert", "metal", "dielectric", "mirror", "glass", "oren_nayar", "phong", "lommel_seeliger", "hapke",
-                "table"},
+               {"lambert", "metal", "dielectric", "mirror", "glass", "oren_nayar", "phong", "lommel_seeliger",
+                "hapke", "table"},
                "how it reflects; docs/materials.md explains each"),
         curve("reflectance", c.reflectance, fraction,
-              "albedo (lambert, oren_nayar, body of a dielectric), reflectance at normal incidence (metal, mirror), k_d "
-              "(phong), I/F (lommel_seeliger), single-scattering albedo (hapke), factor (table); number or [[um, value], "
+              "albedo (lambert, oren_nayar, body of a dielectric), reflectance at normal incidence (metal, "
+              "mirror), k_d "
+              "(phong), I/F (lommel_seeliger), single-scattering albedo (hapke), factor (table); number or "
+              "[[um, value], "
               "...]"),
-        number("roughness", c.roughness, 1, fraction,
-               "of metal and dielectric, GGX alpha is its square; of oren_nayar, slope deviation over 90 deg"),
-        number("refractive_index", c.refractive_index, 1, {1, 4}, "of a dielectric's clear layer, or of glass"),
+        number(
+            "roughness", c.roughness, 1, fraction,
+            "of metal and dielectric, GGX alpha is its square; of oren_nayar, slope deviation over 90 deg"),
+        number("refractive_index", c.refractive_index, 1, {1, 4},
+               "of a dielectric's clear layer, or of glass"),
         curve("transmittance", c.transmittance, fraction, "inside a glass sheet, at normal incidence"),
         curve("specular", c.specular, fraction, "k_s of phong"),
         number("exponent", c.exponent, 1, {0, 1e5}, "n of phong"),
         number("lobe_width", c.lobe_width, 1, {0, 0.95}, "b of hapke"),
-        number("lobe_backward", c.lobe_backward, 1, {-1, 1}, "c of hapke: (1+c)/2 of the light goes backward"),
+        number("lobe_backward", c.lobe_backward, 1, {-1, 1},
+               "c of hapke: (1+c)/2 of the light goes backward"),
         number("surge_amplitude", c.surge_amplitude, 1, {0, 10}, "B0 of hapke: opposition surge"),
         number("surge_width", c.surge_width, 1, {1e-4, 1}, "h of hapke: its width"),
-        number("slope_deg", c.slope_rad, kDegree_rad, {0, 60}, "theta-bar of hapke: mean slope of the surface"),
-        number("temperature_k", c.temperature_k, 1, {0, 6000}, "for its emission, with radiance: emissive; 0: none"),
+        number("slope_deg", c.slope_rad, kDegree_rad, {0, 60},
+               "theta-bar of hapke: mean slope of the surface"),
+        number("temperature_k", c.temperature_k, 1, {0, 6000},
+               "for its emission, with radiance: emissive; 0: none"),
         path("table", c.table, "a measured BRDF: MERL .binary, or CSV as docs/materials.md describes"),
     };
 }
 
 void validate(const MaterialConfig& c) {
-    const auto most = [](const Curve& curve) { return *std::max_element(curve.value.begin(), curve.value.end()); };
+    const auto most = [](const Curve& curve) {
+        return *std::max_element(curve.value.begin(), curve.value.end());
+    };
     if (c.model == Model::kPhong && most(c.reflectance) + most(c.specular) > 1)
-        throw InputError("'reflectance' and 'specular' of phong add up to more than 1 at most; light would be created");
+        throw InputError(
+            "'reflectance' and 'specular' of phong add up to more than 1 at most; light would be created");
     // w/2 (1 - mu ln(1 + 1/mu)) is at most w/2 = 4 I/F.
     if (c.model == Model::kLommelSeeliger && most(c.reflectance) > 0.25)
-        throw InputError("'reflectance' of lommel_seeliger is above 0.25, where grazing light would be created");
+        throw InputError(
+            "'reflectance' of lommel_seeliger is above 0.25, where grazing light would be created");
     if ((c.model == Model::kTable) == c.table.empty())
         throw InputError("'table' goes with model table, and only with it");
 }
@@ -91,7 +106,8 @@ void validate(const MaterialConfig& c) {
 Fields fields(SurfaceConfig& c) {
     return {
         required(text("name", c.name, "surface of the mesh that it covers; a trailing * matches any ending")),
-        required(section("material", c.material, "what covers it; a mapping or a file of configs/materials/")),
+        required(
+            section("material", c.material, "what covers it; a mapping or a file of configs/materials/")),
     };
 }
 
@@ -122,8 +138,11 @@ Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
     const auto alpha = static_cast<float>(config.roughness * config.roughness);
     m.base = reflectance;
     switch (config.model) {
-        case Model::kLambert: break;
-        case Model::kOrenNayar: m.roughness = static_cast<float>(config.roughness); break;
+        case Model::kLambert:
+            break;
+        case Model::kOrenNayar:
+            m.roughness = static_cast<float>(config.roughness);
+            break;
         case Model::kMetal:
             m.highlight = reflectance;
             m.ggx_alpha = alpha;
@@ -177,7 +196,8 @@ Material make_material(const MeshSurface& surface, const SpectralGrid& grid) {
                       {static_cast<double>(surface.base_color.z), static_cast<double>(surface.base_color.y),
                        static_cast<double>(surface.base_color.y), static_cast<double>(surface.base_color.x)},
                       {}};
-    // glTF 2.0, appendix B, blends both looks; here the greater share decides, and a half metal is a darker one.
+    // glTF 2.0, appendix B, blends both looks; here the greater share decides, and a half metal is a darker
+    // one.
     const float metallic = std::clamp(surface.metallic, 0.0f, 1.0f);
     // A file's roughness 0 means "polished"; 0.03 keeps the highlight wider than the Sun's own disk.
     const float roughness = std::clamp(surface.roughness, 0.03f, 1.0f);

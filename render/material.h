@@ -12,11 +12,11 @@
 //   lommel_seeliger  I/F at normal incidence and zero phase
 //   hapke            single-scattering albedo w (brdf_regolith.h)
 //   table            a factor on a measured BRDF (brdf_table.h)
-// metal and dielectric keep all energy: what leaves the facets after several reflections (metal: Kulla & Conty,
-// SIGGRAPH 2017 course) or enters the body (dielectric: Kelemen & Szirmay-Kalos, Eurographics 2001 short papers) is
-// the base lobe (1-E(no))(1-E(ni)) / (pi (1-E_avg)), E the directional albedo of the facets' single reflection.
-// Emission: a grey-by-bin body of 1 - reflectance (Kirchhoff 1860) at `temperature_k`.
-// Not modelled: polarisation, anisotropy, fluorescence, subsurface transport.
+// metal and dielectric keep all energy: what leaves the facets after several reflections (metal: Kulla &
+// Conty, SIGGRAPH 2017 course) or enters the body (dielectric: Kelemen & Szirmay-Kalos, Eurographics 2001
+// short papers) is the base lobe (1-E(no))(1-E(ni)) / (pi (1-E_avg)), E the directional albedo of the facets'
+// single reflection. Emission: a grey-by-bin body of 1 - reflectance (Kirchhoff 1860) at `temperature_k`. Not
+// modelled: polarisation, anisotropy, fluorescence, subsurface transport.
 
 #include <array>
 #include <cmath>
@@ -88,8 +88,8 @@ struct LobeAlbedo {
         return left + (x - static_cast<float>(i)) * (at_cosine[static_cast<std::size_t>(i) + 1] - left);
     }
 };
-// Of GGX facets that reflect everything (refractive_index 0) or as a dielectric. Midpoint sums over visible normals:
-// good to 1e-3.
+// Of GGX facets that reflect everything (refractive_index 0) or as a dielectric. Midpoint sums over visible
+// normals: good to 1e-3.
 LobeAlbedo ggx_albedo(float alpha, float refractive_index);
 
 // A material on the run's spectral grid. For rays.
@@ -104,8 +104,8 @@ struct Material {
     LobeAlbedo facets;    // metal, dielectric
     HapkeParameters hapke;
     std::shared_ptr<const BrdfTable> table;  // shared: several surfaces may be of one measured material
-    Spectrum emission;  // radiance of its own [W m^-2 sr^-1 um^-1]
-    int texture = -1;   // into the object's textures; scales base, or the highlight of metals and mirrors
+    Spectrum emission;                       // radiance of its own [W m^-2 sr^-1 um^-1]
+    int texture = -1;  // into the object's textures; scales base, or the highlight of metals and mirrors
 
     bool has_facets() const {
         return model == ReflectionModel::kMetal || model == ReflectionModel::kDielectric ||
@@ -116,8 +116,9 @@ struct Material {
 // Throws InputError where a curve does not cover the grid. `table` is for model table alone.
 Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
                        std::shared_ptr<const BrdfTable> table = nullptr);
-// The mesh's own colours, for surfaces that no config names. Linear sRGB primaries are taken as three broad bands
-// (below 0.49 um blue, to 0.58 um green, above red): a stand-in with the right colour, not a measured spectrum.
+// The mesh's own colours, for surfaces that no config names. Linear sRGB primaries are taken as three broad
+// bands (below 0.49 um blue, to 0.58 um green, above red): a stand-in with the right colour, not a measured
+// spectrum.
 Material make_material(const MeshSurface& surface, const SpectralGrid& grid);
 // Of the first config whose name matches, or null.
 const SurfaceConfig* find_surface(std::span<const SurfaceConfig> configs, const std::string& name);

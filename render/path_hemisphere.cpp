@@ -159,7 +159,9 @@ class HemispherePaths final : public PathModel {
                 }
                 if (last) continue;
                 Vertex& vertex = level.vertices[found];
-                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, 0, {at.footprint_m, ray.exact ? 0.0f : kSpread_rad}, vertex)) continue;
+                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, 0,
+                                 {at.footprint_m, ray.exact ? 0.0f : kSpread_rad}, vertex))
+                    continue;
                 vertex.pixel = at.pixel, vertex.sample = at.sample;
                 vertex.depth = static_cast<std::uint16_t>(at.depth + 1);
                 vertex.weight = ray.weight;

@@ -1,7 +1,7 @@
-// One random path per sample, in waves of packets: at every vertex the lamps by next-event estimation and one direction
-// drawn from the surface's own reflection. Where both can find the same light they are weighed by the balance heuristic
-// (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold lives on by chance, with the
-// weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
+// One random path per sample, in waves of packets: at every vertex the lamps by next-event estimation and one
+// direction drawn from the surface's own reflection. Where both can find the same light they are weighed by
+// the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
+// lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
 
 #include <algorithm>
 #include <array>
@@ -64,7 +64,9 @@ class TracedPaths final : public PathModel {
             const BrdfSample sample =
                 brdf_sample(at.surface, at.normal, at.view_dir,
                             {uniform01(random[0]), uniform01(random[1]), uniform01(random[2])});
-            if (!sample.valid || (last && !sample.exact) || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) continue;
+            if (!sample.valid || (last && !sample.exact) ||
+                (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0))
+                continue;
             Spectrum weight = at.weight * sample.weight;
             const float most = largest(weight);
             if (!(most > 0)) continue;
@@ -73,18 +75,20 @@ class TracedPaths final : public PathModel {
                 if (uniform01(random[3]) >= chance) continue;
                 weight = (1 / chance) * weight;
             }
-            // A facet lobe met through another is at least as wide as that one; behind a diffuse bounce, as wide as the
-            // quality says, so that the mean stays and the sparkle goes (Kaplanyan & Dachsbacher, CGF 32(2), 2013).
+            // A facet lobe met through another is at least as wide as that one; behind a diffuse bounce, as
+            // wide as the quality says, so that the mean stays and the sparkle goes (Kaplanyan & Dachsbacher,
+            // CGF 32(2), 2013).
             const float alpha_least = frame.alpha_behind_diffuse > 0
                                           ? (sample.diffuse ? frame.alpha_behind_diffuse : at.surface.alpha)
                                           : 0.0f;
-            next_[ray_count++] = {&at, at.start(!sample.transmits), sample.dir, sample.density, alpha_least, weight};
+            next_[ray_count++] = {&at,   at.start(!sample.transmits), sample.dir, sample.density, alpha_least,
+                                  weight};
         }
         return ray_count;
     }
 
-    // Traces the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest sees the
-    // background.
+    // Traces the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
+    // sees the background.
     std::size_t follow(Tile& tile, std::size_t ray_count, bool last) {
         const FrameView& frame = tile.frame;
         RayPacket rays;
@@ -111,7 +115,8 @@ class TracedPaths final : public PathModel {
                 }
                 if (last) continue;
                 Vertex& vertex = following_[found];
-                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, ray.width(), vertex)) continue;
+                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, ray.width(), vertex))
+                    continue;
                 vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
                 vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
                 vertex.weight = ray.weight;

@@ -45,14 +45,16 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];
         const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];
-        // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor of four.
+        // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor
+        // of four.
         const float slant = 1 / std::max(0.25f, dot(geometric, vertex.view_dir));
         const float footprint = vertex.footprint_m * std::sqrt(slant) * object.uv_per_m[hits.triangle[k]];
         const Spectrum scale = frame.bands->spectrum(
             texture.sample((1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
                            (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y, footprint));
         // The one colour of a file scales what the material mostly is.
-        const bool shiny = material.model == ReflectionModel::kMetal || material.model == ReflectionModel::kMirror;
+        const bool shiny =
+            material.model == ReflectionModel::kMetal || material.model == ReflectionModel::kMirror;
         vertex.surface.base = vertex.surface.base * scale;
         if (shiny) vertex.surface.highlight = vertex.surface.highlight * scale;
     }

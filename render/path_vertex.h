@@ -23,12 +23,14 @@ struct Vertex {
     Scatterer surface;
 
     // Where a ray begins that leaves to this side: above the surface, or below it through glass.
-    Vec3f start(bool above = true) const { return point_m + (above ? offset_m : -offset_m) * geometric_normal; }
+    Vec3f start(bool above = true) const {
+        return point_m + (above ? offset_m : -offset_m) * geometric_normal;
+    }
 };
 
-// Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's. The
-// facet lobe is at least `alpha_least` wide. False where there is nothing to see: a triangle without an area. Loop,
-// any thread. footprint_m: width of the ray where it began, spread_rad: by how much it widens.
+// Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's.
+// The facet lobe is at least `alpha_least` wide. False where there is nothing to see: a triangle without an
+// area. Loop, any thread. footprint_m: width of the ray where it began, spread_rad: by how much it widens.
 struct RayWidth {
     float footprint_m = 0;
     float spread_rad = 0;

@@ -45,7 +45,8 @@ const char* reason(ObjectUse use) {
     switch (use) {
         case ObjectUse::kHidden:
             return "no ray looks for it (outside the field); it still shades and is reflected";
-        case ObjectUse::kPoints: return "points with the flux of its own little picture (below 8 pixels)";
+        case ObjectUse::kPoints:
+            return "points with the flux of its own little picture (below 8 pixels)";
         case ObjectUse::kMesh:
             return "traced (in the field)";
     }
@@ -90,13 +91,15 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
         (line << ... << parts);
         lines.push_back(line.str());
     };
-    add(f.bins, " spectral bins; ", planned.samples_per_axis, " x ", planned.samples_per_axis, " rays per pixel");
+    add(f.bins, " spectral bins; ", planned.samples_per_axis, " x ", planned.samples_per_axis,
+        " rays per pixel");
     add("path model ", planned.path_model, ", ", f.max_depth, " surfaces deep, paths end below ",
         f.contribution_threshold);
     add("rays begin at the ", f.start_before_m > 0 ? "objects (far away against their size)" : "camera");
     for (std::size_t i = 0; i < planned.plans.size(); ++i) {
         const ObjectPlan& plan = planned.plans[i];
-        add("object ", i + 1, " '", planned.names[i], "', ", planned.triangles[i], " triangles (level ", plan.level, "), ", plan.distance_m, " m away, ", plan.size_px, " px: ", reason(plan.use));
+        add("object ", i + 1, " '", planned.names[i], "', ", planned.triangles[i], " triangles (level ",
+            plan.level, "), ", plan.distance_m, " m away, ", plan.size_px, " px: ", reason(plan.use));
     }
     lines.push_back(sun_line(f, world));
     for (std::size_t i = 0; i < f.background->disks().size(); ++i) lines.push_back(body_line(f, i));

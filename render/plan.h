@@ -33,8 +33,8 @@ struct RaySpace {
 // camera.
 RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> radius_m, bool rays_still);
 
-// An object this small is drawn as points: a single one below a pixel, a small cloud up to here. The regular grid of
-// rays would miss parts of it, and differently from frame to frame.
+// An object this small is drawn as points: a single one below a pixel, a small cloud up to here. The regular
+// grid of rays would miss parts of it, and differently from frame to frame.
 inline constexpr double kPoints_px = 8.0;
 // What the quality asks for: rays along a pixel, and the least number of rays across a traced object.
 struct RayDensity {

@@ -20,7 +20,8 @@ class PrimaryRays {
           sun_(background && tile.box.overlaps(frame_.sun_box)),
           linear_(frame_.rays->linear()),
           plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)) {
-        sample_rad_ = static_cast<float>(1 / frame_.geometry.focal_length_px) / static_cast<float>(tile.samples_per_axis);
+        sample_rad_ = static_cast<float>(1 / frame_.geometry.focal_length_px) /
+                      static_cast<float>(tile.samples_per_axis);
         std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
         rays_.nearest.fill(0), rays_.farthest.fill(kInfinity);
         if (linear_) {
@@ -59,7 +60,7 @@ class PrimaryRays {
     std::span<Vertex> vertices_;
     bool bodies_, sun_;
     const LinearRays* linear_;
-    bool plain_;  // the one body in view is done sixteen rays at a time
+    bool plain_;        // the one body in view is done sixteen rays at a time
     float sample_rad_;  // angle between neighbouring rays
     Spectrum weight_;
     Vec3d corner_;
@@ -160,8 +161,11 @@ class PrimaryRays {
         const Vec3f origin{rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]};
         const Vec3f dir{rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]};
         Vertex& vertex = vertices_[count_];
-        const RayWidth width{frame_.start_before_m > 0 ? sample_rad_ * static_cast<float>(length(frame_.start_at_m - frame_.camera_m)) : 0.0f,
-                             sample_rad_};
+        const RayWidth width{
+            frame_.start_before_m > 0
+                ? sample_rad_ * static_cast<float>(length(frame_.start_at_m - frame_.camera_m))
+                : 0.0f,
+            sample_rad_};
         if (!make_vertex(frame_, hits_, lane, origin, dir, 0, width, vertex)) return;
         vertex.pixel = pixel;
         vertex.sample = sample;

@@ -9,8 +9,8 @@
 namespace hilcam {
 namespace {
 
-// The Sun's disk widens a highlight: its angular radius of 4.65 mrad turns facets by half of that, and slopes of independent
-// causes add by their squares.
+// The Sun's disk widens a highlight: its angular radius of 4.65 mrad turns facets by half of that, and slopes
+// of independent causes add by their squares.
 float sun_widened(float alpha) { return std::min(1.0f, std::sqrt(alpha * alpha + 0.00233f * 0.00233f)); }
 
 bool in_cone(const BodyLamp& lamp, Vec3f dir) {

@@ -17,7 +17,8 @@ enum class LampLight {
     kSampled,     // one random direction to each, weighed against the path's own direction
     kQuadrature,  // fixed directions over each one's disk, for what scatters wider than kNarrowAlpha
 };
-// Facet lobes narrower than this (GGX alpha) would fall between fixed directions; they are followed as mirrors.
+// Facet lobes narrower than this (GGX alpha) would fall between fixed directions; they are followed as
+// mirrors.
 inline constexpr float kNarrowAlpha = 0.35f;
 
 class RadianceModel {

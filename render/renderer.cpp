@@ -45,15 +45,18 @@ Fields fields(RenderQuality& q) {
         text("path_model", q.path_model, "direct | hemisphere | path, or a plug-in's"),
         integer("max_depth", q.max_depth, {1, 64},
                 "surfaces that a light path may meet; 1: direct sunlight only"),
-        number("contribution_threshold", q.contribution_threshold, 1, {0, 1},
-               "a path whose largest weight falls below this ends (hemisphere), or lives on by chance (path)"),
+        number(
+            "contribution_threshold", q.contribution_threshold, 1, {0, 1},
+            "a path whose largest weight falls below this ends (hemisphere), or lives on by chance (path)"),
         flag("sun_disk", q.sun_disk, "sunlight from the whole disk: soft shadows, exact highlights"),
         number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
-               "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they are"),
+               "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they "
+               "are"),
         number("lod_error_px", q.lod_error_px, 1, {0, 16},
                "a mesh may be this far off, in pixels, where it is drawn from a coarser level; 0: never"),
-        integer("rays_across", q.rays_across, {0, 4096},
-                "an object of some pixels gets more rays per pixel, up to 16 x 16, until so many go across it"),
+        integer(
+            "rays_across", q.rays_across, {0, 4096},
+            "an object of some pixels gets more rays per pixel, up to 16 x 16, until so many go across it"),
         integer("point_samples", q.point_samples, {16, 512},
                 "an object of a few pixels or less is measured by a grid of so many rays in each direction"),
     };
@@ -142,7 +145,8 @@ struct Renderer::Implementation {
         frame.sun_is_disk = quality.sun_disk;
         frame.alpha_behind_diffuse = static_cast<float>(quality.facets_behind_diffuse);
         frame.paths_sample_lobes = tracers.front()->samples_lobes();
-        frame.has_glass = any_material(objects, [](const Material& m) { return m.model == ReflectionModel::kGlass; });
+        frame.has_glass =
+            any_material(objects, [](const Material& m) { return m.model == ReflectionModel::kGlass; });
         frame.has_emission = radiance_model->emits() &&
                              any_material(objects, [](const Material& m) { return largest(m.emission) > 0; });
         probe = std::make_unique<ObjectProbe>(frame, static_cast<int>(quality.point_samples));
@@ -180,7 +184,8 @@ struct Renderer::Implementation {
         frame.start_before_m = space.start_before_m;
         choose_levels(world);
         embree.place(world.objects, levels, space.origin_world_m);
-        rays->place(frame.geometry, {world.time, world.camera, world.camera_velocity_m_s, world.camera_rate_rad_s});
+        rays->place(frame.geometry,
+                    {world.time, world.camera, world.camera_velocity_m_s, world.camera_rate_rad_s});
 
         // Rows with poses of their own meet objects anywhere: no mask, no boxes.
         const bool still = rays->is_still();
@@ -190,7 +195,8 @@ struct Renderer::Implementation {
             const Mat3d m = to_matrix(world.objects[i].world_from_body);
             frame.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
             const std::size_t level = levels[i];
-            plans[i] = plan_object(frame.geometry, world, world.objects[i], radii_m[i], {samples_per_axis, rays_across});
+            plans[i] = plan_object(frame.geometry, world, world.objects[i], radii_m[i],
+                                   {samples_per_axis, rays_across});
             plans[i].level = level;
             frame.is_point[i] = plans[i].use == ObjectUse::kPoints;
             if (!frame.is_point[i] && still &&
@@ -205,13 +211,15 @@ struct Renderer::Implementation {
         frame.body_box_count = background.disks().size();
         for (std::size_t i = 0; i < frame.body_box_count; ++i) {
             const PlacedBody& body = background.disks()[i];
-            frame.body_boxes[i] = still ? screen_bounds_of_cone(frame.geometry, world.camera, body.world_dir, body.cone_cosine)
-                                        : everything;
+            frame.body_boxes[i] =
+                still ? screen_bounds_of_cone(frame.geometry, world.camera, body.world_dir, body.cone_cosine)
+                      : everything;
         }
         frame.bodies_may_hide = farthest_m > background.nearest_m();
-        frame.sun_box = still ? screen_bounds_of_cone(frame.geometry, world.camera, background.sun_camera_dir(),
-                                                      background.sun_disk_cosine())
-                              : everything;
+        frame.sun_box = still
+                            ? screen_bounds_of_cone(frame.geometry, world.camera, background.sun_camera_dir(),
+                                                    background.sun_disk_cosine())
+                            : everything;
     }
 
     PixelBox tile(int index) const {
@@ -238,7 +246,8 @@ struct Renderer::Implementation {
     int samples_in(const PixelBox& box) const {
         int n = samples_per_axis;
         for (std::size_t i = 0; i < objects.size(); ++i)
-            if (plans[i].use == ObjectUse::kMesh && plans[i].samples_per_axis > n && box.overlaps(object_boxes[i]))
+            if (plans[i].use == ObjectUse::kMesh && plans[i].samples_per_axis > n &&
+                box.overlaps(object_boxes[i]))
                 n = plans[i].samples_per_axis;
         return n;
     }
@@ -248,13 +257,15 @@ struct Renderer::Implementation {
         const int edge = tile_edge_px(n);
         for (int y = box.y0; y < box.y1; y += edge)
             for (int x = box.x0; x < box.x1; x += edge)
-                trace_part({x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)}, n, slot, stats, radiance);
+                trace_part({x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)}, n, slot, stats,
+                           radiance);
     }
 
     void trace_part(const PixelBox& box, int n, std::size_t slot, TileStats& stats, RadianceImage& radiance) {
         const float share = 1 / static_cast<float>(n * n);
         const int width = box.x1 - box.x0;
-        const std::span<Spectrum> pixels(tile_pixels[slot].data(), static_cast<std::size_t>(width * (box.y1 - box.y0)));
+        const std::span<Spectrum> pixels(tile_pixels[slot].data(),
+                                         static_cast<std::size_t>(width * (box.y1 - box.y0)));
         std::fill(pixels.begin(), pixels.end(), Spectrum{});
         Tile tile{frame, box, n, pixels, stats};
         tracers[slot]->trace(tile);
@@ -288,14 +299,14 @@ struct Renderer::Implementation {
     }
 };
 
-
-Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry, const RenderQuality& quality,
-                   const RenderModels& models, const Modules& modules)
-    : implementation_(std::make_unique<Implementation>(std::move(scene), grid, geometry, quality, models, modules)) {}
+Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+                   const RenderQuality& quality, const RenderModels& models, const Modules& modules)
+    : implementation_(
+          std::make_unique<Implementation>(std::move(scene), grid, geometry, quality, models, modules)) {}
 Renderer::~Renderer() = default;
 
 std::size_t Renderer::most_points() const {
-        const std::size_t cells = ObjectProbe::kMostCells * ObjectProbe::kMostCells;
+    const std::size_t cells = ObjectProbe::kMostCells * ObjectProbe::kMostCells;
     return implementation_->stars.size() + implementation_->objects.size() * cells + kBodyCount;
 }
 std::size_t Renderer::triangles() const { return implementation_->triangle_count; }
@@ -323,7 +334,8 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
         field.add(body.world_dir, body.distance_m, my.background.point_irradiance(body), points);
     for (std::size_t i = 0; i < my.objects.size(); ++i)
         if (my.frame.is_point[i])
-            my.probe->add_points(my.frame, world, i, my.plans[i], my.radii_m[i], *my.tracers.front(), field, points);
+            my.probe->add_points(my.frame, world, i, my.plans[i], my.radii_m[i], *my.tracers.front(), field,
+                                 points);
     stats.points_ms = ms_since(pointed);
 
     const TileStats sum = my.total();
@@ -341,12 +353,16 @@ std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     std::vector<std::string> names;
     for (const ShownObject& object : my.objects) names.push_back(object.name);
     for (const ObjectSurfaces* surfaces : my.shown) triangles.push_back(surfaces->triangles.size());
-    return explain({my.frame, my.plans, names, triangles, my.path_model_name, my.stars.size(), my.samples_per_axis}, world);
+    return explain(
+        {my.frame, my.plans, names, triangles, my.path_model_name, my.stars.size(), my.samples_per_axis},
+        world);
 }
 
-std::vector<PathModelSpeed> Renderer::path_model_speeds(const WorldSnapshot& world, const Modules& modules, int runs) {
+std::vector<PathModelSpeed> Renderer::path_model_speeds(const WorldSnapshot& world, const Modules& modules,
+                                                        int runs) {
     Implementation& my = *implementation_;
-    RadianceImage radiance(my.frame.geometry.padded_width(), my.frame.geometry.padded_height(), my.frame.bins);
+    RadianceImage radiance(my.frame.geometry.padded_width(), my.frame.geometry.padded_height(),
+                           my.frame.bins);
     const auto median = [](std::vector<double> values) {
         std::sort(values.begin(), values.end());
         return values[values.size() / 2];
@@ -384,8 +400,9 @@ void Renderer::require_air(const WorldSnapshot& world) {
     constexpr int kSteps = 48;
     for (int y = 0; y <= kSteps; ++y)
         for (int x = 0; x <= kSteps; ++x) {
-            const Vec3d dir = world_from_camera * normalized(g.direction_camera(x * g.width_px / static_cast<double>(kSteps),
-                                                                                y * g.height_px / static_cast<double>(kSteps)));
+            const Vec3d dir = world_from_camera *
+                              normalized(g.direction_camera(x * g.width_px / static_cast<double>(kSteps),
+                                                            y * g.height_px / static_cast<double>(kSteps)));
             const std::string missing = my.background.air_missing(dir);
             if (!missing.empty()) throw InputError("atmosphere: the camera sees a " + missing);
         }

@@ -1,9 +1,10 @@
 #pragma once
 // The radiance engine: a scene and a world snapshot in, a radiance image and a list of point sources out.
 //
-// Radiance is equation (1) of Peng et al. 2011. What it is made of are exchangeable models (modules.h): the camera's
-// rays (ray_generator.h), how light is followed (path_model.h), what a surface sends by itself (radiance_model.h), and
-// the air (atmosphere.h). Before each frame a plan decides what this one needs (plan.h).
+// Radiance is equation (1) of Peng et al. 2011. What it is made of are exchangeable models (modules.h): the
+// camera's rays (ray_generator.h), how light is followed (path_model.h), what a surface sends by itself
+// (radiance_model.h), and the air (atmosphere.h). Before each frame a plan decides what this one needs
+// (plan.h).
 
 #include <cstdint>
 #include <memory>
@@ -23,15 +24,16 @@ namespace hilcam {
 
 // Speed against accuracy; every value here is a named choice of the user.
 struct RenderQuality {
-    std::int64_t samples_per_axis = 1;     // n: a regular n x n grid of rays in each pixel
+    std::int64_t samples_per_axis = 1;  // n: a regular n x n grid of rays in each pixel
     std::string path_model = "path";
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // see path_model.h
     bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
     double facets_behind_diffuse = 0.4;    // least GGX alpha there; 0: as they are
     double lod_error_px = 0.25;            // of a coarser level of detail; 0: the mesh itself, always
-    std::int64_t rays_across = 128;        // of a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
-    std::int64_t point_samples = 96;       // of an object of few pixels, along one axis of its little picture
+    std::int64_t rays_across =
+        128;  // of a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
+    std::int64_t point_samples = 96;  // of an object of few pixels, along one axis of its little picture
 };
 Fields fields(RenderQuality& quality);
 
@@ -62,8 +64,8 @@ struct PathModelSpeed {
 class Renderer {
   public:
     // Builds the acceleration structures; takes the scene over. Throws InputError. Owner thread.
-    Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry, const RenderQuality& quality,
-             const RenderModels& models = {}, const Modules& modules = {});
+    Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+             const RenderQuality& quality, const RenderModels& models = {}, const Modules& modules = {});
     ~Renderer();
 
     // Fills `radiance` (padded size, a plane per bin) and `points` (cleared first; capacity reserved by
@@ -80,8 +82,8 @@ class Renderer {
     // What a frame of this world needs and why, a line each. Not for the loop.
     std::vector<std::string> explain_plan(const WorldSnapshot& world);
 
-    // Throws InputError where the atmosphere does not cover what the camera sees of the Earth: what is missing. For the
-    // first instant of a run; what leaves the table later is counted. Not for the loop.
+    // Throws InputError where the atmosphere does not cover what the camera sees of the Earth: what is
+    // missing. For the first instant of a run; what leaves the table later is counted. Not for the loop.
     void require_air(const WorldSnapshot& world);
     std::uint64_t rays_outside_air() const;
 
@@ -90,7 +92,8 @@ class Renderer {
     double floor_ms(const WorldSnapshot& world);
 
     // One frame with every path model of the registry, medians of `runs`. Not for the loop.
-    std::vector<PathModelSpeed> path_model_speeds(const WorldSnapshot& world, const Modules& modules, int runs);
+    std::vector<PathModelSpeed> path_model_speeds(const WorldSnapshot& world, const Modules& modules,
+                                                  int runs);
 
   private:
     struct Implementation;

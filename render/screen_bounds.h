@@ -1,9 +1,9 @@
 #pragma once
 // Which pixels a body in the sky can cover: a conservative box in padded pixels.
 
+#include "render/image_geometry.h"
 #include "render/pixel_box.h"
 #include "render/pose.h"
-#include "render/image_geometry.h"
 
 namespace hilcam {
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "render/image_geometry.h"
 #include "render/pixel_box.h"
 #include "render/pose.h"
-#include "render/image_geometry.h"
 
 namespace hilcam {
 
@@ -22,8 +22,8 @@ class ScreenMask {
     // Everything.
     void fill();
     int width() const { return geometry_.width_px; }
-    // Marks what the boxes [least corner, greatest corner; body axes, m] of an object can cover. Gives whether there
-    // was anything. Loop; no allocation.
+    // Marks what the boxes [least corner, greatest corner; body axes, m] of an object can cover. Gives
+    // whether there was anything. Loop; no allocation.
     bool add(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m);
 
     // The block that holds a pixel (padded px).

@@ -57,7 +57,8 @@ void require_cover(const Curve& curve, const SpectralGrid& grid, const std::stri
     constexpr double kRounding_um = 1e-9;
     if (curve.wavelength_um.size() < 2) return;
     const double from = grid.from_um(0), to = grid.to_um(grid.size() - 1);
-    if (curve.wavelength_um.front() <= from + kRounding_um && curve.wavelength_um.back() >= to - kRounding_um) return;
+    if (curve.wavelength_um.front() <= from + kRounding_um && curve.wavelength_um.back() >= to - kRounding_um)
+        return;
     const auto text = [](double value) {
         std::string digits = std::to_string(value);
         return digits.substr(0, digits.find('.') + 4);

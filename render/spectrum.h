@@ -74,8 +74,8 @@ class SpectralGrid {
     std::vector<double> edges_um_;
 };
 
-// Refuses a curve of two knots or more that does not reach from the first to the last bin: nothing is extrapolated in
-// silence. A constant covers all. `what` begins the message. InputError.
+// Refuses a curve of two knots or more that does not reach from the first to the last bin: nothing is
+// extrapolated in silence. A constant covers all. `what` begins the message. InputError.
 void require_cover(const Curve& curve, const SpectralGrid& grid, const std::string& what);
 
 // Planck's law: spectral radiance of a black body [W m^-2 sr^-1 um^-1] (Planck 1901; CODATA 2018 constants).

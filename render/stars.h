@@ -1,10 +1,10 @@
 #pragma once
 // The stars of a run: where they stand at the scenario's date and how much light they send.
 //
-// Position: catalogue place plus proper motion (ERFA eraPmsafe with zero parallax and radial velocity). Stellar
-// aberration (up to 20.5 arcsec) for an observer of the scenario's velocity at its start: a day later it has turned by a
-// degree (0.35 arcsec). Not modelled: parallax (below 0.8 arcsec), variability, companions.
-// Light: a black body of the star's colour temperature, scaled to its V magnitude at 0.55 um.
+// Position: catalogue place plus proper motion (ERFA eraPmsafe with zero parallax and radial velocity).
+// Stellar aberration (up to 20.5 arcsec) for an observer of the scenario's velocity at its start: a day later
+// it has turned by a degree (0.35 arcsec). Not modelled: parallax (below 0.8 arcsec), variability,
+// companions. Light: a black body of the star's colour temperature, scaled to its V magnitude at 0.55 um.
 //   temperature from B-V: Ballesteros, EPL 97 (2012) 34008, eq. 14, good to a few percent from 3,000 to
 //   30,000 K. V = 0: 3.63e-8 W m^-2 um^-1 at the V band (Bessell, Castelli & Plez, A&A 333, 1998, table A2).
 

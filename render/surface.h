@@ -47,7 +47,8 @@ struct ObjectSurfaces {
 
     std::vector<PackedTriangle> triangles;
     std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
-    std::vector<float> uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
+    std::vector<float>
+        uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
     std::vector<Material> materials;
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.

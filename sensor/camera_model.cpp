@@ -14,7 +14,8 @@ Fields fields(CameraModel& c) {
         required(integer("height_px", c.height_px, {1, 16384}, "rows")),
         required(number("pitch_um", c.pitch_m, 1e-6, {0.5, 100}, "distance of pixel centres")),
         required(number("focal_length_mm", c.focal_length_m, 1e-3, {0.1, 100000}, "focal length")),
-        numbers("distortion", c.distortion, 1, {-100, 100}, {1, 5}, "of the lens: k1, k2, p1, p2, k3 (Brown, as OpenCV)"),
+        numbers("distortion", c.distortion, 1, {-100, 100}, {1, 5},
+                "of the lens: k1, k2, p1, p2, k3 (Brown, as OpenCV)"),
         required(number("f_number", c.f_number, 1, {0.5, 100}, "focal length over aperture diameter")),
         curve("transmission", c.transmission, {0, 1},
               "of all glass and filters; number or [[um, value], ...]"),
@@ -56,8 +57,9 @@ void validate(const CameraModel& c) {
         for (const double y : {0.0, 0.5 * geometry.height_px, 1.0 * geometry.height_px}) {
             const Vec2d back = geometry.project_px(geometry.direction_camera(x, y));
             if (!(std::abs(back.x - x) + std::abs(back.y - y) < 1e-6))
-                throw InputError("distortion: the lens folds over inside the field; accepted: coefficients that keep it "
-                                 "monotonic to the corners");
+                throw InputError(
+                    "distortion: the lens folds over inside the field; accepted: coefficients that keep it "
+                    "monotonic to the corners");
         }
     const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     if (c.offset_dn >= most_dn)
@@ -67,7 +69,10 @@ void validate(const CameraModel& c) {
 
 ImageGeometry geometry_of(const CameraModel& c, int guard_px) {
     const auto coefficient = [&](std::size_t i) { return i < c.distortion.size() ? c.distortion[i] : 0.0; };
-    return {static_cast<int>(c.width_px), static_cast<int>(c.height_px), guard_px, c.focal_length_m / c.pitch_m,
+    return {static_cast<int>(c.width_px),
+            static_cast<int>(c.height_px),
+            guard_px,
+            c.focal_length_m / c.pitch_m,
             {coefficient(0), coefficient(1), coefficient(4), coefficient(2), coefficient(3)}};
 }
 

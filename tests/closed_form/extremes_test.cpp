@@ -1,4 +1,5 @@
-// The same thing far and near, large and small: flux within 0.5 %, centroid within 0.01 pixel, nothing that is not finite.
+// The same thing far and near, large and small: flux within 0.5 %, centroid within 0.01 pixel, nothing that
+// is not finite.
 
 #include <gtest/gtest.h>
 
@@ -37,13 +38,16 @@ Truth cube_truth(const Stage& s, double size_m, double albedo) {
             // Shoelace formula about the first corner, which keeps its digits where the polygon is tiny.
             double area = 0, x = 0, y = 0;
             for (std::size_t i = 1; i + 1 < 4; ++i) {
-                const double ax = p[i].x - p[0].x, ay = p[i].y - p[0].y, bx = p[i + 1].x - p[0].x, by = p[i + 1].y - p[0].y;
+                const double ax = p[i].x - p[0].x, ay = p[i].y - p[0].y, bx = p[i + 1].x - p[0].x,
+                             by = p[i + 1].y - p[0].y;
                 const double part = 0.5 * (ax * by - ay * bx);
                 area += part, x += part * (ax + bx) / 3, y += part * (ay + by) / 3;
             }
-            const double amount = radiance * std::abs(area) / (s.geometry.focal_length_px * s.geometry.focal_length_px);
+            const double amount =
+                radiance * std::abs(area) / (s.geometry.focal_length_px * s.geometry.focal_length_px);
             out.irradiance += amount;
-            out.centroid_px.x += amount * (p[0].x + x / area), out.centroid_px.y += amount * (p[0].y + y / area);
+            out.centroid_px.x += amount * (p[0].x + x / area),
+                out.centroid_px.y += amount * (p[0].y + y / area);
         }
     out.centroid_px = {out.centroid_px.x / out.irradiance, out.centroid_px.y / out.irradiance};
     return out;
@@ -61,13 +65,15 @@ void expect_cube(Stage& s, double size_m, const std::string& what) {
 
 // One camera, 1 mrad a pixel: from many pixels over a cloud of points to a millionth of a pixel.
 TEST(Extremes, AOneMetreCubeFromNearToFortyThousandKilometres) {
-    for (const double distance_m : {3.0, 10.0, 30.0, 100.0, 120.0, 150.0, 300.0, 900.0, 1100.0, 3e3, 1e4, 1e6, 4e7}) {
+    for (const double distance_m :
+         {3.0, 10.0, 30.0, 100.0, 120.0, 150.0, 300.0, 900.0, 1100.0, 3e3, 1e4, 1e6, 4e7}) {
         Stage s;
         s.camera(1024, 0.512);
         s.quality.rays_across = 512;
         s.quality.point_samples = 256;
         s.sun({0.5, -0.4, -1});
-        s.add(cube(lambert(0.8), s.grid), {0.0113 * distance_m, -0.0071 * distance_m, distance_m}, {0.4, 0.7, 0.2});
+        s.add(cube(lambert(0.8), s.grid), {0.0113 * distance_m, -0.0071 * distance_m, distance_m},
+              {0.4, 0.7, 0.2});
         expect_cube(s, 1, std::to_string(distance_m) + " m");
     }
 }
@@ -93,7 +99,8 @@ TEST(Extremes, ATargetAHundredPixelsWideKeepsItsShapeAtEveryDistance) {
         s.quality.samples_per_axis = 4;
         s.sun({0.5, -0.4, -1});
         s.add(cube(lambert(0.8), s.grid, distance_m < 1 ? 0.5f : 1), {0, 0, distance_m}, {0.4, 0.7, 0.2});
-        s.world.bodies.sun_world_m = s.world.objects[0].position_world_m + kAstronomicalUnit_m * normalized(Vec3d{0.5, -0.4, -1});
+        s.world.bodies.sun_world_m =
+            s.world.objects[0].position_world_m + kAstronomicalUnit_m * normalized(Vec3d{0.5, -0.4, -1});
         expect_cube(s, distance_m < 1 ? 0.5 : 1, std::to_string(distance_m) + " m");
     }
 }
@@ -105,7 +112,8 @@ TEST(Extremes, ATargetTenAstronomicalUnitsFromTheOrigin) {
     s.quality.samples_per_axis = 4;
     s.add(cube(lambert(0.8), s.grid), {0, 0, 5}, {0.4, 0.7, 0.2});
     s.world.camera.position_world_m = there;
-    // 1.5e12 m has a grain of 0.2 mm in double precision; what the renderer gets is what truth is worked out from.
+    // 1.5e12 m has a grain of 0.2 mm in double precision; what the renderer gets is what truth is worked out
+    // from.
     s.world.objects[0].position_world_m = there + Vec3d{0, 0, 5};
     s.world.bodies.sun_world_m = there + kAstronomicalUnit_m * normalized(Vec3d{0.5, -0.4, -1});
     expect_cube(s, 1, "10 au");
@@ -119,7 +127,8 @@ TEST(Extremes, GrazingSunLeavesNoAcne) {
         s.camera(64, 0.5 / distance_m);
         s.add(plate(lambert(1), s.grid), {0, 0, distance_m});
         const double grazing = 89.99 * kDegree_rad;
-        s.world.bodies.sun_world_m = Vec3d{0, 0, distance_m} + kAstronomicalUnit_m * Vec3d{std::sin(grazing), 0, -std::cos(grazing)};
+        s.world.bodies.sun_world_m =
+            Vec3d{0, 0, distance_m} + kAstronomicalUnit_m * Vec3d{std::sin(grazing), 0, -std::cos(grazing)};
         s.render();
         for (const float value : s.radiance.plane(0))
             ASSERT_NEAR(value / (kSun_w_m2_um * std::cos(grazing) / kPi), 1, 2e-3) << distance_m;
@@ -130,11 +139,16 @@ TEST(Extremes, GrazingSunLeavesNoAcne) {
 TEST(Extremes, ACameraOneMetreOverTheMoon) {
     const auto stage = [](Vec3d look) {
         Stage s;
-        s.scene.body(BodyId::kMoon) = {true, BodyLook(BodyId::kMoon, [] {
-                                           BodyConfig config;
-                                           config.albedo = Curve::constant(0.2);
-                                           return config;
-                                       }(), s.grid), {}};
+        s.scene.body(BodyId::kMoon) = {true,
+                                       BodyLook(
+                                           BodyId::kMoon,
+                                           [] {
+                                               BodyConfig config;
+                                               config.albedo = Curve::constant(0.2);
+                                               return config;
+                                           }(),
+                                           s.grid),
+                                       {}};
         s.world.bodies[BodyId::kMoon].world_m = {0, 0, 1737.4e3 + 1};
         s.world.camera.world_from_body = look_along(look, {1, 0, 0.1});
         s.camera(64, 0.05);
@@ -163,9 +177,11 @@ TEST(Extremes, BrokenMeshesStayFiniteAndEnd) {
         s.quality.path_model = model;
         s.quality.max_depth = s.quality.path_model == "hemisphere" ? 2 : 16;
         s.camera(16, 0.5);
-        // A wall with its double, a needle, a triangle without area, one of three equal corners, and the camera inside a box.
-        s.add(object_of({{-5, -5, 2}, {5, -5, 2}, {0, 5, 2}, {0, 0, 1}, {0, 1e-20f, 1}, {3, 0, 1.5f}, {1, 1, 1}},
-                        {{0, 1, 2}, {0, 1, 2}, {2, 1, 0}, {3, 4, 5}, {3, 3, 5}, {6, 6, 6}}, lambert(0.5), s.grid),
+        // A wall with its double, a needle, a triangle without area, one of three equal corners, and the
+        // camera inside a box.
+        s.add(object_of(
+                  {{-5, -5, 2}, {5, -5, 2}, {0, 5, 2}, {0, 0, 1}, {0, 1e-20f, 1}, {3, 0, 1.5f}, {1, 1, 1}},
+                  {{0, 1, 2}, {0, 1, 2}, {2, 1, 0}, {3, 4, 5}, {3, 3, 5}, {6, 6, 6}}, lambert(0.5), s.grid),
               {0, 0, 0}, {});
         s.add(cube(lambert(0.9), s.grid, 30), {0, 0, 0}, {0.1, 0.2, 0.3});
         s.render();

@@ -19,8 +19,8 @@ MaterialConfig mirror() {
     return m;
 }
 
-// Lambert 1760: a sphere of geometric albedo 2/3 A and phase function (sin g + (pi - g) cos g) / pi, at every phase
-// angle from full to a thin crescent, as a picture and as a point alike.
+// Lambert 1760: a sphere of geometric albedo 2/3 A and phase function (sin g + (pi - g) cos g) / pi, at every
+// phase angle from full to a thin crescent, as a picture and as a point alike.
 TEST(ClosedForm, SphereFollowsLambertsPhaseLaw) {
     for (const double distance_m : {2e4, 2e6}) {
         Stage s;
@@ -37,12 +37,14 @@ TEST(ClosedForm, SphereFollowsLambertsPhaseLaw) {
             EXPECT_EQ(s.points.empty(), distance_m < 1e6);
             const double expected =
                 2.0 / 3 * 0.6 * kSun_w_m2_um * lambert_phase(g) / (distance_m * distance_m);
-            EXPECT_NEAR(s.light().irradiance / expected, 1, 0.005) << degrees << " deg at " << distance_m << " m";
+            EXPECT_NEAR(s.light().irradiance / expected, 1, 0.005)
+                << degrees << " deg at " << distance_m << " m";
         }
     }
 }
 
-// Inside a closed box that emits as a black body does and reflects the rest, everything is as bright as the black body.
+// Inside a closed box that emits as a black body does and reflects the rest, everything is as bright as the
+// black body.
 TEST(ClosedForm, AFurnaceIsWhiteInside) {
     for (const char* model : {"path", "hemisphere"}) {
         Stage s;
@@ -77,7 +79,8 @@ TEST(ClosedForm, ADiskSourceGivesPiLTimesSineSquared) {
     s.quality.samples_per_axis = 16;
     s.quality.facets_behind_diffuse = 0;
     s.camera(64, 0.01);
-    // A disk of 96 corners and the radius that gives it the circle's area, behind the camera; it faces the plate.
+    // A disk of 96 corners and the radius that gives it the circle's area, behind the camera; it faces the
+    // plate.
     MaterialConfig hot = lambert(0);
     hot.temperature_k = 3000;
     constexpr unsigned kCorners = 96;
@@ -110,9 +113,11 @@ TEST(ClosedForm, ACornerReflectorAnswersAtDepthThree) {
             s.quality.path_model = model;
             s.quality.max_depth = depth;
             s.quality.contribution_threshold = 1e-4;
-            // Corner at the cube's middle, opening along -z after two turns: faces x = 0, y = 0, z = 0 of the first octant.
+            // Corner at the cube's middle, opening along -z after two turns: faces x = 0, y = 0, z = 0 of the
+            // first octant.
             s.add(object_of({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {2, 2, 0}, {2, 0, 2}, {0, 2, 2}},
-                            {{0, 1, 4}, {0, 4, 2}, {0, 1, 5}, {0, 5, 3}, {0, 2, 6}, {0, 6, 3}}, mirror(), s.grid),
+                            {{0, 1, 4}, {0, 4, 2}, {0, 1, 5}, {0, 5, 3}, {0, 2, 6}, {0, 6, 3}}, mirror(),
+                            s.grid),
                   {0, 0, 6}, {});
             // (1, 1, 1) towards the camera.
             const Vec3d axis = cross(normalized(Vec3d{1, 1, 1}), Vec3d{0, 0, -1});
@@ -133,8 +138,8 @@ TEST(ClosedForm, ACornerReflectorAnswersAtDepthThree) {
         }
 }
 
-// The three path models agree on a scene of diffuse plates and the Sun, where the fixed directions can: a floor beside a
-// lit wall.
+// The three path models agree on a scene of diffuse plates and the Sun, where the fixed directions can: a
+// floor beside a lit wall.
 TEST(ClosedForm, PathModelsAgree) {
     const auto mean_of = [](const char* model, int depth) {
         Stage s;
@@ -169,8 +174,8 @@ TEST(ClosedForm, HemisphereDirectionsHaveEqualShares) {
     EXPECT_NEAR(cosines / 60, 0.5, 0.005);
 }
 
-// A uniform Sun behind a straight edge at height h over a floor: the light falls over 2 h tan(0.267 deg), by the share of
-// a disk that a chord leaves. Limb darkening bends the curve, not its width.
+// A uniform Sun behind a straight edge at height h over a floor: the light falls over 2 h tan(0.267 deg), by
+// the share of a disk that a chord leaves. Limb darkening bends the curve, not its width.
 TEST(ClosedForm, PenumbraHasTheWidthOfTheSunsDisk) {
     Stage s;
     s.scene.limb_darkening = false;
@@ -191,7 +196,8 @@ TEST(ClosedForm, PenumbraHasTheWidthOfTheSunsDisk) {
     for (int x = 0; x < 256; ++x) {
         double sum = 0;
         for (int y = 0; y < 256; ++y) sum += s.radiance.row(y)[static_cast<std::size_t>(x)];
-        const Vec3d dir = to_matrix(s.world.camera.world_from_body) * s.geometry.direction_camera(x + 0.5, 128);
+        const Vec3d dir =
+            to_matrix(s.world.camera.world_from_body) * s.geometry.direction_camera(x + 0.5, 128);
         const double floor_x = 0.5 + dir.x / dir.z * 3;
         const double c = std::clamp(floor_x / std::tan(rho), -1.0, 1.0);  // edge across the disk, in radii
         const double seen = 1 - (std::acos(c) - c * std::sqrt(1 - c * c)) / kPi;
@@ -210,7 +216,8 @@ TEST(ClosedForm, TheSunsDiskCarriesItsIrradiance) {
     s.render();
     EXPECT_NEAR(s.light().irradiance / kSun_w_m2_um, 1, 0.002);
     // Limb darkening is there: the middle is brighter than the mean.
-    EXPECT_GT(s.radiance.row(123)[134], 1.1 * kSun_w_m2_um / (kPi * std::pow(kSunRadius_m / kAstronomicalUnit_m, 2)));
+    EXPECT_GT(s.radiance.row(123)[134],
+              1.1 * kSun_w_m2_um / (kPi * std::pow(kSunRadius_m / kAstronomicalUnit_m, 2)));
 }
 
 // Direct light of the Sun's disk at a mirror-like metal, by both ways of finding it, has one mean.
@@ -250,8 +257,8 @@ TEST(ClosedForm, APlanetAsAPointHasTheLightOfItsDisk) {
     EXPECT_NEAR(irradiance(1e11, 64, 0.1) / irradiance(1e10, 256, 0.001), 1, 0.005);
 }
 
-// Eclipse: a point in the Earth's umbra has no Sun, far from it all; half of the Sun's light is lost where the limb runs
-// through the middle of the disk.
+// Eclipse: a point in the Earth's umbra has no Sun, far from it all; half of the Sun's light is lost where
+// the limb runs through the middle of the disk.
 TEST(ClosedForm, TheEarthsShadowHasUmbraAndPenumbra) {
     const auto sun_at = [](double off_axis_m) {
         Stage s;
@@ -265,7 +272,8 @@ TEST(ClosedForm, TheEarthsShadowHasUmbraAndPenumbra) {
     };
     EXPECT_EQ(sun_at(0), 0);
     EXPECT_NEAR(sun_at(9e6), 1, 1e-3);
-    // The limb through the Sun's middle: a uniform disk would lose half, a limb-darkened one too, by symmetry.
+    // The limb through the Sun's middle: a uniform disk would lose half, a limb-darkened one too, by
+    // symmetry.
     EXPECT_NEAR(sun_at(kEarthEquatorialRadius_m), 0.5, 0.03);
     // Penumbra's edges: 42e6 tan(0.2665 deg) = 195 km on both sides.
     EXPECT_GT(sun_at(kEarthEquatorialRadius_m + 180e3), 0.97);

@@ -1,5 +1,5 @@
-// An example of a plug-in: a path model that gives the distance of what the camera sees [m] instead of its radiance, in
-// every bin. Built by tests/CMakeLists.txt; used in a scenario by
+// An example of a plug-in: a path model that gives the distance of what the camera sees [m] instead of its
+// radiance, in every bin. Built by tests/CMakeLists.txt; used in a scenario by
 //     plugins: [{file: libdistance_plugin.so}]
 //     quality: {path_model: distance}
 
@@ -15,7 +15,8 @@ class DistancePaths final : public hilcam::PathModel {
     void trace(hilcam::Tile& tile) override {
         const std::size_t count = hilcam::trace_primary_rays(tile, vertices_);
         for (const hilcam::Vertex& at : std::span(vertices_.data(), count)) {
-            const auto distance_m = static_cast<float>(length(hilcam::to_double(at.point_m) - tile.frame.camera_m));
+            const auto distance_m =
+                static_cast<float>(length(hilcam::to_double(at.point_m) - tile.frame.camera_m));
             for (int b = 0; b < tile.frame.bins; ++b) tile.pixels[at.pixel][b] += distance_m;
         }
     }

@@ -59,8 +59,19 @@ inline SceneObject cube(const MaterialConfig& material, const SpectralGrid& grid
     std::vector<Vec3f> v;
     for (unsigned i = 0; i < 8; ++i)
         v.push_back(size * Vec3f{(i & 1u ? 0.5f : -0.5f), (i & 2u ? 0.5f : -0.5f), (i & 4u ? 0.5f : -0.5f)});
-    return object_of(v, {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                         {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}},
+    return object_of(v,
+                     {{0, 2, 1},
+                      {1, 2, 3},
+                      {4, 5, 6},
+                      {5, 7, 6},
+                      {0, 1, 4},
+                      {1, 5, 4},
+                      {2, 6, 3},
+                      {3, 6, 7},
+                      {0, 4, 2},
+                      {2, 4, 6},
+                      {1, 3, 5},
+                      {3, 7, 5}},
                      material, grid);
 }
 
@@ -72,7 +83,8 @@ inline SceneObject sphere(int rings, const MaterialConfig& material, const Spect
     for (int i = 0; i <= rings; ++i)
         for (int j = 0; j < spokes; ++j) {
             const double theta = kPi * i / rings, phi = 2 * kPi * j / spokes;
-            v.push_back(to_float(Vec3d{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}));
+            v.push_back(to_float(
+                Vec3d{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}));
         }
     for (int i = 0; i < rings; ++i)
         for (int j = 0; j < spokes; ++j) {

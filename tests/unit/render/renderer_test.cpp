@@ -129,7 +129,8 @@ TEST(Renderer, EarthshineOnAPlateIsThatOfALambertSphere) {
     const double distance = 40 * kEarthEquatorialRadius_m;
     // Earth off the line to the Sun by 1 degree, behind the camera; the plate looks at it, the Sun shines on
     // its back.
-    s.world.bodies[BodyId::kEarth].world_m = {0, std::sin(kDegree_rad) * distance, -std::cos(kDegree_rad) * distance};
+    s.world.bodies[BodyId::kEarth].world_m = {0, std::sin(kDegree_rad) * distance,
+                                              -std::cos(kDegree_rad) * distance};
     s.sun({0, 0, 1});
     s.add(plate(lambert(0.8), s.grid), {0, 0, 2});
     s.quality.samples_per_axis = 8;
@@ -174,10 +175,12 @@ double seen_albedo(double roughness, double& no) {
     return albedo;
 }
 
-// A white metal gives back all light, whatever its roughness; what shading with the Sun as a point widens by is 0.3 %.
+// A white metal gives back all light, whatever its roughness; what shading with the Sun as a point widens by
+// is 0.3 %.
 TEST(Renderer, WhiteMetalReflectsAllItGets) {
     double no = 0;
-    for (const double roughness : {1.0, 0.8, 0.6, 0.4}) EXPECT_NEAR(seen_albedo(roughness, no), 1, 4e-3) << roughness;
+    for (const double roughness : {1.0, 0.8, 0.6, 0.4})
+        EXPECT_NEAR(seen_albedo(roughness, no), 1, 4e-3) << roughness;
 }
 
 TEST(Renderer, DoesNotDependOnTheThreadCount) {

@@ -69,8 +69,8 @@ TEST(Spectrum, BinAverageOfALineIsItsMiddle) {
     EXPECT_EQ(s[2], 0);
 }
 
-// ASTM G173-03's extraterrestrial column: its integral from 0.28 to 2.5 um is 1314.88 W m^-2 by the trapezoidal rule on the
-// full table; single values from the table itself.
+// ASTM G173-03's extraterrestrial column: its integral from 0.28 to 2.5 um is 1314.88 W m^-2 by the
+// trapezoidal rule on the full table; single values from the table itself.
 TEST(Sun, SpectrumIsThatOfTheTable) {
     std::vector<double> edges;
     for (int i = 0; i <= 8; ++i) edges.push_back(0.28 + i * 2.22 / 8);
@@ -83,8 +83,8 @@ TEST(Sun, SpectrumIsThatOfTheTable) {
     EXPECT_THROW(solar_irradiance_1au_w_m2_um(SpectralGrid({0.25, 0.3})), InputError);
 }
 
-// The mean over the disk is 1 by definition; at 0.541 um the limb (mu = 0.2) has 0.4738 of the middle's radiance:
-// Neckel & Labs 1994, 0.26073 + 1.27428 mu - 1.30352 mu^2 + ....
+// The mean over the disk is 1 by definition; at 0.541 um the limb (mu = 0.2) has 0.4738 of the middle's
+// radiance: Neckel & Labs 1994, 0.26073 + 1.27428 mu - 1.30352 mu^2 + ....
 TEST(Sun, LimbDarkeningKeepsTheMeanAndFollowsTheTable) {
     const SpectralGrid grid({0.4, 0.5, 0.541, 0.5425, 0.9});
     const SunDisk disk(grid, true);
@@ -108,7 +108,8 @@ TEST(Spectrum, ACurveThatDoesNotReachIsRefusedWithItsPlace) {
         require_cover(shorter, grid, "reflectance");
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("paint.yaml:3:14: reflectance: the curve reaches from 0.450 to 0.900"),
+        EXPECT_NE(std::string(error.what())
+                      .find("paint.yaml:3:14: reflectance: the curve reaches from 0.450 to 0.900"),
                   std::string::npos)
             << error.what();
     }
@@ -154,7 +155,8 @@ TEST(Stars, AberrationTurnsThemForward) {
     EXPECT_NEAR(length(aberrated({0, 1, 0}, {0, 30e3, 0})), 1, 1e-12);
 }
 
-// The Moon's near side: the Earth stays within 8.2 deg of its prime meridian and 6.9 deg of its equator (librations).
+// The Moon's near side: the Earth stays within 8.2 deg of its prime meridian and 6.9 deg of its equator
+// (librations).
 TEST(Bodies, TheMoonTurnsItsNearSideToTheEarth) {
     double most_longitude = 0, most_latitude = 0;
     for (int day = 0; day < 365; ++day) {
@@ -174,8 +176,8 @@ TEST(Bodies, TheMoonTurnsItsNearSideToTheEarth) {
     EXPECT_LT(most_latitude, 7);
 }
 
-// Total eclipse of 2026-08-12: greatest at 17:45:51 UT, the Moon's shadow axis passes 0.898 Earth radii from the
-// geocentre (gamma; NASA/GSFC eclipse catalogue, F. Espenak).
+// Total eclipse of 2026-08-12: greatest at 17:45:51 UT, the Moon's shadow axis passes 0.898 Earth radii from
+// the geocentre (gamma; NASA/GSFC eclipse catalogue, F. Espenak).
 TEST(Bodies, TheMoonsShadowMissesTheEarthsMiddleByGamma) {
     const Bodies bodies = bodies_at(parse_utc("2026-08-12T17:45:51Z"), {});
     const Vec3d moon = bodies[BodyId::kMoon].world_m, axis = normalized(moon - bodies.sun_world_m);
@@ -200,8 +202,9 @@ TEST(Bodies, TheSunStandsTwentyArcsecondsBack) {
     EXPECT_NEAR(length(apparent - geometric) / kArcsecond_rad, 20.5, 0.4);
 }
 
-// Point and disk of a body have the same light, whatever the law: the sum of its radiance over the disk against
-// disk_albedo. The Moon at 40 degrees: V = -12.73 + 0.026 x 40 + 4e-9 x 40^4 (Krisciunas & Schaefer 1991).
+// Point and disk of a body have the same light, whatever the law: the sum of its radiance over the disk
+// against disk_albedo. The Moon at 40 degrees: V = -12.73 + 0.026 x 40 + 4e-9 x 40^4 (Krisciunas & Schaefer
+// 1991).
 TEST(BodyLight, DiskSumsUpToTheMagnitude) {
     const SpectralGrid grid({0.545, 0.555});
     for (const BodyId id : {BodyId::kMoon, BodyId::kMars, BodyId::kJupiter}) {
@@ -215,16 +218,19 @@ TEST(BodyLight, DiskSumsUpToTheMagnitude) {
                     const double x = 2 * (i + 0.5) / kGrid - 1, y = 2 * (j + 0.5) / kGrid - 1;
                     if (x * x + y * y >= 1) continue;
                     const Vec3d n{x, y, std::sqrt(1 - x * x - y * y)};
-                    sum += static_cast<double>(look.reflectance_sr(static_cast<float>(dot(n, sun)), static_cast<float>(n.z),
+                    sum += static_cast<double>(look.reflectance_sr(static_cast<float>(dot(n, sun)),
+                                                                   static_cast<float>(n.z),
                                                                    static_cast<float>(sun.z))[0]) *
                            4 / (kGrid * kGrid);
                 }
-            EXPECT_NEAR(sum / static_cast<double>(look.disk_albedo(phase)[0]), 1, 2e-3) << static_cast<int>(id);
+            EXPECT_NEAR(sum / static_cast<double>(look.disk_albedo(phase)[0]), 1, 2e-3)
+                << static_cast<int>(id);
             const double ratio = kFigures[index_of(id)].equatorial_radius_m / kAstronomicalUnit_m;
             EXPECT_NEAR(-2.5 * std::log10(sum * ratio * ratio) - 26.76, magnitude_v_1au(id, phase), 0.005);
         }
     }
-    EXPECT_NEAR(magnitude_v_1au(BodyId::kMoon, 0) + 5 * std::log10(384400e3 / kAstronomicalUnit_m), -12.73, 0.01);
+    EXPECT_NEAR(magnitude_v_1au(BodyId::kMoon, 0) + 5 * std::log10(384400e3 / kAstronomicalUnit_m), -12.73,
+                0.01);
 }
 
 // The vector form says what the scalar one says, from low orbit to the Moon, limb included.
