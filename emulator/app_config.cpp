@@ -71,6 +71,39 @@ void validate(const ObjectConfig& o) {
                          std::string(o.has_mesh ? "both" : "neither"));
 }
 
+Fields fields(PlaceConfig& p) {
+    return {
+        required(choice("body", p.body, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
+                        "it turns with it")),
+        required(number("longitude_deg", p.place.longitude_rad, kDegree_rad, {-360, 360}, "east positive")),
+        required(number("latitude_deg", p.place.latitude_rad, kDegree_rad, {-90, 90}, "geodetic")),
+        number("height_km", p.place.height_m, 1e3, {-100, 1e5},
+               "of the map's height 0 over the body's ellipsoid"),
+    };
+}
+
+void validate(const TerrainConfig& t) {
+    if (t.has_pose && t.has_place) throw InputError("terrain has either 'pose' or 'place'; found both");
+}
+
+Fields fields(TerrainConfig& t) {
+    return {
+        text("name", t.name, "for messages"),
+        required(section("heights", t.heights, "the map")),
+        number("radius_km", t.radius_m, 1000, {0, 1e6}, "of the sphere under the map; 0: a plane"),
+        optional(
+            section(
+                "pose", t.pose,
+                "of the map's middle at height 0 in the world, where it stays; axes x east, y north, z up"),
+            t.has_pose),
+        optional(section("place", t.place, "the same on a body, with which it turns"), t.has_place),
+        section("material", t.material, "what the ground is made of"),
+        number("edge_px", t.edge_px, 1, {0.25, 64}, "of its triangles on the screen, at most"),
+        integer("most_triangles", t.most_triangles, {10'000, 50'000'000}, "at a time"),
+        flag("wait", t.wait, "frames wait for the terrain that fits them: the same every run, not real time"),
+    };
+}
+
 Fields fields(StarsConfig& s) {
     return {
         path("catalogue", s.catalogue, "CSV as configs/stars/hipparcos.csv; none: no stars"),
@@ -115,6 +148,7 @@ Fields fields(ScenarioConfig& s) {
         required(section("camera", s.camera, "the camera's data sheet")),
         section("camera_pose", s.camera_pose, "where the camera stands until commands say otherwise"),
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
+        optional(section("terrain", s.terrain, "ground from a height map"), s.has_terrain),
         section("sun", s.sun, "the Sun"),
         section("atmosphere", s.atmosphere, "the Earth's air"),
         section("stars", s.stars, "the stars"),

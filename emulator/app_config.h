@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/commands_udp.h"
+#include "io/height_map_file.h"
 #include "io/sink_files.h"
 #include "io/sink_gige.h"
 #include "io/sink_v4l2.h"
@@ -72,6 +73,29 @@ struct ObjectConfig {
 Fields fields(ObjectConfig& object);
 void validate(const ObjectConfig& object);
 
+// A place on a body.
+struct PlaceConfig {
+    BodyId body = BodyId::kMoon;
+    Geodetic place;
+};
+Fields fields(PlaceConfig& place);
+
+// Ground from a height map, at rest in the world or on a body that turns.
+struct TerrainConfig {
+    std::string name = "terrain";
+    HeightMapConfig heights;
+    double radius_m = 0;
+    PoseConfig pose;
+    PlaceConfig place;
+    bool has_pose = false, has_place = false;
+    MaterialConfig material;
+    double edge_px = 2;
+    std::int64_t most_triangles = 1'000'000;
+    bool wait = false;
+};
+Fields fields(TerrainConfig& terrain);
+void validate(const TerrainConfig& terrain);
+
 struct StarsConfig {
     std::filesystem::path catalogue;  // empty: no stars
     double faintest_magnitude = 8;
@@ -114,6 +138,8 @@ struct ScenarioConfig {
     CameraModel camera;
     PoseConfig camera_pose;
     std::vector<ObjectConfig> objects;
+    TerrainConfig terrain;
+    bool has_terrain = false;
     SunConfig sun;
     std::array<BodyConfig, kBodyCount> bodies;
     AtmosphereConfig atmosphere;

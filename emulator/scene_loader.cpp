@@ -32,6 +32,11 @@ std::filesystem::path mesh_path(const ObjectConfig& object) {
 
 namespace {
 
+Material load_material(const MaterialConfig& m, const SpectralGrid& grid) {
+    return make_material(
+        m, grid, m.table.empty() ? nullptr : std::make_shared<const BrdfTable>(read_brdf(m.table, grid)));
+}
+
 std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, const SpectralGrid& grid) {
     std::vector<Material> materials;
     for (const MeshSurface& surface : mesh.surfaces) {
@@ -40,10 +45,7 @@ std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, c
             materials.push_back(make_material(surface, grid));
             continue;
         }
-        const MaterialConfig& m = config->material;
-        materials.push_back(make_material(
-            m, grid,
-            m.table.empty() ? nullptr : std::make_shared<const BrdfTable>(read_brdf(m.table, grid))));
+        materials.push_back(load_material(config->material, grid));
         materials.back().texture = surface.base_color_texture;
     }
     return materials;
@@ -79,6 +81,14 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     }
     std::move(parts.begin(), parts.end(), std::back_inserter(scene.objects));
     const TimeTai time = parse_utc(scenario.time_utc);
+    if (scenario.has_terrain) {
+        const TerrainConfig& t = scenario.terrain;
+        const Pose pose = initial_motion(t.pose, time, bodies_at(time, scenario.origin)).pose;
+        scene.terrain = std::make_unique<SceneTerrain>(SceneTerrain{
+            t.name, open_height_map(t.heights), t.radius_m, pose,
+            t.has_place ? std::optional(t.place.body) : std::nullopt, t.place.place,
+            load_material(t.material, grid), t.edge_px, static_cast<std::size_t>(t.most_triangles), t.wait});
+    }
     if (!scenario.stars.catalogue.empty())
         scene.stars =
             stars_at(load_catalogue(scenario.stars.catalogue), time,

@@ -97,9 +97,13 @@ void copy_rays(const RayPacket& from, RTCRay16& to) {
 
 }  // namespace
 
+// An object whose instance has to be told its scene anew.
+constexpr std::size_t kNoLevel = std::numeric_limits<std::size_t>::max();
+
 struct EmbreeScene::Implementation {
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
+    bool watertight = true;
     std::vector<std::vector<RTCScene>> levels;  // per object
     std::vector<std::size_t> shown;             // level of each
     std::vector<RTCGeometry> instances;
@@ -129,6 +133,7 @@ struct EmbreeScene::Implementation {
     }
     RTCScene build(const Mesh& mesh) const {
         RTCScene scene = rtcNewScene(device);
+        if (watertight) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene, mesh.triangles.size() < kSpatialSplits ? RTC_BUILD_QUALITY_HIGH
                                                                               : RTC_BUILD_QUALITY_MEDIUM);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -148,13 +153,15 @@ struct EmbreeScene::Implementation {
     }
 };
 
-EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects)
+EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool watertight)
     : implementation_(std::make_unique<Implementation>()) {
     Implementation& my = *implementation_;
     my.device = rtcNewDevice(nullptr);
     if (!my.device) throw DeviceError("Embree cannot start on this processor; it needs SSE2 at least");
     my.top = rtcNewScene(my.device);
-    rtcSetSceneFlags(my.top, RTC_SCENE_FLAG_DYNAMIC);
+    my.watertight = watertight;
+    rtcSetSceneFlags(my.top,
+                     watertight ? RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(my.top, RTC_BUILD_QUALITY_LOW);
     for (const std::vector<const Mesh*>& meshes : objects) {
         std::vector<RTCScene>& scenes = my.levels.emplace_back();
@@ -186,6 +193,24 @@ void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size
         rtcCommitGeometry(my.instances[i]);
     }
     rtcCommitScene(my.top);
+}
+
+PreparedMesh::~PreparedMesh() {
+    if (scene_) rtcReleaseScene(static_cast<RTCScene>(scene_));
+}
+
+PreparedMesh EmbreeScene::prepare(const Mesh& mesh) const {
+    PreparedMesh out;
+    out.scene_ = implementation_->build(mesh);
+    return out;
+}
+
+void EmbreeScene::adopt(std::size_t object, PreparedMesh& mesh) {
+    RTCScene& first = implementation_->levels[object].front();
+    void* const replaced = first;
+    first = static_cast<RTCScene>(mesh.scene_);
+    mesh.scene_ = replaced;
+    implementation_->shown[object] = kNoLevel;
 }
 
 void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const {

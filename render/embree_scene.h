@@ -5,8 +5,7 @@
 // Ray space (frame_view.h): axes parallel to the world, metres, single precision. Placing an object
 // subtracts its origin in double precision first, so that near things keep their digits wherever in the world
 // they are. Precision: a hit's distance is good to a few 1e-7 of the distance to the object; objects many
-// times farther than large (10^4 and more) lose shape. Misses and hits of shared edges follow Embree's
-// non-robust mode.
+// times farther than large (10^4 and more) lose shape. Hits of shared edges: see watertight.
 
 #include <array>
 #include <cstdint>
@@ -48,17 +47,37 @@ struct alignas(64) HitPacket {
 // Whether the rays of a packet run side by side (from the camera, to the Sun) or anywhere.
 enum class Coherence { kCoherent, kIncoherent };
 
+// A mesh with its tree, made beside a scene.
+class PreparedMesh {
+  public:
+    PreparedMesh() = default;
+    PreparedMesh(PreparedMesh&& other) noexcept : scene_(other.scene_) { other.scene_ = nullptr; }
+    PreparedMesh& operator=(PreparedMesh&&) = delete;
+    ~PreparedMesh();
+
+  private:
+    friend class EmbreeScene;
+    void* scene_ = nullptr;
+};
+
 class EmbreeScene {
   public:
     // One instance per object, each with its levels of detail, the mesh itself first; builds their trees on
     // all of
     // oneTBB's threads. Vertices and triangles are copied. Throws InputError when memory runs out.
-    explicit EmbreeScene(std::span<const std::vector<const Mesh*>> objects);
+    // watertight: a ray along an edge that two triangles share meets one of them, always; costs a sixth.
+    EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool watertight);
     ~EmbreeScene();
 
     // Places the objects for a frame, each at one of its levels. Loop, one thread; Embree rebuilds its small
     // top-level tree.
     void place(std::span<const Pose> objects, std::span<const std::size_t> levels, Vec3d origin_world_m);
+
+    // A mesh to take an object's place. Any thread, also while others trace.
+    PreparedMesh prepare(const Mesh& mesh) const;
+    // Puts it in the place of the object's first level, from the next place() on; `mesh` then holds what was
+    // there. Loop, one thread.
+    void adopt(std::size_t object, PreparedMesh& mesh);
 
     // Any thread between two place(). No allocation.
     void intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const;

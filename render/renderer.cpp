@@ -15,6 +15,7 @@
 #include "render/screen_bounds.h"
 #include "render/screen_mask.h"
 #include "render/shown_object.h"
+#include "render/shown_terrain.h"
 
 namespace hilcam {
 namespace {
@@ -52,6 +53,8 @@ Fields fields(RenderQuality& q) {
         number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
                "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they "
                "are"),
+        flag("watertight", q.watertight,
+             "no ray slips through the edge that two triangles share; costs a sixth"),
         number("lod_error_px", q.lod_error_px, 1, {0, 16},
                "a mesh may be this far off, in pixels, where it is drawn from a coarser level; 0: never"),
         integer(
@@ -65,7 +68,7 @@ Fields fields(RenderQuality& q) {
 struct Renderer::Implementation {
     std::size_t triangle_count;
     EmbreeScene embree;
-    std::vector<ShownObject> objects;
+    std::vector<ShownObject> objects;          // the last one is the terrain, if there is any
     std::vector<std::size_t> levels;           // of detail that each is shown at
     std::vector<const ObjectSurfaces*> shown;  // at that level
     std::vector<double> radii_m;
@@ -82,6 +85,8 @@ struct Renderer::Implementation {
     std::unique_ptr<RadianceModel> radiance_model;
     std::string path_model_name;
     FrameView frame;
+    WorldSnapshot world;  // of the frame, with the terrain among its objects
+    std::unique_ptr<ShownTerrain> terrain;
     std::unique_ptr<ObjectProbe> probe;  // for objects of a few pixels
     int samples_per_axis;
     int rays_across;
@@ -97,7 +102,7 @@ struct Renderer::Implementation {
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const RenderQuality& quality, const RenderModels& models, const Modules& modules)
         : triangle_count(0),
-          embree(ordered_meshes(scene)),
+          embree(ordered_meshes(with_terrain_object(scene)), quality.watertight),
           lod_error_px(quality.lod_error_px),
           stars(std::move(scene.stars)),
           bodies(std::move(scene.bodies)),
@@ -116,6 +121,9 @@ struct Renderer::Implementation {
           tiles_down((geometry.padded_height() + tile_px - 1) / tile_px),
           tile_stats(static_cast<std::size_t>(tiles_across * tiles_down)) {
         objects = shown_objects(scene);
+        if (scene.terrain)
+            terrain = std::make_unique<ShownTerrain>(embree, std::move(scene.terrain), objects.size() - 1);
+        world.objects.reserve(objects.size());
         levels.resize(objects.size());
         plans.resize(objects.size());
         object_boxes.resize(objects.size());
@@ -153,7 +161,7 @@ struct Renderer::Implementation {
     }
 
     // The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
-    void choose_levels(const WorldSnapshot& world) {
+    void choose_levels() {
         for (std::size_t i = 0; i < objects.size(); ++i) {
             const double nearest_m =
                 length(world.objects[i].position_world_m - world.camera.position_world_m) - radii_m[i];
@@ -166,15 +174,20 @@ struct Renderer::Implementation {
     }
 
     // Of the sphere that holds it.
-    PixelBox box_of(const WorldSnapshot& world, std::size_t i) const {
+    PixelBox box_of(std::size_t i) const {
         const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
         const double sine = std::min(1.0, radii_m[i] / plans[i].distance_m);
         return screen_bounds_of_cone(frame.geometry, world.camera, to_object_m / plans[i].distance_m,
                                      std::sqrt(1 - sine * sine));
     }
 
-    void place(const WorldSnapshot& world, RandomKey key) {
-        HILCAM_CHECK(world.objects.size() == objects.size());
+    void place(const WorldSnapshot& given, RandomKey key) {
+        HILCAM_CHECK(given.objects.size() + (terrain ? 1 : 0) == objects.size());
+        world = given;
+        if (terrain) {
+            world.objects.push_back(terrain->update(world, frame.geometry.focal_length_px, objects.back()));
+            radii_m.back() = objects.back().radius_m();
+        }
         const RaySpace space = choose_ray_space(world, radii_m, rays->is_still());
         const double pixel_rad = 1 / frame.geometry.focal_length_px;
         background.place(world, space.origin_world_m, pixel_rad);
@@ -182,7 +195,7 @@ struct Renderer::Implementation {
         frame.rays_world_m = space.origin_world_m;
         frame.camera_m = world.camera.position_world_m - space.origin_world_m;
         frame.start_before_m = space.start_before_m;
-        choose_levels(world);
+        choose_levels();
         embree.place(world.objects, levels, space.origin_world_m);
         rays->place(frame.geometry,
                     {world.time, world.camera, world.camera_velocity_m_s, world.camera_rate_rad_s});
@@ -203,7 +216,7 @@ struct Renderer::Implementation {
                 !object_mask.add(world.camera, world.objects[i], shown[i]->cluster_bounds_m))
                 plans[i].use = ObjectUse::kHidden;
             if (!frame.is_point[i] && plans[i].samples_per_axis > samples_per_axis)
-                object_boxes[i] = box_of(world, i);
+                object_boxes[i] = box_of(i);
             farthest_m = std::max(farthest_m, plans[i].distance_m + radii_m[i]);
         }
         frame.object_mask = still ? &object_mask : &full_mask;
@@ -328,14 +341,14 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
 
     const auto pointed = Clock::now();
     points.clear();
-    const PointField field(my.frame, world);
+    const PointField field(my.frame, my.world);
     field.add_stars(my.stars, points);
     for (const PlacedBody& body : my.background.points())
         field.add(body.world_dir, body.distance_m, my.background.point_irradiance(body), points);
     for (std::size_t i = 0; i < my.objects.size(); ++i)
         if (my.frame.is_point[i])
-            my.probe->add_points(my.frame, world, i, my.plans[i], my.radii_m[i], *my.tracers.front(), field,
-                                 points);
+            my.probe->add_points(my.frame, my.world, i, my.plans[i], my.radii_m[i], *my.tracers.front(),
+                                 field, points);
     stats.points_ms = ms_since(pointed);
 
     const TileStats sum = my.total();
@@ -355,7 +368,7 @@ std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     for (const ObjectSurfaces* surfaces : my.shown) triangles.push_back(surfaces->triangles.size());
     return explain(
         {my.frame, my.plans, names, triangles, my.path_model_name, my.stars.size(), my.samples_per_axis},
-        world);
+        my.world);
 }
 
 std::vector<PathModelSpeed> Renderer::path_model_speeds(const WorldSnapshot& world, const Modules& modules,

@@ -30,6 +30,7 @@ struct RenderQuality {
     double contribution_threshold = 1e-3;  // see path_model.h
     bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
     double facets_behind_diffuse = 0.4;    // least GGX alpha there; 0: as they are
+    bool watertight = true;                // no ray slips through between two triangles
     double lod_error_px = 0.25;            // of a coarser level of detail; 0: the mesh itself, always
     std::int64_t rays_across =
         128;  // of a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "render/bodies.h"
 #include "render/body_light.h"
 #include "render/color_bands.h"
+#include "render/height_map.h"
 #include "render/material.h"
 #include "render/mesh.h"
 #include "render/mesh_lod.h"
@@ -31,8 +33,23 @@ struct SceneBody {
     MipTexture map;  // empty: uniform. Relative to its mean where the look is tied to a magnitude
 };
 
+// Ground from a height map (terrain.h), at rest in the world or on a body that turns.
+struct SceneTerrain {
+    std::string name;
+    std::unique_ptr<HeightMap> map;
+    double radius_m = 0;
+    Pose pose;                   // in the world, without a body
+    std::optional<BodyId> body;  // on which the map's middle is at `place`, x east, y north, z up
+    Geodetic place;
+    Material material;
+    double edge_px = 2;
+    std::size_t most_triangles = 1'000'000;
+    bool wait = false;  // frames wait for the terrain that fits them
+};
+
 struct Scene {
     std::vector<SceneObject> objects;
+    std::unique_ptr<SceneTerrain> terrain;  // null: none
     std::vector<Star> stars;
     std::array<SceneBody, kBodyCount> bodies;  // by BodyId
     std::unique_ptr<Atmosphere> air;           // the Earth's; null: none

@@ -1,5 +1,5 @@
-// Tables of an atmosphere, of values or of MODTRAN runs: whatever the bytes, finite values or an InputError. Bytes that
-// begin with the name of a run's first column are a run; an index of it is made here.
+// Tables of an atmosphere, of values or of MODTRAN runs: whatever the bytes, finite values or an InputError.
+// Bytes that begin with the name of a run's first column are a run; an index of it is made here.
 
 #include <unistd.h>
 
@@ -26,7 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const hilcam::AtmosphereTable table =
             hilcam::read_atmosphere(folder / "table.csv", hilcam::SpectralGrid({0.45, 0.55, 0.65}));
         for (const auto& cell : table.cells)
-            if (!std::isfinite(cell.tau_1[0] + cell.tau_2[0] + cell.radiance_sr[0] + cell.sky[0])) std::abort();
+            if (!std::isfinite(cell.tau_1[0] + cell.tau_2[0] + cell.radiance_sr[0] + cell.sky[0]))
+                std::abort();
     } catch (const hilcam::InputError&) {
     }
     std::filesystem::remove_all(folder);

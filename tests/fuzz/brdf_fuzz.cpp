@@ -13,7 +13,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::filesystem::path file =
         std::filesystem::temp_directory_path() / ("hilcam_brdf_fuzz_" + std::to_string(getpid()) + ".csv");
-    std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
     try {
         const hilcam::BrdfTable table = hilcam::read_brdf(file, hilcam::SpectralGrid({0.5, 0.6, 0.7}));
         for (const float cosine : {0.01f, 0.5f, 1.0f})

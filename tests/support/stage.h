@@ -132,7 +132,12 @@ class Stage {
         render_again();
     }
     // The same scene in another world.
-    void build() { renderer = std::make_unique<Renderer>(copy_of(scene), grid, geometry, quality, models); }
+    // Terrain, which cannot be copied, goes with the first.
+    void build() {
+        Scene copy = copy_of(scene);
+        copy.terrain = std::move(scene.terrain);
+        renderer = std::make_unique<Renderer>(std::move(copy), grid, geometry, quality, models);
+    }
     void render_again() {
         points.reserve(renderer->most_points());
         renderer->render(world, {1, 1}, radiance, points, stats);

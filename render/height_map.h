@@ -1,0 +1,17 @@
+#pragma once
+// Heights on a regular grid, however large: asked for point by point, so that only what is looked at need be
+// in memory.
+
+namespace hilcam {
+
+class HeightMap {
+  public:
+    virtual ~HeightMap() = default;
+    virtual int columns() const = 0;  // at least 2
+    virtual int rows() const = 0;     // at least 2; row 0 is the northernmost
+    virtual double spacing_m() const = 0;
+    // Finite. 0 <= column < columns(), row likewise. Any thread.
+    virtual float height_m(int column, int row) const = 0;
+};
+
+}  // namespace hilcam
