@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdio>
 
+#include "render/embree_scene.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {
@@ -188,6 +190,44 @@ TEST(Extremes, BrokenMeshesStayFiniteAndEnd) {
         for (const float value : s.radiance.all()) {
             ASSERT_TRUE(std::isfinite(value)) << model;
             ASSERT_GE(value, 0) << model;
+        }
+    }
+}
+
+// Where single precision parts from double: a ray to a point 0.3 of the way up a face of a 1 m cube, by
+// Embree in single precision and by the plane's equation in double. From the camera the error grows as the
+// distance's own grain; counted from the object (frame_view.h) it stays that of a metre.
+TEST(Extremes, SinglePrecisionPartsFromDoubleWithTheDistanceUnlessRaysBeginAtTheObject) {
+    const SpectralGrid grid({0.5, 0.6});
+    const SceneObject object = cube(lambert(0.5), grid);
+    const std::vector<std::vector<const Mesh*>> meshes = {{&object.mesh}};
+    EmbreeScene scene(meshes, true);
+    const std::size_t level = 0;
+    printf("distance [m]  error from the camera [m]  error from the object [m]\n");
+    for (double distance_m = 1; distance_m <= 4e7; distance_m *= 10) {
+        const Pose pose{{0, 0, distance_m + 0.5}, from_rotation_vector({0, 0.2, 0})};
+        const Mat3d m = to_matrix(pose.world_from_body);
+        const Vec3d target = pose.position_world_m + m * Vec3d{0.1, 0.3, -0.5};
+        const Vec3d dir = normalized(target), normal = m * Vec3d{0, 0, -1};
+        const auto error_of = [&](Vec3d origin, double start) {
+            scene.place(std::span(&pose, 1), std::span(&level, 1), origin);
+            RayPacket ray;
+            HitPacket hit;
+            ray.count = 1;
+            const Vec3f from = to_float(start * dir - origin), along = to_float(dir);
+            ray.set(0, from, along, 0, 1e30f);
+            scene.intersect(ray, Coherence::kIncoherent, hit);
+            if (hit.object[0] == HitPacket::kMiss) return 1e9;
+            // How far the point that was found is from the face.
+            const Vec3d found =
+                to_double(from) + static_cast<double>(hit.distance[0]) * to_double(along) + origin;
+            return std::abs(dot(found - target, normal));
+        };
+        const double camera = error_of({}, 0), near = error_of(pose.position_world_m, distance_m - 1);
+        printf("%12.0f  %25.2e  %25.2e\n", distance_m, camera, near);
+        EXPECT_LT(near, 1e-6) << distance_m;
+        if (distance_m <= 100) {
+            EXPECT_LT(camera, 2e-6 * distance_m) << distance_m;
         }
     }
 }

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include "io/brdf_file.h"
 #include "io/config_yaml.h"
+#include "io/height_map_file.h"
 #include "io/mesh_level_cache.h"
 #include "render/brdf.h"
 #include "render/check.h"
@@ -143,6 +145,42 @@ TEST(MaterialLibrary, EveryFileLoadsAndKeepsEnergy) {
         ++count;
     }
     EXPECT_GE(count, 20);
+}
+
+TEST_F(MaterialFiles, HeightsAreReadAsTheyAreWritten) {
+    std::string bytes;
+    for (const std::int16_t h : {std::int16_t{0}, std::int16_t{-300}, std::int16_t{1000}, std::int16_t{7},
+                                 std::int16_t{8}, std::int16_t{9}})
+        bytes.append(reinterpret_cast<const char*>(&h), 2);
+    HeightMapConfig config;
+    config.file = write("h.raw", bytes);
+    config.columns = 3, config.rows = 2, config.scale = 0.5, config.offset_m = 10;
+    const auto map = open_height_map(config);
+    EXPECT_EQ(map->height_m(1, 0), -140);
+    EXPECT_EQ(map->height_m(2, 0), 510);
+    EXPECT_EQ(map->height_m(0, 1), 13.5f);
+    const auto error = [&] {
+        try {
+            open_height_map(config);
+        } catch (const InputError& e) {
+            return std::string(e.what());
+        }
+        return std::string("no error");
+    };
+    config.rows = 3;
+    EXPECT_THAT(error(), HasSubstr("h.raw: has 12 bytes; 3 columns of 3 rows of 2 bytes make 18"));
+    config.file = folder_ / "none.raw";
+    EXPECT_THAT(error(), HasSubstr("none.raw: cannot be read"));
+    // A float that is no number is ground at height 0.
+    const float values[4] = {1.5f, std::nanf(""), std::numeric_limits<float>::infinity(), -2};
+    config.file = write("f.raw", std::string(reinterpret_cast<const char*>(values), sizeof values));
+    config.columns = config.rows = 2, config.scale = 1, config.offset_m = 0,
+    config.format = HeightFormat::kFloat32;
+    const auto floats = open_height_map(config);
+    EXPECT_EQ(floats->height_m(0, 0), 1.5f);
+    EXPECT_EQ(floats->height_m(1, 0), 0);
+    EXPECT_EQ(floats->height_m(0, 1), 0);
+    EXPECT_EQ(floats->height_m(1, 1), -2);
 }
 
 TEST_F(MaterialFiles, LevelsComeBackFromDiskAndABrokenFileIsMadeAnew) {

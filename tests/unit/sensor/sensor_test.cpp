@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/check.h"
+#include "render/stars.h"
 #include "render/units.h"
 #include "sensor/chain.h"
 #include "sensor/mtf.h"
@@ -115,6 +116,32 @@ TEST(Chain, PointKeepsItsElectronsAndCentroidWhereverItFalls) {
         EXPECT_NEAR(x / weights, 0, 1e-3) << offset;
         EXPECT_NEAR(y / weights, 0, 1e-3) << offset;
     }
+}
+
+// From a star's magnitude to electrons: V = 2 through an aperture of 20 mm, 90 % of glass and 50 % of quanta,
+// 100 ms, in a bin of 10 nm at 0.55 um. 3.63e-8 W m^-2 um^-1 10^(-0.4 2) 0.01 um, photons of 3.6117e-19 J:
+// 2,250 e- or so.
+TEST(Chain, AStarsMagnitudeBecomesItsElectrons) {
+    CameraModel c;
+    c.width_px = c.height_px = 64;
+    c.pitch_m = 5e-6, c.focal_length_m = 0.08, c.f_number = 4;
+    c.transmission = Curve::constant(0.9), c.quantum_efficiency = Curve::constant(0.5);
+    c.full_well_e = 1e9;
+    const SpectralGrid grid({0.545, 0.555});
+    const double watts_m2 = 3.63e-8 * std::pow(10.0, -0.8) * 0.01;
+    const double photon_j = 6.62607015e-34 * 299792458.0 / 0.55e-6;
+    const double expected = watts_m2 * kPi * 0.01 * 0.01 * 0.9 * 0.5 * 0.1 / photon_j;
+    SensorChain chain(c, grid, 8, 1);
+    RadianceImage dark(80, 80, 1);
+    ElectronImage electrons(64, 64);
+    PointSource star;
+    star.position_px = {32.3f, 31.8f};
+    star.irradiance_w_m2_um = star_irradiance_w_m2_um(2, 0, grid);
+    chain.expose(dark, {{star}}, 0.1, electrons);
+    double sum = 0;
+    for (const float e : electrons.all()) sum += e;
+    // The diffraction pattern's far rings leave the picture.
+    EXPECT_NEAR(sum / expected, 1, 0.02);
 }
 
 TEST(Chain, LightFromOneEdgeDoesNotComeBackAtTheOther) {
