@@ -4,7 +4,6 @@
 
 #include "emulator/emulator.h"
 #include "emulator/scene_loader.h"
-#include "emulator/world_state.h"
 #include "render/sun.h"
 #include "render/units.h"
 #include "sensor/chain.h"
@@ -51,11 +50,7 @@ std::string check_scenario(const ScenarioConfig& s) {
     const TimeTai time = parse_utc(s.time_utc);
     const ImageGeometry geometry = geometry_of(s.camera, static_cast<int>(s.quality.guard_px));
     const std::unique_ptr<Renderer> renderer = load_renderer(s, grid, geometry);
-    WorldState state(initial_motions(s, time), s.origin, joints_of(s));
-    WorldSnapshot world;
-    world.objects.resize(state.placed_objects());
-    ShownCommand shown;
-    state.sample(time, world, shown);
+    const WorldSnapshot world = snapshot_at(s, time, time);
     renderer->require_air(world);
     std::string out =
         fmt::format("scenario {} at {}\n", s.name, format_utc(time)) + camera_sheet(s, grid) + "plan\n";

@@ -49,6 +49,15 @@ std::vector<Joint> joints_of(const ScenarioConfig& scenario) {
     return joints;
 }
 
+WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time) {
+    WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
+    WorldSnapshot world;
+    world.objects.resize(state.placed_objects());
+    ShownCommand shown;
+    state.sample(time, world, shown);
+    return world;
+}
+
 Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     : scenario_(scenario),
       limits_(limits),
@@ -67,11 +76,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     clock_ = SimulatedClock(start, monotonic_now_ns());
     world_ =
         std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
-    WorldSnapshot first;
-    first.objects.resize(world_->placed_objects());
-    ShownCommand shown;
-    world_->sample(start, first, shown);
-    renderer_->require_air(first);
+    renderer_->require_air(snapshot_at(scenario, start, start));
     dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, clock_);
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);

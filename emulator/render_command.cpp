@@ -2,7 +2,6 @@
 
 #include "emulator/emulator.h"
 #include "emulator/scene_loader.h"
-#include "emulator/world_state.h"
 #include "io/image_file.h"
 #include "sensor/chain.h"
 
@@ -21,11 +20,7 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
 
     const TimeTai start = parse_utc(scenario.time_utc);
     const TimeTai time = start + static_cast<std::int64_t>(time_offset_s * 1e9);
-    WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
-    WorldSnapshot world;
-    world.objects.resize(state.placed_objects());
-    ShownCommand shown;
-    state.sample(time, world, shown);
+    const WorldSnapshot world = snapshot_at(scenario, start, time);
 
     renderer->require_air(world);
 

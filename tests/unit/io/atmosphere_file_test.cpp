@@ -11,6 +11,7 @@
 #include "render/atmosphere_models.h"
 #include "render/check.h"
 #include "render/units.h"
+#include "tests/support/files.h"
 
 namespace hilcam {
 namespace {
@@ -20,23 +21,10 @@ using testing::HasSubstr;
 const SpectralGrid kGrid({0.45, 0.55, 0.65});
 constexpr double kGround_m = kEarthEquatorialRadius_m;
 
-class AtmosphereFiles : public testing::Test {
+class AtmosphereFiles : public FilesTest {
   protected:
-    std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() / ("hilcam_atmosphere_" + std::to_string(getpid()));
-    void SetUp() override { std::filesystem::create_directories(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::filesystem::path write(const std::string& name, const std::string& text) {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
-    }
-    std::string error_of(const std::filesystem::path& file) {
-        try {
-            read_atmosphere(file, kGrid);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "no error";
+    std::string table_error(const std::filesystem::path& file) {
+        return error_of([&] { read_atmosphere(file, kGrid); });
     }
 };
 
@@ -110,23 +98,23 @@ TEST_F(AtmosphereFiles, ATableSaysWhatItWasMadeFrom) {
 
 TEST_F(AtmosphereFiles, WhatATableLacksIsNamed) {
     const std::string rows = "10,0,0,800,0.45,0.8,0.9,0.02,0.1\n10,0,0,800,0.65,0.8,0.9,0.02,0.1\n";
-    EXPECT_EQ(error_of(write("good.csv", kHeader + rows)), "no error");
-    EXPECT_THAT(error_of(folder_ / "none.csv"), HasSubstr("none.csv: cannot be read"));
-    EXPECT_THAT(error_of(write("a.csv", "angle,tau\n1,2\n")), HasSubstr("a.csv:1: found 'angle,tau'"));
-    EXPECT_THAT(error_of(write("b.csv", kHeader + rows + "20,0,0,800,0.45,0.8\n")),
+    EXPECT_EQ(table_error(write("good.csv", kHeader + rows)), "no error");
+    EXPECT_THAT(table_error(folder_ / "none.csv"), HasSubstr("none.csv: cannot be read"));
+    EXPECT_THAT(table_error(write("a.csv", "angle,tau\n1,2\n")), HasSubstr("a.csv:1: found 'angle,tau'"));
+    EXPECT_THAT(table_error(write("b.csv", kHeader + rows + "20,0,0,800,0.45,0.8\n")),
                 HasSubstr("b.csv:4: found 6 columns"));
-    EXPECT_THAT(error_of(write("c.csv", kHeader + rows + "95,0,0,800,0.45,0.8,0.9,0.02,0.1\n")),
+    EXPECT_THAT(table_error(write("c.csv", kHeader + rows + "95,0,0,800,0.45,0.8,0.9,0.02,0.1\n")),
                 HasSubstr("c.csv:4: sun_zenith_deg: found '95'; accepted: a number from 0 to 90"));
-    EXPECT_THAT(error_of(write("d.csv", kHeader + rows + "20,0,0,800,0.45,1.2,0.9,0.02,0.1\n")),
+    EXPECT_THAT(table_error(write("d.csv", kHeader + rows + "20,0,0,800,0.45,1.2,0.9,0.02,0.1\n")),
                 HasSubstr("d.csv:4: a transmittance is not within 0 to 1: tau_1 1.2"));
     EXPECT_THAT(
-        error_of(
+        table_error(
             write("e.csv",
                   kHeader + rows + "20,30,0,800,0.45,0.8,0.9,0.02,0.1\n20,30,0,800,0.65,0.8,0.9,0.02,0.1\n")),
         HasSubstr(
             "e.csv: has no geometry sun_zenith_deg 10, view_zenith_deg 30, azimuth_deg 0, height_km 800"));
     EXPECT_THAT(
-        error_of(
+        table_error(
             write("f.csv", kHeader + "10,0,0,800,0.45,0.8,0.9,0.02,0.1\n10,0,0,800,0.60,0.8,0.9,0.02,0.1\n")),
         HasSubstr("the curve reaches from 0.450 to 0.600 um"));
 }
@@ -159,8 +147,8 @@ TEST_F(AtmosphereFiles, AModtranRunGivesItsQuantitiesBack) {
     EXPECT_NEAR(table.cells[0].sky[0], sky, 1e-3);
     write("cut.scn", run.substr(0, 60));
     EXPECT_THAT(
-        error_of(write("cut.csv",
-                       "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file\n60,20,90,800,cut.scn\n")),
+        table_error(write(
+            "cut.csv", "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file\n60,20,90,800,cut.scn\n")),
         HasSubstr("cut.scn:"));
 }
 

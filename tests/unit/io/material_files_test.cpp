@@ -15,6 +15,7 @@
 #include "render/brdf.h"
 #include "render/check.h"
 #include "render/units.h"
+#include "tests/support/files.h"
 
 namespace hilcam {
 namespace {
@@ -23,23 +24,10 @@ using testing::HasSubstr;
 
 const SpectralGrid kGrid({0.5, 0.6, 0.7});
 
-class MaterialFiles : public testing::Test {
+class MaterialFiles : public FilesTest {
   protected:
-    std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() / ("hilcam_materials_" + std::to_string(getpid()));
-    void SetUp() override { std::filesystem::create_directories(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::filesystem::path write(const std::string& name, const std::string& text) {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
-    }
     std::string brdf_error(const std::filesystem::path& file) {
-        try {
-            read_brdf(file, kGrid);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "no error";
+        return error_of([&] { read_brdf(file, kGrid); });
     }
 };
 
@@ -159,14 +147,7 @@ TEST_F(MaterialFiles, HeightsAreReadAsTheyAreWritten) {
     EXPECT_EQ(map->height_m(1, 0), -140);
     EXPECT_EQ(map->height_m(2, 0), 510);
     EXPECT_EQ(map->height_m(0, 1), 13.5f);
-    const auto error = [&] {
-        try {
-            open_height_map(config);
-        } catch (const InputError& e) {
-            return std::string(e.what());
-        }
-        return std::string("no error");
-    };
+    const auto error = [&] { return error_of([&] { open_height_map(config); }); };
     config.rows = 3;
     EXPECT_THAT(error(), HasSubstr("h.raw: has 12 bytes; 3 columns of 3 rows of 2 bytes make 18"));
     config.file = folder_ / "none.raw";

@@ -12,31 +12,15 @@
 #include "io/image_file.h"
 #include "render/check.h"
 #include "render/units.h"
+#include "tests/support/files.h"
 
 namespace hilcam {
 namespace {
 
 using testing::HasSubstr;
 
-class Files : public testing::Test {
+class Files : public FilesTest {
   protected:
-    std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() / ("hilcam_mesh_" + std::to_string(getpid()));
-    void SetUp() override { std::filesystem::create_directories(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::filesystem::path write(const std::string& name, const std::string& text) {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
-    }
-    template <class F>
-    std::string error_of(F&& f) {
-        try {
-            f();
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "no error";
-    }
     std::string mesh_error(const std::filesystem::path& file) {
         return error_of([&] { load_mesh(file); });
     }
