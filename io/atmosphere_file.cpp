@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/plain_number.h"
 #include "render/check.h"
 #include "render/units.h"
 
@@ -34,12 +35,6 @@ using Samples = std::map<Geometry, std::vector<Sample>>;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
     throw InputError(where + ": " + what);
-}
-
-std::string plain(double value) {
-    std::array<char, 32> text{};
-    const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-    return {text.data(), result.ptr};
 }
 
 bool to_number(std::string_view text, double& value) {

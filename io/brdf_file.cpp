@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/plain_number.h"
 #include "render/check.h"
 #include "render/color_bands.h"
 #include "render/units.h"
@@ -29,12 +30,6 @@ using Row = std::array<double, kColumns>;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
     throw InputError(file.string() + ": " + what);
-}
-
-std::string plain(double value) {
-    std::array<char, 32> text{};
-    const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-    return {text.data(), result.ptr};
 }
 
 bool parse_row(std::string_view line, Row& row) {

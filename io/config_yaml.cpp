@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <sstream>
 
+#include "io/plain_number.h"
 #include "render/check.h"
 
 namespace hilcam {
@@ -42,13 +42,6 @@ std::string show(const YAML::Node& node) {
     if (!node.IsDefined() || node.IsNull()) return "nothing";
     if (node.IsScalar()) return "'" + shorten(node.Scalar()) + "'";
     return node.IsMap() ? "a mapping" : "a list of " + std::to_string(node.size());
-}
-
-std::string plain(double value) {
-    std::ostringstream out;
-    out.precision(10);
-    out << value;
-    return out.str();
 }
 
 std::string show(const Range& range) {

@@ -1,0 +1,16 @@
+#pragma once
+// A number as messages and the manual show it: ten digits, so that a unit's conversion leaves no tail.
+
+#include <sstream>
+#include <string>
+
+namespace hilcam {
+
+inline std::string plain(double value) {
+    std::ostringstream out;
+    out.precision(10);
+    out << value;
+    return out.str();
+}
+
+}  // namespace hilcam
