@@ -55,7 +55,7 @@ void ObjectProbe::aim(const FrameView& frame, const WorldSnapshot& world, std::s
     rays_->place(view_.geometry, {world.time, camera, {}, {}});
 }
 
-void ObjectProbe::trace(PathModel& paths) {
+TileStats ObjectProbe::trace(PathModel& paths) {
     const int edge = tile_edge_px(1);
     TileStats stats;
     for (int y = 0; y < samples_; y += edge)
@@ -71,15 +71,17 @@ void ObjectProbe::trace(PathModel& paths) {
                 std::copy_n(pixels.begin() + (row - box.y0) * width, width,
                             picture_.begin() + row * samples_ + box.x0);
         }
+    stats.covered_px = 0;  // those are not the camera's pixels
+    return stats;
 }
 
-void ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& world, std::size_t i,
-                             const ObjectPlan& plan, double radius_m, PathModel& paths,
-                             const PointField& field, std::vector<PointSource>& points) {
+TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& world, std::size_t i,
+                                  const ObjectPlan& plan, double radius_m, PathModel& paths,
+                                  const PointField& field, std::vector<PointSource>& points) {
     const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-    if (!field.sees(to_object_m / plan.distance_m)) return;
+    if (!field.sees(to_object_m / plan.distance_m)) return {};
     aim(frame, world, i, plan.distance_m, radius_m);
-    trace(paths);
+    const TileStats stats = trace(paths);
     // A sample's solid angle; the picture is a few pixels of the camera, so cosines are 1.
     const double sample_rad = 1 / view_.geometry.focal_length_px;
     const auto solid_angle = static_cast<float>(sample_rad * sample_rad);
@@ -99,6 +101,7 @@ void ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& world,
             const Vec3d at = world_from_view_ * view_.geometry.direction_camera(x_sum / light, y_sum / light);
             field.add(normalized(at), plan.distance_m - kMargin * radius_m, solid_angle * sum, points);
         }
+    return stats;
 }
 
 }  // namespace hilcam

@@ -22,10 +22,10 @@ class ObjectProbe {
     ObjectProbe(const FrameView& frame, int samples);
 
     // Adds the points of object `i`, of a sphere of radius_m, as the frame sees it. Loop; no allocation while
-    // the vector has room.
-    void add_points(const FrameView& frame, const WorldSnapshot& world, std::size_t i, const ObjectPlan& plan,
-                    double radius_m, PathModel& paths, const PointField& field,
-                    std::vector<PointSource>& points);
+    // the vector has room. Returns what it took to trace.
+    TileStats add_points(const FrameView& frame, const WorldSnapshot& world, std::size_t i,
+                         const ObjectPlan& plan, double radius_m, PathModel& paths, const PointField& field,
+                         std::vector<PointSource>& points);
 
   private:
     int samples_;
@@ -37,7 +37,7 @@ class ObjectProbe {
 
     void aim(const FrameView& frame, const WorldSnapshot& world, std::size_t i, double distance_m,
              double radius_m);
-    void trace(PathModel& paths);
+    TileStats trace(PathModel& paths);
 };
 
 }  // namespace hilcam

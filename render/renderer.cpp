@@ -341,17 +341,17 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
 
     const auto pointed = Clock::now();
     points.clear();
+    TileStats sum = my.total();
     const PointField field(my.frame, my.world);
     field.add_stars(my.stars, points);
     for (const PlacedBody& body : my.background.points())
         field.add(body.world_dir, body.distance_m, my.background.point_irradiance(body), points);
     for (std::size_t i = 0; i < my.objects.size(); ++i)
         if (my.frame.is_point[i])
-            my.probe->add_points(my.frame, my.world, i, my.plans[i], my.radii_m[i], *my.tracers.front(),
-                                 field, points);
+            sum += my.probe->add_points(my.frame, my.world, i, my.plans[i], my.radii_m[i],
+                                        *my.tracers.front(), field, points);
     stats.points_ms = ms_since(pointed);
 
-    const TileStats sum = my.total();
     stats.primary_rays = sum.primary_rays;
     stats.shadow_rays = sum.shadow_rays;
     stats.secondary_rays = sum.secondary_rays;

@@ -31,7 +31,6 @@ void TerrainStreamer::request(const TerrainView& view) {
 }
 
 void TerrainStreamer::work() {
-    std::unique_ptr<PreparedTerrain> newest;
     Vec3d made_for;
     bool any = false;
     while (!stop_.load()) {
@@ -42,10 +41,9 @@ void TerrainStreamer::work() {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
             continue;
         }
-        newest = make(view);
+        ready_.store(make(view).release(), std::memory_order_release);
         made_for = view.camera_m;
         any = true;
-        ready_.store(newest.release(), std::memory_order_release);
     }
 }
 

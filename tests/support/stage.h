@@ -131,13 +131,13 @@ class Stage {
         build();
         render_again();
     }
-    // The same scene in another world.
     // Terrain, which cannot be copied, goes with the first.
     void build() {
         Scene copy = copy_of(scene);
         copy.terrain = std::move(scene.terrain);
         renderer = std::make_unique<Renderer>(std::move(copy), grid, geometry, quality, models);
     }
+    // The same scene in another world.
     void render_again() {
         points.reserve(renderer->most_points());
         renderer->render(world, {1, 1}, radiance, points, stats);

@@ -265,6 +265,12 @@ TEST(Renderer, NothingUnneededIsTraced) {
     s.add(plate(lambert(0.5), s.grid), {0, 0, -3});  // behind the camera
     s.render();
     EXPECT_EQ(s.stats.primary_rays, 0u);
+    s.world.objects[0].position_world_m = {0, 0, -300};  // there as points
+    s.render();
+    EXPECT_EQ(s.stats.primary_rays, 0u);
+    s.world.objects[0].position_world_m = {0, 0, 300};
+    s.render();
+    EXPECT_GT(s.stats.primary_rays, 0u);
     s.world.objects[0].position_world_m = {0, 0, 3};
     s.sun({0, 0, 1});  // on its back
     s.render();
