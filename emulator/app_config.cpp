@@ -115,7 +115,15 @@ Fields fields(QualityConfig& q) {
     Fields list = fields(q.render);
     list.push_back(integer("guard_px", q.guard_px, {0, 512},
                            "border around the frame that takes the FFT's wrap-around"));
+    list.push_back(integer("oversampling", q.oversampling, {1, 8},
+                           "radiance pixels across one of the detector: what is finer than a pixel then "
+                           "aliases as on a real sensor"));
     return list;
+}
+
+SensorSampling sampling_of(const QualityConfig& q) {
+    return {static_cast<int>(q.guard_px), static_cast<int>(q.render.samples_per_axis),
+            static_cast<int>(q.oversampling)};
 }
 
 Fields fields(CommandsConfig& c) {

@@ -20,6 +20,7 @@
 #include "render/renderer.h"
 #include "render/sun.h"
 #include "sensor/camera_model.h"
+#include "sensor/chain.h"
 
 namespace hilcam {
 
@@ -105,8 +106,11 @@ Fields fields(StarsConfig& stars);
 struct QualityConfig {
     RenderQuality render;
     std::int64_t guard_px = 28;
+    std::int64_t oversampling = 1;
 };
 Fields fields(QualityConfig& quality);
+// How the radiance images of that quality are made.
+SensorSampling sampling_of(const QualityConfig& quality);
 
 struct CommandsConfig {
     bool has_udp = false;

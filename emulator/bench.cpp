@@ -67,8 +67,8 @@ struct Run {
 };
 
 double copy_ms(const ScenarioConfig& scenario) {
-    const DnImage from(static_cast<int>(scenario.camera.width_px),
-                       static_cast<int>(scenario.camera.height_px));
+    const auto [width, height] = frame_size(scenario.camera);
+    const DnImage from(width, height);
     DnImage to(from.width(), from.height());
     std::vector<double> times;
     for (int i = 0; i < 9; ++i) {

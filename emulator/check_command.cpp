@@ -23,7 +23,7 @@ std::string camera_sheet(const ScenarioConfig& s, const SpectralGrid& grid) {
     double white_e_s = 0;  // a white Lambert surface in full Sun at 1 au
     for (int b = 0; b < grid.size(); ++b)
         white_e_s += static_cast<double>(per_radiance[b]) * static_cast<double>(sun[b]) / kPi;
-    const SensorChain chain(c, grid, 28, 1);
+    const SensorChain chain(c, grid, {28, 1, 1});
     std::string out = fmt::format("camera {}\n", c.name);
     out += fmt::format(
         "  field {:.3f} x {:.3f} deg, IFOV {:.2f} arcsec, {} x {} px of {:.2f} um, f = {:.1f} mm, f/{:.1f}\n",
@@ -32,7 +32,7 @@ std::string camera_sheet(const ScenarioConfig& s, const SpectralGrid& grid) {
     out += fmt::format("  MTF at Nyquist {:.3f} (optics and pixel aperture)\n", chain.mtf_at_nyquist());
     out += fmt::format(
         "  full well {:.0f} e-, read noise {:.1f} e-, dark current {:.2f} e-/s, {:.4f} DN/e-, {} bits\n",
-        c.full_well_e, c.read_noise_e, c.dark_current_e_s, c.gain_dn_e, c.bits);
+        c.full_well_e, c.read_noise_e, c.dark_current_e_s, c.system_gain_dn_e(0), c.bits);
     out += fmt::format(
         "  a white surface in full Sun gives {:.3g} e-/s; it fills the well in {:.3f} ms; now {:.3f} ms\n",
         white_e_s, 1e3 * c.full_well_e / white_e_s, 1e3 * c.exposure_s);
@@ -48,7 +48,8 @@ std::string camera_sheet(const ScenarioConfig& s, const SpectralGrid& grid) {
 std::string check_scenario(const ScenarioConfig& s) {
     const SpectralGrid grid(s.spectrum_edges_um);
     const TimeTai time = parse_utc(s.time_utc);
-    const ImageGeometry geometry = geometry_of(s.camera, static_cast<int>(s.quality.guard_px));
+    const ImageGeometry geometry =
+        geometry_of(s.camera, static_cast<int>(s.quality.guard_px), static_cast<int>(s.quality.oversampling));
     const std::unique_ptr<Renderer> renderer = load_renderer(s, grid, geometry);
     const WorldSnapshot world = snapshot_at(s, time, time);
     renderer->require_air(world);

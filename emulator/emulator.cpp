@@ -66,11 +66,10 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     // What can be wrong with outputs is said before minutes go into a scene.
     settings_ = std::make_unique<LiveSettings>(scenario.camera);
     if (limits.outputs) make_sinks();
-    const int guard_px = static_cast<int>(scenario.quality.guard_px);
-    const ImageGeometry geometry = geometry_of(scenario.camera, guard_px);
+    const ImageGeometry geometry = geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px),
+                                               static_cast<int>(scenario.quality.oversampling));
     renderer_ = load_renderer(scenario, grid_, geometry);
-    chain_ = std::make_unique<SensorChain>(scenario.camera, grid_, guard_px,
-                                           static_cast<int>(scenario.quality.render.samples_per_axis));
+    chain_ = std::make_unique<SensorChain>(scenario.camera, grid_, sampling_of(scenario.quality));
     // Loading took its time; the simulation starts now.
     const TimeTai start = parse_utc(scenario.time_utc);
     clock_ = SimulatedClock(start, monotonic_now_ns());
@@ -80,17 +79,16 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, clock_);
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
-    loop_ = std::make_unique<FrameLoop>(
-        *renderer_, *chain_, grid_, static_cast<int>(scenario.camera.bits), *world_, *settings_, clock_,
-        sinks(), static_cast<std::uint64_t>(scenario.seed), LoopLimits{limits.frames, limits.paced});
+    loop_ = std::make_unique<FrameLoop>(*renderer_, *chain_, grid_, scenario.camera, *world_, *settings_,
+                                        clock_, sinks(), static_cast<std::uint64_t>(scenario.seed),
+                                        LoopLimits{limits.frames, limits.paced});
 }
 
 Emulator::~Emulator() = default;
 
 void Emulator::make_sinks() {
     const OutputsConfig& o = scenario_.outputs;
-    const int width = static_cast<int>(scenario_.camera.width_px);
-    const int height = static_cast<int>(scenario_.camera.height_px);
+    const auto [width, height] = frame_size(scenario_.camera);
     if (o.has_gige) {
         GigeConfig gige = o.gige;
         if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;

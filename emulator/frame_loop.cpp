@@ -13,12 +13,13 @@ std::int64_t from_ms(double ms) { return static_cast<std::int64_t>(ms * 1e6); }
 
 }  // namespace
 
-FrameLoop::FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid& grid, int bits,
-                     WorldState& world, LiveSettings& settings, const SimulatedClock& clock,
-                     std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits)
+FrameLoop::FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid& grid,
+                     const CameraModel& camera, WorldState& world, LiveSettings& settings,
+                     const SimulatedClock& clock, std::vector<FrameSink*> sinks, std::uint64_t seed,
+                     const LoopLimits& limits)
     : renderer_(renderer),
       chain_(chain),
-      bits_(bits),
+      bits_(camera.frame_bits()),
       world_(world),
       settings_(settings),
       clock_(clock),
@@ -31,8 +32,10 @@ FrameLoop::FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid&
         slot.points.reserve(renderer.most_points());
     }
     snapshot_.objects.resize(world.placed_objects());
-    electrons_ = ElectronImage(g.width_px, g.height_px);
-    frame_ = DnImage(g.width_px, g.height_px);
+    const auto [array_width, array_height] = array_size(camera);
+    electrons_ = ElectronImage(array_width, array_height);
+    const auto [width, height] = frame_size(camera);
+    frame_ = DnImage(width, height);
 }
 
 void FrameLoop::start() {
@@ -138,8 +141,9 @@ void FrameLoop::sense_frames() {
 
 void FrameLoop::sense(Slot& slot) {
     const std::int64_t begun_ns = monotonic_now_ns();
-    chain_.expose(slot.radiance, slot.points, slot.record.exposure_s, electrons_);
-    chain_.digitise(electrons_, slot.record.gain_db, {seed_, slot.record.id}, frame_);
+    const Exposure exposure{slot.record.exposure_s, slot.record.gain_db, {}, {}};
+    chain_.expose(slot.radiance, slot.points, exposure, electrons_);
+    chain_.digitise(electrons_, exposure, {seed_, slot.record.id}, frame_);
     const SensorTimes& times = chain_.times();
     meters_.collapse.record(from_ms(times.collapse_ms));
     meters_.convolve.record(from_ms(times.convolve_ms));

@@ -51,9 +51,9 @@ struct LoopLimits {
 
 class FrameLoop {
   public:
-    FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid& grid, int bits, WorldState& world,
-              LiveSettings& settings, const SimulatedClock& clock, std::vector<FrameSink*> sinks,
-              std::uint64_t seed, const LoopLimits& limits);
+    FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid& grid, const CameraModel& camera,
+              WorldState& world, LiveSettings& settings, const SimulatedClock& clock,
+              std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits);
     ~FrameLoop() { stop(); }
 
     void start();

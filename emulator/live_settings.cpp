@@ -3,9 +3,9 @@
 namespace hilcam {
 
 LiveSettings::LiveSettings(const CameraModel& c)
-    : limits_{static_cast<int>(c.width_px), static_cast<int>(c.height_px), static_cast<int>(c.bits),
-              c.exposure_range_s[0],        c.exposure_range_s[1],         c.gain_range_db[0],
-              c.gain_range_db[1],           c.frame_rate_range_hz[0],      c.frame_rate_range_hz[1]},
+    : limits_{frame_size(c)[0],      frame_size(c)[1],         c.frame_bits(),
+              c.exposure_range_s[0], c.exposure_range_s[1],    c.gain_range_db[0],
+              c.gain_range_db[1],    c.frame_rate_range_hz[0], c.frame_rate_range_hz[1]},
       settings_{c.exposure_s, c.gain_db, c.frame_rate_hz, true},
       latest_(settings_) {}
 

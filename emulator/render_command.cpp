@@ -15,7 +15,8 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
                          ": accepted: .exr for radiance and electrons, .png or .tiff for a frame");
     const SpectralGrid grid(scenario.spectrum_edges_um);
     const int guard_px = static_cast<int>(scenario.quality.guard_px);
-    const ImageGeometry geometry = geometry_of(scenario.camera, guard_px);
+    const ImageGeometry geometry =
+        geometry_of(scenario.camera, guard_px, static_cast<int>(scenario.quality.oversampling));
     const std::unique_ptr<Renderer> renderer = load_renderer(scenario, grid, geometry);
 
     const TimeTai start = parse_utc(scenario.time_utc);
@@ -32,13 +33,15 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
     renderer->render(world, key, radiance, points, stats);
     if (stage == RenderStage::kRadiance) return write_radiance_exr(out, radiance, grid);
 
-    SensorChain chain(scenario.camera, grid, guard_px,
-                      static_cast<int>(scenario.quality.render.samples_per_axis));
-    ElectronImage electrons(geometry.width_px, geometry.height_px);
-    chain.expose(radiance, points, scenario.camera.exposure_s, electrons);
+    SensorChain chain(scenario.camera, grid, sampling_of(scenario.quality));
+    const Exposure exposure{scenario.camera.exposure_s, scenario.camera.gain_db, {}, {}};
+    const auto [array_width, array_height] = array_size(scenario.camera);
+    ElectronImage electrons(array_width, array_height);
+    chain.expose(radiance, points, exposure, electrons);
     if (stage == RenderStage::kElectrons) return write_electrons_exr(out, electrons);
-    DnImage frame(geometry.width_px, geometry.height_px);
-    chain.digitise(electrons, scenario.camera.gain_db, key, frame);
+    const auto [width, height] = frame_size(scenario.camera);
+    DnImage frame(width, height);
+    chain.digitise(electrons, exposure, key, frame);
     write_frame(out, frame);
 }
 

@@ -331,6 +331,7 @@ class Reader {
                     *f.value = curve(node, f.range, number, refuse);
                     f.value->where = where(place, node);
                 },
+                [&](const TableField& f) { *f.value = table(node, f, number, refuse); },
                 [&](const SectionField& f) { section(node, place, f, path, depth, refuse); },
                 [&](const SectionsField& f) {
                     if (!node.IsSequence()) refuse(node, "a list of mappings");
@@ -359,14 +360,23 @@ class Reader {
         if (node.IsScalar()) return Curve::constant(number(node, range));
         if (!node.IsSequence() || node.size() == 0)
             refuse(node, "a number, or [[wavelength_um, value], ...]");
-        Curve out;
+        Table pairs = table(node, {nullptr, "wavelength_um", "value", {0.1, 100}, range}, number, refuse);
+        return {std::move(pairs.x), std::move(pairs.y), {}};
+    }
+
+    template <class Number, class Refuse>
+    static Table table(const YAML::Node& node, const TableField& f, const Number& number,
+                       const Refuse& refuse) {
+        const std::string pair_text = "[" + f.x_name + ", " + f.y_name + "]";
+        if (!node.IsSequence() || node.size() == 0) refuse(node, "[" + pair_text + ", ...]");
+        Table out;
         for (const auto& pair : node) {
-            if (!pair.IsSequence() || pair.size() != 2) refuse(pair, "a pair [wavelength_um, value]");
-            const double wavelength = number(pair[0], Range{0.1, 100});
-            if (!out.value.empty() && wavelength <= out.wavelength_um.back())
-                refuse(pair[0], "wavelengths that rise from pair to pair");
-            out.wavelength_um.push_back(wavelength);
-            out.value.push_back(number(pair[1], range));
+            if (!pair.IsSequence() || pair.size() != 2) refuse(pair, "a pair " + pair_text);
+            const double x = number(pair[0], f.x_range);
+            if (!out.x.empty() && x <= out.x.back())
+                refuse(pair[0], f.x_name + " that rises from pair to pair");
+            out.x.push_back(x);
+            out.y.push_back(number(pair[1], f.y_range));
         }
         return out;
     }
@@ -396,6 +406,7 @@ std::string accepted_text(const Field& field) {
                           [](const Vec3Field& f) { return "[x, y, z], each " + show(f.range); },
                           [](const QuatField&) { return std::string("[w, x, y, z]"); },
                           [](const CurveField& f) { return "number or curve, " + show(f.range); },
+                          [](const TableField& f) { return "[[" + f.x_name + ", " + f.y_name + "], ...]"; },
                           [](const SectionField&) { return std::string("mapping or file"); },
                           [](const SectionsField&) { return std::string("list of mappings"); },
                       },

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "render/spectrum.h"
+#include "render/table.h"
 #include "render/vec.h"
 
 namespace hilcam {
@@ -80,6 +81,12 @@ struct CurveField {
     Curve* value;
     Range range;
 };
+// [[x, y], ...] with rising x.
+struct TableField {
+    Table* value;
+    std::string x_name, y_name;
+    Range x_range, y_range;
+};
 // A nested mapping, or the path of a file that holds the mapping. `validate` runs after it is read and throws
 // InputError with a message that names the keys it is about; the reader adds file and line.
 struct SectionField {
@@ -96,7 +103,7 @@ struct Field {
     std::string key;
     std::string meaning;  // one line, with the unit where the key has none
     std::variant<NumberField, IntegerField, FlagField, TextField, PathField, ChoiceField, NumbersField,
-                 Vec3Field, QuatField, CurveField, SectionField, SectionsField>
+                 Vec3Field, QuatField, CurveField, TableField, SectionField, SectionsField>
         target;
     bool required = false;
     bool* present = nullptr;  // set when the key is given
@@ -137,6 +144,11 @@ inline Field quaternion(std::string key, Quat& value, std::string meaning) {
 }
 inline Field curve(std::string key, Curve& value, Range range, std::string meaning) {
     return {std::move(key), std::move(meaning), CurveField{&value, range}};
+}
+inline Field table(std::string key, Table& value, std::array<std::string, 2> names, Range x_range,
+                   Range y_range, std::string meaning) {
+    return {std::move(key), std::move(meaning),
+            TableField{&value, std::move(names[0]), std::move(names[1]), x_range, y_range}};
 }
 // T has `Fields fields(T&)` and, when its keys depend on each other, `void validate(const T&)`.
 template <class T>

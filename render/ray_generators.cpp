@@ -57,7 +57,7 @@ class RowRays final : public RayGenerator {
                 world_from_camera = to_matrix(pose.world_from_body);
             }
             // A line camera has one row, at the middle of the field.
-            const double on_sensor = rolling_ ? y : 0.5 * geometry_.height_px + (y - row - 0.5);
+            const double on_sensor = rolling_ ? y : geometry_.center_px().y + (y - row - 0.5);
             rays[i] = {moved_m, world_from_camera * geometry_.direction_camera(
                                                         points_px[i].x - geometry_.guard_px, on_sensor)};
         }

@@ -1,79 +1,339 @@
 #include "sensor/camera_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/check.h"
 
 namespace hilcam {
 
-Fields fields(CameraModel& c) {
+Fields fields(FieldZone& z) {
     return {
-        text("name", c.name, "what clients see as the model"),
-        text("source", c.source, "where the figures come from"),
-        required(integer("width_px", c.width_px, {1, 16384}, "columns")),
-        required(integer("height_px", c.height_px, {1, 16384}, "rows")),
-        required(number("pitch_um", c.pitch_m, 1e-6, {0.5, 100}, "distance of pixel centres")),
+        required(number("field_fraction", z.field_fraction, 1, {0, 1}, "image height over the corner's")),
+        number("defocus_um", z.defocus_m, 1e-6, {-10000, 10000}, "added to the camera's"),
+        number("wavefront_rms_nm", z.wavefront_rms_m, 1e-9, {0, 1e5}, "in place of the camera's"),
+    };
+}
+
+Fields fields(MeasuredMtf& m) {
+    return {table("mtf", m.mtf, {"cycles_mm", "modulation"}, {0, 1e5}, {0, 1},
+                  "of the lens, from frequency 0 on")};
+}
+
+Fields fields(SettingsStep& s) {
+    return {
+        required(number("exposure_ms", s.exposure_s, 1e-3, {1e-3, 1e6}, "of this step's frame")),
+        number("gain_db", s.gain_db, 1, {-60, 60}, "of this step's frame"),
+    };
+}
+
+namespace {
+
+Fields optics_fields(CameraModel& c) {
+    return {
         required(number("focal_length_mm", c.focal_length_m, 1e-3, {0.1, 100000}, "focal length")),
+        choice("projection", c.projection, {"rectilinear", "fisheye"}, "of the lens"),
         numbers("distortion", c.distortion, 1, {-100, 100}, {1, 5},
-                "of the lens: k1, k2, p1, p2, k3 (Brown, as OpenCV)"),
+                "k1, k2, p1, p2, k3 (Brown, as OpenCV); fisheye: k1 to k4"),
+        numbers("principal_point_px", c.principal_point_px, 1, {-16384, 32768}, {2, 2},
+                "where the boresight meets the sensor; default its middle"),
         required(number("f_number", c.f_number, 1, {0.5, 100}, "focal length over aperture diameter")),
-        curve("transmission", c.transmission, {0, 1},
-              "of all glass and filters; number or [[um, value], ...]"),
+        optional(number("t_number", c.t_number, 1, {0.5, 1000},
+                        "f-number over the root of the transmission, in place of transmission"),
+                 c.has_t_number),
+        optional(curve("transmission", c.transmission, {0, 1},
+                       "of all glass and filters; number or [[um, value], ...]"),
+                 c.has_transmission),
         number("central_obscuration_ratio", c.central_obscuration_ratio, 1, {0, 0.95},
                "of aperture diameters"),
         number("defocus_um", c.defocus_m, 1e-6, {-10000, 10000}, "shift of the detector from focus"),
+        number("wavefront_rms_nm", c.wavefront_rms_m, 1e-9, {0, 1e5}, "of the lens as built (Shannon)"),
+        numbers("zernike_nm", c.zernike_m, 1e-9, {-1e5, 1e5}, {1, 34},
+                "rms of the wavefront's terms from Noll's 4 on"),
+        section("measured_mtf", c.measured_mtf,
+                "of the lens, in place of what follows from diffraction and aberrations"),
+        sections("field_zones", c.field_zones, "the lens at image heights, blended between"),
         number("cos_power", c.cos_power, 1, {0, 8}, "n: irradiance falls as cos^n of the field angle"),
+        table("vignetting", c.vignetting, {"field_fraction", "transmission"}, {0, 1}, {0, 1},
+              "over image height, on top of cos^n"),
+        section("stray_light", c.stray_light, "glare and ghost"),
+        section("jitter", c.jitter, "of the line of sight"),
+    };
+}
+
+Fields detector_fields(CameraModel& c) {
+    return {
         required(curve("quantum_efficiency", c.quantum_efficiency, {0, 1},
                        "electrons per photon; number or curve")),
         number("fill_factor", c.fill_factor, 1, {0.01, 1}, "light-sensitive share of a pixel"),
+        numbers("pixel_aperture_um", c.pixel_aperture_m, 1e-6, {0.05, 100}, {2, 2},
+                "width and height of what a pixel sees; default a square of the fill factor"),
+        number("diffusion_um", c.diffusion_m, 1e-6, {0, 100}, "standard deviation of charge diffusion"),
+        number("crosstalk_fraction", c.crosstalk_fraction, 1, {0, 0.2},
+               "of a pixel's charge to each of its four neighbours"),
+        section("color_filter", c.color_filter, "a colour filter array"),
         required(number("full_well_e", c.full_well_e, 1, {10, 1e8}, "saturation capacity")),
-        number("dark_current_e_s", c.dark_current_e_s, 1, {0, 1e8}, "at the operating temperature"),
+        numbers("nonlinearity", c.nonlinearity, 1, {-0.5, 0.5}, {1, 2},
+                "a2, a3: charge is read as q (1 + a2 x + a3 x^2), x = q / full well"),
+        number("dark_current_e_s", c.dark_current_e_s, 1, {0, 1e8}, "mean, at dark_reference_c"),
+        number("dark_reference_c", c.dark_reference_c, 1, {-200, 150}, "where dark_current_e_s holds"),
+        number("dark_doubling_k", c.dark_doubling_k, 1, {1, 50}, "warmer that doubles the dark current"),
+        number("temperature_c", c.temperature_c, 1, {-200, 150}, "of the detector"),
+        number("prnu_fraction", c.prnu_fraction, 1, {0, 0.5}, "standard deviation of the pixels' gains"),
+        number("dsnu_e", c.dsnu_e, 1, {0, 1e5}, "standard deviation of the pixels' offsets"),
+        section("fixed_pattern", c.fixed_pattern, "what else differs from pixel to pixel"),
+        section("defects", c.defects, "pixels that do not work"),
+        section("ccd", c.ccd, "charge on its way out"),
+        section("cosmic_rays", c.cosmic_rays, "charged particles"),
+        section("shutter", c.shutter, "when rows are exposed"),
         number("read_noise_e", c.read_noise_e, 1, {0, 1e5}, "temporal, standard deviation"),
-        required(number("gain_dn_e", c.gain_dn_e, 1, {1e-6, 1e4}, "DN per electron at 0 dB")),
+        number("reset_noise_e", c.reset_noise_e, 1, {0, 1e5}, "kTC, where it is not sampled away"),
+        number("row_noise_e", c.row_noise_e, 1, {0, 1e5}, "one draw per row and frame"),
+        number("flicker_noise_e", c.flicker_noise_e, 1, {0, 1e5}, "1/f along the read-out"),
+    };
+}
+
+Fields electronics_fields(CameraModel& c) {
+    return {
+        section("filters", c.filters, "along the rows, after the noise"),
+        optional(number("gain_dn_e", c.gain_dn_e, 1, {1e-6, 1e4}, "DN per electron at 0 dB"),
+                 c.has_gain_dn_e),
+        optional(number("gain_e_dn", c.gain_e_dn, 1, {1e-4, 1e6}, "its inverse, in its place"),
+                 c.has_gain_e_dn),
         number("offset_dn", c.offset_dn, 1, {0, 65535}, "black level"),
         required(integer("bits", c.bits, {8, 16}, "of the ADC")),
+        integer("container_bits", c.container_bits, {8, 16}, "of a pixel in memory: 8 or 16"),
+        section("converter", c.converter, "errors of the ADC's steps, companding"),
+        numbers("window_px", c.window_px, 1, {0, 16384}, {4, 4}, "left, top, width, height; default all"),
+        integer("black_rows", c.black_rows, {0, 1024}, "optically black, published above the picture"),
+        integer("black_columns", c.black_columns, {0, 1024}, "optically black, left of the picture"),
+        integer("binning_x", c.binning_x, {1, 16}, "columns to one"),
+        integer("binning_y", c.binning_y, {1, 16}, "rows to one"),
+        choice("binning", c.binning, {"charge", "sum", "mean"}, "of charge, or of numbers"),
         number("exposure_ms", c.exposure_s, 1e-3, {1e-3, 1e6}, "at power-up"),
         number("gain_db", c.gain_db, 1, {-60, 60}, "at power-up, over gain_dn_e"),
         number("frame_rate_hz", c.frame_rate_hz, 1, {1e-3, 10000}, "at power-up"),
         numbers("exposure_range_ms", c.exposure_range_s, 1e-3, {1e-3, 1e6}, {2, 2}, "least and most"),
         numbers("gain_range_db", c.gain_range_db, 1, {-60, 60}, {2, 2}, "least and most"),
         numbers("frame_rate_range_hz", c.frame_rate_range_hz, 1, {1e-3, 10000}, {2, 2}, "least and most"),
+        section("auto_exposure", c.auto_exposure, "the camera's own choice of exposure"),
+        sections("sequence", c.sequence, "settings of one frame after the other, over and over"),
     };
 }
 
-void validate(const CameraModel& c) {
-    const auto inside = [](double value, const std::vector<double>& range, const char* key,
-                           const char* range_key) {
-        if (range[0] > range[1]) throw InputError(std::string(range_key) + ": the least is above the most");
-        if (value < range[0] || value > range[1])
-            throw InputError(std::string(key) + " at power-up lies outside " + range_key);
+}  // namespace
+
+Fields fields(CameraModel& c) {
+    Fields list = {
+        text("name", c.name, "what clients see as the model"),
+        text("source", c.source, "where the figures come from"),
+        required(integer("width_px", c.width_px, {1, 16384}, "columns")),
+        required(integer("height_px", c.height_px, {1, 16384}, "rows; line_scan: lines of a frame")),
+        required(number("pitch_um", c.pitch_m, 1e-6, {0.5, 100}, "distance of pixel centres")),
     };
-    inside(c.exposure_s, c.exposure_range_s, "exposure_ms", "exposure_range_ms");
-    inside(c.gain_db, c.gain_range_db, "gain_db", "gain_range_db");
-    inside(c.frame_rate_hz, c.frame_rate_range_hz, "frame_rate_hz", "frame_rate_range_hz");
-    // The lens must not fold over: every corner of the field comes back from where it was sent.
+    for (Fields part : {optics_fields(c), detector_fields(c), electronics_fields(c)})
+        std::move(part.begin(), part.end(), std::back_inserter(list));
+    return list;
+}
+
+// --- what cannot be
+// --------------------------------------------------------------------------------------------------
+
+namespace {
+
+std::string show(double value) {
+    std::string text = std::to_string(value);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+void check_range(double value, const std::vector<double>& range, const char* key, const char* range_key) {
+    if (range[0] > range[1]) throw InputError(std::string(range_key) + ": the least is above the most");
+    if (value < range[0] || value > range[1])
+        throw InputError(std::string(key) + " at power-up lies outside " + range_key);
+}
+
+void check_settings(const CameraModel& c) {
+    if (c.shutter.kind != ShutterKind::kLineScan)
+        check_range(c.exposure_s, c.exposure_range_s, "exposure_ms", "exposure_range_ms");
+    check_range(c.gain_db, c.gain_range_db, "gain_db", "gain_range_db");
+    check_range(c.frame_rate_hz, c.frame_rate_range_hz, "frame_rate_hz", "frame_rate_range_hz");
+    for (const SettingsStep& step : c.sequence) {
+        check_range(step.exposure_s, c.exposure_range_s, "sequence: exposure_ms", "exposure_range_ms");
+        check_range(step.gain_db, c.gain_range_db, "sequence: gain_db", "gain_range_db");
+    }
+    if (c.auto_exposure.on && !c.sequence.empty())
+        throw InputError("auto_exposure.on and sequence: a camera has one or the other; found both");
+    if (c.shutter.kind == ShutterKind::kLineScan && (c.auto_exposure.on || !c.sequence.empty()))
+        throw InputError(
+            "shutter.kind line_scan: its exposure is tdi_stages x line_time_us; found auto_exposure or "
+            "sequence");
+}
+
+// The lens must not fold over: every corner of the field comes back from where it was sent.
+void check_lens(const CameraModel& c) {
+    if (c.projection == Projection::kFisheye && c.distortion.size() > 4)
+        throw InputError("distortion: found 5 coefficients; accepted with projection fisheye: k1 to k4");
     const ImageGeometry geometry = geometry_of(c, 0);
     for (const double x : {0.0, 0.5 * geometry.width_px, 1.0 * geometry.width_px})
         for (const double y : {0.0, 0.5 * geometry.height_px, 1.0 * geometry.height_px}) {
             const Vec2d back = geometry.project_px(geometry.direction_camera(x, y));
             if (!(std::abs(back.x - x) + std::abs(back.y - y) < 1e-6))
                 throw InputError(
-                    "distortion: the lens folds over inside the field; accepted: coefficients that keep it "
-                    "monotonic to the corners");
+                    "distortion: the lens folds over inside the field, or sees 90 degrees off its axis; "
+                    "accepted: coefficients that keep it monotonic to the corners");
         }
-    const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
-    if (c.offset_dn >= most_dn)
-        throw InputError("offset_dn " + std::to_string(c.offset_dn) + " leaves nothing of the ADC's " +
-                         std::to_string(c.bits) + " bits");
+    if (c.has_t_number && c.has_transmission)
+        throw InputError("t_number and transmission say the same; accepted: one of them");
+    if (c.has_t_number && c.t_number < c.f_number)
+        throw InputError("t_number " + show(c.t_number) + " is below f_number " + show(c.f_number) +
+                         ": the lens would make light");
+    if (!c.measured_mtf.mtf.empty()) {
+        if (c.measured_mtf.mtf.x.front() != 0 || std::abs(c.measured_mtf.mtf.y.front() - 1) > 1e-6)
+            throw InputError("measured_mtf.mtf begins at [" + show(c.measured_mtf.mtf.x.front()) + ", " +
+                             show(c.measured_mtf.mtf.y.front()) + "]; accepted: [0, 1]");
+        if (!c.field_zones.empty() || !c.zernike_m.empty() || c.wavefront_rms_m > 0 || c.defocus_m != 0)
+            throw InputError(
+                "measured_mtf stands in place of defocus_um, wavefront_rms_nm, zernike_nm and field_zones; "
+                "found both");
+    }
+    for (std::size_t i = 1; i < c.field_zones.size(); ++i)
+        if (c.field_zones[i].field_fraction <= c.field_zones[i - 1].field_fraction)
+            throw InputError("field_zones: field_fraction does not rise from zone to zone");
 }
 
-ImageGeometry geometry_of(const CameraModel& c, int guard_px) {
+void check_detector(const CameraModel& c) {
+    if (c.pixel_aperture_m.size() == 2)
+        for (const double side : c.pixel_aperture_m)
+            if (side > c.pitch_m)
+                throw InputError("pixel_aperture_um: found " + show(side * 1e6) +
+                                 "; accepted: no more than pitch_um " + show(c.pitch_m * 1e6));
+    // The curve of charge read over charge must rise to the full well.
+    const double a2 = c.nonlinearity.empty() ? 0 : c.nonlinearity[0];
+    const double a3 = c.nonlinearity.size() > 1 ? c.nonlinearity[1] : 0;
+    for (int i = 0; i <= 100; ++i) {
+        const double x = i / 100.0;
+        if (1 + 2 * a2 * x + 3 * a3 * x * x <= 0)
+            throw InputError("nonlinearity: what is read falls while the charge rises, at " + show(x) +
+                             " of the full well");
+    }
+    if (c.shutter.kind != ShutterKind::kLineScan &&
+        (c.shutter.tdi_stages > 1 || c.shutter.tdi_mismatch_fraction != 0))
+        throw InputError("shutter.tdi_stages and tdi_mismatch_fraction need shutter.kind line_scan");
+    if (c.shutter.kind == ShutterKind::kLineScan && (c.ccd.blooming || c.ccd.parallel_inefficiency > 0))
+        throw InputError(
+            "ccd.blooming and ccd.parallel_inefficiency need a sensor whose rows are neighbours; found "
+            "shutter.kind line_scan");
+    for (const auto* columns : {&c.defects.dead_columns, &c.defects.hot_columns})
+        for (const double column : *columns)
+            if (column >= static_cast<double>(c.width_px) || column != std::floor(column))
+                throw InputError("defects: column " + show(column) + "; accepted: whole, below width_px " +
+                                 std::to_string(c.width_px));
+}
+
+void check_electronics(const CameraModel& c) {
+    if (c.has_gain_dn_e == c.has_gain_e_dn && !(c.gain_dn_e > 0 && !c.has_gain_e_dn))
+        throw InputError(std::string("a camera has either gain_dn_e or gain_e_dn; found ") +
+                         (c.has_gain_dn_e ? "both" : "neither"));
+    if (c.container_bits != 8 && c.container_bits != 16)
+        throw InputError("container_bits " + std::to_string(c.container_bits) + "; accepted: 8 or 16");
+    if (c.frame_bits() > c.container_bits)
+        throw InputError("bits " + std::to_string(c.frame_bits()) + " do not fit into container_bits " +
+                         std::to_string(c.container_bits));
+    const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
+    if (c.offset_dn >= most_dn)
+        throw InputError("offset_dn " + show(c.offset_dn) + " leaves nothing of the ADC's " +
+                         std::to_string(c.bits) + " bits");
+    if (c.converter.companding != Companding::kNone && c.bits == 8)
+        throw InputError("converter.companding to 8 bits; found bits 8");
+}
+
+void check_rectangles(const CameraModel& c) {
+    const PixelRectangle w = window_of(c);
+    if (w.width < 1 || w.height < 1 || w.left + w.width > c.width_px || w.top + w.height > c.height_px)
+        throw InputError("window_px reaches outside the sensor of " + std::to_string(c.width_px) + " x " +
+                         std::to_string(c.height_px));
+    const auto [width, height] = array_size(c);
+    if (width < c.binning_x || height < c.binning_y)
+        throw InputError("binning_x, binning_y: larger than what is read out, " + std::to_string(width) +
+                         " x " + std::to_string(height));
+}
+
+}  // namespace
+
+void validate(const CameraModel& c) {
+    check_rectangles(c);
+    check_settings(c);
+    check_lens(c);
+    check_detector(c);
+    check_electronics(c);
+}
+
+// --- what follows from the figures
+// -----------------------------------------------------------------------------------
+
+double CameraModel::system_gain_dn_e(double at_gain_db) const {
+    const double at_0_db = has_gain_e_dn ? 1 / gain_e_dn : gain_dn_e;
+    return at_0_db * std::pow(10.0, at_gain_db / 20);
+}
+
+double CameraModel::dark_current_now_e_s() const {
+    return dark_current_e_s * std::exp2((temperature_c - dark_reference_c) / dark_doubling_k);
+}
+
+double CameraModel::dark_noise_e() const {
+    return std::sqrt(read_noise_e * read_noise_e + reset_noise_e * reset_noise_e + row_noise_e * row_noise_e +
+                     flicker_noise_e * flicker_noise_e);
+}
+
+double CameraModel::pixel_aperture_x_m() const {
+    return pixel_aperture_m.size() == 2 ? pixel_aperture_m[0] : pitch_m * std::sqrt(fill_factor);
+}
+double CameraModel::pixel_aperture_y_m() const {
+    return pixel_aperture_m.size() == 2 ? pixel_aperture_m[1] : pitch_m * std::sqrt(fill_factor);
+}
+
+PixelRectangle window_of(const CameraModel& c) {
+    if (c.window_px.size() != 4) return {0, 0, static_cast<int>(c.width_px), static_cast<int>(c.height_px)};
+    const auto at = [&](std::size_t i) { return static_cast<int>(c.window_px[i]); };
+    return {at(0), at(1), at(2), at(3)};
+}
+
+std::array<int, 2> array_size(const CameraModel& c) {
+    const PixelRectangle w = window_of(c);
+    return {w.width + static_cast<int>(c.black_columns), w.height + static_cast<int>(c.black_rows)};
+}
+
+std::array<int, 2> frame_size(const CameraModel& c) {
+    const auto [width, height] = array_size(c);
+    return {width / static_cast<int>(c.binning_x), height / static_cast<int>(c.binning_y)};
+}
+
+ImageGeometry geometry_of(const CameraModel& c, int guard_px, int oversampling) {
     const auto coefficient = [&](std::size_t i) { return i < c.distortion.size() ? c.distortion[i] : 0.0; };
-    return {static_cast<int>(c.width_px),
-            static_cast<int>(c.height_px),
-            guard_px,
-            c.focal_length_m / c.pitch_m,
-            {coefficient(0), coefficient(1), coefficient(4), coefficient(2), coefficient(3)}};
+    const PixelRectangle w = window_of(c);
+    ImageGeometry g;
+    g.width_px = w.width * oversampling;
+    g.height_px = w.height * oversampling;
+    g.guard_px = guard_px * oversampling;
+    g.focal_length_px = c.focal_length_m / c.pitch_m * oversampling;
+    if (c.projection == Projection::kFisheye) {
+        g.distortion.projection = Projection::kFisheye;
+        g.distortion.k1 = coefficient(0), g.distortion.k2 = coefficient(1);
+        g.distortion.k3 = coefficient(2), g.distortion.k4 = coefficient(3);
+    } else {
+        g.distortion.k1 = coefficient(0), g.distortion.k2 = coefficient(1);
+        g.distortion.p1 = coefficient(2), g.distortion.p2 = coefficient(3);
+        g.distortion.k3 = coefficient(4);
+    }
+    const bool given = c.principal_point_px.size() == 2;
+    const Vec2d principal =
+        given ? Vec2d{c.principal_point_px[0], c.principal_point_px[1]}
+              : Vec2d{0.5 * static_cast<double>(c.width_px), 0.5 * static_cast<double>(c.height_px)};
+    g.principal_offset_px = {(principal.x - w.left - 0.5 * w.width) * oversampling,
+                             (principal.y - w.top - 0.5 * w.height) * oversampling};
+    return g;
 }
 
 }  // namespace hilcam

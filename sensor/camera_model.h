@@ -1,13 +1,50 @@
 #pragma once
 // A camera in the terms of its data sheet (EMVA 1288 vocabulary). One YAML file is one camera.
+//
+// Three rectangles: the sensor (width_px x height_px); its window, which is what is exposed and rendered; the
+// read-out array, which is the window with optically black columns at its left and black rows above it.
+// Binned, the array is the frame.
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "render/config_field.h"
 #include "render/image_geometry.h"
+#include "sensor/auto_exposure.h"
+#include "sensor/ccd.h"
+#include "sensor/color_filter.h"
+#include "sensor/cosmic_rays.h"
+#include "sensor/electronics.h"
+#include "sensor/fixed_pattern.h"
+#include "sensor/motion.h"
+#include "sensor/shutter.h"
+#include "sensor/stray_light.h"
 
 namespace hilcam {
+
+// A lens at one image height; between zones its images are blended linearly.
+struct FieldZone {
+    double field_fraction = 0;  // image height over that of the sensor's corner
+    double defocus_m = 0;
+    double wavefront_rms_m = 0;
+};
+Fields fields(FieldZone& zone);
+
+// A measured modulation transfer function of the lens, instead of diffraction and aberrations.
+struct MeasuredMtf {
+    Table mtf;  // spatial frequency on the detector [cycles/mm], modulation 0..1
+};
+Fields fields(MeasuredMtf& mtf);
+
+enum class BinningKind { kCharge, kSum, kMean };
+
+// One step of a sequence of settings.
+struct SettingsStep {
+    double exposure_s = 1e-3;
+    double gain_db = 0;
+};
+Fields fields(SettingsStep& step);
 
 struct CameraModel {
     std::string name;
@@ -18,27 +55,68 @@ struct CameraModel {
     std::int64_t height_px = 1024;
     double pitch_m = 5.5e-6;
     double focal_length_m = 0.016;
-    std::vector<double> distortion;  // k1, k2, p1, p2, k3 as OpenCV orders them; fewer: the rest are 0
+    std::vector<double> principal_point_px;  // of the sensor; empty: its middle
+    Projection projection = Projection::kRectilinear;
+    std::vector<double> distortion;  // k1, k2, p1, p2, k3 (or k1..k4 of a fisheye) as OpenCV orders them
 
     // Optics.
     double f_number = 4;
+    double t_number = 0;                        // instead of transmission; 0: not given
     Curve transmission = Curve::constant(0.9);  // of all glass and filters, 0..1
     double central_obscuration_ratio = 0;       // of diameters
     double defocus_m = 0;                       // shift of the image plane from focus
-    double cos_power = 4;                       // irradiance falls as cos^n of the field angle
+    double wavefront_rms_m = 0;
+    std::vector<double> zernike_m;  // rms coefficients from Noll's fourth on
+    MeasuredMtf measured_mtf;
+    std::vector<FieldZone> field_zones;
+    double cos_power = 4;  // irradiance falls as cos^n of the field angle
+    Table vignetting;      // image height fraction, relative illumination on top of cos^n
+    StrayLightConfig stray_light;
+
+    JitterConfig jitter;
+    ShutterConfig shutter;
 
     // Detector.
     Curve quantum_efficiency =
-        Curve::constant(0.5);  // electrons per photon on the light-sensitive area, 0..1
-    double fill_factor = 1;    // light-sensitive share of the pixel, a centred square
+        Curve::constant(0.5);              // electrons per photon on the light-sensitive area, 0..1
+    double fill_factor = 1;                // light-sensitive share of the pixel
+    std::vector<double> pixel_aperture_m;  // width, height; empty: a centred square of the fill factor
+    double diffusion_m = 0;                // standard deviation of where charge is collected
+    double crosstalk_fraction = 0;         // of a pixel's charge to each of its four neighbours
+    ColorFilterArrayConfig color_filter;
     double full_well_e = 1e4;
-    double dark_current_e_s = 0;  // at the operating temperature
-    double read_noise_e = 0;      // standard deviation, temporal
+    std::vector<double> nonlinearity;  // a2, a3: charge q becomes q (1 + a2 x + a3 x^2), x = q / full well
+    double dark_current_e_s = 0;       // mean, at dark_reference_c
+    double dark_reference_c = 25;
+    double dark_doubling_k = 7;
+    double temperature_c = 25;
+    double prnu_fraction = 0;  // standard deviation, of pixels
+    double dsnu_e = 0;         // standard deviation, of pixels
+    FixedPatternConfig fixed_pattern;
+    DefectsConfig defects;
+    CcdConfig ccd;
+    CosmicRayConfig cosmic_rays;
+
+    // Noise, standard deviations, temporal.
+    double read_noise_e = 0;
+    double reset_noise_e = 0;    // kTC
+    double row_noise_e = 0;      // the same for a row, new in each frame
+    double flicker_noise_e = 0;  // 1/f along the read-out
 
     // Electronics.
-    double gain_dn_e = 1;  // DN per electron at 0 dB (EMVA's K)
+    FilterConfig filters;
+    double gain_dn_e = 0;  // DN per electron at 0 dB (EMVA's K)
+    double gain_e_dn = 0;  // or its inverse, as many data sheets give it
     double offset_dn = 0;
-    std::int64_t bits = 12;
+    std::int64_t bits = 12;            // of the converter
+    std::int64_t container_bits = 16;  // of a pixel in memory
+    ConverterConfig converter;
+
+    // Read-out.
+    std::vector<double> window_px;  // left, top, width, height; empty: the whole sensor
+    std::int64_t black_rows = 0, black_columns = 0;
+    std::int64_t binning_x = 1, binning_y = 1;
+    BinningKind binning = BinningKind::kCharge;
 
     // Settings at power-up and what the camera accepts.
     double exposure_s = 1e-3;
@@ -47,14 +125,39 @@ struct CameraModel {
     std::vector<double> exposure_range_s = {1e-6, 10};
     std::vector<double> gain_range_db = {0, 24};
     std::vector<double> frame_rate_range_hz = {0.01, 200};
+    AutoExposureConfig auto_exposure;
+    std::vector<SettingsStep> sequence;  // frame k takes step (k - 1) mod n
+
+    bool has_gain_dn_e = false, has_gain_e_dn = false, has_t_number = false, has_transmission = false;
 
     double aperture_diameter_m() const { return focal_length_m / f_number; }
+    // DN per electron at a gain setting.
+    double system_gain_dn_e(double at_gain_db) const;
+    // Mean dark current at the operating temperature [e-/s]: doubles every dark_doubling_k.
+    double dark_current_now_e_s() const;
+    // All the temporal noise of a dark pixel before the converter [e-], dark current apart.
+    double dark_noise_e() const;
+    // Bits of a published pixel: companded ones have 8.
+    int frame_bits() const { return converter.companding == Companding::kNone ? static_cast<int>(bits) : 8; }
+    double pixel_aperture_x_m() const;
+    double pixel_aperture_y_m() const;
 };
 
 Fields fields(CameraModel& camera);
-// Refuses what contradicts itself; the message names the keys. InputError.
+// Refuses what contradicts itself or cannot be; the message names the keys. InputError.
 void validate(const CameraModel& camera);
 
-ImageGeometry geometry_of(const CameraModel& camera, int guard_px);
+struct PixelRectangle {
+    int left = 0, top = 0, width = 0, height = 0;
+};
+// The exposed part of the sensor [px of the sensor].
+PixelRectangle window_of(const CameraModel& camera);
+// Width and height of what is read out: the window with its black columns and rows.
+std::array<int, 2> array_size(const CameraModel& camera);
+// Width and height of a published frame.
+std::array<int, 2> frame_size(const CameraModel& camera);
+
+// Of the window, each pixel in `oversampling` x `oversampling` parts; guard_px in pixels.
+ImageGeometry geometry_of(const CameraModel& camera, int guard_px, int oversampling = 1);
 
 }  // namespace hilcam

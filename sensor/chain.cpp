@@ -96,14 +96,16 @@ struct SensorChain::Implementation {
     }
 };
 
-SensorChain::SensorChain(const CameraModel& camera, const SpectralGrid& grid, int guard_px,
-                         int samples_per_axis)
-    : implementation_(std::make_unique<Implementation>(camera, grid, guard_px, samples_per_axis)) {}
+SensorChain::SensorChain(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling,
+                         const DetectorPictures&)
+    : implementation_(
+          std::make_unique<Implementation>(camera, grid, sampling.guard_px, sampling.samples_per_axis)) {}
 SensorChain::~SensorChain() = default;
 
 void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSource> points,
-                         double exposure_s, ElectronImage& mean_e) {
+                         const Exposure& exposure, ElectronImage& mean_e) {
     Implementation& my = *implementation_;
+    const double exposure_s = exposure.exposure_s;
     HILCAM_CHECK(radiance.width() == my.geometry.padded_width() &&
                  radiance.height() == my.geometry.padded_height() && radiance.planes() == my.bins &&
                  mean_e.width() == my.geometry.width_px && mean_e.height() == my.geometry.height_px);
@@ -138,13 +140,14 @@ void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSou
     times_.points_ms = ms_since(start);
 }
 
-void SensorChain::digitise(const ElectronImage& mean_e, double gain_db, RandomKey key, DnImage& frame) {
+void SensorChain::digitise(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key,
+                           DnImage& frame) {
     Implementation& my = *implementation_;
     const auto start = Clock::now();
     DigitiserParameters p;
     p.full_well_e = static_cast<float>(my.camera.full_well_e);
     p.read_noise_e = static_cast<float>(my.camera.read_noise_e);
-    p.gain_dn_e = static_cast<float>(my.camera.gain_dn_e * std::pow(10.0, gain_db / 20));
+    p.gain_dn_e = static_cast<float>(my.camera.system_gain_dn_e(exposure.gain_db));
     p.offset_dn = static_cast<float>(my.camera.offset_dn);
     p.most_dn = static_cast<float>((1 << my.camera.bits) - 1);
     tbb::parallel_for(rows_of(frame.height()), [&](const tbb::blocked_range<int>& range) {
@@ -154,8 +157,10 @@ void SensorChain::digitise(const ElectronImage& mean_e, double gain_db, RandomKe
     times_.digitise_ms = ms_since(start);
 }
 
-double SensorChain::mtf_at_nyquist() const {
-    return implementation_->optics.at(0.5) * pixel_aperture_mtf(0.5, implementation_->camera.fill_factor);
+double SensorChain::mtf(double u, double v) const {
+    const double fill = implementation_->camera.fill_factor;
+    return implementation_->optics.at(std::hypot(u, v)) * pixel_aperture_mtf(u, fill) *
+           pixel_aperture_mtf(v, fill);
 }
 
 double SensorChain::fft_pair_ms() {

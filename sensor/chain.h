@@ -1,8 +1,9 @@
 #pragma once
 // The sensor: radiance image in, digital numbers out. Equation (2) of Peng et al. 2011,
 //     DN = { IFT[ FT(S(L)) MTF_sys ] + noise } G,
-// with S: optics.h, MTF_sys: mtf.h, the FFT pair: convolve.h, points beside the image: psf.h, noise and G:
-// noise.h.
+// in two halves. expose(): light, up to the mean charge of every pixel (S: optics.h, MTF_sys: system_mtf.h,
+// the FFT pair: convolve.h, points beside the image: psf.h). digitise(): what chance and electronics make of
+// it (charge.h, readout.h).
 
 #include <memory>
 #include <span>
@@ -11,6 +12,7 @@
 #include "render/point_source.h"
 #include "render/random.h"
 #include "sensor/camera_model.h"
+#include "sensor/fixed_pattern.h"
 
 namespace hilcam {
 
@@ -22,23 +24,44 @@ struct SensorTimes {
     double digitise_ms = 0;  // noise, gain, ADC
 };
 
+// How the radiance image was made.
+struct SensorSampling {
+    int guard_px = 0;          // the image's border on each side, in pixels of the detector
+    int samples_per_axis = 1;  // the renderer's ray grid in each of its pixels
+    int oversampling = 1;      // pixels of the radiance image across one of the detector
+};
+
+// One exposure.
+struct Exposure {
+    double exposure_s = 1e-3;
+    double gain_db = 0;
+    // While it lasts. The picture of what is not at infinity moves as a whole; points (stars) as the camera
+    // turns.
+    Vec2d image_rate_px_s{};
+    Vec3d camera_rate_rad_s{};  // about the camera's axes
+};
+
 class SensorChain {
   public:
-    // guard_px: the radiance image's border on each side; samples_per_axis: the renderer's ray grid. Plans
-    // the FFT.
-    SensorChain(const CameraModel& camera, const SpectralGrid& grid, int guard_px, int samples_per_axis);
+    // Plans the FFT, draws the fixed patterns. `pictures`: what the camera's map files hold. InputError when
+    // a picture has another size than the sensor. Owner thread.
+    SensorChain(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling,
+                const DetectorPictures& pictures = {});
     ~SensorChain();
 
-    // Mean charge after one exposure [e-], dark current included; finite and not negative. Loop, one thread
-    // at a time.
-    void expose(const RadianceImage& radiance, std::span<const PointSource> points, double exposure_s,
+    // Mean charge after one exposure [e-], dark current included; finite and not negative. mean_e has the
+    // size of the read-out array. Loop, one thread at a time.
+    void expose(const RadianceImage& radiance, std::span<const PointSource> points, const Exposure& exposure,
                 ElectronImage& mean_e);
-    // Adds noise and converts. Loop, one thread at a time.
-    void digitise(const ElectronImage& mean_e, double gain_db, RandomKey key, DnImage& frame);
+    // Adds noise and converts; `frame` has frame_size(). Loop, one thread at a time.
+    void digitise(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key, DnImage& frame);
 
     const SensorTimes& times() const { return times_; }
-    // MTF_sys along one axis at the Nyquist frequency (0.5 cycles/px), optics times pixel aperture.
-    double mtf_at_nyquist() const;
+    // Modulus of MTF_sys as configured: everything from the lens to the converter that acts on contrast, at a
+    // frequency [cycles/px of the detector], motion apart.
+    double mtf(double u, double v) const;
+    // Along the rows at the Nyquist frequency (0.5 cycles/px).
+    double mtf_at_nyquist() const { return mtf(0.5, 0); }
     // Time of one bare FFT pair of the frame's size [ms]; for `hilcam bench`.
     double fft_pair_ms();
 

@@ -96,7 +96,7 @@ TEST(ConfigYaml, WrongValuesNameFoundAndAccepted) {
                 HasSubstr("found a list of 2; accepted: a list of 3 numbers"));
     EXPECT_THAT(error_of("name: x\nattitude_wxyz: [1, 1, 0, 0]\n"), HasSubstr("quaternion of norm 1.414"));
     EXPECT_THAT(error_of("name: x\ninner: {qe: [[0.5, 0.1], [0.4, 0.2]]}\n"),
-                HasSubstr("wavelengths that rise"));
+                HasSubstr("wavelength_um that rises"));
     EXPECT_THAT(error_of("name: x\ninner: {qe: [[0.5, 1.1]]}\n"), HasSubstr("accepted: a number, 0 to 1"));
     EXPECT_THAT(error_of("name: x\nname: y\n"), HasSubstr("given twice"));
     EXPECT_THAT(error_of("count: 3\n"), HasSubstr("name: the key is missing"));

@@ -20,6 +20,7 @@ CameraModel camera_64() {
     c.focal_length_m = 0.05;
     c.f_number = 4;
     c.bits = 12;
+    c.gain_dn_e = 1;
     c.full_well_e = 1e6;
     return c;
 }
@@ -58,11 +59,11 @@ TEST(Mtf, RayGridOfOneIsNothingAndOfManyIsThePixel) {
 TEST(Chain, UniformFieldGivesTheClosedFormElectrons) {
     CameraModel c = camera_64();
     const SpectralGrid grid({0.549, 0.551});
-    SensorChain chain(c, grid, 8, 1);
+    SensorChain chain(c, grid, {8, 1, 1});
     RadianceImage radiance(80, 80, 1);
     for (float& v : radiance.all()) v = 100;
     ElectronImage mean(64, 64);
-    chain.expose(radiance, {}, 1e-3, mean);
+    chain.expose(radiance, {}, {.exposure_s = 1e-3}, mean);
     const double d = 0.05 / 4, area = kPi / 4 * d * d, omega = std::pow(5.5e-6 / 0.05, 2);
     const double expected =
         100 * area * omega * 0.9 * 0.5 * 1e-3 * 0.002 * 0.55e-6 / (6.62607015e-34 * 299792458.0);
@@ -73,11 +74,11 @@ TEST(Chain, FalloffIsCosineToTheFourth) {
     CameraModel c = camera_64();
     c.focal_length_m = 0.0005;  // 64 px are 39 degrees off the axis in the corner
     const SpectralGrid grid({0.5, 0.6});
-    SensorChain chain(c, grid, 8, 1);
+    SensorChain chain(c, grid, {8, 1, 1});
     RadianceImage radiance(80, 80, 1);
     for (float& v : radiance.all()) v = 1;
     ElectronImage mean(64, 64);
-    chain.expose(radiance, {}, 1, mean);
+    chain.expose(radiance, {}, {.exposure_s = 1}, mean);
     const double tangent = 31.5 * 5.5e-6 / 0.0005;
     const double cosine4 = std::pow(1 / (1 + tangent * tangent), 2);
     const double tangent_middle = std::hypot(0.5, 0.5) * 5.5e-6 / 0.0005;
@@ -90,7 +91,7 @@ TEST(Chain, PointKeepsItsElectronsAndCentroidWhereverItFalls) {
     CameraModel c = camera_64();
     c.f_number = 11;  // well sampled
     const SpectralGrid grid({0.5, 0.6});
-    SensorChain chain(c, grid, 8, 1);
+    SensorChain chain(c, grid, {8, 1, 1});
     RadianceImage radiance(80, 80, 1);
     PointSource point;
     point.irradiance_w_m2_um[0] = 1e-6f;
@@ -98,7 +99,7 @@ TEST(Chain, PointKeepsItsElectronsAndCentroidWhereverItFalls) {
     for (const double offset : {0.0, 0.13, 0.5, 0.77, 0.999}) {
         point.position_px = {static_cast<float>(32 + offset), static_cast<float>(31.5 + 0.3 * offset)};
         ElectronImage mean(64, 64);
-        chain.expose(radiance, std::span(&point, 1), 1, mean);
+        chain.expose(radiance, std::span(&point, 1), {.exposure_s = 1}, mean);
         const auto px = static_cast<double>(point.position_px.x);
         const auto py = static_cast<double>(point.position_px.y);
         double sum = 0, weights = 0, x = 0, y = 0;
@@ -131,13 +132,13 @@ TEST(Chain, AStarsMagnitudeBecomesItsElectrons) {
     const double watts_m2 = 3.63e-8 * std::pow(10.0, -0.8) * 0.01;
     const double photon_j = 6.62607015e-34 * 299792458.0 / 0.55e-6;
     const double expected = watts_m2 * kPi * 0.01 * 0.01 * 0.9 * 0.5 * 0.1 / photon_j;
-    SensorChain chain(c, grid, 8, 1);
+    SensorChain chain(c, grid, {8, 1, 1});
     RadianceImage dark(80, 80, 1);
     ElectronImage electrons(64, 64);
     PointSource star;
     star.position_px = {32.3f, 31.8f};
     star.irradiance_w_m2_um = star_irradiance_w_m2_um(2, 0, grid);
-    chain.expose(dark, {{star}}, 0.1, electrons);
+    chain.expose(dark, {{star}}, {.exposure_s = 0.1}, electrons);
     double sum = 0;
     for (const float e : electrons.all()) sum += e;
     // The diffraction pattern's far rings leave the picture.
@@ -147,18 +148,18 @@ TEST(Chain, AStarsMagnitudeBecomesItsElectrons) {
 TEST(Chain, LightFromOneEdgeDoesNotComeBackAtTheOther) {
     const CameraModel c = camera_64();
     const SpectralGrid grid({0.5, 0.6});
-    SensorChain chain(c, grid, 16, 1);
+    SensorChain chain(c, grid, {16, 1, 1});
     RadianceImage radiance(96, 96, 1);
     for (int y = 0; y < 96; ++y) radiance.row(y)[16] = 1e6f;  // the frame's first column
     ElectronImage mean(64, 64);
-    chain.expose(radiance, {}, 1e-3, mean);
+    chain.expose(radiance, {}, {.exposure_s = 1e-3}, mean);
     EXPECT_LT(mean.row(32)[63], 1e-3 * static_cast<double>(mean.row(32)[0]));
 }
 
 TEST(Chain, ExtremesStayFiniteAndNotNegative) {
     const CameraModel c = camera_64();
     const SpectralGrid grid({0.5, 0.6});
-    SensorChain chain(c, grid, 8, 1);
+    SensorChain chain(c, grid, {8, 1, 1});
     RadianceImage radiance(80, 80, 1);
     radiance.row(40)[40] = 1e30f;
     PointSource point{{10, 10}, {}};
@@ -166,9 +167,9 @@ TEST(Chain, ExtremesStayFiniteAndNotNegative) {
     ElectronImage mean(64, 64);
     DnImage frame(64, 64);
     for (const double exposure_s : {1e-6, 1000.0}) {
-        chain.expose(radiance, std::span(&point, 1), exposure_s, mean);
+        chain.expose(radiance, std::span(&point, 1), {.exposure_s = exposure_s}, mean);
         for (const float v : mean.all()) ASSERT_TRUE(v >= 0 && std::isfinite(v));
-        chain.digitise(mean, 24, {1, 1}, frame);
+        chain.digitise(mean, {.gain_db = 24}, {1, 1}, frame);
         for (const std::uint16_t v : frame.all()) ASSERT_LE(v, 4095);
     }
 }
@@ -177,14 +178,14 @@ TEST(Chain, FramesDoNotDependOnTheThreadCount) {
     const auto frame_with = [](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         const SpectralGrid grid({0.5, 0.6});
-        SensorChain chain(camera_64(), grid, 8, 1);
+        SensorChain chain(camera_64(), grid, {8, 1, 1});
         RadianceImage radiance(80, 80, 1);
         for (int i = 0; i < 6400; ++i)
             radiance.all()[static_cast<std::size_t>(i)] = static_cast<float>(i % 97);
         ElectronImage mean(64, 64);
         DnImage frame(64, 64);
-        chain.expose(radiance, {}, 1e-3, mean);
-        chain.digitise(mean, 0, {5, 9}, frame);
+        chain.expose(radiance, {}, {.exposure_s = 1e-3}, mean);
+        chain.digitise(mean, {.gain_db = 0}, {5, 9}, frame);
         return std::vector<std::uint16_t>(frame.all().begin(), frame.all().end());
     };
     EXPECT_EQ(frame_with(1), frame_with(2));

@@ -1,0 +1,47 @@
+#include "sensor/color_filter.h"
+
+#include "render/check.h"
+
+namespace hilcam {
+
+Fields fields(ColorFilterConfig& c) {
+    return {
+        required(text("name", c.name, "one letter")),
+        required(curve("transmission", c.transmission, {0, 1}, "number or curve")),
+    };
+}
+
+Fields fields(ColorFilterArrayConfig& c) {
+    return {
+        text("pattern", c.pattern, "rows of filters' letters, a space between rows: RG GB"),
+        sections("filters", c.filters, "the filters, at most 8"),
+    };
+}
+
+void validate(const ColorFilterArrayConfig& c) {
+    if (c.filters.size() > 8)
+        throw InputError("color_filter.filters: found " + std::to_string(c.filters.size()) +
+                         "; accepted: at most 8");
+    for (const ColorFilterConfig& filter : c.filters)
+        if (filter.name.size() != 1 || filter.name == " ")
+            throw InputError("color_filter.filters: name '" + filter.name + "'; accepted: one letter");
+    std::size_t row = 0, width = 0;
+    for (std::size_t i = 0; i <= c.pattern.size(); ++i) {
+        if (i < c.pattern.size() && c.pattern[i] != ' ') {
+            bool known = false;
+            for (const ColorFilterConfig& filter : c.filters) known |= filter.name[0] == c.pattern[i];
+            if (!known)
+                throw InputError("color_filter.pattern: no filter is named '" + std::string(1, c.pattern[i]) +
+                                 "'");
+            ++row;
+            continue;
+        }
+        if (c.pattern.empty()) return;
+        if (width != 0 && row != width)
+            throw InputError("color_filter.pattern '" + c.pattern + "'; accepted: rows of one length");
+        width = row;
+        row = 0;
+    }
+}
+
+}  // namespace hilcam

@@ -1,0 +1,24 @@
+#pragma once
+// A colour filter array: a pattern of filters that repeats over the sensor.
+
+#include <string>
+#include <vector>
+
+#include "render/config_field.h"
+
+namespace hilcam {
+
+struct ColorFilterConfig {
+    std::string name;  // one letter of the pattern
+    Curve transmission = Curve::constant(1);
+};
+Fields fields(ColorFilterConfig& config);
+
+struct ColorFilterArrayConfig {
+    std::string pattern;  // rows of letters, a space between rows: "RG GB"; empty: none
+    std::vector<ColorFilterConfig> filters;
+};
+Fields fields(ColorFilterArrayConfig& config);
+void validate(const ColorFilterArrayConfig& config);
+
+}  // namespace hilcam

@@ -1,0 +1,20 @@
+#pragma once
+// Tracks of charged particles through the detector: a Poisson number per exposure, isotropic directions, a
+// straight line through the depleted depth, electrons per um with a spread.
+//
+// A minimum ionising particle leaves about 80 e-/um in silicon (Particle Data Group, Review of Particle
+// Physics, 2022, section 34); protons of 10-100 MeV some hundreds.
+
+#include "render/config_field.h"
+
+namespace hilcam {
+
+struct CosmicRayConfig {
+    double rate_cm2_s = 0;
+    double depth_um = 10;
+    double electrons_per_um = 80;
+    double spread_fraction = 0.3;  // standard deviation of a track's electrons per um over their mean
+};
+Fields fields(CosmicRayConfig& config);
+
+}  // namespace hilcam

@@ -1,0 +1,27 @@
+#pragma once
+// When each row is exposed.
+//
+//   global          all rows at once
+//   rolling         a row begins `line_time` after the one above it; the middle row is at the frame's time
+//   frame_transfer  CCD: all rows at once, then each is shifted under the light, `line_time` per row
+//   line_scan       one line with tdi_stages rows that follow the ground: a frame is height_px lines,
+//                   line_time apart; the exposure is tdi_stages x line_time
+
+#include <cstdint>
+
+#include "render/config_field.h"
+
+namespace hilcam {
+
+enum class ShutterKind { kGlobal, kRolling, kFrameTransfer, kLineScan };
+
+struct ShutterConfig {
+    ShutterKind kind = ShutterKind::kGlobal;
+    double line_time_s = 20e-6;
+    std::int64_t tdi_stages = 1;
+    std::int64_t tdi_phases = 1;       // clock phases: the charge moves in steps of 1 / phases of a pixel
+    double tdi_mismatch_fraction = 0;  // of the image's speed from the charge's: it drifts stages x this [px]
+};
+Fields fields(ShutterConfig& config);
+
+}  // namespace hilcam

@@ -1,0 +1,23 @@
+#pragma once
+// Light that the lens sends where it does not belong.
+//
+// Veiling glare: a share of all light is taken out of the image and spread: evenly over the padded frame
+// (radius 0), or as the halo r / (2 pi (r^2 + x^2)^1.5), whose transform is exp(-2 pi r f): x^-3 wings as of
+// scatter from polished glass (Peterson, "Analytic expression for in-field scattered light distribution",
+// SPIE 5178, 2004, for surfaces with an inverse-square scatter law). Ghost: one out-of-focus image by two
+// reflections between glass faces, mirrored about the principal point and scaled, a disk of the given radius.
+
+#include "render/config_field.h"
+
+namespace hilcam {
+
+struct StrayLightConfig {
+    double veiling_glare_fraction = 0;
+    double glare_radius_px = 0;  // 0: even
+    double ghost_fraction = 0;   // of a source's light
+    double ghost_scale = -1;     // image height of the ghost over that of its source; negative: mirrored
+    double ghost_radius_px = 32;
+};
+Fields fields(StrayLightConfig& config);
+
+}  // namespace hilcam
