@@ -13,6 +13,7 @@ namespace hilcam {
 enum class RandomPurpose : std::uint32_t {
     kSensorNoise = 1,  // word 0: shot noise, word 1: read noise
     kPathSample = 2,   // of the light paths; index: sample and depth
+    kPointing = 32,    // of the camera's line of sight; pixel: sinusoid, index: axis
 };
 
 struct RandomKey {
