@@ -359,6 +359,27 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
                                        my.frame.geometry.padded_height());
 }
 
+ImageMotion Renderer::motion(const WorldSnapshot& middle, const WorldSnapshot& before,
+                             const WorldSnapshot& after) {
+    implementation_->place(middle, {});
+    return motion_of_last(before, after);
+}
+
+ImageMotion Renderer::motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after) {
+    Implementation& my = *implementation_;
+    const bool has_stars = !my.stars.empty() || !my.background.points().empty();
+    return image_motion(
+        {my.frame, my.plans, my.radii_m, my.terrain ? my.terrain->body() : std::optional<BodyId>(),
+         my.terrain != nullptr, has_stars},
+        my.world, before, after);
+}
+
+bool Renderer::last_shows_body() const {
+    const Implementation& my = *implementation_;
+    const PixelBox everything{0, 0, my.frame.geometry.padded_width(), my.frame.geometry.padded_height()};
+    return (my.terrain && my.terrain->body()) || my.frame.may_see_body(everything);
+}
+
 std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
     my.place(world, {});

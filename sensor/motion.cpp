@@ -6,6 +6,7 @@
 #include "render/check.h"
 #include "render/random.h"
 #include "render/units.h"
+#include "sensor/mtf.h"
 
 namespace hilcam {
 
@@ -128,11 +129,6 @@ double total_of(const Table& psd) {
     return total;
 }
 
-double sinc_of(double x) {
-    const double a = kPi * x;
-    return std::abs(a) < 1e-8 ? 1.0 : std::sin(a) / a;
-}
-
 }  // namespace
 
 PointingJitter::PointingJitter(const JitterConfig& config, std::uint64_t seed, TimeTai start)
@@ -156,7 +152,7 @@ Vec2d PointingJitter::at(TimeTai middle, double exposure_s) const {
     const auto sum = [&](const std::vector<Sinusoid>& axis) {
         double angle_rad = 0;
         for (const Sinusoid& s : axis)
-            angle_rad += s.amplitude_rad * sinc_of(s.frequency_hz * exposure_s) *
+            angle_rad += s.amplitude_rad * sinc(s.frequency_hz * exposure_s) *
                          std::cos(2 * kPi * s.frequency_hz * t_s + s.phase_rad);
         return angle_rad;
     };
