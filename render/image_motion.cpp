@@ -19,9 +19,8 @@ struct Seen {
 
 class Follower {
   public:
-    Follower(const MovingFrame& moving, const WorldSnapshot& middle, const WorldSnapshot& before,
-             const WorldSnapshot& after)
-        : moving_(moving), middle_(middle), before_(before), after_(after) {}
+    Follower(const MovingFrame& moving, const Instants& instants)
+        : moving_(moving), middle_(instants.middle), before_(instants.before), after_(instants.after) {}
 
     // False when it cannot be projected at either end.
     bool displacement_px(const Seen& seen, Vec2d& out) const {
@@ -153,11 +152,11 @@ void add_object(const MovingFrame& moving, const WorldSnapshot& world, std::size
 
 }  // namespace
 
-ImageMotion image_motion(const MovingFrame& moving, const WorldSnapshot& middle, const WorldSnapshot& before,
-                         const WorldSnapshot& after) {
+ImageMotion image_motion(const MovingFrame& moving, const Instants& instants) {
+    const WorldSnapshot& middle = instants.middle;
     const ImageGeometry& g = moving.frame.geometry;
     const Mat3d world_from_camera = to_matrix(middle.camera.world_from_body);
-    const Follower follower(moving, middle, before, after);
+    const Follower follower(moving, instants);
     const bool one_line = moving.frame.rays->scan_line_time_s() > 0;
     Collection all;
     Vec2d displacement_px;
@@ -190,6 +189,21 @@ ImageMotion image_motion(const MovingFrame& moving, const WorldSnapshot& middle,
                 if (follower.displacement_px(sky, displacement_px)) all.add_largest(displacement_px);
             }
     return {all.of_most(), all.largest_px()};
+}
+
+void set_drifts(const MovingFrame& moving, const Instants& instants, double per_s,
+                std::span<PointSource> points) {
+    const Follower follower(moving, instants);
+    for (PointSource& point : points) {
+        if (point.object == PointSource::kSky) continue;
+        const Vec3d middle_m = instants.middle.objects[point.object].position_world_m;
+        const Seen object{Seen::Thing::kObject, point.object, middle_m};
+        const Seen sky{Seen::Thing::kSky, 0, middle_m - instants.middle.camera.position_world_m};
+        Vec2d way_px, sky_way_px;
+        if (follower.displacement_px(object, way_px) && follower.displacement_px(sky, sky_way_px))
+            point.drift_px_s = {static_cast<float>((way_px.x - sky_way_px.x) * per_s),
+                                static_cast<float>((way_px.y - sky_way_px.y) * per_s)};
+    }
 }
 
 }  // namespace hilcam

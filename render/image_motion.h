@@ -15,6 +15,7 @@
 
 #include "render/frame_view.h"
 #include "render/plan.h"
+#include "render/point_source.h"
 #include "render/scene.h"
 
 namespace hilcam {
@@ -35,8 +36,14 @@ struct MovingFrame {
     bool has_terrain = false;
     bool has_stars = false;
 };
-// middle: the world that the frame was placed in, terrain among its objects; before, after: without. Loop.
-ImageMotion image_motion(const MovingFrame& moving, const WorldSnapshot& middle, const WorldSnapshot& before,
-                         const WorldSnapshot& after);
+// The world that the frame was placed in, terrain among its objects, and those at the ends; without.
+struct Instants {
+    const WorldSnapshot &middle, &before, &after;
+};
+// Loop.
+ImageMotion image_motion(const MovingFrame& moving, const Instants& instants);
+// The drifts of points: how far their objects' middles go against the stars behind them, times per_s. Loop.
+void set_drifts(const MovingFrame& moving, const Instants& instants, double per_s,
+                std::span<PointSource> points);
 
 }  // namespace hilcam

@@ -99,7 +99,8 @@ TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& w
                 }
             if (!(light > 0)) continue;
             const Vec3d at = world_from_view_ * view_.geometry.direction_camera(x_sum / light, y_sum / light);
-            field.add(normalized(at), plan.distance_m - kMargin * radius_m, solid_angle * sum, points);
+            field.add(normalized(at), plan.distance_m - kMargin * radius_m, solid_angle * sum, points,
+                      static_cast<std::uint32_t>(i));
         }
     return stats;
 }

@@ -29,28 +29,28 @@ bool PointField::find(Vec3d dir, double distance_m, Sighting& seen) const {
     return x >= 0 && y >= 0 && x < g.padded_width() && y < g.padded_height();
 }
 
-void PointField::push(const Sighting& seen, const Spectrum& irradiance,
+void PointField::push(const Sighting& seen, const PointSource& point,
                       std::vector<PointSource>& points) const {
-    const auto at = [&](double y_px) {
-        return Vec2f{static_cast<float>(seen.position_px.x), static_cast<float>(y_px)};
+    const auto add = [&](double y_px, double light_ratio) {
+        points.push_back(point);
+        points.back().position_px = {static_cast<float>(seen.position_px.x), static_cast<float>(y_px)};
+        points.back().irradiance_w_m2_um = static_cast<float>(light_ratio) * point.irradiance_w_m2_um;
     };
     const auto rows = static_cast<std::size_t>(std::ceil(seen.light_ratio));
-    if (rows <= 1 || points.capacity() - points.size() < rows) {
-        points.push_back({at(seen.position_px.y), static_cast<float>(seen.light_ratio) * irradiance});
-        return;
-    }
+    if (rows <= 1 || points.capacity() - points.size() < rows)
+        return add(seen.position_px.y, seen.light_ratio);
     // The sensor's row, one pixel high, becomes light_ratio rows; the point's own pixel is one of them.
     const auto n = static_cast<double>(rows);
     for (std::size_t i = 0; i < rows; ++i) {
         const double y_px =
             seen.position_px.y + (seen.light_ratio - 1) * ((static_cast<double>(i) + 0.5) / n - 0.5);
         if (y_px >= -frame_.geometry.guard_px && y_px < frame_.geometry.height_px + frame_.geometry.guard_px)
-            points.push_back({at(y_px), static_cast<float>(seen.light_ratio / n) * irradiance});
+            add(y_px, seen.light_ratio / n);
     }
 }
 
 void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
-                     std::vector<PointSource>& points) const {
+                     std::vector<PointSource>& points, std::uint32_t object) const {
     Sighting sighting;
     if (!find(dir, distance_m, sighting)) return;
     const auto px = static_cast<int>(sighting.position_px.x + frame_.geometry.guard_px),
@@ -76,7 +76,7 @@ void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
         ray.set(0, start, to_float(thing_dir), 0, static_cast<float>(until_m));
         if (until_m > 0 && frame_.scene->occluded(ray)) return;
     }
-    push(sighting, seen, points);
+    push(sighting, {{}, seen, object, {}}, points);
 }
 
 void PointField::add_stars(const std::vector<Star>& stars, std::vector<PointSource>& points) const {

@@ -18,9 +18,10 @@ class PointField {
     PointField(const FrameView& frame, const WorldSnapshot& world);
 
     void add_stars(const std::vector<Star>& stars, std::vector<PointSource>& points) const;
-    // A thing at a distance [m] in a direction (unit, world) with this irradiance at the camera.
+    // A thing at a distance [m] in a direction (unit, world) with this irradiance at the camera; part of an
+    // object, or of the sky.
     void add(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
-             std::vector<PointSource>& points) const;
+             std::vector<PointSource>& points, std::uint32_t object = PointSource::kSky) const;
     // Whether the thing is in the padded image.
     bool sees(Vec3d dir, double distance_m) const {
         Sighting ignored;
@@ -33,8 +34,7 @@ class PointField {
     double least_cosine_;  // to the boresight at the frame's time, of what can be in the image
 
     bool find(Vec3d dir, double distance_m, Sighting& seen) const;
-    void push(const Sighting& seen, const Spectrum& irradiance_w_m2_um,
-              std::vector<PointSource>& points) const;
+    void push(const Sighting& seen, const PointSource& point, std::vector<PointSource>& points) const;
 };
 
 }  // namespace hilcam

@@ -235,6 +235,15 @@ struct Renderer::Implementation {
                             : everything;
     }
 
+    MovingFrame moving() const {
+        return {frame,
+                plans,
+                radii_m,
+                terrain ? terrain->body() : std::optional<BodyId>(),
+                terrain != nullptr,
+                !stars.empty() || !background.points().empty()};
+    }
+
     PixelBox tile(int index) const {
         const int x = index % tiles_across * tile_px;
         const int y = index / tiles_across * tile_px;
@@ -366,12 +375,14 @@ ImageMotion Renderer::motion(const WorldSnapshot& middle, const WorldSnapshot& b
 }
 
 ImageMotion Renderer::motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after) {
-    Implementation& my = *implementation_;
-    const bool has_stars = !my.stars.empty() || !my.background.points().empty();
-    return image_motion(
-        {my.frame, my.plans, my.radii_m, my.terrain ? my.terrain->body() : std::optional<BodyId>(),
-         my.terrain != nullptr, has_stars},
-        my.world, before, after);
+    const Implementation& my = *implementation_;
+    return image_motion(my.moving(), {my.world, before, after});
+}
+
+void Renderer::set_drifts(const WorldSnapshot& before, const WorldSnapshot& after, double per_s,
+                          std::span<PointSource> points) {
+    const Implementation& my = *implementation_;
+    hilcam::set_drifts(my.moving(), {my.world, before, after}, per_s, points);
 }
 
 bool Renderer::last_shows_body() const {

@@ -80,6 +80,9 @@ class Renderer {
     ImageMotion motion(const WorldSnapshot& middle, const WorldSnapshot& before, const WorldSnapshot& after);
     // The same of the world that was rendered last.
     ImageMotion motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after);
+    // Sets the drifts of the points that it gave: the way from one world to the other, times per_s.
+    void set_drifts(const WorldSnapshot& before, const WorldSnapshot& after, double per_s,
+                    std::span<PointSource> points);
     // A body's disk or terrain on one may be in the last picture: how it moves depends on the bodies.
     bool last_shows_body() const;
 
