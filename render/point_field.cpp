@@ -36,7 +36,8 @@ void PointField::push(const Sighting& seen, const PointSource& point,
         points.back().position_px = {static_cast<float>(seen.position_px.x), static_cast<float>(y_px)};
         points.back().irradiance_w_m2_um = static_cast<float>(light_ratio) * point.irradiance_w_m2_um;
     };
-    const auto rows = static_cast<std::size_t>(std::ceil(seen.light_ratio));
+    // A hundredth of a row more is no streak.
+    const auto rows = static_cast<std::size_t>(std::ceil(std::max(0.0, seen.light_ratio - 0.01)));
     if (rows <= 1 || points.capacity() - points.size() < rows)
         return add(seen.position_px.y, seen.light_ratio);
     // The sensor's row, one pixel high, becomes light_ratio rows; the point's own pixel is one of them.
