@@ -164,21 +164,26 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
     scale(share, radiance);
 }
 
-// The way of a line's charge is not seen: several stages move it along with the picture, so that only the
-// difference blurs.
+// What the sensor does not expect of the picture along its columns. The line time goes with one pixel: the
+// charge of several stages follows at that rate and only the difference blurs; one stage alone blurs by that
+// pixel, which MTF_sys has (system_mtf.h), and here by what is more.
+double ExposureRenderer::unexpected_px_s(double rate_px_s) const {
+    if (shutter_.kind != ShutterKind::kLineScan) return rate_px_s;
+    const double expected_px_s = 1 / shutter_.line_time_s;
+    const double more_px_s = std::abs(rate_px_s) - expected_px_s;
+    return std::copysign(1.0, rate_px_s) * (shutter_.tdi_stages > 1 ? more_px_s : std::max(0.0, more_px_s));
+}
+
 void ExposureRenderer::set_rates(const ImageMotion& motion, int parts, Exposure& exposure) const {
-    if (motion.largest_px / oversampling_ < kStill_px) return;
+    const bool still = motion.largest_px / oversampling_ < kStill_px;
+    if (still && shutter_.kind != ShutterKind::kLineScan) return;
     const double per_s = 1 / (exposure.exposure_s * oversampling_);
-    Vec2d rate_px_s{motion.displacement_px.x * per_s, motion.displacement_px.y * per_s};
+    const Vec2d rate_px_s{motion.displacement_px.x * per_s,
+                          unexpected_px_s(motion.displacement_px.y * per_s)};
     Vec3d camera_rad_s =
         mean_rate(before_.camera.world_from_body, after_.camera.world_from_body, exposure.exposure_s);
-    if (shutter_.kind == ShutterKind::kLineScan && shutter_.tdi_stages > 1) {
-        const bool any = rate_px_s.y != 0;
-        const double charge_px_s =
-            std::copysign(1 / shutter_.line_time_s, any ? rate_px_s.y : camera_rad_s.x);
-        if (any) rate_px_s.y -= charge_px_s;
-        camera_rad_s.x -= charge_px_s / focal_length_px_;
-    }
+    // Turning about x moves the picture along y, by the focal length per radian.
+    camera_rad_s.x = unexpected_px_s(camera_rad_s.x * focal_length_px_) / focal_length_px_;
     exposure.image_rate_px_s = {rate_px_s.x / parts, rate_px_s.y / parts};
     exposure.camera_rate_rad_s = camera_rad_s / static_cast<double>(parts);
 }

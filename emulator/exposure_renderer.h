@@ -73,6 +73,7 @@ class ExposureRenderer {
     void sample_ends(const WorldState& world, const Span& span, bool with_bodies);
     void render_parts(const WorldState& world, const Span& span, RandomKey key, RadianceImage& radiance,
                       std::vector<PointSource>& points, Result& result);
+    double unexpected_px_s(double rate_px_s) const;
     void set_rates(const ImageMotion& motion, int parts, Exposure& exposure) const;
 };
 

@@ -163,6 +163,30 @@ TEST_F(ExposureTest, TooMuchMotionIsLimitedAndTold) {
     EXPECT_TRUE(exact.result.parts_limited);
 }
 
+TEST_F(ExposureTest, ALineScannerIsBlurredByWhatItsLinesDoNotExpect) {
+    // 640 px/rad, lines of 1 ms: 1 px per line is 1.5625 rad/s; the boresight goes down at 1.1 times that.
+    const auto file = scenario("", "camera_pose: {rate_deg_s: [-98.475, 0, 0]}\n");
+    const auto rate = [&](const std::string& shutter) {
+        const Exposure exposure =
+            shoot(file, {"camera.shutter={kind: line_scan, line_time_us: 1000" + shutter + "}",
+                         "camera.exposure_ms=1"})
+                .exposure;
+        EXPECT_NEAR(exposure.camera_rate_rad_s.x * 640, exposure.image_rate_px_s.y, 0.5);
+        return exposure.image_rate_px_s.y;
+    };
+    // The picture goes up at 1100 px/s; the charge of several stages at 1000, and so does one stage's line.
+    EXPECT_NEAR(rate(", tdi_stages: 4"), -100, 1);
+    EXPECT_NEAR(rate(""), -100, 1);
+    // At rest, charge that moves smears the picture; one line alone does not.
+    const auto still = scenario();
+    const auto at_rest = [&](const std::string& shutter) {
+        return shoot(still, {"camera.shutter={kind: line_scan, line_time_us: 1000" + shutter + "}"})
+            .exposure.image_rate_px_s.y;
+    };
+    EXPECT_NEAR(std::abs(at_rest(", tdi_stages: 4")), 1000, 1e-6);
+    EXPECT_EQ(at_rest(""), 0);
+}
+
 TEST_F(ExposureTest, JitterTurnsTheCameraAsItsPsdSays) {
     // 0.3 deg rms below 1 Hz, an exposure of 20 ms: all of it is displacement.
     const auto file = scenario(", jitter: {psd: [[0.1, 1300000], [1, 1300000]]}");
