@@ -14,6 +14,7 @@
 #include "render/clones.h"
 #include "render/pose.h"
 #include "render/units.h"
+#include "sensor/compact_kernel.h"
 #include "sensor/mtf.h"
 #include "sensor/optics.h"
 #include "sensor/psf.h"
@@ -115,6 +116,7 @@ struct Channel {
     std::vector<SystemMtf> mtfs;  // by zone
     std::vector<PointSpread> spreads;
     std::optional<Convolver> convolver;
+    std::optional<CompactKernel> kernel;  // does the same, faster
     std::optional<Ghost> ghost;
 };
 
@@ -179,6 +181,10 @@ struct FocalPlane::Implementation {
         for (const SystemMtf& mtf : channel.mtfs)
             transfers.push_back([&](double u, double v) { return image_transfer(mtf, u, v); });
         channel.convolver.emplace(image.padded_width(), image.padded_height(), transfers);
+        // Its border of nothing must lie in the guard band.
+        if (transfers.size() == 1 && image.guard_px >= CompactKernel::kMostRadius)
+            channel.kernel =
+                CompactKernel::find(transfers.front(), image.padded_width(), image.padded_height());
         if (camera.stray_light.ghost_fraction > 0) channel.ghost.emplace(camera.stray_light, detector);
     }
     // MTF_sys at the radiance image's frequencies. Its rays have averaged over its pixels already. With an
@@ -466,7 +472,12 @@ void FocalPlane::convolve(const Exposure& exposure) {
     const double scale = exposure.exposure_s * my.sampling.oversampling;
     blur.smear_px = {exposure.image_rate_px_s.x * scale, exposure.image_rate_px_s.y * scale};
     blur.sigma_px = {my.jitter_px * my.sampling.oversampling, my.jitter_px * my.sampling.oversampling};
-    for (Channel& channel : my.channels) channel.convolver->run(blur);
+    for (Channel& channel : my.channels) {
+        if (channel.kernel && blur.none())
+            channel.kernel->run(*channel.convolver);
+        else
+            channel.convolver->run(blur);
+    }
 }
 
 void FocalPlane::gather(std::span<const PointSource> points, const Exposure& exposure,
@@ -490,6 +501,11 @@ void FocalPlane::gather(std::span<const PointSource> points, const Exposure& exp
 
 double FocalPlane::mtf(double u, double v) const {
     return std::abs(implementation_->channels.front().mtfs.front().at(u, v));
+}
+
+int FocalPlane::kernel_radius() const {
+    const auto& kernel = implementation_->channels.front().kernel;
+    return kernel ? kernel->radius() : 0;
 }
 
 void FocalPlane::run_fft_pair() { implementation_->channels.front().convolver->run(); }
