@@ -23,14 +23,14 @@ std::vector<double> sum_of_images(std::vector<double> a, std::span<const double>
 }
 
 // Slope through the origin, unweighted.
-Figure slope(std::span<const double> x, std::span<const double> y, std::span<const double> variance) {
+Measured slope(std::span<const double> x, std::span<const double> y, std::span<const double> variance) {
     const std::vector<double> equal(x.size(), 1.0);
     const Fitted fit = fit_polynomial(x, y, equal, variance, 1, true);
     return {fit.coefficient[0], std::sqrt(fit.variance(0))};
 }
 
 // The standard deviation of what stays, from the variance of an average of frames less its temporal rest.
-Figure deviation(double measured, double temporal_rest, double samples) {
+Measured deviation(double measured, double temporal_rest, double samples) {
     const double net = measured - temporal_rest;
     const double error = std::max(measured, temporal_rest) * std::sqrt(2 / std::max(samples - 1, 1.0));
     // Nothing is found where chance alone could have made it: then the error of the variance is the bound.
@@ -51,7 +51,7 @@ Nonuniformity split(std::span<const double> image, const PixelSelection& selecti
     // Means of rows and columns keep a share of the pixels' scatter, and with it its chance.
     const double of_row = (s.pixel / (s.pixels / s.rows)) * std::sqrt(2 / s.rows);
     const double of_column = (s.pixel / (s.pixels / s.columns)) * std::sqrt(2 / s.columns);
-    const auto widen = [](Figure& f, double chance) {
+    const auto widen = [](Measured& f, double chance) {
         f.uncertainty = f.value > 0 ? std::min(std::hypot(f.uncertainty, chance / (2 * f.value)),
                                                std::hypot(f.uncertainty, std::sqrt(chance)))
                                     : std::hypot(f.uncertainty, std::sqrt(std::max(chance, 0.0)));
@@ -61,7 +61,7 @@ Nonuniformity split(std::span<const double> image, const PixelSelection& selecti
 }
 
 void scale(Nonuniformity& n, double factor) {
-    for (Figure* f : {&n.total, &n.row, &n.column, &n.pixel}) f->value *= factor, f->uncertainty *= factor;
+    for (Measured* f : {&n.total, &n.row, &n.column, &n.pixel}) f->value *= factor, f->uncertainty *= factor;
 }
 
 }  // namespace
@@ -123,13 +123,13 @@ double ResponseCurve::photons(double signal) const {
     for (int step = 0; step < 20; ++step) at -= (signal_dn(at) - signal) / slope_dn_photon(at);
     return at;
 }
-Figure ResponseCurve::responsivity_dn_photon() const {
+Measured ResponseCurve::responsivity_dn_photon() const {
     return {coefficient_[1] / scale_, slope_uncertainty_};
 }
 
-Figure small_signal_gain_dn_e(std::span<const LightPoint> points, const ResponseCurve& response,
+Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const ResponseCurve& response,
                               double saturation_dn) {
-    const Figure small = response.responsivity_dn_photon();
+    const Measured small = response.responsivity_dn_photon();
     std::vector<double> signal, shot, variance;
     for (const LightPoint& p : points) {
         if (p.signal_dn() > 0.7 * saturation_dn) continue;
@@ -140,7 +140,7 @@ Figure small_signal_gain_dn_e(std::span<const LightPoint> points, const Response
         shot.push_back(p.shot_dn2() * square(straighten));
         variance.push_back(p.shot_variance() * square(square(straighten)));
     }
-    Figure gain = slope(signal, shot, variance);
+    Measured gain = slope(signal, shot, variance);
     // The scale of the straight line is the responsivity's.
     gain.uncertainty = std::hypot(gain.uncertainty, gain.value * small.uncertainty / small.value);
     return gain;
@@ -149,7 +149,7 @@ Figure small_signal_gain_dn_e(std::span<const LightPoint> points, const Response
 // --- darkness
 // --------------------------------------------------------------------------------------------------------
 
-Figure dark_noise_e(const TemporalStatistics& dark, const Figure& gain, double bandwidth) {
+Measured dark_noise_e(const TemporalStatistics& dark, const Measured& gain, double bandwidth) {
     const double white = dark.variance_dn2.value - dark.row_dn2 - kQuantisation_dn2;
     const double variance = std::max(white, 0.0) / bandwidth + dark.row_dn2;
     const double noise_dn = std::sqrt(variance);
@@ -161,7 +161,7 @@ Figure dark_noise_e(const TemporalStatistics& dark, const Figure& gain, double b
                                               noise_dn / square(gain.value) * gain.uncertainty)};
 }
 
-DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Figure& gain, double bandwidth) {
+DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Measured& gain, double bandwidth) {
     std::vector<double> time, mean, mean_variance, mean_weight, variance, variance_variance, variance_weight;
     for (const DarkPoint& p : points) {
         time.push_back(p.exposure_s);
@@ -174,7 +174,7 @@ DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Figure& ga
     }
     const auto per_gain = [&](double slope, double error, double power) {
         const double factor = 1 / std::pow(gain.value, power);
-        return Figure{slope * factor,
+        return Measured{slope * factor,
                       std::hypot(error * factor, power * slope * factor * gain.uncertainty / gain.value)};
     };
     const Fitted of_mean = fit_polynomial(time, mean, mean_weight, mean_variance, 1);
@@ -222,14 +222,14 @@ Linearity linearity(std::span<const ResponsePoint> points, double saturation_dn)
 // --------------------------------------------------------------------------------------------------------
 
 Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
-                     const PixelSelection& selection, const Figure& gain, double bandwidth) {
+                     const PixelSelection& selection, const Measured& gain, double bandwidth) {
     const std::vector<double> mean = dark.mean_dn();
     const std::vector<double> image = sum_of_images(mean, smooth_surface(mean, selection, kShadingOrder), -1);
     const double frames = dark.frames();
     Nonuniformity out = split(image, selection, (temporal.variance_dn2.value - temporal.row_dn2) / frames,
                               temporal.row_dn2 / frames, bandwidth);
     scale(out, 1 / gain.value);
-    for (Figure* f : {&out.total, &out.row, &out.column, &out.pixel})
+    for (Measured* f : {&out.total, &out.row, &out.column, &out.pixel})
         f->uncertainty = std::hypot(f->uncertainty, f->value * gain.uncertainty / gain.value);
     return out;
 }
@@ -252,17 +252,17 @@ Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& fl
 // --- what follows
 // --------------------------------------------------------------------------------------------------------
 
-Figure absolute_threshold_e(const Figure& noise, const Figure& gain) {
+Measured absolute_threshold_e(const Measured& noise, const Measured& gain) {
     const double dark = std::sqrt(square(noise.value) + kQuantisation_dn2 / square(gain.value));
     return {dark + 0.5, dark > 0 ? noise.value / dark * noise.uncertainty : noise.uncertainty};
 }
-Figure dynamic_range_db(const Figure& saturation, const Figure& threshold) {
+Measured dynamic_range_db(const Measured& saturation, const Measured& threshold) {
     return {
         20 * std::log10(saturation.value / threshold.value),
         20 / std::log(10.0) *
             std::hypot(saturation.uncertainty / saturation.value, threshold.uncertainty / threshold.value)};
 }
-Figure snr_max_db(const Figure& saturation) {
+Measured snr_max_db(const Measured& saturation) {
     return {10 * std::log10(saturation.value),
             10 / std::log(10.0) * saturation.uncertainty / saturation.value};
 }

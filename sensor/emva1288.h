@@ -29,8 +29,8 @@ std::size_t saturation_index(std::span<const LightPoint> points);
 
 // Section 6.4: straight lines through the origin, unweighted, over signals up to 70 % of saturation.
 struct PhotonTransfer {
-    Figure gain_dn_e;               // K: slope of sigma_y^2 - sigma_y.dark^2 over mu_y - mu_y.dark
-    Figure responsivity_dn_photon;  // R: slope of mu_y - mu_y.dark over mu_p
+    Measured gain_dn_e;               // K: slope of sigma_y^2 - sigma_y.dark^2 over mu_y - mu_y.dark
+    Measured responsivity_dn_photon;  // R: slope of mu_y - mu_y.dark over mu_p
 };
 PhotonTransfer photon_transfer(std::span<const LightPoint> points, double saturation_dn);
 
@@ -44,7 +44,7 @@ class ResponseCurve {
     // The light of a signal, by Newton's method; for signals up to a little beyond saturation.
     double photons(double signal_dn) const;
     // For small signals: the slope at no light.
-    Figure responsivity_dn_photon() const;
+    Measured responsivity_dn_photon() const;
     double offset_dn() const { return coefficient_[0]; }
 
   private:
@@ -55,11 +55,11 @@ class ResponseCurve {
 // K of small signals. The standard's K is one slope for all signals; where the response bends by a share a
 // of full scale, that slope is off by about 3 a. Mean and variance are therefore carried to the straight
 // line of small signals first: mu by the curve's inverse, sigma^2 by the square of its slope.
-Figure small_signal_gain_dn_e(std::span<const LightPoint> points, const ResponseCurve& response,
+Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const ResponseCurve& response,
                               double saturation_dn);
 
 // Section 6.5: sqrt(sigma_y.dark^2 - 1/12 DN^2) / K. `bandwidth`: see noise_bandwidth().
-Figure dark_noise_e(const TemporalStatistics& dark, const Figure& gain_dn_e, double bandwidth = 1);
+Measured dark_noise_e(const TemporalStatistics& dark, const Measured& gain_dn_e, double bandwidth = 1);
 
 // Section 7: slopes of mean and variance of dark frames over exposure time.
 struct DarkPoint {
@@ -67,10 +67,10 @@ struct DarkPoint {
     TemporalStatistics dark;
 };
 struct DarkCurrent {
-    Figure from_mean_e_s, from_variance_e_s;
+    Measured from_mean_e_s, from_variance_e_s;
     double offset_dn = 0;  // mean at no exposure
 };
-DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Figure& gain_dn_e,
+DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Measured& gain_dn_e,
                              double bandwidth = 1);
 
 // Section 6.7: a line fitted to signals from 5 to 95 % of saturation with weights 1/signal^2, the points'
@@ -79,7 +79,7 @@ struct LinearityPoint {
     double photons = 0, signal_dn = 0, fit_dn = 0, deviation_fraction = 0;
 };
 struct Linearity {
-    Figure error_fraction;
+    Measured error_fraction;
     double least_fraction = 0, most_fraction = 0;
     std::vector<LinearityPoint> points;
 };
@@ -91,12 +91,12 @@ std::vector<ResponsePoint> response_points(std::span<const LightPoint> points);
 
 // Section 8: standard deviations that stay from frame to frame, split by rows, columns and pixels.
 struct Nonuniformity {
-    Figure total, row, column, pixel;
+    Measured total, row, column, pixel;
 };
 // DSNU1288 [e-] of L dark frames, a slope of the dark picture taken out. A filter along the rows smooths
 // what differs from pixel to pixel as it does noise: `bandwidth` undoes that.
 Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
-                     const PixelSelection& selection, const Figure& gain_dn_e, double bandwidth = 1);
+                     const PixelSelection& selection, const Measured& gain_dn_e, double bandwidth = 1);
 // PRNU1288, a fraction, of L flat and L dark frames of the same exposure. The standard subtracts variances,
 // s^2_50 - s^2_dark; here it is the variance of the difference of the two averaged images, of the same mean
 // where gains and offsets are independent, and right where they are not. What the lens's shading does is
@@ -107,8 +107,8 @@ Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& fl
 
 // What follows from the others, section 6.6 and annex: mu_e.min = sqrt(sigma_d^2 + 1/(12 K^2)) + 1/2, the
 // dynamic range saturation over it, SNR_max = sqrt(mu_e.sat), both in dB of 20 log10.
-Figure absolute_threshold_e(const Figure& dark_noise_e, const Figure& gain_dn_e);
-Figure dynamic_range_db(const Figure& saturation_e, const Figure& threshold_e);
-Figure snr_max_db(const Figure& saturation_e);
+Measured absolute_threshold_e(const Measured& dark_noise_e, const Measured& gain_dn_e);
+Measured dynamic_range_db(const Measured& saturation_e, const Measured& threshold_e);
+Measured snr_max_db(const Measured& saturation_e);
 
 }  // namespace hilcam

@@ -28,7 +28,7 @@ struct PixelSelection {
 };
 
 // A value and the standard deviation of its error.
-struct Figure {
+struct Measured {
     double value = 0;
     double uncertainty = 0;
 };
@@ -37,8 +37,8 @@ struct Figure {
 // difference of a pair (section 6.1), which leaves out all that stays from frame to frame. A part of it may
 // be common to a row (row noise).
 struct TemporalStatistics {
-    Figure mean_dn;
-    Figure variance_dn2;
+    Measured mean_dn;
+    Measured variance_dn2;
     double row_dn2 = 0;  // the part of the variance that is common to a row
     int pairs = 0;
 };
