@@ -11,8 +11,15 @@ namespace hilcam {
 // What a number is drawn for; each is an independent stream. Values are part of a deterministic frame: never
 // reuse one.
 enum class RandomPurpose : std::uint32_t {
-    kSensorNoise = 1,  // word 0: shot noise, word 1: read noise
-    kPathSample = 2,   // of the light paths; index: sample and depth
+    kSensorNoise = 1,   // word 0: shot noise, word 1: read noise
+    kPathSample = 2,    // of the light paths; index: sample and depth
+    kFixedPattern = 3,  // of a pixel; index 0: gain, offset, dark current, kind; 1: how hot
+    kRowPattern = 4,    // of a row (index 0) or column (index 1)
+    kConverter = 5,     // of a converter's step
+    kRowNoise = 6,      // of a row in a frame
+    kFlicker = 7,       // index: octave
+    kTelegraph = 8,     // of a pixel; the frame counts the draws
+    kCosmicRay = 9,     // pixel: number of the track
 };
 
 struct RandomKey {

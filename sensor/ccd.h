@@ -6,7 +6,11 @@
 // C(n+k-1, k) c^k (1-c)^n of it (Janesick, Scientific Charge-Coupled Devices, SPIE, 2001, ch. 5), the rest
 // after three pixels with the third. Charge is conserved by both. Not modelled: traps that fill up.
 
+#include <array>
+#include <vector>
+
 #include "render/config_field.h"
+#include "render/image.h"
 
 namespace hilcam {
 
@@ -16,5 +20,24 @@ struct CcdConfig {
     double serial_inefficiency = 0;    // per column transfer, towards column 0
 };
 Fields fields(CcdConfig& config);
+
+// Charge beyond the full well moves along its column. Loop; on oneTBB.
+void bloom(ElectronImage& charge_e, float full_well_e);
+
+// Charge arrives late. Row 0 and column 0 are nearest to the output.
+class ChargeTransfer {
+  public:
+    // Tables for an array of that size. Owner thread.
+    ChargeTransfer(const CcdConfig& config, int width, int height);
+    // Loop; on oneTBB.
+    void apply(ElectronImage& charge_e) const;
+
+  private:
+    static constexpr int kLate = 4;  // 0 .. 3 pixels late
+    using Shares = std::array<float, kLate>;
+    static std::vector<Shares> shares(double inefficiency, int transfers);
+
+    std::vector<Shares> parallel_, serial_;  // by place; empty: perfect
+};
 
 }  // namespace hilcam

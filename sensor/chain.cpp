@@ -2,17 +2,20 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <vector>
 
-#include "sensor/convolve.h"
-#include "sensor/mtf.h"
+#include "render/check.h"
+#include "render/clones.h"
+#include "sensor/array_places.h"
+#include "sensor/focal_plane.h"
 #include "sensor/noise.h"
-#include "sensor/optics.h"
-#include "sensor/psf.h"
+#include "sensor/read_out.h"
 
 namespace hilcam {
 namespace {
@@ -24,148 +27,248 @@ double ms_since(Clock::time_point start) {
 
 const tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 
+// Mean charge of a row: light times each pixel's gain, plus its dark current.
+HILCAM_CLONES void to_charge(float* light, std::size_t count, const float* gain, const float* dark_e_s,
+                             float uniform_dark_e, float exposure_s) {
+    constexpr float kMost_e = 1e9f;
+    if (gain)
+        for (std::size_t x = 0; x < count; ++x) light[x] *= gain[x];
+    for (std::size_t x = 0; x < count; ++x) {
+        const float all = light[x] + (dark_e_s ? dark_e_s[x] * exposure_s : uniform_dark_e);
+        light[x] = all > 0 ? (all < kMost_e ? all : kMost_e) : 0.0f;
+    }
+}
+
 }  // namespace
 
 struct SensorChain::Implementation {
     CameraModel camera;
-    ImageGeometry geometry;
-    int bins;
-    Spectrum per_radiance;    // e- s^-1 per W m^-2 sr^-1 um^-1
-    Spectrum per_irradiance;  // e- s^-1 per W m^-2 um^-1
-    OpticsMtf optics;
-    PointSpread point_spread;
-    Convolver convolver;
-    std::vector<float> falloff;  // cos^n over the padded image
+    FocalPlane focal_plane;
+    FixedPattern pattern;
+    ArrayPlaces places;
+    ReadOut read_out;
+    std::optional<ChargeTransfer> transfer;
+    bool charge_moves;       // beyond its pixel, so that rows cannot be read one by one
+    ElectronImage charge_e;  // then
+    int array_width, array_height;
+    std::vector<double> column_sums;  // frame transfer
+    struct Scratch {
+        std::vector<float> charge, deviates, binned;
+        std::vector<std::uint16_t> dn;
+        std::vector<std::uint32_t> sums;
+    };
+    std::vector<Scratch> scratch;  // by thread
 
-    Implementation(const CameraModel& c, const SpectralGrid& grid, int guard_px, int samples_per_axis)
+    Implementation(const CameraModel& c, const SpectralGrid& grid, const SensorSampling& sampling,
+                   const DetectorPictures& pictures)
         : camera(c),
-          geometry(geometry_of(c, guard_px)),
-          bins(grid.size()),
-          per_radiance(electrons_per_s_per_radiance(c, grid)),
-          per_irradiance(electrons_per_s_per_irradiance(c, grid)),
-          optics(c, grid),
-          point_spread(c, optics),
-          convolver(geometry.padded_width(), geometry.padded_height(), [&](double u, double v) {
-              const double pixel =
-                  pixel_aperture_mtf(u, c.fill_factor) * pixel_aperture_mtf(v, c.fill_factor);
-              const double rays = ray_grid_mtf(u, samples_per_axis) * ray_grid_mtf(v, samples_per_axis);
-              return optics.at(std::hypot(u, v)) * pixel / rays;
-          }) {
-        falloff.reserve(static_cast<std::size_t>(geometry.padded_width()) *
-                        static_cast<std::size_t>(geometry.padded_height()));
-        for (int y = 0; y < geometry.padded_height(); ++y)
-            for (int x = 0; x < geometry.padded_width(); ++x)
-                falloff.push_back(static_cast<float>(
-                    cos_falloff(geometry, x - guard_px + 0.5, y - guard_px + 0.5, c.cos_power)));
+          focal_plane(c, grid, sampling),
+          pattern(draw_fixed_pattern(c, pictures)),
+          places(c),
+          read_out(c),
+          charge_moves(c.ccd.blooming || c.ccd.parallel_inefficiency > 0 || c.ccd.serial_inefficiency > 0 ||
+                       c.cosmic_rays.rate_cm2_s > 0),
+          array_width(array_size(c)[0]),
+          array_height(array_size(c)[1]) {
+        if (charge_moves) charge_e = ElectronImage(array_width, array_height);
+        if (c.ccd.parallel_inefficiency > 0 || c.ccd.serial_inefficiency > 0)
+            transfer.emplace(c.ccd, array_width, array_height);
+        if (c.shutter.kind == ShutterKind::kFrameTransfer)
+            column_sums.resize(static_cast<std::size_t>(array_width));
+        scratch.resize(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+        for (Scratch& s : scratch) {
+            const auto width = static_cast<std::size_t>(array_width);
+            s.charge.resize(width), s.deviates.resize(width), s.binned.resize(width);
+            s.dn.resize(width), s.sums.resize(width);
+        }
+    }
+    Scratch& mine() {
+        return scratch[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
     }
 
-    void collapse_row(const RadianceImage& radiance, const Spectrum& factor, int y) {
-        const int width = geometry.padded_width();
-        constexpr int kBlock_px = RadianceImage::kBlock_px;
-        for (int x = 0; x < width; x += kBlock_px) {
-            const int end = std::min(x + kBlock_px, width);
-            if (radiance.dark(x, y))
-                std::fill(convolver.row(y).begin() + x, convolver.row(y).begin() + end, 0.0f);
-            else
-                collapse(radiance, factor, y, static_cast<std::size_t>(x), static_cast<std::size_t>(end));
+    // --- mean charge
+    // ------------------------------------------------------------------------------------------------
+
+    // While the rows are shifted under the light, every pixel passes the places of all others in its column:
+    // on the way in before the exposure those on one side, on the way out those on the other.
+    void smear(ElectronImage& light_e, double exposure_s) {
+        const double share = camera.shutter.line_time_s / exposure_s;
+        std::fill(column_sums.begin(), column_sums.end(), 0.0);
+        for (int y = 0; y < array_height; ++y)
+            for (std::size_t x = 0; x < column_sums.size(); ++x)
+                column_sums[x] += static_cast<double>(light_e.row(y)[x]);
+        for (int y = 0; y < array_height; ++y)
+            for (std::size_t x = 0; x < column_sums.size(); ++x) {
+                float& pixel = light_e.row(y)[x];
+                pixel += static_cast<float>(share * (column_sums[x] - static_cast<double>(pixel)));
+            }
+    }
+    void charge_row(int y, ElectronImage& light_e, double exposure_s) const {
+        const auto row_of = [&](const PixelMap& map) {
+            return map.width() > 0 ? map.row(y).data() : nullptr;
+        };
+        to_charge(light_e.row(y).data(), static_cast<std::size_t>(array_width), row_of(pattern.gain),
+                  row_of(pattern.dark_e_s), static_cast<float>(pattern.uniform_dark_e_s * exposure_s),
+                  static_cast<float>(exposure_s));
+    }
+
+    // --- chance and read-out
+    // ------------------------------------------------------------------------------------------
+
+    // Black columns have numbers of their own, so a row is drawn in two pieces.
+    void draw_row(int y, std::span<const float> mean_e, RandomKey key, std::span<float> charge,
+                  std::span<float> deviates) const {
+        const auto black = static_cast<std::size_t>(places.black_columns());
+        const auto piece = [&](std::size_t first, std::size_t count) {
+            if (count == 0) return;
+            const auto part = [&](auto span) { return span.empty() ? span : span.subspan(first, count); };
+            draw_pixels(part(mean_e), key,
+                        sensor_pixel(places.column(static_cast<int>(first)), places.row(y)), part(charge),
+                        part(deviates));
+        };
+        piece(0, black);
+        piece(black, static_cast<std::size_t>(array_width) - black);
+    }
+    void move_charge(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key) {
+        tbb::parallel_for(rows_of(array_height), [&](const tbb::blocked_range<int>& range) {
+            for (int y = range.begin(); y < range.end(); ++y)
+                draw_row(y, mean_e.row(y), key, charge_e.row(y), {});
+        });
+        if (camera.cosmic_rays.rate_cm2_s > 0)
+            add_tracks(camera.cosmic_rays, camera.pitch_m, exposure.exposure_s, key, charge_e);
+        const auto full_well_e = static_cast<float>(camera.full_well_e);
+        if (camera.ccd.blooming)
+            bloom(charge_e, full_well_e);
+        else
+            for (float& q : charge_e.all()) q = std::min(q, full_well_e);
+        if (transfer) transfer->apply(charge_e);
+    }
+    // A row of the array: its charge, and deviates for its noise.
+    void fill_row(int y, const ElectronImage& mean_e, RandomKey key, Scratch& s) const {
+        if (charge_moves) {
+            std::copy(charge_e.row(y).begin(), charge_e.row(y).end(), s.charge.begin());
+            draw_row(y, {}, key, {}, s.deviates);
+        } else {
+            draw_row(y, mean_e.row(y), key, s.charge, s.deviates);
         }
     }
-    void collapse(const RadianceImage& radiance, const Spectrum& factor, int y, std::size_t begin,
-                  std::size_t end) {
-        float* out = convolver.row(y).data();
-        const float* first = radiance.row(y, 0).data();
-        for (std::size_t x = begin; x < end; ++x) out[x] = factor[0] * first[x];
-        for (int b = 1; b < bins; ++b) {
-            const float* in = radiance.row(y, b).data();
-            const float f = factor[b];
-            for (std::size_t x = begin; x < end; ++x) out[x] += f * in[x];
-        }
-        const float* cosine =
-            falloff.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry.padded_width());
-        for (std::size_t x = begin; x < end; ++x) out[x] *= cosine[x];
+    std::span<const TelegraphPixel> telegraph_of(int y) const {
+        const auto [from, to] =
+            std::equal_range(pattern.telegraph.begin(), pattern.telegraph.end(), TelegraphPixel{0, y, 0},
+                             [](const TelegraphPixel& a, const TelegraphPixel& b) { return a.y < b.y; });
+        return {from, to};
     }
-    // Ringing of a band-limited edge can dip below zero and float overflow could leave infinities; charge is
-    // neither.
-    void crop_row(int y, float dark_e, float most_e, ElectronImage& mean_e) const {
-        const float* in = convolver.row(y + geometry.guard_px).data() + geometry.guard_px;
-        float* out = mean_e.row(y).data();
-        for (int x = 0; x < geometry.width_px; ++x) {
-            const float value = in[x] > 0 ? in[x] : 0.0f;
-            out[x] = (value < most_e ? value : most_e) + dark_e;
+    void read_array_row(int y, double gain_dn_e, RandomKey key, Scratch& s,
+                        std::span<std::uint16_t> dn) const {
+        const std::span<const float> offset =
+            pattern.offset_e.width() > 0 ? pattern.offset_e.row(y) : std::span<const float>{};
+        read_out.read({y, places.row(y), s.charge, s.deviates, offset, gain_dn_e}, telegraph_of(y), key, dn);
+    }
+
+    void read_frame_row(int y, const ElectronImage& mean_e, const Exposure& exposure, RandomKey key,
+                        DnImage& frame) {
+        Scratch& s = mine();
+        const double gain_dn_e = camera.system_gain_dn_e(exposure.gain_db);
+        if (camera.binning_x == 1 && camera.binning_y == 1) {
+            fill_row(y, mean_e, key, s);
+            read_array_row(y, gain_dn_e, key, s, frame.row(y));
+        } else if (camera.binning == BinningKind::kCharge) {
+            read_charge_binned(y, mean_e, gain_dn_e, key, s, frame.row(y));
+        } else {
+            read_digitally_binned(y, mean_e, gain_dn_e, key, s, frame.row(y));
         }
+    }
+    // Charges meet before they are read: one reading's noise and the first pixel's offset for all of them.
+    void read_charge_binned(int y, const ElectronImage& mean_e, double gain_dn_e, RandomKey key, Scratch& s,
+                            std::span<std::uint16_t> dn) const {
+        const int bx = static_cast<int>(camera.binning_x), by = static_cast<int>(camera.binning_y);
+        const std::span<float> binned = std::span(s.binned).first(dn.size());
+        std::fill(binned.begin(), binned.end(), 0.0f);
+        for (int j = 0; j < by; ++j) {
+            fill_row(y * by + j, mean_e, key, s);
+            for (std::size_t x = 0; x < dn.size(); ++x)
+                for (int i = 0; i < bx; ++i)
+                    binned[x] +=
+                        std::min(s.charge[x * static_cast<std::size_t>(bx) + static_cast<std::size_t>(i)],
+                                 static_cast<float>(camera.full_well_e));
+        }
+        const std::span<float> deviates = std::span(s.deviates).first(dn.size());
+        const std::uint32_t row = places.row(y * by);
+        draw_pixels({}, key, sensor_pixel(0, row), {}, deviates);
+        std::span<float> offset;
+        if (pattern.offset_e.width() > 0) {
+            offset = std::span(s.charge).first(dn.size());
+            for (std::size_t x = 0; x < dn.size(); ++x)
+                offset[x] = pattern.offset_e.row(y * by)[x * static_cast<std::size_t>(bx)];
+        }
+        read_out.read({y, row, binned, deviates, offset, gain_dn_e}, {}, key, dn);
+    }
+    void read_digitally_binned(int y, const ElectronImage& mean_e, double gain_dn_e, RandomKey key,
+                               Scratch& s, std::span<std::uint16_t> dn) const {
+        const auto bx = static_cast<std::size_t>(camera.binning_x);
+        const int by = static_cast<int>(camera.binning_y);
+        std::fill_n(s.sums.begin(), dn.size(), 0u);
+        for (int j = 0; j < by; ++j) {
+            fill_row(y * by + j, mean_e, key, s);
+            read_array_row(y * by + j, gain_dn_e, key, s, s.dn);
+            for (std::size_t x = 0; x < dn.size(); ++x)
+                for (std::size_t i = 0; i < bx; ++i) s.sums[x] += s.dn[x * bx + i];
+        }
+        const auto count = static_cast<std::uint32_t>(bx) * static_cast<std::uint32_t>(by);
+        const std::uint32_t most_dn = (1u << camera.frame_bits()) - 1;
+        for (std::size_t x = 0; x < dn.size(); ++x)
+            dn[x] = static_cast<std::uint16_t>(camera.binning == BinningKind::kMean
+                                                   ? (s.sums[x] + count / 2) / count
+                                                   : std::min(s.sums[x], most_dn));
     }
 };
 
 SensorChain::SensorChain(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling,
-                         const DetectorPictures&)
-    : implementation_(
-          std::make_unique<Implementation>(camera, grid, sampling.guard_px, sampling.samples_per_axis)) {}
+                         const DetectorPictures& pictures)
+    : implementation_(std::make_unique<Implementation>(camera, grid, sampling, pictures)) {}
 SensorChain::~SensorChain() = default;
 
 void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSource> points,
                          const Exposure& exposure, ElectronImage& mean_e) {
     Implementation& my = *implementation_;
-    const double exposure_s = exposure.exposure_s;
-    HILCAM_CHECK(radiance.width() == my.geometry.padded_width() &&
-                 radiance.height() == my.geometry.padded_height() && radiance.planes() == my.bins &&
-                 mean_e.width() == my.geometry.width_px && mean_e.height() == my.geometry.height_px);
     auto start = Clock::now();
-    Spectrum factor = my.per_radiance;
-    for (float& value : factor.bin) value *= static_cast<float>(exposure_s);
-    tbb::parallel_for(rows_of(radiance.height()), [&](const tbb::blocked_range<int>& range) {
-        for (int y = range.begin(); y < range.end(); ++y) my.collapse_row(radiance, factor, y);
-    });
+    my.focal_plane.collapse(radiance, exposure);
     times_.collapse_ms = ms_since(start);
 
     start = Clock::now();
-    my.convolver.run();
+    my.focal_plane.convolve(exposure);
     times_.convolve_ms = ms_since(start);
 
     start = Clock::now();
-    constexpr float kMost_e = 1e9f;
-    const auto dark_e = static_cast<float>(std::min(my.camera.dark_current_e_s * exposure_s, 1e9));
+    my.focal_plane.gather(points, exposure, mean_e);
+    if (my.camera.shutter.kind == ShutterKind::kFrameTransfer) my.smear(mean_e, exposure.exposure_s);
     tbb::parallel_for(rows_of(mean_e.height()), [&](const tbb::blocked_range<int>& range) {
-        for (int y = range.begin(); y < range.end(); ++y) my.crop_row(y, dark_e, kMost_e, mean_e);
+        for (int y = range.begin(); y < range.end(); ++y) my.charge_row(y, mean_e, exposure.exposure_s);
     });
-    for (const PointSource& point : points) {
-        const double x = static_cast<double>(point.position_px.x);
-        const double y = static_cast<double>(point.position_px.y);
-        double electrons = 0;
-        for (int b = 0; b < my.bins; ++b)
-            electrons +=
-                static_cast<double>(my.per_irradiance[b]) * static_cast<double>(point.irradiance_w_m2_um[b]);
-        electrons *= exposure_s * cos_falloff(my.geometry, x, y, my.camera.cos_power - 3);
-        my.point_spread.add(x, y, std::min(electrons, 1e9), mean_e);
-    }
     times_.points_ms = ms_since(start);
 }
 
 void SensorChain::digitise(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key,
                            DnImage& frame) {
     Implementation& my = *implementation_;
+    const auto [width, height] = frame_size(my.camera);
+    HILCAM_CHECK(mean_e.width() == my.array_width && mean_e.height() == my.array_height &&
+                 frame.width() == width && frame.height() == height);
     const auto start = Clock::now();
-    DigitiserParameters p;
-    p.full_well_e = static_cast<float>(my.camera.full_well_e);
-    p.read_noise_e = static_cast<float>(my.camera.read_noise_e);
-    p.gain_dn_e = static_cast<float>(my.camera.system_gain_dn_e(exposure.gain_db));
-    p.offset_dn = static_cast<float>(my.camera.offset_dn);
-    p.most_dn = static_cast<float>((1 << my.camera.bits) - 1);
+    if (my.charge_moves) my.move_charge(mean_e, exposure, key);
     tbb::parallel_for(rows_of(frame.height()), [&](const tbb::blocked_range<int>& range) {
-        for (int y = range.begin(); y < range.end(); ++y)
-            digitise_row(mean_e.row(y), p, key, static_cast<std::uint32_t>(y * frame.width()), frame.row(y));
+        for (int y = range.begin(); y < range.end(); ++y) my.read_frame_row(y, mean_e, exposure, key, frame);
     });
     times_.digitise_ms = ms_since(start);
 }
 
 double SensorChain::mtf(double u, double v) const {
-    const double fill = implementation_->camera.fill_factor;
-    return implementation_->optics.at(std::hypot(u, v)) * pixel_aperture_mtf(u, fill) *
-           pixel_aperture_mtf(v, fill);
+    return implementation_->focal_plane.mtf(u, v) * implementation_->read_out.filter().mtf(u);
 }
 
 double SensorChain::fft_pair_ms() {
     const auto start = Clock::now();
-    implementation_->convolver.run();
+    implementation_->focal_plane.run_fft_pair();
     return ms_since(start);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 // The sensor: radiance image in, digital numbers out. Equation (2) of Peng et al. 2011,
 //     DN = { IFT[ FT(S(L)) MTF_sys ] + noise } G,
-// in two halves. expose(): light, up to the mean charge of every pixel (S: optics.h, MTF_sys: system_mtf.h,
-// the FFT pair: convolve.h, points beside the image: psf.h). digitise(): what chance and electronics make of
-// it (charge.h, readout.h).
+// in two halves. expose(): light, up to the mean charge of every pixel (focal_plane.h: S, MTF_sys, points;
+// fixed_pattern.h: gain and dark current of each pixel). digitise(): what chance (noise.h), the charge's way
+// out (ccd.h, cosmic_rays.h) and the electronics (read_out.h) make of it.
 
 #include <memory>
 #include <span>
@@ -12,6 +12,7 @@
 #include "render/point_source.h"
 #include "render/random.h"
 #include "sensor/camera_model.h"
+#include "sensor/exposure.h"
 #include "sensor/fixed_pattern.h"
 
 namespace hilcam {
@@ -22,23 +23,6 @@ struct SensorTimes {
     double convolve_ms = 0;  // FFT pair and MTF
     double points_ms = 0;    // crop, dark current, point sources
     double digitise_ms = 0;  // noise, gain, ADC
-};
-
-// How the radiance image was made.
-struct SensorSampling {
-    int guard_px = 0;          // the image's border on each side, in pixels of the detector
-    int samples_per_axis = 1;  // the renderer's ray grid in each of its pixels
-    int oversampling = 1;      // pixels of the radiance image across one of the detector
-};
-
-// One exposure.
-struct Exposure {
-    double exposure_s = 1e-3;
-    double gain_db = 0;
-    // While it lasts. The picture of what is not at infinity moves as a whole; points (stars) as the camera
-    // turns.
-    Vec2d image_rate_px_s{};
-    Vec3d camera_rate_rad_s{};  // about the camera's axes
 };
 
 class SensorChain {

@@ -1,30 +1,49 @@
 #pragma once
-// One FFT pair per frame: multiplies an image's spectrum by MTF_sys. Circular; the guard band takes what
-// wraps around.
+// One FFT pair per frame: multiplies an image's spectrum by a transfer function. Circular; the guard band
+// takes what wraps around. A lens that differs over the field has several layers, one for each of its zones:
+// each is transformed and multiplied by its own function, and their sum is transformed back.
 //
 // Single precision, FFTW, planned once at construction; run as rows, columns
 // (forward, MTF and back while they are in cache) and rows again on oneTBB. The result depends
 // neither on the thread count nor on the run.
 
+#include <complex>
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
+
+#include "render/vec.h"
 
 namespace hilcam {
 
+// Of frequencies u, v in -0.5 .. 0.5 [cycles/px of the image].
+using Transfer = std::function<std::complex<double>(double u, double v)>;
+
+// What moves the picture while it is taken, all of it alike.
+struct MotionBlur {
+    Vec2d smear_px{};  // from start to end, at constant speed
+    Vec2d sigma_px{};  // Gaussian, along x and y
+
+    bool none() const { return smear_px.x == 0 && smear_px.y == 0 && sigma_px.x == 0 && sigma_px.y == 0; }
+};
+
 class Convolver {
   public:
-    // `mtf` is asked once for every frequency pair, |u|, |v| <= 0.5 [cycles/px]. Owner thread.
-    Convolver(int width, int height, const std::function<double(double u, double v)>& mtf);
+    // Each function is asked once for every frequency pair. The image's transform must be real, so of values
+    // at opposite frequencies one is the other's conjugate. Owner thread.
+    Convolver(int width, int height, const std::vector<Transfer>& transfers);
     ~Convolver();
+    Convolver(Convolver&&) noexcept;
 
     int width() const { return width_; }
     int height() const { return height_; }
-    // Row y of the working image: filled before run(), read after it. 64-byte aligned.
-    std::span<float> row(int y);
-    std::span<const float> row(int y) const;
+    int layers() const;
+    // Row y of a layer: filled before run(); after it layer 0 holds the result. 64-byte aligned.
+    std::span<float> row(int y, int layer = 0);
+    std::span<const float> row(int y, int layer = 0) const;
     // Loop: no allocation after the first call with this thread pool, no lock.
-    void run();
+    void run(const MotionBlur& blur = {});
 
   private:
     struct Implementation;

@@ -1,5 +1,11 @@
 #include "sensor/cosmic_rays.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "render/units.h"
+#include "sensor/noise.h"
+
 namespace hilcam {
 
 Fields fields(CosmicRayConfig& c) {
@@ -9,6 +15,54 @@ Fields fields(CosmicRayConfig& c) {
         number("electrons_per_um", c.electrons_per_um, 1, {1, 1e5}, "along a track"),
         number("spread_fraction", c.spread_fraction, 1, {0, 2}, "of that, from track to track"),
     };
+}
+
+namespace {
+
+struct Track {
+    double x_px, y_px;    // where it enters
+    double dx_px, dy_px;  // from there to where it leaves
+    double electrons;
+};
+
+// The flux of an isotropic field through a plane goes with cos(theta) sin(theta): cos^2 is uniform.
+Track draw_track(const CosmicRayConfig& c, double pitch_m, RandomKey key, std::uint32_t number,
+                 const ElectronImage& image) {
+    const auto place = random_words(key, RandomPurpose::kCosmicRay, number, 1);
+    const auto kind = random_words(key, RandomPurpose::kCosmicRay, number, 2);
+    const auto uniform = [](std::uint32_t word) { return static_cast<double>(uniform01(word)); };
+    const double cosine = std::sqrt(uniform(place[2]));
+    const double azimuth = 2 * kPi * uniform(place[3]);
+    const double sideways_px = c.depth_um * 1e-6 / pitch_m * std::sqrt(1 - cosine * cosine) / cosine;
+    const double spread = static_cast<double>(normal_quantile(uniform01(kind[0]))) * c.spread_fraction;
+    return {uniform(place[0]) * image.width(), uniform(place[1]) * image.height(),
+            sideways_px * std::cos(azimuth), sideways_px * std::sin(azimuth),
+            c.electrons_per_um * c.depth_um / cosine * std::max(0.0, 1 + spread)};
+}
+
+// Charge along a straight line, in equal parts a quarter of a pixel apart or closer; what leaves the image is
+// lost, and a track that grazes it is followed to its edge only.
+void add_track(const Track& t, ElectronImage& image) {
+    const double length_px = std::hypot(t.dx_px, t.dy_px);
+    const double parts = std::ceil(std::max(1.0, 4 * length_px));
+    const auto share = static_cast<float>(t.electrons / parts);
+    for (double i = 0.5; i < parts; i += 1) {
+        const double x = t.x_px + t.dx_px * i / parts, y = t.y_px + t.dy_px * i / parts;
+        if (x < 0 || y < 0 || x >= image.width() || y >= image.height()) return;
+        image.row(static_cast<int>(y))[static_cast<std::size_t>(x)] += share;
+    }
+}
+
+}  // namespace
+
+void add_tracks(const CosmicRayConfig& c, double pitch_m, double exposure_s, RandomKey key,
+                ElectronImage& charge_e) {
+    const double area_cm2 = static_cast<double>(charge_e.pixels()) * pitch_m * pitch_m * 1e4;
+    const auto words = random_words(key, RandomPurpose::kCosmicRay, 0, 0);
+    const std::uint32_t tracks = std::min(
+        kMostTracks,
+        poisson_count(c.rate_cm2_s * area_cm2 * exposure_s, static_cast<double>(uniform01(words[0]))));
+    for (std::uint32_t i = 0; i < tracks; ++i) add_track(draw_track(c, pitch_m, key, i, charge_e), charge_e);
 }
 
 }  // namespace hilcam

@@ -6,6 +6,8 @@
 // Physics, 2022, section 34); protons of 10-100 MeV some hundreds.
 
 #include "render/config_field.h"
+#include "render/image.h"
+#include "render/random.h"
 
 namespace hilcam {
 
@@ -16,5 +18,10 @@ struct CosmicRayConfig {
     double spread_fraction = 0.3;  // standard deviation of a track's electrons per um over their mean
 };
 Fields fields(CosmicRayConfig& config);
+
+// The tracks of one exposure, at most kMostTracks. Loop, one thread.
+inline constexpr std::uint32_t kMostTracks = 1'000'000;
+void add_tracks(const CosmicRayConfig& config, double pitch_m, double exposure_s, RandomKey key,
+                ElectronImage& charge_e);
 
 }  // namespace hilcam

@@ -7,6 +7,8 @@
 //   boost      aperture correction: y = x + b (x - (x_before + x_after) / 2), gain 1 + b (1 - cos 2 pi f)
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "render/config_field.h"
 
@@ -29,5 +31,38 @@ struct ConverterConfig {
     Companding companding = Companding::kNone;
 };
 Fields fields(ConverterConfig& config);
+
+// Along one row, from its first sample on. Before it stand the first sample's own value (low-pass, boost) and
+// the black level 0 (high-pass). Loop, any thread.
+class RowFilter {
+  public:
+    explicit RowFilter(const FilterConfig& config);
+    bool none() const { return low_pass_ == 1 && high_pass_ == 1 && boost_ == 0; }
+    void apply(std::span<float> samples) const;
+    // Modulus of its transfer function [cycles/px].
+    double mtf(double frequency_cy_px) const;
+
+  private:
+    float low_pass_ = 1;   // share of a step that one sample takes; 1: none
+    float high_pass_ = 1;  // share of the output that one sample keeps; 1: none
+    float boost_ = 0;
+};
+
+// Voltage steps to numbers.
+class Converter {
+  public:
+    // seed: of the steps' own errors. Owner thread.
+    Converter(const ConverterConfig& config, int bits, std::uint64_t seed);
+    // `value` in DN before rounding. Loop, any thread.
+    void convert(std::span<const float> value_dn, std::span<std::uint16_t> dn) const;
+
+  private:
+    std::uint16_t step_of(float value_dn) const;
+
+    float most_dn_;
+    float inl_lsb_;
+    std::vector<float> edge_error_lsb_;      // of the lower edge of each step; empty: none
+    std::vector<std::uint16_t> companding_;  // by converted number; empty: none
+};
 
 }  // namespace hilcam

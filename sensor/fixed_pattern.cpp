@@ -1,5 +1,13 @@
 #include "sensor/fixed_pattern.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "render/check.h"
+#include "render/random.h"
+#include "sensor/array_places.h"
+#include "sensor/noise.h"
+
 namespace hilcam {
 
 Fields fields(FixedPatternConfig& c) {
@@ -28,6 +36,134 @@ Fields fields(DefectsConfig& c) {
         number("telegraph_e", c.telegraph_e, 1, {0, 1e5}, "between a telegraph pixel's two states"),
         integer("telegraph_frames", c.telegraph_frames, {1, 1e6}, "between two draws of its state"),
     };
+}
+
+namespace {
+
+// Standard normal deviates of a key; see normal_quantile.
+float normal(std::uint32_t word) { return normal_quantile(uniform01(word)); }
+
+RandomKey key_of(const CameraModel& c) { return {static_cast<std::uint64_t>(c.fixed_pattern.seed), 0}; }
+
+bool has_gain_map(const CameraModel& c, const DetectorPictures& pictures) {
+    return c.prnu_fraction > 0 || c.fixed_pattern.column_gain_fraction > 0 || c.defects.dead_fraction > 0 ||
+           !c.defects.dead_columns.empty() || pictures.prnu.width() > 0;
+}
+bool has_dark_map(const CameraModel& c, const DetectorPictures& pictures) {
+    return (c.fixed_pattern.dark_current_fraction > 0 && c.dark_current_e_s > 0) ||
+           ((c.defects.hot_fraction > 0 || !c.defects.hot_columns.empty()) && c.defects.hot_e_s > 0) ||
+           pictures.dark_e_s.width() > 0;
+}
+bool has_offset_map(const CameraModel& c, const DetectorPictures& pictures) {
+    return c.dsnu_e > 0 || c.fixed_pattern.row_e > 0 || c.fixed_pattern.column_e > 0 ||
+           pictures.offset_e.width() > 0;
+}
+
+void require_size(const PixelMap& map, const CameraModel& c, const char* key) {
+    if (map.width() == 0 || (map.width() == c.width_px && map.height() == c.height_px)) return;
+    throw InputError("fixed_pattern." + std::string(key) + ": a picture of " + std::to_string(map.width()) +
+                     " x " + std::to_string(map.height()) + "; accepted: the sensor's " +
+                     std::to_string(c.width_px) + " x " + std::to_string(c.height_px));
+}
+
+bool listed(const std::vector<double>& columns, std::uint32_t column) {
+    return std::find(columns.begin(), columns.end(), static_cast<double>(column)) != columns.end();
+}
+
+// What one pixel's draws make of the means.
+class PixelDraw {
+  public:
+    PixelDraw(const CameraModel& c, const DetectorPictures& pictures)
+        : c_(c), pictures_(pictures), dark_e_s_(c.dark_current_now_e_s()), offset_row_e_(0) {
+        for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(c.width_px); ++x) {
+            const auto words = random_words(key_of(c), RandomPurpose::kRowPattern, x, 1);
+            column_gain_.push_back(static_cast<double>(normal(words[0])) *
+                                   c.fixed_pattern.column_gain_fraction);
+            column_e_.push_back(static_cast<double>(normal(words[1])) * c.fixed_pattern.column_e);
+            dead_column_.push_back(listed(c.defects.dead_columns, x));
+            hot_column_.push_back(listed(c.defects.hot_columns, x));
+        }
+    }
+    void begin_row(std::uint32_t row) {
+        const auto words = random_words(key_of(c_), RandomPurpose::kRowPattern, row, 0);
+        offset_row_e_ = static_cast<double>(normal(words[0])) * c_.fixed_pattern.row_e;
+    }
+    void draw(std::uint32_t x, std::uint32_t y, bool black) {
+        pixel_ = sensor_pixel(x, y);
+        const auto words = random_words(key_of(c_), RandomPurpose::kFixedPattern, pixel_);
+        const double kind = static_cast<double>(uniform01(words[3]));
+        // One uniform number sorts the pixels: dead from 0 up, hot after them, telegraph from 1 down.
+        const bool sensor = !black && x < column_e_.size();
+        dead_ = kind < c_.defects.dead_fraction || (sensor && dead_column_[x]);
+        hot_ = (!dead_ && kind < c_.defects.dead_fraction + c_.defects.hot_fraction) ||
+               (sensor && hot_column_[x]);
+        telegraph_ = kind > 1 - c_.defects.telegraph_fraction;
+        gain_ = 1 + static_cast<double>(normal(words[0])) * c_.prnu_fraction + (sensor ? column_gain_[x] : 0);
+        offset_e_ =
+            static_cast<double>(normal(words[1])) * c_.dsnu_e + offset_row_e_ + (sensor ? column_e_[x] : 0);
+        dark_ =
+            dark_e_s_ * (1 + static_cast<double>(normal(words[2])) * c_.fixed_pattern.dark_current_fraction);
+        if (hot_) {
+            const auto more = random_words(key_of(c_), RandomPurpose::kFixedPattern, pixel_, 1);
+            dark_ -= c_.defects.hot_e_s * std::log(static_cast<double>(uniform01(more[0])));
+        }
+        if (black) return;
+        const auto at = [&](const PixelMap& map) {
+            return static_cast<double>(map.row(static_cast<int>(y))[x]);
+        };
+        if (pictures_.prnu.width() > 0) gain_ *= at(pictures_.prnu);
+        if (pictures_.offset_e.width() > 0) offset_e_ += at(pictures_.offset_e);
+        if (pictures_.dark_e_s.width() > 0) dark_ += at(pictures_.dark_e_s) - dark_e_s_;
+    }
+    float gain() const { return dead_ ? 0.0f : static_cast<float>(std::max(0.0, gain_)); }
+    float dark_e_s() const { return dead_ ? 0.0f : static_cast<float>(std::max(0.0, dark_)); }
+    float offset_e() const { return static_cast<float>(offset_e_); }
+    bool telegraph() const { return telegraph_; }
+    std::uint32_t pixel() const { return pixel_; }
+
+  private:
+    const CameraModel& c_;
+    const DetectorPictures& pictures_;
+    double dark_e_s_, offset_row_e_;
+    std::vector<double> column_gain_, column_e_;
+    std::vector<bool> dead_column_, hot_column_;
+    std::uint32_t pixel_ = 0;
+    bool dead_ = false, hot_ = false, telegraph_ = false;
+    double gain_ = 1, offset_e_ = 0, dark_ = 0;
+};
+
+}  // namespace
+
+FixedPattern draw_fixed_pattern(const CameraModel& c, const DetectorPictures& pictures) {
+    require_size(pictures.prnu, c, "prnu_map");
+    require_size(pictures.offset_e, c, "offset_map");
+    require_size(pictures.dark_e_s, c, "dark_map");
+    const auto [width, height] = array_size(c);
+    FixedPattern out;
+    out.uniform_dark_e_s = c.dark_current_now_e_s();
+    if (has_gain_map(c, pictures)) out.gain = PixelMap(width, height);
+    if (has_dark_map(c, pictures)) out.dark_e_s = PixelMap(width, height);
+    if (has_offset_map(c, pictures)) out.offset_e = PixelMap(width, height);
+    const bool telegraph = c.defects.telegraph_fraction > 0 && c.defects.telegraph_e > 0;
+    if (out.gain.width() + out.dark_e_s.width() + out.offset_e.width() == 0 && !telegraph) return out;
+
+    const ArrayPlaces places(c);
+    // A line camera's lines are all of the same pixels.
+    const bool one_row = c.shutter.kind == ShutterKind::kLineScan;
+    PixelDraw pixel(c, pictures);
+    for (int y = 0; y < height; ++y) {
+        const std::uint32_t row = one_row ? 0 : places.row(y);
+        pixel.begin_row(row);
+        for (int x = 0; x < width; ++x) {
+            const auto at = static_cast<std::size_t>(x);
+            pixel.draw(places.column(x), row, places.black(x, y));
+            if (out.gain.width() > 0) out.gain.row(y)[at] = pixel.gain();
+            if (out.dark_e_s.width() > 0) out.dark_e_s.row(y)[at] = pixel.dark_e_s();
+            if (out.offset_e.width() > 0) out.offset_e.row(y)[at] = pixel.offset_e();
+            if (telegraph && pixel.telegraph()) out.telegraph.push_back({x, y, pixel.pixel()});
+        }
+    }
+    return out;
 }
 
 }  // namespace hilcam

@@ -50,4 +50,23 @@ struct DefectsConfig {
 };
 Fields fields(DefectsConfig& config);
 
+// A pixel with random telegraph noise, in the read-out array.
+struct TelegraphPixel {
+    int x = 0, y = 0;
+    std::uint32_t pixel = 0;  // keys its draws
+};
+
+struct CameraModel;
+
+// The read-out array's maps, drawn once. A map of no size is the same for all pixels (gain 1, offset 0).
+struct FixedPattern {
+    PixelMap gain;                          // of light to charge
+    PixelMap dark_e_s;                      // mean dark current
+    PixelMap offset_e;                      // added to the charge when it is read
+    double uniform_dark_e_s = 0;            // when there is no map
+    std::vector<TelegraphPixel> telegraph;  // by row
+};
+// InputError when a picture has another size than the sensor. Owner thread.
+FixedPattern draw_fixed_pattern(const CameraModel& camera, const DetectorPictures& pictures);
+
 }  // namespace hilcam

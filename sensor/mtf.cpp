@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/sun.h"
 #include "render/units.h"
-#include "sensor/optics.h"
 
 namespace hilcam {
 
@@ -36,44 +34,19 @@ double pupil_otf(double shift, double e, double defocus_waves) {
     return 4 * sum * step / 3 / (kPi * (1 - e * e));
 }
 
-OpticsMtf::OpticsMtf(const CameraModel& c, const SpectralGrid& grid) {
-    const Spectrum response = electrons_per_s_per_radiance(c, grid);
-    const Spectrum sun = solar_irradiance_1au_w_m2_um(grid);
-    double total = 0;
-    double shortest_um = grid.to_um(grid.size() - 1);
-    for (int b = 0; b < grid.size(); ++b) {
-        const double weight = static_cast<double>(response[b]) * static_cast<double>(sun[b]);
-        total += weight;
-        if (weight > 0) shortest_um = std::min(shortest_um, grid.center_um(b));
-    }
-    const auto shift_of = [&](double frequency_cy_px, double wavelength_um) {
-        return 2 * frequency_cy_px / c.pitch_m * wavelength_um * 1e-6 * c.f_number;
-    };
-    cutoff_cy_px_ = 2 / shift_of(1.0, shortest_um);
-    constexpr int kSteps = 512;
-    table_.assign(kSteps + 2, 0.0);
-    for (int i = 0; i <= kSteps; ++i) {
-        const double frequency = cutoff_cy_px_ * i / kSteps;
-        for (int b = 0; b < grid.size(); ++b) {
-            const double weight = static_cast<double>(response[b]) * static_cast<double>(sun[b]) / total;
-            if (!(weight > 0)) continue;
-            const double w20_waves = c.defocus_m / (8 * c.f_number * c.f_number) / (grid.center_um(b) * 1e-6);
-            table_[static_cast<std::size_t>(i)] += weight * pupil_otf(shift_of(frequency, grid.center_um(b)),
-                                                                      c.central_obscuration_ratio, w20_waves);
-        }
-    }
+double aberration_mtf(double shift, double wavefront_rms_waves) {
+    const double waves = wavefront_rms_waves / 0.18;
+    const double from_middle = 0.5 * std::min(std::abs(shift), 2.0) - 0.5;
+    return std::max(0.0, 1 - waves * waves * (1 - 4 * from_middle * from_middle));
 }
 
-double OpticsMtf::at(double frequency_cy_px) const {
-    const double x = frequency_cy_px / cutoff_cy_px_ * static_cast<double>(table_.size() - 2);
-    if (!(x < static_cast<double>(table_.size() - 2))) return 0;
-    const auto i = static_cast<std::size_t>(x);
-    const double u = x - static_cast<double>(i);
-    return table_[i] + u * (table_[i + 1] - table_[i]);
+double gaussian_mtf(double frequency_cy_px, double sigma_px) {
+    const double a = kPi * frequency_cy_px * sigma_px;
+    return std::exp(-2 * a * a);
 }
 
-double pixel_aperture_mtf(double frequency_cy_px, double fill_factor) {
-    return sinc(frequency_cy_px * std::sqrt(fill_factor));
+double crosstalk_mtf(double u, double v, double fraction) {
+    return 1 - 2 * fraction * (2 - std::cos(2 * kPi * u) - std::cos(2 * kPi * v));
 }
 
 double ray_grid_mtf(double frequency_cy_px, int n) {

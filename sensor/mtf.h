@@ -1,13 +1,6 @@
 #pragma once
-// Modulation transfer functions. Frequencies in cycles per pixel along the image axes; values are real (the
-// optics are symmetric about the axis), 1 at zero frequency; a defocused lens may go below zero (reversed
-// contrast).
-
-#include <span>
-#include <vector>
-
-#include "render/spectrum.h"
-#include "sensor/camera_model.h"
+// Modulation transfer functions, each by itself. Frequencies in cycles per pixel along the image axes; 1 at
+// zero frequency; a defocused lens may go below zero (reversed contrast).
 
 namespace hilcam {
 
@@ -18,26 +11,21 @@ namespace hilcam {
 //   shift: 0 .. 2 in pupil radii, = 2 nu lambda N; beyond 2 the result is 0.
 double pupil_otf(double shift, double obscuration_ratio, double defocus_waves);
 
+// What random aberrations of a wavefront error leave of the diffraction MTF: Shannon's empirical formula
+//     1 - (W / 0.18)^2 (1 - 4 (s / 2 - 1/2)^2)
+// (Shannon, The Art and Science of Optical Design, 1997, ch. 3), W the error in waves rms. Published for W up
+// to 0.18; not below zero.
+double aberration_mtf(double shift, double wavefront_rms_waves);
+
 // sin(pi x) / (pi x)
 double sinc(double x);
 
-// The camera's optics, averaged over the bins with the photo-electrons of a grey sunlit scene as weights.
-// Tabulated over radial frequency at construction.
-class OpticsMtf {
-  public:
-    OpticsMtf(const CameraModel& camera, const SpectralGrid& grid);
-    // Radial frequency [cycles/px].
-    double at(double frequency_cy_px) const;
-    // Nothing passes from here on [cycles/px].
-    double cutoff_cy_px() const { return cutoff_cy_px_; }
+// Gaussian blur of a standard deviation [px].
+double gaussian_mtf(double frequency_cy_px, double sigma_px);
 
-  private:
-    double cutoff_cy_px_ = 0;
-    std::vector<double> table_;
-};
-
-// The light-sensitive square of a pixel along one axis.
-double pixel_aperture_mtf(double frequency_cy_px, double fill_factor);
+// Charge that each pixel loses to its four neighbours (fraction c to each): 1 - 2 c (2 - cos 2 pi u - cos 2
+// pi v).
+double crosstalk_mtf(double u, double v, double fraction);
 
 // What sampling each pixel on a regular grid of n rays along an axis has done to the image already:
 // sin(pi f) / (n sin(pi f / n)), the Dirichlet kernel; 1 for n = 1, the unit box for n to infinity. MTF_sys

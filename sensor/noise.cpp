@@ -137,43 +137,56 @@ HILCAM_CLONES void shoot_small(const float* mean_e, const float* shot, float* el
         electrons[i] = mean_e[i] >= kInversionBelow_e ? electrons[i] : small[i];
 }
 
-HILCAM_CLONES void convert(const float* electrons, const float* read, const DigitiserParameters& parameters,
-                           std::size_t count, std::uint16_t* dn) {
-    // Copied so that the compiler knows that the stores below do not change them.
-    const DigitiserParameters p = parameters;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float charge = std::min(electrons[i], p.full_well_e) + p.read_noise_e * quantile(read[i]);
-        const float value = charge * p.gain_dn_e + p.offset_dn;
-        dn[i] = static_cast<std::uint16_t>(
-            static_cast<std::int32_t>(std::min(std::max(value, 0.0f), p.most_dn) + 0.5f));
-    }
+HILCAM_CLONES void quantiles(const float* uniform, std::size_t count, float* deviates) {
+    for (std::size_t i = 0; i < count; ++i) deviates[i] = quantile(uniform[i]);
 }
 
 }  // namespace
 
 float normal_quantile(float u) { return quantile(u); }
 
-void digitise_row(std::span<const float> mean_e, const DigitiserParameters& parameters, RandomKey key,
-                  std::uint32_t first_pixel, std::span<std::uint16_t> dn) {
+void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t first_pixel,
+                 std::span<float> charge_e, std::span<float> deviates) {
     alignas(64) std::array<float, kBlock> mean, shot, read, electrons{};
     // Blocks start at the first pixel of a pair; a row that starts with a second one leaves one place empty.
     std::size_t lead = first_pixel % 2;
     std::size_t done = 0;
-    while (done < mean_e.size()) {
-        const std::size_t count = std::min(kBlock - lead, mean_e.size() - done);
-        mean.fill(0.0f);
-        std::copy_n(mean_e.data() + done, count, mean.data() + lead);
+    const std::size_t size = std::max(mean_e.size(), deviates.size());
+    while (done < size) {
+        const std::size_t count = std::min(kBlock - lead, size - done);
         fill_uniforms(key, (first_pixel + static_cast<std::uint32_t>(done)) / 2, shot.data(), read.data());
-        // Most blocks of a picture of space are dark all over, many others bright all over.
-        const std::int32_t large = count_large(mean.data());
-        if (large > 0) shoot_large(mean.data(), shot.data(), electrons.data());
-        if (large < static_cast<std::int32_t>(kBlock))
-            for (std::size_t i = 0; i < kBlock; i += kLanes)
-                shoot_small(mean.data() + i, shot.data() + i, electrons.data() + i);
-        convert(electrons.data() + lead, read.data() + lead, parameters, count, dn.data() + done);
+        if (!charge_e.empty()) {
+            mean.fill(0.0f);
+            std::copy_n(mean_e.data() + done, count, mean.data() + lead);
+            // Most blocks of a picture of space are dark all over, many others bright all over.
+            const std::int32_t large = count_large(mean.data());
+            if (large > 0) shoot_large(mean.data(), shot.data(), electrons.data());
+            if (large < static_cast<std::int32_t>(kBlock))
+                for (std::size_t i = 0; i < kBlock; i += kLanes)
+                    shoot_small(mean.data() + i, shot.data() + i, electrons.data() + i);
+            std::copy_n(electrons.data() + lead, count, charge_e.data() + done);
+        }
+        if (!deviates.empty()) quantiles(read.data() + lead, count, deviates.data() + done);
         done += count;
         lead = 0;
     }
+}
+
+std::uint32_t poisson_count(double mean, double uniform) {
+    if (!(mean > 0)) return 0;
+    if (mean > 500) {
+        const double z = static_cast<double>(normal_quantile(static_cast<float>(uniform)));
+        return static_cast<std::uint32_t>(
+            std::max(0.0, std::floor(mean + std::sqrt(mean) * z + (z * z - 1) / 6 + 0.5)));
+    }
+    double probability = std::exp(-mean), cumulative = probability;
+    std::uint32_t count = 0;
+    // Uniform numbers end at 1 - 2^-24: no count gets near the end.
+    while (uniform > cumulative && count < 2000) {
+        probability *= mean / ++count;
+        cumulative += probability;
+    }
+    return count;
 }
 
 }  // namespace hilcam

@@ -1,5 +1,6 @@
 #include "sensor/optics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/units.h"
@@ -11,7 +12,12 @@ double aperture_area_m2(const CameraModel& c) {
     return kPi / 4 * d * d * (1 - c.central_obscuration_ratio * c.central_obscuration_ratio);
 }
 
-Spectrum electrons_per_s_per_irradiance(const CameraModel& c, const SpectralGrid& grid) {
+double lens_transmission(const CameraModel& c, double wavelength_um) {
+    if (!c.has_t_number) return c.transmission.at(wavelength_um);
+    return c.f_number * c.f_number / (c.t_number * c.t_number);
+}
+
+Spectrum electrons_per_s_per_irradiance(const CameraModel& c, const SpectralGrid& grid, const Curve* filter) {
     const double area_m2 = aperture_area_m2(c);
     Spectrum out;
     for (int b = 0; b < grid.size(); ++b) {
@@ -22,7 +28,8 @@ Spectrum electrons_per_s_per_irradiance(const CameraModel& c, const SpectralGrid
         for (int i = 0; i <= kPieces; ++i) {
             const double wavelength_um = grid.from_um(b) + i * step;
             const double factor = i == 0 || i == kPieces ? 1 : (i % 2 ? 4 : 2);
-            electrons_per_joule_um += factor * step / 3 * c.transmission.at(wavelength_um) *
+            electrons_per_joule_um += factor * step / 3 * lens_transmission(c, wavelength_um) *
+                                      (filter ? filter->at(wavelength_um) : 1.0) *
                                       c.quantum_efficiency.at(wavelength_um) / photon_energy_j(wavelength_um);
         }
         out[b] = static_cast<float>(area_m2 * electrons_per_joule_um);
@@ -30,16 +37,54 @@ Spectrum electrons_per_s_per_irradiance(const CameraModel& c, const SpectralGrid
     return out;
 }
 
-Spectrum electrons_per_s_per_radiance(const CameraModel& c, const SpectralGrid& grid) {
+Spectrum electrons_per_s_per_radiance(const CameraModel& c, const SpectralGrid& grid, const Curve* filter) {
     const double pixel_rad = c.pitch_m / c.focal_length_m;
-    Spectrum out = electrons_per_s_per_irradiance(c, grid);
+    Spectrum out = electrons_per_s_per_irradiance(c, grid, filter);
     for (float& value : out.bin) value *= static_cast<float>(pixel_rad * pixel_rad * c.fill_factor);
     return out;
 }
 
-double cos_falloff(const ImageGeometry& geometry, double x_px, double y_px, double power) {
-    const Vec3d d = geometry.direction_camera(x_px, y_px);
-    return std::pow(1 / length(d), power);
+RelativeIllumination::RelativeIllumination(const CameraModel& camera, const ImageGeometry& geometry)
+    : geometry_(geometry), cos_power_(camera.cos_power), vignetting_(camera.vignetting) {
+    // The whole sensor's corners, whatever the window.
+    CameraModel whole = camera;
+    whole.window_px.clear();
+    const double focal_length_px = camera.focal_length_m / camera.pitch_m;
+    const ImageGeometry sensor = geometry_of(whole, 0);
+    const Vec2d center = sensor.center_px();
+    double farthest_px = 0;
+    for (const double x : {0.0, 1.0 * sensor.width_px})
+        for (const double y : {0.0, 1.0 * sensor.height_px})
+            farthest_px = std::max(farthest_px, std::hypot(x - center.x, y - center.y));
+    corner_px_ = farthest_px * geometry.focal_length_px / focal_length_px;
+    axis_solid_angle_ = 1 / (geometry.focal_length_px * geometry.focal_length_px);
+}
+
+double RelativeIllumination::field_fraction(double x_px, double y_px) const {
+    const Vec2d center = geometry_.center_px();
+    return std::hypot(x_px - center.x, y_px - center.y) / corner_px_;
+}
+
+double RelativeIllumination::at(double x_px, double y_px) const {
+    const double cosine = 1 / length(geometry_.direction_camera(x_px, y_px));
+    const double lens = vignetting_.empty() ? 1 : vignetting_.at(field_fraction(x_px, y_px));
+    return std::pow(cosine, cos_power_) * lens;
+}
+
+double RelativeIllumination::of_point(double x_px, double y_px) const {
+    return at(x_px, y_px) * axis_solid_angle_ / solid_angle(x_px, y_px);
+}
+
+// Of the plane z = 1 a pixel covers an area a along its normal; seen from the lens that is a cos / d^2.
+double RelativeIllumination::solid_angle(double x_px, double y_px) const {
+    constexpr double kHalf_px = 0.5;
+    const Vec3d d = geometry_.direction_camera(x_px, y_px);
+    const Vec3d across =
+        geometry_.direction_camera(x_px + kHalf_px, y_px) - geometry_.direction_camera(x_px - kHalf_px, y_px);
+    const Vec3d down =
+        geometry_.direction_camera(x_px, y_px + kHalf_px) - geometry_.direction_camera(x_px, y_px - kHalf_px);
+    const double distance = length(d);
+    return std::abs(dot(cross(across, down), d)) / (distance * distance * distance);
 }
 
 }  // namespace hilcam

@@ -6,10 +6,12 @@
 //     electrons = sum over bins  L dlambda A (pitch/f)^2 fill cos^4(theta) T QE t lambda / (h c).
 // For f much larger than the aperture this is the textbook pi L T / (4 N^2) cos^4 (Boreman, Basic
 // Electro-Optics for Electrical Engineers, SPIE, 1998, ch. 2); 1/(4 N^2) stands for 1/(4 N^2 + 1), 1.5 % at
-// f/4, the data sheet's f-number taken as that of the solid angle. Another cos_power n replaces the 4. A
-// point source of irradiance E gives
-//     electrons = sum over bins  E dlambda A cos^(n-3)(theta) T QE t lambda / (h c), times fill on average,
-// so that a dense field of points and a uniform field agree.
+// f/4, the data sheet's f-number taken as that of the solid angle. Another cos_power n replaces the 4, and
+// vignetting multiplies it. A point source of irradiance E gives
+//     electrons = sum over bins  E dlambda A R (Omega_0 / Omega) T QE t lambda / (h c), times fill on
+//     average,
+// R the relative illumination and Omega the solid angle of a pixel at its place (Omega_0 on the axis), so
+// that a dense field of points and a uniform field agree through any lens.
 
 #include "render/spectrum.h"
 #include "sensor/camera_model.h"
@@ -19,14 +21,37 @@ namespace hilcam {
 // Unobscured aperture area [m^2].
 double aperture_area_m2(const CameraModel& camera);
 
+// Glass and filters at a wavelength; with a T-number (N / T)^2 at all of them.
+double lens_transmission(const CameraModel& camera, double wavelength_um);
+
 // Electrons per second and unit of on-axis spectral radiance [W m^-2 sr^-1 um^-1], per bin; fill factor
-// included.
-Spectrum electrons_per_s_per_radiance(const CameraModel& camera, const SpectralGrid& grid);
+// included. filter: of a colour filter array, or null.
+Spectrum electrons_per_s_per_radiance(const CameraModel& camera, const SpectralGrid& grid,
+                                      const Curve* filter = nullptr);
 // Electrons per second and unit of on-axis spectral irradiance of a point [W m^-2 um^-1], per bin; without
 // fill factor.
-Spectrum electrons_per_s_per_irradiance(const CameraModel& camera, const SpectralGrid& grid);
+Spectrum electrons_per_s_per_irradiance(const CameraModel& camera, const SpectralGrid& grid,
+                                        const Curve* filter = nullptr);
 
-// cos^power of the field angle at a point of the image [px of the sensor frame].
-double cos_falloff(const ImageGeometry& geometry, double x_px, double y_px, double power);
+// How the lens illuminates the image at a place [px of the geometry], 1 on the axis.
+class RelativeIllumination {
+  public:
+    RelativeIllumination(const CameraModel& camera, const ImageGeometry& geometry);
+    // Of an extended source.
+    double at(double x_px, double y_px) const;
+    // Of a point source.
+    double of_point(double x_px, double y_px) const;
+    // Image height over that of the sensor's farthest corner, 0 .. 1 on the sensor.
+    double field_fraction(double x_px, double y_px) const;
+
+  private:
+    double solid_angle(double x_px, double y_px) const;
+
+    ImageGeometry geometry_;
+    double cos_power_;
+    Table vignetting_;
+    double corner_px_;
+    double axis_solid_angle_;
+};
 
 }  // namespace hilcam

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace hilcam {
 namespace {
@@ -18,7 +19,8 @@ std::array<double, 4> cubic_weights(double u) {
 
 }  // namespace
 
-PointSpread::PointSpread(const CameraModel& camera, const OpticsMtf& optics) {
+PointSpread::PointSpread(const std::function<std::complex<double>(double, double)>& transfer,
+                         double fill_factor) {
     constexpr int n = kField_px * kOversampling;
     constexpr int half = n / 2 + 1;
     std::unique_ptr<fftwf_complex[], void (*)(void*)> spectrum(fftwf_alloc_complex(std::size_t{n} * half),
@@ -29,11 +31,11 @@ PointSpread::PointSpread(const CameraModel& camera, const OpticsMtf& optics) {
         for (int x = 0; x < half; ++x) {
             const double u = static_cast<double>(x) / kField_px;
             const double v = static_cast<double>(y < n / 2 ? y : y - n) / kField_px;
-            const double value = optics.at(std::hypot(u, v)) * pixel_aperture_mtf(u, camera.fill_factor) *
-                                 pixel_aperture_mtf(v, camera.fill_factor);
+            const std::complex<double> value = transfer(u, v) * (fill_factor / (kField_px * kField_px));
             auto& bin = spectrum[static_cast<std::size_t>(y) * half + static_cast<std::size_t>(x)];
-            bin[0] = static_cast<float>(value * camera.fill_factor / (kField_px * kField_px));
-            bin[1] = 0;
+            // The table runs over where a pixel lies from the point.
+            bin[0] = static_cast<float>(value.real());
+            bin[1] = static_cast<float>(value.imag());
         }
     fftwf_execute(plan);
     fftwf_destroy_plan(plan);
@@ -52,10 +54,15 @@ PointSpread::PointSpread(const CameraModel& camera, const OpticsMtf& optics) {
                     phases_[at++] = fine[static_cast<std::size_t>(fy) * n + static_cast<std::size_t>(fx)];
                 }
 
+    phase_sums_.resize(std::size_t{kOversampling} * kOversampling);
+    for (std::size_t p = 0; p < phase_sums_.size(); ++p) {
+        const std::span<const float> table =
+            std::span(phases_).subspan(p * kField_px * kField_px, std::size_t{kField_px} * kField_px);
+        phase_sums_[p] = std::accumulate(table.begin(), table.end(), 0.0);
+    }
     outside_.assign(kMostRadius_px + 1, 0.0);
-    double total = 0;
+    const double total = phase_sums_[0];
     const float* centred = phase(0, 0);
-    for (int i = 0; i < kField_px * kField_px; ++i) total += static_cast<double>(centred[i]);
     for (int r = 0; r <= kMostRadius_px; ++r) {
         double inside = 0;
         for (int y = -r; y <= r; ++y)
@@ -76,20 +83,18 @@ int PointSpread::radius_for(double electrons) const {
     return kMostRadius_px;
 }
 
-void PointSpread::add(double x_px, double y_px, double electrons, ElectronImage& image) {
-    if (!(electrons > 0) || !std::isfinite(x_px) || !std::isfinite(y_px)) return;
+PointPatch PointSpread::at(double x_px, double y_px, double electrons) {
     const int radius = radius_for(electrons);
     // The pixel that holds the point, and how far that pixel's centre lies from the point, in sixteenths.
     const double cx = std::floor(x_px);
     const double cy = std::floor(y_px);
-    if (cx + radius < 0 || cy + radius < 0 || cx - radius >= image.width() || cy - radius >= image.height())
-        return;
     const double sx = (cx + 0.5 - x_px) * kOversampling;
     const double sy = (cy + 0.5 - y_px) * kOversampling;
     const int ix = static_cast<int>(std::floor(sx));
     const int iy = static_cast<int>(std::floor(sy));
     const auto wx = cubic_weights(sx - ix);
     const auto wy = cubic_weights(sy - iy);
+    double whole = 0;  // what the full field would take, at this place in a pixel
 
     // All pixels share one sub-pixel phase: the kernel is a sum of sixteen shifted tables.
     const int size = 2 * radius + 1;
@@ -105,6 +110,8 @@ void PointSpread::add(double x_px, double y_px, double electrons, ElectronImage&
             const int shift_y = (fy - py) / kOversampling + kField_px / 2 - radius;
             const auto weight = static_cast<float>(electrons * wx[static_cast<std::size_t>(i)] *
                                                    wy[static_cast<std::size_t>(j)]);
+            whole +=
+                static_cast<double>(weight) * phase_sums_[static_cast<std::size_t>(py * kOversampling + px)];
             const float* table = phase(px, py);
             for (int y = 0; y < size; ++y) {
                 const float* in = table + (y + shift_y) * kField_px + shift_x;
@@ -112,14 +119,11 @@ void PointSpread::add(double x_px, double y_px, double electrons, ElectronImage&
                 for (int x = 0; x < size; ++x) out[x] += weight * in[x];
             }
         }
-    const int left = static_cast<int>(cx) - radius;
-    const int top = static_cast<int>(cy) - radius;
-    for (int y = std::max(0, -top); y < std::min(size, image.height() - top); ++y) {
-        float* out = image.row(top + y).data();
-        const float* in = kernel_.data() + y * size;
-        for (int x = std::max(0, -left); x < std::min(size, image.width() - left); ++x)
-            out[left + x] += in[x];
-    }
+    const std::span<float> used = std::span(kernel_).first(static_cast<std::size_t>(size * size));
+    const double inside = std::accumulate(used.begin(), used.end(), 0.0);
+    const auto scale = static_cast<float>(inside > 0 ? whole / inside : 0);
+    for (float& value : used) value *= scale;
+    return {static_cast<int>(cx) - radius, static_cast<int>(cy) - radius, size, kernel_.data()};
 }
 
 }  // namespace hilcam

@@ -3,27 +3,35 @@
 // image's FFT: its electrons are the pixel-integrated point spread function at its exact place, aliasing and
 // all.
 //
-// The PSF is the inverse transform of optics MTF x pixel aperture MTF up to the optics' cut-off, tabulated at
-// 1/16 px over 64 px and interpolated by cubic convolution (Keys, IEEE Trans. ASSP 29(6), 1981). With a fill
-// factor of 1 its sum over the pixels is 1 within 1e-4 wherever the point falls; with gaps between pixels it
-// varies as on a real detector, about the fill factor. What falls farther than 31 px from the point is lost
-// (Airy wings: about 1 % at f/4 and 5.5 um).
+// The PSF is the inverse transform of MTF_sys up to 8 cycles/px, tabulated at 1/16 px over 64 px and
+// interpolated by cubic convolution (Keys, IEEE Trans. ASSP 29(6), 1981). Every electron is kept: what falls
+// farther than 32 px from the point (Airy wings, halo: about 1 % at f/4 and 5.5 um) is folded into the 64 px,
+// and what a smaller square leaves out is given to those inside. With a fill factor of 1 the sum over the
+// pixels is then 1 within 1e-6 wherever the point falls; with gaps between pixels it varies as on a real
+// detector, about the fill factor.
 
+#include <complex>
+#include <functional>
+#include <span>
 #include <vector>
-
-#include "render/image.h"
-#include "sensor/mtf.h"
 
 namespace hilcam {
 
+// Part of a point's image: a square of pixels.
+struct PointPatch {
+    int left = 0, top = 0, size = 0;
+    const float* electrons = nullptr;  // size x size
+};
+
 class PointSpread {
   public:
-    PointSpread(const CameraModel& camera, const OpticsMtf& optics);
+    // transfer: of cycles/px. Owner thread.
+    PointSpread(const std::function<std::complex<double>(double u, double v)>& transfer, double fill_factor);
 
-    // Adds `electrons` (on a full-fill detector) at a position [px; centre of pixel (0, 0) at (0.5, 0.5)]
-    // that may lie outside. The square that is touched is as large as it takes to leave out less than 0.05
-    // e-. Loop; one thread.
-    void add(double x_px, double y_px, double electrons, ElectronImage& image);
+    // The image of `electrons` (on a full-fill detector) at a position [px; centre of pixel (0, 0) at (0.5,
+    // 0.5)]: as large as it takes to leave out less than 0.05 e-. Valid until the next call. Loop; one
+    // thread.
+    PointPatch at(double x_px, double y_px, double electrons);
 
   private:
     static constexpr int kOversampling = 16;
@@ -35,6 +43,7 @@ class PointSpread {
     int radius_for(double electrons) const;
 
     std::vector<float> phases_;
+    std::vector<double> phase_sums_;
     std::vector<double> outside_;  // share of the light outside a square of half width r
     std::vector<float> kernel_;
 };

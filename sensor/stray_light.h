@@ -7,7 +7,12 @@
 // SPIE 5178, 2004, for surfaces with an inverse-square scatter law). Ghost: one out-of-focus image by two
 // reflections between glass faces, mirrored about the principal point and scaled, a disk of the given radius.
 
+#include <vector>
+
 #include "render/config_field.h"
+#include "render/image.h"
+#include "render/image_geometry.h"
+#include "sensor/convolve.h"
 
 namespace hilcam {
 
@@ -19,5 +24,26 @@ struct StrayLightConfig {
     double ghost_radius_px = 32;
 };
 Fields fields(StrayLightConfig& config);
+
+// The ghost of a whole picture, on cells of 8 x 8 pixels: blurred as it is, it needs no more.
+class Ghost {
+  public:
+    // geometry: of the detector's pixels. Owner thread.
+    Ghost(const StrayLightConfig& config, const ImageGeometry& geometry);
+
+    // In this order each frame; loop, one thread.
+    void clear();
+    void collect(double x_px, double y_px, double electrons);  // px of the sensor frame
+    void spread();
+    // Electrons that the ghost puts into a pixel.
+    float at(int x_px, int y_px) const;
+
+  private:
+    static constexpr int kCell_px = 8;
+
+    double fraction_, scale_;
+    ImageGeometry geometry_;
+    Convolver cells_;
+};
 
 }  // namespace hilcam

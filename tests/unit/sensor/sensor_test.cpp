@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -10,6 +11,7 @@
 #include "sensor/mtf.h"
 #include "sensor/noise.h"
 #include "sensor/optics.h"
+#include "sensor/read_out.h"
 
 namespace hilcam {
 namespace {
@@ -198,13 +200,12 @@ struct Moments {
     double mean, variance;
 };
 Moments electrons(float mean_e, float read_noise_e, std::size_t count) {
-    DigitiserParameters p{1e9f, read_noise_e, 1, 1000, 65535};
     const std::vector<float> in(count, mean_e);
-    std::vector<std::uint16_t> out(count);
-    digitise_row(in, p, {3, 4}, 0, out);
+    std::vector<float> charge(count), deviates(count);
+    draw_pixels(in, {3, 4}, 0, charge, deviates);
     double sum = 0, squares = 0;
-    for (const std::uint16_t v : out) {
-        const double e = v - 1000.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double e = static_cast<double>(charge[i] + read_noise_e * deviates[i]);
         sum += e, squares += e * e;
     }
     const double n = static_cast<double>(count);
@@ -229,12 +230,11 @@ TEST(Noise, ShotNoiseHasPoissonsMeanAndVarianceAtEveryLevel) {
 TEST(Noise, SmallCountsFollowPoissonsDistribution) {
     constexpr std::size_t kCount = 100000;
     const auto chi_square = [&](double model_mean) {
-        DigitiserParameters p{1e9f, 0, 1, 0, 65535};
         const std::vector<float> in(kCount, 4.0f);
-        std::vector<std::uint16_t> out(kCount);
-        digitise_row(in, p, {11, 2}, 0, out);
+        std::vector<float> out(kCount);
+        draw_pixels(in, {11, 2}, 0, out, {});
         std::array<double, 12> seen{};
-        for (const std::uint16_t v : out) seen[std::min<std::size_t>(v, 11)] += 1;
+        for (const float v : out) seen[std::min(static_cast<std::size_t>(v), std::size_t{11})] += 1;
         double statistic = 0, left = 1, probability = std::exp(-model_mean);
         for (std::size_t k = 0; k < 12; ++k) {
             const double expected = kCount * (k == 11 ? left : probability);
@@ -253,8 +253,7 @@ TEST(Noise, ReadNoiseAddsItsVariance) {
     constexpr double n = 400000;
     const Moments m = electrons(0, 10, 400000);
     EXPECT_NEAR(m.mean, 0, 4 * 10 / std::sqrt(n) + 1e-3);
-    // Rounding to whole DN adds 1/12.
-    EXPECT_NEAR(m.variance, 100 + 1.0 / 12, 4 * 100 * std::sqrt(2 / n));
+    EXPECT_NEAR(m.variance, 100, 4 * 100 * std::sqrt(2 / n));
 }
 
 TEST(Noise, QuantileMatchesTheTable) {
@@ -265,28 +264,30 @@ TEST(Noise, QuantileMatchesTheTable) {
     EXPECT_NEAR(normal_quantile(2.866516e-7f), -5.0, 1e-2);
 }
 
-TEST(Noise, FullWellAndAdcClip) {
-    DigitiserParameters p{1000, 0, 2, 10, 4095};
-    const std::vector<float> in = {0, 1e6f, NAN};
-    std::vector<std::uint16_t> out(3);
-    digitise_row(in, p, {1, 1}, 0, out);
-    EXPECT_EQ(out[0], 10);
-    EXPECT_EQ(out[1], 2010);
-    EXPECT_EQ(out[2], 10);
-    p.gain_dn_e = 100;
-    digitise_row(in, p, {1, 1}, 0, out);
-    EXPECT_EQ(out[1], 4095);
+TEST(ReadOut, FullWellAndAdcClip) {
+    CameraModel c = camera_64();
+    c.full_well_e = 1000, c.gain_dn_e = 2, c.offset_dn = 10;
+    const auto read = [&](std::vector<float> charge) {
+        const std::vector<float> deviates(charge.size());
+        std::vector<std::uint16_t> dn(charge.size());
+        ReadOut(c).read({0, 0, charge, deviates, {}, c.gain_dn_e}, {}, {1, 1}, dn);
+        return dn;
+    };
+    EXPECT_THAT(read({0, 1e6f}), testing::ElementsAre(10, 2010));
+    c.gain_dn_e = 100;
+    EXPECT_THAT(read({0, 1e6f}), testing::ElementsAre(10, 4095));
 }
 
 TEST(Noise, APixelCanBeRecomputedAlone) {
-    DigitiserParameters p{1e6f, 5, 1, 100, 65535};
-    const std::vector<float> in(300, 50.0f);
-    std::vector<std::uint16_t> all(300), one(1);
+    std::vector<float> in(300, 50.0f), all(300), deviates(300), one(1), deviate(1);
+    in[0] = NAN;
     for (const std::uint32_t first : {1000u, 1001u}) {
-        digitise_row(in, p, {7, 8}, first, all);
-        for (const std::uint32_t i : {0u, 1u, 127u, 128u, 298u, 299u}) {
-            digitise_row(std::span(in).first(1), p, {7, 8}, first + i, one);
+        draw_pixels(in, {7, 8}, first, all, deviates);
+        EXPECT_EQ(all[0], 0);
+        for (const std::uint32_t i : {1u, 2u, 127u, 128u, 298u, 299u}) {
+            draw_pixels(std::span(in).subspan(i, 1), {7, 8}, first + i, one, deviate);
             EXPECT_EQ(all[i], one[0]) << first << ' ' << i;
+            EXPECT_EQ(deviates[i], deviate[0]) << first << ' ' << i;
         }
     }
 }

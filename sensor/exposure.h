@@ -1,0 +1,25 @@
+#pragma once
+// How one frame is taken.
+
+#include "render/vec.h"
+
+namespace hilcam {
+
+// How the radiance image was made.
+struct SensorSampling {
+    int guard_px = 0;          // the image's border on each side, in pixels of the detector
+    int samples_per_axis = 1;  // the renderer's ray grid in each of its pixels
+    int oversampling = 1;      // pixels of the radiance image across one of the detector
+};
+
+// One exposure.
+struct Exposure {
+    double exposure_s = 1e-3;
+    double gain_db = 0;
+    // While it lasts. The picture of what is not at infinity moves as a whole; points (stars) as the camera
+    // turns.
+    Vec2d image_rate_px_s{};
+    Vec3d camera_rate_rad_s{};  // about the camera's axes
+};
+
+}  // namespace hilcam

@@ -1,0 +1,37 @@
+#pragma once
+// MTF_sys of equation (2): everything between the scene and a pixel's charge that acts on contrast.
+//
+// Optics (optics_otf.h), light-sensitive area, charge diffusion, crosstalk (of a sensor without colour
+// filters: with them it mixes colours and is not a filter of one image), steady jitter, veiling glare, and
+// what a line camera does along its track: the charge follows the picture in steps of 1 / phases of a pixel
+// and drifts by stages x mismatch (Fiete, Modeling the Imaging Chain of Digital Cameras, SPIE, 2010, ch. 7: a
+// sinc each).
+
+#include <complex>
+
+#include "sensor/camera_model.h"
+#include "sensor/optics_otf.h"
+
+namespace hilcam {
+
+class SystemMtf {
+  public:
+    SystemMtf(const CameraModel& camera, OpticsOtf optics);
+
+    // Frequencies [cycles/px of the detector]. With glare: its even part leaves 1 - glare of all but (0, 0).
+    std::complex<double> at(double u, double v) const;
+    // Of a point's image without what glare spreads evenly: 1 at (0, 0).
+    std::complex<double> of_point(double u, double v) const;
+
+  private:
+    double glare_factor(double u, double v) const;
+
+    OpticsOtf optics_;
+    double aperture_x_px_, aperture_y_px_;
+    double diffusion_px_, jitter_x_px_, jitter_y_px_;
+    double crosstalk_;
+    double glare_, glare_radius_px_;
+    double step_px_ = 0, drift_px_ = 0;  // of a line camera, along the track
+};
+
+}  // namespace hilcam

@@ -1,0 +1,110 @@
+#include "sensor/zernike.h"
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "render/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr int kAcross = 256;             // samples of the pupil's diameter
+constexpr int kSize = 2 * kAcross;       // of the grid: the autocorrelation is twice as wide
+constexpr double kStep = 2.0 / kAcross;  // pupil radii per sample
+
+struct Order {
+    int n, m;  // m < 0: sine
+};
+
+// Row n holds n + 1 terms; within it |m| rises, even j go with the cosine.
+Order order_of(int noll) {
+    int n = 0, first = 1;
+    while (first + n + 1 <= noll) first += ++n;
+    int m = n % 2;
+    for (int j = first; j < noll;) {
+        const int terms = m == 0 ? 1 : 2;
+        if (noll < j + terms) break;
+        j += terms;
+        m += 2;
+    }
+    return {n, noll % 2 == 0 ? m : -m};
+}
+
+double factorial(int k) { return k < 2 ? 1 : k * factorial(k - 1); }
+
+double radial(int n, int m, double rho) {
+    double sum = 0;
+    for (int s = 0; s <= (n - m) / 2; ++s)
+        sum += (s % 2 ? -1.0 : 1.0) * factorial(n - s) /
+               (factorial(s) * factorial((n + m) / 2 - s) * factorial((n - m) / 2 - s)) *
+               std::pow(rho, n - 2 * s);
+    return sum;
+}
+
+// Share of a sample's square inside the annulus.
+double cover(double x, double y, double obscuration_ratio) {
+    constexpr int kParts = 4;
+    int inside = 0;
+    for (int j = 0; j < kParts; ++j)
+        for (int i = 0; i < kParts; ++i) {
+            const double r =
+                std::hypot(x + ((i + 0.5) / kParts - 0.5) * kStep, y + ((j + 0.5) / kParts - 0.5) * kStep);
+            inside += r <= 1 && r >= obscuration_ratio ? 1 : 0;
+        }
+    return inside / static_cast<double>(kParts * kParts);
+}
+
+}  // namespace
+
+double zernike(int noll, double x, double y) {
+    const auto [n, m] = order_of(noll);
+    const double value = std::sqrt(n + 1.0) * radial(n, std::abs(m), std::hypot(x, y));
+    if (m == 0) return value;
+    const double angle = std::abs(m) * std::atan2(y, x);
+    return value * std::sqrt(2.0) * (m > 0 ? std::cos(angle) : std::sin(angle));
+}
+
+PupilTransfer::PupilTransfer(double obscuration_ratio, double defocus_waves, std::span<const double> waves)
+    : otf_(std::size_t{kSize} * kSize) {
+    auto* data = reinterpret_cast<fftwf_complex*>(otf_.data());
+    fftwf_plan plan = fftwf_plan_dft_2d(kSize, kSize, data, data, FFTW_FORWARD, FFTW_ESTIMATE);
+    double area = 0;
+    for (int j = 0; j < kAcross; ++j)
+        for (int i = 0; i < kAcross; ++i) {
+            const double x = (i + 0.5) * kStep - 1, y = (j + 0.5) * kStep - 1;
+            const double amplitude = cover(x, y, obscuration_ratio);
+            if (amplitude == 0) continue;
+            double phase = defocus_waves * (x * x + y * y);
+            for (std::size_t k = 0; k < waves.size(); ++k)
+                phase += waves[k] * zernike(static_cast<int>(k) + 4, x, y);
+            otf_[static_cast<std::size_t>(j) * kSize + static_cast<std::size_t>(i)] =
+                std::complex<float>(std::polar(amplitude, 2 * kPi * phase));
+            area += amplitude * amplitude;
+        }
+    // Autocorrelation: transform, squared modulus, transform.
+    fftwf_execute(plan);
+    const auto scale = static_cast<float>(1 / (area * kSize * kSize));
+    for (auto& value : otf_) value = std::norm(value) * scale;
+    fftwf_execute(plan);
+    fftwf_destroy_plan(plan);
+}
+
+std::complex<double> PupilTransfer::at(double shift_x, double shift_y) const {
+    if (std::hypot(shift_x, shift_y) >= 2) return 0;
+    const double x = shift_x / kStep, y = shift_y / kStep;
+    const double left = std::floor(x), top = std::floor(y);
+    const auto sample = [&](double i, double j) {
+        const auto wrap = [](double k) {
+            return static_cast<std::size_t>((static_cast<int>(k) + kSize) % kSize);
+        };
+        return std::complex<double>(otf_[wrap(j) * kSize + wrap(i)]);
+    };
+    const double u = x - left, v = y - top;
+    return (1 - v) * ((1 - u) * sample(left, top) + u * sample(left + 1, top)) +
+           v * ((1 - u) * sample(left, top + 1) + u * sample(left + 1, top + 1));
+}
+
+}  // namespace hilcam
