@@ -56,8 +56,7 @@ SceneObject plates(const BenchTarget& target, const ImageGeometry& g, const Spec
 // Nothing but the lamp: bodies are out of the way.
 WorldSnapshot empty_room() {
     WorldSnapshot world;
-    for (std::size_t i = 0; i < kBodyCount; ++i)
-        world.bodies[static_cast<BodyId>(i)].world_m = {1e15, 0, 0};
+    for (std::size_t i = 0; i < kBodyCount; ++i) world.bodies[static_cast<BodyId>(i)].world_m = {1e15, 0, 0};
     world.bodies.sun_world_m = {0, 0, -kAstronomicalUnit_m};
     world.objects.resize(1);
     return world;

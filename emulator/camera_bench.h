@@ -16,8 +16,8 @@ namespace hilcam {
 // What is set up before the camera. The dark half lies on the right of an upright edge, below a lying one.
 struct BenchTarget {
     double bright_albedo = 1;
-    double dark_albedo = 1;     // the same: no edge
-    double edge_tilt_rad = 0;   // of the edge through the window's middle, from the image's columns
+    double dark_albedo = 1;    // the same: no edge
+    double edge_tilt_rad = 0;  // of the edge through the window's middle, from the image's columns
 };
 
 class CameraBench {

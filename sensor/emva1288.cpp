@@ -38,7 +38,7 @@ Measured deviation(double measured, double temporal_rest, double samples) {
     return {std::sqrt(net), std::min(error / (2 * std::sqrt(net)), std::sqrt(error))};
 }
 
-Nonuniformity split(std::span<const double> image, const PixelSelection& selection, double pixel_rest,
+Nonuniformity split(std::vector<double> image, const PixelSelection& selection, double pixel_rest,
                     double row_rest, double bandwidth) {
     SpatialParts s = spatial_parts(image, selection);
     s.pixel /= bandwidth, s.column /= bandwidth, pixel_rest /= bandwidth;
@@ -57,11 +57,13 @@ Nonuniformity split(std::span<const double> image, const PixelSelection& selecti
                                     : std::hypot(f.uncertainty, std::sqrt(std::max(chance, 0.0)));
     };
     widen(out.row, of_row), widen(out.column, of_column);
+    out.image = std::move(image);
     return out;
 }
 
 void scale(Nonuniformity& n, double factor) {
     for (Measured* f : {&n.total, &n.row, &n.column, &n.pixel}) f->value *= factor, f->uncertainty *= factor;
+    for (double& value : n.image) value *= factor;
 }
 
 }  // namespace
@@ -128,7 +130,7 @@ Measured ResponseCurve::responsivity_dn_photon() const {
 }
 
 Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const ResponseCurve& response,
-                              double saturation_dn) {
+                                double saturation_dn) {
     const Measured small = response.responsivity_dn_photon();
     std::vector<double> signal, shot, variance;
     for (const LightPoint& p : points) {
@@ -149,16 +151,18 @@ Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const Respon
 // --- darkness
 // --------------------------------------------------------------------------------------------------------
 
-Measured dark_noise_e(const TemporalStatistics& dark, const Measured& gain, double bandwidth) {
-    const double white = dark.variance_dn2.value - dark.row_dn2 - kQuantisation_dn2;
-    const double variance = std::max(white, 0.0) / bandwidth + dark.row_dn2;
-    const double noise_dn = std::sqrt(variance);
-    const double error_dn2 = dark.variance_dn2.uncertainty / bandwidth;
-    // With too little noise to cross a step, the rounding error is not uniform: nothing but a bound is known
-    // (section 6.5: sigma_y.dark^2 below 0.24 DN^2).
-    if (dark.variance_dn2.value < 0.24) return {noise_dn / gain.value, std::sqrt(0.24) / gain.value};
-    return {noise_dn / gain.value, std::hypot(error_dn2 / (2 * noise_dn) / gain.value,
-                                              noise_dn / square(gain.value) * gain.uncertainty)};
+Measured dark_noise_e(const TemporalStatistics& dark, double dark_signal_dn, const Measured& gain,
+                      double bandwidth) {
+    const double shot_dn2 = gain.value * dark_signal_dn;
+    const double white = (dark.pixel_dn2() - kQuantisation_dn2) / bandwidth - shot_dn2;
+    const double noise_dn = std::sqrt(std::max(white, 0.0) + dark.row_dn2 + dark.frame_dn2);
+    // With too little noise to cross a step the rounding error is not uniform: nothing but a bound is known.
+    if (dark.variance_dn2.value < 0.24 || noise_dn == 0)
+        return {noise_dn / gain.value, std::sqrt(0.24) / gain.value};
+    // K errs in the scale, and in what is taken off for the dark current.
+    const double of_variance = dark.variance_dn2.uncertainty / bandwidth / (2 * noise_dn);
+    const double of_gain = (noise_dn / gain.value + dark_signal_dn / (2 * noise_dn)) * gain.uncertainty;
+    return {noise_dn / gain.value, std::hypot(of_variance, of_gain) / gain.value};
 }
 
 DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Measured& gain, double bandwidth) {
@@ -168,14 +172,14 @@ DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Measured& 
         mean.push_back(p.dark.mean_dn.value);
         mean_variance.push_back(square(p.dark.mean_dn.uncertainty));
         mean_weight.push_back(1 / std::max(mean_variance.back(), 1e-30));
-        variance.push_back((p.dark.variance_dn2.value - p.dark.row_dn2) / bandwidth);
+        variance.push_back(p.dark.pixel_dn2() / bandwidth);
         variance_variance.push_back(square(p.dark.variance_dn2.uncertainty / bandwidth));
         variance_weight.push_back(1 / std::max(variance_variance.back(), 1e-30));
     }
     const auto per_gain = [&](double slope, double error, double power) {
         const double factor = 1 / std::pow(gain.value, power);
         return Measured{slope * factor,
-                      std::hypot(error * factor, power * slope * factor * gain.uncertainty / gain.value)};
+                        std::hypot(error * factor, power * slope * factor * gain.uncertainty / gain.value)};
     };
     const Fitted of_mean = fit_polynomial(time, mean, mean_weight, mean_variance, 1);
     const Fitted of_variance = fit_polynomial(time, variance, variance_weight, variance_variance, 1);
@@ -226,7 +230,7 @@ Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
     const std::vector<double> mean = dark.mean_dn();
     const std::vector<double> image = sum_of_images(mean, smooth_surface(mean, selection, kShadingOrder), -1);
     const double frames = dark.frames();
-    Nonuniformity out = split(image, selection, (temporal.variance_dn2.value - temporal.row_dn2) / frames,
+    Nonuniformity out = split(std::move(image), selection, temporal.pixel_dn2() / frames,
                               temporal.row_dn2 / frames, bandwidth);
     scale(out, 1 / gain.value);
     for (Measured* f : {&out.total, &out.row, &out.column, &out.pixel})
@@ -244,8 +248,7 @@ Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& fl
     const auto rest = [&](auto part) {
         return (part(flat_temporal) / flat.frames() + part(dark_temporal) / dark.frames()) / signal_dn2;
     };
-    return split(image, selection,
-                 rest([](const TemporalStatistics& t) { return t.variance_dn2.value - t.row_dn2; }),
+    return split(std::move(image), selection, rest([](const TemporalStatistics& t) { return t.pixel_dn2(); }),
                  rest([](const TemporalStatistics& t) { return t.row_dn2; }), bandwidth);
 }
 

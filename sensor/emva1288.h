@@ -56,10 +56,14 @@ class ResponseCurve {
 // of full scale, that slope is off by about 3 a. Mean and variance are therefore carried to the straight
 // line of small signals first: mu by the curve's inverse, sigma^2 by the square of its slope.
 Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const ResponseCurve& response,
-                              double saturation_dn);
+                                double saturation_dn);
 
-// Section 6.5: sqrt(sigma_y.dark^2 - 1/12 DN^2) / K. `bandwidth`: see noise_bandwidth().
-Measured dark_noise_e(const TemporalStatistics& dark, const Measured& gain_dn_e, double bandwidth = 1);
+// Section 6.5: sqrt(sigma_y.dark^2 - 1/12 DN^2) / K. Where the noise is too small to cross the converter's
+// steps the standard gives a bound only; frames of a longer exposure, whose dark current's shot noise helps
+// across, tell more: `dark_signal_dn` is that current's mean signal in them, and K times it is taken off.
+// `bandwidth`: see noise_bandwidth().
+Measured dark_noise_e(const TemporalStatistics& dark, double dark_signal_dn, const Measured& gain_dn_e,
+                      double bandwidth = 1);
 
 // Section 7: slopes of mean and variance of dark frames over exposure time.
 struct DarkPoint {
@@ -92,6 +96,7 @@ std::vector<ResponsePoint> response_points(std::span<const LightPoint> points);
 // Section 8: standard deviations that stay from frame to frame, split by rows, columns and pixels.
 struct Nonuniformity {
     Measured total, row, column, pixel;
+    std::vector<double> image;  // each pixel's deviation, of the selection's rectangle
 };
 // DSNU1288 [e-] of L dark frames, a slope of the dark picture taken out. A filter along the rows smooths
 // what differs from pixel to pixel as it does noise: `bandwidth` undoes that.

@@ -51,9 +51,10 @@ void PairSeries::add(const DnImage& a, const DnImage& b) {
     HILCAM_CHECK(pixels > 1);
     const auto n = static_cast<double>(pixels);
     const double mean_difference = static_cast<double>(difference) / n;
-    const double variance = 0.5 * (static_cast<double>(squares) / n - square(mean_difference)) * n / (n - 1);
+    const double variance = 0.5 * static_cast<double>(squares) / n;
     sum_ += static_cast<double>(sum) / (2 * n);
     square_ += variance;
+    frame_ += 0.5 * square(mean_difference);
     // Means of rows vary by the row's own noise and by what is left of the pixels'.
     if (row_means.size() > 1) {
         double between = 0;
@@ -77,12 +78,17 @@ TemporalStatistics PairSeries::result() const {
     const double rows = selection_.height;
     const double chance = variance / (pixels / rows) * std::sqrt(2 / (rows * pairs));
     out.row_dn2 = row_ / pairs > 4 * chance ? row_ / pairs : 0;
-    const double white = variance - out.row_dn2;
-    out.mean_dn = {sum_ / pairs, std::sqrt((white / pixels + out.row_dn2 / rows) / (2 * pairs))};
-    // Of a variance s^2 of n independent Gaussian values: s^2 sqrt(2 / (n - 1)).
+    // The frame's mean varies by chance, too.
+    const double of_frame = frame_ / pairs - (variance / pixels + out.row_dn2 / rows);
+    out.frame_dn2 =
+        of_frame > 3 * std::sqrt(2 / pairs) * (variance / pixels + out.row_dn2 / rows) ? of_frame : 0;
+    const double white = variance - out.row_dn2 - out.frame_dn2;
+    out.mean_dn = {sum_ / pairs,
+                   std::sqrt((white / pixels + out.row_dn2 / rows + out.frame_dn2) / (2 * pairs))};
+    // Of a variance s^2 of n independent Gaussian values: s^2 sqrt(2 / n).
     out.variance_dn2 = {variance, std::sqrt(2 / pairs *
-                                            (square(white) / (pixels - 1) + square(out.row_dn2) / rows +
-                                             2 * white * out.row_dn2 / pixels))};
+                                            (square(white) / pixels + square(out.row_dn2) / rows +
+                                             square(out.frame_dn2) + 2 * white * out.row_dn2 / pixels))};
     return out;
 }
 
@@ -234,29 +240,40 @@ std::size_t exclude_outliers(std::span<const double> image, double sigmas, Pixel
     return out;
 }
 
-double noise_bandwidth(const DnImage& a, const DnImage& b, const PixelSelection& s, int lags) {
-    std::vector<double> covariance(static_cast<std::size_t>(lags) + 1, 0.0), count(covariance.size(), 0.0);
-    std::vector<double> difference(static_cast<std::size_t>(s.width));
+double noise_bandwidth(const DnImage& a, const DnImage& b, const PixelSelection& s, NoiseReach reach) {
+    const auto width = static_cast<std::size_t>(s.width);
+    std::vector<double> difference(s.use.size(), 0.0);
     for (int y = 0; y < s.height; ++y) {
         const auto use = use_of(s, y);
         const auto row_a = row_of(a, s, y), row_b = row_of(b, s, y);
+        double* row = difference.data() + static_cast<std::size_t>(y) * width;
         double sum = 0, pixels = 0;
-        for (std::size_t x = 0; x < use.size(); ++x) {
-            difference[x] = static_cast<double>(row_a[x]) - static_cast<double>(row_b[x]);
-            if (use[x]) sum += difference[x], ++pixels;
-        }
+        for (std::size_t x = 0; x < width; ++x)
+            if (use[x])
+                row[x] = static_cast<double>(row_a[x]) - static_cast<double>(row_b[x]), sum += row[x],
+                ++pixels;
         // Noise of the whole row is not the filter's.
-        for (double& d : difference) d -= pixels > 0 ? sum / pixels : 0;
-        for (std::size_t k = 0; k < covariance.size(); ++k)
-            for (std::size_t x = 0; x + k < use.size(); ++x)
-                if (use[x] && use[x + k]) covariance[k] += difference[x] * difference[x + k], ++count[k];
+        for (std::size_t x = 0; x < width; ++x)
+            if (use[x]) row[x] -= sum / pixels;
     }
-    double total = 0;
-    for (std::size_t k = 0; k < covariance.size(); ++k)
-        total += (k == 0 ? 1 : 2) * covariance[k] / std::max(count[k], 1.0);
-    const double variance = covariance[0] / std::max(count[0], 1.0);
-    // A row's mean, taken out above, holds 1/width of the sum and is missing from each of 2 lags + 1 terms.
-    return variance / (total / (1 - (2.0 * lags + 1) / s.width));
+    const auto covariance = [&](int dx, int dy) {
+        double sum = 0, count = 0;
+        for (int y = 0; y + dy < s.height; ++y)
+            for (int x = std::max(0, -dx); x < std::min(s.width, s.width - dx); ++x) {
+                const auto i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+                const auto j = i + static_cast<std::size_t>(dy) * width + static_cast<std::size_t>(dx);
+                if (s.use[i] && s.use[j]) sum += difference[i] * difference[j], ++count;
+            }
+        return count > 0 ? sum / count : 0;
+    };
+    const double variance = covariance(0, 0);
+    double total = variance;
+    for (int dx = 1; dx <= reach.columns; ++dx) total += 2 * covariance(dx, 0);
+    for (int dy = 1; dy <= reach.rows; ++dy)
+        for (int dx = -reach.columns; dx <= reach.columns; ++dx) total += 2 * covariance(dx, dy);
+    // A row's mean, taken out above, holds 1/width of the sum and is missing from each of 2 columns + 1
+    // terms.
+    return variance / (total / (1 - (2.0 * reach.columns + 1) / s.width));
 }
 
 }  // namespace hilcam

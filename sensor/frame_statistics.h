@@ -33,14 +33,18 @@ struct Measured {
     double uncertainty = 0;
 };
 
-// Of pairs of frames: mean mu_y and temporal variance sigma_y^2 = (mean d^2 - (mean d)^2) / 2, d the
-// difference of a pair (section 6.1), which leaves out all that stays from frame to frame. A part of it may
-// be common to a row (row noise).
+// Of pairs of frames: mean mu_y and temporal variance sigma_y^2 = mean d^2 / 2, d the difference of a pair
+// (section 6.1), which leaves out all that stays from frame to frame. The standard takes (mean d)^2 off
+// because lamps drift; this lamp does not, and what is common to a frame is noise. A part of the variance may
+// be common to a row, another to the frame.
 struct TemporalStatistics {
     Measured mean_dn;
     Measured variance_dn2;
-    double row_dn2 = 0;  // the part of the variance that is common to a row
+    double row_dn2 = 0;    // the part of the variance that is common to a row, the frame's apart
+    double frame_dn2 = 0;  // that is common to the frame
     int pairs = 0;
+
+    double pixel_dn2() const { return variance_dn2.value - row_dn2 - frame_dn2; }
 };
 
 class PairSeries {
@@ -52,7 +56,7 @@ class PairSeries {
 
   private:
     const PixelSelection& selection_;
-    double sum_ = 0, square_ = 0, row_ = 0;  // over the pairs
+    double sum_ = 0, square_ = 0, row_ = 0, frame_ = 0;  // over the pairs
     int pairs_ = 0;
 };
 
@@ -88,8 +92,12 @@ std::vector<double> smooth_surface(std::span<const double> image, const PixelSel
 // (Hampel, J. Amer. Statist. Assoc. 69, 1974). Returns how many.
 std::size_t exclude_outliers(std::span<const double> image, double sigmas, PixelSelection& selection);
 
-// Variance of white noise after a filter along the rows, over that variance before it: sigma^2 / sum of the
-// autocovariances up to `lags` on both sides, from a pair of frames. 1 without a filter.
-double noise_bandwidth(const DnImage& a, const DnImage& b, const PixelSelection& selection, int lags);
+// What a filter leaves of white noise: sigma^2 of a pixel over the sum of its autocovariances with neighbours
+// up to so many columns and rows away, which a filter that passes low frequencies does not change. From a
+// pair of frames; 1 without a filter.
+struct NoiseReach {
+    int columns = 0, rows = 0;
+};
+double noise_bandwidth(const DnImage& a, const DnImage& b, const PixelSelection& selection, NoiseReach reach);
 
 }  // namespace hilcam
