@@ -222,7 +222,7 @@ std::string characterisation_table(const json& report) {
         const json& f = report[row.key];
         const double measured = f["measured"].get<double>(), configured = f["configured"].get<double>();
         const std::string deviation =
-            configured != 0 ? fmt::format("{:+.2f} %", 100 * (measured / configured - 1)) : "-";
+            std::abs(configured) > 1e-9 ? fmt::format("{:+.2f} %", 100 * (measured / configured - 1)) : "-";
         out += fmt::format("{:<26}{:>6}{:>14.5g}{:>14.5g}{:>14.2g}{:>12}\n", row.label, row.unit,
                            row.factor * measured, row.factor * configured,
                            row.factor * f["uncertainty"].get<double>(), deviation);

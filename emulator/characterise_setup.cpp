@@ -173,10 +173,9 @@ BenchSetup bench_setup(const CameraModel& camera) {
     set_black_level(s);
     choose_exposures(s);
 
-    const PixelSelection selection = bench_selection(s);
     s.lamp_w_m2_um = 1;
-    const double per_lamp = photons_per_s(s, selection, geometry_of(s.camera, 0)) *
-                            configured_quantum_efficiency(s) * s.exposure_s;
+    const double per_lamp =
+        photons_per_s(s, evenly_lit(s, bench_selection(s))) * configured_quantum_efficiency(s) * s.exposure_s;
     s.lamp_w_m2_um = kOverexposure * configured_saturation_e(s.camera, s.gain_db) / per_lamp;
     return s;
 }
@@ -205,24 +204,40 @@ PixelSelection bench_selection(const BenchSetup& s) {
     return out;
 }
 
-double photons_per_s(const BenchSetup& s, const PixelSelection& selection, const ImageGeometry& geometry) {
-    const CameraModel& c = s.camera;
-    const RelativeIllumination lens(c, geometry);
-    double sum = 0, count = 0;
+namespace {
+
+// Calls visit(index of the pixel, relative illumination) for those that count.
+template <class Visit>
+void visit_light(const BenchSetup& s, const PixelSelection& selection, const Visit& visit) {
+    const RelativeIllumination lens(s.camera, geometry_of(s.camera, 0));
+    std::size_t i = 0;
     for (int y = 0; y < selection.height; ++y)
-        for (int x = 0; x < selection.width; ++x) {
-            if (!selection.use[static_cast<std::size_t>(y) * static_cast<std::size_t>(selection.width) +
-                               static_cast<std::size_t>(x)])
-                continue;
-            sum += lens.at(selection.left - static_cast<double>(c.black_columns) + x + 0.5,
-                           selection.top - static_cast<double>(c.black_rows) + y + 0.5);
-            ++count;
-        }
+        for (int x = 0; x < selection.width; ++x, ++i)
+            if (selection.use[i])
+                visit(i, lens.at(selection.left - static_cast<double>(s.camera.black_columns) + x + 0.5,
+                                 selection.top - static_cast<double>(s.camera.black_rows) + y + 0.5));
+}
+
+}  // namespace
+
+PixelSelection evenly_lit(const BenchSetup& s, PixelSelection selection) {
+    double most = 0;
+    visit_light(s, selection, [&](std::size_t, double light) { most = std::max(most, light); });
+    const PixelSelection all = selection;
+    visit_light(s, all,
+                [&](std::size_t i, double light) { selection.use[i] = light >= 0.99 * most ? 1 : 0; });
+    return selection;
+}
+
+double photons_per_s(const BenchSetup& s, const PixelSelection& selection) {
+    const CameraModel& c = s.camera;
+    double sum = 0;
+    visit_light(s, selection, [&](std::size_t, double light) { sum += light; });
     const double radiance_w_m2_sr_um = s.lamp_w_m2_um / kPi;
     const double pixel_rad = c.pitch_m / c.focal_length_m;
     const double power_w = radiance_w_m2_sr_um * s.grid.width_um(0) * aperture_area_m2(c) * pixel_rad *
                            pixel_rad * c.fill_factor * lens_transmission(c, s.wavelength_um);
-    return power_w / photon_energy_j(s.wavelength_um) * sum / count;
+    return power_w / photon_energy_j(s.wavelength_um) * sum / static_cast<double>(selection.count());
 }
 
 double configured_quantum_efficiency(const BenchSetup& s) {

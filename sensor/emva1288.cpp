@@ -11,9 +11,9 @@ namespace {
 
 // Of a uniform rounding error of one DN (section 2.4).
 constexpr double kQuantisation_dn2 = 1.0 / 12;
-// Third degree takes away falloff and vignetting over a window; of a random pattern it takes ten degrees of
-// freedom.
-constexpr int kShadingOrder = 3;
+// Fourth degree takes away falloff and vignetting over a window to 1e-5; of a random pattern it takes fifteen
+// degrees of freedom.
+constexpr int kShadingOrder = 4;
 
 double square(double x) { return x * x; }
 

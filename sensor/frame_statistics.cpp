@@ -167,16 +167,16 @@ SpatialParts spatial_parts(std::span<const double> image, const PixelSelection& 
 }
 
 std::vector<double> smooth_surface(std::span<const double> image, const PixelSelection& s, int order) {
-    // A line or two of pixels tell no shape across.
-    const int order_y = std::min(order, (s.height - 1) / 4), order_x = std::min(order, (s.width - 1) / 4);
+    // Means of blocks carry the shape; the fit needs no more. Few blocks tell little shape.
+    constexpr int kBlock_px = 16;
+    const int order_x = std::min(order, (s.width - 1) / kBlock_px);
+    const int order_y = std::min(order, (s.height - 1) / kBlock_px);
     const auto terms = [&](double x, double y, std::vector<double>& out) {
         for (int j = 0; j <= order_y; ++j)
             for (int i = 0; i <= std::min(order_x, order - j); ++i)
                 out.push_back(std::legendre(static_cast<unsigned>(i), x) *
                               std::legendre(static_cast<unsigned>(j), y));
     };
-    // Means of blocks carry the shape; the fit needs no more.
-    constexpr int kBlock_px = 16;
     std::vector<double> basis, mean, weight;
     for (int top = 0; top < s.height; top += kBlock_px)
         for (int left = 0; left < s.width; left += kBlock_px) {
