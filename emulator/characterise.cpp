@@ -161,8 +161,9 @@ class Laboratory {
         for (const double share : level_fractions()) {
             LightLevel level = expose_share(share, gain_db);
             level.point.light = take_pairs(bench_, evenly_lit_, light_pairs_);
+            // Little noise: a few frames know the dark signal as well.
             expose_dark(level.exposure_s, gain_db);
-            level.point.dark = take_pairs(bench_, evenly_lit_, light_pairs_);
+            level.point.dark = take_pairs(bench_, evenly_lit_, (light_pairs_ + 3) / 4);
             out.push_back(level);
         }
         return out;
@@ -212,14 +213,13 @@ class Laboratory {
 
     void measure_linearity(const std::vector<LightPoint>& points, double saturation_dn) {
         out_.linearity = linearity(response_points(points), saturation_dn);
-        // The same procedure on the data sheet's curve, at the same light.
+        // The same procedure on the data sheet's curve, at the same light and over the same range.
         std::vector<ResponsePoint> promised;
         const double efficiency = configured_quantum_efficiency(setup_);
         for (const LightPoint& p : points)
             promised.push_back(
                 {p.photons, configured_signal_dn(setup_.camera, efficiency * p.photons, setup_.gain_db), 0});
-        out_.configured_linearity = linearity(
-            promised, configured_signal_dn(setup_.camera, saturation_e(setup_.gain_db), setup_.gain_db));
+        out_.configured_linearity = linearity(promised, saturation_dn);
     }
 
     void measure_nonuniformity(const ResponseCurve& response) {

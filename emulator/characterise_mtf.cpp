@@ -141,6 +141,8 @@ MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, Edg
     const EdgeMtf mtf =
         slanted_edge_mtf({selection.width, selection.height, value, selection.use, pixel_noise}, {.step = 1});
     MtfCurve out{mtf.normal_rad, mtf.frequency_cy_px, {}, mtf.mtf, mtf.uncertainty};
+    // At zero frequency that is 1 by the calibration; the step near the edge is of the frequencies above.
+    out.measured.front() = 1, out.uncertainty.front() = 0;
     for (const double f : mtf.frequency_cy_px) {
         const double u = std::abs(f * std::cos(mtf.normal_rad)), v = std::abs(f * std::sin(mtf.normal_rad));
         out.configured.push_back(bench.chain().mtf(u, v) * transfer_mtf(s.camera, u, v));

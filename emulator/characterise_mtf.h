@@ -5,7 +5,7 @@
 // plate), each carried to a scale linear in light by the measured response: that takes out offsets, gains and
 // shading, and sets MTF = 1 at zero frequency to what large surfaces show. So a lens's veiling glare, which
 // takes contrast from everything but large surfaces, lowers the measured curve as it lowers the configured
-// one.
+// one. Not resolved: what changes within 1/32 cycles/px, as a halo's curve does at its very beginning.
 
 #include <vector>
 

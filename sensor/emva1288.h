@@ -53,8 +53,8 @@ class ResponseCurve {
 };
 
 // K of small signals. The standard's K is one slope for all signals; where the response bends by a share a
-// of full scale, that slope is off by about 3 a. Mean and variance are therefore carried to the straight
-// line of small signals first: mu by the curve's inverse, sigma^2 by the square of its slope.
+// at full scale, that slope is off by 1.6 a. Mean and variance are therefore carried to the straight line of
+// small signals first: mu by the curve's inverse, sigma^2 by the square of its slope.
 Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const ResponseCurve& response,
                                 double saturation_dn);
 
