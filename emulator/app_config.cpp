@@ -1,8 +1,10 @@
 #include "emulator/app_config.h"
 
+#include <cmath>
 #include <limits>
 
 #include "io/config_yaml.h"
+#include "io/plain_number.h"
 #include "render/check.h"
 #include "render/units.h"
 
@@ -118,6 +120,11 @@ Fields fields(QualityConfig& q) {
     list.push_back(integer("oversampling", q.oversampling, {1, 8},
                            "radiance pixels across one of the detector: what is finer than a pixel then "
                            "aliases as on a real sensor"));
+    list.push_back(choice("motion", q.motion, {"off", "fast", "exact"},
+                          "during the exposure. off: its middle; fast: the middle, blurred along the "
+                          "picture's way; exact: the mean of several instants"));
+    list.push_back(number("motion_error_px", q.motion_error_px, 1, {0.01, 16},
+                          "exact: an instant for each so many pixels that anything moves"));
     return list;
 }
 
@@ -162,7 +169,9 @@ Fields fields(ScenarioConfig& s) {
         section("stars", s.stars, "the stars"),
         numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
                 "edges of the spectral bins"),
-        section("rays", s.models.rays, "how pixels become rays"),
+        optional(
+            section("rays", s.models.rays, "how pixels become rays, if not as the camera's shutter says"),
+            s.has_rays),
         text("radiance", s.models.radiance, "reflected | emissive, or a plug-in's"),
         sections("plugins", s.plugins, "shared libraries that add models"),
         section("quality", s.quality, "speed against accuracy"),
@@ -174,9 +183,49 @@ Fields fields(ScenarioConfig& s) {
     return list;
 }
 
+namespace {
+
+// What the camera's shutter makes of its rows.
+const char* rays_of(ShutterKind kind) {
+    switch (kind) {
+        case ShutterKind::kRolling:
+            return "rolling";
+        case ShutterKind::kLineScan:
+            return "pushbroom";
+        case ShutterKind::kGlobal:
+        case ShutterKind::kFrameTransfer:
+            break;
+    }
+    return "pinhole";
+}
+
+// A plug-in's rays may do as they like; the program's own must be those of the shutter.
+void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
+    const std::string expected = rays_of(shutter.kind);
+    const bool own = rays.model == "pinhole" || rays.model == "rolling" || rays.model == "pushbroom";
+    if (!own) return;
+    if (rays.model != expected)
+        throw InputError("rays.model: found '" + rays.model + "'; the camera's shutter asks for '" +
+                         expected + "' (leave 'rays' out, or change camera.shutter.kind)");
+    if (expected != "pinhole" && std::abs(rays.line_time_s - shutter.line_time_s) > 1e-12)
+        throw InputError("rays.line_time_us: found " + plain(rays.line_time_s * 1e6) +
+                         "; camera.shutter.line_time_us is " + plain(shutter.line_time_s * 1e6));
+}
+
+}  // namespace
+
+RenderModels models_of(const ScenarioConfig& s) {
+    RenderModels models = s.models;
+    if (!s.has_rays) models.rays = {rays_of(s.camera.shutter.kind), s.camera.shutter.line_time_s};
+    // Rows of the radiance image, of which there are more.
+    models.rays.line_time_s /= static_cast<double>(s.quality.oversampling);
+    return models;
+}
+
 void validate(const ScenarioConfig& s) {
     parse_utc(s.time_utc);
     SpectralGrid grid(s.spectrum_edges_um);
+    if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
 }
 
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

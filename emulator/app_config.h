@@ -103,10 +103,15 @@ struct StarsConfig {
 };
 Fields fields(StarsConfig& stars);
 
+// What is shown of the world's motion while the shutter is open (exposure_renderer.h).
+enum class MotionQuality { kOff, kFast, kExact };
+
 struct QualityConfig {
     RenderQuality render;
     std::int64_t guard_px = 28;
     std::int64_t oversampling = 1;
+    MotionQuality motion = MotionQuality::kFast;
+    double motion_error_px = 0.25;
 };
 Fields fields(QualityConfig& quality);
 // How the radiance images of that quality are made.
@@ -150,6 +155,7 @@ struct ScenarioConfig {
     StarsConfig stars;
     std::vector<double> spectrum_edges_um = {0.40, 0.52, 0.62, 0.75, 0.95};
     RenderModels models;
+    bool has_rays = false;
     std::vector<PluginConfig> plugins;
     QualityConfig quality;
     CommandsConfig commands;
@@ -157,6 +163,9 @@ struct ScenarioConfig {
 };
 Fields fields(ScenarioConfig& scenario);
 void validate(const ScenarioConfig& scenario);
+
+// The models to render with: rays as the camera's shutter has them, unless the scenario gives its own.
+RenderModels models_of(const ScenarioConfig& scenario);
 
 // Reads and checks a scenario. Throws InputError.
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides);

@@ -53,6 +53,9 @@ CommandStatus CommandDispatch::change(const SettingsCommand& s) {
         !inside(s.gain_db, l.least_gain_db, l.most_gain_db) ||
         !inside(s.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz))
         return CommandStatus::kBadArgument;
+    if ((s.exposure_s && l.exposure_is_own) || (s.gain_db && l.gain_is_own) ||
+        (s.frame_rate_hz && l.frame_rate_is_own))
+        return CommandStatus::kBadArgument;
     if (s.exposure_s) settings_.set_exposure_s(*s.exposure_s);
     if (s.gain_db) settings_.set_gain_db(*s.gain_db);
     if (s.frame_rate_hz) settings_.set_frame_rate_hz(*s.frame_rate_hz);

@@ -79,8 +79,9 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, clock_);
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
-    loop_ = std::make_unique<FrameLoop>(*renderer_, *chain_, grid_, scenario.camera, *world_, *settings_,
-                                        clock_, sinks(), static_cast<std::uint64_t>(scenario.seed),
+    exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario, grid_, world_->placed_objects());
+    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario.camera, *world_, *settings_, clock_,
+                                        sinks(), static_cast<std::uint64_t>(scenario.seed),
                                         LoopLimits{limits.frames, limits.paced});
 }
 
@@ -95,8 +96,8 @@ void Emulator::make_sinks() {
         sinks_.push_back(std::make_unique<GigeSink>(gige, *settings_, &delivery_));
     }
     if (o.has_v4l2)
-        sinks_.push_back(
-            std::make_unique<V4l2Sink>(o.v4l2, width, height, scenario_.camera.frame_rate_hz, &delivery_));
+        sinks_.push_back(std::make_unique<V4l2Sink>(o.v4l2, width, height,
+                                                    settings_->settings().frame_rate_hz, &delivery_));
     if (o.has_files) sinks_.push_back(std::make_unique<FilesSink>(o.files, width, height));
 }
 

@@ -8,6 +8,7 @@
 
 #include "emulator/app_config.h"
 #include "emulator/command_dispatch.h"
+#include "emulator/exposure_renderer.h"
 #include "emulator/frame_loop.h"
 
 namespace hilcam {
@@ -55,6 +56,7 @@ class Emulator {
     std::unique_ptr<CommandDispatch> dispatch_;
     std::unique_ptr<UdpCommandReceiver> commands_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
+    std::unique_ptr<ExposureRenderer> exposures_;
     std::unique_ptr<FrameLoop> loop_;
     double seconds_ = 0;
 };

@@ -13,29 +13,30 @@ std::int64_t from_ms(double ms) { return static_cast<std::int64_t>(ms * 1e6); }
 
 }  // namespace
 
-FrameLoop::FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid& grid,
-                     const CameraModel& camera, WorldState& world, LiveSettings& settings,
-                     const SimulatedClock& clock, std::vector<FrameSink*> sinks, std::uint64_t seed,
-                     const LoopLimits& limits)
-    : renderer_(renderer),
+FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const CameraModel& camera,
+                     WorldState& world, LiveSettings& settings, const SimulatedClock& clock,
+                     std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits)
+    : exposures_(exposures),
       chain_(chain),
-      bits_(camera.frame_bits()),
+      camera_(camera),
+      timing_(camera),
       world_(world),
       settings_(settings),
       clock_(clock),
       sinks_(std::move(sinks)),
       seed_(seed),
       limits_(limits) {
-    const ImageGeometry& g = renderer.geometry();
+    for (const SettingsStep& step : camera.sequence)
+        longest_step_s_ = std::max(longest_step_s_, step.exposure_s);
     for (Slot& slot : slots_) {
-        slot.radiance = RadianceImage(g.padded_width(), g.padded_height(), grid.size());
-        slot.points.reserve(renderer.most_points());
+        slot.radiance = exposures.make_image();
+        slot.points.reserve(exposures.most_points());
     }
-    snapshot_.objects.resize(world.placed_objects());
     const auto [array_width, array_height] = array_size(camera);
     electrons_ = ElectronImage(array_width, array_height);
     const auto [width, height] = frame_size(camera);
     frame_ = DnImage(width, height);
+    if (camera.auto_exposure.on) histogram_ = FrameHistogram(camera.frame_bits());
 }
 
 void FrameLoop::start() {
@@ -58,12 +59,11 @@ void FrameLoop::render_frames() {
     for (std::size_t turn = 0;; ++turn) {
         free_.acquire();
         std::int64_t start_ns = 0;
-        CameraSettings settings;
         const bool enough = limits_.frames != 0 && turn >= limits_.frames;
-        if (enough || !wait_for_exposure(schedule, record, start_ns, settings)) break;
         Slot& slot = slots_[turn % slots_.size()];
+        if (enough || !wait_for_exposure(schedule, slot, record, start_ns)) break;
         slot.record = record;
-        render_into(slot, start_ns, settings);
+        render_into(slot, start_ns);
         rendered_.release();
     }
     finished_.store(true);
@@ -72,8 +72,7 @@ void FrameLoop::render_frames() {
 }
 
 // False when the loop ends. Also idles while the camera is stopped.
-bool FrameLoop::wait_for_exposure(FrameSchedule& schedule, FrameRecord& record, std::int64_t& start_ns,
-                                  CameraSettings& settings) {
+bool FrameLoop::wait_for_start(FrameSchedule& schedule, CameraSettings& settings) {
     bool idle = false;
     while (true) {
         if (stopping_.load(std::memory_order_relaxed)) return false;
@@ -82,43 +81,58 @@ bool FrameLoop::wait_for_exposure(FrameSchedule& schedule, FrameRecord& record, 
         idle = true;
         sleep_until_monotonic_ns(monotonic_now_ns() + 5'000'000);
     }
-    if (!limits_.paced) {
-        start_ns = monotonic_now_ns();
-        ++record.id;
-        return true;
-    }
     if (idle) schedule.restart(monotonic_now_ns());
-    const std::int64_t period_ns = to_ns(std::max(1 / settings.frame_rate_hz, settings.exposure_s));
-    const FrameSchedule::Slot due = schedule.take(monotonic_now_ns(), period_ns);
+    return true;
+}
+
+// Waits for the next frame's begin; its id, exposure and gain go into the record. False when the loop ends.
+bool FrameLoop::wait_for_exposure(FrameSchedule& schedule, const Slot& slot, FrameRecord& record,
+                                  std::int64_t& start_ns) {
+    CameraSettings settings;
+    if (!wait_for_start(schedule, settings)) return false;
+    record.exposure_s = slot.next_exposure_s > 0 ? slot.next_exposure_s : settings.exposure_s;
+    record.gain_db = settings.gain_db;
+    start_ns = monotonic_now_ns();
+    FrameSchedule::Slot due{start_ns, 0};
+    if (limits_.paced)
+        due = schedule.take(start_ns, to_ns(timing_.period_s(settings.frame_rate_hz,
+                                                             std::max(record.exposure_s, longest_step_s_))));
     counters_.deadline_misses.fetch_add(due.skipped, std::memory_order_relaxed);
     record.id += 1 + due.skipped;
+    if (!camera_.sequence.empty()) {
+        const SettingsStep& step = camera_.sequence[(record.id - 1) % camera_.sequence.size()];
+        record.exposure_s = step.exposure_s;
+        record.gain_db = step.gain_db;
+    }
+    settings_.tell_own(record.exposure_s, record.gain_db);
     start_ns = due.start_ns;
-    while (monotonic_now_ns() < start_ns) {
+    while (limits_.paced && monotonic_now_ns() < start_ns) {
         if (stopping_.load(std::memory_order_relaxed)) return false;
         sleep_until_monotonic_ns(std::min(start_ns, monotonic_now_ns() + kLongestSleep_ns));
     }
     return true;
 }
 
-void FrameLoop::render_into(Slot& slot, std::int64_t start_ns, const CameraSettings& settings) {
+void FrameLoop::render_into(Slot& slot, std::int64_t start_ns) {
     const std::int64_t begun_ns = monotonic_now_ns();
     FrameRecord& record = slot.record;
-    record.exposure_s = settings.exposure_s;
-    record.gain_db = settings.gain_db;
-    record.bits = bits_;
-    record.exposure_mid_monotonic_ns = start_ns + to_ns(settings.exposure_s) / 2;
+    record.bits = camera_.frame_bits();
+    record.exposure_mid_monotonic_ns = start_ns + to_ns(timing_.middle_s(record.exposure_s));
     record.exposure_mid = clock_.at(record.exposure_mid_monotonic_ns);
-    slot.exposure_end_ns = limits_.paced ? start_ns + to_ns(settings.exposure_s) : 0;
+    slot.exposure = {record.exposure_s, record.gain_db, {}, {}};
+    slot.exposure_end_ns = limits_.paced ? start_ns + to_ns(timing_.end_s(record.exposure_s)) : 0;
 
-    ShownCommand shown;
-    world_.sample(record.exposure_mid, snapshot_, shown);
+    const ExposureRenderer::Result result = exposures_.render(world_, record.exposure_mid, {seed_, record.id},
+                                                              slot.radiance, slot.points, slot.exposure);
+    const ShownCommand& shown = result.shown;
     record.pose_sequence = shown.sequence;
     // Latency is that of a command in the first frame that shows it.
     record.command_arrival_monotonic_ns =
         shown.arrival_monotonic_ns > shown_arrival_ns_ ? shown.arrival_monotonic_ns : 0;
     shown_arrival_ns_ = std::max(shown_arrival_ns_, shown.arrival_monotonic_ns);
 
-    renderer_.render(snapshot_, {seed_, record.id}, slot.radiance, slot.points, stats_);
+    stats_ = result.stats;
+    if (result.parts_limited) counters_.motion_limited.fetch_add(1, std::memory_order_relaxed);
     meters_.setup.record(from_ms(stats_.setup_ms));
     meters_.trace.record(from_ms(stats_.trace_ms));
     meters_.stars.record(from_ms(stats_.points_ms));
@@ -141,9 +155,9 @@ void FrameLoop::sense_frames() {
 
 void FrameLoop::sense(Slot& slot) {
     const std::int64_t begun_ns = monotonic_now_ns();
-    const Exposure exposure{slot.record.exposure_s, slot.record.gain_db, {}, {}};
-    chain_.expose(slot.radiance, slot.points, exposure, electrons_);
-    chain_.digitise(electrons_, exposure, {seed_, slot.record.id}, frame_);
+    chain_.expose(slot.radiance, slot.points, slot.exposure, electrons_);
+    chain_.digitise(electrons_, slot.exposure, {seed_, slot.record.id}, frame_);
+    if (camera_.auto_exposure.on) measure_exposure(slot);
     const SensorTimes& times = chain_.times();
     meters_.collapse.record(from_ms(times.collapse_ms));
     meters_.convolve.record(from_ms(times.convolve_ms));
@@ -160,6 +174,24 @@ void FrameLoop::sense(Slot& slot) {
     if (last_published_ns_ != 0) meters_.interval.record(done_ns - last_published_ns_);
     last_published_ns_ = done_ns;
     counters_.frames.fetch_add(1, std::memory_order_relaxed);
+}
+
+void FrameLoop::measure_exposure(Slot& slot) {
+    DnScale scale;
+    scale.black_dn = camera_.offset_dn;
+    scale.most_dn = std::exp2(static_cast<double>(camera_.bits)) - 1;
+    scale.full_dn =
+        std::min(scale.most_dn,
+                 camera_.offset_dn + camera_.full_well_e * camera_.system_gain_dn_e(slot.exposure.gain_db));
+    scale.square_root = camera_.converter.companding == Companding::kSquareRoot;
+    const auto binned = [](std::int64_t black, std::int64_t binning) {
+        return static_cast<int>((black + binning - 1) / binning);
+    };
+    const Brightness seen = histogram_.measure(frame_, binned(camera_.black_columns, camera_.binning_x),
+                                               binned(camera_.black_rows, camera_.binning_y),
+                                               camera_.auto_exposure.percentile, scale);
+    slot.next_exposure_s = next_exposure_s(camera_.auto_exposure, seen, slot.exposure.exposure_s,
+                                           {camera_.exposure_range_s[0], camera_.exposure_range_s[1]});
 }
 
 }  // namespace hilcam

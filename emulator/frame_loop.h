@@ -5,11 +5,16 @@
 // While a frame is sensed the next one is rendered. Both use oneTBB's threads inside. Frames pass through two
 // slots allocated before the start; hand-over is by semaphores.
 //
-// Timing in free-run: exposure k is [s_k, s_k + exposure], s_k = s_0 + k period on CLOCK_MONOTONIC, period
-// the longer of 1 / frame rate and exposure. Rendering begins at s_k and shows the pose of the exposure's
-// middle, propagated; the frame leaves not before s_k + exposure. Example at 30 Hz and 2 ms: rendering starts
-// at 0.0, the pose is that of 1.0 ms, a frame computed in 25 ms leaves at 25 ms, the next rendering starts
-// at 33.3 ms. A start missed by more than a period is skipped and counted; frame ids leave a gap there.
+// Timing in free-run: frame k begins at s_k = s_0 + k period on CLOCK_MONOTONIC; its middle, its end and the
+// period follow from exposure, frame rate and shutter (shutter_timing.h). Rendering begins at s_k and shows
+// the pose of the middle, propagated; the frame leaves not before its end. Example of a global shutter at 30
+// Hz and 2 ms: rendering starts at 0.0, the pose is that of 1.0 ms, a frame computed in 25 ms leaves at 25
+// ms, the next rendering starts at 33.3 ms. A start missed by more than a period is skipped and counted;
+// frame ids leave a gap there.
+//
+// Settings of a frame: exposure and gain are those of the live settings, or of its step of the camera's
+// sequence, or with automatic exposure what the frame two before it in the loop asks for: that is the one
+// whose slot it takes over, so it does not depend on timing.
 //
 // After start() both threads neither allocate nor lock nor log, but for what Embree does inside
 // rtcCommitScene.
@@ -24,8 +29,10 @@
 #include <vector>
 
 #include "emulator/clock.h"
+#include "emulator/exposure_renderer.h"
 #include "emulator/latency.h"
 #include "emulator/live_settings.h"
+#include "emulator/shutter_timing.h"
 #include "emulator/world_state.h"
 #include "io/frame_sink.h"
 #include "render/renderer.h"
@@ -42,6 +49,7 @@ struct StageMeters {
 struct LoopCounters {
     std::atomic<std::uint64_t> frames{0};
     std::atomic<std::uint64_t> deadline_misses{0};  // exposures skipped because the one before took too long
+    std::atomic<std::uint64_t> motion_limited{0};   // frames with more motion than exact motion divides
 };
 
 struct LoopLimits {
@@ -51,9 +59,9 @@ struct LoopLimits {
 
 class FrameLoop {
   public:
-    FrameLoop(Renderer& renderer, SensorChain& chain, const SpectralGrid& grid, const CameraModel& camera,
-              WorldState& world, LiveSettings& settings, const SimulatedClock& clock,
-              std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits);
+    FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const CameraModel& camera, WorldState& world,
+              LiveSettings& settings, const SimulatedClock& clock, std::vector<FrameSink*> sinks,
+              std::uint64_t seed, const LoopLimits& limits);
     ~FrameLoop() { stop(); }
 
     void start();
@@ -70,19 +78,25 @@ class FrameLoop {
         RadianceImage radiance;
         std::vector<PointSource> points;
         FrameRecord record;
+        Exposure exposure;
         std::int64_t exposure_end_ns = 0;
+        double next_exposure_s = 0;  // automatic: of the slot's next frame; 0: not measured yet
     };
 
     void render_frames();
     void sense_frames();
-    bool wait_for_exposure(FrameSchedule& schedule, FrameRecord& record, std::int64_t& start_ns,
-                           CameraSettings& settings);
-    void render_into(Slot& slot, std::int64_t start_ns, const CameraSettings& settings);
+    bool wait_for_exposure(FrameSchedule& schedule, const Slot& slot, FrameRecord& record,
+                           std::int64_t& start_ns);
+    bool wait_for_start(FrameSchedule& schedule, CameraSettings& settings);
+    void render_into(Slot& slot, std::int64_t start_ns);
     void sense(Slot& slot);
+    void measure_exposure(Slot& slot);
 
-    Renderer& renderer_;
+    ExposureRenderer& exposures_;
     SensorChain& chain_;
-    int bits_;
+    const CameraModel camera_;
+    ShutterTiming timing_;
+    double longest_step_s_ = 0;  // of the camera's sequence
     WorldState& world_;
     LiveSettings& settings_;
     const SimulatedClock& clock_;
@@ -92,11 +106,11 @@ class FrameLoop {
 
     std::array<Slot, 2> slots_;
     std::counting_semaphore<> free_{2}, rendered_{0};
-    WorldSnapshot snapshot_;
     RenderStats stats_;
     std::int64_t shown_arrival_ns_ = 0;
     ElectronImage electrons_;
     DnImage frame_;
+    FrameHistogram histogram_;  // for automatic exposure
     std::int64_t last_published_ns_ = 0;
 
     LoopCounters counters_;

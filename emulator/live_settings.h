@@ -2,6 +2,7 @@
 // The camera's settings while it runs: changed by commands and camera interfaces, read by the loop without a
 // lock.
 
+#include <atomic>
 #include <mutex>
 
 #include "io/camera_control.h"
@@ -23,6 +24,11 @@ class LiveSettings : public CameraControl {
 
     // Loop, one thread. No lock.
     const CameraSettings& read_in_loop() { return latest_.read(); }
+    // Loop: what a camera that sets them itself has set; settings() tells it.
+    void tell_own(double exposure_s, double gain_db) {
+        if (limits_.exposure_is_own) own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
+        if (limits_.gain_is_own) own_gain_db_.store(gain_db, std::memory_order_relaxed);
+    }
 
   private:
     bool set(double CameraSettings::*member, double value, double least, double most);
@@ -31,6 +37,7 @@ class LiveSettings : public CameraControl {
     mutable std::mutex mutex_;
     CameraSettings settings_;
     Latest<CameraSettings> latest_;
+    std::atomic<double> own_exposure_s_, own_gain_db_;
 };
 
 }  // namespace hilcam

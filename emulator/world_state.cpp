@@ -97,24 +97,27 @@ bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command)
 }
 
 void WorldState::sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown) {
-    world.time = time;
-    world.bodies = bodies_at(time, origin_);
     shown = {};
-    for (std::size_t i = 0; i < things_.size(); ++i) {
-        const History& history = things_[i]->latest.read();
-        if (i == 0) {
-            const Motion camera = history.motion_at(time);
-            world.camera = camera.pose;
-            world.camera_velocity_m_s = camera.velocity_world_m_s;
-            world.camera_rate_rad_s = camera.rate_body_rad_s;
-        } else if (i <= objects_) {
-            world.objects[i - 1] = history.at(time);
-        } else {
-            const Joint& joint = joints_[i - 1 - objects_];
-            world.objects[i - 1] =
-                turned(world.objects[joint.object], joint, history.at(time).position_world_m.x);
-        }
-        if (history.command.arrival_monotonic_ns > shown.arrival_monotonic_ns) shown = history.command;
+    for (const auto& thing : things_) {
+        thing->sampled = &thing->latest.read();
+        if (thing->sampled->command.arrival_monotonic_ns > shown.arrival_monotonic_ns)
+            shown = thing->sampled->command;
+    }
+    sample_again(time, true, world);
+}
+
+void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const {
+    world.time = time;
+    if (with_bodies) world.bodies = bodies_at(time, origin_);
+    const Motion camera = things_.front()->sampled->motion_at(time);
+    world.camera = camera.pose;
+    world.camera_velocity_m_s = camera.velocity_world_m_s;
+    world.camera_rate_rad_s = camera.rate_body_rad_s;
+    for (std::size_t i = 0; i < objects_; ++i) world.objects[i] = things_[1 + i]->sampled->at(time);
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+        const Joint& joint = joints_[i];
+        const double angle_rad = things_[1 + objects_ + i]->sampled->at(time).position_world_m.x;
+        world.objects[objects_ + i] = turned(world.objects[joint.object], joint, angle_rad);
     }
 }
 

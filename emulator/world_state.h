@@ -54,6 +54,9 @@ class WorldState {
     // Loop, one thread. `world.objects` must have room for placed_objects(): the objects, then the joints'
     // parts. No allocation, no lock.
     void sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown);
+    // Another instant, told from what the last sample() knew: commands that came since do not count. Without
+    // bodies they stay as they are in `world`.
+    void sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const;
 
   private:
     struct History {
@@ -70,6 +73,7 @@ class WorldState {
     struct Thing {
         History written;  // the writers' copy
         Latest<History> latest;
+        const History* sampled = nullptr;  // the loop's
     };
     std::mutex writers_;
     std::vector<std::unique_ptr<Thing>> things_;

@@ -19,6 +19,9 @@ struct CameraLimits {
     double least_exposure_s = 0, most_exposure_s = 0;
     double least_gain_db = 0, most_gain_db = 0;
     double least_frame_rate_hz = 0, most_frame_rate_hz = 0;
+    // The camera sets them itself (automatic exposure, a sequence, a line-scan shutter): any change is
+    // refused.
+    bool exposure_is_own = false, gain_is_own = false, frame_rate_is_own = false;
 };
 
 // Changes take effect with the next frame whose exposure has not begun. A value outside the limits changes

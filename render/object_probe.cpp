@@ -79,7 +79,7 @@ TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& w
                                   const ObjectPlan& plan, double radius_m, PathModel& paths,
                                   const PointField& field, std::vector<PointSource>& points) {
     const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-    if (!field.sees(to_object_m / plan.distance_m)) return {};
+    if (!field.sees(to_object_m / plan.distance_m, plan.distance_m)) return {};
     aim(frame, world, i, plan.distance_m, radius_m);
     const TileStats stats = trace(paths);
     // A sample's solid angle; the picture is a few pixels of the camera, so cosines are 1.
@@ -99,7 +99,8 @@ TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& w
                 }
             if (!(light > 0)) continue;
             const Vec3d at = world_from_view_ * view_.geometry.direction_camera(x_sum / light, y_sum / light);
-            field.add(normalized(at), plan.distance_m - kMargin * radius_m, solid_angle * sum, points);
+            field.add(normalized(at), plan.distance_m - kMargin * radius_m, solid_angle * sum, points,
+                      static_cast<std::uint32_t>(i));
         }
     return stats;
 }

@@ -1,34 +1,61 @@
 #include "render/point_field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "render/units.h"
 
 namespace hilcam {
 
 PointField::PointField(const FrameView& frame, const WorldSnapshot& world)
-    : frame_(frame), camera_from_world_(transposed(to_matrix(world.camera.world_from_body))) {
+    : frame_(frame), boresight_dir_(to_matrix(world.camera.world_from_body) * Vec3d{0, 0, 1}) {
     // The farthest corner of the field; distortion may push any of the four out.
-    least_cosine_ = 1;
+    double least = 1;
     const ImageGeometry& g = frame.geometry;
     for (const int x : {-g.guard_px, g.width_px + g.guard_px})
         for (const int y : {-g.guard_px, g.height_px + g.guard_px})
-            least_cosine_ = std::min(least_cosine_, normalized(g.direction_camera(x, y)).z);
+            least = std::min(least, normalized(g.direction_camera(x, y)).z);
+    const double sweep_rad = frame.rays->sweep_rad();
+    least_cosine_ = sweep_rad > 0 ? std::cos(std::min(kPi, std::acos(least) + sweep_rad)) : least;
 }
 
-bool PointField::sees(Vec3d dir) const {
-    const Vec3d in_camera = camera_from_world_ * dir;
-    if (in_camera.z < least_cosine_) return false;
-    const Vec2d p = frame_.geometry.project_px(in_camera);
-    const double x = p.x + frame_.geometry.guard_px, y = p.y + frame_.geometry.guard_px;
-    return x >= 0 && y >= 0 && x < frame_.geometry.padded_width() && y < frame_.geometry.padded_height();
+bool PointField::find(Vec3d dir, double distance_m, Sighting& seen) const {
+    // Parallax moves a thing at hand; only what is far away can be told by its direction alone.
+    if (std::isinf(distance_m) && dot(dir, boresight_dir_) < least_cosine_) return false;
+    if (!frame_.rays->find(dir, distance_m, seen)) return false;
+    const ImageGeometry& g = frame_.geometry;
+    const double x = seen.position_px.x + g.guard_px, y = seen.position_px.y + g.guard_px;
+    return x >= 0 && y >= 0 && x < g.padded_width() && y < g.padded_height();
+}
+
+void PointField::push(const Sighting& seen, const PointSource& point,
+                      std::vector<PointSource>& points) const {
+    const auto add = [&](double y_px, double light_ratio) {
+        points.push_back(point);
+        points.back().position_px = {static_cast<float>(seen.position_px.x), static_cast<float>(y_px)};
+        points.back().irradiance_w_m2_um = static_cast<float>(light_ratio) * point.irradiance_w_m2_um;
+    };
+    // A hundredth of a row more is no streak.
+    const auto rows = static_cast<std::size_t>(std::ceil(std::max(0.0, seen.light_ratio - 0.01)));
+    if (rows <= 1 || points.capacity() - points.size() < rows)
+        return add(seen.position_px.y, seen.light_ratio);
+    // The sensor's row, one pixel high, becomes light_ratio rows; the point's own pixel is one of them.
+    const auto n = static_cast<double>(rows);
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double y_px =
+            seen.position_px.y + (seen.light_ratio - 1) * ((static_cast<double>(i) + 0.5) / n - 0.5);
+        if (y_px >= -frame_.geometry.guard_px && y_px < frame_.geometry.height_px + frame_.geometry.guard_px)
+            add(y_px, seen.light_ratio / n);
+    }
 }
 
 void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
-                     std::vector<PointSource>& points) const {
-    if (!sees(dir)) return;
-    const Vec2d p = frame_.geometry.project_px(camera_from_world_ * dir);
-    const auto px = static_cast<int>(p.x + frame_.geometry.guard_px),
-               py = static_cast<int>(p.y + frame_.geometry.guard_px);
+                     std::vector<PointSource>& points, std::uint32_t object) const {
+    Sighting sighting;
+    if (!find(dir, distance_m, sighting)) return;
+    const auto px = static_cast<int>(sighting.position_px.x + frame_.geometry.guard_px),
+               py = static_cast<int>(sighting.position_px.y + frame_.geometry.guard_px);
     const PixelBox here{px, py, px + 1, py + 1};
     Spectrum seen = irradiance;
     if (frame_.may_see_body(here)) {
@@ -38,20 +65,24 @@ void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
         if (frame_.background->air()) frame_.background->add_bodies_seen(dir, seen, ignored);
     }
     if (frame_.object_mask->at(px, py)) {
-        const Vec3f start = frame_.start_of(dir);
-        const double until_m = distance_m - length(to_double(start) - frame_.camera_m);
+        const bool far = std::isinf(distance_m);
+        const Vec3d from_m = sighting.from_camera_m;
+        const Vec3d to_thing_m = far ? dir : distance_m * dir - from_m;
+        const double away_m = far ? distance_m : length(to_thing_m);
+        const Vec3d thing_dir = normalized(to_thing_m);
+        const Vec3f start = frame_.start_of(thing_dir, from_m);
+        const double until_m = away_m - length(to_double(start) - (frame_.camera_m + from_m));
         RayPacket ray;
         ray.count = 1;
-        ray.set(0, start, to_float(dir), 0, static_cast<float>(until_m));
+        ray.set(0, start, to_float(thing_dir), 0, static_cast<float>(until_m));
         if (until_m > 0 && frame_.scene->occluded(ray)) return;
     }
-    points.push_back({{static_cast<float>(p.x), static_cast<float>(p.y)}, seen});
+    push(sighting, {{}, seen, object, {}}, points);
 }
 
 void PointField::add_stars(const std::vector<Star>& stars, std::vector<PointSource>& points) const {
-    const Vec3d boresight = camera_from_world_.z;
     for (const Star& star : stars)
-        if (dot(star.world_dir, boresight) >= least_cosine_)
+        if (dot(star.world_dir, boresight_dir_) >= least_cosine_)
             add(star.world_dir, std::numeric_limits<double>::infinity(), star.irradiance_w_m2_um, points);
 }
 

@@ -10,23 +10,31 @@
 
 namespace hilcam {
 
-// For one frame. With rows of different instants all points are at the frame's own. Loop; no allocation while
-// the vector has room.
+// For one frame. With rows of different instants each point is where the row is that sees it; a scanning
+// line that is slow over a star draws it as a column of points, one per row, while the vector has room. Loop;
+// no allocation while the vector has room.
 class PointField {
   public:
     PointField(const FrameView& frame, const WorldSnapshot& world);
 
     void add_stars(const std::vector<Star>& stars, std::vector<PointSource>& points) const;
-    // A thing at a distance [m] in a direction (unit, world) with this irradiance at the camera.
+    // A thing at a distance [m] in a direction (unit, world) with this irradiance at the camera; part of an
+    // object, or of the sky.
     void add(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
-             std::vector<PointSource>& points) const;
-    // Whether the direction is in the padded image.
-    bool sees(Vec3d dir) const;
+             std::vector<PointSource>& points, std::uint32_t object = PointSource::kSky) const;
+    // Whether the thing is in the padded image.
+    bool sees(Vec3d dir, double distance_m) const {
+        Sighting ignored;
+        return find(dir, distance_m, ignored);
+    }
 
   private:
     const FrameView& frame_;
-    Mat3d camera_from_world_;
-    double least_cosine_;
+    Vec3d boresight_dir_;
+    double least_cosine_;  // to the boresight at the frame's time, of what can be in the image
+
+    bool find(Vec3d dir, double distance_m, Sighting& seen) const;
+    void push(const Sighting& seen, const PointSource& point, std::vector<PointSource>& points) const;
 };
 
 }  // namespace hilcam

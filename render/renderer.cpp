@@ -235,6 +235,15 @@ struct Renderer::Implementation {
                             : everything;
     }
 
+    MovingFrame moving() const {
+        return {frame,
+                plans,
+                radii_m,
+                terrain ? terrain->body() : std::optional<BodyId>(),
+                terrain != nullptr,
+                !stars.empty() || !background.points().empty()};
+    }
+
     PixelBox tile(int index) const {
         const int x = index % tiles_across * tile_px;
         const int y = index / tiles_across * tile_px;
@@ -357,6 +366,29 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     stats.secondary_rays = sum.secondary_rays;
     stats.coverage = sum.covered_px / (static_cast<double>(my.frame.geometry.padded_width()) *
                                        my.frame.geometry.padded_height());
+}
+
+ImageMotion Renderer::motion(const WorldSnapshot& middle, const WorldSnapshot& before,
+                             const WorldSnapshot& after) {
+    implementation_->place(middle, {});
+    return motion_of_last(before, after);
+}
+
+ImageMotion Renderer::motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after) {
+    const Implementation& my = *implementation_;
+    return image_motion(my.moving(), {my.world, before, after});
+}
+
+void Renderer::set_drifts(const WorldSnapshot& before, const WorldSnapshot& after, double per_s,
+                          std::span<PointSource> points) {
+    const Implementation& my = *implementation_;
+    hilcam::set_drifts(my.moving(), {my.world, before, after}, per_s, points);
+}
+
+bool Renderer::last_shows_body() const {
+    const Implementation& my = *implementation_;
+    const PixelBox everything{0, 0, my.frame.geometry.padded_width(), my.frame.geometry.padded_height()};
+    return (my.terrain && my.terrain->body()) || my.frame.may_see_body(everything);
 }
 
 std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {

@@ -14,6 +14,7 @@
 #include "render/config_field.h"
 #include "render/image.h"
 #include "render/image_geometry.h"
+#include "render/image_motion.h"
 #include "render/modules.h"
 #include "render/plan.h"
 #include "render/point_source.h"
@@ -74,6 +75,16 @@ class Renderer {
     // the result does not depend on the thread count.
     void render(const WorldSnapshot& world, RandomKey key, RadianceImage& radiance,
                 std::vector<PointSource>& points, RenderStats& stats);
+
+    // How the picture of `middle` moves from the one world to the other. Loop, as render().
+    ImageMotion motion(const WorldSnapshot& middle, const WorldSnapshot& before, const WorldSnapshot& after);
+    // The same of the world that was rendered last.
+    ImageMotion motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after);
+    // Sets the drifts of the points that it gave: the way from one world to the other, times per_s.
+    void set_drifts(const WorldSnapshot& before, const WorldSnapshot& after, double per_s,
+                    std::span<PointSource> points);
+    // A body's disk or terrain on one may be in the last picture: how it moves depends on the bodies.
+    bool last_shows_body() const;
 
     // An upper bound of the points that render() can give.
     std::size_t most_points() const;

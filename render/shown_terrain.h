@@ -2,6 +2,7 @@
 // The scene's terrain as one of the renderer's objects, brought up to date with the camera.
 
 #include <memory>
+#include <optional>
 
 #include "render/scene.h"
 #include "render/shown_object.h"
@@ -17,6 +18,8 @@ class ShownTerrain {
     // index: of that object. Owner thread.
     ShownTerrain(EmbreeScene& embree, std::unique_ptr<SceneTerrain> terrain, std::size_t index);
 
+    // What it turns with.
+    std::optional<BodyId> body() const { return terrain_->body; }
     // Takes what the streamer has ready and asks it for what the camera needs; the first call, and every one
     // of a terrain that waits, makes it at once. Gives the pose of the object's mesh. Loop, but for those
     // calls.

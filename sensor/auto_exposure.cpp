@@ -1,5 +1,8 @@
 #include "sensor/auto_exposure.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hilcam {
 
 Fields fields(AutoExposureConfig& c) {
@@ -10,6 +13,38 @@ Fields fields(AutoExposureConfig& c) {
         number("speed", c.speed, 1, {0.01, 1}, "share of the way that a frame goes, in stops"),
         number("tolerance_stops", c.tolerance_stops, 1, {0, 2}, "nothing is changed within"),
     };
+}
+
+double next_exposure_s(const AutoExposureConfig& c, Brightness seen, double present_s,
+                       const ExposureLimits& limits) {
+    // Black is taken as a ten-thousandth of full scale: longer, but by a known step.
+    constexpr double kDarkest = 1e-4;
+    const double missing_stops = std::log2(c.target_fraction / std::max(seen.fraction, kDarkest));
+    double stops = c.speed * missing_stops;
+    if (seen.saturated)
+        stops = std::min(stops, -1.0);
+    else if (std::abs(missing_stops) <= c.tolerance_stops)
+        stops = 0;
+    return std::clamp(present_s * std::exp2(stops), limits.least_s, limits.most_s);
+}
+
+Brightness FrameHistogram::measure(const DnImage& frame, int black_columns, int black_rows, double percentile,
+                                   const DnScale& scale) {
+    std::fill(counts_.begin(), counts_.end(), 0u);
+    for (int y = black_rows; y < frame.height(); ++y)
+        for (const std::uint16_t dn : frame.row(y).subspan(static_cast<std::size_t>(black_columns)))
+            ++counts_[std::min<std::size_t>(dn, counts_.size() - 1)];
+    const double pixels = static_cast<double>(frame.width() - black_columns) * (frame.height() - black_rows);
+    const auto rank = static_cast<std::uint64_t>(std::ceil(percentile / 100 * pixels));
+    std::uint64_t below = 0;
+    std::size_t at = 0;
+    while (at + 1 < counts_.size() && (below += counts_[at]) < rank) ++at;
+    double dn = static_cast<double>(at);
+    if (scale.square_root) dn = dn * dn / (255.0 * 255.0) * scale.most_dn;
+    // Noise spreads a saturated level over some numbers below it.
+    constexpr double kNearlyFull = 0.98;
+    const double range_dn = scale.full_dn - scale.black_dn;
+    return {(dn - scale.black_dn) / range_dn, dn - scale.black_dn >= kNearlyFull * range_dn};
 }
 
 }  // namespace hilcam

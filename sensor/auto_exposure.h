@@ -1,7 +1,17 @@
 #pragma once
 // Automatic exposure: the camera sets its own exposure time from the frames it has taken.
+//
+// A percentile of the frame, its black level taken off, is brought to a share of full scale, which is where
+// the camera saturates: the converter's end or the full well, whichever comes first. Each measurement moves
+// the exposure by `speed` of the missing stops, from the exposure that it was measured at; so a scene that
+// stays is approached from one side, (1 - speed)^n of the way being left after n measurements. A percentile
+// that is saturated says only that it is too bright: the exposure is halved at least.
+
+#include <cstdint>
+#include <vector>
 
 #include "render/config_field.h"
+#include "render/image.h"
 
 namespace hilcam {
 
@@ -13,5 +23,41 @@ struct AutoExposureConfig {
     double tolerance_stops = 0.1;  // nothing is changed within this
 };
 Fields fields(AutoExposureConfig& config);
+
+// The percentile of a frame, as a share of full scale above black; it may be below 0 with noise.
+struct Brightness {
+    double fraction = 0;
+    bool saturated = false;
+};
+
+// [s]
+struct ExposureLimits {
+    double least_s = 0, most_s = 0;
+};
+// The exposure to set after a frame of present_s showed that brightness.
+double next_exposure_s(const AutoExposureConfig& config, Brightness seen, double present_s,
+                       const ExposureLimits& limits);
+
+// What digital numbers of a frame stand for.
+struct DnScale {
+    double black_dn = 0;
+    double full_dn = 4095;     // where the camera saturates
+    double most_dn = 4095;     // of the converter
+    bool square_root = false;  // 8-bit numbers are 255 sqrt(dn / most_dn)
+};
+
+// Counts a frame's numbers. Memory for them is taken at construction.
+class FrameHistogram {
+  public:
+    FrameHistogram() = default;
+    explicit FrameHistogram(int frame_bits) : counts_(std::size_t{1} << frame_bits) {}
+
+    // Leaves out the first black_columns and black_rows of the frame. Loop.
+    Brightness measure(const DnImage& frame, int black_columns, int black_rows, double percentile,
+                       const DnScale& scale);
+
+  private:
+    std::vector<std::uint32_t> counts_;
+};
 
 }  // namespace hilcam

@@ -1,0 +1,191 @@
+#include "emulator/exposure_renderer.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hilcam {
+namespace {
+
+constexpr double kStill_px = 1e-3;  // over the exposure
+
+// Runs work(row, plane) over all rows of an image on the thread pool.
+template <class Work>
+void for_each_row(const RadianceImage& image, const Work& work) {
+    const int height = image.height();
+    tbb::parallel_for(tbb::blocked_range<int>(0, height * image.planes(), 32),
+                      [&](const tbb::blocked_range<int>& range) {
+                          for (int i = range.begin(); i < range.end(); ++i) work(i % height, i / height);
+                      });
+}
+
+void add(const RadianceImage& part, RadianceImage& sum) {
+    for (int y = 0; y < sum.height(); y += RadianceImage::kBlock_px)
+        for (int x = 0; x < sum.width(); x += RadianceImage::kBlock_px)
+            if (!part.dark(x, y)) sum.mark_dark(x, y, false);
+    for_each_row(sum, [&](int y, int plane) {
+        const std::span<const float> in = part.row(y, plane);
+        const std::span<float> out = sum.row(y, plane);
+        for (std::size_t x = 0; x < in.size(); ++x) out[x] += in[x];
+    });
+}
+
+void scale(float factor, RadianceImage& image) {
+    for_each_row(image, [&](int y, int plane) {
+        for (float& value : image.row(y, plane)) value *= factor;
+    });
+}
+
+void accumulate(const RenderStats& part, float share, RenderStats& sum) {
+    sum.primary_rays += part.primary_rays;
+    sum.shadow_rays += part.shadow_rays;
+    sum.secondary_rays += part.secondary_rays;
+    sum.coverage += static_cast<double>(share) * part.coverage;
+    sum.setup_ms += part.setup_ms;
+    sum.trace_ms += part.trace_ms;
+    sum.points_ms += part.points_ms;
+}
+
+// About the camera's axes, from one attitude to another.
+Vec3d mean_rate(Quat from, Quat to, double seconds) {
+    const Quat turn = conjugate(from) * to;
+    const Vec3d axis{turn.x, turn.y, turn.z};
+    const double sine = length(axis);
+    if (!(sine > 0)) return {};
+    // The shorter way round.
+    const double angle_rad = 2 * std::atan2(turn.w < 0 ? -sine : sine, std::abs(turn.w));
+    return (angle_rad / (sine * seconds)) * axis;
+}
+
+}  // namespace
+
+ExposureRenderer::ExposureRenderer(Renderer& renderer, const ScenarioConfig& s, const SpectralGrid& grid,
+                                   std::size_t placed_objects)
+    : renderer_(renderer),
+      motion_(s.quality.motion),
+      motion_error_px_(s.quality.motion_error_px),
+      shutter_(s.camera.shutter),
+      focal_length_px_(s.camera.focal_length_m / s.camera.pitch_m),
+      oversampling_(static_cast<double>(s.quality.oversampling)),
+      jitter_(s.camera.jitter, static_cast<std::uint64_t>(s.seed), parse_utc(s.time_utc)),
+      bins_(static_cast<std::size_t>(grid.size())) {
+    if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
+        motion_ = MotionQuality::kFast;
+    for (WorldSnapshot* world : {&middle_, &before_, &after_, &part_world_})
+        world->objects.resize(placed_objects);
+    if (motion_ != MotionQuality::kExact) return;
+    part_ = make_image();
+    part_points_.reserve(renderer.most_points());
+}
+
+RadianceImage ExposureRenderer::make_image() const {
+    const ImageGeometry& g = renderer_.geometry();
+    return {g.padded_width(), g.padded_height(), static_cast<int>(bins_)};
+}
+
+std::size_t ExposureRenderer::most_points() const {
+    return renderer_.most_points() * (motion_ == MotionQuality::kExact ? kMostParts : 1);
+}
+
+// The jitter of the whole exposure is that of its middle: what is faster is blur.
+void ExposureRenderer::sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
+                                    WorldSnapshot& out) const {
+    if (!with_bodies) out.bodies = middle_.bodies;
+    world.sample_again(time, with_bodies, out);
+    out.camera = jitter_.applied(out.camera, span.middle, span.exposure_s);
+}
+
+void ExposureRenderer::sample_ends(const WorldState& world, const Span& span, bool with_bodies) {
+    const std::int64_t half_ns = span.length_ns / 2;
+    sample_again(world, span, span.middle + -half_ns, with_bodies, before_);
+    sample_again(world, span, span.middle + half_ns, with_bodies, after_);
+}
+
+ExposureRenderer::Result ExposureRenderer::render(WorldState& world, TimeTai middle, RandomKey key,
+                                                  RadianceImage& radiance, std::vector<PointSource>& points,
+                                                  Exposure& exposure) {
+    const Span span{middle, std::llround(exposure.exposure_s * 1e9), exposure.exposure_s};
+    Result result;
+    world.sample(middle, middle_, result.shown);
+    middle_.camera = jitter_.applied(middle_.camera, middle, exposure.exposure_s);
+    exposure.image_rate_px_s = {};
+    exposure.camera_rate_rad_s = {};
+    if (motion_ != MotionQuality::kExact) {
+        renderer_.render(middle_, key, radiance, points, result.stats);
+        if (motion_ == MotionQuality::kOff) return result;
+        sample_ends(world, span, renderer_.last_shows_body());
+        set_rates(renderer_.motion_of_last(before_, after_), 1, exposure);
+        renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
+        return result;
+    }
+    sample_ends(world, span, true);
+    const ImageMotion motion = renderer_.motion(middle_, before_, after_);
+    const double asked = std::ceil(motion.largest_px / oversampling_ / motion_error_px_);
+    result.parts = static_cast<int>(std::clamp(asked, 1.0, static_cast<double>(kMostParts)));
+    result.parts_limited = asked > kMostParts;
+    set_rates(motion, result.parts, exposure);
+    if (result.parts == 1) {
+        renderer_.render(middle_, key, radiance, points, result.stats);
+        renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
+    } else {
+        render_parts(world, span, key, radiance, points, result);
+    }
+    return result;
+}
+
+void ExposureRenderer::render_parts(const WorldState& world, const Span& span, RandomKey key,
+                                    RadianceImage& radiance, std::vector<PointSource>& points,
+                                    Result& result) {
+    const int n = result.parts;
+    const float share = 1 / static_cast<float>(n);
+    // A point's own way in one part, as a rate over the whole exposure.
+    const double per_s = 1 / span.exposure_s;
+    points.clear();
+    for (int k = 0; k < n; ++k) {
+        const auto edge_ns = [&](int i) { return span.length_ns * i / n - span.length_ns / 2; };
+        const TimeTai begin = span.middle + edge_ns(k), end = span.middle + edge_ns(k + 1);
+        sample_again(world, span, begin, true, before_);
+        sample_again(world, span, end, true, after_);
+        sample_again(world, span, begin + (end - begin) / 2, true, part_world_);
+        RenderStats stats;
+        // Each part draws its own samples.
+        const RandomKey part_key{key.seed + static_cast<std::uint64_t>(k) * 0x9E3779B97F4A7C15u, key.frame};
+        renderer_.render(part_world_, part_key, k == 0 ? radiance : part_, part_points_, stats);
+        renderer_.set_drifts(before_, after_, per_s, part_points_);
+        if (k > 0) add(part_, radiance);
+        for (const PointSource& point : part_points_) {
+            points.push_back(point);
+            points.back().irradiance_w_m2_um = share * point.irradiance_w_m2_um;
+        }
+        accumulate(stats, share, result.stats);
+    }
+    scale(share, radiance);
+}
+
+// What the sensor does not expect of the picture along its columns. The line time goes with one pixel: the
+// charge of several stages follows at that rate and only the difference blurs; one stage alone blurs by that
+// pixel, which MTF_sys has (system_mtf.h), and here by what is more.
+double ExposureRenderer::unexpected_px_s(double rate_px_s) const {
+    if (shutter_.kind != ShutterKind::kLineScan) return rate_px_s;
+    const double expected_px_s = 1 / shutter_.line_time_s;
+    const double more_px_s = std::abs(rate_px_s) - expected_px_s;
+    return std::copysign(1.0, rate_px_s) * (shutter_.tdi_stages > 1 ? more_px_s : std::max(0.0, more_px_s));
+}
+
+void ExposureRenderer::set_rates(const ImageMotion& motion, int parts, Exposure& exposure) const {
+    const bool still = motion.largest_px / oversampling_ < kStill_px;
+    if (still && shutter_.kind != ShutterKind::kLineScan) return;
+    const double per_s = 1 / (exposure.exposure_s * oversampling_);
+    const Vec2d rate_px_s{motion.displacement_px.x * per_s,
+                          unexpected_px_s(motion.displacement_px.y * per_s)};
+    Vec3d camera_rad_s =
+        mean_rate(before_.camera.world_from_body, after_.camera.world_from_body, exposure.exposure_s);
+    // Turning about x moves the picture along y, by the focal length per radian.
+    camera_rad_s.x = unexpected_px_s(camera_rad_s.x * focal_length_px_) / focal_length_px_;
+    exposure.image_rate_px_s = {rate_px_s.x / parts, rate_px_s.y / parts};
+    exposure.camera_rate_rad_s = camera_rad_s / static_cast<double>(parts);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,80 @@
+#pragma once
+// One exposure, from the world's motion to the radiance image: what the shutter lets in while it is open.
+//
+// quality.motion
+//   off    the pose at mid-exposure
+//   fast   the pose at mid-exposure, and the picture's rate for the sensor to blur it along: of the thing
+//          that fills most of it (render/image_motion.h); stars go by the camera's own rate. What moves in
+//          another way than that (a second object, a spin, a turn about the boresight) is blurred wrongly.
+//   exact  N equal parts of the exposure, each rendered at its middle, averaged; points of each with 1/N of
+//          their light; the rates cover the step from part to part. N is the largest way of anything in the
+//          picture over motion_error_px, rounded up, at most 64. Error: a thing whose rate differs from the
+//          picture's lacks the blur of its own step, and steps are straight.
+// A scanning line sees each place when it passes: for it exact is fast. What moves less than a thousandth of
+// a pixel is at rest, and its frames are those of motion off.
+//
+// Pointing jitter (sensor/motion.h) turns the camera before anything else: one draw per exposure.
+
+#include <cstdint>
+#include <vector>
+
+#include "emulator/app_config.h"
+#include "emulator/world_state.h"
+#include "render/renderer.h"
+#include "sensor/chain.h"
+#include "sensor/motion.h"
+
+namespace hilcam {
+
+class ExposureRenderer {
+  public:
+    static constexpr int kMostParts = 64;
+
+    // Allocates all that render() needs. Owner thread.
+    ExposureRenderer(Renderer& renderer, const ScenarioConfig& scenario, const SpectralGrid& grid,
+                     std::size_t placed_objects);
+
+    // Fits what render() fills. Owner thread.
+    RadianceImage make_image() const;
+    std::size_t most_points() const;
+
+    struct Result {
+        RenderStats stats;  // of all parts
+        ShownCommand shown;
+        int parts = 1;
+        bool parts_limited = false;  // more than kMostParts were asked for
+    };
+    // The exposure of exposure.exposure_s about an instant; sets the exposure's rates. Loop, one thread; no
+    // allocation.
+    Result render(WorldState& world, TimeTai middle, RandomKey key, RadianceImage& radiance,
+                  std::vector<PointSource>& points, Exposure& exposure);
+    // What the last one showed at its middle.
+    const WorldSnapshot& middle() const { return middle_; }
+
+  private:
+    Renderer& renderer_;
+    MotionQuality motion_;
+    double motion_error_px_;
+    ShutterConfig shutter_;
+    double focal_length_px_, oversampling_;
+    PointingJitter jitter_;
+    WorldSnapshot middle_, before_, after_, part_world_;
+    RadianceImage part_;  // of exact motion
+    std::vector<PointSource> part_points_;
+    std::size_t bins_;
+
+    struct Span {
+        TimeTai middle;
+        std::int64_t length_ns = 0;
+        double exposure_s = 0;
+    };
+    void sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
+                      WorldSnapshot& out) const;
+    void sample_ends(const WorldState& world, const Span& span, bool with_bodies);
+    void render_parts(const WorldState& world, const Span& span, RandomKey key, RadianceImage& radiance,
+                      std::vector<PointSource>& points, Result& result);
+    double unexpected_px_s(double rate_px_s) const;
+    void set_rates(const ImageMotion& motion, int parts, Exposure& exposure) const;
+};
+
+}  // namespace hilcam

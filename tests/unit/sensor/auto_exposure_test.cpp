@@ -1,0 +1,82 @@
+#include "sensor/auto_exposure.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hilcam {
+namespace {
+
+// A camera whose percentile is proportional to light and exposure until it saturates; two interleaved series
+// of frames as in the loop: frame k sets frame k + 2.
+std::vector<double> exposures(const AutoExposureConfig& c, double start_s, int frames, const auto& light) {
+    std::vector<double> out = {start_s, start_s};
+    for (int k = 0; k + 2 < frames; ++k) {
+        const double fraction = std::min(1.0, light(k) * out[static_cast<std::size_t>(k)]);
+        out.push_back(
+            next_exposure_s(c, {fraction, fraction >= 1}, out[static_cast<std::size_t>(k)], {1e-6, 10}));
+    }
+    return out;
+}
+
+TEST(AutoExposure, AStepOfBrightnessSettlesInTheTimeThatItsSpeedSays) {
+    AutoExposureConfig c;
+    c.speed = 0.5;
+    // Right at first; from frame 10 on eight times as bright.
+    const auto e = exposures(c, 0.5, 40, [](int k) { return k < 10 ? 1.0 : 8.0; });
+    const double right = 0.5 / 8;
+    // Saturated at 0.5, 0.25 and 0.125, where half a stop, half a stop and half a stop are less than the stop
+    // that saturation takes: frames 10, 12 and 14 are measured, and frame 16 is right.
+    for (std::size_t k = 0; k < 12; ++k) EXPECT_EQ(e[k], 0.5);
+    for (std::size_t k = 12; k < e.size(); ++k) {
+        EXPECT_LE(e[k], e[k - 2]) << k;             // no way back
+        EXPECT_GE(e[k], right * (1 - 1e-12)) << k;  // not beyond
+    }
+    EXPECT_GT(std::log2(e[14] / right), 0.1);
+    EXPECT_NEAR(e[16], right, 1e-12);
+    EXPECT_EQ(e[39], e[16]);
+}
+
+TEST(AutoExposure, ADarkerSceneIsReachedFromBelow) {
+    AutoExposureConfig c;
+    c.speed = 0.75;
+    const auto e = exposures(c, 0.5, 40, [](int k) { return k < 10 ? 1.0 : 0.125; });
+    // Three stops, of which a quarter is left each time: 0.75, 0.19, 0.05.
+    for (std::size_t k = 12; k < e.size(); ++k) {
+        EXPECT_GE(e[k], e[k - 2]) << k;
+        EXPECT_LE(e[k], 4 * (1 + 1e-12)) << k;
+    }
+    EXPECT_LT(std::log2(e[14] / 4), -0.1);
+    EXPECT_GE(std::log2(e[16] / 4), -0.1);
+    EXPECT_EQ(e[39], e[17]);
+}
+
+TEST(AutoExposure, SaturationHalvesAtLeastAndLimitsHold) {
+    AutoExposureConfig c;
+    c.speed = 0.1;
+    EXPECT_EQ(next_exposure_s(c, {1, true}, 0.4, {1e-6, 10}), 0.2);
+    EXPECT_EQ(next_exposure_s(c, {1, true}, 0.4, {0.3, 10}), 0.3);
+    EXPECT_EQ(next_exposure_s(c, {-0.01, false}, 0.4, {1e-6, 0.5}), 0.5);
+    EXPECT_EQ(next_exposure_s(c, {0.5 * std::exp2(0.09), false}, 0.4, {1e-6, 10}), 0.4);
+    EXPECT_LT(next_exposure_s(c, {0.5 * std::exp2(0.11), false}, 0.4, {1e-6, 10}), 0.4);
+}
+
+TEST(FrameHistogram, FindsThePercentileAboveBlackOutsideTheBlackPixels) {
+    DnImage frame(10, 11);
+    for (int y = 0; y < 11; ++y)
+        for (int x = 0; x < 10; ++x)
+            // 90 pixels 101 .. 190 behind a column and a row of others.
+            frame.row(y)[static_cast<std::size_t>(x)] =
+                static_cast<std::uint16_t>(y < 1 || x < 1 ? 4095 : 100 + (y - 1) * 9 + x);
+    FrameHistogram histogram(12);
+    const DnScale scale{100, 300, 4095, false};
+    EXPECT_DOUBLE_EQ(histogram.measure(frame, 1, 1, 50, scale).fraction, 45 / 200.0);
+    EXPECT_DOUBLE_EQ(histogram.measure(frame, 1, 1, 99, scale).fraction, 90 / 200.0);  // the 89.1th
+    EXPECT_FALSE(histogram.measure(frame, 1, 1, 99, scale).saturated);
+    EXPECT_TRUE(histogram.measure(frame, 0, 0, 99, scale).saturated);
+    EXPECT_TRUE(histogram.measure(frame, 1, 1, 99, {100, 190, 4095, false}).saturated);
+}
+
+}  // namespace
+}  // namespace hilcam
