@@ -60,14 +60,14 @@ void bloom(ElectronImage& charge_e, float full_well_e) {
                       });
 }
 
-ChargeTransfer::ChargeTransfer(const CcdConfig& config, int width, int height)
-    : parallel_(shares(config.parallel_inefficiency, height)),
-      serial_(shares(config.serial_inefficiency, width)) {}
+ChargeTransfer::ChargeTransfer(const CcdConfig& config, int width, int height, int first_column, int first_row)
+    : parallel_(shares(config.parallel_inefficiency, first_row, height)),
+      serial_(shares(config.serial_inefficiency, first_column, width)) {}
 
-std::vector<ChargeTransfer::Shares> ChargeTransfer::shares(double c, int transfers) {
+std::vector<ChargeTransfer::Shares> ChargeTransfer::shares(double c, int first, int count) {
     std::vector<Shares> out;
     if (c <= 0) return out;
-    for (int n = 1; n <= transfers; ++n) {
+    for (int n = first + 1; n <= first + count; ++n) {
         Shares share{};
         // Negative binomial: P(k) = P(k-1) c (n + k - 1) / k.
         double p = std::pow(1 - c, n), left = 1;

@@ -27,15 +27,15 @@ void bloom(ElectronImage& charge_e, float full_well_e);
 // Charge arrives late. Row 0 and column 0 are nearest to the output.
 class ChargeTransfer {
   public:
-    // Tables for an array of that size. Owner thread.
-    ChargeTransfer(const CcdConfig& config, int width, int height);
+    // Tables for an array of that size, whose first pixel is so many transfers from the output. Owner thread.
+    ChargeTransfer(const CcdConfig& config, int width, int height, int first_column = 0, int first_row = 0);
     // Loop; on oneTBB.
     void apply(ElectronImage& charge_e) const;
 
   private:
     static constexpr int kLate = 4;  // 0 .. 3 pixels late
     using Shares = std::array<float, kLate>;
-    static std::vector<Shares> shares(double inefficiency, int transfers);
+    static std::vector<Shares> shares(double inefficiency, int first, int count);
 
     std::vector<Shares> parallel_, serial_;  // by place; empty: perfect
 };

@@ -72,7 +72,7 @@ struct SensorChain::Implementation {
           array_height(array_size(c)[1]) {
         if (charge_moves) charge_e = ElectronImage(array_width, array_height);
         if (c.ccd.parallel_inefficiency > 0 || c.ccd.serial_inefficiency > 0)
-            transfer.emplace(c.ccd, array_width, array_height);
+            transfer.emplace(c.ccd, array_width, array_height, window_of(c).left, window_of(c).top);
         if (c.shutter.kind == ShutterKind::kFrameTransfer)
             column_sums.resize(static_cast<std::size_t>(array_width));
         scratch.resize(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));

@@ -45,7 +45,10 @@ Spectrum electrons_per_s_per_radiance(const CameraModel& c, const SpectralGrid& 
 }
 
 RelativeIllumination::RelativeIllumination(const CameraModel& camera, const ImageGeometry& geometry)
-    : geometry_(geometry), cos_power_(camera.cos_power), vignetting_(camera.vignetting) {
+    : geometry_(geometry),
+      one_line_(camera.shutter.kind == ShutterKind::kLineScan),
+      cos_power_(camera.cos_power),
+      vignetting_(camera.vignetting) {
     // The whole sensor's corners, whatever the window.
     CameraModel whole = camera;
     whole.window_px.clear();
@@ -55,24 +58,24 @@ RelativeIllumination::RelativeIllumination(const CameraModel& camera, const Imag
     double farthest_px = 0;
     for (const double x : {0.0, 1.0 * sensor.width_px})
         for (const double y : {0.0, 1.0 * sensor.height_px})
-            farthest_px = std::max(farthest_px, std::hypot(x - center.x, y - center.y));
+            farthest_px = std::max(farthest_px, std::hypot(x - center.x, one_line_ ? 0.0 : y - center.y));
     corner_px_ = farthest_px * geometry.focal_length_px / focal_length_px;
     axis_solid_angle_ = 1 / (geometry.focal_length_px * geometry.focal_length_px);
 }
 
 double RelativeIllumination::field_fraction(double x_px, double y_px) const {
     const Vec2d center = geometry_.center_px();
-    return std::hypot(x_px - center.x, y_px - center.y) / corner_px_;
+    return std::hypot(x_px - center.x, on_sensor(y_px) - center.y) / corner_px_;
 }
 
 double RelativeIllumination::at(double x_px, double y_px) const {
-    const double cosine = 1 / length(geometry_.direction_camera(x_px, y_px));
+    const double cosine = 1 / length(geometry_.direction_camera(x_px, on_sensor(y_px)));
     const double lens = vignetting_.empty() ? 1 : vignetting_.at(field_fraction(x_px, y_px));
     return std::pow(cosine, cos_power_) * lens;
 }
 
 double RelativeIllumination::of_point(double x_px, double y_px) const {
-    return at(x_px, y_px) * axis_solid_angle_ / solid_angle(x_px, y_px);
+    return at(x_px, y_px) * axis_solid_angle_ / solid_angle(x_px, on_sensor(y_px));
 }
 
 // Of the plane z = 1 a pixel covers an area a along its normal; seen from the lens that is a cos / d^2.

@@ -41,13 +41,16 @@ class RelativeIllumination {
     double at(double x_px, double y_px) const;
     // Of a point source.
     double of_point(double x_px, double y_px) const;
-    // Image height over that of the sensor's farthest corner, 0 .. 1 on the sensor.
+    // Image height over that of the sensor's farthest corner, 0 .. 1 on the sensor. All lines of a line camera
+    // lie on the axis.
     double field_fraction(double x_px, double y_px) const;
 
   private:
     double solid_angle(double x_px, double y_px) const;
+    double on_sensor(double y_px) const { return one_line_ ? geometry_.center_px().y : y_px; }
 
     ImageGeometry geometry_;
+    bool one_line_;
     double cos_power_;
     Table vignetting_;
     double corner_px_;

@@ -1,5 +1,6 @@
 #include "sensor/system_mtf.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/units.h"
@@ -35,6 +36,11 @@ std::complex<double> SystemMtf::of_point(double u, double v) const {
 std::complex<double> SystemMtf::at(double u, double v) const {
     const double even = glare_radius_px_ > 0 ? 1 : glare_factor(u, v);
     return of_point(u, v) * even;
+}
+
+double SystemMtf::wing_slope_px() const {
+    constexpr double kSmall_cy_px = 1e-3;
+    return std::max(0.0, (1 - std::abs(optics_.at(kSmall_cy_px, 0))) / kSmall_cy_px);
 }
 
 double SystemMtf::glare_factor(double u, double v) const {

@@ -23,6 +23,10 @@ class SystemMtf {
     // Of a point's image without what glare spreads evenly: 1 at (0, 0).
     std::complex<double> of_point(double u, double v) const;
 
+    // How steeply the lens's modulation falls from frequency 0 on [px]: what makes the far wings of its
+    // images.
+    double wing_slope_px() const;
+
   private:
     double glare_factor(double u, double v) const;
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "render/stars.h"
 #include "render/units.h"
@@ -174,6 +175,15 @@ TEST(FocalPlane, FalloffIsCosineToTheFourthAndVignettingComesOnTop) {
     EXPECT_NEAR(lens.at(32, 48), std::pow(1 + std::pow(16 * 5.5e-6 / 0.0005, 2), -2), 1e-9);
 }
 
+TEST(FocalPlane, AllLinesOfALineCameraLieOnTheAxis) {
+    CameraModel c = camera_64();
+    c.focal_length_m = 0.0005, c.shutter.kind = ShutterKind::kLineScan;
+    const RelativeIllumination lens(c, geometry_of(c, 0));
+    EXPECT_EQ(lens.at(10.5, 0.5), lens.at(10.5, 32));
+    EXPECT_EQ(lens.of_point(10.5, 0.5), lens.of_point(10.5, 60));
+    EXPECT_NEAR(lens.field_fraction(64, 0), 1, 1e-12);
+}
+
 // A field of points, one in the middle of every pixel's solid angle, and a uniform field of the same
 // radiance.
 TEST(FocalPlane, PointsAndUniformFieldAgreeThroughAnyLens) {
@@ -253,6 +263,7 @@ TEST(StrayLight, AHaloFallsAsTheCubeOfTheDistance) {
     CameraModel c = gaussian_camera(0.5);
     c.width_px = c.height_px = 256;
     c.stray_light.veiling_glare_fraction = 0.1, c.stray_light.glare_radius_px = 4;
+    c.full_well_e = 1e9;  // nothing is too bright for the FFT
     Bench bench(c, {64, 1, 2});
     for (int y = 382; y < 388; ++y)
         for (std::size_t x = 382; x < 388; ++x) bench.radiance.row(y)[x] = 1000;
@@ -294,6 +305,56 @@ TEST(StrayLight, AGhostIsMirroredAndHasItsShare) {
         EXPECT_NEAR(at(e, 88, 152), 0.01 * all / (kPi * 20 * 20), 0.1 * 0.01 * all / (kPi * 20 * 20))
             << as_point;
     }
+}
+
+// The Sun near an edge: a disk of 8 px at 10^5 full wells. Its wings reach over the picture as lambda N /
+// (pi^3 r^3), nothing rings along its rows, nothing comes back at the other edge.
+TEST(StrayLight, TheSunsWingsReachOverThePicture) {
+    CameraModel c = camera_64();
+    c.width_px = c.height_px = 256;
+    c.full_well_e = 1e4;
+    Bench bench(c, {16, 1, 1});
+    const float sun = static_cast<float>(1e9 / per_radiance(c, bench.grid));
+    double pixels = 0;
+    for (int y = 0; y < bench.radiance.height(); ++y)
+        for (int x = 0; x < bench.radiance.width(); ++x)
+            if (std::hypot(x + 0.5 - 144, y + 0.5 - 24) < 4) {
+                bench.radiance.row(y)[static_cast<std::size_t>(x)] = sun;
+                ++pixels;
+            }
+    const ElectronImage& e = bench.expose({.exposure_s = 1});
+    const double wings = 0.55e-6 * 4 / 5.5e-6 / std::pow(kPi, 3) * pixels * 1e9;
+    for (const int r : {60, 100, 200}) {
+        // Below the Sun, and along its row: both as the formula says, whatever the pixel's parity.
+        for (const int odd : {0, 1})
+            EXPECT_NEAR(at(e, 128, 8 + r + odd) / (wings / std::pow(r + odd + 0.5, 3)), 1, 0.03) << r;
+        if (r < 120) {
+            EXPECT_NEAR(at(e, 128 + r, 8) / (wings / std::pow(r + 0.5, 3)), 1, 0.03) << r;
+        }
+    }
+    // The FFT alone would bring a tenth of its light's level back here.
+    EXPECT_LT(at(e, 128, 255), 1.1 * wings / std::pow(247, 3));
+}
+
+// Ten times too bright, or nearly: the picture goes on without a step.
+TEST(StrayLight, BrightPixelsAreDrawnAsThePictureWouldDrawThem) {
+    CameraModel c = gaussian_camera(0.6);
+    const auto profile = [&](double full_well_e) {
+        c.full_well_e = full_well_e;
+        Bench bench(c, {16, 1000, 2});
+        for (int y = 96; y < 100; ++y)
+            for (std::size_t x = 96; x < 100; ++x)
+                bench.radiance.row(y)[x] = static_cast<float>(1e6 / per_radiance(c, bench.grid));
+        const ElectronImage& e = bench.expose({.exposure_s = 1});
+        return std::vector<double>(e.row(33).begin(), e.row(33).end());
+    };
+    const std::vector<double> by_fft = profile(1e9), as_points = profile(1e3);
+    // A radiance pixel's light from its middle instead of from all of it: half a pixel wide, 1 / 48 px^2
+    // narrower.
+    for (std::size_t x = 20; x < 44; ++x) EXPECT_NEAR(as_points[x], by_fft[x], 0.02 * 1e6) << x;
+    EXPECT_NEAR(std::accumulate(as_points.begin(), as_points.end(), 0.0) /
+                    std::accumulate(by_fft.begin(), by_fft.end(), 0.0),
+                1, 0.01);
 }
 
 // --- motion

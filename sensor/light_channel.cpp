@@ -1,0 +1,76 @@
+#include "sensor/light_channel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/units.h"
+#include "sensor/mtf.h"
+
+namespace hilcam {
+namespace {
+
+std::vector<LensState> lens_states(const CameraModel& c) {
+    if (c.field_zones.empty()) return {{c.defocus_m, c.wavefront_rms_m}};
+    std::vector<LensState> out;
+    for (const FieldZone& zone : c.field_zones)
+        out.push_back({c.defocus_m + zone.defocus_m, zone.wavefront_rms_m});
+    return out;
+}
+
+double smooth_step(double t) { return t * t * (3 - 2 * t); }
+
+// MTF_sys at the radiance image's frequencies. Its rays have averaged over its pixels already. With an even
+// number of them to a detector pixel, that pixel's centre lies on their corner: half a pixel back.
+std::complex<double> image_transfer(const SystemMtf& mtf, const SensorSampling& sampling, double u,
+                                    double v) {
+    const int n = sampling.samples_per_axis, m = sampling.oversampling;
+    const std::complex<double> shift = m % 2 ? 1.0 : std::polar(1.0, -kPi * (u + v));
+    return mtf.at(u * m, v * m) * shift / (ray_grid_mtf(u, n) * ray_grid_mtf(v, n));
+}
+
+}  // namespace
+
+DetectorView::DetectorView(const CameraModel& c, const SensorSampling& s)
+    : camera(c),
+      sampling(s),
+      detector(geometry_of(c, s.guard_px)),
+      image(geometry_of(c, s.guard_px, s.oversampling)),
+      lens(c, detector),
+      mosaic(c) {}
+
+LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, const Curve* filter)
+    : per_radiance(electrons_per_s_per_radiance(view.camera, grid, filter)),
+      per_irradiance(electrons_per_s_per_irradiance(view.camera, grid, filter)) {
+    for (const LensState& state : lens_states(view.camera))
+        mtfs.emplace_back(view.camera, OpticsOtf(view.camera, grid, per_radiance, state));
+    std::vector<Transfer> transfers;
+    for (const SystemMtf& mtf : mtfs) {
+        spreads.emplace_back([&](double u, double v) { return mtf.of_point(u, v); }, view.camera.fill_factor);
+        transfers.push_back([&](double u, double v) { return image_transfer(mtf, view.sampling, u, v); });
+    }
+    const int width = view.image.padded_width(), height = view.image.padded_height();
+    convolver.emplace(width, height, transfers);
+    // A kernel's border of nothing must lie in the guard band.
+    if (transfers.size() == 1 && view.image.guard_px >= CompactKernel::kMostRadius)
+        kernel = CompactKernel::find(transfers.front(), width, height);
+    if (view.camera.stray_light.ghost_fraction > 0) ghost.emplace(view.camera.stray_light, view.detector);
+}
+
+double LightChannel::electrons_of(const Spectrum& irradiance_w_m2_um, int bins, double exposure_s) const {
+    double sum = 0;
+    for (int b = 0; b < bins; ++b)
+        sum += static_cast<double>(per_irradiance[b]) * static_cast<double>(irradiance_w_m2_um[b]);
+    return sum * exposure_s;
+}
+
+double zone_weight(const std::vector<FieldZone>& zones, std::size_t i, double field_fraction) {
+    if (zones.size() < 2) return 1;
+    const auto at = [&](std::size_t k) { return zones[k].field_fraction; };
+    if (i > 0 && field_fraction < at(i))
+        return smooth_step(std::clamp((field_fraction - at(i - 1)) / (at(i) - at(i - 1)), 0.0, 1.0));
+    if (i + 1 < zones.size() && field_fraction > at(i))
+        return smooth_step(std::clamp((at(i + 1) - field_fraction) / (at(i + 1) - at(i)), 0.0, 1.0));
+    return 1;
+}
+
+}  // namespace hilcam

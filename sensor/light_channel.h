@@ -1,0 +1,56 @@
+#pragma once
+// One filter's picture on the detector, and what it is made with. A camera without a colour filter array has
+// one.
+
+#include <optional>
+#include <vector>
+
+#include "sensor/compact_kernel.h"
+#include "sensor/convolve.h"
+#include "sensor/exposure.h"
+#include "sensor/mosaic.h"
+#include "sensor/optics.h"
+#include "sensor/psf.h"
+#include "sensor/stray_light.h"
+#include "sensor/system_mtf.h"
+
+namespace hilcam {
+
+// What all parts of the focal plane look at.
+struct DetectorView {
+    DetectorView(const CameraModel& camera, const SensorSampling& sampling);
+
+    CameraModel camera;
+    SensorSampling sampling;
+    ImageGeometry detector;  // its pixels
+    ImageGeometry image;     // the radiance image's
+    RelativeIllumination lens;
+    Mosaic mosaic;
+
+    // Middle of a radiance pixel (padded px) [px of the detector's frame].
+    double detector_px(int padded) const {
+        return (padded + 0.5) / sampling.oversampling - sampling.guard_px;
+    }
+};
+
+struct LightChannel {
+    // filter: of the array, or null. Owner thread.
+    LightChannel(const DetectorView& view, const SpectralGrid& grid, const Curve* filter);
+
+    Spectrum per_radiance;             // e- s^-1 per W m^-2 sr^-1 um^-1
+    Spectrum per_irradiance;           // e- s^-1 per W m^-2 um^-1
+    std::vector<SystemMtf> mtfs;       // by zone of the field, at least one
+    std::vector<PointSpread> spreads;  // likewise
+    std::optional<Convolver> convolver;
+    std::optional<CompactKernel> kernel;  // does the same, faster
+    std::optional<Ghost> ghost;
+
+    // Photo-electrons of a point on a full-fill detector, on the axis.
+    double electrons_of(const Spectrum& irradiance_w_m2_um, int bins, double exposure_s) const;
+};
+
+// Share of zone i in the image at a field height: smooth between zones, without a kink, which would show as a
+// ring in an even picture; constant outside them.
+double zone_weight(const std::vector<FieldZone>& zones, std::size_t i, double field_fraction);
+
+}  // namespace hilcam

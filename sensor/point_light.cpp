@@ -1,0 +1,144 @@
+#include "sensor/point_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/pose.h"
+
+namespace hilcam {
+
+PointLight::PointLight(const DetectorView& view, std::vector<LightChannel>& channels, int bins)
+    : view_(view), channels_(channels), bins_(bins), glare_e_(channels.size()) {}
+
+void PointLight::begin(const Exposure& exposure) {
+    exposure_ = exposure;
+    jitter_px_ = std::sqrt(jitter_blur_rad2(view_.camera.jitter, exposure.exposure_s)) *
+                 view_.detector.focal_length_px;
+    // A hundredth of a pixel is not seen.
+    if (jitter_px_ < 0.01) jitter_px_ = 0;
+    std::fill(glare_e_.begin(), glare_e_.end(), 0.0);
+}
+
+void PointLight::add(const PointSource& point, ElectronImage& light_e) {
+    const double m = view_.sampling.oversampling;
+    const Vec2d middle_px{static_cast<double>(point.position_px.x) / m,
+                          static_cast<double>(point.position_px.y) / m};
+    if (!std::isfinite(middle_px.x) || !std::isfinite(middle_px.y)) return;
+    const double way = exposure_.exposure_s / m;
+    const Vec2d drift_px{way * static_cast<double>(point.drift_px_s.x),
+                         way * static_cast<double>(point.drift_px_s.y)};
+    const Vec3d turn_rad = -exposure_.exposure_s * exposure_.camera_rate_rad_s;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        const double all =
+            std::min(channels_[c].electrons_of(point.irradiance_w_m2_um, bins_, exposure_.exposure_s), 1e9);
+        if (!(all > 0)) continue;
+        along_trail(middle_px, drift_px, turn_rad, [&](Vec2d at_px, double part) {
+            if (std::abs(at_px.x) > 1e6 || std::abs(at_px.y) > 1e6) return;
+            const double electrons = all * part * view_.lens.of_point(at_px.x, at_px.y);
+            scatter(at_px, [&](Vec2d px, double share) {
+                draw_point(static_cast<int>(c), px, electrons * share, light_e);
+            });
+        });
+    }
+}
+
+// It is part of the picture and moves with it.
+void PointLight::add(const BrightPixel& pixel, ElectronImage& light_e) {
+    const Vec2d way_px{exposure_.image_rate_px_s.x * exposure_.exposure_s,
+                       exposure_.image_rate_px_s.y * exposure_.exposure_s};
+    along_trail(pixel.position_px, way_px, {}, [&](Vec2d at_px, double part) {
+        scatter(at_px, [&](Vec2d px, double share) {
+            // Its electrons count the fill factor already.
+            draw_point(pixel.channel, px, pixel.electrons * part * share / view_.camera.fill_factor, light_e);
+        });
+    });
+}
+
+// drift_px: the point's own way, over that of a sky which turns by turn_rad.
+template <class Draw>
+void PointLight::along_trail(Vec2d middle_px, Vec2d drift_px, const Vec3d& turn_rad, const Draw& draw) const {
+    const bool turns = turn_rad.x != 0 || turn_rad.y != 0 || turn_rad.z != 0;
+    if (!turns && drift_px.x == 0 && drift_px.y == 0) return draw(middle_px, 1.0);
+    const Vec3d dir = view_.detector.direction_camera(middle_px.x, middle_px.y);
+    const auto at = [&](double time) {
+        Vec2d px = middle_px;
+        if (turns) {
+            const Vec3d moved = to_matrix(from_rotation_vector(time * turn_rad)) * dir;
+            px = moved.z > 0 ? view_.detector.project_px(moved) : Vec2d{-1e9, -1e9};
+        }
+        return Vec2d{px.x + time * drift_px.x, px.y + time * drift_px.y};
+    };
+    const Vec2d from = at(-0.5), to = at(0.5);
+    const double length_px = std::hypot(to.x - from.x, to.y - from.y);
+    const double parts = std::clamp(std::ceil(length_px * 4), 1.0, 4096.0);
+    for (double i = 0.5; i < parts; i += 1) draw(at(i / parts - 0.5), 1 / parts);
+}
+
+template <class Draw>
+void PointLight::scatter(Vec2d at_px, const Draw& draw) const {
+    if (jitter_px_ <= 0) return draw(at_px, 1.0);
+    constexpr int kReach = 6;
+    std::array<double, 2 * kReach + 1> weights;
+    double sum = 0;
+    for (int i = -kReach; i <= kReach; ++i)
+        sum += weights[static_cast<std::size_t>(i + kReach)] = std::exp(-0.125 * i * i);
+    for (int j = -kReach; j <= kReach; ++j)
+        for (int i = -kReach; i <= kReach; ++i)
+            draw({at_px.x + 0.5 * i * jitter_px_, at_px.y + 0.5 * j * jitter_px_},
+                 weights[static_cast<std::size_t>(i + kReach)] *
+                     weights[static_cast<std::size_t>(j + kReach)] / (sum * sum));
+}
+
+void PointLight::draw_point(int c, Vec2d at_px, double electrons, ElectronImage& light_e) {
+    LightChannel& channel = channels_[static_cast<std::size_t>(c)];
+    const StrayLightConfig& stray = view_.camera.stray_light;
+    if (stray.glare_radius_px <= 0) {
+        glare_e_[static_cast<std::size_t>(c)] +=
+            electrons * view_.camera.fill_factor * stray.veiling_glare_fraction;
+        electrons *= 1 - stray.veiling_glare_fraction;
+    }
+    const double field = view_.lens.field_fraction(at_px.x, at_px.y);
+    for (std::size_t z = 0; z < channel.spreads.size(); ++z) {
+        const double weight = zone_weight(view_.camera.field_zones, z, field);
+        if (weight > 0) add_patch(channel.spreads[z].at(at_px.x, at_px.y, electrons * weight), c, light_e);
+    }
+}
+
+// Of a mosaic's channel only its own pixels have the light; some of their charge crosses over to the
+// neighbours.
+void PointLight::add_patch(const PointPatch& patch, int c, ElectronImage& light_e) const {
+    const int width = view_.detector.width_px, height = view_.detector.height_px;
+    const auto left = static_cast<int>(view_.camera.black_columns),
+               top = static_cast<int>(view_.camera.black_rows);
+    const auto crosstalk = static_cast<float>(view_.mosaic.one_color() ? 0 : view_.camera.crosstalk_fraction);
+    const auto add = [&](int x, int y, float electrons) {
+        if (x < 0 || y < 0 || x >= width || y >= height) return;
+        light_e.row(y + top)[static_cast<std::size_t>(x + left)] += electrons;
+    };
+    // One pixel beyond the window can still cross over.
+    for (int j = std::max(0, -patch.top - 1); j < std::min(patch.size, height + 1 - patch.top); ++j)
+        for (int i = std::max(0, -patch.left - 1); i < std::min(patch.size, width + 1 - patch.left); ++i) {
+            const int x = patch.left + i, y = patch.top + j;
+            if (view_.mosaic.channel(x, y) != c) continue;
+            const float electrons = patch.electrons[j * patch.size + i];
+            add(x, y, (1 - 4 * crosstalk) * electrons);
+            if (crosstalk == 0) continue;
+            add(x - 1, y, crosstalk * electrons), add(x + 1, y, crosstalk * electrons);
+            add(x, y - 1, crosstalk * electrons), add(x, y + 1, crosstalk * electrons);
+        }
+}
+
+void PointLight::add_glare(ElectronImage& light_e) const {
+    if (std::all_of(glare_e_.begin(), glare_e_.end(), [](double e) { return e == 0; })) return;
+    const double pixels = static_cast<double>(view_.detector.padded_width()) * view_.detector.padded_height();
+    for (int y = 0; y < view_.detector.height_px; ++y) {
+        float* row =
+            light_e.row(y + static_cast<int>(view_.camera.black_rows)).data() + view_.camera.black_columns;
+        for (int x = 0; x < view_.detector.width_px; ++x)
+            row[x] +=
+                static_cast<float>(glare_e_[static_cast<std::size_t>(view_.mosaic.channel(x, y))] / pixels);
+    }
+}
+
+}  // namespace hilcam
