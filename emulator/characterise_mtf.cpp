@@ -138,8 +138,14 @@ MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, Edg
     // Near either side the calibration by that side's plate errs as the edge's picture does.
     const double pixel_noise =
         std::sqrt(edge.variance + std::max(bright.variance, dark.variance)) / mean_step;
+    // As far to either side as every row of the picture reaches.
+    const bool along_rows = direction == EdgeDirection::kAlongRows;
+    const double across = along_rows ? selection.width : selection.height;
+    const double along = along_rows ? selection.height : selection.width;
+    const double reach_px = std::min(32.0, 0.5 * (across - along * std::tan(kTilt_rad)) - 1);
     const EdgeMtf mtf =
-        slanted_edge_mtf({selection.width, selection.height, value, selection.use, pixel_noise}, {.step = 1});
+        slanted_edge_mtf({selection.width, selection.height, value, selection.use, pixel_noise},
+                         {.step = 1, .half_width_px = reach_px});
     MtfCurve out{mtf.normal_rad, mtf.frequency_cy_px, {}, mtf.mtf, mtf.uncertainty};
     // At zero frequency that is 1 by the calibration; the step near the edge is of the frequencies above.
     out.measured.front() = 1, out.uncertainty.front() = 0;
