@@ -25,9 +25,7 @@ constexpr int kFewestFrames = 16, kMostFrames = 2048;
 BenchSetup windowed(BenchSetup s, EdgeDirection direction) {
     const PixelRectangle w = window_of(s.camera);
     const bool rows = direction == EdgeDirection::kAlongRows;
-    // Lines of a line camera are as many as one takes.
-    if (s.camera.shutter.kind == ShutterKind::kLineScan)
-        s.camera.height_px = std::max<std::int64_t>(s.camera.height_px, kAlong_px);
+    require_lines(s.camera, kAlong_px);
     const int top = s.camera.shutter.kind == ShutterKind::kLineScan ? 0 : w.top;
     const int room =
         s.camera.shutter.kind == ShutterKind::kLineScan ? static_cast<int>(s.camera.height_px) : w.height;

@@ -79,7 +79,7 @@ std::vector<double> central_window(const CameraModel& c, int width, int height) 
 void set_window(BenchSetup& s) {
     CameraModel& c = s.camera;
     const bool lines = line_scan(c);
-    if (lines && c.height_px < kLines) c.height_px = kLines;
+    require_lines(c, kLines);
     c.window_px =
         lines ? central_window(c, kLineWidth_px, kLines) : central_window(c, kWindow_px, kWindow_px);
     s.remarks.push_back(fmt::format("window {} x {} px about the boresight", c.window_px[2], c.window_px[3]));
@@ -161,6 +161,12 @@ void choose_exposures(BenchSetup& s) {
 }
 
 }  // namespace
+
+void require_lines(CameraModel& c, int lines) {
+    const FixedPatternConfig& f = c.fixed_pattern;
+    if (!line_scan(c) || !f.prnu_map.empty() || !f.offset_map.empty() || !f.dark_map.empty()) return;
+    c.height_px = std::max<std::int64_t>(c.height_px, lines);
+}
 
 BenchSetup bench_setup(const CameraModel& camera) {
     BenchSetup s;
