@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "render/units.h"
 
 namespace hilcam {
 namespace {
@@ -132,20 +135,27 @@ class Laboratory {
             c.filters.low_pass_cy_px > 0 || c.filters.high_pass_cy_px > 0 || c.filters.boost > 0;
         const bool transfer = c.ccd.parallel_inefficiency > 0 || c.ccd.serial_inefficiency > 0;
         if (!filters && !transfer) return;
-        // Neighbours that a one-pole filter reaches to a thousandth; charge is late by three at the most.
+        // Neighbours that a one-pole filter reaches to a thousandth; of charge that is late, what is so by
+        // two pixels is a ten-thousandth.
         const double fade =
             c.filters.low_pass_cy_px > 0 ? std::log(1000) / (2 * kPi * c.filters.low_pass_cy_px) : 0;
-        const NoiseReach reach{std::clamp(static_cast<int>(std::ceil(fade)), 3, 32), transfer ? 3 : 0};
+        const NoiseReach reach{filters ? std::clamp(static_cast<int>(std::ceil(fade)), 3, 32) : 1,
+                               transfer ? 1 : 0};
         const auto mean_of_pairs = [&](NoiseReach within) {
-            double sum = 0;
-            for (int i = 0; i < kStackFrames / 2; ++i) {
+            constexpr int kPairs = kStackFrames;
+            double sum = 0, square = 0;
+            for (int i = 0; i < kPairs; ++i) {
                 const DnImage& first = bench_.frame();
-                sum += noise_bandwidth(first, bench_.frame(), selection_, within);
+                const double found = noise_bandwidth(first, bench_.frame(), selection_, within);
+                sum += found, square += found * found;
             }
-            return sum / (kStackFrames / 2);
+            const double mean = sum / kPairs;
+            return Measured{mean, std::sqrt(std::max(0.0, square / kPairs - mean * mean) / (kPairs - 1))};
         };
         expose_share(0.6, setup_.gain_db);
-        out_.shot_bandwidth = mean_of_pairs(reach);
+        const Measured shot = mean_of_pairs(reach);
+        out_.shot_bandwidth = shot.value;
+        bandwidth_error_ = shot.uncertainty / shot.value;
         // Noise of the reading comes after the transfer.
         if (!filters) return;
         if (!transfer) {
@@ -153,7 +163,7 @@ class Laboratory {
             return;
         }
         expose_dark(setup_.shortest_s, setup_.dark_gain_db);
-        out_.read_bandwidth = mean_of_pairs({reach.columns, 0});
+        out_.read_bandwidth = mean_of_pairs({reach.columns, 0}).value;
     }
 
     std::vector<LightLevel> light_series(double gain_db) {
@@ -177,7 +187,8 @@ class Laboratory {
     Measured gain_of(std::vector<LightPoint> points, const ResponseCurve& response,
                      double saturation_dn) const {
         Measured gain = small_signal_gain_dn_e(points, response, saturation_dn);
-        gain.value /= out_.shot_bandwidth, gain.uncertainty /= out_.shot_bandwidth;
+        gain.value /= out_.shot_bandwidth;
+        gain.uncertainty = std::hypot(gain.uncertainty / out_.shot_bandwidth, gain.value * bandwidth_error_);
         return gain;
     }
 
@@ -278,20 +289,22 @@ class Laboratory {
             out_.dark_current = dark_current_e_s(out_.dark, out_.dark_gain_dn_e, out_.read_bandwidth);
     }
 
-    // At the shortest exposure, or at the first of the series where the noise crosses the converter's steps.
+    // At the shortest exposure; where its noise does not cross the converter's steps, at one whose dark
+    // current brings enough of its own.
     void measure_dark_noise(TemporalStatistics brief) {
-        constexpr double kLeast_dn2 = 0.5;
+        constexpr double kEnough_dn2 = 0.5, kAim_dn2 = 0.6;
+        const double gain = out_.dark_gain_dn_e.value;
+        const double signal_dn_s = out_.dark_current.from_mean_e_s.value * gain;
         double exposure_s = setup_.shortest_s;
-        for (const DarkPoint& p : out_.dark)
-            if (brief.variance_dn2.value < kLeast_dn2 &&
-                p.dark.variance_dn2.value > brief.variance_dn2.value) {
-                exposure_s = p.exposure_s;
-                expose_dark(exposure_s, setup_.dark_gain_db);
-                brief = take_stack(bench_, selection_).temporal;
-            }
-        const double dark_signal_dn = out_.dark.size() > 2 ? out_.dark_current.from_mean_e_s.value *
-                                                                 out_.dark_gain_dn_e.value * exposure_s
-                                                           : 0;
+        if (brief.variance_dn2.value < kEnough_dn2 && signal_dn_s > 0) {
+            exposure_s += (kAim_dn2 - brief.variance_dn2.value) / (gain * signal_dn_s);
+            exposure_s = std::min(exposure_s, setup_.longest_s);
+            expose_dark(exposure_s, setup_.dark_gain_db);
+            brief = take_stack(bench_, selection_).temporal;
+        }
+        // Charge that is transferred loses some of its shot noise on the way.
+        const double dark_signal_dn =
+            std::max(0.0, signal_dn_s * exposure_s) * out_.shot_bandwidth / out_.read_bandwidth;
         out_.dark_noise_e = dark_noise_e(brief, dark_signal_dn, out_.dark_gain_dn_e, out_.read_bandwidth);
     }
 
@@ -302,6 +315,7 @@ class Laboratory {
     PixelSelection evenly_lit_;  // for what depends on how much light there is
     int light_pairs_ = 0;
     double photons_per_s_ = 0;
+    double bandwidth_error_ = 0;  // relative
     Characterisation out_;
 };
 

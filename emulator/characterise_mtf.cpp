@@ -25,9 +25,7 @@ constexpr int kFewestFrames = 16, kMostFrames = 2048;
 BenchSetup windowed(BenchSetup s, EdgeDirection direction) {
     const PixelRectangle w = window_of(s.camera);
     const bool rows = direction == EdgeDirection::kAlongRows;
-    // Lines of a line camera are as many as one takes.
-    if (s.camera.shutter.kind == ShutterKind::kLineScan)
-        s.camera.height_px = std::max<std::int64_t>(s.camera.height_px, kAlong_px);
+    require_lines(s.camera, kAlong_px);
     const int top = s.camera.shutter.kind == ShutterKind::kLineScan ? 0 : w.top;
     const int room =
         s.camera.shutter.kind == ShutterKind::kLineScan ? static_cast<int>(s.camera.height_px) : w.height;
@@ -138,8 +136,14 @@ MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, Edg
     // Near either side the calibration by that side's plate errs as the edge's picture does.
     const double pixel_noise =
         std::sqrt(edge.variance + std::max(bright.variance, dark.variance)) / mean_step;
+    // As far to either side as every row of the picture reaches.
+    const bool along_rows = direction == EdgeDirection::kAlongRows;
+    const double across = along_rows ? selection.width : selection.height;
+    const double along = along_rows ? selection.height : selection.width;
+    const double reach_px = std::min(32.0, 0.5 * (across - along * std::tan(kTilt_rad)) - 1);
     const EdgeMtf mtf =
-        slanted_edge_mtf({selection.width, selection.height, value, selection.use, pixel_noise}, {.step = 1});
+        slanted_edge_mtf({selection.width, selection.height, value, selection.use, pixel_noise},
+                         {.step = 1, .half_width_px = reach_px});
     MtfCurve out{mtf.normal_rad, mtf.frequency_cy_px, {}, mtf.mtf, mtf.uncertainty};
     // At zero frequency that is 1 by the calibration; the step near the edge is of the frequencies above.
     out.measured.front() = 1, out.uncertainty.front() = 0;

@@ -36,8 +36,11 @@ json parts(const Nonuniformity& n) {
 }
 
 // Of a picture over the window, in whose pixels it adds to what is drawn.
-double spread_of(const PixelMap& map, const CameraModel& c) {
-    if (map.width() == 0) return 0;
+struct MapStatistics {
+    double mean = 0, deviation = 0;
+};
+MapStatistics statistics_of(const PixelMap& map, const CameraModel& c) {
+    if (map.width() == 0) return {};
     const PixelRectangle w = window_of(c);
     double sum = 0, square = 0;
     for (int y = w.top; y < w.top + w.height; ++y)
@@ -46,7 +49,7 @@ double spread_of(const PixelMap& map, const CameraModel& c) {
             sum += value, square += value * value;
         }
     const double n = static_cast<double>(w.width) * w.height;
-    return std::sqrt(std::max(0.0, square / n - sum / n * (sum / n)));
+    return {sum / n, std::sqrt(std::max(0.0, square / n - sum / n * (sum / n)))};
 }
 
 // 101 cells over the range of what counts.
@@ -140,6 +143,8 @@ json characterisation_json(const Characterisation& r, const DetectorPictures& pi
     const double gain = c.system_gain_dn_e(r.setup.gain_db);
     const double saturation_e = configured_saturation_e(c, r.setup.gain_db);
     const double noise_e = c.dark_noise_e();
+    const double dark_e_s =
+        pictures.dark_e_s.width() > 0 ? statistics_of(pictures.dark_e_s, c).mean : c.dark_current_now_e_s();
     // The lines of a line camera are all of one row of pixels: what differs from pixel to pixel are columns.
     const bool lines = c.shutter.kind == ShutterKind::kLineScan;
     const Measured& prnu = lines ? r.prnu_fraction.column : r.prnu_fraction.pixel;
@@ -155,10 +160,11 @@ json characterisation_json(const Characterisation& r, const DetectorPictures& pi
         {"gain_dn_e", figure(gain, r.gain_dn_e)},
         {"qe_peak", figure(configured_quantum_efficiency(r.setup), r.quantum_efficiency)},
         {"read_noise_e", figure(noise_e, r.dark_noise_e)},
-        {"dark_current_e_s", figure(c.dark_current_now_e_s(), r.dark_current.from_mean_e_s)},
+        {"dark_current_e_s", figure(dark_e_s, r.dark_current.from_mean_e_s)},
         {"full_well_e", figure(saturation_e, r.full_well_e)},
-        {"prnu_fraction", figure(std::hypot(c.prnu_fraction, spread_of(pictures.prnu, c)), prnu)},
-        {"dsnu_e", figure(std::hypot(c.dsnu_e, spread_of(pictures.offset_e, c)), dsnu)},
+        {"prnu_fraction",
+         figure(std::hypot(c.prnu_fraction, statistics_of(pictures.prnu, c).deviation), prnu)},
+        {"dsnu_e", figure(std::hypot(c.dsnu_e, statistics_of(pictures.offset_e, c).deviation), dsnu)},
         {"linearity_error", figure(r.configured_linearity.error_fraction.value, r.linearity.error_fraction)},
         {"mtf_nyquist", mtf_at(r.horizontal)},
         {"mtf_nyquist_vertical", mtf_at(r.vertical)},
@@ -168,8 +174,7 @@ json characterisation_json(const Characterisation& r, const DetectorPictures& pi
         {"saturation_capacity_e", figure(saturation_e, r.saturation_capacity_e)},
         {"absolute_threshold_e", figure(threshold_configured.value, threshold)},
         {"gain_standard_dn_e", figure(gain, r.standard_gain_dn_e)},
-        {"dark_current_from_variance_e_s",
-         figure(c.dark_current_now_e_s(), r.dark_current.from_variance_e_s)},
+        {"dark_current_from_variance_e_s", figure(dark_e_s, r.dark_current.from_variance_e_s)},
         {"linearity_extremes_fraction", {r.linearity.least_fraction, r.linearity.most_fraction}},
         {"prnu", parts(r.prnu_fraction)},
         {"dsnu", parts(r.dsnu_e)},

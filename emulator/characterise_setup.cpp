@@ -79,7 +79,7 @@ std::vector<double> central_window(const CameraModel& c, int width, int height) 
 void set_window(BenchSetup& s) {
     CameraModel& c = s.camera;
     const bool lines = line_scan(c);
-    if (lines && c.height_px < kLines) c.height_px = kLines;
+    require_lines(c, kLines);
     c.window_px =
         lines ? central_window(c, kLineWidth_px, kLines) : central_window(c, kWindow_px, kWindow_px);
     s.remarks.push_back(fmt::format("window {} x {} px about the boresight", c.window_px[2], c.window_px[3]));
@@ -102,6 +102,9 @@ void switch_off(BenchSetup& s) {
     c.jitter = {};
     set(c.cosmic_rays.rate_cm2_s > 0, "no cosmic rays: they are the orbit's");
     c.cosmic_rays.rate_cm2_s = 0;
+    set(c.filters.high_pass_cy_px > 0,
+        "the high-pass filter is bypassed: behind it no even light keeps its level along a row");
+    c.filters.high_pass_cy_px = 0;
     c.auto_exposure.on = false;
     c.sequence.clear();
 }
@@ -139,13 +142,13 @@ void choose_exposures(BenchSetup& s) {
     const double dark_e_s = c.dark_current_now_e_s();
     const double most_dark_e = kMostDark_fraction * configured_saturation_e(c, s.dark_gain_db);
     double least_s = c.exposure_range_s[0], most_s = c.exposure_range_s[1];
-    if (line_scan(c)) {
-        least_s = most_s = static_cast<double>(c.shutter.tdi_stages) * c.shutter.line_time_s;
+    if (line_scan(c)) least_s = most_s = static_cast<double>(c.shutter.tdi_stages) * c.shutter.line_time_s;
+    const bool fixed = most_s < 2 * least_s;
+    if (fixed)
         s.remarks.push_back(
-            "exposure is the line clock's; dark current is measured with that clock slowed down");
-    }
+            "one exposure time: levels by light; dark current with the camera's clock slowed down");
     s.shortest_s = least_s;
-    s.longest_s = line_scan(c) ? 1e4 * least_s : most_s;
+    s.longest_s = fixed ? 1e4 * least_s : most_s;
     if (dark_e_s > 0) s.longest_s = std::clamp(most_dark_e / dark_e_s, s.shortest_s, s.longest_s);
     // Levels go down to 1/25 of the longest exposure; dark current stays a trifle; a frame-transfer CCD's
     // rows pass the light in a small part of it.
@@ -158,6 +161,12 @@ void choose_exposures(BenchSetup& s) {
 }
 
 }  // namespace
+
+void require_lines(CameraModel& c, int lines) {
+    const FixedPatternConfig& f = c.fixed_pattern;
+    if (!line_scan(c) || !f.prnu_map.empty() || !f.offset_map.empty() || !f.dark_map.empty()) return;
+    c.height_px = std::max<std::int64_t>(c.height_px, lines);
+}
 
 BenchSetup bench_setup(const CameraModel& camera) {
     BenchSetup s;

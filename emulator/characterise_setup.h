@@ -28,6 +28,9 @@ inline constexpr double kOverexposure = 3;
 
 BenchSetup bench_setup(const CameraModel& camera);
 
+// A line camera takes as many lines as one wants; map files fix its size.
+void require_lines(CameraModel& camera, int lines);
+
 // What the pixels of the window count: without black ones and without a margin where what lies outside the
 // window is missing; of one colour filter.
 PixelSelection bench_selection(const BenchSetup& setup);

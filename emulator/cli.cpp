@@ -18,6 +18,7 @@
 #include "emulator/send_command.h"
 #include "emulator/sensor_bench.h"
 #include "io/config_yaml.h"
+#include "io/pixel_map_file.h"
 
 namespace hilcam {
 namespace {
@@ -126,7 +127,7 @@ int run_bench(const Options& o) {
 int run_characterise(const Options& o) {
     CameraModel camera;
     read_config(o.config, section_of(camera), o.overrides);
-    const DetectorPictures pictures;  // the camera's map files, when they are loaded
+    const DetectorPictures pictures = load_detector_pictures(camera);
     const nlohmann::json report = characterisation_json(characterise(camera, pictures), pictures);
     fmt::print("{}\n", o.json ? report.dump(2) : characterisation_table(report));
     if (!o.out.empty()) write_characterisation(report, o.out);

@@ -112,6 +112,7 @@ TEST(Characterise, ACameraWithFiltersAlongTheRow) {
     CameraModel c = small_camera();
     c.filters.low_pass_cy_px = 0.35;
     c.filters.boost = 0.2;
+    c.black_columns = 16, c.black_rows = 8;
     expect_as_made(c);
 }
 
@@ -134,6 +135,33 @@ TEST(Characterise, AColourCameraAsItIsUsed) {
     EXPECT_NEAR(report["mtf"]["horizontal"]["points"][4]["measured"].get<double>() /
                     report["mtf"]["horizontal"]["points"][4]["configured"].get<double>(),
                 1, 0.005);
+}
+
+// Rows that pass the light on their way out, charge that stays behind, and noise of half a step of the
+// converter without a gain that could lift it: the dark signal's does.
+TEST(Characterise, AFrameTransferCcd) {
+    CameraModel c = small_camera();
+    c.shutter.kind = ShutterKind::kFrameTransfer;
+    c.shutter.line_time_s = 4e-6;
+    c.ccd.blooming = true;
+    c.ccd.parallel_inefficiency = c.ccd.serial_inefficiency = 3e-5;
+    c.full_well_e = 100000, c.gain_dn_e = 0.04;
+    c.read_noise_e = 12.5;
+    c.dsnu_e = 25;
+    c.dark_current_e_s = 2000;
+    c.gain_range_db = {0, 0};
+    const nlohmann::json report = expect_as_made(c);
+    EXPECT_EQ(report["settings"]["dark_gain_db"], 0.0);
+}
+
+// As small as a guide window: an edge of 48 pixels is enough for the MTF.
+TEST(Characterise, ASmallWindow) {
+    CameraModel c = small_camera();
+    c.width_px = c.height_px = 64;
+    const Characterisation result = characterise(c, {});
+    const std::size_t nyquist = result.horizontal.nyquist();
+    EXPECT_NEAR(result.horizontal.measured[nyquist], result.horizontal.configured[nyquist], kMtf);
+    EXPECT_NEAR(result.gain_dn_e.value, 0.32, 4 * result.gain_dn_e.uncertainty);
 }
 
 // A line camera: one row of pixels, an exposure of its line clock alone.
