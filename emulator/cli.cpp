@@ -15,6 +15,7 @@
 #include "emulator/render_command.h"
 #include "emulator/report.h"
 #include "emulator/send_command.h"
+#include "emulator/sensor_bench.h"
 #include "io/config_yaml.h"
 
 namespace hilcam {
@@ -26,7 +27,7 @@ struct Options {
     double duration_s = 0, time_offset_s = 0;
     std::uint64_t frames = 0;
     BenchOptions bench;
-    bool json = false;
+    bool json = false, sensor = false;
     RenderStage stage = RenderStage::kFrame;
 };
 
@@ -79,9 +80,28 @@ int check(const Options& o) {
     return 0;
 }
 
+int run_sensor_bench(const Options& o, const ScenarioConfig& scenario) {
+    const nlohmann::json result = bench_sensor(scenario, static_cast<int>(o.bench.frames));
+    if (o.json) {
+        fmt::print("{}\n", result.dump(2));
+        return 0;
+    }
+    fmt::print("{}: {} x {} px, sensor stage {:.2f} ms, FFT pair and copy {:.2f} ms, ratio {:.2f}\n",
+               result["camera"].get<std::string>(), result["width"].get<int>(), result["height"].get<int>(),
+               result["sensor_ms"].get<double>(), result["floor_ms"].get<double>(),
+               result["ratio_to_floor"].get<double>());
+    for (const auto& [stage, ms] : result["stages_ms"].items())
+        fmt::print("  {:<22} {:7.2f} ms\n", stage, ms.get<double>());
+    for (const nlohmann::json& effect : result["effects"])
+        fmt::print("  with {:<22} {:+7.2f} ms\n", effect["name"].get<std::string>(),
+                   effect["extra_ms"].get<double>());
+    return 0;
+}
+
 int run_bench(const Options& o) {
     const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     const auto threads = limit_threads(scenario);
+    if (o.sensor) return run_sensor_bench(o, scenario);
     const nlohmann::json result = bench(scenario, o.bench);
     if (o.json) {
         fmt::print("{}\n", result.dump(2));
@@ -155,6 +175,7 @@ int run_command_line(int argc, char** argv) {
     bench_app->add_flag("--json", o.json, "machine-readable");
     bench_app->add_flag("--path-models", o.bench.path_models,
                         "also each path model against bare Embree on the same rays");
+    bench_app->add_flag("--sensor", o.sensor, "the sensor stage alone, and what each of its effects costs");
     bench_app->add_option("--frames", o.bench.frames, "frames of a run")->check(CLI::Range(1, 1000000));
     bench_app->add_option("--runs", o.bench.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
     bench_app->callback([&] { action = [&] { return run_bench(o); }; });

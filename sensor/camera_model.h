@@ -23,7 +23,7 @@
 
 namespace hilcam {
 
-// A lens at one image height; between zones its images are blended linearly.
+// A lens at one image height; between zones its images are blended.
 struct FieldZone {
     double field_fraction = 0;  // image height over that of the sensor's corner
     double defocus_m = 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -72,6 +73,12 @@ class Mosaic {
         return row[(static_cast<std::size_t>(x + left_) + 4 * row.size()) % row.size()];
     }
 
+    // Columns after which a row's pattern comes again.
+    int period(int y) const {
+        if (rows_.empty()) return 1;
+        return static_cast<int>(rows_[static_cast<std::size_t>(y + top_) % rows_.size()].size());
+    }
+
   private:
     int left_, top_;
     std::vector<std::vector<int>> rows_;
@@ -86,14 +93,17 @@ std::vector<LensState> lens_states(const CameraModel& c) {
     return out;
 }
 
-// Share of each zone in the image at a field height: linear between zones, constant outside them.
+// From 0 to 1 without a kink, which would show as a ring in an even picture.
+double smooth_step(double t) { return t * t * (3 - 2 * t); }
+
+// Share of each zone in the image at a field height: smooth between zones, constant outside them.
 double zone_weight(const std::vector<FieldZone>& zones, std::size_t i, double field_fraction) {
     if (zones.size() < 2) return 1;
     const auto at = [&](std::size_t k) { return zones[k].field_fraction; };
     if (i > 0 && field_fraction < at(i))
-        return std::max(0.0, (field_fraction - at(i - 1)) / (at(i) - at(i - 1)));
+        return smooth_step(std::clamp((field_fraction - at(i - 1)) / (at(i) - at(i - 1)), 0.0, 1.0));
     if (i + 1 < zones.size() && field_fraction > at(i))
-        return std::max(0.0, (at(i + 1) - field_fraction) / (at(i + 1) - at(i)));
+        return smooth_step(std::clamp((at(i + 1) - field_fraction) / (at(i + 1) - at(i)), 0.0, 1.0));
     return 1;
 }
 
@@ -120,6 +130,7 @@ struct FocalPlane::Implementation {
     std::vector<Channel> channels;
     std::vector<float> illumination;               // over the radiance image
     std::vector<std::vector<float>> zone_weights;  // the same, by zone; empty with one zone
+    std::vector<double> cell_sums;                 // of a ghost
     bool dark = false;                             // nothing in the radiance image
 
     Implementation(const CameraModel& c, const SpectralGrid& grid, const SensorSampling& s)
@@ -197,22 +208,39 @@ struct FocalPlane::Implementation {
         }
     }
 
-    // Before convolution; a cell's light is taken as at the middle of each radiance pixel.
-    void collect_ghost(Channel& channel, const RadianceImage& radiance) {
+    // Before convolution; the light of a cell of the ghost's size goes together.
+    void collect_ghost(Channel& channel) {
+        const int side = Ghost::kCell_px * sampling.oversampling;
+        const int across = (image.padded_width() + side - 1) / side;
+        const int down = (image.padded_height() + side - 1) / side;
+        cell_sums.resize(static_cast<std::size_t>(across * down));
+        tbb::parallel_for(tbb::blocked_range<int>(0, down, 4), [&](const tbb::blocked_range<int>& range) {
+            for (int j = range.begin(); j < range.end(); ++j)
+                sum_cells(*channel.convolver, j * side, side,
+                          std::span(cell_sums).subspan(static_cast<std::size_t>(j * across),
+                                                       static_cast<std::size_t>(across)));
+        });
         channel.ghost->clear();
         const double part = 1.0 / (sampling.oversampling * sampling.oversampling);
-        for (int layer = 0; layer < channel.convolver->layers(); ++layer)
-            for (int y = 0; y < image.padded_height(); ++y)
-                for (int x = 0; x < image.padded_width(); ++x) {
-                    if (radiance.dark(x, y)) {
-                        x += RadianceImage::kBlock_px - 1 - x % RadianceImage::kBlock_px;
-                        continue;
-                    }
-                    const float value = channel.convolver->row(y, layer)[static_cast<std::size_t>(x)];
-                    if (value > 0)
-                        channel.ghost->collect(detector_px(x), detector_px(y),
-                                               part * static_cast<double>(value));
+        for (int j = 0; j < down; ++j)
+            for (int i = 0; i < across; ++i) {
+                const double sum = cell_sums[static_cast<std::size_t>(j * across + i)];
+                if (sum > 0)
+                    channel.ghost->collect((i + 0.5) * Ghost::kCell_px - sampling.guard_px,
+                                           (j + 0.5) * Ghost::kCell_px - sampling.guard_px, part * sum);
+            }
+    }
+    void sum_cells(const Convolver& light, int top, int side, std::span<double> sums) const {
+        std::fill(sums.begin(), sums.end(), 0.0);
+        for (int layer = 0; layer < light.layers(); ++layer)
+            for (int y = top; y < std::min(top + side, light.height()); ++y) {
+                const std::span<const float> row = light.row(y, layer);
+                for (std::size_t i = 0; i < sums.size(); ++i) {
+                    const auto first = row.begin() + static_cast<std::ptrdiff_t>(i) * side;
+                    const auto last = first + std::min<std::ptrdiff_t>(side, row.end() - first);
+                    sums[i] += static_cast<double>(std::accumulate(first, last, 0.0f));
                 }
+            }
     }
 
     // --- sampling at the pixels
@@ -222,10 +250,6 @@ struct FocalPlane::Implementation {
         const int m = sampling.oversampling;
         return (px + sampling.guard_px) * m + m / 2;
     }
-    float sample(int channel, int x, int y) const {
-        return channels[static_cast<std::size_t>(channel)].convolver->row(
-            image_index(y))[static_cast<std::size_t>(image_index(x))];
-    }
     void sample_row(int y, float* out) const {
         const int width = detector.width_px;
         if (dark) {
@@ -234,7 +258,7 @@ struct FocalPlane::Implementation {
             const float* in = channels.front().convolver->row(image_index(y)).data() + sampling.guard_px;
             cut_off(in, static_cast<std::size_t>(width), out);
         } else {
-            for (int x = 0; x < width; ++x) out[x] = mixed(x, y);
+            mix_row(y, out);
             cut_off(out, static_cast<std::size_t>(width), out);
         }
         for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -243,18 +267,31 @@ struct FocalPlane::Implementation {
                 if (mosaic.channel(x, y) == static_cast<int>(c)) out[x] += channels[c].ghost->at(x, y);
         }
     }
-    // Under a mosaic, charge that crosses over comes from neighbours of other colours.
-    float mixed(int x, int y) const {
-        const float here = sample(mosaic.channel(x, y), x, y);
-        if (mosaic.one_color() || camera.crosstalk_fraction <= 0) return here;
-        const auto neighbour = [&](int dx, int dy) {
-            const int nx = std::clamp(x + dx, 0, detector.width_px - 1);
-            const int ny = std::clamp(y + dy, 0, detector.height_px - 1);
-            return sample(mosaic.channel(nx, ny), nx, ny);
+    // Of each pixel its own channel; under a mosaic, charge that crosses over comes from neighbours of other
+    // colours. At the window's edge a pixel is its own neighbour.
+    void mix_row(int y, float* out) const {
+        const int m = sampling.oversampling, width = detector.width_px;
+        const auto c = mosaic.one_color() ? 0.0f : static_cast<float>(camera.crosstalk_fraction);
+        const int period = mosaic.period(y);
+        const auto light = [&](int x, int row) {
+            const Channel& channel = channels[static_cast<std::size_t>(mosaic.channel(x, row))];
+            return channel.convolver->row(image_index(row)).data() + image_index(0);
         };
-        const auto c = static_cast<float>(camera.crosstalk_fraction);
-        return (1 - 4 * c) * here +
-               c * (neighbour(-1, 0) + neighbour(1, 0) + neighbour(0, -1) + neighbour(0, 1));
+        const int above = std::max(y - 1, 0), below = std::min(y + 1, detector.height_px - 1);
+        for (int phase = 0; phase < std::min(period, width); ++phase) {
+            const float* here = light(phase, y);
+            if (c == 0) {
+                for (int x = phase; x < width; x += period) out[x] = here[x * m];
+                continue;
+            }
+            const float *left = light(phase - 1, y), *right = light(phase + 1, y);
+            const float *up = light(phase, above), *down = light(phase, below);
+            for (int x = phase; x < width; x += period) {
+                const float beside = (x > 0 ? left[(x - 1) * m] : here[x * m]) +
+                                     (x + 1 < width ? right[(x + 1) * m] : here[x * m]);
+                out[x] = (1 - 4 * c) * here[x * m] + c * (beside + up[x * m] + down[x * m]);
+            }
+        }
     }
 
     // --- points
@@ -383,7 +420,7 @@ void FocalPlane::collapse(const RadianceImage& radiance, const Exposure& exposur
                 for (int y = range.begin(); y < range.end(); ++y)
                     my.collapse_row(channel, radiance, factor, y);
             });
-            if (channel.ghost) my.collect_ghost(channel, radiance);
+            if (channel.ghost) my.collect_ghost(channel);
         } else if (channel.ghost) {
             channel.ghost->clear();
         }

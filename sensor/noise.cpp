@@ -172,6 +172,33 @@ void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t fir
     }
 }
 
+namespace {
+
+// Four of each call; block: number of the first call.
+HILCAM_CLONES void fill_uniforms(RandomKey key, RandomPurpose purpose, std::uint32_t index,
+                                 std::uint32_t block, float* uniform) {
+    for (std::size_t i = 0; i < kBlock / 4; ++i) {
+        const auto words = random_words(key, purpose, block + static_cast<std::uint32_t>(i), index);
+        for (std::size_t k = 0; k < 4; ++k) uniform[4 * i + k] = uniform01(words[k]);
+    }
+}
+
+}  // namespace
+
+void draw_normals(RandomKey key, RandomPurpose purpose, std::uint32_t index, std::uint64_t first,
+                  std::span<float> deviates) {
+    alignas(64) std::array<float, kBlock> uniform;
+    std::size_t lead = first % 4;
+    std::size_t done = 0;
+    while (done < deviates.size()) {
+        const std::size_t count = std::min(kBlock - lead, deviates.size() - done);
+        fill_uniforms(key, purpose, index, static_cast<std::uint32_t>((first + done) / 4), uniform.data());
+        quantiles(uniform.data() + lead, count, deviates.data() + done);
+        done += count;
+        lead = 0;
+    }
+}
+
 std::uint32_t poisson_count(double mean, double uniform) {
     if (!(mean > 0)) return 0;
     if (mean > 500) {

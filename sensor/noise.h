@@ -18,6 +18,10 @@ namespace hilcam {
 void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t first_pixel,
                  std::span<float> charge_e, std::span<float> deviates);
 
+// Standard normal deviates number first, first + 1, ... of a stream. Loop, any thread.
+void draw_normals(RandomKey key, RandomPurpose purpose, std::uint32_t index, std::uint64_t first,
+                  std::span<float> deviates);
+
 // The standard normal quantile of u in (0, 1), single precision, error below 1e-5 relative: Giles,
 // "Approximating the erfinv function", GPU Computing Gems Jade Edition, 2012.
 float normal_quantile(float u);

@@ -1,6 +1,7 @@
 #include "sensor/read_out.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/clones.h"
@@ -53,7 +54,7 @@ ReadOut::ReadOut(const CameraModel& c)
     if (c.flicker_noise_e > 0) {
         const auto [width, height] = array_size(c);
         flicker_octaves_ = static_cast<int>(std::ceil(std::log2(static_cast<double>(width) * height))) + 1;
-        flicker_octave_e_ = static_cast<float>(c.flicker_noise_e / std::sqrt(flicker_octaves_));
+        flicker_octave_e_ = static_cast<float>(c.flicker_noise_e / std::sqrt(flicker_octaves_ + 1));
     }
 }
 
@@ -75,21 +76,25 @@ void ReadOut::read(const ReadOutRow& row, std::span<const TelegraphPixel> telegr
 }
 
 void ReadOut::add_flicker(int y, RandomKey key, std::span<float> charge_e) const {
-    const auto width = static_cast<std::uint64_t>(charge_e.size());
-    const std::uint64_t first = static_cast<std::uint64_t>(y) * width;
+    constexpr std::uint64_t kTogether = 128;
+    std::array<float, kTogether> deviates;
+    const std::uint64_t first = static_cast<std::uint64_t>(y) * charge_e.size();
+    const std::uint64_t end = first + charge_e.size();
     for (int octave = 0; octave < flicker_octaves_; ++octave) {
-        std::uint64_t x = 0;
-        while (x < width) {
-            // One call gives the values of four stretches.
-            const std::uint64_t stretch = (first + x) >> octave;
-            const auto words =
-                random_words(key, RandomPurpose::kFlicker, static_cast<std::uint32_t>(stretch / 4),
-                             static_cast<std::uint32_t>(octave));
-            for (std::uint64_t s = stretch; s < (stretch / 4 + 1) * 4 && x < width; ++s) {
-                const float value =
-                    flicker_octave_e_ * normal_quantile(uniform01(words[static_cast<std::size_t>(s % 4)]));
-                const std::uint64_t end = std::min(width, ((s + 1) << octave) - first);
-                for (; x < end; ++x) charge_e[static_cast<std::size_t>(x)] += value;
+        // Stretches of 2^octave pixels that meet this row.
+        const std::uint64_t last = (end - 1) >> octave;
+        for (std::uint64_t stretch = first >> octave; stretch <= last; stretch += kTogether) {
+            const std::span<float> values =
+                std::span(deviates).first(std::min(kTogether, last + 1 - stretch));
+            // The first stands for all the faster ones too: with twice the variance every octave of the sum
+            // has the same power.
+            const float amplitude_e = octave == 0 ? std::sqrt(2.0f) * flicker_octave_e_ : flicker_octave_e_;
+            draw_normals(key, RandomPurpose::kFlicker, static_cast<std::uint32_t>(octave), stretch, values);
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                const std::uint64_t from = std::max(first, (stretch + i) << octave);
+                const std::uint64_t to = std::min(end, (stretch + i + 1) << octave);
+                for (std::uint64_t x = from; x < to; ++x)
+                    charge_e[static_cast<std::size_t>(x - first)] += amplitude_e * values[i];
             }
         }
     }

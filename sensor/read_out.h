@@ -7,7 +7,7 @@
 //   gain, black level, converter     DN
 //
 // 1/f noise runs along the array in the order of its pixels: a sum of octaves, each constant over 2^k pixels
-// (Voss & Clarke, J. Acoust. Soc. Am. 63, 258, 1978): power falls as 1/f within 10 % from one cycle per frame
+// (Voss & Clarke, J. Acoust. Soc. Am. 63, 258, 1978): the same power in every octave from one cycle per frame
 // to half a cycle per pixel, and any pixel's value can be computed alone.
 
 #include <span>

@@ -31,16 +31,16 @@ class Ghost {
     // geometry: of the detector's pixels. Owner thread.
     Ghost(const StrayLightConfig& config, const ImageGeometry& geometry);
 
+    static constexpr int kCell_px = 8;
+
     // In this order each frame; loop, one thread.
     void clear();
     void collect(double x_px, double y_px, double electrons);  // px of the sensor frame
     void spread();
-    // Electrons that the ghost puts into a pixel.
+    // Electrons that the ghost puts into a pixel. Any thread.
     float at(int x_px, int y_px) const;
 
   private:
-    static constexpr int kCell_px = 8;
-
     double fraction_, scale_;
     ImageGeometry geometry_;
     Convolver cells_;

@@ -82,7 +82,7 @@ PupilTransfer::PupilTransfer(double obscuration_ratio, double defocus_waves, std
                 phase += waves[k] * zernike(static_cast<int>(k) + 4, x, y);
             otf_[static_cast<std::size_t>(j) * kSize + static_cast<std::size_t>(i)] =
                 std::complex<float>(std::polar(amplitude, 2 * kPi * phase));
-            area += amplitude * amplitude;
+            area += amplitude;
         }
     // Autocorrelation: transform, squared modulus, transform.
     fftwf_execute(plan);
@@ -90,6 +90,9 @@ PupilTransfer::PupilTransfer(double obscuration_ratio, double defocus_waves, std
     for (auto& value : otf_) value = std::norm(value) * scale;
     fftwf_execute(plan);
     fftwf_destroy_plan(plan);
+    // Samples on the pupil's edge overlap themselves with the square of their share: right for every shift
+    // but none.
+    otf_[0] = 1;
 }
 
 std::complex<double> PupilTransfer::at(double shift_x, double shift_y) const {
