@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "emulator/bench.h"
+#include "emulator/characterise_report.h"
 #include "emulator/check_command.h"
 #include "emulator/emulator.h"
 #include "emulator/render_command.h"
@@ -127,6 +128,16 @@ int run_bench(const Options& o) {
     return 0;
 }
 
+int run_characterise(const Options& o) {
+    CameraModel camera;
+    read_config(o.config, section_of(camera), o.overrides);
+    const DetectorPictures pictures;  // the camera's map files, when they are loaded
+    const nlohmann::json report = characterisation_json(characterise(camera, pictures), pictures);
+    fmt::print("{}\n", o.json ? report.dump(2) : characterisation_table(report));
+    if (!o.out.empty()) write_characterisation(report, o.out);
+    return 0;
+}
+
 void add_config(CLI::App* command, Options& o) {
     command->add_option("config", o.config, "scenario file (YAML)")->required();
     command->add_option("--set", o.overrides, "KEY=VALUE, replaces a value of the scenario; may be repeated")
@@ -179,6 +190,16 @@ int run_command_line(int argc, char** argv) {
     bench_app->add_option("--frames", o.bench.frames, "frames of a run")->check(CLI::Range(1, 1000000));
     bench_app->add_option("--runs", o.bench.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
     bench_app->callback([&] { action = [&] { return run_bench(o); }; });
+
+    CLI::App* characterise_app =
+        app.add_subcommand("characterise", "measure a camera from its own frames (EMVA 1288, ISO 12233)");
+    characterise_app->add_option("camera", o.config, "camera file (YAML)")->required();
+    characterise_app
+        ->add_option("--set", o.overrides, "KEY=VALUE, replaces a value of the camera; may be repeated")
+        ->allow_extra_args(false);
+    characterise_app->add_flag("--json", o.json, "machine-readable");
+    characterise_app->add_option("--out", o.out, "folder for JSON, curves (CSV) and a page with plots");
+    characterise_app->callback([&] { action = [&] { return run_characterise(o); }; });
 
     CLI::App* manual_app = app.add_subcommand("manual", "the keys of a scenario file as a Markdown table");
     manual_app->callback([&] {

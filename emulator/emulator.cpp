@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "emulator/scene_loader.h"
+#include "io/pixel_map_file.h"
 
 namespace hilcam {
 namespace {
@@ -69,7 +70,8 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     const ImageGeometry geometry = geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px),
                                                static_cast<int>(scenario.quality.oversampling));
     renderer_ = load_renderer(scenario, grid_, geometry);
-    chain_ = std::make_unique<SensorChain>(scenario.camera, grid_, sampling_of(scenario.quality));
+    chain_ = std::make_unique<SensorChain>(scenario.camera, grid_, sampling_of(scenario.quality),
+                                           load_detector_pictures(scenario.camera));
     // Loading took its time; the simulation starts now.
     const TimeTai start = parse_utc(scenario.time_utc);
     clock_ = SimulatedClock(start, monotonic_now_ns());

@@ -5,6 +5,7 @@
 #include "emulator/scene_loader.h"
 #include "emulator/shutter_timing.h"
 #include "io/image_file.h"
+#include "io/pixel_map_file.h"
 #include "sensor/chain.h"
 
 namespace hilcam {
@@ -38,7 +39,8 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
     exposures.render(world, time, key, radiance, points, exposure);
     if (stage == RenderStage::kRadiance) return write_radiance_exr(out, radiance, grid);
 
-    SensorChain chain(scenario.camera, grid, sampling_of(scenario.quality));
+    SensorChain chain(scenario.camera, grid, sampling_of(scenario.quality),
+                      load_detector_pictures(scenario.camera));
     const auto [array_width, array_height] = array_size(scenario.camera);
     ElectronImage electrons(array_width, array_height);
     chain.expose(radiance, points, exposure, electrons);

@@ -266,6 +266,8 @@ double SensorChain::mtf(double u, double v) const {
     return implementation_->focal_plane.mtf(u, v) * implementation_->read_out.filter().mtf(u);
 }
 
+int SensorChain::kernel_radius() const { return implementation_->focal_plane.kernel_radius(); }
+
 double SensorChain::fft_pair_ms() {
     const auto start = Clock::now();
     implementation_->focal_plane.run_fft_pair();

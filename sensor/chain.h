@@ -46,6 +46,8 @@ class SensorChain {
     double mtf(double u, double v) const;
     // Along the rows at the Nyquist frequency (0.5 cycles/px).
     double mtf_at_nyquist() const { return mtf(0.5, 0); }
+    // Radius of the compact kernel in place of the FFT pair [px of the radiance image]; 0: the FFT pair.
+    int kernel_radius() const;
     // Time of one bare FFT pair of the frame's size [ms]; for `hilcam bench`.
     double fft_pair_ms();
 

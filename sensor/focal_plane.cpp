@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "render/clones.h"
 #include "render/pose.h"
 #include "render/units.h"
+#include "sensor/compact_kernel.h"
 #include "sensor/mtf.h"
 #include "sensor/optics.h"
 #include "sensor/psf.h"
@@ -114,6 +116,7 @@ struct Channel {
     std::vector<SystemMtf> mtfs;  // by zone
     std::vector<PointSpread> spreads;
     std::optional<Convolver> convolver;
+    std::optional<CompactKernel> kernel;  // does the same, faster
     std::optional<Ghost> ghost;
 };
 
@@ -178,6 +181,10 @@ struct FocalPlane::Implementation {
         for (const SystemMtf& mtf : channel.mtfs)
             transfers.push_back([&](double u, double v) { return image_transfer(mtf, u, v); });
         channel.convolver.emplace(image.padded_width(), image.padded_height(), transfers);
+        // Its border of nothing must lie in the guard band.
+        if (transfers.size() == 1 && image.guard_px >= CompactKernel::kMostRadius)
+            channel.kernel =
+                CompactKernel::find(transfers.front(), image.padded_width(), image.padded_height());
         if (camera.stray_light.ghost_fraction > 0) channel.ghost.emplace(camera.stray_light, detector);
     }
     // MTF_sys at the radiance image's frequencies. Its rays have averaged over its pixels already. With an
@@ -305,16 +312,21 @@ struct FocalPlane::Implementation {
         return sum * exposure_s;
     }
 
-    // A point may move through the exposure, and jitter: it is drawn as many points, a quarter of a pixel
-    // apart.
+    // A point may move through the exposure: it is drawn as many points, a quarter of a pixel apart.
+    // drift_px: its own way, over that of the sky.
     template <class Draw>
-    void along_trail(Vec2d middle_px, const Exposure& exposure, const Draw& draw) const {
+    void along_trail(Vec2d middle_px, Vec2d drift_px, const Exposure& exposure, const Draw& draw) const {
         const Vec3d turn_rad = -exposure.exposure_s * exposure.camera_rate_rad_s;
-        if (turn_rad.x == 0 && turn_rad.y == 0 && turn_rad.z == 0) return draw(middle_px, 1.0);
+        const bool turns = turn_rad.x != 0 || turn_rad.y != 0 || turn_rad.z != 0;
+        if (!turns && drift_px.x == 0 && drift_px.y == 0) return draw(middle_px, 1.0);
         const Vec3d dir = detector.direction_camera(middle_px.x, middle_px.y);
         const auto at = [&](double time) {
-            const Vec3d moved = to_matrix(from_rotation_vector(time * turn_rad)) * dir;
-            return moved.z > 0 ? detector.project_px(moved) : Vec2d{-1e9, -1e9};
+            Vec2d px = middle_px;
+            if (turns) {
+                const Vec3d moved = to_matrix(from_rotation_vector(time * turn_rad)) * dir;
+                px = moved.z > 0 ? detector.project_px(moved) : Vec2d{-1e9, -1e9};
+            }
+            return Vec2d{px.x + time * drift_px.x, px.y + time * drift_px.y};
         };
         const Vec2d from = at(-0.5), to = at(0.5);
         const double length_px = std::hypot(to.x - from.x, to.y - from.y);
@@ -326,15 +338,36 @@ struct FocalPlane::Implementation {
         const double m = sampling.oversampling;
         const Vec2d middle_px{static_cast<double>(point.position_px.x) / m,
                               static_cast<double>(point.position_px.y) / m};
+        const double way = exposure.exposure_s / m;
+        const Vec2d drift_px{way * static_cast<double>(point.drift_px_s.x),
+                             way * static_cast<double>(point.drift_px_s.y)};
         if (!std::isfinite(middle_px.x) || !std::isfinite(middle_px.y)) return;
         for (std::size_t c = 0; c < channels.size(); ++c) {
             const double all = std::min(electrons_of(channels[c], point, exposure.exposure_s), 1e9);
             if (!(all > 0)) continue;
-            along_trail(middle_px, exposure, [&](Vec2d at_px, double part) {
+            along_trail(middle_px, drift_px, exposure, [&](Vec2d at_px, double part) {
                 if (std::abs(at_px.x) > 1e6 || std::abs(at_px.y) > 1e6) return;
-                draw_point(static_cast<int>(c), at_px, all * part * lens.of_point(at_px.x, at_px.y), light_e);
+                const double electrons = all * part * lens.of_point(at_px.x, at_px.y);
+                scatter(at_px, [&](Vec2d px, double share) {
+                    draw_point(static_cast<int>(c), px, electrons * share, light_e);
+                });
             });
         }
+    }
+    // The exposure's own jitter: points half a standard deviation apart, out to three, by the normal density.
+    template <class Draw>
+    void scatter(Vec2d at_px, const Draw& draw) const {
+        if (jitter_px <= 0) return draw(at_px, 1.0);
+        constexpr int kReach = 6;
+        std::array<double, 2 * kReach + 1> weights;
+        double sum = 0;
+        for (int i = -kReach; i <= kReach; ++i)
+            sum += weights[static_cast<std::size_t>(i + kReach)] = std::exp(-0.125 * i * i);
+        for (int j = -kReach; j <= kReach; ++j)
+            for (int i = -kReach; i <= kReach; ++i)
+                draw({at_px.x + 0.5 * i * jitter_px, at_px.y + 0.5 * j * jitter_px},
+                     weights[static_cast<std::size_t>(i + kReach)] *
+                         weights[static_cast<std::size_t>(j + kReach)] / (sum * sum));
     }
     void draw_point(int c, Vec2d at_px, double electrons, ElectronImage& light_e) {
         Channel& channel = channels[static_cast<std::size_t>(c)];
@@ -398,6 +431,7 @@ struct FocalPlane::Implementation {
     }
 
     std::vector<double> glare_e;  // of all points, spread evenly; by channel
+    double jitter_px = 0;         // of this exposure, what its density leaves within it
 };
 
 FocalPlane::FocalPlane(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling)
@@ -406,6 +440,10 @@ FocalPlane::~FocalPlane() = default;
 
 void FocalPlane::collapse(const RadianceImage& radiance, const Exposure& exposure) {
     Implementation& my = *implementation_;
+    my.jitter_px =
+        std::sqrt(jitter_blur_rad2(my.camera.jitter, exposure.exposure_s)) * my.detector.focal_length_px;
+    // A hundredth of a pixel is not seen.
+    if (my.jitter_px < 0.01) my.jitter_px = 0;
     HILCAM_CHECK(radiance.width() == my.image.padded_width() &&
                  radiance.height() == my.image.padded_height() && radiance.planes() == my.bins);
     my.dark = true;
@@ -433,7 +471,13 @@ void FocalPlane::convolve(const Exposure& exposure) {
     MotionBlur blur;
     const double scale = exposure.exposure_s * my.sampling.oversampling;
     blur.smear_px = {exposure.image_rate_px_s.x * scale, exposure.image_rate_px_s.y * scale};
-    for (Channel& channel : my.channels) channel.convolver->run(blur);
+    blur.sigma_px = {my.jitter_px * my.sampling.oversampling, my.jitter_px * my.sampling.oversampling};
+    for (Channel& channel : my.channels) {
+        if (channel.kernel && blur.none())
+            channel.kernel->run(*channel.convolver);
+        else
+            channel.convolver->run(blur);
+    }
 }
 
 void FocalPlane::gather(std::span<const PointSource> points, const Exposure& exposure,
@@ -457,6 +501,11 @@ void FocalPlane::gather(std::span<const PointSource> points, const Exposure& exp
 
 double FocalPlane::mtf(double u, double v) const {
     return std::abs(implementation_->channels.front().mtfs.front().at(u, v));
+}
+
+int FocalPlane::kernel_radius() const {
+    const auto& kernel = implementation_->channels.front().kernel;
+    return kernel ? kernel->radius() : 0;
 }
 
 void FocalPlane::run_fft_pair() { implementation_->channels.front().convolver->run(); }

@@ -33,6 +33,9 @@ class FocalPlane {
     double mtf(double u, double v) const;
     // One bare FFT pair, for benchmarks.
     void run_fft_pair();
+    // Whether the picture is convolved by a compact kernel, and of what radius [px of the radiance image]; 0:
+    // by FFT.
+    int kernel_radius() const;
 
   private:
     struct Implementation;

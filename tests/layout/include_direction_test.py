@@ -10,8 +10,8 @@ ONLY_IN = {
     "embree": {"render/embree_scene.cpp"},
     "yaml-cpp": {"io/config_yaml.cpp"},
     "assimp": {"io/mesh_file.cpp"},
-    "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp"},
-    "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp"},
+    "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
+    "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp", "io/pixel_map_file.cpp"},
     "erfa": {"render/bodies.cpp", "render/stars.cpp", "render/time.cpp"},
 }
 

@@ -108,6 +108,48 @@ class Pictures(unittest.TestCase):
                 self.assertEqual(file.read_bytes()[:4], b"\x76\x2f\x31\x01")  # OpenEXR's magic number
 
 
+class Characterise(unittest.TestCase):
+    CAMERA = SOURCE / "configs/cameras/inspector_1k.yaml"
+    FAST = ("--set", "window_px=[400, 400, 160, 160]")
+
+    def test_json_has_the_figures_that_scripts_read(self):
+        result = hilcam("characterise", self.CAMERA, "--json", *self.FAST)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads(result.stdout)
+        for key in ("gain_dn_e", "qe_peak", "read_noise_e", "dark_current_e_s", "full_well_e", "prnu_fraction",
+                    "dsnu_e", "linearity_error", "mtf_nyquist", "snr_max_db", "dynamic_range_db",
+                    "saturation_capacity_e", "absolute_threshold_e"):
+            self.assertEqual(set(report[key]), {"configured", "measured", "uncertainty"}, key)
+            for value in report[key].values():
+                self.assertIsInstance(value, (int, float), key)
+        self.assertEqual(report["gain_dn_e"]["configured"], 0.29)
+        self.assertAlmostEqual(report["gain_dn_e"]["measured"], 0.29, delta=0.0029)
+        self.assertGreater(len(report["photon_transfer"]), 16)
+        self.assertEqual(len(report["mtf"]["vertical"]["points"]), 65)
+
+    def test_a_folder_with_curves_and_a_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = hilcam("characterise", self.CAMERA, "--out", folder, *self.FAST)
+            self.assertIn("System gain K", result.stdout)
+            files = {path.name for path in pathlib.Path(folder).iterdir()}
+            self.assertLessEqual({"characterise.json", "photon_transfer.csv", "linearity.csv", "dark.csv",
+                                  "mtf_horizontal.csv", "mtf_vertical.csv"}, files)
+            if subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"], capture_output=True).returncode != 0:
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("Matplotlib is missing", result.stderr)
+                self.skipTest("Matplotlib is missing: the page is not looked at")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            page = (pathlib.Path(folder) / "index.html").read_text()
+            self.assertEqual(page.count("<svg"), 9)
+            self.assertNotIn("http-equiv", page)  # one file, nothing to load
+            self.assertNotIn("<script", page)
+
+    def test_a_camera_that_cannot_be_is_refused(self):
+        result = hilcam("characterise", self.CAMERA, "--set", "f_number=0")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("f_number", result.stderr)
+
+
 class Camera(unittest.TestCase):
     def test_aravis_takes_every_frame_and_settings_reach_the_camera(self):
         with tempfile.TemporaryDirectory() as folder, Running("127.0.0.9", 15021, folder) as emulator:

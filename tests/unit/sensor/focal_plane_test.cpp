@@ -331,6 +331,30 @@ TEST(Motion, AStarLeavesATrail) {
     EXPECT_NEAR(x_sum / sum(e), 32.5, 1e-3);
 }
 
+// A density of 100 arcsec^2/Hz from 50 to 150 Hz is 10^4 arcsec^2; an exposure of a second blurs all of it:
+// 100 arcsec are 4.4 px. A star and a small square have that variance.
+TEST(Motion, JitterOfADensityBlursPointsAndPicture) {
+    CameraModel c = gaussian_camera(0.5);
+    c.jitter.psd_arcsec2_hz = {{50, 150}, {100, 100}};
+    const double sigma_px = std::sqrt(jitter_blur_rad2(c.jitter, 1.0)) * c.focal_length_m / c.pitch_m;
+    EXPECT_NEAR(sigma_px, 100 * kArcsecond_rad * 0.05 / 5.5e-6, 0.01);
+    Bench bench(c, {32, 1, 1});
+    const auto variance = [](const ElectronImage& e) {
+        double sum_all = 0, squares = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x)
+                sum_all += at(e, x, y), squares += at(e, x, y) * (x + 0.5 - 32) * (x + 0.5 - 32);
+        return squares / sum_all;
+    };
+    const PointSource p = point_at(32, 32, 1e-6);
+    // Detector and pixel add theirs; what lies beyond three standard deviations is cut off (2.7 %).
+    const double expected = sigma_px * sigma_px + 0.25 + 1.0 / 12;
+    EXPECT_NEAR(variance(bench.expose({.exposure_s = 1}, {{p}})) / expected, 1, 0.03);
+    for (int y = 63; y < 65; ++y)
+        for (std::size_t x = 63; x < 65; ++x) bench.radiance.row(y)[x] = 100;
+    EXPECT_NEAR(variance(bench.expose({.exposure_s = 1})) / (expected + 0.25), 1, 0.01);
+}
+
 // --- colours
 // -------------------------------------------------------------------------------------------------------
 
