@@ -97,7 +97,7 @@ void switch_off(BenchSetup& s) {
         "numbers are taken before companding: it would be undone first, and its steps are no noise of the "
         "camera");
     c.converter.companding = Companding::kNone;
-    set(c.jitter.rms_rad[0] > 0 || c.jitter.rms_rad[1] > 0 || !c.jitter.psd_rad2_hz.empty(),
+    set(c.jitter.rms_rad[0] > 0 || c.jitter.rms_rad[1] > 0 || !c.jitter.psd_arcsec2_hz.empty(),
         "the camera stands still: jitter is the spacecraft's");
     c.jitter = {};
     set(c.cosmic_rays.rate_cm2_s > 0, "no cosmic rays: they are the orbit's");
