@@ -127,11 +127,11 @@ TEST_F(Allocation, TheLoopAllocatesNothing) { EXPECT_EQ(allocations({}), 0); }
 
 TEST_F(Allocation, NorWithStarsAutomaticExposureJitterAndExactMotion) {
     EXPECT_EQ(allocations(
-                  {"quality.motion=exact", "quality.motion_error_px=4", "camera_pose.rate_deg_s=[0, 200, 0]",
+                  {"quality.motion=exact", "quality.motion_error_px=4", "camera_pose.rate_deg_s=[0, 100, 0]",
                    "camera.exposure_ms=10", "camera.exposure_range_ms=[0.01, 20]",
                    "camera.auto_exposure.on=true", "camera.jitter.psd=[[1, 100], [50, 1]]",
                    std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv",
-                   "stars.faintest_magnitude=6"}),
+                   "stars.faintest_magnitude=4"}),
               0);
 }
 
