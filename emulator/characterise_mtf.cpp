@@ -85,11 +85,12 @@ LightPicture light_of(CameraBench& bench, const BenchSetup& s, const ResponseCur
 // n transfers (Janesick, Scientific Charge-Coupled Devices, SPIE, 2001, ch. 5).
 double transfer_mtf(const CameraModel& c, double u, double v) {
     const auto [width, height] = array_size(c);
+    const PixelRectangle window = window_of(c);
     const auto along = [](double inefficiency, double transfers, double f) {
         return std::exp(-inefficiency * transfers * (1 - std::cos(2 * kPi * f)));
     };
-    return along(c.ccd.serial_inefficiency, 0.5 * width, u) *
-           along(c.ccd.parallel_inefficiency, 0.5 * height, v);
+    return along(c.ccd.serial_inefficiency, window.left + 0.5 * width, u) *
+           along(c.ccd.parallel_inefficiency, window.top + 0.5 * height, v);
 }
 
 }  // namespace

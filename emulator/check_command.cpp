@@ -2,48 +2,45 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "emulator/camera_sheet.h"
 #include "emulator/emulator.h"
+#include "emulator/exposure_renderer.h"
 #include "emulator/scene_loader.h"
-#include "render/sun.h"
-#include "render/units.h"
-#include "sensor/chain.h"
-#include "sensor/optics.h"
+#include "emulator/shutter_timing.h"
+#include "io/config_yaml.h"
 
 namespace hilcam {
 namespace {
 
-std::string camera_sheet(const ScenarioConfig& s, const SpectralGrid& grid) {
-    const CameraModel& c = s.camera;
-    const double pixel_rad = c.pitch_m / c.focal_length_m;
-    const auto field_deg = [&](std::int64_t px) {
-        return 2 * std::atan(0.5 * static_cast<double>(px) * pixel_rad) / kDegree_rad;
-    };
-    const Spectrum per_radiance = electrons_per_s_per_radiance(c, grid);
-    const Spectrum sun = solar_irradiance_1au_w_m2_um(grid);
-    double white_e_s = 0;  // a white Lambert surface in full Sun at 1 au
-    for (int b = 0; b < grid.size(); ++b)
-        white_e_s += static_cast<double>(per_radiance[b]) * static_cast<double>(sun[b]) / kPi;
-    const SensorChain chain(c, grid, {28, 1, 1});
-    std::string out = fmt::format("camera {}\n", c.name);
-    out += fmt::format(
-        "  field {:.3f} x {:.3f} deg, IFOV {:.2f} arcsec, {} x {} px of {:.2f} um, f = {:.1f} mm, f/{:.1f}\n",
-        field_deg(c.width_px), field_deg(c.height_px), pixel_rad / kArcsecond_rad, c.width_px, c.height_px,
-        c.pitch_m * 1e6, c.focal_length_m * 1e3, c.f_number);
-    out += fmt::format("  MTF at Nyquist {:.3f} (optics and pixel aperture)\n", chain.mtf_at_nyquist());
-    out += fmt::format(
-        "  full well {:.0f} e-, read noise {:.1f} e-, dark current {:.2f} e-/s, {:.4f} DN/e-, {} bits\n",
-        c.full_well_e, c.read_noise_e, c.dark_current_e_s, c.system_gain_dn_e(0), c.bits);
-    out += fmt::format(
-        "  a white surface in full Sun gives {:.3g} e-/s; it fills the well in {:.3f} ms; now {:.3f} ms\n",
-        white_e_s, 1e3 * c.full_well_e / white_e_s, 1e3 * c.exposure_s);
-    const double signal = std::min(c.full_well_e, white_e_s * c.exposure_s);
-    out += fmt::format(
-        "  its SNR at that exposure {:.1f}\n",
-        signal / std::sqrt(signal + c.dark_current_e_s * c.exposure_s + c.read_noise_e * c.read_noise_e));
+// How the exposure of the first instant will be made, and why.
+std::string motion_line(const ScenarioConfig& s, Renderer& renderer, const SpectralGrid& grid) {
+    const TimeTai start = parse_utc(s.time_utc);
+    WorldState world(initial_motions(s, start), s.origin, joints_of(s));
+    ExposureRenderer exposures(renderer, s, grid, world.placed_objects());
+    const double exposure_s = ShutterTiming(s.camera).exposure_s(s.camera.exposure_s);
+    const ExposureRenderer::Plan plan = exposures.plan(world, start, exposure_s);
+    const char* names[] = {"off", "fast", "exact"};
+    std::string out = fmt::format(
+        "motion {}: the picture moves by {:.3g} px in {:.4g} ms, anything in it by {:.3g} px at most",
+        names[static_cast<std::size_t>(s.quality.motion)], plan.picture_px, exposure_s * 1e3,
+        plan.largest_px);
+    if (s.quality.motion == MotionQuality::kExact)
+        out += fmt::format("; {} parts{}", plan.parts,
+                           plan.parts_limited ? " (the most there are; more asked for)" : "");
+    if (s.quality.motion == MotionQuality::kExact && s.camera.shutter.kind == ShutterKind::kLineScan)
+        out += " (a scanning line sees each place when it passes: as fast)";
     return out;
 }
 
 }  // namespace
+
+bool is_camera_file(const std::filesystem::path& file) { return has_top_level_key(file, "pitch_um"); }
+
+std::string check_camera(const std::filesystem::path& file, std::span<const std::string> overrides) {
+    CameraModel camera;
+    read_config(file, section_of(camera), overrides);
+    return to_text(camera_sheet(camera));
+}
 
 std::string check_scenario(const ScenarioConfig& s) {
     const SpectralGrid grid(s.spectrum_edges_um);
@@ -53,10 +50,13 @@ std::string check_scenario(const ScenarioConfig& s) {
     const std::unique_ptr<Renderer> renderer = load_renderer(s, grid, geometry);
     const WorldSnapshot world = snapshot_at(s, time, time);
     renderer->require_air(world);
-    std::string out =
-        fmt::format("scenario {} at {}\n", s.name, format_utc(time)) + camera_sheet(s, grid) + "plan\n";
+    std::string out = to_text(camera_sheet(s.camera)) +
+                      fmt::format(
+                          "scenario {} at {}\n  its bins have {:.1f} % of the camera's photo-electrons of "
+                          "sunlight\nplan\n",
+                          s.name, format_utc(time), 100 * share_in_bins(s.camera, grid));
     for (const std::string& line : renderer->explain_plan(world)) out += "  " + line + "\n";
-    return out;
+    return out + "  " + motion_line(s, *renderer, grid) + "\n";
 }
 
 }  // namespace hilcam

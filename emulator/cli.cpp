@@ -55,6 +55,7 @@ int run(const Options& o) {
                                        emulator.command_report(), emulator.sinks());
     const std::uint64_t outside = emulator.renderer().rays_outside_air();
     report["quality"]["rays_outside_atmosphere"] = outside;
+    report["quality"]["motion_limited_frames"] = emulator.loop().counters().motion_limited.load();
     if (outside > 0)
         spdlog::warn("{} rays left the atmosphere's table and were given its nearest geometry", outside);
     if (!o.report.empty()) write_json(o.report, report);
@@ -72,6 +73,10 @@ int render(const Options& o) {
 }
 
 int check(const Options& o) {
+    if (is_camera_file(o.config)) {
+        fmt::print("{}", check_camera(o.config, o.overrides));
+        return 0;
+    }
     const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     fmt::print("{}", check_scenario(scenario));
     return 0;
@@ -172,7 +177,8 @@ int run_command_line(int argc, char** argv) {
     render_app->add_option("--time-offset-s", o.time_offset_s, "seconds after the scenario's start");
     render_app->callback([&] { action = [&] { return render(o); }; });
 
-    CLI::App* check_app = app.add_subcommand("check", "validate a scenario and say what it needs");
+    CLI::App* check_app = app.add_subcommand(
+        "check", "validate a scenario and say what it needs; of a camera's file, print its data sheet");
     add_config(check_app, o);
     check_app->callback([&] { action = [&] { return check(o); }; });
 

@@ -103,35 +103,56 @@ void ExposureRenderer::sample_ends(const WorldState& world, const Span& span, bo
     sample_again(world, span, span.middle + half_ns, with_bodies, after_);
 }
 
+ExposureRenderer::Plan ExposureRenderer::plan_of(const ImageMotion& motion) const {
+    Plan plan;
+    plan.picture_px = std::hypot(motion.displacement_px.x, motion.displacement_px.y) / oversampling_;
+    plan.largest_px = motion.largest_px / oversampling_;
+    const double asked = std::ceil(plan.largest_px / motion_error_px_);
+    plan.parts = static_cast<int>(std::clamp(asked, 1.0, static_cast<double>(kMostParts)));
+    plan.parts_limited = asked > kMostParts;
+    return plan;
+}
+
+void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownCommand& shown) {
+    world.sample(span.middle, middle_, shown);
+    middle_.camera = jitter_.applied(middle_.camera, span.middle, span.exposure_s);
+}
+
+ExposureRenderer::Plan ExposureRenderer::plan(WorldState& world, TimeTai middle, double exposure_s) {
+    const Span span{middle, std::llround(exposure_s * 1e9), exposure_s};
+    ShownCommand ignored;
+    sample_middle(world, span, ignored);
+    sample_ends(world, span, true);
+    return plan_of(renderer_.motion(middle_, before_, after_));
+}
+
 ExposureRenderer::Result ExposureRenderer::render(WorldState& world, TimeTai middle, RandomKey key,
                                                   RadianceImage& radiance, std::vector<PointSource>& points,
                                                   Exposure& exposure) {
     const Span span{middle, std::llround(exposure.exposure_s * 1e9), exposure.exposure_s};
     Result result;
-    world.sample(middle, middle_, result.shown);
-    middle_.camera = jitter_.applied(middle_.camera, middle, exposure.exposure_s);
+    sample_middle(world, span, result.shown);
     exposure.image_rate_px_s = {};
     exposure.camera_rate_rad_s = {};
-    if (motion_ != MotionQuality::kExact) {
-        renderer_.render(middle_, key, radiance, points, result.stats);
-        if (motion_ == MotionQuality::kOff) return result;
+    if (motion_ == MotionQuality::kExact) {
+        sample_ends(world, span, true);
+        const ImageMotion motion = renderer_.motion(middle_, before_, after_);
+        const Plan plan = plan_of(motion);
+        result.parts = plan.parts;
+        result.parts_limited = plan.parts_limited;
+        set_rates(motion, result.parts, exposure);
+        if (result.parts > 1) {
+            render_parts(world, span, key, radiance, points, result);
+            return result;
+        }
+    }
+    renderer_.render(middle_, key, radiance, points, result.stats);
+    if (motion_ == MotionQuality::kOff) return result;
+    if (motion_ == MotionQuality::kFast) {
         sample_ends(world, span, renderer_.last_shows_body());
         set_rates(renderer_.motion_of_last(before_, after_), 1, exposure);
-        renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
-        return result;
     }
-    sample_ends(world, span, true);
-    const ImageMotion motion = renderer_.motion(middle_, before_, after_);
-    const double asked = std::ceil(motion.largest_px / oversampling_ / motion_error_px_);
-    result.parts = static_cast<int>(std::clamp(asked, 1.0, static_cast<double>(kMostParts)));
-    result.parts_limited = asked > kMostParts;
-    set_rates(motion, result.parts, exposure);
-    if (result.parts == 1) {
-        renderer_.render(middle_, key, radiance, points, result.stats);
-        renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
-    } else {
-        render_parts(world, span, key, radiance, points, result);
-    }
+    renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
     return result;
 }
 

@@ -48,8 +48,15 @@ class ExposureRenderer {
     // allocation.
     Result render(WorldState& world, TimeTai middle, RandomKey key, RadianceImage& radiance,
                   std::vector<PointSource>& points, Exposure& exposure);
-    // What the last one showed at its middle.
-    const WorldSnapshot& middle() const { return middle_; }
+
+    // What exact motion would do, and how far things move [px of the detector]. Not for the loop.
+    struct Plan {
+        double picture_px = 0;  // what fills most of the picture
+        double largest_px = 0;
+        int parts = 1;
+        bool parts_limited = false;
+    };
+    Plan plan(WorldState& world, TimeTai middle, double exposure_s);
 
   private:
     Renderer& renderer_;
@@ -68,6 +75,8 @@ class ExposureRenderer {
         std::int64_t length_ns = 0;
         double exposure_s = 0;
     };
+    void sample_middle(WorldState& world, const Span& span, ShownCommand& shown);
+    Plan plan_of(const ImageMotion& motion) const;
     void sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
                       WorldSnapshot& out) const;
     void sample_ends(const WorldState& world, const Span& span, bool with_bodies);

@@ -177,19 +177,13 @@ void FrameLoop::sense(Slot& slot) {
 }
 
 void FrameLoop::measure_exposure(Slot& slot) {
-    DnScale scale;
-    scale.black_dn = camera_.offset_dn;
-    scale.most_dn = std::exp2(static_cast<double>(camera_.bits)) - 1;
-    scale.full_dn =
-        std::min(scale.most_dn,
-                 camera_.offset_dn + camera_.full_well_e * camera_.system_gain_dn_e(slot.exposure.gain_db));
-    scale.square_root = camera_.converter.companding == Companding::kSquareRoot;
     const auto binned = [](std::int64_t black, std::int64_t binning) {
         return static_cast<int>((black + binning - 1) / binning);
     };
-    const Brightness seen = histogram_.measure(frame_, binned(camera_.black_columns, camera_.binning_x),
-                                               binned(camera_.black_rows, camera_.binning_y),
-                                               camera_.auto_exposure.percentile, scale);
+    const Brightness seen =
+        histogram_.measure(frame_, binned(camera_.black_columns, camera_.binning_x),
+                           binned(camera_.black_rows, camera_.binning_y), camera_.auto_exposure.percentile,
+                           dn_scale_of(camera_, slot.exposure.gain_db));
     slot.next_exposure_s = next_exposure_s(camera_.auto_exposure, seen, slot.exposure.exposure_s,
                                            {camera_.exposure_range_s[0], camera_.exposure_range_s[1]});
 }

@@ -457,6 +457,18 @@ void read_config_text(std::string_view text, const std::string& name, const std:
     reader.require_all_overrides_used(root);
 }
 
+bool has_top_level_key(const std::filesystem::path& file, const std::string& key) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error || size > kMostBytes) return false;
+    try {
+        const YAML::Node node = YAML::LoadFile(file.string());
+        return node.IsMap() && node[key].IsDefined();
+    } catch (const YAML::Exception&) {
+        return false;
+    }
+}
+
 std::string config_manual(const SectionField& root) {
     std::string out = "| key | accepted | default | meaning |\n|---|---|---|---|\n";
     manual_rows(root, "", out);

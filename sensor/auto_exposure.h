@@ -15,6 +15,8 @@
 
 namespace hilcam {
 
+struct CameraModel;  // camera_model.h
+
 struct AutoExposureConfig {
     bool on = false;
     double target_fraction = 0.5;  // of full scale, of the percentile below
@@ -45,6 +47,9 @@ struct DnScale {
     double most_dn = 4095;     // of the converter
     bool square_root = false;  // 8-bit numbers are 255 sqrt(dn / most_dn)
 };
+
+// Of a camera's frames, binned as they are.
+DnScale dn_scale_of(const CameraModel& camera, double gain_db);
 
 // Counts a frame's numbers. Memory for them is taken at construction.
 class FrameHistogram {

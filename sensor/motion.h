@@ -7,8 +7,9 @@
 //     integral S(f) (1 - sinc^2(f T)) df,        sinc x = sin(pi x) / (pi x)
 // about the mean pointing of the exposure, and shows the rest, integral S(f) sinc^2(f T) df, as a
 // displacement of the whole picture from frame to frame (Lucke, Sirlin & San Martin, "New definitions of
-// pointing stability: AC and DC effects", J. Astronautical Sciences 40(4), 1992). Not modelled: roll, and
-// that a single exposure's blur is not Gaussian when few vibrations fall into it.
+// pointing stability: AC and DC effects", J. Astronautical Sciences 40(4), 1992). Not modelled: roll;
+// that a single exposure's blur is not Gaussian when few vibrations fall into it; and that the rows of a
+// rolling shutter and the lines of a scanner are displaced one by one (they go with the frame's middle).
 
 #include <array>
 #include <cstdint>

@@ -92,9 +92,9 @@ TEST_F(Allocation, TheGuardSeesOne) {
     EXPECT_EQ(counted.load(), 1);
 }
 
-TEST_F(Allocation, TheLoopAllocatesNothing) {
+int allocations(const std::vector<std::string>& overrides) {
     const ScenarioConfig scenario =
-        load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", {});
+        load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", overrides);
     RunLimits limits;
     limits.frames = 80;
     limits.paced = false;
@@ -112,6 +112,7 @@ TEST_F(Allocation, TheLoopAllocatesNothing) {
     motion.pose.position_world_m = {22, 15, 7};
     for (std::uint32_t i = 0; frames() < 70 && !emulator.loop().finished(); ++i) {
         motion.time = emulator.clock().now();
+        motion.rate_body_rad_s = scenario.camera_pose.rate_body_rad_s;
         emulator.world().set(0, motion, {i, monotonic_now_ns()});
         std::this_thread::yield();
     }
@@ -119,7 +120,27 @@ TEST_F(Allocation, TheLoopAllocatesNothing) {
     const std::uint64_t measured = frames();
     runner.join();
     EXPECT_GE(measured, 70u);
-    EXPECT_EQ(counted.load(), 0);
+    return counted.load();
+}
+
+TEST_F(Allocation, TheLoopAllocatesNothing) { EXPECT_EQ(allocations({}), 0); }
+
+TEST_F(Allocation, NorWithStarsAutomaticExposureJitterAndExactMotion) {
+    EXPECT_EQ(allocations(
+                  {"quality.motion=exact", "quality.motion_error_px=4", "camera_pose.rate_deg_s=[0, 100, 0]",
+                   "camera.exposure_ms=10", "camera.exposure_range_ms=[0.01, 20]",
+                   "camera.auto_exposure.on=true", "camera.jitter.psd=[[1, 100], [50, 1]]",
+                   std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv",
+                   "stars.faintest_magnitude=4"}),
+              0);
+}
+
+TEST_F(Allocation, NorWithAScanningLine) {
+    EXPECT_EQ(
+        allocations({"camera.shutter={kind: line_scan, line_time_us: 50}",
+                     "camera_pose.rate_deg_s=[-2000, 0, 0]",
+                     std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv"}),
+        0);
 }
 
 }  // namespace

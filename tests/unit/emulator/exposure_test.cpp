@@ -123,6 +123,58 @@ TEST_F(ExposureTest, FastAndExactHaveTheSameBlurForASmallTurn) {
     EXPECT_GT(fast_variance / still.variance, 1.15);  // what is compared is no trifle
 }
 
+// The same through the sensor: mean electrons of the frame.
+ElectronImage electrons_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    const ScenarioConfig s = load_scenario(file, overrides);
+    const Shot shot = shoot(file, overrides);
+    SensorChain chain(s.camera, SpectralGrid(s.spectrum_edges_um), sampling_of(s.quality));
+    ElectronImage electrons(64, 64);
+    chain.expose(shot.radiance, shot.points, shot.exposure, electrons);
+    return electrons;
+}
+// Root mean square of the difference over the peak.
+double rms(const ElectronImage& a, const ElectronImage& b) {
+    double sum = 0, peak = 0;
+    for (std::size_t i = 0; i < a.pixels(); ++i) {
+        const double d = static_cast<double>(a.data()[i]) - static_cast<double>(b.data()[i]);
+        sum += d * d;
+        peak = std::max(peak, static_cast<double>(b.data()[i]));
+    }
+    return std::sqrt(sum / static_cast<double>(a.pixels())) / peak;
+}
+
+TEST_F(ExposureTest, FastAndExactGiveTheSameElectronsForASmallTurn) {
+    // Down and to the right, 7.7 and 3.2 px.
+    const auto file = scenario("", "camera_pose: {rate_deg_s: [14.3, -34.377, 0]}\n");
+    const auto frame = [&](const std::string& motion, const std::string& error_px, const std::string& finer) {
+        return electrons_of(file, {"quality.samples_per_axis=8", "quality.motion=" + motion,
+                                   "quality.motion_error_px=" + error_px, "quality.oversampling=" + finer});
+    };
+    // The share of motion's effect that is left: of radiance pixels as wide as the detector's the plate's
+    // edges alias, in one place with fast, in many with exact; of finer ones the blur itself is compared.
+    const auto left_over = [&](const std::string& finer, const std::string& motion,
+                               const std::string& error_px) {
+        const ElectronImage exact = frame("exact", "0.3", finer), off = frame("off", "1", finer);
+        EXPECT_GT(rms(off, exact), 0.05);
+        return rms(frame(motion, error_px, finer), exact) / rms(off, exact);
+    };
+    EXPECT_LT(left_over("1", "fast", "1"), 0.06);
+    EXPECT_LT(left_over("4", "fast", "1"), 0.01);
+    EXPECT_LT(left_over("4", "exact", "2"), 0.01);  // the image rate covers the step
+}
+
+TEST_F(ExposureTest, FastMissesATurnAboutTheBoresightAndExactDoesNot) {
+    const auto file = scenario("", "camera_pose: {rate_deg_s: [0, 0, 1146], position_m: [0.06, 0.03, 0]}\n");
+    const auto frame = [&](const std::string& motion, const std::string& error_px) {
+        return electrons_of(file, {"quality.samples_per_axis=8", "quality.motion=" + motion,
+                                   "quality.motion_error_px=" + error_px, "quality.oversampling=2"});
+    };
+    const ElectronImage reference = frame("exact", "0.5");
+    const double all = rms(frame("off", "1"), reference);
+    EXPECT_GT(rms(frame("fast", "1"), reference), 0.3 * all);
+    EXPECT_LT(rms(frame("exact", "2"), reference), 0.1 * all);
+}
+
 TEST_F(ExposureTest, ExactConvergesWhereFastCannotFollow) {
     // About the boresight: 23 degrees in an exposure; the plate lies off the middle.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, 0, 1146], position_m: [0.06, 0.03, 0]}\n");
@@ -299,6 +351,15 @@ std::vector<Collector::Frame> run_loop(const std::filesystem::path& file, std::u
     while (!loop.finished()) sleep_until_monotonic_ns(monotonic_now_ns() + 1'000'000);
     loop.stop();
     return std::move(collector.frames);
+}
+
+TEST_F(ExposureTest, FramesOfARollingAndALineCameraFollowTheirTiming) {
+    const auto rolling = run_loop(scenario(", shutter: {kind: rolling, line_time_us: 100}"), 3);
+    ASSERT_EQ(rolling.size(), 3u);
+    EXPECT_DOUBLE_EQ(rolling[0].record.exposure_s, 0.02);
+    const auto line = run_loop(scenario(", shutter: {kind: line_scan, line_time_us: 100, tdi_stages: 3}"), 3);
+    ASSERT_EQ(line.size(), 3u);
+    EXPECT_DOUBLE_EQ(line[0].record.exposure_s, 300e-6);
 }
 
 TEST_F(ExposureTest, TheLoopTakesTheStepsOfASequenceInTurn) {

@@ -205,21 +205,25 @@ TEST(Points, ASlowLineDrawsAStarLongerWithMoreLight) {
 }
 
 TEST(Points, AScanningLineGivesAPointTheLightOfAPatchOfTheSameIrradiance) {
-    // A square of 6 px, traced; swept at three quarters of a row per row.
-    MotionStage s;
-    s.models.rays = {"pushbroom", kLine_s};
-    SceneObject square = plate(lambert(1), s.grid);
-    const double half = 3.0 / 64 * 50;
-    for (Vec3f& v : square.mesh.vertices_m) v = static_cast<float>(half) * v;
-    s.add(std::move(square), {0, 0, 50});
-    s.quality.samples_per_axis = 16;
-    s.world.camera_rate_rad_s = scan_rate(0.75);
-    s.build();
-    s.render_again();
-    ASSERT_TRUE(s.points.empty() == false || s.light().irradiance > 0);
-    // Radiance E_s / pi over its solid angle; the line sees it for a time that is 1 / 0.75 of a stare's.
-    const double irradiance = kSun_w_m2_um / kPi * 36.0 / (64 * 64);
-    EXPECT_NEAR(s.light().irradiance / irradiance, 1 / 0.75, 0.02);
+    // Squares, of which the one of 8 px is traced and the one of 4 px is points, swept at three quarters of a
+    // row per row.
+    for (const double side_px : {8.0, 4.0}) {
+        MotionStage s;
+        s.models.rays = {"pushbroom", kLine_s};
+        SceneObject square = plate(lambert(1), s.grid);
+        for (Vec3f& v : square.mesh.vertices_m) v = static_cast<float>(side_px / 2 / 64 * 50) * v;
+        s.add(std::move(square), {0, 0, 50});
+        s.quality.samples_per_axis = 16;
+        s.world.camera_rate_rad_s = scan_rate(0.75);
+        s.render();
+        EXPECT_EQ(s.points.empty(), side_px > 5) << side_px;
+        // Radiance E_s / pi over its solid angle; the line sees it for a time that is 1 / 0.75 of a stare's.
+        // 16 rays along a pixel, 96 along the little picture: 1 % of the square's sides.
+        const double irradiance = kSun_w_m2_um / kPi * side_px * side_px / (64 * 64);
+        EXPECT_NEAR(s.light().irradiance / irradiance, 1 / 0.75, 0.02) << side_px;
+        EXPECT_NEAR(s.light().centroid_px.x, 32, 0.05) << side_px;
+        EXPECT_NEAR(s.light().centroid_px.y, 32, 0.05) << side_px;
+    }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "render/check.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -120,6 +121,13 @@ TEST(Jitter, TurnsTheCameraAboutItsOwnAxes) {
     EXPECT_NEAR(after.y, angle.x, 1e-9);
     EXPECT_EQ(moved.position_world_m, camera.position_world_m);
     EXPECT_EQ(PointingJitter().applied(camera, {5}, 0.01).world_from_body.x, camera.world_from_body.x);
+}
+
+TEST(Jitter, ADensityNeedsABand) {
+    JitterConfig c;
+    EXPECT_NO_THROW(validate(c));
+    c.psd_arcsec2_hz = {{1}, {2}};
+    EXPECT_THROW(validate(c), InputError);
 }
 
 }  // namespace
