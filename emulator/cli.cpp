@@ -172,7 +172,8 @@ int run_command_line(int argc, char** argv) {
     render_app->add_option("--stage", o.stage, "radiance, electrons or frame")
         ->transform(CLI::CheckedTransformer(stages));
     render_app
-        ->add_option("--out", o.out, "FILE.exr for radiance and electrons, FILE.png or .tiff for a frame")
+        ->add_option("--out", o.out,
+                     "FILE.exr for radiance and electrons, FILE.png, .tiff or .raw for a frame")
         ->required();
     render_app->add_option("--time-offset-s", o.time_offset_s, "seconds after the scenario's start");
     render_app->callback([&] { action = [&] { return render(o); }; });

@@ -100,7 +100,9 @@ void Emulator::make_sinks() {
     if (o.has_v4l2)
         sinks_.push_back(std::make_unique<V4l2Sink>(o.v4l2, width, height,
                                                     settings_->settings().frame_rate_hz, &delivery_));
-    if (o.has_files) sinks_.push_back(std::make_unique<FilesSink>(o.files, width, height));
+    if (o.has_files)
+        sinks_.push_back(
+            std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));
 }
 
 std::vector<FrameSink*> Emulator::sinks() const {

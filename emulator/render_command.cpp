@@ -15,7 +15,7 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
     const bool exr = out.extension() == ".exr";
     if (exr == (stage == RenderStage::kFrame))
         throw InputError(out.string() +
-                         ": accepted: .exr for radiance and electrons, .png or .tiff for a frame");
+                         ": accepted: .exr for radiance and electrons, .png, .tiff or .raw for a frame");
     const SpectralGrid grid(scenario.spectrum_edges_um);
     const ImageGeometry geometry = geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px),
                                                static_cast<int>(scenario.quality.oversampling));
@@ -48,6 +48,7 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
     const auto [width, height] = frame_size(scenario.camera);
     DnImage frame(width, height);
     chain.digitise(electrons, exposure, key, frame);
+    if (out.extension() == ".raw") return write_raw(out, frame, camera.pixel_layout());
     write_frame(out, frame);
 }
 

@@ -9,7 +9,8 @@ namespace hilcam {
 
 enum class RenderStage { kRadiance, kElectrons, kFrame };
 
-// Writes radiance or mean electrons as .exr, the frame as .png or .tiff. Throws InputError, DeviceError.
+// Writes radiance or mean electrons as .exr, the frame as .png, .tiff or .raw. Throws InputError,
+// DeviceError.
 void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
                     const std::filesystem::path& out);
 

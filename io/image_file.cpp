@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <cstdio>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
@@ -49,7 +50,7 @@ void write_frame(const std::filesystem::path& file, const DnImage& frame) {
     const std::string kind = file.extension().string();
     if (kind != ".png" && kind != ".tiff" && kind != ".tif")
         throw InputError(file.string() + ": found the ending '" + kind +
-                         "'; accepted for frames: .png .tiff");
+                         "'; accepted for frames: .png .tiff .raw");
     const cv::Mat picture(frame.height(), frame.width(), CV_16UC1, const_cast<std::uint16_t*>(frame.data()));
     bool written = false;
     try {
@@ -58,6 +59,16 @@ void write_frame(const std::filesystem::path& file, const DnImage& frame) {
     } catch (const cv::Exception&) {
     }
     if (!written)
+        throw DeviceError(file.string() + ": cannot be written; is the folder there, writable and not full?");
+}
+
+void write_raw(const std::filesystem::path& file, const DnImage& frame, const PixelLayout& layout) {
+    std::vector<std::uint8_t> bytes(packed_bytes(frame.pixels(), layout));
+    pack(frame.plane(0), layout, bytes);
+    std::ofstream out(file, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out)
         throw DeviceError(file.string() + ": cannot be written; is the folder there, writable and not full?");
 }
 

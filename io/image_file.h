@@ -6,12 +6,15 @@
 #include "render/image.h"
 #include "render/mesh.h"
 #include "render/spectrum.h"
+#include "sensor/packing.h"
 
 namespace hilcam {
 
 // Frames as they are: DN, right-aligned in 16 bits. The kind follows from the ending, .png or .tiff.
 // InputError for another ending, DeviceError when the file cannot be written.
 void write_frame(const std::filesystem::path& file, const DnImage& frame);
+// The bytes of a camera's memory, row after row without a header. DeviceError when it cannot be written.
+void write_raw(const std::filesystem::path& file, const DnImage& frame, const PixelLayout& layout);
 // One 32-bit float channel per bin, named "L_0.450_0.550um" [W m^-2 sr^-1 um^-1], or "electrons" [e-].
 void write_radiance_exr(const std::filesystem::path& file, const RadianceImage& radiance,
                         const SpectralGrid& grid);

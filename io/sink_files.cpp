@@ -1,5 +1,6 @@
 #include "io/sink_files.h"
 
+#include <array>
 #include <cstdio>
 
 #include "io/image_file.h"
@@ -7,16 +8,23 @@
 
 namespace hilcam {
 
+namespace {
+
+constexpr std::array<const char*, 3> kEndings = {"png", "tiff", "raw"};  // by format
+
+}  // namespace
+
 Fields fields(FilesConfig& c) {
     return {
         path("folder", c.folder, "made when missing"),
-        choice("format", c.format, {"png", "tiff"}, "kind of picture"),
+        choice("format", c.format, {"png", "tiff", "raw"},
+               "kind of picture; raw: the camera's memory, packed as it says"),
         integer("every_nth", c.every_nth, {1, 1e9}, "write every n-th frame only"),
     };
 }
 
-FilesSink::FilesSink(const FilesConfig& config, int width, int height)
-    : config_(config), mailbox_(width, height, 8) {}
+FilesSink::FilesSink(const FilesConfig& config, int width, int height, const PixelLayout& layout)
+    : config_(config), layout_(layout), mailbox_(width, height, 8) {}
 
 void FilesSink::start() {
     std::error_code error;
@@ -35,9 +43,12 @@ void FilesSink::run() {
     while (const FrameMailbox::Item* item = mailbox_.wait()) {
         char name[64];
         std::snprintf(name, sizeof name, "frame_%08llu.%s", static_cast<unsigned long long>(item->record.id),
-                      config_.format == FilesConfig::Format::kPng ? "png" : "tiff");
+                      kEndings[static_cast<std::size_t>(config_.format)]);
         try {
-            write_frame(config_.folder / name, item->frame);
+            if (config_.format == FilesConfig::Format::kRaw)
+                write_raw(config_.folder / name, item->frame, layout_);
+            else
+                write_frame(config_.folder / name, item->frame);
             written_.fetch_add(1);
         } catch (const std::exception& error) {
             const std::lock_guard lock(mutex_);

@@ -1,5 +1,6 @@
 #pragma once
-// Frames as files in a folder, "frame_00000001.png", 16 bits right-aligned.
+// Frames as files in a folder, "frame_00000001.png", 16 bits right-aligned; or ".raw", the bytes of the
+// camera's memory.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,11 +9,12 @@
 
 #include "io/frame_mailbox.h"
 #include "render/config_field.h"
+#include "sensor/packing.h"
 
 namespace hilcam {
 
 struct FilesConfig {
-    enum class Format { kPng, kTiff } format = Format::kPng;
+    enum class Format { kPng, kTiff, kRaw } format = Format::kPng;
     std::filesystem::path folder = "frames";
     std::int64_t every_nth = 1;
 };
@@ -20,7 +22,7 @@ Fields fields(FilesConfig& config);
 
 class FilesSink : public FrameSink {
   public:
-    FilesSink(const FilesConfig& config, int width, int height);
+    FilesSink(const FilesConfig& config, int width, int height, const PixelLayout& layout);
     ~FilesSink() override { stop(); }
 
     void start() override;
@@ -32,6 +34,7 @@ class FilesSink : public FrameSink {
     void run();
 
     FilesConfig config_;
+    PixelLayout layout_;
     FrameMailbox mailbox_;
     std::thread thread_;
     std::uint64_t offered_ = 0;

@@ -103,6 +103,8 @@ Fields electronics_fields(CameraModel& c) {
         number("offset_dn", c.offset_dn, 1, {0, 65535}, "black level"),
         required(integer("bits", c.bits, {8, 16}, "of the ADC")),
         integer("container_bits", c.container_bits, {8, 16}, "of a pixel in memory: 8 or 16"),
+        choice("packing", c.packing, {"none", "pfnc", "gige"},
+               "of pixels in memory: container_bits each; a bit stream (Mono12p); two in three bytes"),
         section("converter", c.converter, "errors of the ADC's steps, companding"),
         numbers("window_px", c.window_px, 1, {0, 16384}, {4, 4}, "left, top, width, height; default all"),
         integer("black_rows", c.black_rows, {0, 1024}, "optically black, published above the picture"),
@@ -241,6 +243,8 @@ void check_electronics(const CameraModel& c) {
     if (c.frame_bits() > c.container_bits)
         throw InputError("bits " + std::to_string(c.frame_bits()) + " do not fit into container_bits " +
                          std::to_string(c.container_bits));
+    if (c.packing == Packing::kGige && c.frame_bits() != 10 && c.frame_bits() != 12)
+        throw InputError("packing gige with " + std::to_string(c.frame_bits()) + " bits; accepted: 10 or 12");
     const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     if (c.offset_dn >= most_dn)
         throw InputError("offset_dn " + show(c.offset_dn) + " leaves nothing of the ADC's " +

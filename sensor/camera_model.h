@@ -18,6 +18,7 @@
 #include "sensor/electronics.h"
 #include "sensor/fixed_pattern.h"
 #include "sensor/motion.h"
+#include "sensor/packing.h"
 #include "sensor/shutter.h"
 #include "sensor/stray_light.h"
 
@@ -110,6 +111,7 @@ struct CameraModel {
     double offset_dn = 0;
     std::int64_t bits = 12;            // of the converter
     std::int64_t container_bits = 16;  // of a pixel in memory
+    Packing packing = Packing::kNone;  // of pixels in memory
     ConverterConfig converter;
 
     // Read-out.
@@ -139,6 +141,7 @@ struct CameraModel {
     double dark_noise_e() const;
     // Bits of a published pixel: companded ones have 8.
     int frame_bits() const { return converter.companding == Companding::kNone ? static_cast<int>(bits) : 8; }
+    PixelLayout pixel_layout() const { return {packing, frame_bits(), static_cast<int>(container_bits)}; }
     double pixel_aperture_x_m() const;
     double pixel_aperture_y_m() const;
 };

@@ -60,7 +60,8 @@ void bloom(ElectronImage& charge_e, float full_well_e) {
                       });
 }
 
-ChargeTransfer::ChargeTransfer(const CcdConfig& config, int width, int height, int first_column, int first_row)
+ChargeTransfer::ChargeTransfer(const CcdConfig& config, int width, int height, int first_column,
+                               int first_row)
     : parallel_(shares(config.parallel_inefficiency, first_row, height)),
       serial_(shares(config.serial_inefficiency, first_column, width)) {}
 

@@ -41,8 +41,8 @@ class RelativeIllumination {
     double at(double x_px, double y_px) const;
     // Of a point source.
     double of_point(double x_px, double y_px) const;
-    // Image height over that of the sensor's farthest corner, 0 .. 1 on the sensor. All lines of a line camera
-    // lie on the axis.
+    // Image height over that of the sensor's farthest corner, 0 .. 1 on the sensor. All lines of a line
+    // camera lie on the axis.
     double field_fraction(double x_px, double y_px) const;
 
   private:

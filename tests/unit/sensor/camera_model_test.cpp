@@ -17,6 +17,8 @@ TEST(CameraModel, RefusesWhatCannotBeByName) {
          [](CameraModel& c) { c.exposure_s = 100; }},
         {"offset_dn 5000 leaves nothing of the ADC's 12 bits", [](CameraModel& c) { c.offset_dn = 5000; }},
         {"bits 12 do not fit into container_bits 8", [](CameraModel& c) { c.container_bits = 8; }},
+        {"packing gige with 14 bits; accepted: 10 or 12",
+         [](CameraModel& c) { c.bits = 14, c.packing = Packing::kGige; }},
         {"container_bits 12; accepted: 8 or 16", [](CameraModel& c) { c.container_bits = 12; }},
         {"either gain_dn_e or gain_e_dn; found both", [](CameraModel& c) { c.has_gain_e_dn = true; }},
         {"either gain_dn_e or gain_e_dn; found neither",
