@@ -136,34 +136,48 @@ class Laboratory {
         const bool transfer = c.ccd.parallel_inefficiency > 0 || c.ccd.serial_inefficiency > 0;
         if (!filters && !transfer) return;
         // Neighbours that a one-pole filter reaches to a thousandth; of charge that is late, what is so by
-        // two pixels is a ten-thousandth.
+        // two pixels is below a thousandth.
         const double fade =
             c.filters.low_pass_cy_px > 0 ? std::log(1000) / (2 * kPi * c.filters.low_pass_cy_px) : 0;
-        const NoiseReach reach{filters ? std::clamp(static_cast<int>(std::ceil(fade)), 3, 32) : 1,
-                               transfer ? 1 : 0};
-        const auto mean_of_pairs = [&](NoiseReach within) {
+        const NoiseReach reach{filters ? std::clamp(static_cast<int>(std::ceil(fade)), 3, 32) : 2,
+                               transfer ? 2 : 0};
+        // Noise `without` is left out of each pair's.
+        const auto mean_of_pairs = [&](NoiseReach within, const NoiseSums& without) {
             constexpr int kPairs = kStackFrames;
+            NoiseSums mean;
             double sum = 0, square = 0;
             for (int i = 0; i < kPairs; ++i) {
                 const DnImage& first = bench_.frame();
-                const double found = noise_bandwidth(first, bench_.frame(), selection_, within);
+                const NoiseSums all = noise_sums(first, bench_.frame(), selection_, within);
+                mean.variance += all.variance / kPairs, mean.total += all.total / kPairs;
+                const double found =
+                    NoiseSums{all.variance - without.variance, all.total - without.total}.bandwidth();
                 sum += found, square += found * found;
             }
-            const double mean = sum / kPairs;
-            return Measured{mean, std::sqrt(std::max(0.0, square / kPairs - mean * mean) / (kPairs - 1))};
+            const double bandwidth = sum / kPairs;
+            return std::pair(
+                Measured{bandwidth,
+                         std::sqrt(std::max(0.0, square / kPairs - bandwidth * bandwidth) / (kPairs - 1))},
+                mean);
         };
-        expose_share(0.6, setup_.gain_db);
-        const Measured shot = mean_of_pairs(reach);
+        // Noise of the reading comes after the transfer, which has not smoothed it.
+        NoiseSums reading;
+        const LightLevel level = expose_share(0.6, setup_.gain_db);
+        if (transfer) {
+            expose_dark(level.exposure_s, setup_.gain_db);
+            reading = mean_of_pairs(reach, {}).second;
+            expose_share(0.6, setup_.gain_db);
+        }
+        const Measured shot = mean_of_pairs(reach, reading).first;
         out_.shot_bandwidth = shot.value;
         bandwidth_error_ = shot.uncertainty / shot.value;
-        // Noise of the reading comes after the transfer.
         if (!filters) return;
         if (!transfer) {
             out_.read_bandwidth = out_.shot_bandwidth;
             return;
         }
         expose_dark(setup_.shortest_s, setup_.dark_gain_db);
-        out_.read_bandwidth = mean_of_pairs({reach.columns, 0}).value;
+        out_.read_bandwidth = mean_of_pairs({reach.columns, 0}, {}).first.value;
     }
 
     std::vector<LightLevel> light_series(double gain_db) {

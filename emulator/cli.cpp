@@ -15,10 +15,10 @@
 #include "emulator/emulator.h"
 #include "emulator/render_command.h"
 #include "emulator/report.h"
+#include "emulator/scene_loader.h"
 #include "emulator/send_command.h"
 #include "emulator/sensor_bench.h"
 #include "io/config_yaml.h"
-#include "io/pixel_map_file.h"
 
 namespace hilcam {
 namespace {

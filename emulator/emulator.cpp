@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "emulator/scene_loader.h"
-#include "io/pixel_map_file.h"
 
 namespace hilcam {
 namespace {

@@ -5,7 +5,6 @@
 #include "emulator/scene_loader.h"
 #include "emulator/shutter_timing.h"
 #include "io/image_file.h"
-#include "io/pixel_map_file.h"
 #include "sensor/chain.h"
 
 namespace hilcam {

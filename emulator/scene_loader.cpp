@@ -125,4 +125,13 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
                                       scenario.quality.render, models_of(scenario), modules);
 }
 
+DetectorPictures load_detector_pictures(const CameraModel& camera) {
+    const FixedPatternConfig& config = camera.fixed_pattern;
+    DetectorPictures out;
+    if (!config.prnu_map.empty()) out.prnu = read_pixel_map(config.prnu_map, false);
+    if (!config.offset_map.empty()) out.offset_e = read_pixel_map(config.offset_map, true);
+    if (!config.dark_map.empty()) out.dark_e_s = read_pixel_map(config.dark_map, false);
+    return out;
+}
+
 }  // namespace hilcam

@@ -14,4 +14,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
 std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
                                         const ImageGeometry& geometry);
 
+// What the maps of the camera's fixed_pattern hold.
+DetectorPictures load_detector_pictures(const CameraModel& camera);
+
 }  // namespace hilcam

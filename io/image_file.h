@@ -6,6 +6,7 @@
 #include "render/image.h"
 #include "render/mesh.h"
 #include "render/spectrum.h"
+#include "sensor/fixed_pattern.h"
 #include "sensor/packing.h"
 
 namespace hilcam {
@@ -21,5 +22,9 @@ void write_radiance_exr(const std::filesystem::path& file, const RadianceImage& 
 void write_electrons_exr(const std::filesystem::path& file, const ElectronImage& electrons);
 // An 8-bit colour picture as a texture. InputError when it does not decode.
 Texture read_picture(const std::filesystem::path& file);
+// A number for each pixel: TIFF or PNG of one channel, 8 or 16 bits or 32-bit float. InputError when it is
+// missing, does not decode, has several channels or a value that is negative (unless any_sign) or not a
+// number.
+PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign);
 
 }  // namespace hilcam

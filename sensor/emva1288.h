@@ -61,7 +61,7 @@ Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const Respon
 // Section 6.5: sqrt(sigma_y.dark^2 - 1/12 DN^2) / K. Where the noise is too small to cross the converter's
 // steps the standard gives a bound only; frames of a longer exposure, whose dark current's shot noise helps
 // across, tell more: `dark_signal_dn` is that current's mean signal in them, and K times it is taken off.
-// `bandwidth`: see noise_bandwidth().
+// `bandwidth`: see NoiseSums.
 Measured dark_noise_e(const TemporalStatistics& dark, double dark_signal_dn, const Measured& gain_dn_e,
                       double bandwidth = 1);
 

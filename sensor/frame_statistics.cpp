@@ -240,7 +240,7 @@ std::size_t exclude_outliers(std::span<const double> image, double sigmas, Pixel
     return out;
 }
 
-double noise_bandwidth(const DnImage& a, const DnImage& b, const PixelSelection& s, NoiseReach reach) {
+NoiseSums noise_sums(const DnImage& a, const DnImage& b, const PixelSelection& s, NoiseReach reach) {
     const auto width = static_cast<std::size_t>(s.width);
     std::vector<double> difference(s.use.size(), 0.0);
     for (int y = 0; y < s.height; ++y) {
@@ -273,7 +273,7 @@ double noise_bandwidth(const DnImage& a, const DnImage& b, const PixelSelection&
         for (int dx = -reach.columns; dx <= reach.columns; ++dx) total += 2 * covariance(dx, dy);
     // A row's mean, taken out above, holds 1/width of the sum and is missing from each of 2 columns + 1
     // terms.
-    return variance / (total / (1 - (2.0 * reach.columns + 1) / s.width));
+    return {variance, total / (1 - (2.0 * reach.columns + 1) / s.width)};
 }
 
 }  // namespace hilcam

@@ -93,11 +93,18 @@ std::vector<double> smooth_surface(std::span<const double> image, const PixelSel
 std::size_t exclude_outliers(std::span<const double> image, double sigmas, PixelSelection& selection);
 
 // What a filter leaves of white noise: sigma^2 of a pixel over the sum of its autocovariances with neighbours
-// up to so many columns and rows away, which a filter that passes low frequencies does not change. From a
-// pair of frames; 1 without a filter.
+// up to so many columns and rows away, which a filter that passes low frequencies does not change. Of the
+// difference of a pair of frames [DN^2].
 struct NoiseReach {
     int columns = 0, rows = 0;
 };
-double noise_bandwidth(const DnImage& a, const DnImage& b, const PixelSelection& selection, NoiseReach reach);
+struct NoiseSums {
+    double variance = 0;  // of a pixel
+    double total = 0;     // of its covariances with itself and its neighbours
+
+    // 1 without a filter.
+    double bandwidth() const { return variance / total; }
+};
+NoiseSums noise_sums(const DnImage& a, const DnImage& b, const PixelSelection& selection, NoiseReach reach);
 
 }  // namespace hilcam

@@ -11,7 +11,7 @@ ONLY_IN = {
     "yaml-cpp": {"io/config_yaml.cpp"},
     "assimp": {"io/mesh_file.cpp"},
     "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
-    "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp", "io/pixel_map_file.cpp"},
+    "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp"},
     "erfa": {"render/bodies.cpp", "render/stars.cpp", "render/time.cpp"},
 }
 

@@ -272,12 +272,13 @@ TEST(Emva1288, NoiseBandwidthOfARowFilter) {
     constexpr int kPairs = 24;
     for (int i = 0; i < kPairs; ++i) {
         const DnImage a = camera.frame(6000), b = camera.frame(6000);
-        mean += noise_bandwidth(a, b, camera.all(), {8, 0}) / kPairs;
+        mean += noise_sums(a, b, camera.all(), {8, 0}).bandwidth() / kPairs;
     }
     // 17 covariances of 40,000 pixels and 24 pairs: sqrt(17 / 960000) = 0.4 % of the variance, over 0.54.
     EXPECT_NEAR(mean, 0.7 / 1.3, 4 * 0.004);
     camera.filter = 0;
-    EXPECT_NEAR(noise_bandwidth(camera.frame(6000), camera.frame(6000), camera.all(), {8, 3}), 1, 0.25);
+    EXPECT_NEAR(noise_sums(camera.frame(6000), camera.frame(6000), camera.all(), {8, 3}).bandwidth(), 1,
+                0.25);
 }
 
 TEST(Emva1288, WhatFollows) {

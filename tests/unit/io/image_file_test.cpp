@@ -1,5 +1,3 @@
-#include "io/pixel_map_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,9 +9,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class PixelMapFile : public FilesTest {};
+class PixelMapTest : public FilesTest {};
 
-TEST_F(PixelMapFile, NumbersComeAsTheyAre) {
+TEST_F(PixelMapTest, NumbersComeAsTheyAre) {
     DnImage picture(5, 3);
     picture.row(2)[4] = 1234;
     write_frame(folder_ / "map.tiff", picture);
@@ -24,7 +22,7 @@ TEST_F(PixelMapFile, NumbersComeAsTheyAre) {
     EXPECT_EQ(map.row(0)[0], 0.0f);
 }
 
-TEST_F(PixelMapFile, WhatIsNoMapIsRefusedByName) {
+TEST_F(PixelMapTest, WhatIsNoMapIsRefusedByName) {
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "none.tiff", false); }),
                 HasSubstr("none.tiff: is missing"));
     write("text.tiff", "not a picture");
@@ -39,17 +37,6 @@ TEST_F(PixelMapFile, WhatIsNoMapIsRefusedByName) {
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "negative.pfm", false); }),
                 HasSubstr("pixel (0, 0) is -1.000000; accepted: finite, not negative"));
     EXPECT_EQ(read_pixel_map(folder_ / "negative.pfm", true).row(0)[0], -1.0f);
-}
-
-TEST_F(PixelMapFile, ACamerasMapsAreItsOwn) {
-    DnImage gain(64, 64);
-    for (std::uint16_t& v : gain.all()) v = 1;
-    write_frame(folder_ / "gain.tiff", gain);
-    CameraModel c;
-    c.fixed_pattern.prnu_map = folder_ / "gain.tiff";
-    const DetectorPictures pictures = load_detector_pictures(c);
-    EXPECT_EQ(pictures.prnu.width(), 64);
-    EXPECT_EQ(pictures.offset_e.width(), 0);
 }
 
 }  // namespace
