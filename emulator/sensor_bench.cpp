@@ -33,13 +33,13 @@ void turn_on_common(CameraModel& c) {
 
 const std::vector<Effect>& effects() {
     static const std::vector<Effect> list = {
-        {"smear",
+        {"smear of 5 px",
          [](CameraModel&, Exposure& e) {
-             e.image_rate_px_s = {1000, 400};
+             e.image_rate_px_s = {4 / e.exposure_s, 3 / e.exposure_s};
          }},
-        {"trails of points",
-         [](CameraModel&, Exposure& e) {
-             e.camera_rate_rad_s = {0.5, 0.2, 0};
+        {"trails of 20 px",
+         [](CameraModel& c, Exposure& e) {
+             e.camera_rate_rad_s = {0, 20 * c.pitch_m / (c.focal_length_m * e.exposure_s), 0};
          }},
         {"zernike",
          [](CameraModel& c, Exposure&) {

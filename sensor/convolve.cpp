@@ -236,6 +236,15 @@ struct Convolver::Implementation {
     }
 };
 
+int fft_size(int n) {
+    for (int size = n + n % 2;; size += 2) {
+        int rest = size;
+        for (const int prime : {2, 3, 5, 7})
+            while (rest % prime == 0) rest /= prime;
+        if (rest == 1) return size;
+    }
+}
+
 Convolver::Convolver(int width, int height, const std::vector<Transfer>& transfers)
     : width_(width),
       height_(height),

@@ -28,6 +28,10 @@ struct MotionBlur {
     bool none() const { return smear_px.x == 0 && smear_px.y == 0 && sigma_px.x == 0 && sigma_px.y == 0; }
 };
 
+// The least even number from n on whose prime factors are 2, 3, 5 and 7: others cost an FFT several times
+// more.
+int fft_size(int n);
+
 class Convolver {
   public:
     // Each function is asked once for every frequency pair. The image's transform must be real, so of values

@@ -61,7 +61,7 @@ struct FocalPlane::Implementation {
     std::vector<LightChannel> channels;
     PointLight points;
     std::vector<float> illumination;               // over the radiance image
-    std::vector<std::vector<float>> zone_weights;  // the same, by zone; empty with one zone
+    std::vector<std::vector<float>> zone_weights;  // over the FFT's image, by zone; empty with one zone
     std::vector<double> cell_sums;                 // of a ghost
     std::vector<float> row_peaks;                  // brightest pixel of each row of a channel
     std::vector<BrightPixel> bright;
@@ -82,16 +82,18 @@ struct FocalPlane::Implementation {
     Implementation(const CameraModel& c, const SpectralGrid& grid, const SensorSampling& s)
         : view(c, s), bins(grid.size()), channels(make_channels(view, grid)), points(view, channels, bins) {
         const ImageGeometry& image = view.image;
+        for (int y = 0; y < image.padded_height(); ++y)
+            for (int x = 0; x < image.padded_width(); ++x)
+                illumination.push_back(
+                    static_cast<float>(view.lens.at(view.detector_px(x), view.detector_px(y))));
         const std::size_t zones = channels.front().mtfs.size();
         zone_weights.resize(zones > 1 ? zones : 0);
-        for (int y = 0; y < image.padded_height(); ++y)
-            for (int x = 0; x < image.padded_width(); ++x) {
-                const double dx = view.detector_px(x), dy = view.detector_px(y);
-                illumination.push_back(static_cast<float>(view.lens.at(dx, dy)));
-                for (std::size_t z = 0; z < zone_weights.size(); ++z)
-                    zone_weights[z].push_back(
-                        static_cast<float>(zone_weight(c.field_zones, z, view.lens.field_fraction(dx, dy))));
-            }
+        for (std::size_t z = 0; z < zone_weights.size(); ++z)
+            for (int y = 0; y < channels.front().convolver->height(); ++y)
+                for (int x = 0; x < channels.front().convolver->width(); ++x)
+                    zone_weights[z].push_back(static_cast<float>(
+                        zone_weight(c.field_zones, z,
+                                    view.lens.field_fraction(view.detector_px(x), view.detector_px(y)))));
         row_peaks.resize(static_cast<std::size_t>(image.padded_height()));
         bright.reserve(kMostBright * channels.size());
         for (const LightChannel& channel : channels)
@@ -109,8 +111,9 @@ struct FocalPlane::Implementation {
         });
         if (channel.ghost) collect_ghost(channel);
         take_out_bright(channel);
+        close_border(channel);
         if (zone_weights.empty()) return;
-        tbb::parallel_for(rows_of(radiance.height()), [&](const tbb::blocked_range<int>& range) {
+        tbb::parallel_for(rows_of(channel.convolver->height()), [&](const tbb::blocked_range<int>& range) {
             for (int y = range.begin(); y < range.end(); ++y) split_by_zone(channel, y);
         });
     }
@@ -131,9 +134,31 @@ struct FocalPlane::Implementation {
         }
         row_peaks[static_cast<std::size_t>(y)] = most;
     }
+    // Beside and below the picture, where the FFT's size is smooth: a ramp from its last pixels to its first,
+    // which for the FFT come next. A step there would ring into the picture.
+    void close_border(LightChannel& channel) const {
+        Convolver& light = *channel.convolver;
+        const auto width = static_cast<std::size_t>(view.image.padded_width());
+        const int height = view.image.padded_height();
+        for (int y = 0; y < height; ++y) {
+            const std::span<float> row = light.row(y);
+            for (std::size_t x = width; x < row.size(); ++x) {
+                const float u =
+                    static_cast<float>(x - width + 1) / static_cast<float>(row.size() - width + 1);
+                row[x] = (1 - u) * row[width - 1] + u * row[0];
+            }
+        }
+        for (int y = height; y < light.height(); ++y) {
+            const float u =
+                static_cast<float>(y - height + 1) / static_cast<float>(light.height() - height + 1);
+            const std::span<const float> last = light.row(height - 1), first = light.row(0);
+            const std::span<float> row = light.row(y);
+            for (std::size_t x = 0; x < row.size(); ++x) row[x] = (1 - u) * last[x] + u * first[x];
+        }
+    }
     // The first layer last: it holds what the others take their parts of.
     void split_by_zone(LightChannel& channel, int y) {
-        const auto width = static_cast<std::size_t>(view.image.padded_width());
+        const auto width = static_cast<std::size_t>(channel.convolver->width());
         const float* all = channel.convolver->row(y).data();
         for (std::size_t z = zone_weights.size(); z-- > 0;) {
             const float* weight = zone_weights[z].data() + static_cast<std::size_t>(y) * width;

@@ -48,7 +48,8 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
         spreads.emplace_back([&](double u, double v) { return mtf.of_point(u, v); }, view.camera.fill_factor);
         transfers.push_back([&](double u, double v) { return image_transfer(mtf, view.sampling, u, v); });
     }
-    const int width = view.image.padded_width(), height = view.image.padded_height();
+    // What is over beside the picture and below it stays dark.
+    const int width = fft_size(view.image.padded_width()), height = fft_size(view.image.padded_height());
     convolver.emplace(width, height, transfers);
     // A kernel's border of nothing must lie in the guard band.
     if (transfers.size() == 1 && view.image.guard_px >= CompactKernel::kMostRadius)

@@ -7,6 +7,13 @@
 #include "render/pose.h"
 
 namespace hilcam {
+namespace {
+
+// Points of a trail. Their row has its first harmonic at this frequency, where a full pixel's own transfer
+// function is zero along both axes.
+constexpr double kPerPixel = 2;
+
+}  // namespace
 
 PointLight::PointLight(const DetectorView& view, std::vector<LightChannel>& channels, int bins)
     : view_(view), channels_(channels), bins_(bins), glare_e_(channels.size()) {}
@@ -71,7 +78,7 @@ void PointLight::along_trail(Vec2d middle_px, Vec2d drift_px, const Vec3d& turn_
     };
     const Vec2d from = at(-0.5), to = at(0.5);
     const double length_px = std::hypot(to.x - from.x, to.y - from.y);
-    const double parts = std::clamp(std::ceil(length_px * 4), 1.0, 4096.0);
+    const double parts = std::clamp(std::ceil(length_px * kPerPixel), 1.0, 4096.0);
     for (double i = 0.5; i < parts; i += 1) draw(at(i / parts - 0.5), 1 / parts);
 }
 

@@ -2,8 +2,8 @@
 // Light of points on the detector: stars, things smaller than a pixel, and pixels of the picture that are far
 // too bright for its FFT (the Sun, a mirror's glint of it).
 //
-// A point that moves through the exposure is drawn as many, a quarter of a pixel apart; one that jitters, as
-// a grid of them half a standard deviation apart, out to three, by the normal density.
+// A point that moves through the exposure is drawn as many, half a pixel apart; one that jitters, as a grid
+// of them half a standard deviation apart, out to three, by the normal density.
 
 #include <span>
 #include <vector>

@@ -30,7 +30,7 @@ double disk_mtf(double frequency, double radius) {
 
 // Cells across, with a border as wide as the ghost, so that it does not come back on the other side.
 int cells_of(int padded_px, double radius_px, int cell_px) {
-    return (padded_px + static_cast<int>(radius_px)) / cell_px + 2;
+    return fft_size((padded_px + static_cast<int>(radius_px)) / cell_px + 2);
 }
 
 }  // namespace

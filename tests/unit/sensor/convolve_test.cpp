@@ -62,6 +62,13 @@ TEST(CompactKernel, ACameraChoosesItByItself) {
     EXPECT_EQ(Bench(camera_64()).chain.kernel_radius(), 0);
 }
 
+TEST(Convolver, SizesAreSmooth) {
+    EXPECT_EQ(fft_size(1080), 1080);
+    EXPECT_EQ(fft_size(2648), 2688);  // 8 x 331; 2^7 x 3 x 7
+    EXPECT_EQ(fft_size(1), 2);
+    EXPECT_EQ(fft_size(4999), 5000);
+}
+
 // Blur at run time is the same as blur in the transfer function.
 TEST(Convolver, MotionBlurIsAFactorOfTheSpectrum) {
     const Vec2d smear_px{3.4, -1.2}, sigma_px{0.5, 0.9};

@@ -221,6 +221,22 @@ TEST(FocalPlane, LightFromOneEdgeDoesNotComeBackAtTheOther) {
     EXPECT_LT(at(e, 63, 32), 1e-3 * at(e, 0, 32));
 }
 
+// 64 + 2 x 5 is 2 x 37: the FFT works on 80 x 80, and nothing of a frame is left beside the picture in the
+// next one.
+TEST(FocalPlane, TheBorderOfTheFftStaysDark) {
+    for (const bool zones : {false, true}) {
+        CameraModel c = gaussian_camera(0.5);
+        if (zones) c.field_zones = {{0, 0, 0}, {1, 0, 0}};
+        Bench bench(c, {5, 1, 1});
+        bench.fill(10);
+        const ElectronImage& e = bench.expose({.exposure_s = 1});
+        const std::vector<float> first(e.all().begin(), e.all().end());
+        for (int i = 0; i < 3; ++i) bench.expose({.exposure_s = 1});
+        EXPECT_TRUE(std::equal(first.begin(), first.end(), bench.electrons.all().begin())) << zones;
+        EXPECT_NEAR(at(bench.electrons, 32, 32) / (10 * per_radiance(c, bench.grid)), 1, 1e-4);
+    }
+}
+
 TEST(FocalPlane, AnEmptyPictureCostsNothingAndIsTheSame) {
     Bench marked(camera_64()), plain(camera_64());
     for (int y = 0; y < 80; y += RadianceImage::kBlock_px)
