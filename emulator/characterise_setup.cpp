@@ -105,6 +105,10 @@ void switch_off(BenchSetup& s) {
     set(c.filters.high_pass_cy_px > 0,
         "the high-pass filter is bypassed: behind it no even light keeps its level along a row");
     c.filters.high_pass_cy_px = 0;
+    const bool filters = c.filters.low_pass_cy_px > 0 || c.filters.boost > 0;
+    set(filters && !c.color_filter.pattern.empty(),
+        "the filters along the rows are bypassed: behind them a pixel has its neighbours' colours");
+    if (!c.color_filter.pattern.empty()) c.filters = {};
     c.auto_exposure.on = false;
     c.sequence.clear();
 }

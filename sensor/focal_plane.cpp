@@ -11,6 +11,7 @@
 #include "render/check.h"
 #include "render/clones.h"
 #include "sensor/far_wings.h"
+#include "sensor/mtf.h"
 #include "sensor/point_light.h"
 
 namespace hilcam {
@@ -364,7 +365,10 @@ void FocalPlane::gather(std::span<const PointSource> sources, const Exposure& ex
 }
 
 double FocalPlane::mtf(double u, double v) const {
-    return std::abs(implementation_->channels.front().mtfs.front().at(u, v));
+    const DetectorView& view = implementation_->view;
+    const double light = std::abs(implementation_->channels.front().mtfs.front().at(u, v));
+    // Under a mosaic charge crosses over after the picture was taken; of a grey picture as without one.
+    return view.mosaic.one_color() ? light : light * crosstalk_mtf(u, v, view.camera.crosstalk_fraction);
 }
 
 int FocalPlane::kernel_radius() const {

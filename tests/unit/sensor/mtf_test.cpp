@@ -139,6 +139,15 @@ TEST(SystemMtf, IsTheProductOfItsParts) {
     EXPECT_NEAR(chain.mtf(0, 0), 1, 1e-9);
 }
 
+TEST(SystemMtf, CrosstalkCountsUnderAMosaicToo) {
+    CameraModel c = camera_64();
+    c.crosstalk_fraction = 0.02;
+    const SpectralGrid grid({0.5, 0.6});
+    const double plain = SensorChain(c, grid, {8, 1, 1}).mtf(0.3, 0.2);
+    c.color_filter = {"G", {{"G", Curve::constant(0.5)}}};
+    EXPECT_NEAR(SensorChain(c, grid, {8, 1, 1}).mtf(0.3, 0.2), plain, 1e-9);
+}
+
 TEST(SystemMtf, ALineCameraBlursAlongItsTrack) {
     CameraModel c = camera_64();
     const SpectralGrid grid({0.5, 0.6});
