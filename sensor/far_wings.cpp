@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "render/units.h"
 
@@ -20,6 +21,9 @@ FarWings::FarWings(double slope_px, const StrayLightConfig& stray, const ImageGe
       cells_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_)),
       wings_(cells_.size()) {
     sources_.reserve(cells_.size());
+    for (int j = 0; j < down_; ++j)
+        for (int i = 0; i < across_; ++i)
+            shares_.push_back(static_cast<float>(density(kCell_px * std::hypot(i, j))));
 }
 
 void FarWings::clear() {
@@ -38,28 +42,21 @@ void FarWings::collect(double x_px, double y_px, double electrons) {
 
 void FarWings::spread() {
     for (Source& s : sources_) s.electrons = cells_[static_cast<std::size_t>(s.j * across_ + s.i)];
-    const std::size_t used = std::min(kMostSources, sources_.size());
-    // Cells of equal light in their order, so that the choice is the same every time.
-    std::partial_sort(sources_.begin(), sources_.begin() + static_cast<std::ptrdiff_t>(used), sources_.end(),
-                      [&](const Source& a, const Source& b) {
-                          return a.electrons != b.electrons ? a.electrons > b.electrons
-                                                            : a.j * across_ + a.i < b.j * across_ + b.i;
-                      });
     tbb::parallel_for(tbb::blocked_range<int>(0, down_, 4), [&](const tbb::blocked_range<int>& range) {
-        for (int j = range.begin(); j < range.end(); ++j)
-            for (int i = 0; i < across_; ++i) {
-                double sum = 0;
-                for (std::size_t k = 0; k < used; ++k)
-                    sum += sources_[k].electrons *
-                           density(kCell_px * std::hypot(i - sources_[k].i, j - sources_[k].j));
-                wings_[static_cast<std::size_t>(j * across_ + i)] = static_cast<float>(sum);
+        for (int j = range.begin(); j < range.end(); ++j) {
+            float* row = wings_.data() + j * across_;
+            std::fill_n(row, across_, 0.0f);
+            for (const Source& s : sources_) {
+                const float* share = shares_.data() + std::abs(j - s.j) * across_;
+                const auto electrons = static_cast<float>(s.electrons);
+                for (int i = 0; i < across_; ++i) row[i] += electrons * share[std::abs(i - s.i)];
             }
+        }
     });
 }
 
-double FarWings::density(double r) const {
-    // The table's square reaches 30 px along the axes; within that circle it has all.
-    if (r < kNearest_px) return 0;
+double FarWings::density(double distance_px) const {
+    const double r = std::max<double>(distance_px, kLevel_px);
     const double halo = glare_radius_px_ * glare_radius_px_ + r * r;
     return slope_px_ / (4 * kPi * kPi * r * r * r) +
            glare_ * glare_radius_px_ / (2 * kPi * halo * std::sqrt(halo));

@@ -60,14 +60,14 @@ struct FocalPlane::Implementation {
     DetectorView view;
     int bins;
     std::vector<LightChannel> channels;
+    std::vector<FarWings> wings;  // of what is bright, by channel
     PointLight points;
     std::vector<float> illumination;               // over the radiance image
     std::vector<std::vector<float>> zone_weights;  // over the FFT's image, by zone; empty with one zone
     std::vector<double> cell_sums;                 // of a ghost
     std::vector<float> row_peaks;                  // brightest pixel of each row of a channel
     std::vector<BrightPixel> bright;
-    std::vector<FarWings> wings;  // of what is bright, by channel
-    bool dark = false;            // nothing in the radiance image
+    bool dark = false;  // nothing in the radiance image
 
     static std::vector<LightChannel> make_channels(const DetectorView& view, const SpectralGrid& grid) {
         std::vector<LightChannel> out;
@@ -80,8 +80,20 @@ struct FocalPlane::Implementation {
         return out;
     }
 
+    static std::vector<FarWings> make_wings(const DetectorView& view,
+                                            const std::vector<LightChannel>& channels) {
+        std::vector<FarWings> out;
+        for (const LightChannel& channel : channels)
+            out.emplace_back(channel.mtfs.front().wing_slope_px(), view.camera.stray_light, view.detector);
+        return out;
+    }
+
     Implementation(const CameraModel& c, const SpectralGrid& grid, const SensorSampling& s)
-        : view(c, s), bins(grid.size()), channels(make_channels(view, grid)), points(view, channels, bins) {
+        : view(c, s),
+          bins(grid.size()),
+          channels(make_channels(view, grid)),
+          wings(make_wings(view, channels)),
+          points(view, channels, wings, bins) {
         const ImageGeometry& image = view.image;
         for (int y = 0; y < image.padded_height(); ++y)
             for (int x = 0; x < image.padded_width(); ++x)
@@ -97,8 +109,6 @@ struct FocalPlane::Implementation {
                                     view.lens.field_fraction(view.detector_px(x), view.detector_px(y)))));
         row_peaks.resize(static_cast<std::size_t>(image.padded_height()));
         bright.reserve(kMostBright * channels.size());
-        for (const LightChannel& channel : channels)
-            wings.emplace_back(channel.mtfs.front().wing_slope_px(), c.stray_light, view.detector);
     }
 
     // --- radiance to electrons

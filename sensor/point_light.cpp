@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/pose.h"
+#include "render/units.h"
 
 namespace hilcam {
 namespace {
@@ -13,10 +14,41 @@ namespace {
 // function is zero along both axes.
 constexpr double kPerPixel = 2;
 
+constexpr int kReach = PointSpread::kMostRadius_px;
+constexpr int kAcross = 2 * kReach + 1;
+
+// Around a point: its wings, which are added elsewhere, and those of its copies, one in every field, that the
+// table has folded in. Copies outside 25 x 25 fields are an even plane from the radius of that square's area
+// on, whose density integrates to 2 pi R^2 D(R) where D falls as r^-3.
+std::vector<double> near_wings(const FarWings& wings) {
+    constexpr int kCopies = 12;
+    constexpr double kField2 = static_cast<double>(PointSpread::kField_px) * PointSpread::kField_px;
+    const double radius_px = (2 * kCopies + 1) * PointSpread::kField_px / std::sqrt(kPi);
+    const double beyond = 2 * kPi * radius_px * radius_px * wings.density(radius_px) / kField2;
+    std::vector<double> out;
+    for (int y = -kReach; y <= kReach; ++y)
+        for (int x = -kReach; x <= kReach; ++x) {
+            double sum = beyond;
+            for (int j = -kCopies; j <= kCopies; ++j)
+                for (int i = -kCopies; i <= kCopies; ++i)
+                    sum += wings.density(
+                        std::hypot(x - i * PointSpread::kField_px, y - j * PointSpread::kField_px));
+            out.push_back(sum);
+        }
+    return out;
+}
+
 }  // namespace
 
-PointLight::PointLight(const DetectorView& view, std::vector<LightChannel>& channels, int bins)
-    : view_(view), channels_(channels), bins_(bins), glare_e_(channels.size()) {}
+PointLight::PointLight(const DetectorView& view, std::vector<LightChannel>& channels,
+                       const std::vector<FarWings>& wings, int bins)
+    : view_(view),
+      channels_(channels),
+      bins_(bins),
+      glare_e_(channels.size()),
+      patch_(std::size_t{kAcross} * kAcross) {
+    for (const FarWings& w : wings) near_wings_.push_back(near_wings(w));
+}
 
 void PointLight::begin(const Exposure& exposure) {
     exposure_ = exposure;
@@ -58,6 +90,7 @@ void PointLight::add(const BrightPixel& pixel, ElectronImage& light_e) {
         scatter(at_px, [&](Vec2d px, double share) {
             // Its electrons count the fill factor already.
             draw_point(pixel.channel, px, pixel.electrons * part * share / view_.camera.fill_factor, light_e);
+            take_off_wings(px, pixel.channel, pixel.electrons * part * share, light_e);
         });
     });
 }
@@ -85,16 +118,16 @@ void PointLight::along_trail(Vec2d middle_px, Vec2d drift_px, const Vec3d& turn_
 template <class Draw>
 void PointLight::scatter(Vec2d at_px, const Draw& draw) const {
     if (jitter_px_ <= 0) return draw(at_px, 1.0);
-    constexpr int kReach = 6;
-    std::array<double, 2 * kReach + 1> weights;
+    constexpr int kSteps = 6;
+    std::array<double, 2 * kSteps + 1> weights;
     double sum = 0;
-    for (int i = -kReach; i <= kReach; ++i)
-        sum += weights[static_cast<std::size_t>(i + kReach)] = std::exp(-0.125 * i * i);
-    for (int j = -kReach; j <= kReach; ++j)
-        for (int i = -kReach; i <= kReach; ++i)
+    for (int i = -kSteps; i <= kSteps; ++i)
+        sum += weights[static_cast<std::size_t>(i + kSteps)] = std::exp(-0.125 * i * i);
+    for (int j = -kSteps; j <= kSteps; ++j)
+        for (int i = -kSteps; i <= kSteps; ++i)
             draw({at_px.x + 0.5 * i * jitter_px_, at_px.y + 0.5 * j * jitter_px_},
-                 weights[static_cast<std::size_t>(i + kReach)] *
-                     weights[static_cast<std::size_t>(j + kReach)] / (sum * sum));
+                 weights[static_cast<std::size_t>(i + kSteps)] *
+                     weights[static_cast<std::size_t>(j + kSteps)] / (sum * sum));
 }
 
 void PointLight::draw_point(int c, Vec2d at_px, double electrons, ElectronImage& light_e) {
@@ -110,6 +143,15 @@ void PointLight::draw_point(int c, Vec2d at_px, double electrons, ElectronImage&
         const double weight = zone_weight(view_.camera.field_zones, z, field);
         if (weight > 0) add_patch(channel.spreads[z].at(at_px.x, at_px.y, electrons * weight), c, light_e);
     }
+}
+
+void PointLight::take_off_wings(Vec2d at_px, int c, double electrons, ElectronImage& light_e) {
+    const std::vector<double>& wings = near_wings_[static_cast<std::size_t>(c)];
+    std::transform(wings.begin(), wings.end(), patch_.begin(),
+                   [&](double share) { return static_cast<float>(-electrons * share); });
+    add_patch({static_cast<int>(std::floor(at_px.x)) - kReach, static_cast<int>(std::floor(at_px.y)) - kReach,
+               kAcross, patch_.data()},
+              c, light_e);
 }
 
 // Of a mosaic's channel only its own pixels have the light; some of their charge crosses over to the

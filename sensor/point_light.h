@@ -10,6 +10,7 @@
 
 #include "render/image.h"
 #include "render/point_source.h"
+#include "sensor/far_wings.h"
 #include "sensor/light_channel.h"
 
 namespace hilcam {
@@ -23,7 +24,9 @@ struct BrightPixel {
 
 class PointLight {
   public:
-    PointLight(const DetectorView& view, std::vector<LightChannel>& channels, int bins);
+    // wings: of each channel's bright pixels.
+    PointLight(const DetectorView& view, std::vector<LightChannel>& channels,
+               const std::vector<FarWings>& wings, int bins);
 
     // In this order each frame; loop, one thread. light_e: the read-out array.
     void begin(const Exposure& exposure);
@@ -42,6 +45,7 @@ class PointLight {
     void scatter(Vec2d at_px, const Draw& draw) const;
     void draw_point(int channel, Vec2d at_px, double electrons, ElectronImage& light_e);
     void add_patch(const PointPatch& patch, int channel, ElectronImage& light_e) const;
+    void take_off_wings(Vec2d at_px, int channel, double electrons, ElectronImage& light_e);
 
     const DetectorView& view_;
     std::vector<LightChannel>& channels_;
@@ -49,6 +53,9 @@ class PointLight {
     Exposure exposure_;
     double jitter_px_ = 0;
     std::vector<double> glare_e_;  // by channel
+    // Of each channel: what the wings give near a point, and what the table has folded in of them.
+    std::vector<std::vector<double>> near_wings_;
+    std::vector<float> patch_;
 };
 
 }  // namespace hilcam

@@ -33,10 +33,11 @@ class PointSpread {
     // thread.
     PointPatch at(double x_px, double y_px, double electrons);
 
+    static constexpr int kField_px = 64;  // farther light comes back from the other side
+    static constexpr int kMostRadius_px = 30;
+
   private:
     static constexpr int kOversampling = 16;
-    static constexpr int kField_px = 64;
-    static constexpr int kMostRadius_px = 30;
 
     // Samples of one phase lie together: phases_[py][px][y][x].
     const float* phase(int px, int py) const;
