@@ -27,6 +27,9 @@ class SimulatedClock {
     SimulatedClock(TimeTai start, std::int64_t monotonic_start_ns)
         : start_(start), monotonic_start_ns_(monotonic_start_ns) {}
     TimeTai at(std::int64_t monotonic_ns) const { return start_ + (monotonic_ns - monotonic_start_ns_); }
+    std::int64_t monotonic_at(TimeTai simulated) const {
+        return monotonic_start_ns_ + (simulated.ns - start_.ns);
+    }
     TimeTai now() const { return at(monotonic_now_ns()); }
 
   private:

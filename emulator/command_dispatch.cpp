@@ -14,8 +14,14 @@ CommandStatus CommandDispatch::handle(const Command& command, std::uint32_t sequ
     if (const auto* joint = std::get_if<JointCommand>(&command))
         return turn(*joint, sequence, arrival_monotonic_ns);
     if (const auto* settings = std::get_if<SettingsCommand>(&command)) return change(*settings);
-    if (std::holds_alternative<StartCommand>(command)) settings_.set_running(true);
-    if (std::holds_alternative<StopCommand>(command)) settings_.set_running(false);
+    if (const auto* expose = std::get_if<ExposeCommand>(&command))
+        return trigger(*expose, sequence, arrival_monotonic_ns);
+    if (const auto* mode = std::get_if<TriggerModeCommand>(&command)) return set_trigger_mode(*mode);
+    if (const auto* fault = std::get_if<FaultCommand>(&command)) return order(*fault);
+    SettingsChange running;
+    if (std::holds_alternative<StartCommand>(command)) running.running = true;
+    if (std::holds_alternative<StopCommand>(command)) running.running = false;
+    settings_.change(running);
     return CommandStatus::kAccepted;
 }
 
@@ -43,22 +49,52 @@ CommandStatus CommandDispatch::turn(const JointCommand& joint, std::uint32_t seq
                : CommandStatus::kUnknownObject;
 }
 
-// All or nothing: a value outside its limits leaves every setting as it was.
 CommandStatus CommandDispatch::change(const SettingsCommand& s) {
-    const CameraLimits l = settings_.limits();
-    const auto inside = [](const std::optional<double>& value, double least, double most) {
-        return !value || (*value >= least && *value <= most);
-    };
-    if (!inside(s.exposure_s, l.least_exposure_s, l.most_exposure_s) ||
-        !inside(s.gain_db, l.least_gain_db, l.most_gain_db) ||
-        !inside(s.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz))
-        return CommandStatus::kBadArgument;
-    if ((s.exposure_s && l.exposure_is_own) || (s.gain_db && l.gain_is_own) ||
-        (s.frame_rate_hz && l.frame_rate_is_own))
-        return CommandStatus::kBadArgument;
-    if (s.exposure_s) settings_.set_exposure_s(*s.exposure_s);
-    if (s.gain_db) settings_.set_gain_db(*s.gain_db);
-    if (s.frame_rate_hz) settings_.set_frame_rate_hz(*s.frame_rate_hz);
+    SettingsChange change;
+    change.exposure_s = s.exposure_s;
+    change.gain_db = s.gain_db;
+    change.frame_rate_hz = s.frame_rate_hz;
+    return settings_.change(change) ? CommandStatus::kAccepted : CommandStatus::kBadArgument;
+}
+
+CommandStatus CommandDispatch::set_trigger_mode(const TriggerModeCommand& m) {
+    SettingsChange change;
+    change.triggered = m.triggered;
+    if (m.triggered) change.trigger_source = TriggerSource::kLine0;
+    if (m.burst_frames > 0) change.burst_frames = m.burst_frames;
+    return settings_.change(change) ? CommandStatus::kAccepted : CommandStatus::kNotNow;
+}
+
+CommandStatus CommandDispatch::trigger(const ExposeCommand& e, std::uint32_t sequence,
+                                       std::int64_t arrival_monotonic_ns) {
+    TriggerOrder order;
+    order.source = TriggerSource::kLine0;
+    order.frames = e.frames;
+    order.sequence = sequence;
+    if (settings_.limits().lockstep) {
+        order.at_simulated = e.time;
+    } else {
+        TimeTai tag = e.time;
+        if (!resolve(tag, clock_.at(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
+        order.at_monotonic_ns = clock_.monotonic_at(tag);
+    }
+    switch (settings_.trigger(order)) {
+        case TriggerResult::kTaken:
+            return CommandStatus::kAccepted;
+        case TriggerResult::kMissed:
+            return CommandStatus::kBusy;
+        default:
+            return CommandStatus::kNotNow;
+    }
+}
+
+CommandStatus CommandDispatch::order(const FaultCommand& f) {
+    if (f.clear_all) {
+        faults_.clear_all();
+        return CommandStatus::kAccepted;
+    }
+    if (!refusal_of(f.order).empty()) return CommandStatus::kBadArgument;
+    faults_.order(f.order);
     return CommandStatus::kAccepted;
 }
 

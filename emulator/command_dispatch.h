@@ -1,5 +1,6 @@
 #pragma once
-// What decoded commands do: poses to the world, settings to the camera.
+// What decoded commands do: poses to the world, settings and triggers to the camera,
+// faults to their board.
 
 #include <cstdint>
 
@@ -12,8 +13,9 @@ namespace hilcam {
 
 class CommandDispatch : public CommandHandler {
   public:
-    CommandDispatch(WorldState& world, LiveSettings& settings, const SimulatedClock& clock)
-        : world_(world), settings_(settings), clock_(clock) {}
+    CommandDispatch(WorldState& world, LiveSettings& settings, FaultBoard& faults,
+                    const SimulatedClock& clock)
+        : world_(world), settings_(settings), faults_(faults), clock_(clock) {}
 
     CommandStatus handle(const Command& command, std::uint32_t sequence,
                          std::int64_t arrival_monotonic_ns) override;
@@ -25,9 +27,14 @@ class CommandDispatch : public CommandHandler {
     CommandStatus turn(const JointCommand& joint, std::uint32_t sequence, std::int64_t arrival_monotonic_ns);
     static bool resolve(TimeTai& tag, TimeTai arrival);
     CommandStatus change(const SettingsCommand& settings);
+    CommandStatus set_trigger_mode(const TriggerModeCommand& mode);
+    CommandStatus trigger(const ExposeCommand& expose, std::uint32_t sequence,
+                          std::int64_t arrival_monotonic_ns);
+    CommandStatus order(const FaultCommand& fault);
 
     WorldState& world_;
     LiveSettings& settings_;
+    FaultBoard& faults_;
     const SimulatedClock& clock_;
 };
 

@@ -62,9 +62,11 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     : scenario_(scenario),
       limits_(limits),
       grid_(scenario.spectrum_edges_um),
-      clock_(parse_utc(scenario.time_utc), monotonic_now_ns()) {
+      clock_(parse_utc(scenario.time_utc), monotonic_now_ns()),
+      faults_(static_cast<std::uint64_t>(scenario.seed)) {
     // What can be wrong with outputs is said before minutes go into a scene.
-    settings_ = std::make_unique<LiveSettings>(scenario.camera);
+    settings_ = std::make_unique<LiveSettings>(scenario.camera,
+                                               LiveSettings::Mode{.fixed_size = scenario.outputs.has_v4l2});
     if (limits.outputs) make_sinks();
     const ImageGeometry geometry = geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px),
                                                static_cast<int>(scenario.quality.oversampling));
@@ -77,7 +79,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     world_ =
         std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
     renderer_->require_air(snapshot_at(scenario, start, start));
-    dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, clock_);
+    dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, faults_, clock_);
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario, grid_, world_->placed_objects());
@@ -91,14 +93,15 @@ Emulator::~Emulator() = default;
 void Emulator::make_sinks() {
     const OutputsConfig& o = scenario_.outputs;
     const auto [width, height] = frame_size(scenario_.camera);
+    const SinkContext context{*settings_, faults_, &delivery_};
     if (o.has_gige) {
         GigeConfig gige = o.gige;
         if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;
-        sinks_.push_back(std::make_unique<GigeSink>(gige, *settings_, &delivery_));
+        sinks_.push_back(std::make_unique<GigeSink>(gige, context));
     }
     if (o.has_v4l2)
-        sinks_.push_back(std::make_unique<V4l2Sink>(o.v4l2, width, height,
-                                                    settings_->settings().frame_rate_hz, &delivery_));
+        sinks_.push_back(
+            std::make_unique<V4l2Sink>(o.v4l2, width, height, settings_->settings().frame_rate_hz, context));
     if (o.has_files)
         sinks_.push_back(
             std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));

@@ -48,6 +48,7 @@ class Emulator {
     RunLimits limits_;
     SpectralGrid grid_;
     SimulatedClock clock_;
+    FaultBoard faults_;
     DeliveryMeter delivery_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<SensorChain> chain_;

@@ -1,10 +1,15 @@
 #pragma once
-// The camera's settings while it runs: changed by commands and camera interfaces, read by the loop without a
-// lock.
+// The camera's settings while it runs, and its trigger input: changed by commands and camera interfaces, read
+// by the loop without a lock.
 
+#include <array>
 #include <atomic>
+#include <cstdint>
+#include <functional>
 #include <mutex>
+#include <semaphore>
 
+#include "emulator/shutter_timing.h"
 #include "io/camera_control.h"
 #include "render/latest.h"
 #include "sensor/camera_model.h"
@@ -13,31 +18,57 @@ namespace hilcam {
 
 class LiveSettings : public CameraControl {
   public:
-    explicit LiveSettings(const CameraModel& camera);
+    struct Mode {
+        bool lockstep = false;
+        bool triggered = false;   // at power-up
+        bool fixed_size = false;  // an output cannot follow a change of binning
+    };
+    explicit LiveSettings(const CameraModel& camera) : LiveSettings(camera, Mode{}) {}
+    LiveSettings(const CameraModel& camera, const Mode& mode);
 
     CameraSettings settings() const override;
     CameraLimits limits() const override { return limits_; }
-    bool set_exposure_s(double value) override;
-    bool set_gain_db(double value) override;
-    bool set_frame_rate_hz(double value) override;
-    void set_running(bool running) override;
+    bool change(const SettingsChange& change) override;
+    // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
+    // highest frame rate; or, in lockstep, when kMostWaiting are waiting.
+    TriggerResult trigger(const TriggerOrder& order) override;
+    // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
+    void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
 
-    // Loop, one thread. No lock.
+    // --- Loop, one thread. No lock.
     const CameraSettings& read_in_loop() { return latest_.read(); }
-    // Loop: what a camera that sets them itself has set; settings() tells it.
+    // The next trigger in its order of arrival; false when there is none.
+    bool take_trigger(TriggerOrder& order);
+    // Returns after a change or a trigger, or after 50 ms.
+    void wait_for_news() {
+        static_cast<void>(news_.try_acquire_for(std::chrono::milliseconds(50)));
+        while (news_.try_acquire()) {
+        }
+    }
+    // What a camera that sets them itself has set; settings() tells it.
     void tell_own(double exposure_s, double gain_db) {
-        if (limits_.exposure_is_own) own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
-        if (limits_.gain_is_own) own_gain_db_.store(gain_db, std::memory_order_relaxed);
+        own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
+        own_gain_db_.store(gain_db, std::memory_order_relaxed);
     }
 
+    static constexpr std::size_t kMostWaiting = 64;
+
   private:
-    bool set(double CameraSettings::*member, double value, double least, double most);
+    bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
+    void announce();
 
     CameraLimits limits_;
+    ShutterTiming timing_;
     mutable std::mutex mutex_;
     CameraSettings settings_;
     Latest<CameraSettings> latest_;
     std::atomic<double> own_exposure_s_, own_gain_db_;
+    // Writers under the mutex, one reader.
+    std::array<TriggerOrder, kMostWaiting> triggers_;
+    std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
+    std::int64_t ready_ns_ = 0;  // when the next trigger can be taken
+    std::counting_semaphore<> news_{0};
+    std::function<void(std::int64_t)> missed_;
 };
 
 }  // namespace hilcam

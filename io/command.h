@@ -6,6 +6,7 @@
 #include <optional>
 #include <variant>
 
+#include "io/fault.h"
 #include "render/pose.h"
 
 namespace hilcam {
@@ -29,6 +30,26 @@ struct SettingsCommand {
     std::optional<double> gain_db;
     std::optional<double> frame_rate_hz;
 };
+// A frame, or a burst of them, on the camera's trigger wire (Line0). In lockstep it is what makes frames.
+struct ExposeCommand {
+    // Lockstep: simulated TAI of the exposure's middle, later than that of the frame before; ns = 0: a frame
+    // period after it. Triggered: when the trigger comes; ns = 0: on arrival.
+    TimeTai time;
+    std::uint16_t frames = 0;  // 0: as the settings have it
+};
+struct FaultCommand {
+    FaultOrder order;
+    bool clear_all = false;  // the order is not looked at
+};
+// Frame reports and housekeeping to where this command came from, or no more.
+struct SubscribeCommand {
+    bool frame_reports = false;
+    bool housekeeping = false;
+};
+struct TriggerModeCommand {
+    bool triggered = false;
+    std::uint16_t burst_frames = 0;  // 0: as it is
+};
 struct StartCommand {};
 struct StopCommand {};
 // Answered with the simulated time, so that a sender can set its time tags.
@@ -36,8 +57,8 @@ struct PingCommand {
     std::uint64_t token = 0;
 };
 // In the order of their function codes.
-using Command =
-    std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand, JointCommand>;
+using Command = std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand,
+                             JointCommand, FaultCommand, ExposeCommand, TriggerModeCommand, SubscribeCommand>;
 
 // Travels in the acknowledgement; the numbers are part of the protocol.
 enum class CommandStatus : std::uint8_t {
@@ -51,6 +72,8 @@ enum class CommandStatus : std::uint8_t {
         6,  // a number that is not finite, a quaternion that is not one, a value outside its limits
     kUnknownObject = 7,
     kTimeOutOfRange = 8,  // a time tag more than an hour from the simulated now
+    kBusy = 9,            // the trigger came too early, or too many frames are waiting: try again later
+    kNotNow = 10,         // the camera's mode has no use for it
 };
 
 // What the emulator does with a decoded command. Called by the receivers' threads, one at a time per

@@ -241,6 +241,10 @@ std::string_view name_of(CommandStatus status) {
             return "unknown object";
         case CommandStatus::kTimeOutOfRange:
             return "time out of range";
+        case CommandStatus::kBusy:
+            return "busy";
+        case CommandStatus::kNotNow:
+            return "not now";
     }
     return "unknown status";
 }

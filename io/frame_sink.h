@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "render/image.h"
 #include "render/time.h"
@@ -17,8 +19,14 @@ struct FrameRecord {
     std::int64_t exposure_mid_monotonic_ns = 0;  // the same instant on the machine's clock
     double exposure_s = 0;
     double gain_db = 0;
-    int bits = 0;                     // significant bits of a DN
-    std::uint32_t pose_sequence = 0;  // of the newest command that this frame shows
+    double black_level_dn = 0;
+    int bits = 0;  // significant bits of a DN
+    std::int64_t binning_x = 1, binning_y = 1;
+    std::uint32_t pose_sequence = 0;     // of the newest command that this frame shows
+    TimeTai pose_time;                   // that command's time tag
+    std::uint32_t trigger_sequence = 0;  // of the `expose` that asked for it
+    std::uint64_t faults = 0;         // bits of the faults that strike it (fault.h), those of packets apart
+    std::uint32_t quality_level = 0;  // 0: as configured
     std::int64_t command_arrival_monotonic_ns =
         0;  // when that command arrived; 0 when no new one came since the last frame
 };
@@ -28,6 +36,15 @@ struct SinkReport {
     std::uint64_t frames = 0;   // delivered
     std::uint64_t dropped = 0;  // taken from the loop but not delivered (no client, sink too slow)
     std::string fault;          // empty, or why the sink stopped delivering
+    // More figures by name: packets resent, clients, ...
+    std::vector<std::pair<std::string, double>> figures{};
+};
+
+// What happens to a frame before it is there.
+struct CameraEvent {
+    enum class Kind : std::uint8_t { kExposureStart, kExposureEnd, kTriggerMissed } kind;
+    std::uint64_t frame = 0;  // 0: of none (a missed trigger)
+    std::int64_t monotonic_ns = 0;
 };
 
 class FrameSink {
@@ -38,6 +55,8 @@ class FrameSink {
     // Takes a copy of the frame and returns; never waits for a client or a device. Loop. The image may be
     // overwritten as soon as this returns.
     virtual void publish(const DnImage& frame, const FrameRecord& record) noexcept = 0;
+    // Loop and any other thread, at the same time: never waits.
+    virtual void happened(const CameraEvent&) noexcept {}
     // Ends the threads and closes everything; idempotent. Owner thread.
     virtual void stop() noexcept = 0;
     // Any thread.
@@ -51,6 +70,16 @@ class DeliveryListener {
     virtual ~DeliveryListener() = default;
     virtual void delivered(const FrameRecord& record, std::int64_t first_ns,
                            std::int64_t last_ns) noexcept = 0;
+};
+
+class CameraControl;
+class FaultBoard;
+
+// What a sink lives among; all of it outlives the sink.
+struct SinkContext {
+    CameraControl& camera;
+    FaultBoard& faults;
+    DeliveryListener* listener = nullptr;  // may be null
 };
 
 }  // namespace hilcam

@@ -254,16 +254,16 @@ Status GigeDevice::write(std::uint32_t address, std::span<const std::uint8_t> da
 }
 
 Status GigeDevice::write_float(std::uint32_t address, double value) {
-    bool taken = false;
+    SettingsChange change;
     if (address == reg::kExposureTime_us)
-        taken = camera_.set_exposure_s(value * 1e-6);
+        change.exposure_s = value * 1e-6;
     else if (address == reg::kGain_db)
-        taken = camera_.set_gain_db(value);
+        change.gain_db = value;
     else if (address == reg::kFrameRate_hz)
-        taken = camera_.set_frame_rate_hz(value);
+        change.frame_rate_hz = value;
     else
         return Status::kWriteProtect;
-    return taken ? Status::kSuccess : Status::kInvalidParameter;
+    return camera_.change(change) ? Status::kSuccess : Status::kInvalidParameter;
 }
 
 Status GigeDevice::write_number(std::uint32_t address, std::uint32_t value, Endpoint from,

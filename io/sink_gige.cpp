@@ -112,8 +112,8 @@ struct GigeSink::Implementation {
 
     std::atomic<std::uint64_t> delivered{0}, dropped{0}, resent{0}, unavailable{0};
 
-    Implementation(const GigeConfig& c, CameraControl& cam, DeliveryListener* l)
-        : config(c), camera(cam), listener(l), net(find_interface(c.interface)) {}
+    Implementation(const GigeConfig& c, const SinkContext& context)
+        : config(c), camera(context.camera), listener(context.listener), net(find_interface(c.interface)) {}
 
     void open();
     void serve_control();
@@ -331,8 +331,8 @@ void GigeSink::Implementation::send_frame(Slot& slot) {
 // --- the sink
 // ------------------------------------------------------------------------------------------------------
 
-GigeSink::GigeSink(const GigeConfig& config, CameraControl& camera, DeliveryListener* listener)
-    : implementation_(std::make_unique<Implementation>(config, camera, listener)) {}
+GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context)
+    : implementation_(std::make_unique<Implementation>(config, context)) {}
 GigeSink::~GigeSink() { stop(); }
 
 void GigeSink::start() {

@@ -28,7 +28,7 @@ Fields fields(GigeConfig& config);
 
 class GigeSink : public FrameSink {
   public:
-    GigeSink(const GigeConfig& config, CameraControl& camera, DeliveryListener* listener);
+    GigeSink(const GigeConfig& config, const SinkContext& context);
     ~GigeSink() override;
 
     // Throws InputError when there is no such interface, DeviceError when port 3956 there is taken.

@@ -48,12 +48,12 @@ Fields fields(V4l2Config& c) {
 }
 
 V4l2Sink::V4l2Sink(const V4l2Config& config, int width, int height, double frame_rate_hz,
-                   DeliveryListener* listener)
+                   const SinkContext& context)
     : config_(config),
       width_(width),
       height_(height),
       frame_rate_hz_(frame_rate_hz),
-      listener_(listener),
+      listener_(context.listener),
       mailbox_(width, height, 4) {}
 
 std::size_t V4l2Sink::frame_bytes() const {

@@ -27,7 +27,7 @@ Fields fields(V4l2Config& config);
 class V4l2Sink : public FrameSink {
   public:
     V4l2Sink(const V4l2Config& config, int width, int height, double frame_rate_hz,
-             DeliveryListener* listener);
+             const SinkContext& context);
     ~V4l2Sink() override { stop(); }
 
     // Throws DeviceError: no such device, no right, not an output, busy, format not taken.

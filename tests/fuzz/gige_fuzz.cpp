@@ -12,13 +12,36 @@ namespace {
 
 class AnyCamera : public hilcam::CameraControl {
   public:
-    hilcam::CameraSettings s{0.001, 0, 30, true};
+    hilcam::CameraSettings s{.exposure_s = 0.001, .frame_rate_hz = 30};
     hilcam::CameraSettings settings() const override { return s; }
-    hilcam::CameraLimits limits() const override { return {640, 480, 12, 1e-5, 1, 0, 24, 0.1, 200}; }
-    bool set_exposure_s(double v) override { return v >= 1e-5 && v <= 1 && (s.exposure_s = v, true); }
-    bool set_gain_db(double v) override { return v >= 0 && v <= 24 && (s.gain_db = v, true); }
-    bool set_frame_rate_hz(double v) override { return v >= 0.1 && v <= 200 && (s.frame_rate_hz = v, true); }
-    void set_running(bool running) override { s.running = running; }
+    hilcam::CameraLimits limits() const override {
+        return {.width = 640,
+                .height = 480,
+                .bits = 12,
+                .color_pattern = {},
+                .least_exposure_s = 1e-5,
+                .most_exposure_s = 1,
+                .least_gain_db = 0,
+                .most_gain_db = 24,
+                .least_frame_rate_hz = 0.1,
+                .most_frame_rate_hz = 200};
+    }
+    bool change(const hilcam::SettingsChange& c) override {
+        const hilcam::CameraLimits l = limits();
+        if (c.exposure_s && !(*c.exposure_s >= l.least_exposure_s && *c.exposure_s <= l.most_exposure_s))
+            return false;
+        if (c.gain_db && !(*c.gain_db >= l.least_gain_db && *c.gain_db <= l.most_gain_db)) return false;
+        if (c.frame_rate_hz &&
+            !(*c.frame_rate_hz >= l.least_frame_rate_hz && *c.frame_rate_hz <= l.most_frame_rate_hz))
+            return false;
+        s.exposure_s = c.exposure_s.value_or(s.exposure_s);
+        s.gain_db = c.gain_db.value_or(s.gain_db);
+        s.frame_rate_hz = c.frame_rate_hz.value_or(s.frame_rate_hz);
+        return true;
+    }
+    hilcam::TriggerResult trigger(const hilcam::TriggerOrder&) override {
+        return hilcam::TriggerResult::kTaken;
+    }
 };
 
 }  // namespace

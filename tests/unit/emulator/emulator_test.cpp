@@ -110,9 +110,9 @@ TEST(FrameSchedule, SkipsWholePeriodsAndNeverCatchesUp) {
 TEST(LiveSettings, RefusesWhatIsOutsideAndTheLoopSeesTheRest) {
     CameraModel camera;
     LiveSettings settings(camera);
-    EXPECT_FALSE(settings.set_exposure_s(1e9));
-    EXPECT_FALSE(settings.set_gain_db(std::nan("")));
-    EXPECT_TRUE(settings.set_gain_db(6));
+    EXPECT_FALSE(settings.change({.exposure_s = 1e9}));
+    EXPECT_FALSE(settings.change({.gain_db = std::nan("")}));
+    EXPECT_TRUE(settings.change({.gain_db = 6}));
     EXPECT_EQ(settings.read_in_loop().gain_db, 6);
 }
 
@@ -122,7 +122,8 @@ TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
     const Motion initial = at(0, 0);
     WorldState world(std::span(&initial, 1), {});
     const SimulatedClock clock({1'000'000'000'000'000}, 0);
-    CommandDispatch dispatch(world, settings, clock);
+    FaultBoard faults;
+    CommandDispatch dispatch(world, settings, faults, clock);
     SettingsCommand command;
     command.gain_db = 3;
     command.exposure_s = 1e9;

@@ -296,20 +296,21 @@ TEST(LiveSettings, RefusesWhatTheCameraSetsItself) {
     CameraModel c;
     c.shutter.kind = ShutterKind::kLineScan;
     LiveSettings line(c);
-    EXPECT_FALSE(line.set_exposure_s(line.settings().exposure_s));
-    EXPECT_FALSE(line.set_frame_rate_hz(30));
-    EXPECT_TRUE(line.set_gain_db(3));
+    EXPECT_FALSE(line.change({.exposure_s = line.settings().exposure_s}));
+    EXPECT_FALSE(line.change({.frame_rate_hz = 30}));
+    EXPECT_TRUE(line.change({.gain_db = 3}));
     EXPECT_DOUBLE_EQ(line.settings().exposure_s, 20e-6);
     CameraModel a;
     a.auto_exposure.on = true;
     LiveSettings automatic(a);
-    EXPECT_FALSE(automatic.set_exposure_s(1e-3));
+    EXPECT_FALSE(automatic.change({.exposure_s = 1e-3}));
     automatic.tell_own(0.25, 0);
     EXPECT_EQ(automatic.settings().exposure_s, 0.25);
 
     const Motion initial;
     WorldState world(std::span(&initial, 1), {});
-    CommandDispatch dispatch(world, automatic, SimulatedClock({0}, 0));
+    FaultBoard faults;
+    CommandDispatch dispatch(world, automatic, faults, SimulatedClock({0}, 0));
     SettingsCommand command;
     command.exposure_s = 1e-3;
     command.gain_db = 6;

@@ -1,0 +1,173 @@
+#pragma once
+// Faults on demand: what a bench can ask its camera to do wrong, and the board that says what is wrong now.
+//
+// A fault has a rate (the share of packets, messages or frames it strikes), a value whose meaning is its
+// kind's, and a span of frames or of time. Whether it strikes is a pure function of (seed, kind, frame,
+// index): the same orders strike the same packets of the same frames on every run. Every strike is counted,
+// and the first of each frame is logged with the frame's id.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace hilcam {
+
+// Numbers are part of the command protocol: never reuse one.
+enum class FaultKind : std::uint8_t {
+    // Packets of a stream; index: packet id.
+    kPacketDrop = 1,
+    kPacketDuplicate = 2,
+    kPacketReorder = 3,   // changes place with the packet after it
+    kPacketDelay = 4,     // value: ms
+    kPacketCorrupt = 5,   // one byte of the payload is inverted
+    kPacketWrongId = 6,   // value: added to the packet id
+    kPacketTruncate = 7,  // value: bytes cut off the end
+    kLeaderLost = 8,
+    kTrailerLost = 9,
+    kResendRefused = 10,  // answered with "packet unavailable"
+    kResendDelayed = 11,  // value: ms
+    kResendWrongId = 12,  // value: added to the packet id
+    kBandwidthCap = 13,   // value: MB/s
+    // Whole frames.
+    kFrameDrop = 20,    // not sent; its block id is skipped
+    kFrameRepeat = 21,  // the frame before is sent in its place
+    kWrongSizeY = 22,   // value: added to the trailer's size_y
+    // Time stamps.
+    kTimestampStep = 30,   // value: ms, added while it lasts
+    kTimestampDrift = 31,  // value: ppm, from when it began
+    kTimestampFreeze = 32,
+    kBlockIdWrap = 33,  // once: the next block id is 65530
+    // The control channel; index: request id.
+    kControlSilence = 40,
+    kControlSlow = 41,  // value: ms; PENDING_ACK first where the client takes it
+    kControlBusy = 42,
+    kControlDenied = 43,
+    kHeartbeatIgnored = 44,  // the controller is lost although it speaks
+    // The device.
+    kDeviceReset = 50,      // once: control, stream and settings as after power-up
+    kLinkDown = 51,         // neither control nor stream
+    kIpChange = 52,         // once: value: added to the last byte of the address
+    kTestPacketLimit = 53,  // value: bytes; longer test packets are not sent
+    // V4L2.
+    kV4l2Stall = 60,       // frames are withheld
+    kV4l2Restart = 61,     // once: the device is closed and opened again
+    kV4l2FormatFlip = 62,  // once: closed, and opened with the other bit depth
+    // USB.
+    kUsbDetach = 70,
+    kUsbShortTransfer = 71,
+    kUsbStall = 72,
+    kUsbBadCrc = 73,  // of acknowledgements and telemetry
+    // The picture.
+    kImageStuck = 80,  // the picture of the frame before
+    kImageBlack = 81,
+    kImageSaturated = 82,
+    kImageBitFlips = 83,  // rate is per pixel: one bit of each that is struck
+    kImageTear = 84,      // rows from `value` (share of the height, 0..1) on are of the frame before
+};
+
+inline constexpr std::array kAllFaults = {
+    FaultKind::kPacketDrop,       FaultKind::kPacketDuplicate, FaultKind::kPacketReorder,
+    FaultKind::kPacketDelay,      FaultKind::kPacketCorrupt,   FaultKind::kPacketWrongId,
+    FaultKind::kPacketTruncate,   FaultKind::kLeaderLost,      FaultKind::kTrailerLost,
+    FaultKind::kResendRefused,    FaultKind::kResendDelayed,   FaultKind::kResendWrongId,
+    FaultKind::kBandwidthCap,     FaultKind::kFrameDrop,       FaultKind::kFrameRepeat,
+    FaultKind::kWrongSizeY,       FaultKind::kTimestampStep,   FaultKind::kTimestampDrift,
+    FaultKind::kTimestampFreeze,  FaultKind::kBlockIdWrap,     FaultKind::kControlSilence,
+    FaultKind::kControlSlow,      FaultKind::kControlBusy,     FaultKind::kControlDenied,
+    FaultKind::kHeartbeatIgnored, FaultKind::kDeviceReset,     FaultKind::kLinkDown,
+    FaultKind::kIpChange,         FaultKind::kTestPacketLimit, FaultKind::kV4l2Stall,
+    FaultKind::kV4l2Restart,      FaultKind::kV4l2FormatFlip,  FaultKind::kUsbDetach,
+    FaultKind::kUsbShortTransfer, FaultKind::kUsbStall,        FaultKind::kUsbBadCrc,
+    FaultKind::kImageStuck,       FaultKind::kImageBlack,      FaultKind::kImageSaturated,
+    FaultKind::kImageBitFlips,    FaultKind::kImageTear,
+};
+
+// "packet_drop", ...: as scenario files, `hilcam send fault` and the GenICam FaultSelector have them (the
+// last as PacketDrop). Empty for no kind.
+std::string_view name_of(FaultKind kind);
+std::optional<FaultKind> fault_named(std::string_view name);
+// What it does and what its value means, one line.
+std::string_view meaning_of(FaultKind kind);
+// The kind's bit in FrameRecord::faults and ChunkFaults: its place in kAllFaults.
+std::uint64_t bit_of(FaultKind kind);
+
+struct FaultOrder {
+    FaultKind kind = FaultKind::kPacketDrop;
+    double rate = 1;               // 0..1; 0 ends the fault
+    double value = 0;              // by kind
+    std::uint64_t from_frame = 0;  // 0: at once
+    std::uint64_t frames = 0;      // 0: no end by frames
+    double duration_s = 0;         // from the order's arrival; 0: no end by time
+};
+// Why an order cannot be, or empty.
+std::string_view refusal_of(const FaultOrder& order);
+
+// One for each camera. One order per kind: a later one takes the earlier one's place.
+class FaultBoard {
+  public:
+    explicit FaultBoard(std::uint64_t seed = 1) : seed_(seed) {}
+
+    // Any thread but the loop (a lock among those that order).
+    void order(const FaultOrder& order);
+    void clear_all();
+    // The present order, if one is in force or waits for its frame.
+    std::optional<FaultOrder> order_of(FaultKind kind) const;
+
+    // Any thread: no lock, no allocation. Does the fault strike this item of this frame? Gives its value. A
+    // strike is counted. `frame`: FrameRecord::id; 0 for what belongs to no frame. "once" kinds strike once
+    // per order.
+    std::optional<double> strikes(FaultKind kind, std::uint64_t frame, std::uint64_t index = 0);
+    // The same without counting.
+    std::optional<double> would_strike(FaultKind kind, std::uint64_t frame, std::uint64_t index = 0) const;
+    // When the present order came [CLOCK_MONOTONIC ns].
+    std::int64_t since_monotonic_ns(FaultKind kind) const;
+
+    std::uint64_t strikes_of(FaultKind kind) const;
+    std::uint64_t all_strikes() const;
+
+    // The log: first strikes by frame, oldest first; what is not taken in time is overwritten and counted.
+    struct Entry {
+        FaultKind kind = FaultKind::kPacketDrop;
+        std::uint64_t frame = 0;
+        std::uint64_t index = 0;
+        double value = 0;
+        std::int64_t monotonic_ns = 0;
+    };
+    // One reading thread.
+    bool take_entry(Entry& entry);
+
+  private:
+    // A sequence lock: readers try again while a writer is at it.
+    struct Cell {
+        std::atomic<std::uint32_t> version{0};
+        std::atomic<double> rate{0}, value{0};
+        std::atomic<std::uint64_t> from_frame{0}, frames{0}, order{0};
+        std::atomic<std::int64_t> since_ns{0}, until_ns{0};
+        std::atomic<double> duration_s{0};
+        std::atomic<std::uint64_t> struck{0}, last_frame{~std::uint64_t{0}}, struck_order{0};
+    };
+    struct State;
+    static std::size_t place_of(FaultKind kind);
+    State read(const Cell& cell) const;
+    void log(const Entry& entry);
+
+    std::uint64_t seed_;
+    std::array<Cell, kAllFaults.size()> cells_;
+    std::atomic<std::uint64_t> orders_{0};
+    static constexpr std::size_t kLogLength = 1024;
+    struct LogSlot {
+        std::atomic<std::uint64_t> turn{0};
+        std::atomic<FaultKind> kind{FaultKind::kPacketDrop};
+        std::atomic<std::uint64_t> frame{0}, index{0};
+        std::atomic<double> value{0};
+        std::atomic<std::int64_t> monotonic_ns{0};
+    };
+    std::array<LogSlot, kLogLength> log_;
+    std::atomic<std::uint64_t> log_head_{0};
+    std::uint64_t log_tail_ = 0;
+    mutable std::atomic_flag writing_ = ATOMIC_FLAG_INIT;
+};
+
+}  // namespace hilcam
