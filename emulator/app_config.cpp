@@ -133,6 +133,41 @@ SensorSampling sampling_of(const QualityConfig& q) {
             static_cast<int>(q.oversampling)};
 }
 
+Fields fields(FaultConfig& f) {
+    std::vector<std::string> words;
+    for (const FaultKind kind : kAllFaults) words.emplace_back(name_of(kind));
+    const auto present = [&f] {
+        return static_cast<std::size_t>(std::find(kAllFaults.begin(), kAllFaults.end(), f.kind) -
+                                        kAllFaults.begin());
+    };
+    return {
+        required(
+            Field{"kind", "what goes wrong (docs/faults.md)",
+                  ChoiceField{std::move(words), [&f](std::size_t i) { f.kind = kAllFaults[i]; }, present}}),
+        number("rate", f.order.rate, 1, {0, 1},
+               "share of packets, messages, frames or pixels that it strikes"),
+        number("value", f.order.value, 1, {-1e9, 1e9}, "by kind"),
+        number("at_s", f.at_s, 1, {0, 1e7}, "after the start, when it is ordered"),
+        integer("from_frame", f.from_frame, {0, 9e15}, "first frame that it strikes; 0: at once"),
+        integer("frames", f.frames, {0, 9e15}, "how many frames it lasts; 0: no end"),
+        number("duration_s", f.order.duration_s, 1, {0, 1e7}, "how long it lasts; 0: no end"),
+    };
+}
+
+FaultOrder order_of(const FaultConfig& f) {
+    FaultOrder order = f.order;
+    order.kind = f.kind;
+    order.from_frame = static_cast<std::uint64_t>(f.from_frame);
+    order.frames = static_cast<std::uint64_t>(f.frames);
+    return order;
+}
+
+void validate(const FaultConfig& f) {
+    if (const std::string_view reason = refusal_of(order_of(f)); !reason.empty())
+        throw InputError(std::string(name_of(f.kind)) + ": " + std::string(reason) + "; it " +
+                         std::string(meaning_of(f.kind)));
+}
+
 Fields fields(CommandsConfig& c) {
     return {optional(section("udp", c.udp, "listen for commands"), c.has_udp)};
 }
@@ -175,6 +210,10 @@ Fields fields(ScenarioConfig& s) {
         text("radiance", s.models.radiance, "reflected | emissive, or a plug-in's"),
         sections("plugins", s.plugins, "shared libraries that add models"),
         section("quality", s.quality, "speed against accuracy"),
+        choice(
+            "mode", s.mode, {"free_run", "triggered", "lockstep"},
+            "what makes the camera take frames: its rate, triggers, or each `expose` one in simulated time"),
+        sections("faults", s.faults, "what goes wrong by itself"),
         section("commands", s.commands, "where commands come from"),
         section("outputs", s.outputs, "where frames go"),
     };

@@ -117,6 +117,20 @@ Fields fields(QualityConfig& quality);
 // How the radiance images of that quality are made.
 SensorSampling sampling_of(const QualityConfig& quality);
 
+// What makes the camera take frames (frame_starter.h).
+enum class CameraMode { kFreeRun, kTriggered, kLockstep };
+
+// A fault on demand (io/fault.h) that the scenario orders by itself.
+struct FaultConfig {
+    FaultKind kind = FaultKind::kPacketDrop;
+    FaultOrder order;
+    double at_s = 0;  // after the start, CLOCK_MONOTONIC
+    std::int64_t from_frame = 0, frames = 0;
+};
+Fields fields(FaultConfig& fault);
+void validate(const FaultConfig& fault);
+FaultOrder order_of(const FaultConfig& fault);
+
 struct CommandsConfig {
     bool has_udp = false;
     UdpCommandConfig udp;
@@ -158,6 +172,8 @@ struct ScenarioConfig {
     bool has_rays = false;
     std::vector<PluginConfig> plugins;
     QualityConfig quality;
+    CameraMode mode = CameraMode::kFreeRun;
+    std::vector<FaultConfig> faults;
     CommandsConfig commands;
     OutputsConfig outputs;
 };

@@ -3,6 +3,7 @@
 
 #include <time.h>
 
+#include <atomic>
 #include <cstdint>
 
 #include "render/time.h"
@@ -21,20 +22,43 @@ inline void sleep_until_monotonic_ns(std::int64_t ns) {
     }
 }
 
-// Runs at real time from a start: simulated = start + (monotonic - monotonic at the start).
+// Simulated = start + (monotonic - monotonic at the start). It runs at real time, or, in lockstep, stands
+// until it is told to step: `now` is then the time of the last frame.
 class SimulatedClock {
   public:
-    SimulatedClock(TimeTai start, std::int64_t monotonic_start_ns)
-        : start_(start), monotonic_start_ns_(monotonic_start_ns) {}
+    SimulatedClock(TimeTai start, std::int64_t monotonic_start_ns, bool lockstep = false)
+        : start_(start),
+          monotonic_start_ns_(monotonic_start_ns),
+          lockstep_(lockstep),
+          stepped_ns_(start.ns) {}
+    SimulatedClock(const SimulatedClock& other)
+        : SimulatedClock(other.start_, other.monotonic_start_ns_, other.lockstep_) {
+        stepped_ns_.store(other.stepped_ns_.load());
+    }
+    SimulatedClock& operator=(const SimulatedClock& other) {
+        start_ = other.start_, monotonic_start_ns_ = other.monotonic_start_ns_, lockstep_ = other.lockstep_;
+        stepped_ns_.store(other.stepped_ns_.load());
+        return *this;
+    }
+
+    TimeTai start() const { return start_; }
+    // The two axes, whatever the mode.
     TimeTai at(std::int64_t monotonic_ns) const { return start_ + (monotonic_ns - monotonic_start_ns_); }
     std::int64_t monotonic_at(TimeTai simulated) const {
         return monotonic_start_ns_ + (simulated.ns - start_.ns);
     }
-    TimeTai now() const { return at(monotonic_now_ns()); }
+    // What a message of that arrival means by "now".
+    TimeTai of_arrival(std::int64_t monotonic_ns) const {
+        return lockstep_ ? TimeTai{stepped_ns_.load()} : at(monotonic_ns);
+    }
+    TimeTai now() const { return of_arrival(monotonic_now_ns()); }
+    void step_to(TimeTai time) { stepped_ns_.store(time.ns); }
 
   private:
     TimeTai start_;
     std::int64_t monotonic_start_ns_;
+    bool lockstep_;
+    std::atomic<std::int64_t> stepped_ns_;
 };
 
 // When frames are exposed in free-run: an absolute raster that never drifts and never catches up.

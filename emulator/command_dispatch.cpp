@@ -5,7 +5,22 @@
 namespace hilcam {
 namespace {
 constexpr std::int64_t kFarthestTag_ns = 3'600'000'000'000;  // an hour
+constexpr double kPatience_s = 600;                          // for the frames of one order in lockstep
+
+CommandStatus status_of(TriggerResult result) {
+    switch (result) {
+        case TriggerResult::kTaken:
+            return CommandStatus::kAccepted;
+        case TriggerResult::kMissed:
+            return CommandStatus::kBusy;
+        case TriggerResult::kTooEarly:
+            return CommandStatus::kTimeOutOfRange;
+        default:
+            return CommandStatus::kNotNow;
+    }
 }
+
+}  // namespace
 
 CommandStatus CommandDispatch::handle(const Command& command, std::uint32_t sequence,
                                       std::int64_t arrival_monotonic_ns) {
@@ -35,7 +50,7 @@ bool CommandDispatch::resolve(TimeTai& tag, TimeTai arrival) {
 CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, std::uint32_t sequence,
                                         std::int64_t arrival_monotonic_ns) {
     Motion motion = pose.motion;
-    if (!resolve(motion.time, clock_.at(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
+    if (!resolve(motion.time, clock_.of_arrival(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
     return world_.set(pose.object, motion, {sequence, arrival_monotonic_ns}) ? CommandStatus::kAccepted
                                                                              : CommandStatus::kUnknownObject;
 }
@@ -43,7 +58,7 @@ CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, std::uint32_t s
 CommandStatus CommandDispatch::turn(const JointCommand& joint, std::uint32_t sequence,
                                     std::int64_t arrival_monotonic_ns) {
     WorldState::JointMotion motion{joint.time, joint.angle_rad, joint.rate_rad_s};
-    if (!resolve(motion.time, clock_.at(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
+    if (!resolve(motion.time, clock_.of_arrival(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
     return world_.set_joint(joint.object, joint.joint, motion, {sequence, arrival_monotonic_ns})
                ? CommandStatus::kAccepted
                : CommandStatus::kUnknownObject;
@@ -73,19 +88,12 @@ CommandStatus CommandDispatch::trigger(const ExposeCommand& e, std::uint32_t seq
     order.sequence = sequence;
     if (settings_.limits().lockstep) {
         order.at_simulated = e.time;
-    } else {
-        TimeTai tag = e.time;
-        if (!resolve(tag, clock_.at(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
-        order.at_monotonic_ns = clock_.monotonic_at(tag);
+        return status_of(settings_.trigger_and_wait(order, kPatience_s));
     }
-    switch (settings_.trigger(order)) {
-        case TriggerResult::kTaken:
-            return CommandStatus::kAccepted;
-        case TriggerResult::kMissed:
-            return CommandStatus::kBusy;
-        default:
-            return CommandStatus::kNotNow;
-    }
+    TimeTai tag = e.time;
+    if (!resolve(tag, clock_.of_arrival(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
+    order.at_monotonic_ns = clock_.monotonic_at(tag);
+    return status_of(settings_.trigger(order));
 }
 
 CommandStatus CommandDispatch::order(const FaultCommand& f) {

@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "emulator/scene_loader.h"
 
 namespace hilcam {
@@ -65,8 +67,13 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
       clock_(parse_utc(scenario.time_utc), monotonic_now_ns()),
       faults_(static_cast<std::uint64_t>(scenario.seed)) {
     // What can be wrong with outputs is said before minutes go into a scene.
-    settings_ = std::make_unique<LiveSettings>(scenario.camera,
-                                               LiveSettings::Mode{.fixed_size = scenario.outputs.has_v4l2});
+    settings_ = std::make_unique<LiveSettings>(
+        scenario.camera, LiveSettings::Mode{.lockstep = scenario.mode == CameraMode::kLockstep,
+                                            .triggered = scenario.mode == CameraMode::kTriggered,
+                                            .fixed_size = scenario.outputs.has_v4l2});
+    settings_->on_missed_trigger([this](std::int64_t monotonic_ns) {
+        for (const auto& sink : sinks_) sink->happened({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
+    });
     if (limits.outputs) make_sinks();
     const ImageGeometry geometry = geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px),
                                                static_cast<int>(scenario.quality.oversampling));
@@ -75,7 +82,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
                                            load_detector_pictures(scenario.camera));
     // Loading took its time; the simulation starts now.
     const TimeTai start = parse_utc(scenario.time_utc);
-    clock_ = SimulatedClock(start, monotonic_now_ns());
+    clock_ = SimulatedClock(start, monotonic_now_ns(), scenario.mode == CameraMode::kLockstep);
     world_ =
         std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
     renderer_->require_air(snapshot_at(scenario, start, start));
@@ -83,8 +90,12 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario, grid_, world_->placed_objects());
-    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario.camera, *world_, *settings_, clock_,
-                                        sinks(), static_cast<std::uint64_t>(scenario.seed),
+    timed_faults_ = scenario.faults;
+    std::stable_sort(timed_faults_.begin(), timed_faults_.end(),
+                     [](const FaultConfig& a, const FaultConfig& b) { return a.at_s < b.at_s; });
+    order_faults(0);
+    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario.camera, *world_, *settings_, faults_,
+                                        clock_, sinks(), static_cast<std::uint64_t>(scenario.seed),
                                         LoopLimits{limits.frames, limits.paced});
 }
 
@@ -92,7 +103,7 @@ Emulator::~Emulator() = default;
 
 void Emulator::make_sinks() {
     const OutputsConfig& o = scenario_.outputs;
-    const auto [width, height] = frame_size(scenario_.camera);
+    const auto [width, height] = array_size(scenario_.camera);  // frames are no larger
     const SinkContext context{*settings_, faults_, &delivery_};
     if (o.has_gige) {
         GigeConfig gige = o.gige;
@@ -129,6 +140,8 @@ void Emulator::run(const std::function<void()>& on_ready) {
         const std::int64_t now_ns = monotonic_now_ns();
         seconds_ = static_cast<double>(now_ns - begun_ns) * 1e-9;
         if (limits_.seconds > 0 && seconds_ >= limits_.seconds) break;
+        order_faults(seconds_);
+        log_faults();
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
             print_line(frames_before);
             next_line_ns += 1'000'000'000;
@@ -136,9 +149,26 @@ void Emulator::run(const std::function<void()>& on_ready) {
         sleep_until_monotonic_ns(now_ns + 10'000'000);
     }
     loop_->stop();
+    log_faults();
     seconds_ = static_cast<double>(monotonic_now_ns() - begun_ns) * 1e-9;
     if (commands_) commands_->stop();
     for (const auto& sink : sinks_) sink->stop();
+}
+
+// What the scenario's own time has come for.
+void Emulator::order_faults(double seconds) {
+    for (; next_fault_ < timed_faults_.size() && timed_faults_[next_fault_].at_s <= seconds; ++next_fault_)
+        faults_.order(order_of(timed_faults_[next_fault_]));
+}
+
+void Emulator::log_faults() {
+    FaultBoard::Entry entry;
+    while (faults_.take_entry(entry)) {
+        fault_log_.push_back(entry);
+        if (fault_log_.size() > kMostLogged) fault_log_.pop_front();
+        if (isatty(STDERR_FILENO)) continue;  // the line of the second says how many
+        spdlog::debug("fault {} strikes frame {}, item {}", name_of(entry.kind), entry.frame, entry.index);
+    }
 }
 
 void Emulator::print_line(std::uint64_t& frames_before) {

@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <memory>
 
@@ -38,11 +39,16 @@ class Emulator {
     double seconds() const { return seconds_; }
     CommandReport command_report() const;
     const DeliveryMeter& delivery() const { return delivery_; }
+    FaultBoard& faults() { return faults_; }
+    // The newest strikes, the first of each frame and kind.
+    const std::deque<FaultBoard::Entry>& fault_log() const { return fault_log_; }
     std::vector<FrameSink*> sinks() const;
 
   private:
     void make_sinks();
     void print_line(std::uint64_t& frames_before);
+    void order_faults(double seconds);
+    void log_faults();
 
     ScenarioConfig scenario_;
     RunLimits limits_;
@@ -60,6 +66,10 @@ class Emulator {
     std::unique_ptr<ExposureRenderer> exposures_;
     std::unique_ptr<FrameLoop> loop_;
     double seconds_ = 0;
+    std::vector<FaultConfig> timed_faults_;  // by time
+    std::size_t next_fault_ = 0;
+    static constexpr std::size_t kMostLogged = 100'000;
+    std::deque<FaultBoard::Entry> fault_log_;
 };
 
 // The motions of camera and objects as the scenario begins them.

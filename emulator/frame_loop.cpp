@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/image_faults.h"
+#include "sensor/test_pattern.h"
+
 namespace hilcam {
 namespace {
 
@@ -14,7 +17,7 @@ std::int64_t from_ms(double ms) { return static_cast<std::int64_t>(ms * 1e6); }
 }  // namespace
 
 FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const CameraModel& camera,
-                     WorldState& world, LiveSettings& settings, const SimulatedClock& clock,
+                     WorldState& world, LiveSettings& settings, FaultBoard& faults, SimulatedClock& clock,
                      std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits)
     : exposures_(exposures),
       chain_(chain),
@@ -22,21 +25,23 @@ FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const Came
       timing_(camera),
       world_(world),
       settings_(settings),
+      faults_(faults),
       clock_(clock),
+      starter_(camera, settings, clock, limits.paced),
       sinks_(std::move(sinks)),
       seed_(seed),
-      limits_(limits) {
-    for (const SettingsStep& step : camera.sequence)
-        longest_step_s_ = std::max(longest_step_s_, step.exposure_s);
+      limits_(limits),
+      lockstep_(settings.limits().lockstep) {
     for (Slot& slot : slots_) {
         slot.radiance = exposures.make_image();
         slot.points.reserve(exposures.most_points());
     }
-    const auto [array_width, array_height] = array_size(camera);
-    electrons_ = ElectronImage(array_width, array_height);
-    const auto [width, height] = frame_size(camera);
+    // Frames are smaller when they are binned more.
+    const auto [width, height] = array_size(camera);
+    electrons_ = ElectronImage(width, height);
     frame_ = DnImage(width, height);
-    if (camera.auto_exposure.on) histogram_ = FrameHistogram(camera.frame_bits());
+    before_ = DnImage(width, height);
+    if (settings.limits().has_automatic_exposure) histogram_ = FrameHistogram(camera.frame_bits());
 }
 
 void FrameLoop::start() {
@@ -54,78 +59,68 @@ void FrameLoop::stop() noexcept {
 // -------------------------------------------------------------------------------------------------------
 
 void FrameLoop::render_frames() {
-    FrameSchedule schedule(monotonic_now_ns());
-    FrameRecord record;
+    std::uint64_t id = 0;
     for (std::size_t turn = 0;; ++turn) {
         free_.acquire();
-        std::int64_t start_ns = 0;
         const bool enough = limits_.frames != 0 && turn >= limits_.frames;
         Slot& slot = slots_[turn % slots_.size()];
-        if (enough || !wait_for_exposure(schedule, slot, record, start_ns)) break;
-        slot.record = record;
-        render_into(slot, start_ns);
+        FrameStarter::Start start;
+        if (enough || !starter_.next(slot.next_exposure_s, stopping_, start)) break;
+        counters_.deadline_misses.fetch_add(start.skipped + (start.late ? 1 : 0), std::memory_order_relaxed);
+        id += 1 + start.skipped;
+        slot.record = {};
+        slot.record.id = id;
+        latch(start, slot);
+        tell(CameraEvent::Kind::kExposureStart, id, start.begin_ns);
+        render_into(slot);
+        if (start.ends_order) settings_.order_done();
         rendered_.release();
     }
+    settings_.close();
     finished_.store(true);
     stopping_.store(true);
     rendered_.release();
 }
 
-// False when the loop ends. Also idles while the camera is stopped.
-bool FrameLoop::wait_for_start(FrameSchedule& schedule, CameraSettings& settings) {
-    bool idle = false;
-    while (true) {
-        if (stopping_.load(std::memory_order_relaxed)) return false;
-        settings = settings_.read_in_loop();
-        if (settings.running) break;
-        idle = true;
-        sleep_until_monotonic_ns(monotonic_now_ns() + 5'000'000);
-    }
-    if (idle) schedule.restart(monotonic_now_ns());
-    return true;
-}
-
-// Waits for the next frame's begin; its id, exposure and gain go into the record. False when the loop ends.
-bool FrameLoop::wait_for_exposure(FrameSchedule& schedule, const Slot& slot, FrameRecord& record,
-                                  std::int64_t& start_ns) {
-    CameraSettings settings;
-    if (!wait_for_start(schedule, settings)) return false;
-    record.exposure_s = slot.next_exposure_s > 0 ? slot.next_exposure_s : settings.exposure_s;
-    record.gain_db = settings.gain_db;
-    start_ns = monotonic_now_ns();
-    FrameSchedule::Slot due{start_ns, 0};
-    if (limits_.paced)
-        due = schedule.take(start_ns, to_ns(timing_.period_s(settings.frame_rate_hz,
-                                                             std::max(record.exposure_s, longest_step_s_))));
-    counters_.deadline_misses.fetch_add(due.skipped, std::memory_order_relaxed);
-    record.id += 1 + due.skipped;
+// The settings of a frame, from here on its own.
+void FrameLoop::latch(const FrameStarter::Start& start, Slot& slot) {
+    const CameraSettings& s = start.settings;
+    FrameRecord& record = slot.record;
+    record.exposure_s = start.exposure_s;
+    record.gain_db = s.gain_db;
     if (!camera_.sequence.empty()) {
         const SettingsStep& step = camera_.sequence[(record.id - 1) % camera_.sequence.size()];
         record.exposure_s = step.exposure_s;
         record.gain_db = step.gain_db;
     }
     settings_.tell_own(record.exposure_s, record.gain_db);
-    start_ns = due.start_ns;
-    while (limits_.paced && monotonic_now_ns() < start_ns) {
-        if (stopping_.load(std::memory_order_relaxed)) return false;
-        sleep_until_monotonic_ns(std::min(start_ns, monotonic_now_ns() + kLongestSleep_ns));
-    }
-    return true;
+    record.black_level_dn = s.black_level_dn;
+    record.bits = camera_.frame_bits();
+    record.binning_x = s.binning_x, record.binning_y = s.binning_y;
+    record.trigger_sequence = start.trigger_sequence;
+    record.exposure_mid_monotonic_ns = start.begin_ns + to_ns(timing_.middle_s(record.exposure_s));
+    record.exposure_mid = clock_.at(record.exposure_mid_monotonic_ns);
+    slot.exposure = {
+        record.exposure_s, record.gain_db, record.black_level_dn, record.binning_x, record.binning_y, {}, {}};
+    slot.exposure_end_ns = start.begin_ns + to_ns(timing_.end_s(record.exposure_s));
+    slot.not_before_ns = start.not_before_ns;
+    slot.automatic = s.automatic_exposure;
+    slot.test_pattern = s.test_pattern;
+    slot.reverse_x = s.reverse_x, slot.reverse_y = s.reverse_y;
 }
 
-void FrameLoop::render_into(Slot& slot, std::int64_t start_ns) {
+void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const {
+    for (FrameSink* sink : sinks_) sink->happened({kind, frame, monotonic_ns});
+}
+
+void FrameLoop::render_into(Slot& slot) {
     const std::int64_t begun_ns = monotonic_now_ns();
     FrameRecord& record = slot.record;
-    record.bits = camera_.frame_bits();
-    record.exposure_mid_monotonic_ns = start_ns + to_ns(timing_.middle_s(record.exposure_s));
-    record.exposure_mid = clock_.at(record.exposure_mid_monotonic_ns);
-    slot.exposure = {record.exposure_s, record.gain_db, {}, {}};
-    slot.exposure_end_ns = limits_.paced ? start_ns + to_ns(timing_.end_s(record.exposure_s)) : 0;
-
     const ExposureRenderer::Result result = exposures_.render(world_, record.exposure_mid, {seed_, record.id},
                                                               slot.radiance, slot.points, slot.exposure);
     const ShownCommand& shown = result.shown;
     record.pose_sequence = shown.sequence;
+    record.pose_time = shown.time;
     // Latency is that of a command in the first frame that shows it.
     record.command_arrival_monotonic_ns =
         shown.arrival_monotonic_ns > shown_arrival_ns_ ? shown.arrival_monotonic_ns : 0;
@@ -155,25 +150,57 @@ void FrameLoop::sense_frames() {
 
 void FrameLoop::sense(Slot& slot) {
     const std::int64_t begun_ns = monotonic_now_ns();
+    const auto [width, height] = frame_size(camera_, slot.exposure.binning_x, slot.exposure.binning_y);
+    frame_.reshape(width, height);
     chain_.expose(slot.radiance, slot.points, slot.exposure, electrons_);
     chain_.digitise(electrons_, slot.exposure, {seed_, slot.record.id}, frame_);
-    if (camera_.auto_exposure.on) measure_exposure(slot);
+    slot.next_exposure_s = 0;
+    if (slot.automatic) measure_exposure(slot);
     const SensorTimes& times = chain_.times();
     meters_.collapse.record(from_ms(times.collapse_ms));
     meters_.convolve.record(from_ms(times.convolve_ms));
     meters_.points.record(from_ms(times.points_ms));
     meters_.digitise.record(from_ms(times.digitise_ms));
+    finish_picture(slot);
+    slot.record.faults = frame_faults(faults_, slot.record.id);
+    strike_image(faults_, slot.record, seed_, before_, frame_);
     meters_.sense.record(monotonic_now_ns() - begun_ns);
 
-    while (monotonic_now_ns() < slot.exposure_end_ns && !stopping_.load(std::memory_order_relaxed))
-        sleep_until_monotonic_ns(std::min(slot.exposure_end_ns, monotonic_now_ns() + kLongestSleep_ns));
+    wait_to_publish(slot);
+    tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.exposure_end_ns);
     const std::int64_t publish_ns = monotonic_now_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, slot.record);
+    std::swap(frame_, before_);
     const std::int64_t done_ns = monotonic_now_ns();
     meters_.publish.record(done_ns - publish_ns);
     if (last_published_ns_ != 0) meters_.interval.record(done_ns - last_published_ns_);
     last_published_ns_ = done_ns;
+    counters_.last_id.store(slot.record.id, std::memory_order_relaxed);
     counters_.frames.fetch_add(1, std::memory_order_relaxed);
+}
+
+// What a camera does with its numbers on their way out.
+void FrameLoop::finish_picture(const Slot& slot) {
+    draw_test_pattern(slot.test_pattern, slot.record.bits, slot.record.id, frame_);
+    if (slot.reverse_x)
+        for (int y = 0; y < frame_.height(); ++y) std::reverse(frame_.row(y).begin(), frame_.row(y).end());
+    if (slot.reverse_y)
+        for (int y = 0; y < frame_.height() / 2; ++y)
+            std::swap_ranges(frame_.row(y).begin(), frame_.row(y).end(),
+                             frame_.row(frame_.height() - 1 - y).begin());
+}
+
+// Not before the exposure is over; in lockstep not before every output has room, as no frame may be lost.
+void FrameLoop::wait_to_publish(const Slot& slot) const {
+    const auto go_on = [&] { return !stopping_.load(std::memory_order_relaxed); };
+    while (monotonic_now_ns() < slot.not_before_ns && go_on())
+        sleep_until_monotonic_ns(std::min(slot.not_before_ns, monotonic_now_ns() + kLongestSleep_ns));
+    if (!lockstep_) return;
+    constexpr std::int64_t kPoll_ns = 200'000, kPatience_ns = 10'000'000'000;
+    const std::int64_t until_ns = monotonic_now_ns() + kPatience_ns;
+    const auto room = [](const FrameSink* sink) { return sink->has_room(); };
+    while (!std::all_of(sinks_.begin(), sinks_.end(), room) && monotonic_now_ns() < until_ns && go_on())
+        sleep_until_monotonic_ns(monotonic_now_ns() + kPoll_ns);
 }
 
 void FrameLoop::measure_exposure(Slot& slot) {
@@ -181,9 +208,9 @@ void FrameLoop::measure_exposure(Slot& slot) {
         return static_cast<int>((black + binning - 1) / binning);
     };
     const Brightness seen =
-        histogram_.measure(frame_, binned(camera_.black_columns, camera_.binning_x),
-                           binned(camera_.black_rows, camera_.binning_y), camera_.auto_exposure.percentile,
-                           dn_scale_of(camera_, slot.exposure.gain_db));
+        histogram_.measure(frame_, binned(camera_.black_columns, slot.exposure.binning_x),
+                           binned(camera_.black_rows, slot.exposure.binning_y),
+                           camera_.auto_exposure.percentile, dn_scale_of(camera_, slot.exposure));
     slot.next_exposure_s = next_exposure_s(camera_.auto_exposure, seen, slot.exposure.exposure_s,
                                            {camera_.exposure_range_s[0], camera_.exposure_range_s[1]});
 }

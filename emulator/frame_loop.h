@@ -5,8 +5,9 @@
 // While a frame is sensed the next one is rendered. Both use oneTBB's threads inside. Frames pass through two
 // slots allocated before the start; hand-over is by semaphores.
 //
-// Timing in free-run: frame k begins at s_k = s_0 + k period on CLOCK_MONOTONIC; its middle, its end and the
-// period follow from exposure, frame rate and shutter (shutter_timing.h). Rendering begins at s_k and shows
+// When frames begin is frame_starter.h's business. Timing in free-run: frame k begins at s_k = s_0 + k period
+// on CLOCK_MONOTONIC; its middle, its end and the period follow from exposure, frame rate and shutter
+// (shutter_timing.h). Rendering begins at s_k and shows
 // the pose of the middle, propagated; the frame leaves not before its end. Example of a global shutter at 30
 // Hz and 2 ms: rendering starts at 0.0, the pose is that of 1.0 ms, a frame computed in 25 ms leaves at 25
 // ms, the next rendering starts at 33.3 ms. A start missed by more than a period is skipped and counted;
@@ -30,6 +31,7 @@
 
 #include "emulator/clock.h"
 #include "emulator/exposure_renderer.h"
+#include "emulator/frame_starter.h"
 #include "emulator/latency.h"
 #include "emulator/live_settings.h"
 #include "emulator/shutter_timing.h"
@@ -48,8 +50,10 @@ struct StageMeters {
 
 struct LoopCounters {
     std::atomic<std::uint64_t> frames{0};
-    std::atomic<std::uint64_t> deadline_misses{0};  // exposures skipped because the one before took too long
-    std::atomic<std::uint64_t> motion_limited{0};   // frames with more motion than exact motion divides
+    // Exposures skipped, or of a trigger begun a period late, because the one before took too long.
+    std::atomic<std::uint64_t> deadline_misses{0};
+    std::atomic<std::uint64_t> last_id{0};
+    std::atomic<std::uint64_t> motion_limited{0};  // frames with more motion than exact motion divides
 };
 
 struct LoopLimits {
@@ -60,8 +64,8 @@ struct LoopLimits {
 class FrameLoop {
   public:
     FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const CameraModel& camera, WorldState& world,
-              LiveSettings& settings, const SimulatedClock& clock, std::vector<FrameSink*> sinks,
-              std::uint64_t seed, const LoopLimits& limits);
+              LiveSettings& settings, FaultBoard& faults, SimulatedClock& clock,
+              std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits);
     ~FrameLoop() { stop(); }
 
     void start();
@@ -80,36 +84,43 @@ class FrameLoop {
         FrameRecord record;
         Exposure exposure;
         std::int64_t exposure_end_ns = 0;
-        double next_exposure_s = 0;  // automatic: of the slot's next frame; 0: not measured yet
+        std::int64_t not_before_ns = 0;  // may be published; 0: at any time
+        double next_exposure_s = 0;      // automatic: of the slot's next frame; 0: not measured yet
+        bool automatic = false;
+        TestPattern test_pattern = TestPattern::kOff;
+        bool reverse_x = false, reverse_y = false;
     };
 
     void render_frames();
     void sense_frames();
-    bool wait_for_exposure(FrameSchedule& schedule, const Slot& slot, FrameRecord& record,
-                           std::int64_t& start_ns);
-    bool wait_for_start(FrameSchedule& schedule, CameraSettings& settings);
-    void render_into(Slot& slot, std::int64_t start_ns);
+    void latch(const FrameStarter::Start& start, Slot& slot);
+    void render_into(Slot& slot);
     void sense(Slot& slot);
+    void finish_picture(const Slot& slot);
+    void wait_to_publish(const Slot& slot) const;
+    void tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const;
     void measure_exposure(Slot& slot);
 
     ExposureRenderer& exposures_;
     SensorChain& chain_;
     const CameraModel camera_;
     ShutterTiming timing_;
-    double longest_step_s_ = 0;  // of the camera's sequence
     WorldState& world_;
     LiveSettings& settings_;
-    const SimulatedClock& clock_;
+    FaultBoard& faults_;
+    SimulatedClock& clock_;
+    FrameStarter starter_;
     std::vector<FrameSink*> sinks_;
     std::uint64_t seed_;
     LoopLimits limits_;
+    bool lockstep_;
 
     std::array<Slot, 2> slots_;
     std::counting_semaphore<> free_{2}, rendered_{0};
     RenderStats stats_;
     std::int64_t shown_arrival_ns_ = 0;
     ElectronImage electrons_;
-    DnImage frame_;
+    DnImage frame_, before_;    // the one being finished, and the one published before it
     FrameHistogram histogram_;  // for automatic exposure
     std::int64_t last_published_ns_ = 0;
 

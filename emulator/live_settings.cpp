@@ -141,12 +141,16 @@ bool LiveSettings::change(const SettingsChange& c) {
 
 TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
     const std::lock_guard lock(mutex_);
-    if (!settings_.running || !settings_.triggered) return TriggerResult::kNotArmed;
+    if (closed_.load() || !settings_.running || !settings_.triggered) return TriggerResult::kNotArmed;
     if (asked.source != (limits_.lockstep ? TriggerSource::kLine0 : settings_.trigger_source))
         return TriggerResult::kNotArmed;
     TriggerOrder order = asked;
     if (order.frames == 0) order.frames = settings_.burst_frames;
     const std::uint64_t in = triggers_in_.load(std::memory_order_relaxed);
+    if (limits_.lockstep && order.at_simulated.ns != 0) {
+        if (!(newest_simulated_ < order.at_simulated)) return TriggerResult::kTooEarly;
+        newest_simulated_ = order.at_simulated;
+    }
     bool missed = in - triggers_out_.load(std::memory_order_acquire) == kMostWaiting;
     if (!limits_.lockstep) {
         const std::int64_t now_ns = monotonic_now_ns();
@@ -167,6 +171,18 @@ TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
     triggers_in_.store(in + 1, std::memory_order_release);
     announce();
     return TriggerResult::kTaken;
+}
+
+TriggerResult LiveSettings::trigger_and_wait(const TriggerOrder& order, double patience_s) {
+    const std::lock_guard one(lockstep_);
+    while (done_.try_acquire()) {  // of orders that were given up
+    }
+    const TriggerResult result = trigger(order);
+    if (result != TriggerResult::kTaken) return result;
+    const auto patience = std::chrono::duration<double>(patience_s);
+    return done_.try_acquire_for(std::chrono::duration_cast<std::chrono::nanoseconds>(patience))
+               ? TriggerResult::kTaken
+               : TriggerResult::kMissed;
 }
 
 bool LiveSettings::take_trigger(TriggerOrder& order) {

@@ -35,6 +35,11 @@ class LiveSettings : public CameraControl {
     // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
 
+    // Lockstep: orders, then waits until the loop has seen the world for the order's last frame. False when
+    // it was not taken, or is not done after `patience_s`. Commands that come later do not count for its
+    // frames. One caller at a time; the others wait.
+    TriggerResult trigger_and_wait(const TriggerOrder& order, double patience_s);
+
     // --- Loop, one thread. No lock.
     const CameraSettings& read_in_loop() { return latest_.read(); }
     // The next trigger in its order of arrival; false when there is none.
@@ -45,6 +50,10 @@ class LiveSettings : public CameraControl {
         while (news_.try_acquire()) {
         }
     }
+    // No order will be looked at any more.
+    void close() { closed_.store(true); }
+    // All frames of an order are rendered, or the order is dropped.
+    void order_done() { done_.release(); }
     // What a camera that sets them itself has set; settings() tells it.
     void tell_own(double exposure_s, double gain_db) {
         own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
@@ -67,7 +76,10 @@ class LiveSettings : public CameraControl {
     std::array<TriggerOrder, kMostWaiting> triggers_;
     std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
     std::int64_t ready_ns_ = 0;  // when the next trigger can be taken
-    std::counting_semaphore<> news_{0};
+    std::counting_semaphore<> news_{0}, done_{0};
+    std::atomic<bool> closed_{false};
+    std::mutex lockstep_;
+    TimeTai newest_simulated_;  // that was ordered
     std::function<void(std::int64_t)> missed_;
 };
 

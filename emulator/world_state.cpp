@@ -92,6 +92,7 @@ bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command)
     if (history.command.arrival_monotonic_ns == 0) history.count = 0;
     history.insert(motion);
     history.command = command;
+    history.command.time = motion.time;
     thing.latest.write(history);
     return true;
 }

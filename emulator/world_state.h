@@ -22,6 +22,7 @@ namespace hilcam {
 struct ShownCommand {
     std::uint32_t sequence = 0;
     std::int64_t arrival_monotonic_ns = 0;  // 0: none yet
+    TimeTai time{};                         // its tag; set by WorldState
 };
 
 // A part of an object that turns about an axis (object's axes, unit).

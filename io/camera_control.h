@@ -68,6 +68,7 @@ enum class TriggerResult : std::uint8_t {
     kTaken,
     kMissed,    // the camera is busy with the frame before: no frame, an event
     kNotArmed,  // the camera does not listen to this source now
+    kTooEarly,  // lockstep: not after the frame before
 };
 
 // A frame or burst that was asked for.

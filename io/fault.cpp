@@ -208,6 +208,22 @@ std::optional<double> FaultBoard::would_strike(FaultKind kind, std::uint64_t fra
     return s.order.value;
 }
 
+bool FaultBoard::within_span(FaultKind kind, std::uint64_t frame) const {
+    const std::size_t place = place_of(kind);
+    if (place == kAllFaults.size()) return false;
+    const Cell& c = cells_[place];
+    return c.order.load(std::memory_order_relaxed) != 0 && read(c).covers(frame);
+}
+
+void FaultBoard::count(FaultKind kind, std::uint64_t frame, std::uint64_t strikes, double value) {
+    const std::size_t place = place_of(kind);
+    if (place == kAllFaults.size()) return;
+    Cell& c = cells_[place];
+    c.struck.fetch_add(strikes, std::memory_order_relaxed);
+    if (c.last_frame.exchange(frame, std::memory_order_relaxed) != frame || frame == 0)
+        log({kind, frame, 0, value, monotonic_ns()});
+}
+
 std::optional<double> FaultBoard::strikes(FaultKind kind, std::uint64_t frame, std::uint64_t index) {
     const std::optional<double> value = would_strike(kind, frame, index);
     if (!value) return {};

@@ -121,6 +121,10 @@ class FaultBoard {
     std::optional<double> strikes(FaultKind kind, std::uint64_t frame, std::uint64_t index = 0);
     // The same without counting.
     std::optional<double> would_strike(FaultKind kind, std::uint64_t frame, std::uint64_t index = 0) const;
+    // Is an order in force for this frame, whatever its rate.
+    bool within_span(FaultKind kind, std::uint64_t frame) const;
+    // Strikes that the caller has drawn by himself.
+    void count(FaultKind kind, std::uint64_t frame, std::uint64_t strikes, double value);
     // When the present order came [CLOCK_MONOTONIC ns].
     std::int64_t since_monotonic_ns(FaultKind kind) const;
 

@@ -18,6 +18,7 @@ class FrameMailbox {
         FrameRecord record;
     };
 
+    // The largest frame's size.
     FrameMailbox(int width, int height, std::size_t slots) : items_(slots) {
         for (Item& item : items_) item.frame = DnImage(width, height);
     }
@@ -29,6 +30,7 @@ class FrameMailbox {
             return;
         }
         Item& item = items_[head % items_.size()];
+        item.frame.reshape(frame.width(), frame.height());
         std::copy(frame.all().begin(), frame.all().end(), item.frame.all().begin());
         item.record = record;
         head_.store(head + 1, std::memory_order_release);
@@ -43,6 +45,10 @@ class FrameMailbox {
     void done() { tail_.fetch_add(1, std::memory_order_release); }
     // Frames already in the ring are still delivered before wait() gives nullptr.
     void close() { ready_.release(); }
+    // Loop: put() would find a place.
+    bool has_room() const {
+        return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) < items_.size();
+    }
     std::uint64_t dropped() const { return dropped_.load(); }
 
   private:

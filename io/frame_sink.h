@@ -55,6 +55,8 @@ class FrameSink {
     // Takes a copy of the frame and returns; never waits for a client or a device. Loop. The image may be
     // overwritten as soon as this returns.
     virtual void publish(const DnImage& frame, const FrameRecord& record) noexcept = 0;
+    // False while the next publish() would have to drop its frame. Lockstep waits for it. Loop.
+    virtual bool has_room() const noexcept { return true; }
     // Loop and any other thread, at the same time: never waits.
     virtual void happened(const CameraEvent&) noexcept {}
     // Ends the threads and closes everything; idempotent. Owner thread.

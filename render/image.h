@@ -22,12 +22,20 @@ class Image {
         : width_(width),
           height_(height),
           planes_(planes),
+          capacity_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
           data_(static_cast<T*>(
               ::operator new[](static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                                    static_cast<std::size_t>(planes) * sizeof(T),
                                std::align_val_t{64}))) {
         HILCAM_CHECK(width > 0 && height > 0 && planes > 0);
         for (T& value : all()) value = T{};
+    }
+
+    // Another shape in the same memory, in which it must fit; its pixels are then anything. Loop.
+    void reshape(int width, int height) {
+        HILCAM_CHECK(width > 0 && height > 0 &&
+                     static_cast<std::size_t>(width) * static_cast<std::size_t>(height) <= capacity_);
+        width_ = width, height_ = height;
     }
 
     int width() const { return width_; }
@@ -60,6 +68,7 @@ class Image {
     int width_ = 0;
     int height_ = 0;
     int planes_ = 0;
+    std::size_t capacity_ = 0;  // pixels of a plane
     std::unique_ptr<T[], Release> data_;
 };
 

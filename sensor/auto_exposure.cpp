@@ -30,13 +30,14 @@ double next_exposure_s(const AutoExposureConfig& c, Brightness seen, double pres
     return std::clamp(present_s * std::exp2(stops), limits.least_s, limits.most_s);
 }
 
-DnScale dn_scale_of(const CameraModel& c, double gain_db) {
-    const auto pixels = static_cast<double>(c.binning_x * c.binning_y);
+DnScale dn_scale_of(const CameraModel& c, const Exposure& exposure) {
+    const auto [binning_x, binning_y] = binning_of(c, exposure);
+    const auto pixels = static_cast<double>(binning_x * binning_y);
     const double well_e = c.full_well_e * (c.binning == BinningKind::kCharge ? pixels : 1);
     DnScale scale;
     scale.most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
-    scale.black_dn = c.offset_dn;
-    scale.full_dn = std::min(scale.most_dn, c.offset_dn + well_e * c.system_gain_dn_e(gain_db));
+    scale.black_dn = exposure.black_level_dn.value_or(c.offset_dn);
+    scale.full_dn = std::min(scale.most_dn, scale.black_dn + well_e * c.system_gain_dn_e(exposure.gain_db));
     if (c.binning == BinningKind::kSum) {
         scale.black_dn = std::min(pixels * scale.black_dn, scale.most_dn - 1);
         scale.full_dn = std::min(pixels * scale.full_dn, scale.most_dn);

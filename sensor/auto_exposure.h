@@ -16,6 +16,7 @@
 namespace hilcam {
 
 struct CameraModel;  // camera_model.h
+struct Exposure;     // exposure.h
 
 struct AutoExposureConfig {
     bool on = false;
@@ -48,8 +49,8 @@ struct DnScale {
     bool square_root = false;  // 8-bit numbers are 255 sqrt(dn / most_dn)
 };
 
-// Of a camera's frames, binned as they are.
-DnScale dn_scale_of(const CameraModel& camera, double gain_db);
+// Of a camera's frames, taken as the exposure says.
+DnScale dn_scale_of(const CameraModel& camera, const Exposure& exposure);
 
 // Counts a frame's numbers. Memory for them is taken at construction.
 class FrameHistogram {

@@ -309,9 +309,14 @@ std::array<int, 2> array_size(const CameraModel& c) {
     return {w.width + static_cast<int>(c.black_columns), w.height + static_cast<int>(c.black_rows)};
 }
 
-std::array<int, 2> frame_size(const CameraModel& c) {
+std::array<int, 2> frame_size(const CameraModel& c, std::int64_t binning_x, std::int64_t binning_y) {
     const auto [width, height] = array_size(c);
-    return {width / static_cast<int>(c.binning_x), height / static_cast<int>(c.binning_y)};
+    return {width / static_cast<int>(binning_x > 0 ? binning_x : c.binning_x),
+            height / static_cast<int>(binning_y > 0 ? binning_y : c.binning_y)};
+}
+
+std::array<std::int64_t, 2> binning_of(const CameraModel& c, const Exposure& e) {
+    return {e.binning_x > 0 ? e.binning_x : c.binning_x, e.binning_y > 0 ? e.binning_y : c.binning_y};
 }
 
 ImageGeometry geometry_of(const CameraModel& c, int guard_px, int oversampling) {

@@ -16,6 +16,7 @@
 #include "sensor/color_filter.h"
 #include "sensor/cosmic_rays.h"
 #include "sensor/electronics.h"
+#include "sensor/exposure.h"
 #include "sensor/fixed_pattern.h"
 #include "sensor/motion.h"
 #include "sensor/packing.h"
@@ -150,6 +151,9 @@ Fields fields(CameraModel& camera);
 // Refuses what contradicts itself or cannot be; the message names the keys. InputError.
 void validate(const CameraModel& camera);
 
+// Columns and rows to one, of an exposure.
+std::array<std::int64_t, 2> binning_of(const CameraModel& camera, const Exposure& exposure);
+
 struct PixelRectangle {
     int left = 0, top = 0, width = 0, height = 0;
 };
@@ -157,8 +161,9 @@ struct PixelRectangle {
 PixelRectangle window_of(const CameraModel& camera);
 // Width and height of what is read out: the window with its black columns and rows.
 std::array<int, 2> array_size(const CameraModel& camera);
-// Width and height of a published frame.
-std::array<int, 2> frame_size(const CameraModel& camera);
+// Width and height of a published frame, as the camera's file bins it or as an exposure does (0: the file's).
+std::array<int, 2> frame_size(const CameraModel& camera, std::int64_t binning_x = 0,
+                              std::int64_t binning_y = 0);
 
 // Of the window, each pixel in `oversampling` x `oversampling` parts; guard_px in pixels.
 ImageGeometry geometry_of(const CameraModel& camera, int guard_px, int oversampling = 1);

@@ -158,30 +158,39 @@ struct SensorChain::Implementation {
                              [](const TelegraphPixel& a, const TelegraphPixel& b) { return a.y < b.y; });
         return {from, to};
     }
-    void read_array_row(int y, double gain_dn_e, RandomKey key, Scratch& s,
+    // How a frame's numbers come from its charge.
+    struct Reading {
+        double gain_dn_e, black_level_dn;
+        int binning_x, binning_y;
+    };
+    void read_array_row(int y, const Reading& r, RandomKey key, Scratch& s,
                         std::span<std::uint16_t> dn) const {
         const std::span<const float> offset =
             pattern.offset_e.width() > 0 ? pattern.offset_e.row(y) : std::span<const float>{};
-        read_out.read({y, places.row(y), s.charge, s.deviates, offset, gain_dn_e}, telegraph_of(y), key, dn);
+        read_out.read({y, places.row(y), s.charge, s.deviates, offset, r.gain_dn_e, r.black_level_dn},
+                      telegraph_of(y), key, dn);
     }
 
     void read_frame_row(int y, const ElectronImage& mean_e, const Exposure& exposure, RandomKey key,
                         DnImage& frame) {
         Scratch& s = mine();
-        const double gain_dn_e = camera.system_gain_dn_e(exposure.gain_db);
-        if (camera.binning_x == 1 && camera.binning_y == 1) {
+        const auto [binning_x, binning_y] = binning_of(camera, exposure);
+        const Reading reading{camera.system_gain_dn_e(exposure.gain_db),
+                              exposure.black_level_dn.value_or(camera.offset_dn), static_cast<int>(binning_x),
+                              static_cast<int>(binning_y)};
+        if (binning_x == 1 && binning_y == 1) {
             fill_row(y, mean_e, key, s);
-            read_array_row(y, gain_dn_e, key, s, frame.row(y));
+            read_array_row(y, reading, key, s, frame.row(y));
         } else if (camera.binning == BinningKind::kCharge) {
-            read_charge_binned(y, mean_e, gain_dn_e, key, s, frame.row(y));
+            read_charge_binned(y, mean_e, reading, key, s, frame.row(y));
         } else {
-            read_digitally_binned(y, mean_e, gain_dn_e, key, s, frame.row(y));
+            read_digitally_binned(y, mean_e, reading, key, s, frame.row(y));
         }
     }
     // Charges meet before they are read: one reading's noise and the first pixel's offset for all of them.
-    void read_charge_binned(int y, const ElectronImage& mean_e, double gain_dn_e, RandomKey key, Scratch& s,
+    void read_charge_binned(int y, const ElectronImage& mean_e, const Reading& r, RandomKey key, Scratch& s,
                             std::span<std::uint16_t> dn) const {
-        const int bx = static_cast<int>(camera.binning_x), by = static_cast<int>(camera.binning_y);
+        const int bx = r.binning_x, by = r.binning_y;
         const std::span<float> binned = std::span(s.binned).first(dn.size());
         std::fill(binned.begin(), binned.end(), 0.0f);
         for (int j = 0; j < by; ++j) {
@@ -201,16 +210,17 @@ struct SensorChain::Implementation {
             for (std::size_t x = 0; x < dn.size(); ++x)
                 offset[x] = pattern.offset_e.row(y * by)[x * static_cast<std::size_t>(bx)];
         }
-        read_out.read({y, row, binned, deviates, offset, gain_dn_e}, {}, key, dn);
+        read_out.read({y, row, binned, deviates, offset, r.gain_dn_e, r.black_level_dn, bx * by}, {}, key,
+                      dn);
     }
-    void read_digitally_binned(int y, const ElectronImage& mean_e, double gain_dn_e, RandomKey key,
+    void read_digitally_binned(int y, const ElectronImage& mean_e, const Reading& r, RandomKey key,
                                Scratch& s, std::span<std::uint16_t> dn) const {
-        const auto bx = static_cast<std::size_t>(camera.binning_x);
-        const int by = static_cast<int>(camera.binning_y);
+        const auto bx = static_cast<std::size_t>(r.binning_x);
+        const int by = r.binning_y;
         std::fill_n(s.sums.begin(), dn.size(), 0u);
         for (int j = 0; j < by; ++j) {
             fill_row(y * by + j, mean_e, key, s);
-            read_array_row(y * by + j, gain_dn_e, key, s, s.dn);
+            read_array_row(y * by + j, r, key, s, s.dn);
             for (std::size_t x = 0; x < dn.size(); ++x)
                 for (std::size_t i = 0; i < bx; ++i) s.sums[x] += s.dn[x * bx + i];
         }
@@ -251,7 +261,7 @@ void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSou
 void SensorChain::digitise(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key,
                            DnImage& frame) {
     Implementation& my = *implementation_;
-    const auto [width, height] = frame_size(my.camera);
+    const auto [width, height] = frame_size(my.camera, exposure.binning_x, exposure.binning_y);
     HILCAM_CHECK(mean_e.width() == my.array_width && mean_e.height() == my.array_height &&
                  frame.width() == width && frame.height() == height);
     const auto start = Clock::now();

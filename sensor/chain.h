@@ -37,7 +37,8 @@ class SensorChain {
     // size of the read-out array. Loop, one thread at a time.
     void expose(const RadianceImage& radiance, std::span<const PointSource> points, const Exposure& exposure,
                 ElectronImage& mean_e);
-    // Adds noise and converts; `frame` has frame_size(). Loop, one thread at a time.
+    // Adds noise and converts; `frame` has the frame_size() of the
+    // exposure's binning. Loop, one thread at a time.
     void digitise(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key, DnImage& frame);
 
     const SensorTimes& times() const { return times_; }

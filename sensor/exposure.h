@@ -1,6 +1,9 @@
 #pragma once
 // How one frame is taken.
 
+#include <cstdint>
+#include <optional>
+
 #include "render/vec.h"
 
 namespace hilcam {
@@ -16,6 +19,8 @@ struct SensorSampling {
 struct Exposure {
     double exposure_s = 1e-3;
     double gain_db = 0;
+    std::optional<double> black_level_dn{};     // default the camera's
+    std::int64_t binning_x = 0, binning_y = 0;  // 0: the camera's
     // While it lasts. The picture of what is not at infinity moves as a whole; points (stars) as the camera
     // turns.
     Vec2d image_rate_px_s{};

@@ -46,11 +46,8 @@ ReadOut::ReadOut(const CameraModel& c)
       row_noise_e_(static_cast<float>(c.row_noise_e)),
       telegraph_e_(static_cast<float>(c.defects.telegraph_e)),
       telegraph_frames_(static_cast<std::uint64_t>(c.defects.telegraph_frames)),
-      offset_dn_(static_cast<float>(c.offset_dn)),
       filter_(c.filters),
       converter_(c.converter, static_cast<int>(c.bits), static_cast<std::uint64_t>(c.fixed_pattern.seed)) {
-    // Binned on the chip, a pixel holds what its parts held.
-    if (c.binning == BinningKind::kCharge) full_well_e_ *= static_cast<float>(c.binning_x * c.binning_y);
     if (c.flicker_noise_e > 0) {
         const auto [width, height] = array_size(c);
         flicker_octaves_ = static_cast<int>(std::ceil(std::log2(static_cast<double>(width) * height))) + 1;
@@ -61,7 +58,8 @@ ReadOut::ReadOut(const CameraModel& c)
 void ReadOut::read(const ReadOutRow& row, std::span<const TelegraphPixel> telegraph, RandomKey key,
                    std::span<std::uint16_t> dn) const {
     const std::span<float> value = row.charge_e;
-    Amplifier amplifier{full_well_e_, a2_, a3_, pixel_noise_e_, 0};
+    // Binned on the chip, a pixel holds what its parts held.
+    Amplifier amplifier{full_well_e_ * static_cast<float>(row.charges), a2_, a3_, pixel_noise_e_, 0};
     if (row_noise_e_ > 0) {
         const auto words = random_words(key, RandomPurpose::kRowNoise, row.sensor_row);
         amplifier.offset_e = row_noise_e_ * normal_quantile(uniform01(words[0]));
@@ -71,7 +69,8 @@ void ReadOut::read(const ReadOutRow& row, std::span<const TelegraphPixel> telegr
     if (flicker_octaves_ > 0) add_flicker(row.y, key, value);
     if (!telegraph.empty()) add_telegraph(telegraph, key, value);
     if (!filter_.none()) filter_.apply(value);
-    scale_row(value.data(), value.size(), static_cast<float>(row.gain_dn_e), offset_dn_);
+    scale_row(value.data(), value.size(), static_cast<float>(row.gain_dn_e),
+              static_cast<float>(row.black_level_dn));
     converter_.convert(value, dn);
 }
 

@@ -28,6 +28,8 @@ struct ReadOutRow {
     std::span<const float> deviates;  // standard normal, one for each pixel
     std::span<const float> offset_e;  // fixed; may be empty
     double gain_dn_e = 1;
+    double black_level_dn = 0;
+    int charges = 1;  // pixels of the detector whose charge has met in one
 };
 
 class ReadOut {
@@ -49,7 +51,6 @@ class ReadOut {
     std::uint64_t telegraph_frames_;
     int flicker_octaves_ = 0;
     float flicker_octave_e_ = 0;
-    float offset_dn_;
     RowFilter filter_;
     Converter converter_;
 };

@@ -9,32 +9,10 @@
 #include "emulator/scene_loader.h"
 #include "emulator/shutter_timing.h"
 #include "render/units.h"
-#include "tests/support/files.h"
+#include "tests/support/plate.h"
 
 namespace hilcam {
 namespace {
-
-// A white plate of 10 cm, 4 m before the camera, 16 px across, lit by the Sun of December, 23 degrees to its
-// side of the camera.
-class ExposureTest : public FilesTest {
-  protected:
-    std::filesystem::path scenario(const std::string& camera = "", const std::string& rest = "") {
-        write("plate.obj",
-              "v -0.05 -0.05 0\nv 0.05 -0.05 0\nv 0.05 0.05 0\nv -0.05 0.05 0\nf 1 3 2\nf 1 4 3\n");
-        return write("scenario.yaml",
-                     "time_utc: 2026-12-21T00:00:00Z\n"
-                     "camera: {name: test, width_px: 64, height_px: 64, pitch_um: 10, focal_length_mm: 6.4,\n"
-                     "  f_number: 8, transmission: 0.01, quantum_efficiency: 0.5, full_well_e: 20000, "
-                     "gain_dn_e: 0.2, bits: 12,\n"
-                     "  offset_dn: 50, read_noise_e: 5, exposure_ms: 20" +
-                         camera +
-                         "}\n"
-                         "objects:\n  - {name: plate, mesh: plate.obj, pose: {position_m: [0, 0, 4]}}\n"
-                         "earth: {visible: false}\nmoon: {visible: false}\n"
-                         "spectrum_edges_um: [0.5, 0.7]\n" +
-                         rest);
-    }
-};
 
 // One exposure of a scenario at its start.
 struct Shot {
@@ -92,7 +70,7 @@ double difference(const RadianceImage& a, const RadianceImage& b) {
 // quality of all the shots below
 const std::string kQuality = "quality.samples_per_axis=16";
 
-TEST_F(ExposureTest, FastAndExactHaveTheSameBlurForASmallTurn) {
+TEST_F(PlateTest, FastAndExactHaveTheSameBlurForASmallTurn) {
     // 640 px/rad x 0.6 rad/s x 20 ms = 7.68 px to the right.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, -34.377, 0]}\n");
     const Shot off = shoot(file, {kQuality, "quality.motion=off"});
@@ -143,7 +121,7 @@ double rms(const ElectronImage& a, const ElectronImage& b) {
     return std::sqrt(sum / static_cast<double>(a.pixels())) / peak;
 }
 
-TEST_F(ExposureTest, FastAndExactGiveTheSameElectronsForASmallTurn) {
+TEST_F(PlateTest, FastAndExactGiveTheSameElectronsForASmallTurn) {
     // Down and to the right, 7.7 and 3.2 px.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [14.3, -34.377, 0]}\n");
     const auto frame = [&](const std::string& motion, const std::string& error_px, const std::string& finer) {
@@ -163,7 +141,7 @@ TEST_F(ExposureTest, FastAndExactGiveTheSameElectronsForASmallTurn) {
     EXPECT_LT(left_over("4", "exact", "2"), 0.01);  // the image rate covers the step
 }
 
-TEST_F(ExposureTest, FastMissesATurnAboutTheBoresightAndExactDoesNot) {
+TEST_F(PlateTest, FastMissesATurnAboutTheBoresightAndExactDoesNot) {
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, 0, 1146], position_m: [0.06, 0.03, 0]}\n");
     const auto frame = [&](const std::string& motion, const std::string& error_px) {
         return electrons_of(file, {"quality.samples_per_axis=8", "quality.motion=" + motion,
@@ -175,7 +153,7 @@ TEST_F(ExposureTest, FastMissesATurnAboutTheBoresightAndExactDoesNot) {
     EXPECT_LT(rms(frame("exact", "2"), reference), 0.1 * all);
 }
 
-TEST_F(ExposureTest, ExactConvergesWhereFastCannotFollow) {
+TEST_F(PlateTest, ExactConvergesWhereFastCannotFollow) {
     // About the boresight: 23 degrees in an exposure; the plate lies off the middle.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, 0, 1146], position_m: [0.06, 0.03, 0]}\n");
     const auto at = [&](const std::string& error_px) {
@@ -194,7 +172,7 @@ TEST_F(ExposureTest, ExactConvergesWhereFastCannotFollow) {
               difference(coarser.radiance, reference.radiance) / 2);
 }
 
-TEST_F(ExposureTest, AStillSceneIsTheSameToTheBitInEveryMode) {
+TEST_F(PlateTest, AStillSceneIsTheSameToTheBitInEveryMode) {
     const auto file = scenario();
     const Shot off = shoot(file, {"quality.motion=off"});
     for (const char* mode : {"quality.motion=fast", "quality.motion=exact"}) {
@@ -208,14 +186,14 @@ TEST_F(ExposureTest, AStillSceneIsTheSameToTheBitInEveryMode) {
     }
 }
 
-TEST_F(ExposureTest, TooMuchMotionIsLimitedAndTold) {
+TEST_F(PlateTest, TooMuchMotionIsLimitedAndTold) {
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, -34.377, 0]}\n");
     const Shot exact = shoot(file, {"quality.motion=exact", "quality.motion_error_px=0.01"});
     EXPECT_EQ(exact.result.parts, ExposureRenderer::kMostParts);
     EXPECT_TRUE(exact.result.parts_limited);
 }
 
-TEST_F(ExposureTest, ALineScannerIsBlurredByWhatItsLinesDoNotExpect) {
+TEST_F(PlateTest, ALineScannerIsBlurredByWhatItsLinesDoNotExpect) {
     // 640 px/rad, lines of 1 ms: 1 px per line is 1.5625 rad/s; the boresight goes down at 1.1 times that.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [-98.475, 0, 0]}\n");
     const auto rate = [&](const std::string& shutter) {
@@ -239,7 +217,7 @@ TEST_F(ExposureTest, ALineScannerIsBlurredByWhatItsLinesDoNotExpect) {
     EXPECT_EQ(at_rest(""), 0);
 }
 
-TEST_F(ExposureTest, JitterTurnsTheCameraAsItsPsdSays) {
+TEST_F(PlateTest, JitterTurnsTheCameraAsItsPsdSays) {
     // 0.3 deg rms below 1 Hz, an exposure of 20 ms: all of it is displacement.
     const auto file = scenario(", jitter: {psd: [[0.1, 1300000], [1, 1300000]]}");
     const ScenarioConfig s = load_scenario(file, {});
@@ -251,7 +229,7 @@ TEST_F(ExposureTest, JitterTurnsTheCameraAsItsPsdSays) {
     EXPECT_NEAR(shaken.x - calm.x, -640 * angle.y, 0.05);
 }
 
-TEST_F(ExposureTest, TheShutterOfTheCameraChoosesTheRays) {
+TEST_F(PlateTest, TheShutterOfTheCameraChoosesTheRays) {
     const auto rolling = scenario(", shutter: {kind: rolling, line_time_us: 30}");
     const auto rays = [&](const std::vector<std::string>& overrides) {
         return models_of(load_scenario(rolling, overrides)).rays;
@@ -318,43 +296,16 @@ TEST(LiveSettings, RefusesWhatTheCameraSetsItself) {
     EXPECT_EQ(automatic.settings().gain_db, 0);
 }
 
-// Keeps what the loop publishes.
-class Collector : public FrameSink {
-  public:
-    struct Frame {
-        FrameRecord record;
-        std::vector<std::uint16_t> dn;
-    };
-    std::vector<Frame> frames;
-
-    void start() override {}
-    void publish(const DnImage& frame, const FrameRecord& record) noexcept override {
-        frames.push_back({record, {frame.all().begin(), frame.all().end()}});
-    }
-    void stop() noexcept override {}
-    SinkReport report() const override { return {}; }
-};
-
 std::vector<Collector::Frame> run_loop(const std::filesystem::path& file, std::uint64_t frames,
                                        const std::vector<std::string>& overrides = {}) {
-    const ScenarioConfig s = load_scenario(file, overrides);
-    const SpectralGrid grid(s.spectrum_edges_um);
-    const auto renderer = load_renderer(s, grid, geometry_of(s.camera, static_cast<int>(s.quality.guard_px)));
-    SensorChain chain(s.camera, grid, sampling_of(s.quality));
-    const TimeTai start = parse_utc(s.time_utc);
-    WorldState world(initial_motions(s, start), s.origin, joints_of(s));
-    LiveSettings settings(s.camera);
-    const SimulatedClock clock(start, monotonic_now_ns());
-    ExposureRenderer exposures(*renderer, s, grid, world.placed_objects());
-    Collector collector;
-    FrameLoop loop(exposures, chain, s.camera, world, settings, clock, {&collector}, 1, {frames, false});
-    loop.start();
-    while (!loop.finished()) sleep_until_monotonic_ns(monotonic_now_ns() + 1'000'000);
-    loop.stop();
-    return std::move(collector.frames);
+    LoopRig rig(file, {frames, false}, overrides);
+    rig.loop.start();
+    while (!rig.loop.finished()) sleep_until_monotonic_ns(monotonic_now_ns() + 1'000'000);
+    rig.loop.stop();
+    return std::move(rig.collector.frames);
 }
 
-TEST_F(ExposureTest, FramesOfARollingAndALineCameraFollowTheirTiming) {
+TEST_F(PlateTest, FramesOfARollingAndALineCameraFollowTheirTiming) {
     const auto rolling = run_loop(scenario(", shutter: {kind: rolling, line_time_us: 100}"), 3);
     ASSERT_EQ(rolling.size(), 3u);
     EXPECT_DOUBLE_EQ(rolling[0].record.exposure_s, 0.02);
@@ -363,7 +314,7 @@ TEST_F(ExposureTest, FramesOfARollingAndALineCameraFollowTheirTiming) {
     EXPECT_DOUBLE_EQ(line[0].record.exposure_s, 300e-6);
 }
 
-TEST_F(ExposureTest, TheLoopTakesTheStepsOfASequenceInTurn) {
+TEST_F(PlateTest, TheLoopTakesTheStepsOfASequenceInTurn) {
     const auto frames = run_loop(
         scenario(", sequence: [{exposure_ms: 1}, {exposure_ms: 4, gain_db: 6}, {exposure_ms: 16}]"), 8);
     ASSERT_EQ(frames.size(), 8u);
@@ -379,7 +330,7 @@ TEST_F(ExposureTest, TheLoopTakesTheStepsOfASequenceInTurn) {
     EXPECT_GT(middle(1), 5 * middle(0));
 }
 
-TEST_F(ExposureTest, AutomaticExposureTakesEffectTwoFramesLater) {
+TEST_F(PlateTest, AutomaticExposureTakesEffectTwoFramesLater) {
     const auto frames = run_loop(scenario(", auto_exposure: {on: true, speed: 1, percentile: 98}"), 12,
                                  {"camera.exposure_ms=2"});
     ASSERT_EQ(frames.size(), 12u);

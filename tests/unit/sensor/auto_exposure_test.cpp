@@ -80,22 +80,24 @@ TEST(FrameHistogram, FindsThePercentileAboveBlackOutsideTheBlackPixels) {
     EXPECT_TRUE(histogram.measure(frame, 1, 1, 99, {100, 190, 4095, false}).saturated);
 }
 
+Exposure at_gain(double gain_db) { return {1e-3, gain_db}; }
+
 TEST(AutoExposure, FullScaleIsWhereTheCameraSaturates) {
     CameraModel c;
     c.gain_dn_e = 0.1;
     c.full_well_e = 20000;
     c.offset_dn = 60;
-    EXPECT_EQ(dn_scale_of(c, 0).full_dn, 2060);   // the well
-    EXPECT_EQ(dn_scale_of(c, 20).full_dn, 4095);  // ten times the gain: the converter
-    EXPECT_EQ(dn_scale_of(c, 0).black_dn, 60);
+    EXPECT_EQ(dn_scale_of(c, at_gain(0)).full_dn, 2060);   // the well
+    EXPECT_EQ(dn_scale_of(c, at_gain(20)).full_dn, 4095);  // ten times the gain: the converter
+    EXPECT_EQ(dn_scale_of(c, at_gain(0)).black_dn, 60);
     c.binning_x = 2;
-    EXPECT_EQ(dn_scale_of(c, 0).full_dn, 4060);  // two wells
+    EXPECT_EQ(dn_scale_of(c, at_gain(0)).full_dn, 4060);  // two wells
     c.binning = BinningKind::kSum;
-    EXPECT_EQ(dn_scale_of(c, 0).full_dn, 4095);
-    EXPECT_EQ(dn_scale_of(c, 0).black_dn, 120);
+    EXPECT_EQ(dn_scale_of(c, at_gain(0)).full_dn, 4095);
+    EXPECT_EQ(dn_scale_of(c, at_gain(0)).black_dn, 120);
     c.binning = BinningKind::kMean;
-    EXPECT_EQ(dn_scale_of(c, 0).full_dn, 2060);
-    EXPECT_EQ(dn_scale_of(c, 0).black_dn, 60);
+    EXPECT_EQ(dn_scale_of(c, at_gain(0)).full_dn, 2060);
+    EXPECT_EQ(dn_scale_of(c, at_gain(0)).black_dn, 60);
 }
 
 }  // namespace

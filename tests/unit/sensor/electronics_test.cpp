@@ -173,7 +173,7 @@ TEST(ReadOut, NonlinearityBendsAsConfigured) {
     for (const float q : {100.0f, 5000.0f, 1e4f}) {
         std::vector<float> charge = {q}, deviate = {0};
         std::vector<std::uint16_t> dn(1);
-        read_out.read({0, 0, charge, deviate, {}, 0.4}, {}, {1, 1}, dn);
+        read_out.read({0, 0, charge, deviate, {}, 0.4, c.offset_dn}, {}, {1, 1}, dn);
         const double x = static_cast<double>(q) / 1e4;
         EXPECT_NEAR(dn[0], 0.4 * static_cast<double>(q) * (1 - 0.05 * x + 0.02 * x * x), 0.51) << q;
     }
@@ -185,7 +185,7 @@ TEST(ReadOut, FullWellAndAdcClip) {
     const auto read = [&](std::vector<float> charge) {
         const std::vector<float> deviates(charge.size());
         std::vector<std::uint16_t> dn(charge.size());
-        ReadOut(c).read({0, 0, charge, deviates, {}, c.gain_dn_e}, {}, {1, 1}, dn);
+        ReadOut(c).read({0, 0, charge, deviates, {}, c.gain_dn_e, c.offset_dn}, {}, {1, 1}, dn);
         return dn;
     };
     EXPECT_THAT(read({0, 1e6f}), testing::ElementsAre(10, 2010));

@@ -1,0 +1,114 @@
+#pragma once
+// A small scene and the frame loop around it, for tests of timing and modes.
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "emulator/command_dispatch.h"
+#include "emulator/emulator.h"
+#include "emulator/scene_loader.h"
+#include "tests/support/files.h"
+
+namespace hilcam {
+
+// A white plate of 10 cm, 4 m before the camera, 16 px across, lit by the Sun of December, 23 degrees to its
+// side of the camera.
+class PlateTest : public FilesTest {
+  protected:
+    std::filesystem::path scenario(const std::string& camera = "", const std::string& rest = "") {
+        write("plate.obj",
+              "v -0.05 -0.05 0\nv 0.05 -0.05 0\nv 0.05 0.05 0\nv -0.05 0.05 0\nf 1 3 2\nf 1 4 3\n");
+        return write("scenario.yaml",
+                     "time_utc: 2026-12-21T00:00:00Z\n"
+                     "camera: {name: test, width_px: 64, height_px: 64, pitch_um: 10, focal_length_mm: 6.4,\n"
+                     "  f_number: 8, transmission: 0.01, quantum_efficiency: 0.5, full_well_e: 20000, "
+                     "gain_dn_e: 0.2, bits: 12,\n"
+                     "  offset_dn: 50, read_noise_e: 5, exposure_ms: 20" +
+                         camera +
+                         "}\n"
+                         "objects:\n  - {name: plate, mesh: plate.obj, pose: {position_m: [0, 0, 4]}}\n"
+                         "earth: {visible: false}\nmoon: {visible: false}\n"
+                         "spectrum_edges_um: [0.5, 0.7]\n" +
+                         rest);
+    }
+};
+
+// Keeps what the loop publishes and tells.
+class Collector : public FrameSink {
+  public:
+    struct Frame {
+        FrameRecord record;
+        int width = 0, height = 0;
+        std::vector<std::uint16_t> dn;
+    };
+    std::vector<Frame> frames;
+    std::vector<CameraEvent> events;
+
+    void start() override {}
+    void publish(const DnImage& frame, const FrameRecord& record) noexcept override {
+        const std::lock_guard lock(mutex_);
+        frames.push_back({record, frame.width(), frame.height(), {frame.all().begin(), frame.all().end()}});
+        more_.notify_all();
+    }
+    void happened(const CameraEvent& event) noexcept override {
+        const std::lock_guard lock(mutex_);
+        events.push_back(event);
+    }
+    void stop() noexcept override {}
+    SinkReport report() const override { return {}; }
+    // False when they do not come within a minute.
+    bool wait_for(std::size_t count) {
+        std::unique_lock lock(mutex_);
+        return more_.wait_for(lock, std::chrono::minutes(1), [&] { return frames.size() >= count; });
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable more_;
+};
+
+// The loop with all it needs; nothing runs before loop.start().
+struct LoopRig {
+    ScenarioConfig scenario;
+    SpectralGrid grid;
+    std::unique_ptr<Renderer> renderer;
+    SensorChain chain;
+    TimeTai start;
+    WorldState world;
+    LiveSettings settings;
+    FaultBoard faults;
+    SimulatedClock clock;
+    ExposureRenderer exposures;
+    CommandDispatch dispatch;
+    Collector collector;
+    FrameLoop loop;
+
+    LoopRig(const std::filesystem::path& file, const LoopLimits& limits,
+            const std::vector<std::string>& overrides = {})
+        : scenario(load_scenario(file, overrides)),
+          grid(scenario.spectrum_edges_um),
+          renderer(load_renderer(scenario, grid,
+                                 geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px)))),
+          chain(scenario.camera, grid, sampling_of(scenario.quality)),
+          start(parse_utc(scenario.time_utc)),
+          world(initial_motions(scenario, start), scenario.origin, joints_of(scenario)),
+          settings(scenario.camera, {.lockstep = scenario.mode == CameraMode::kLockstep,
+                                     .triggered = scenario.mode == CameraMode::kTriggered}),
+          faults(1),
+          clock(start, monotonic_now_ns(), scenario.mode == CameraMode::kLockstep),
+          exposures(*renderer, scenario, grid, world.placed_objects()),
+          dispatch(world, settings, faults, clock),
+          loop(exposures, chain, scenario.camera, world, settings, faults, clock, {&collector}, 1, limits) {}
+    ~LoopRig() { loop.stop(); }
+
+    CommandStatus send(const Command& command) {
+        return dispatch.handle(command, ++sequence_, monotonic_now_ns());
+    }
+
+  private:
+    std::uint32_t sequence_ = 0;
+};
+
+}  // namespace hilcam

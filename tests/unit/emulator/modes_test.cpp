@@ -1,0 +1,260 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <thread>
+
+#include "tests/support/plate.h"
+
+namespace hilcam {
+namespace {
+
+ExposeCommand expose(TimeTai time = {}, std::uint16_t frames = 0) { return {time, frames}; }
+
+PoseCommand pose_at(TimeTai time, double x_m) {
+    PoseCommand command;
+    command.motion.time = time;
+    command.motion.pose.position_world_m = {x_m, 0, 0};
+    return command;
+}
+
+double mean_x(const Collector::Frame& f) {
+    double sum = 0, light = 0;
+    for (std::size_t i = 0; i < f.dn.size(); ++i) {
+        const double dn = std::max(0.0, f.dn[i] - 100.0);  // above noise
+        light += dn, sum += dn * (static_cast<double>(i % static_cast<std::size_t>(f.width)) + 0.5);
+    }
+    return sum / light;
+}
+
+// --- lockstep
+
+std::vector<Collector::Frame> fly_in_lockstep(const std::filesystem::path& file, bool slowly) {
+    LoopRig rig(file, {}, {"mode=lockstep"});
+    rig.loop.start();
+    for (int i = 0; i < 6; ++i) {
+        const TimeTai time = rig.start + (i + 1) * 100'000'000;
+        EXPECT_EQ(rig.send(pose_at(time, 0.01 * i)), CommandStatus::kAccepted);
+        EXPECT_EQ(rig.send(expose(time)), CommandStatus::kAccepted);
+        if (slowly && i % 2 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    }
+    EXPECT_TRUE(rig.collector.wait_for(6));
+    rig.loop.stop();
+    return std::move(rig.collector.frames);
+}
+
+TEST_F(PlateTest, LockstepGivesOneFrameACommandAndTheSameAtAnyPace) {
+    const auto file = scenario();
+    const auto quick = fly_in_lockstep(file, false), slow = fly_in_lockstep(file, true);
+    ASSERT_EQ(quick.size(), 6u);
+    ASSERT_EQ(slow.size(), 6u);
+    const TimeTai start = parse_utc("2026-12-21T00:00:00Z");
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(quick[i].dn, slow[i].dn) << i;
+        EXPECT_EQ(quick[i].record.id, i + 1);
+        EXPECT_EQ(quick[i].record.exposure_mid, start + static_cast<std::int64_t>(i + 1) * 100'000'000);
+        EXPECT_EQ(quick[i].record.pose_time, quick[i].record.exposure_mid);
+        EXPECT_EQ(quick[i].record.pose_sequence, 2 * i + 1);
+        EXPECT_EQ(quick[i].record.trigger_sequence, 2 * i + 2);
+        // 10 mm a step at 4 m and 640 px: the plate goes 1.6 px to the left.
+        EXPECT_NEAR(mean_x(quick[i]), 32 - 1.6 * static_cast<double>(i), 0.2) << i;
+    }
+}
+
+TEST_F(PlateTest, LockstepGoesOnByTheFramePeriodAndNeverBack) {
+    LoopRig rig(scenario(", frame_rate_hz: 10"), {}, {"mode=lockstep"});
+    rig.loop.start();
+    EXPECT_EQ(rig.send(expose()), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(expose({}, 3)), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(expose(rig.start + 5'000'000'000)), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(expose(rig.start + 4'000'000'000)), CommandStatus::kTimeOutOfRange);
+    EXPECT_EQ(rig.dispatch.now(), rig.start + 5'000'000'000);
+    ASSERT_TRUE(rig.collector.wait_for(5));
+    const std::int64_t expected_ns[] = {10'000'000, 110'000'000, 210'000'000, 310'000'000, 5'000'000'000};
+    for (std::size_t i = 0; i < 5; ++i)
+        EXPECT_EQ(rig.collector.frames[i].record.exposure_mid.ns - rig.start.ns, expected_ns[i]) << i;
+    // No other source makes frames, and the mode is not left.
+    EXPECT_EQ(rig.settings.trigger({}), TriggerResult::kNotArmed);
+    EXPECT_EQ(rig.send(TriggerModeCommand{false, 0}), CommandStatus::kNotNow);
+    rig.loop.stop();
+    EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // nobody would answer
+}
+
+// --- triggers
+
+TEST_F(PlateTest, EveryTriggerGivesItsFramesAndEarlyOnesAreMissed) {
+    LoopRig rig(scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50]"), {0, true}, {"mode=triggered"});
+    std::vector<std::int64_t> missed;
+    rig.settings.on_missed_trigger([&](std::int64_t ns) { missed.push_back(ns); });
+    rig.loop.start();
+    const std::int64_t t0 = monotonic_now_ns() + 50'000'000;
+    const auto at = [&](std::int64_t ns) { return rig.clock.at(ns); };
+    EXPECT_EQ(rig.send(expose(at(t0))), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(expose(at(t0 + 10'000'000))), CommandStatus::kBusy);  // 20 ms is the shortest period
+    EXPECT_EQ(rig.send(expose(at(t0 + 20'000'000), 3)), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(expose(at(t0 + 79'000'000))), CommandStatus::kBusy);  // the burst lasts until 80 ms
+    EXPECT_EQ(rig.send(expose(at(t0 + 80'000'000))), CommandStatus::kAccepted);
+    EXPECT_EQ(missed.size(), 2u);
+    ASSERT_TRUE(rig.collector.wait_for(5));
+    rig.loop.stop();
+    const std::int64_t begin_ms[] = {0, 20, 40, 60, 80};
+    ASSERT_EQ(rig.collector.frames.size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i) {
+        const FrameRecord& r = rig.collector.frames[i].record;
+        EXPECT_EQ(r.id, i + 1);
+        EXPECT_EQ(r.exposure_mid_monotonic_ns, t0 + begin_ms[i] * 1'000'000 + 10'000'000) << i;
+    }
+    const auto& events = rig.collector.events;
+    const auto count = [&](CameraEvent::Kind kind) {
+        return std::count_if(events.begin(), events.end(), [&](auto& e) { return e.kind == kind; });
+    };
+    EXPECT_EQ(count(CameraEvent::Kind::kExposureStart), 5);
+    EXPECT_EQ(count(CameraEvent::Kind::kExposureEnd), 5);
+    for (const CameraEvent& e : events) {
+        if (e.kind == CameraEvent::Kind::kExposureEnd) {
+            EXPECT_EQ(e.monotonic_ns, t0 + begin_ms[e.frame - 1] * 1'000'000 + 20'000'000);
+        }
+    }
+}
+
+TEST_F(PlateTest, ATriggeredCameraListensToItsSourceOnly) {
+    LoopRig rig(scenario(), {0, true});
+    EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // free-run
+    ASSERT_TRUE(rig.settings.change({.triggered = true}));
+    EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // Software is the default
+    TriggerOrder order;
+    EXPECT_EQ(rig.settings.trigger(order), TriggerResult::kTaken);
+    ASSERT_TRUE(rig.settings.change({.trigger_source = TriggerSource::kAction1}));
+    EXPECT_EQ(rig.settings.trigger(order), TriggerResult::kNotArmed);
+    order.source = TriggerSource::kAction1;
+    order.at_monotonic_ns = monotonic_now_ns() + 1'000'000'000;
+    EXPECT_EQ(rig.settings.trigger(order), TriggerResult::kTaken);
+    ASSERT_TRUE(rig.settings.change({.running = false}));
+    EXPECT_EQ(rig.settings.trigger(order), TriggerResult::kNotArmed);
+}
+
+// --- live settings
+
+TEST_F(PlateTest, BinnedLiveAFrameIsWhatACameraBinnedByItsFileTakes) {
+    const auto take = [&](const std::string& camera, std::int64_t binning) {
+        LoopRig rig(scenario(camera), {1, false});
+        EXPECT_TRUE(rig.settings.change({.binning_x = binning, .binning_y = binning}));
+        rig.loop.start();
+        EXPECT_TRUE(rig.collector.wait_for(1));
+        rig.loop.stop();
+        return std::move(rig.collector.frames[0]);
+    };
+    for (const char* kind : {"charge", "sum", "mean"}) {
+        const std::string binning = std::string(", binning: ") + kind;
+        const auto live = take(binning, 2), filed = take(binning + ", binning_x: 2, binning_y: 2", 2);
+        EXPECT_EQ(live.width, 32);
+        EXPECT_EQ(live.dn, filed.dn) << kind;
+        EXPECT_EQ(live.record.binning_x, 2);
+        EXPECT_EQ(take(binning + ", binning_x: 2, binning_y: 2", 1).width, 64);
+    }
+}
+
+TEST_F(PlateTest, SettingsBelongToTheFrameThatTheyWereTakenWith) {
+    LoopRig rig(scenario(), {0, false});
+    rig.loop.start();
+    ASSERT_TRUE(rig.collector.wait_for(3));
+    ASSERT_TRUE(rig.settings.change(
+        {.exposure_s = 0.01, .gain_db = 6, .black_level_dn = 200, .test_pattern = TestPattern::kWhite}));
+    ASSERT_TRUE(rig.collector.wait_for(rig.loop.counters().frames.load() + 8));
+    rig.loop.stop();
+    std::size_t white = 0;
+    for (const auto& f : rig.collector.frames) {
+        const bool is_white = std::all_of(f.dn.begin(), f.dn.end(), [](auto dn) { return dn == 4095; });
+        EXPECT_EQ(is_white, f.record.gain_db == 6) << f.record.id;
+        EXPECT_EQ(f.record.exposure_s, is_white ? 0.01 : 0.02);
+        EXPECT_EQ(f.record.black_level_dn, is_white ? 200 : 50);
+        white += is_white;
+    }
+    EXPECT_GE(white, 5u);
+}
+
+TEST_F(PlateTest, BlackLevelAndReversalAreThoseAskedFor) {
+    const auto take = [&](const SettingsChange& change) {
+        LoopRig rig(scenario(), {1, false});
+        EXPECT_TRUE(rig.settings.change(change));
+        rig.loop.start();
+        EXPECT_TRUE(rig.collector.wait_for(1));
+        rig.loop.stop();
+        return std::move(rig.collector.frames[0].dn);
+    };
+    const auto plain = take({}), brighter = take({.black_level_dn = 150}),
+               mirrored = take({.reverse_x = true}), turned = take({.reverse_x = true, .reverse_y = true});
+    for (std::size_t y = 0; y < 64; ++y)
+        for (std::size_t x = 0; x < 64; ++x) {
+            const auto at = [&](const auto& dn, std::size_t i, std::size_t j) { return dn[64 * j + i]; };
+            // Rounded from a value that is 100 higher; up to the converter's end.
+            EXPECT_EQ(at(brighter, x, y), std::min(4095, at(plain, x, y) + 100));
+            EXPECT_EQ(at(mirrored, x, y), at(plain, 63 - x, y));
+            EXPECT_EQ(at(turned, x, y), at(plain, 63 - x, 63 - y));
+        }
+}
+
+TEST_F(PlateTest, WhatDoesNotFitChangesNothing) {
+    LoopRig rig(scenario(), {1, false});
+    EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01, .binning_x = 3}));
+    EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01, .black_level_dn = 4000}));
+    EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01, .burst_frames = 0}));
+    EXPECT_FALSE(rig.settings.change({.automatic_exposure = true, .trigger_delay_s = -1}));
+    EXPECT_EQ(rig.settings.settings().exposure_s, 0.02);
+    EXPECT_FALSE(rig.settings.settings().automatic_exposure);
+    EXPECT_TRUE(rig.settings.change({.automatic_exposure = true}));
+    EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01}));  // the camera's own now
+    EXPECT_TRUE(rig.settings.change({.exposure_s = 0.01, .automatic_exposure = false}));
+    LiveSettings fixed(rig.scenario.camera, {.fixed_size = true});
+    EXPECT_FALSE(fixed.change({.binning_x = 2}));
+    EXPECT_FALSE(LiveSettings(CameraModel{}, {.lockstep = true}).change({.triggered = false}));
+}
+
+// --- faults of the picture
+
+TEST_F(PlateTest, FaultsStrikeTheFramesTheyAreOrderedFor) {
+    LoopRig rig(scenario(), {8, false});
+    const auto order = [&](FaultKind kind, std::uint64_t frame, double rate = 1, double value = 0) {
+        EXPECT_EQ(rig.send(FaultCommand{{kind, rate, value, frame, 1, 0}, false}), CommandStatus::kAccepted);
+    };
+    order(FaultKind::kImageBlack, 2);
+    order(FaultKind::kImageSaturated, 3);
+    order(FaultKind::kImageStuck, 5);
+    order(FaultKind::kImageTear, 6, 1, 0.5);
+    order(FaultKind::kImageBitFlips, 7, 0.01);
+    rig.loop.start();
+    ASSERT_TRUE(rig.collector.wait_for(8));
+    rig.loop.stop();
+    LoopRig whole(scenario(), {8, false});
+    // The same instants, so that the pictures compare: nothing moves, and noise is keyed by the frame.
+    whole.loop.start();
+    ASSERT_TRUE(whole.collector.wait_for(8));
+    whole.loop.stop();
+    const auto& struck = rig.collector.frames;
+    const auto& right = whole.collector.frames;
+    for (const std::size_t i : {0u, 3u, 7u}) {
+        EXPECT_EQ(struck[i].dn, right[i].dn) << i;
+        EXPECT_EQ(struck[i].record.faults, 0u) << i;
+    }
+    EXPECT_EQ(std::accumulate(struck[1].dn.begin(), struck[1].dn.end(), 0u), 0u);
+    EXPECT_EQ(struck[1].record.faults, bit_of(FaultKind::kImageBlack));
+    EXPECT_TRUE(std::all_of(struck[2].dn.begin(), struck[2].dn.end(), [](auto dn) { return dn == 4095; }));
+    EXPECT_EQ(struck[4].dn, right[3].dn);
+    EXPECT_TRUE(std::equal(struck[5].dn.begin(), struck[5].dn.begin() + 32 * 64, right[5].dn.begin()));
+    EXPECT_TRUE(
+        std::equal(struck[5].dn.begin() + 32 * 64, struck[5].dn.end(), right[3].dn.begin() + 32 * 64));
+    int flipped = 0;
+    for (std::size_t i = 0; i < 64 * 64; ++i)
+        if (const unsigned bits = struck[6].dn[i] ^ right[6].dn[i]; bits != 0) {
+            EXPECT_EQ(bits & (bits - 1), 0u);  // one bit
+            ++flipped;
+        }
+    // Binomial, 4096 pixels at 1 %: 41 with a standard deviation of 6.4; five of them.
+    EXPECT_NEAR(flipped, 41, 32);
+    EXPECT_EQ(rig.faults.strikes_of(FaultKind::kImageBitFlips), static_cast<std::uint64_t>(flipped));
+    EXPECT_EQ(rig.send(FaultCommand{{FaultKind::kImageTear, 1, 2, 0, 0, 0}, false}),
+              CommandStatus::kBadArgument);
+}
+
+}  // namespace
+}  // namespace hilcam
