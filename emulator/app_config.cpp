@@ -180,6 +180,31 @@ Fields fields(OutputsConfig& o) {
     };
 }
 
+Fields fields(CameraConfig& c) {
+    return {
+        required(section("camera", c.camera, "its data sheet")),
+        integer("on", c.thing, {0, 65535},
+                "what it is fixed to; 0: the body of the first camera, or an object"),
+        vector3("position_m", c.mount.position_m, 1, {-1e6, 1e6}, "in that body's axes"),
+        quaternion("attitude", c.mount.thing_from_camera, "turns the camera's axes into that body's"),
+        section("outputs", c.outputs, "where its frames go"),
+    };
+}
+
+ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index) {
+    ScenarioConfig own = scenario;
+    if (index == 0) return own;
+    const CameraConfig& more = scenario.more_cameras[index - 1];
+    own.camera = more.camera;
+    own.mount = more.mount;
+    own.mount.thing = static_cast<std::size_t>(more.thing);
+    own.outputs = more.outputs;
+    // `rays`, where the scenario gives them, are the first camera's; the others go by their shutters.
+    own.has_rays = false;
+    own.models.rays = {};
+    return own;
+}
+
 Fields fields(PluginConfig& p) {
     return {required(path("file", p.file, "shared library that adds models (render/plugin.h)"))};
 }
@@ -213,6 +238,7 @@ Fields fields(ScenarioConfig& s) {
         choice(
             "mode", s.mode, {"free_run", "triggered", "lockstep"},
             "what makes the camera take frames: its rate, triggers, or each `expose` one in simulated time"),
+        sections("more_cameras", s.more_cameras, "beside the first, in the same world"),
         sections("faults", s.faults, "what goes wrong by itself"),
         section("commands", s.commands, "where commands come from"),
         section("outputs", s.outputs, "where frames go"),
@@ -265,6 +291,10 @@ void validate(const ScenarioConfig& s) {
     parse_utc(s.time_utc);
     SpectralGrid grid(s.spectrum_edges_um);
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
+    for (const CameraConfig& c : s.more_cameras)
+        if (c.thing > static_cast<std::int64_t>(s.objects.size()))
+            throw InputError("more_cameras: on: found " + std::to_string(c.thing) + "; accepted: 0 to " +
+                             std::to_string(s.objects.size()) + ", the number of objects");
 }
 
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/world_state.h"
 #include "io/commands_udp.h"
 #include "io/height_map_file.h"
 #include "io/sink_files.h"
@@ -145,6 +146,15 @@ struct OutputsConfig {
 };
 Fields fields(OutputsConfig& outputs);
 
+// A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
+struct CameraConfig {
+    CameraModel camera;
+    Mount mount;
+    std::int64_t thing = 0;
+    OutputsConfig outputs;
+};
+Fields fields(CameraConfig& camera);
+
 struct PluginConfig {
     std::filesystem::path file;
 };
@@ -173,12 +183,17 @@ struct ScenarioConfig {
     std::vector<PluginConfig> plugins;
     QualityConfig quality;
     CameraMode mode = CameraMode::kFreeRun;
+    Mount mount;  // of the camera that this scenario is about; the first sits where poses say
+    std::vector<CameraConfig> more_cameras;
     std::vector<FaultConfig> faults;
     CommandsConfig commands;
     OutputsConfig outputs;
 };
 Fields fields(ScenarioConfig& scenario);
 void validate(const ScenarioConfig& scenario);
+
+// The scenario as one of its cameras has it, counted from 0.
+ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index);
 
 // The models to render with: rays as the camera's shutter has them, unless the scenario gives its own.
 RenderModels models_of(const ScenarioConfig& scenario);

@@ -51,11 +51,9 @@ int run(const Options& o) {
     spdlog::info("loading {}", scenario.name);
     Emulator emulator(scenario, limits);
     emulator.run([] { spdlog::info("running; Ctrl-C ends it"); });
-    nlohmann::json report = run_report(scenario, emulator.seconds(), emulator.loop(), emulator.delivery(),
-                                       emulator.command_report(), emulator.sinks());
-    const std::uint64_t outside = emulator.renderer().rays_outside_air();
-    report["quality"]["rays_outside_atmosphere"] = outside;
-    report["quality"]["motion_limited_frames"] = emulator.loop().counters().motion_limited.load();
+    const nlohmann::json report = run_report(emulator);
+    std::uint64_t outside = 0;
+    for (const auto& station : emulator.stations()) outside += station->renderer().rays_outside_air();
     if (outside > 0)
         spdlog::warn("{} rays left the atmosphere's table and were given its nearest geometry", outside);
     if (!o.report.empty()) write_json(o.report, report);

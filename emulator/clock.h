@@ -52,6 +52,7 @@ class SimulatedClock {
         return lockstep_ ? TimeTai{stepped_ns_.load()} : at(monotonic_ns);
     }
     TimeTai now() const { return of_arrival(monotonic_now_ns()); }
+    bool lockstep() const { return lockstep_; }
     void step_to(TimeTai time) { stepped_ns_.store(time.ns); }
 
   private:
@@ -62,32 +63,36 @@ class SimulatedClock {
 };
 
 // When frames are exposed in free-run: an absolute raster that never drifts and never catches up.
-//     next += period; when `now` has passed the start after next, whole periods are skipped and counted.
+//     next = last + period; when `now` has passed the start after next, whole periods are skipped and
+//     counted.
 class FrameSchedule {
   public:
-    explicit FrameSchedule(std::int64_t first_ns) : next_ns_(first_ns) {}
+    explicit FrameSchedule(std::int64_t first_ns) : last_ns_(first_ns) {}
 
     struct Slot {
         std::int64_t start_ns = 0;
         std::uint64_t skipped = 0;
     };
+    // The next exposure, if the period is that.
+    std::int64_t next_ns(std::int64_t period_ns) const { return begun_ ? last_ns_ + period_ns : last_ns_; }
     // The exposure to compute now. A start up to one period in the past still counts: that frame is late, not
     // lost.
     Slot take(std::int64_t now_ns, std::int64_t period_ns) {
-        Slot slot;
-        if (now_ns > next_ns_ + period_ns) {
-            slot.skipped = static_cast<std::uint64_t>((now_ns - next_ns_) / period_ns);
-            next_ns_ += static_cast<std::int64_t>(slot.skipped) * period_ns;
+        Slot slot{next_ns(period_ns), 0};
+        if (now_ns > slot.start_ns + period_ns) {
+            slot.skipped = static_cast<std::uint64_t>((now_ns - slot.start_ns) / period_ns);
+            slot.start_ns += static_cast<std::int64_t>(slot.skipped) * period_ns;
         }
-        slot.start_ns = next_ns_;
-        next_ns_ += period_ns;
+        last_ns_ = slot.start_ns;
+        begun_ = true;
         return slot;
     }
     // After a pause: the raster begins anew.
-    void restart(std::int64_t first_ns) { next_ns_ = first_ns; }
+    void restart(std::int64_t first_ns) { last_ns_ = first_ns, begun_ = false; }
 
   private:
-    std::int64_t next_ns_;
+    std::int64_t last_ns_;
+    bool begun_ = false;
 };
 
 }  // namespace hilcam

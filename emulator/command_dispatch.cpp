@@ -4,6 +4,7 @@
 
 namespace hilcam {
 namespace {
+
 constexpr std::int64_t kFarthestTag_ns = 3'600'000'000'000;  // an hour
 constexpr double kPatience_s = 600;                          // for the frames of one order in lockstep
 
@@ -15,95 +16,132 @@ CommandStatus status_of(TriggerResult result) {
             return CommandStatus::kBusy;
         case TriggerResult::kTooEarly:
             return CommandStatus::kTimeOutOfRange;
-        default:
-            return CommandStatus::kNotNow;
+        case TriggerResult::kNotArmed:
+            break;
     }
+    return CommandStatus::kNotNow;
+}
+
+SettingsChange change_of(const SettingsCommand& s) {
+    SettingsChange change;
+    change.exposure_s = s.exposure_s;
+    change.gain_db = s.gain_db;
+    change.frame_rate_hz = s.frame_rate_hz;
+    return change;
+}
+
+SettingsChange change_of(const TriggerModeCommand& m) {
+    SettingsChange change;
+    change.triggered = m.triggered;
+    if (m.triggered) change.trigger_source = TriggerSource::kLine0;
+    if (m.burst_frames > 0) change.burst_frames = m.burst_frames;
+    return change;
 }
 
 }  // namespace
 
 CommandStatus CommandDispatch::handle(const Command& command, std::uint32_t sequence,
                                       std::int64_t arrival_monotonic_ns) {
-    if (const auto* pose = std::get_if<PoseCommand>(&command))
-        return set_pose(*pose, sequence, arrival_monotonic_ns);
-    if (const auto* joint = std::get_if<JointCommand>(&command))
-        return turn(*joint, sequence, arrival_monotonic_ns);
-    if (const auto* settings = std::get_if<SettingsCommand>(&command)) return change(*settings);
-    if (const auto* expose = std::get_if<ExposeCommand>(&command))
-        return trigger(*expose, sequence, arrival_monotonic_ns);
-    if (const auto* mode = std::get_if<TriggerModeCommand>(&command)) return set_trigger_mode(*mode);
-    if (const auto* fault = std::get_if<FaultCommand>(&command)) return order(*fault);
-    SettingsChange running;
-    if (std::holds_alternative<StartCommand>(command)) running.running = true;
-    if (std::holds_alternative<StopCommand>(command)) running.running = false;
-    settings_.change(running);
+    const Source source{sequence, arrival_monotonic_ns, 0};
+    if (const auto* pose = std::get_if<PoseCommand>(&command)) return set_pose(*pose, source);
+    if (const auto* joint = std::get_if<JointCommand>(&command)) return turn(*joint, source);
+    if (const auto* settings = std::get_if<SettingsCommand>(&command))
+        return change(change_of(*settings), source, CommandStatus::kBadArgument);
+    if (const auto* mode = std::get_if<TriggerModeCommand>(&command))
+        return change(change_of(*mode), source, CommandStatus::kNotNow);
+    if (const auto* e = std::get_if<ExposeCommand>(&command)) return expose(*e, source);
+    if (const auto* fault = std::get_if<FaultCommand>(&command)) return order(*fault, source);
+    if (std::holds_alternative<StartCommand>(command))
+        return change({.running = true}, source, CommandStatus::kNotNow);
+    if (std::holds_alternative<StopCommand>(command))
+        return change({.running = false}, source, CommandStatus::kNotNow);
     return CommandStatus::kAccepted;
 }
 
-// A tag of 0 is the arrival; false for one too far from it.
-bool CommandDispatch::resolve(TimeTai& tag, TimeTai arrival) {
+// Of several cameras, the first refusal is the answer.
+template <class F>
+CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act) {
+    if (camera > cameras_.size()) return CommandStatus::kUnknownObject;
+    CommandStatus status = CommandStatus::kAccepted;
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        if (camera != 0 && camera != i + 1) continue;
+        const CommandStatus own = act(cameras_[i]);
+        if (status == CommandStatus::kAccepted) status = own;
+    }
+    return status;
+}
+
+// A tag of 0 is the arrival; false for one too far from it. In lockstep time goes where it is told to.
+bool CommandDispatch::resolve(TimeTai& tag, const Source& source) const {
+    const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
     if (tag.ns == 0) tag = arrival;
     // Compared without subtracting: a hostile tag must not overflow.
-    return !(tag < arrival + -kFarthestTag_ns || arrival + kFarthestTag_ns < tag);
+    return clock_.lockstep() || !(tag < arrival + -kFarthestTag_ns || arrival + kFarthestTag_ns < tag);
 }
 
-CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, std::uint32_t sequence,
-                                        std::int64_t arrival_monotonic_ns) {
+CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const Source& source) {
     Motion motion = pose.motion;
-    if (!resolve(motion.time, clock_.of_arrival(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
-    return world_.set(pose.object, motion, {sequence, arrival_monotonic_ns}) ? CommandStatus::kAccepted
-                                                                             : CommandStatus::kUnknownObject;
+    if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
+    return for_cameras(0, [&](const CommandedCamera& c) {
+        return c.world->set(pose.object, motion, {source.sequence, source.arrival_monotonic_ns, {}})
+                   ? CommandStatus::kAccepted
+                   : CommandStatus::kUnknownObject;
+    });
 }
 
-CommandStatus CommandDispatch::turn(const JointCommand& joint, std::uint32_t sequence,
-                                    std::int64_t arrival_monotonic_ns) {
+CommandStatus CommandDispatch::turn(const JointCommand& joint, const Source& source) {
     WorldState::JointMotion motion{joint.time, joint.angle_rad, joint.rate_rad_s};
-    if (!resolve(motion.time, clock_.of_arrival(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
-    return world_.set_joint(joint.object, joint.joint, motion, {sequence, arrival_monotonic_ns})
-               ? CommandStatus::kAccepted
-               : CommandStatus::kUnknownObject;
+    if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
+    return for_cameras(0, [&](const CommandedCamera& c) {
+        return c.world->set_joint(joint.object, joint.joint, motion,
+                                  {source.sequence, source.arrival_monotonic_ns, {}})
+                   ? CommandStatus::kAccepted
+                   : CommandStatus::kUnknownObject;
+    });
 }
 
-CommandStatus CommandDispatch::change(const SettingsCommand& s) {
-    SettingsChange change;
-    change.exposure_s = s.exposure_s;
-    change.gain_db = s.gain_db;
-    change.frame_rate_hz = s.frame_rate_hz;
-    return settings_.change(change) ? CommandStatus::kAccepted : CommandStatus::kBadArgument;
+CommandStatus CommandDispatch::change(const SettingsChange& change, const Source& source,
+                                      CommandStatus refused) {
+    return for_cameras(source.camera, [&](const CommandedCamera& c) {
+        return c.settings->change(change) ? CommandStatus::kAccepted : refused;
+    });
 }
 
-CommandStatus CommandDispatch::set_trigger_mode(const TriggerModeCommand& m) {
-    SettingsChange change;
-    change.triggered = m.triggered;
-    if (m.triggered) change.trigger_source = TriggerSource::kLine0;
-    if (m.burst_frames > 0) change.burst_frames = m.burst_frames;
-    return settings_.change(change) ? CommandStatus::kAccepted : CommandStatus::kNotNow;
-}
-
-CommandStatus CommandDispatch::trigger(const ExposeCommand& e, std::uint32_t sequence,
-                                       std::int64_t arrival_monotonic_ns) {
+CommandStatus CommandDispatch::expose(const ExposeCommand& e, const Source& source) {
     TriggerOrder order;
     order.source = TriggerSource::kLine0;
     order.frames = e.frames;
-    order.sequence = sequence;
-    if (settings_.limits().lockstep) {
+    order.sequence = source.sequence;
+    if (clock_.lockstep()) {
         order.at_simulated = e.time;
-        return status_of(settings_.trigger_and_wait(order, kPatience_s));
+        return expose_in_lockstep(order, source);
     }
     TimeTai tag = e.time;
-    if (!resolve(tag, clock_.of_arrival(arrival_monotonic_ns))) return CommandStatus::kTimeOutOfRange;
+    if (!resolve(tag, source)) return CommandStatus::kTimeOutOfRange;
     order.at_monotonic_ns = clock_.monotonic_at(tag);
-    return status_of(settings_.trigger(order));
+    return for_cameras(source.camera,
+                       [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); });
 }
 
-CommandStatus CommandDispatch::order(const FaultCommand& f) {
-    if (f.clear_all) {
-        faults_.clear_all();
+// Answers when the loops have seen the world for the order's last frame: commands that come later do not
+// count for its frames, so the same commands give the same frames at any pace.
+CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, const Source& source) {
+    const std::lock_guard one(lockstep_);
+    const CommandStatus status = for_cameras(source.camera, [&](const CommandedCamera& c) {
+        return status_of(c.settings->order_in_lockstep(order));
+    });
+    const CommandStatus done = for_cameras(source.camera, [&](const CommandedCamera& c) {
+        return c.settings->wait_for_order(kPatience_s) ? CommandStatus::kAccepted : CommandStatus::kBusy;
+    });
+    return status == CommandStatus::kAccepted ? done : status;
+}
+
+CommandStatus CommandDispatch::order(const FaultCommand& f, const Source& source) {
+    if (!f.clear_all && !refusal_of(f.order).empty()) return CommandStatus::kBadArgument;
+    return for_cameras(source.camera, [&](const CommandedCamera& c) {
+        f.clear_all ? c.faults->clear_all() : c.faults->order(f.order);
         return CommandStatus::kAccepted;
-    }
-    if (!refusal_of(f.order).empty()) return CommandStatus::kBadArgument;
-    faults_.order(f.order);
-    return CommandStatus::kAccepted;
+    });
 }
 
 }  // namespace hilcam

@@ -4,8 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-
-#include "emulator/scene_loader.h"
+#include <csignal>
 
 namespace hilcam {
 namespace {
@@ -35,152 +34,80 @@ class SignalGuard {
 
 }  // namespace
 
-std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time) {
-    const Bodies bodies = bodies_at(time, scenario.origin);
-    std::vector<Motion> motions = {initial_motion(scenario.camera_pose, time, bodies)};
-    for (const ObjectConfig& object : scenario.objects)
-        motions.push_back(initial_motion(object.pose, time, bodies));
-    return motions;
-}
-
-std::vector<Joint> joints_of(const ScenarioConfig& scenario) {
-    std::vector<Joint> joints;
-    for (std::size_t i = 0; i < scenario.objects.size(); ++i)
-        for (const JointConfig& joint : scenario.objects[i].joints)
-            joints.push_back({i, joint.pivot_m, normalized(joint.axis), joint.angle_rad, joint.rate_rad_s});
-    return joints;
-}
-
-WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time) {
-    WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
-    WorldSnapshot world;
-    world.objects.resize(state.placed_objects());
-    ShownCommand shown;
-    state.sample(time, world, shown);
-    return world;
-}
-
 Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     : scenario_(scenario),
       limits_(limits),
       grid_(scenario.spectrum_edges_um),
-      clock_(parse_utc(scenario.time_utc), monotonic_now_ns()),
-      faults_(static_cast<std::uint64_t>(scenario.seed)) {
-    // What can be wrong with outputs is said before minutes go into a scene.
-    settings_ = std::make_unique<LiveSettings>(
-        scenario.camera, LiveSettings::Mode{.lockstep = scenario.mode == CameraMode::kLockstep,
-                                            .triggered = scenario.mode == CameraMode::kTriggered,
-                                            .fixed_size = scenario.outputs.has_v4l2});
-    settings_->on_missed_trigger([this](std::int64_t monotonic_ns) {
-        for (const auto& sink : sinks_) sink->happened({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
-    });
-    if (limits.outputs) make_sinks();
-    const ImageGeometry geometry = geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px),
-                                               static_cast<int>(scenario.quality.oversampling));
-    renderer_ = load_renderer(scenario, grid_, geometry);
-    chain_ = std::make_unique<SensorChain>(scenario.camera, grid_, sampling_of(scenario.quality),
-                                           load_detector_pictures(scenario.camera));
+      clock_(parse_utc(scenario.time_utc), monotonic_now_ns()) {
+    std::vector<CommandedCamera> bench;
+    for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
+        stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits));
+        bench.push_back({nullptr, &stations_.back()->settings(), &stations_.back()->faults()});
+    }
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+        stations_[i]->load(grid_);
+        bench[i].world = &stations_[i]->world();
+    }
     // Loading took its time; the simulation starts now.
-    const TimeTai start = parse_utc(scenario.time_utc);
-    clock_ = SimulatedClock(start, monotonic_now_ns(), scenario.mode == CameraMode::kLockstep);
-    world_ =
-        std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
-    renderer_->require_air(snapshot_at(scenario, start, start));
-    dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, faults_, clock_);
+    clock_ = SimulatedClock(parse_utc(scenario.time_utc), monotonic_now_ns(),
+                            scenario.mode == CameraMode::kLockstep);
+    for (const auto& station : stations_) station->prepare(clock_);
+    dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_);
     if (limits.outputs && scenario.commands.has_udp)
         commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
-    exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario, grid_, world_->placed_objects());
-    timed_faults_ = scenario.faults;
-    std::stable_sort(timed_faults_.begin(), timed_faults_.end(),
-                     [](const FaultConfig& a, const FaultConfig& b) { return a.at_s < b.at_s; });
-    order_faults(0);
-    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario.camera, *world_, *settings_, faults_,
-                                        clock_, sinks(), static_cast<std::uint64_t>(scenario.seed),
-                                        LoopLimits{limits.frames, limits.paced});
 }
 
 Emulator::~Emulator() = default;
 
-void Emulator::make_sinks() {
-    const OutputsConfig& o = scenario_.outputs;
-    const auto [width, height] = array_size(scenario_.camera);  // frames are no larger
-    const SinkContext context{*settings_, faults_, &delivery_};
-    if (o.has_gige) {
-        GigeConfig gige = o.gige;
-        if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;
-        sinks_.push_back(std::make_unique<GigeSink>(gige, context));
-    }
-    if (o.has_v4l2)
-        sinks_.push_back(
-            std::make_unique<V4l2Sink>(o.v4l2, width, height, settings_->settings().frame_rate_hz, context));
-    if (o.has_files)
-        sinks_.push_back(
-            std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));
-}
-
-std::vector<FrameSink*> Emulator::sinks() const {
-    std::vector<FrameSink*> out;
-    for (const auto& sink : sinks_) out.push_back(sink.get());
-    return out;
-}
-
 CommandReport Emulator::command_report() const { return commands_ ? commands_->report() : CommandReport{}; }
+
+bool Emulator::finished() const {
+    return std::all_of(stations_.begin(), stations_.end(),
+                       [](const auto& s) { return s->loop().finished(); });
+}
 
 void Emulator::run(const std::function<void()>& on_ready) {
     const SignalGuard guard;
-    for (const auto& sink : sinks_) sink->start();
+    for (const auto& station : stations_) station->start_outputs();
     if (commands_) commands_->start();
     const std::int64_t begun_ns = monotonic_now_ns();
-    loop_->start();
+    for (const auto& station : stations_) station->start_loop();
     on_ready();
     const bool terminal = isatty(STDERR_FILENO);
-    std::uint64_t frames_before = 0;
     std::int64_t next_line_ns = begun_ns + 1'000'000'000;
-    while (!signalled && !loop_->finished()) {
+    while (!signalled && !finished()) {
         const std::int64_t now_ns = monotonic_now_ns();
         seconds_ = static_cast<double>(now_ns - begun_ns) * 1e-9;
         if (limits_.seconds > 0 && seconds_ >= limits_.seconds) break;
-        order_faults(seconds_);
-        log_faults();
+        for (const auto& station : stations_) station->serve_faults(seconds_);
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
-            print_line(frames_before);
+            print_line();
             next_line_ns += 1'000'000'000;
         }
         sleep_until_monotonic_ns(now_ns + 10'000'000);
     }
-    loop_->stop();
-    log_faults();
+    // Loops first: they answer what waits for a frame.
+    for (const auto& station : stations_) station->stop_loop();
     seconds_ = static_cast<double>(monotonic_now_ns() - begun_ns) * 1e-9;
     if (commands_) commands_->stop();
-    for (const auto& sink : sinks_) sink->stop();
-}
-
-// What the scenario's own time has come for.
-void Emulator::order_faults(double seconds) {
-    for (; next_fault_ < timed_faults_.size() && timed_faults_[next_fault_].at_s <= seconds; ++next_fault_)
-        faults_.order(order_of(timed_faults_[next_fault_]));
-}
-
-void Emulator::log_faults() {
-    FaultBoard::Entry entry;
-    while (faults_.take_entry(entry)) {
-        fault_log_.push_back(entry);
-        if (fault_log_.size() > kMostLogged) fault_log_.pop_front();
-        if (isatty(STDERR_FILENO)) continue;  // the line of the second says how many
-        spdlog::debug("fault {} strikes frame {}, item {}", name_of(entry.kind), entry.frame, entry.index);
+    for (const auto& station : stations_) {
+        station->stop_outputs();
+        station->serve_faults(seconds_);
     }
 }
 
-void Emulator::print_line(std::uint64_t& frames_before) {
-    const std::uint64_t frames = loop_->counters().frames.load();
+// Of the first camera.
+void Emulator::print_line() {
+    const std::uint64_t frames = loop().counters().frames.load();
     const CommandReport commands = command_report();
+    const std::uint64_t faults = first().faults().all_strikes();
     spdlog::info(
         "{} frames/s, command to last packet p50 {:.1f} ms p99 {:.1f} ms, {} exposures missed, {} commands "
-        "({} refused)",
-        frames - frames_before, delivery_.command_to_last.quantile_ms(0.5),
-        delivery_.command_to_last.quantile_ms(0.99), loop_->counters().deadline_misses.load(),
-        commands.received, commands.refused);
-    frames_before = frames;
+        "({} refused){}",
+        frames - frames_printed_, delivery().command_to_last.quantile_ms(0.5),
+        delivery().command_to_last.quantile_ms(0.99), loop().counters().deadline_misses.load(),
+        commands.received, commands.refused, faults == 0 ? "" : fmt::format(", {} fault strikes", faults));
+    frames_printed_ = frames;
 }
 
 }  // namespace hilcam

@@ -7,6 +7,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::int64_t kLongestSleep_ns = 50'000'000;  // how long a stop may have to wait
+constexpr std::int64_t kLastStretch_ns = 1'000'000;    // before a begin nothing else is listened to
 
 std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
 
@@ -51,41 +52,49 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
     return false;
 }
 
+double FrameStarter::exposure_of(const CameraSettings& s) const {
+    return s.automatic_exposure && own_exposure_s_ > 0 ? own_exposure_s_ : s.exposure_s;
+}
+
 bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& start) {
-    const std::int64_t now_ns = monotonic_now_ns();
-    if (idle_) schedule_.restart(now_ns);
+    const std::int64_t arrived_ns = monotonic_now_ns();
+    if (idle_) schedule_.restart(arrived_ns);
     idle_ = false;
-    const auto exposure_of = [&] {
-        return start.settings.automatic_exposure && own_exposure_s_ > 0 ? own_exposure_s_
-                                                                        : start.settings.exposure_s;
-    };
-    start.exposure_s = exposure_of();
-    if (!paced_) {
-        start.begin_ns = now_ns;
-        return true;
+    const auto period_ns = [&] { return to_ns(period_s(start.settings, exposure_of(start.settings))); };
+    if (paced_) {
+        const FrameSchedule before = schedule_;
+        FrameSchedule::Slot due = schedule_.take(arrived_ns, period_ns());
+        // A new period counts from the last frame on: what waits for its begin begins at another time.
+        while (settings_.wait_for_news_until(due.start_ns - kLastStretch_ns)) {
+            start.settings = settings_.read_in_loop();
+            if (stopping.load(std::memory_order_relaxed) || !start.settings.running ||
+                start.settings.triggered)
+                return false;
+            schedule_ = before;
+            const std::int64_t now_ns = monotonic_now_ns();
+            if (due.skipped == 0 && schedule_.next_ns(period_ns()) < now_ns) schedule_.restart(now_ns);
+            due = schedule_.take(arrived_ns, period_ns());
+        }
+        if (!sleep_until(due.start_ns, stopping)) return false;
+        start.begin_ns = due.start_ns;
+        start.skipped = due.skipped;
+        start.settings = settings_.read_in_loop();
+    } else {
+        start.begin_ns = arrived_ns;
     }
-    const FrameSchedule::Slot due = schedule_.take(now_ns, to_ns(period_s(start.settings, start.exposure_s)));
-    if (!sleep_until(due.start_ns, stopping)) return false;
-    start.settings = settings_.read_in_loop();
-    start.exposure_s = exposure_of();
-    start.begin_ns = due.start_ns;
-    start.skipped = due.skipped;
+    start.exposure_s = exposure_of(start.settings);
     return true;
 }
 
 bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start) {
     idle_ = true;  // free-run, when it comes back, begins a raster anew
-    const auto exposure_of = [&] {
-        return start.settings.automatic_exposure && own_exposure_s_ > 0 ? own_exposure_s_
-                                                                        : start.settings.exposure_s;
-    };
-    if (left_ == 0 && !take_order(start.settings, exposure_of())) {
+    if (left_ == 0 && !take_order(start.settings, exposure_of(start.settings))) {
         settings_.wait_for_news();
         return false;
     }
     if (!lockstep_ && !sleep_until(next_ns_, stopping)) return false;
     start.settings = settings_.read_in_loop();
-    start.exposure_s = exposure_of();
+    start.exposure_s = exposure_of(start.settings);
     start.begin_ns = next_ns_;
     const std::int64_t period_ns = to_ns(period_s(start.settings, start.exposure_s));
     if (lockstep_) {

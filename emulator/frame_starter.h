@@ -43,6 +43,7 @@ class FrameStarter {
     void forget_orders();
     bool sleep_until(std::int64_t ns, const std::atomic<bool>& stopping) const;
     double period_s(const CameraSettings& settings, double exposure_s) const;
+    double exposure_of(const CameraSettings& settings) const;
 
     LiveSettings& settings_;
     SimulatedClock& clock_;

@@ -10,6 +10,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::int64_t kMostBinning = 8;
+constexpr std::int64_t kLongestWait_ns = 50'000'000;
 
 // The first two letters of the pattern's first two rows, if that is all of it: what clients call Bayer.
 std::string bayer_of(const ColorFilterArrayConfig& filters) {
@@ -173,16 +174,19 @@ TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
     return TriggerResult::kTaken;
 }
 
-TriggerResult LiveSettings::trigger_and_wait(const TriggerOrder& order, double patience_s) {
-    const std::lock_guard one(lockstep_);
+TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
     while (done_.try_acquire()) {  // of orders that were given up
     }
     const TriggerResult result = trigger(order);
-    if (result != TriggerResult::kTaken) return result;
+    ordered_ = result == TriggerResult::kTaken;
+    return result;
+}
+
+bool LiveSettings::wait_for_order(double patience_s) {
+    if (!ordered_) return true;
+    ordered_ = false;
     const auto patience = std::chrono::duration<double>(patience_s);
-    return done_.try_acquire_for(std::chrono::duration_cast<std::chrono::nanoseconds>(patience))
-               ? TriggerResult::kTaken
-               : TriggerResult::kMissed;
+    return done_.try_acquire_for(std::chrono::duration_cast<std::chrono::nanoseconds>(patience));
 }
 
 bool LiveSettings::take_trigger(TriggerOrder& order) {
@@ -191,6 +195,15 @@ bool LiveSettings::take_trigger(TriggerOrder& order) {
     order = triggers_[out % kMostWaiting];
     triggers_out_.store(out + 1, std::memory_order_release);
     return true;
+}
+
+bool LiveSettings::wait_for_news_until(std::int64_t monotonic_ns) {
+    const std::int64_t left_ns = monotonic_ns - monotonic_now_ns();
+    if (left_ns <= 0) return false;
+    static_cast<void>(news_.try_acquire_for(std::chrono::nanoseconds(std::min(left_ns, kLongestWait_ns))));
+    while (news_.try_acquire()) {
+    }
+    return monotonic_now_ns() < monotonic_ns;
 }
 
 void LiveSettings::announce() { news_.release(); }

@@ -35,10 +35,11 @@ class LiveSettings : public CameraControl {
     // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
 
-    // Lockstep: orders, then waits until the loop has seen the world for the order's last frame. False when
-    // it was not taken, or is not done after `patience_s`. Commands that come later do not count for its
-    // frames. One caller at a time; the others wait.
-    TriggerResult trigger_and_wait(const TriggerOrder& order, double patience_s);
+    // Lockstep, one caller at a time: trigger(), to be followed by wait_for_order(), which returns when the
+    // loop has seen the world for the order's last frame, or at once when it was not taken. False when that
+    // takes longer than `patience_s`.
+    TriggerResult order_in_lockstep(const TriggerOrder& order);
+    bool wait_for_order(double patience_s);
 
     // --- Loop, one thread. No lock.
     const CameraSettings& read_in_loop() { return latest_.read(); }
@@ -54,6 +55,8 @@ class LiveSettings : public CameraControl {
     void close() { closed_.store(true); }
     // All frames of an order are rendered, or the order is dropped.
     void order_done() { done_.release(); }
+    // True at once when there is a change or a trigger, or after 50 ms; false when the instant has come.
+    bool wait_for_news_until(std::int64_t monotonic_ns);
     // What a camera that sets them itself has set; settings() tells it.
     void tell_own(double exposure_s, double gain_db) {
         own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
@@ -78,7 +81,7 @@ class LiveSettings : public CameraControl {
     std::int64_t ready_ns_ = 0;  // when the next trigger can be taken
     std::counting_semaphore<> news_{0}, done_{0};
     std::atomic<bool> closed_{false};
-    std::mutex lockstep_;
+    bool ordered_ = false;
     TimeTai newest_simulated_;  // that was ordered
     std::function<void(std::int64_t)> missed_;
 };

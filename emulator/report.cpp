@@ -16,6 +16,7 @@ double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 json percentiles(const DurationHistogram& h) {
     return {{"p50", rounded(h.quantile_ms(0.5))},
             {"p99", rounded(h.quantile_ms(0.99))},
+            {"p99_9", rounded(h.quantile_ms(0.999))},
             {"max", rounded(h.quantile_ms(1))}};
 }
 
@@ -48,38 +49,78 @@ json stages_report(const StageMeters& m) {
             {"render", percentiles(m.render)},     {"sense", percentiles(m.sense)}};
 }
 
-json run_report(const ScenarioConfig& scenario, double seconds, const FrameLoop& loop,
-                const DeliveryMeter& delivery, const CommandReport& commands,
-                const std::vector<FrameSink*>& sinks) {
+namespace {
+
+json outputs_report(const CameraStation& station, json& faults) {
     json outputs = json::array();
-    json faults = json::array();
-    for (const FrameSink* sink : sinks) {
+    for (const FrameSink* sink : station.sinks()) {
         const SinkReport r = sink->report();
-        outputs.push_back({{"name", r.name}, {"frames", r.frames}, {"dropped", r.dropped}});
+        json output = {{"name", r.name}, {"frames", r.frames}, {"dropped", r.dropped}};
+        for (const auto& [name, value] : r.figures) output[name] = value;
+        outputs.push_back(output);
         if (!r.fault.empty()) faults.push_back(r.fault);
     }
+    return outputs;
+}
+
+// Faults on demand: how often each kind struck, and the first strike of each frame.
+json strikes_report(const CameraStation& station) {
+    json counts = json::object(), log = json::array();
+    for (const FaultKind kind : kAllFaults)
+        if (const std::uint64_t count = station.faults().strikes_of(kind); count > 0)
+            counts[std::string(name_of(kind))] = count;
+    for (const FaultBoard::Entry& e : station.fault_log())
+        log.push_back({{"kind", name_of(e.kind)},
+                       {"frame", e.frame},
+                       {"item", e.index},
+                       {"value", e.value},
+                       {"monotonic_ns", e.monotonic_ns}});
+    return {{"counts", counts}, {"log", log}};
+}
+
+json camera_report(CameraStation& station, double seconds) {
+    const FrameLoop& loop = station.loop();
+    const DeliveryMeter& delivery = station.delivery();
+    const RenderQuality& quality = station.scenario().quality.render;
     const auto frames = loop.counters().frames.load();
+    json faults = json::array();
+    json outputs = outputs_report(station, faults);
     return {
-        {"scenario", scenario.name},
+        {"camera", station.name()},
         {"frames", frames},
-        {"seconds", rounded(seconds)},
         {"frame_rate_hz", rounded(static_cast<double>(frames) / std::max(1e-9, seconds))},
         {"deadline_misses", loop.counters().deadline_misses.load()},
         {"latency_ms",
          {{"first_packet", percentiles(delivery.command_to_first)},
           {"last_packet", percentiles(delivery.command_to_last)},
           {"exposure_mid_to_last_packet", percentiles(delivery.exposure_to_last)}}},
-        {"commands",
-         {{"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}}},
         {"outputs", outputs},
         {"faults", faults},
+        {"fault_strikes", strikes_report(station)},
         {"quality",
-         {{"samples_per_axis", scenario.quality.render.samples_per_axis},
-          {"max_depth", scenario.quality.render.max_depth},
-          {"contribution_threshold", scenario.quality.render.contribution_threshold}}},
+         {{"samples_per_axis", quality.samples_per_axis},
+          {"max_depth", quality.max_depth},
+          {"contribution_threshold", quality.contribution_threshold},
+          {"rays_outside_atmosphere", station.renderer().rays_outside_air()},
+          {"motion_limited_frames", loop.counters().motion_limited.load()}}},
         {"stages_ms", stages_report(loop.meters())},
-        {"machine", machine_report()},
     };
+}
+
+}  // namespace
+
+json run_report(const Emulator& emulator) {
+    json report = camera_report(emulator.first(), emulator.seconds());
+    const CommandReport commands = emulator.command_report();
+    report["scenario"] = emulator.first().scenario().name;
+    report["seconds"] = rounded(emulator.seconds());
+    report["commands"] = {
+        {"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}};
+    report["machine"] = machine_report();
+    if (emulator.stations().size() > 1)
+        for (const auto& station : emulator.stations())
+            report["cameras"].push_back(camera_report(*station, emulator.seconds()));
+    return report;
 }
 
 void write_json(const std::filesystem::path& file, const json& value) {

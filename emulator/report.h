@@ -4,9 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "emulator/app_config.h"
-#include "emulator/frame_loop.h"
-#include "io/command.h"
+#include "emulator/emulator.h"
 
 namespace hilcam {
 
@@ -14,9 +12,8 @@ namespace hilcam {
 nlohmann::json machine_report();
 // Median and 99th percentile of every stage [ms].
 nlohmann::json stages_report(const StageMeters& meters);
-nlohmann::json run_report(const ScenarioConfig& scenario, double seconds, const FrameLoop& loop,
-                          const DeliveryMeter& delivery, const CommandReport& commands,
-                          const std::vector<FrameSink*>& sinks);
+// Of the whole run: the first camera's figures at the top, with several cameras each one's under `cameras`.
+nlohmann::json run_report(const Emulator& emulator);
 // Throws DeviceError when the file cannot be written.
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 

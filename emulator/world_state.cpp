@@ -15,6 +15,18 @@ Pose turned(const Pose& object, const Joint& joint, double angle_rad) {
             object.world_from_body * turn};
 }
 
+// What rides on a body: v + w x r, and the body's rate in its own axes.
+Motion mounted(const Motion& body, const Mount& mount) {
+    const Mat3d world_from_body = to_matrix(body.pose.world_from_body);
+    Motion out = body;
+    out.pose.position_world_m = body.pose.position_world_m + world_from_body * mount.position_m;
+    out.pose.world_from_body = body.pose.world_from_body * mount.thing_from_camera;
+    out.velocity_world_m_s =
+        body.velocity_world_m_s + world_from_body * cross(body.rate_body_rad_s, mount.position_m);
+    out.rate_body_rad_s = to_matrix(conjugate(mount.thing_from_camera)) * body.rate_body_rad_s;
+    return out;
+}
+
 }  // namespace
 
 void WorldState::History::insert(const Motion& motion) {
@@ -57,8 +69,9 @@ Motion WorldState::History::motion_at(TimeTai time) const {
 }
 
 WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& origin,
-                       std::span<const Joint> joints)
-    : joints_(joints.begin(), joints.end()), objects_(motions.size() - 1), origin_(origin) {
+                       std::span<const Joint> joints, const Mount& mount)
+    : joints_(joints.begin(), joints.end()), objects_(motions.size() - 1), origin_(origin), mount_(mount) {
+    HILCAM_CHECK(mount.thing <= objects_);
     const auto add = [&](const Motion& motion) {
         auto thing = std::make_unique<Thing>();
         thing->written.insert(motion);
@@ -110,7 +123,7 @@ void WorldState::sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown)
 void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const {
     world.time = time;
     if (with_bodies) world.bodies = bodies_at(time, origin_);
-    const Motion camera = things_.front()->sampled->motion_at(time);
+    const Motion camera = mounted(things_[mount_.thing]->sampled->motion_at(time), mount_);
     world.camera = camera.pose;
     world.camera_velocity_m_s = camera.velocity_world_m_s;
     world.camera_rate_rad_s = camera.rate_body_rad_s;

@@ -34,11 +34,18 @@ struct Joint {
     double rate_rad_s = 0;
 };
 
+// Where a camera sits: fixed to the body that object 0's poses move, or to an object.
+struct Mount {
+    std::size_t thing = 0;  // 0: the spacecraft with the cameras; 1, 2, ...: an object
+    Vec3d position_m;       // in the thing's axes
+    Quat thing_from_camera;
+};
+
 class WorldState {
   public:
-    // motions[0] is the camera, then the objects. Owner thread.
+    // motions[0] is the camera's body, then the objects. Owner thread.
     WorldState(std::span<const Motion> motions, const OriginConfig& origin,
-               std::span<const Joint> joints = {});
+               std::span<const Joint> joints = {}, const Mount& mount = {});
 
     // Any thread but the loop. False when there is no such thing.
     bool set(std::size_t thing, const Motion& motion, ShownCommand command);
@@ -81,6 +88,7 @@ class WorldState {
     std::vector<Joint> joints_;  // their angles are the last of things_, as the x of a position
     std::size_t objects_;
     OriginConfig origin_;
+    Mount mount_;
 
     bool write(Thing& thing, const Motion& motion, ShownCommand command);
 };

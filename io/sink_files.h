@@ -27,6 +27,7 @@ class FilesSink : public FrameSink {
 
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
+    bool has_room() const noexcept override { return mailbox_.has_room(); }
     void stop() noexcept override;
     SinkReport report() const override;
 

@@ -99,7 +99,7 @@ struct LoopRig {
           faults(1),
           clock(start, monotonic_now_ns(), scenario.mode == CameraMode::kLockstep),
           exposures(*renderer, scenario, grid, world.placed_objects()),
-          dispatch(world, settings, faults, clock),
+          dispatch({{&world, &settings, &faults}}, clock),
           loop(exposures, chain, scenario.camera, world, settings, faults, clock, {&collector}, 1, limits) {}
     ~LoopRig() { loop.stop(); }
 

@@ -105,6 +105,7 @@ TEST(FrameSchedule, SkipsWholePeriodsAndNeverCatchesUp) {
     EXPECT_EQ(slot.start_ns, 1500);
     EXPECT_EQ(slot.skipped, 3u);
     EXPECT_EQ(schedule.take(1555, 100).start_ns, 1600);
+    EXPECT_EQ(schedule.take(1555, 300).start_ns, 1900);  // a new period counts from the last frame on
 }
 
 TEST(LiveSettings, RefusesWhatIsOutsideAndTheLoopSeesTheRest) {
@@ -123,7 +124,7 @@ TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
     WorldState world(std::span(&initial, 1), {});
     const SimulatedClock clock({1'000'000'000'000'000}, 0);
     FaultBoard faults;
-    CommandDispatch dispatch(world, settings, faults, clock);
+    CommandDispatch dispatch({{&world, &settings, &faults}}, clock);
     SettingsCommand command;
     command.gain_db = 3;
     command.exposure_s = 1e9;
@@ -241,6 +242,29 @@ TEST_F(CameraMaps, AreReadFromTheirFiles) {
 TEST(Configs, AnObjectHasAMeshOrAGenerator) {
     ObjectConfig object;
     EXPECT_THROW(validate(object), InputError);
+}
+
+// What rides on a turning body: by hand, for a body that turns at w about z through the origin.
+TEST(WorldState, AMountedCameraRidesOnItsBody) {
+    const double w = 0.5;
+    Motion body = at(0, 0);
+    body.velocity_world_m_s = {3, 0, 0};
+    body.rate_body_rad_s = {0, 0, w};
+    const Quat quarter{std::sqrt(0.5), std::sqrt(0.5), 0, 0};  // about x: camera z is the body's -y
+    WorldState world(std::span(&body, 1), {}, {}, {0, {2, 0, 0}, quarter});
+    WorldSnapshot snapshot;
+    ShownCommand shown;
+    world.sample({body.time.ns + 1'000'000'000}, snapshot, shown);
+    EXPECT_NEAR(snapshot.camera.position_world_m.x, 3 + 2 * std::cos(w), 1e-9);
+    EXPECT_NEAR(snapshot.camera.position_world_m.y, 2 * std::sin(w), 1e-9);
+    EXPECT_NEAR(snapshot.camera_velocity_m_s.x, 3 - 2 * w * std::sin(w), 1e-5);
+    EXPECT_NEAR(snapshot.camera_velocity_m_s.y, 2 * w * std::cos(w), 1e-5);
+    const Vec3d boresight = to_matrix(snapshot.camera.world_from_body) * Vec3d{0, 0, 1};
+    EXPECT_NEAR(boresight.x, std::sin(w), 1e-9);
+    EXPECT_NEAR(boresight.y, -std::cos(w), 1e-9);
+    // w about the body's z is about the camera's y.
+    EXPECT_NEAR(snapshot.camera_rate_rad_s.y, w, 1e-5);
+    EXPECT_NEAR(snapshot.camera_rate_rad_s.z, 0, 1e-5);
 }
 
 }  // namespace

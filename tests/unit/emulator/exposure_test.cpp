@@ -288,7 +288,8 @@ TEST(LiveSettings, RefusesWhatTheCameraSetsItself) {
     const Motion initial;
     WorldState world(std::span(&initial, 1), {});
     FaultBoard faults;
-    CommandDispatch dispatch(world, automatic, faults, SimulatedClock({0}, 0));
+    const SimulatedClock clock({0}, 0);
+    CommandDispatch dispatch({{&world, &automatic, &faults}}, clock);
     SettingsCommand command;
     command.exposure_s = 1e-3;
     command.gain_db = 6;

@@ -173,6 +173,27 @@ TEST_F(PlateTest, SettingsBelongToTheFrameThatTheyWereTakenWith) {
     EXPECT_GE(white, 5u);
 }
 
+TEST_F(PlateTest, ANewFrameRateHoldsFromTheLastFrameOn) {
+    LoopRig rig(scenario(", frame_rate_hz: 20"), {0, true});
+    rig.loop.start();
+    ASSERT_TRUE(rig.collector.wait_for(4));
+    ASSERT_TRUE(rig.settings.change({.frame_rate_hz = 5}));
+    ASSERT_TRUE(rig.collector.wait_for(7));
+    ASSERT_TRUE(rig.settings.change({.frame_rate_hz = 50}));
+    ASSERT_TRUE(rig.collector.wait_for(11));
+    rig.loop.stop();
+    const auto& frames = rig.collector.frames;
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+        const std::int64_t interval_ns =
+            frames[i].record.exposure_mid_monotonic_ns - frames[i - 1].record.exposure_mid_monotonic_ns;
+        // Whole periods (a loaded machine may skip some) of one of the three rates; at a change to a faster
+        // one the frame may begin when the change comes.
+        const auto whole = [&](std::int64_t period_ns) { return interval_ns % period_ns == 0; };
+        const bool known = whole(50'000'000) || whole(200'000'000) || whole(20'000'000);
+        EXPECT_TRUE(known || (i >= 6 && interval_ns < 200'000'000)) << i << ": " << interval_ns;
+    }
+}
+
 TEST_F(PlateTest, BlackLevelAndReversalAreThoseAskedFor) {
     const auto take = [&](const SettingsChange& change) {
         LoopRig rig(scenario(), {1, false});

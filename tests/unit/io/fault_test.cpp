@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <bit>
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -24,6 +27,17 @@ TEST(Faults, EveryKindHasANameAMeaningAndABitOfItsOwn) {
     EXPECT_EQ(bits.count(0), 0u);
     EXPECT_FALSE(fault_named("packet_lost"));
     EXPECT_FALSE(refusal_of({static_cast<FaultKind>(200), 1, 0, 0, 0, 0}).empty());
+}
+
+TEST(Faults, TheManualHasThemAll) {
+    std::ifstream in(std::string(HILCAM_SOURCE_DIR) + "/docs/faults.md");
+    const std::string manual{std::istreambuf_iterator<char>(in), {}};
+    for (const FaultKind kind : kAllFaults) {
+        const auto bit = std::to_string(std::countr_zero(bit_of(kind)));
+        const std::string row =
+            "| `" + std::string(name_of(kind)) + "` | " + bit + " | " + std::string(meaning_of(kind)) + " |";
+        EXPECT_NE(manual.find(row), std::string::npos) << row;
+    }
 }
 
 TEST(Faults, TheRateIsWhatWasAskedForAndTheSamePacketsAreStruck) {

@@ -1,0 +1,126 @@
+#include "emulator/camera_station.h"
+
+#include <algorithm>
+
+#include "emulator/scene_loader.h"
+
+namespace hilcam {
+namespace {
+
+LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
+    return {.lockstep = scenario.mode == CameraMode::kLockstep,
+            .triggered = scenario.mode == CameraMode::kTriggered,
+            .fixed_size = scenario.outputs.has_v4l2};
+}
+
+// Cameras of one bench draw different noise.
+std::uint64_t seed_of(const ScenarioConfig& scenario, std::size_t number) {
+    return static_cast<std::uint64_t>(scenario.seed) + (number - 1) * 0x9E3779B97F4A7C15u;
+}
+
+}  // namespace
+
+std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time) {
+    const Bodies bodies = bodies_at(time, scenario.origin);
+    std::vector<Motion> motions = {initial_motion(scenario.camera_pose, time, bodies)};
+    for (const ObjectConfig& object : scenario.objects)
+        motions.push_back(initial_motion(object.pose, time, bodies));
+    return motions;
+}
+
+std::vector<Joint> joints_of(const ScenarioConfig& scenario) {
+    std::vector<Joint> joints;
+    for (std::size_t i = 0; i < scenario.objects.size(); ++i)
+        for (const JointConfig& joint : scenario.objects[i].joints)
+            joints.push_back({i, joint.pivot_m, normalized(joint.axis), joint.angle_rad, joint.rate_rad_s});
+    return joints;
+}
+
+WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time) {
+    WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario), scenario.mount);
+    WorldSnapshot world;
+    world.objects.resize(state.placed_objects());
+    ShownCommand shown;
+    state.sample(time, world, shown);
+    return world;
+}
+
+CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number, const RunLimits& limits)
+    : scenario_(scenario),
+      number_(number),
+      limits_(limits),
+      settings_(scenario_.camera, mode_of(scenario_)),
+      faults_(seed_of(scenario_, number)),
+      timed_faults_(scenario_.faults) {
+    settings_.on_missed_trigger([this](std::int64_t monotonic_ns) {
+        for (const auto& sink : sinks_) sink->happened({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
+    });
+    std::stable_sort(timed_faults_.begin(), timed_faults_.end(),
+                     [](const FaultConfig& a, const FaultConfig& b) { return a.at_s < b.at_s; });
+    if (limits.outputs) make_sinks();
+}
+
+CameraStation::~CameraStation() = default;
+
+void CameraStation::make_sinks() {
+    const OutputsConfig& o = scenario_.outputs;
+    const auto [width, height] = array_size(scenario_.camera);  // frames are no larger
+    const SinkContext context = sink_context();
+    if (o.has_gige) {
+        GigeConfig gige = o.gige;
+        if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;
+        sinks_.push_back(std::make_unique<GigeSink>(gige, context));
+    }
+    if (o.has_v4l2)
+        sinks_.push_back(
+            std::make_unique<V4l2Sink>(o.v4l2, width, height, settings_.settings().frame_rate_hz, context));
+    if (o.has_files)
+        sinks_.push_back(
+            std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));
+}
+
+void CameraStation::load(const SpectralGrid& grid) {
+    const ImageGeometry geometry = geometry_of(scenario_.camera, static_cast<int>(scenario_.quality.guard_px),
+                                               static_cast<int>(scenario_.quality.oversampling));
+    renderer_ = load_renderer(scenario_, grid, geometry);
+    chain_ = std::make_unique<SensorChain>(scenario_.camera, grid, sampling_of(scenario_.quality),
+                                           load_detector_pictures(scenario_.camera));
+    const TimeTai start = parse_utc(scenario_.time_utc);
+    world_ = std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
+                                          joints_of(scenario_), scenario_.mount);
+    renderer_->require_air(snapshot_at(scenario_, start, start));
+    exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
+}
+
+void CameraStation::prepare(SimulatedClock& clock) {
+    serve_faults(0);
+    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario_.camera, *world_, settings_, faults_,
+                                        clock, sinks(), seed_of(scenario_, number_),
+                                        LoopLimits{limits_.frames, limits_.paced});
+}
+
+void CameraStation::start_outputs() {
+    for (const auto& sink : sinks_) sink->start();
+}
+
+void CameraStation::stop_outputs() noexcept {
+    for (const auto& sink : sinks_) sink->stop();
+}
+
+std::vector<FrameSink*> CameraStation::sinks() const {
+    std::vector<FrameSink*> out;
+    for (const auto& sink : sinks_) out.push_back(sink.get());
+    return out;
+}
+
+void CameraStation::serve_faults(double seconds) {
+    for (; next_fault_ < timed_faults_.size() && timed_faults_[next_fault_].at_s <= seconds; ++next_fault_)
+        faults_.order(order_of(timed_faults_[next_fault_]));
+    FaultBoard::Entry entry;
+    while (faults_.take_entry(entry)) {
+        fault_log_.push_back(entry);
+        if (fault_log_.size() > kMostLogged) fault_log_.pop_front();
+    }
+}
+
+}  // namespace hilcam
