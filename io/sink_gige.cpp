@@ -16,6 +16,7 @@
 
 #include "io/fd.h"
 #include "io/gige_device.h"
+#include "io/gvsp.h"
 #include "io/net_interface.h"
 #include "io/receiver_room.h"
 #include "render/latest.h"
@@ -77,6 +78,7 @@ Fields fields(GigeConfig& c) {
 struct GigeSink::Implementation {
     GigeConfig config;
     CameraControl& camera;
+    FaultBoard& faults;
     DeliveryListener* listener;
     NetInterface net;
     std::unique_ptr<GigeDevice> device;
@@ -113,7 +115,11 @@ struct GigeSink::Implementation {
     std::atomic<std::uint64_t> delivered{0}, dropped{0}, resent{0}, unavailable{0};
 
     Implementation(const GigeConfig& c, const SinkContext& context)
-        : config(c), camera(context.camera), listener(context.listener), net(find_interface(c.interface)) {}
+        : config(c),
+          camera(context.camera),
+          faults(context.faults),
+          listener(context.listener),
+          net(find_interface(c.interface)) {}
 
     void open();
     void serve_control();
@@ -147,14 +153,15 @@ void GigeSink::Implementation::open() {
         for_loop.write(state);
         for_sender.write(state);
     };
-    effects.resend = [this](const gvcp::ResendRequest& request) { resend(request); };
+    effects.resend = [this](const gvcp::ResendRequest& request, Endpoint) { resend(request); };
     effects.test_packet = [this](const GigeStreamState& state, std::size_t size) {
         test_packet(state, size);
     };
     device = std::make_unique<GigeDevice>(
         GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
                      static_cast<std::uint32_t>(config.packet_bytes)},
-        camera, std::move(effects));
+        camera, faults, std::move(effects));
+    device->set_ports(ntohs(stream_address.sin_port), 0);
 }
 
 // --- control thread
@@ -184,11 +191,8 @@ void GigeSink::Implementation::answer_from(const Fd& socket) {
                                  reinterpret_cast<sockaddr*>(&sender), &size);
     if (got < 0) return;
     const Endpoint from{ntohl(sender.sin_addr.s_addr), ntohs(sender.sin_port)};
-    // A broadcast comes in on every interface; only the one the sender lives on may answer, or the client
-    // would talk to an address that the stream does not come from.
-    if (&socket == &broadcast && (from.ip & net.mask) != (net.address & net.mask)) return;
-    const std::size_t answer =
-        device->handle({in.data(), static_cast<std::size_t>(got)}, from, monotonic_ns(), out);
+    const std::size_t answer = device->handle({in.data(), static_cast<std::size_t>(got)}, from,
+                                              monotonic_ns(), out, &socket == &broadcast);
     if (answer > 0)
         sendto(control.get(), out.data(), answer, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&sender),
                sizeof sender);
@@ -215,8 +219,8 @@ std::size_t GigeSink::Implementation::build_packet(const Slot& slot, std::uint16
     if (packet == 0) {
         const GigeStreamState& s = slot.state;
         gvsp::write_leader(block,
-                           {static_cast<std::uint64_t>(slot.record.exposure_mid_monotonic_ns), s.pixel_format,
-                            s.width, s.height, s.offset_x, s.offset_y},
+                           {static_cast<std::uint64_t>(slot.record.exposure_mid_monotonic_ns),
+                            pfnc_code(s.format, {}), s.width, s.height, s.offset_x, s.offset_y},
                            header);
         return gvsp::kLeaderBytes;
     }
@@ -368,8 +372,8 @@ void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept
     std::uint8_t* out = slot.payload.data();
     for (std::uint32_t y = 0; y < state.height; ++y) {
         const auto row = frame.row(static_cast<int>(state.offset_y + y)).subspan(state.offset_x, state.width);
-        pack_row(row, state.pixel_format, record.bits, out);
-        out += row.size() * gvsp::bytes_per_pixel(state.pixel_format);
+        pack_row(row, pfnc_code(state.format, {}), record.bits, out);
+        out += row.size() * gvsp::bytes_per_pixel(pfnc_code(state.format, {}));
     }
     slot.block.store(block, std::memory_order_release);
     my.head.store(head + 1, std::memory_order_release);
