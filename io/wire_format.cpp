@@ -72,20 +72,27 @@ struct Source {
 // ----------------------------------------------------------------------------------------------------------
 
 void write_bytes(const Source& s, std::uint8_t* out) {
-    for (int y = 0; y < s.crop.height; ++y, out += s.width()) {
+    const std::size_t width = s.width();
+    const Shift shift = s.shift;
+    for (int y = 0; y < s.crop.height; ++y, out += width) {
         const std::uint16_t* const in = s.row(y);
-        for (std::size_t x = 0; x < s.width(); ++x) out[x] = static_cast<std::uint8_t>(s.shift(in[x]));
+        if (shift.up == 0)
+            for (std::size_t x = 0; x < width; ++x) out[x] = static_cast<std::uint8_t>(in[x] >> shift.down);
+        else
+            for (std::size_t x = 0; x < width; ++x) out[x] = static_cast<std::uint8_t>(in[x] << shift.up);
     }
 }
 
 // The wire is little-endian, as are the machines that Embree runs on.
 void write_words(const Source& s, std::uint16_t* row, std::uint8_t* out) {
-    const bool as_it_is = s.shift.up == 0 && s.shift.down == 0;
-    for (int y = 0; y < s.crop.height; ++y, out += 2 * s.width()) {
+    const std::size_t width = s.width();
+    const Shift shift = s.shift;
+    const bool as_it_is = shift.up == 0 && shift.down == 0;
+    for (int y = 0; y < s.crop.height; ++y, out += 2 * width) {
         const std::uint16_t* const in = s.row(y);
         if (!as_it_is)
-            for (std::size_t x = 0; x < s.width(); ++x) row[x] = s.shift(in[x]);
-        std::memcpy(out, as_it_is ? in : row, 2 * s.width());
+            for (std::size_t x = 0; x < width; ++x) row[x] = shift(in[x]);
+        std::memcpy(out, as_it_is ? in : row, 2 * width);
     }
 }
 
@@ -125,95 +132,110 @@ class Neighbours {
         for (std::size_t i = 0; i < 3; ++i) rows_[i] = scratch.data() + i * length;
     }
     void go_to(int y) {
+        const int width = s_.frame.width(), left = s_.crop.left, right = left + s_.crop.width;
         for (int i = 0; i < 3; ++i) {
             const auto in = s_.frame.row(mirrored(s_.crop.top + y + i - 1, s_.frame.height()));
             std::uint16_t* const row = rows_[static_cast<std::size_t>(i)];
-            const int width = s_.frame.width(), left = s_.crop.left, right = left + s_.crop.width;
             row[0] = in[static_cast<std::size_t>(mirrored(left - 1, width))];
             std::copy_n(in.data() + left, s_.crop.width, row + 1);
             row[s_.crop.width + 1] = in[static_cast<std::size_t>(mirrored(right, width))];
         }
     }
-    unsigned at(int row, std::size_t x) const { return rows_[static_cast<std::size_t>(row)][x]; }
+    // The pixel to the left of x; i: the row above, x's own, the row below.
+    const std::uint16_t* before(std::size_t x, std::size_t i) const { return rows_[i] + x; }
 
   private:
     const Source& s_;
     std::array<std::uint16_t*, 3> rows_{};
 };
 
-struct Rgb {
-    unsigned r = 0, g = 0, b = 0;
+// Colours of some pixels of a row, 8 bits each.
+struct Block {
+    static constexpr std::size_t kPixels = 64;  // even: blocks begin with the same pixel of a pair
+    std::array<std::uint16_t, kPixels> r, g, b;
+    std::size_t pixels = 0;
 };
 
-// Bilinear interpolation; halves are rounded up. Rows and columns of a mosaic alternate, so `red_row` and
-// `green_first` tell what a pixel has.
-Rgb interpolated(const Neighbours& n, std::size_t x, bool red_row, bool green) {
-    const std::size_t left = x, here = x + 1, right = x + 2;
-    const unsigned level = n.at(1, left) + n.at(1, right), upright = n.at(0, here) + n.at(2, here);
-    const unsigned corners = n.at(0, left) + n.at(0, right) + n.at(2, left) + n.at(2, right);
-    const unsigned own = n.at(1, here);
-    // `same`: the colour that shares this row with green; `other`: that of the rows above and below.
-    const unsigned same = green ? (level + 1) / 2 : own;
-    const unsigned other = green ? (upright + 1) / 2 : (corners + 2) / 4;
-    const unsigned g = green ? own : (level + upright + 2) / 4;
-    return red_row ? Rgb{same, g, other} : Rgb{other, g, same};
+// Bilinear interpolation; halves are rounded up. `same` becomes the colour that shares the row with green,
+// `other` that of the rows above and below.
+void interpolate(const Neighbours& n, std::size_t x0, bool green_first, Shift shift, std::size_t pixels,
+                 std::uint16_t* same, std::uint16_t* green, std::uint16_t* other) {
+    const std::uint16_t *const up = n.before(x0, 0), *const here = n.before(x0, 1),
+                               *const down = n.before(x0, 2);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const unsigned level = unsigned{here[i]} + here[i + 2], upright = unsigned{up[i + 1]} + down[i + 1];
+        const unsigned corners = unsigned{up[i]} + up[i + 2] + down[i] + down[i + 2];
+        const unsigned own = here[i + 1];
+        const bool is_green = (i % 2 == 0) == green_first;
+        same[i] = shift(is_green ? (level + 1) / 2 : own);
+        green[i] = shift(is_green ? own : (level + upright + 2) / 4);
+        other[i] = shift(is_green ? (upright + 1) / 2 : (corners + 2) / 4);
+    }
 }
 
-// Calls emit(y, x, Rgb of 8 bits) for every pixel, rows first.
+// Calls emit(block) for all pixels, rows first.
 template <class Emit>
-void each_colour(const Source& s, BayerPattern pattern, std::span<std::uint16_t> scratch, Emit emit) {
-    if (pattern.empty()) {
-        for (int y = 0; y < s.crop.height; ++y)
-            for (std::size_t x = 0; x < s.width(); ++x) {
-                const unsigned grey = s.shift(s.row(y)[x]);
-                emit(x, Rgb{grey, grey, grey});
-            }
-        return;
-    }
+void each_block(const Source& s, BayerPattern pattern, std::span<std::uint16_t> scratch, Emit emit) {
     Neighbours n(s, scratch);
+    Block block;
     for (int y = 0; y < s.crop.height; ++y) {
-        n.go_to(y);
-        const BayerPattern row = pattern.substr(y % 2 == 0 ? 0 : 2, 2);
+        if (!pattern.empty()) n.go_to(y);
+        const BayerPattern row = pattern.empty() ? pattern : pattern.substr(y % 2 == 0 ? 0 : 2, 2);
         const bool red_row = row.find('R') != BayerPattern::npos;
-        for (std::size_t x = 0; x < s.width(); ++x) {
-            const Rgb c = interpolated(n, x, red_row, row[x % 2] == 'G');
-            emit(x, Rgb{s.shift(c.r), s.shift(c.g), s.shift(c.b)});
+        for (std::size_t x = 0; x < s.width(); x += Block::kPixels) {
+            block.pixels = std::min(Block::kPixels, s.width() - x);
+            if (pattern.empty()) {
+                for (std::size_t i = 0; i < block.pixels; ++i)
+                    block.r[i] = block.g[i] = block.b[i] = s.shift(s.row(y)[x + i]);
+            } else {
+                auto &same = red_row ? block.r : block.b, &other = red_row ? block.b : block.r;
+                interpolate(n, x, row[0] == 'G', s.shift, block.pixels, same.data(), block.g.data(),
+                            other.data());
+            }
+            emit(block);
         }
     }
 }
 
 void write_rgb(const Source& s, BayerPattern pattern, std::span<std::uint16_t> scratch, std::uint8_t* out) {
-    each_colour(s, pattern, scratch, [&out](std::size_t, const Rgb& c) {
-        out[0] = static_cast<std::uint8_t>(c.r);
-        out[1] = static_cast<std::uint8_t>(c.g);
-        out[2] = static_cast<std::uint8_t>(c.b);
-        out += 3;
+    each_block(s, pattern, scratch, [&out](const Block& c) {
+        for (std::size_t i = 0; i < c.pixels; ++i) {
+            out[3 * i] = static_cast<std::uint8_t>(c.r[i]);
+            out[3 * i + 1] = static_cast<std::uint8_t>(c.g[i]);
+            out[3 * i + 2] = static_cast<std::uint8_t>(c.b[i]);
+        }
+        out += 3 * c.pixels;
     });
 }
 
 // ITU-R BT.601 luma and colour differences, full range (as JFIF 1.02, 1992), in 16-bit fixed point.
-std::uint8_t luma(const Rgb& c) {
-    return static_cast<std::uint8_t>((19595 * c.r + 38470 * c.g + 7471 * c.b + 32768) >> 16);
+std::uint8_t luma(unsigned r, unsigned g, unsigned b) {
+    return static_cast<std::uint8_t>((19595 * r + 38470 * g + 7471 * b + 32768) >> 16);
 }
 // Of the sum of two pixels, so that one difference serves both.
-std::uint8_t difference(int r, int g, int b, const Rgb& sum) {
-    const int value = r * static_cast<int>(sum.r) + g * static_cast<int>(sum.g) + b * static_cast<int>(sum.b);
+std::uint8_t blue_difference(int r, int g, int b) {
+    const int value = 32768 * b - 11059 * r - 21709 * g;
+    return static_cast<std::uint8_t>(std::clamp(((value + 65536) >> 17) + 128, 0, 255));
+}
+std::uint8_t red_difference(int r, int g, int b) {
+    const int value = 32768 * r - 27439 * g - 5329 * b;
     return static_cast<std::uint8_t>(std::clamp(((value + 65536) >> 17) + 128, 0, 255));
 }
 
 void write_yuyv(const Source& s, BayerPattern pattern, std::span<std::uint16_t> scratch, std::uint8_t* out) {
-    Rgb first;
-    each_colour(s, pattern, scratch, [&](std::size_t x, const Rgb& c) {
-        out[0] = luma(c);
-        const bool last_alone = x % 2 == 0 && x + 1 == s.width();
-        if (x % 2 == 0) first = c;
-        if (x % 2 == 1 || last_alone) {
-            const Rgb sum{first.r + c.r, first.g + c.g, first.b + c.b};
-            std::uint8_t* const u = last_alone ? out + 1 : out - 1;
-            *u = difference(-11059, -21709, 32768, sum);
-            if (!last_alone) out[1] = difference(32768, -27439, -5329, sum);
+    each_block(s, pattern, scratch, [&out](Block& c) {
+        // A row's last pixel without a partner is its own.
+        if (c.pixels % 2 != 0)
+            for (auto* const colour : {&c.r, &c.g, &c.b}) (*colour)[c.pixels] = (*colour)[c.pixels - 1];
+        std::array<std::uint8_t, Block::kPixels> luma_of, difference;
+        for (std::size_t i = 0; i < c.pixels; ++i) luma_of[i] = luma(c.r[i], c.g[i], c.b[i]);
+        for (std::size_t i = 0; i < c.pixels; i += 2) {
+            const int r = c.r[i] + c.r[i + 1], g = c.g[i] + c.g[i + 1], b = c.b[i] + c.b[i + 1];
+            difference[i] = blue_difference(r, g, b);
+            difference[i + 1] = red_difference(r, g, b);
         }
-        out += 2;
+        for (std::size_t i = 0; i < c.pixels; ++i) out[2 * i] = luma_of[i], out[2 * i + 1] = difference[i];
+        out += 2 * c.pixels;
     });
 }
 
