@@ -16,7 +16,7 @@
 
 #include "io/fd.h"
 #include "io/gige_device.h"
-#include "io/gvsp.h"
+#include "io/gige_packets.h"
 #include "io/net_interface.h"
 #include "io/receiver_room.h"
 #include "render/latest.h"
@@ -40,25 +40,6 @@ std::int64_t monotonic_ns() {
 void sleep_until_ns(std::int64_t ns) {
     const timespec t{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr);
-}
-
-// Pixels of one row in the wire's format.
-void pack_row(std::span<const std::uint16_t> row, std::uint32_t format, int bits, std::uint8_t* out) {
-    if (format == gvsp::kMono8) {
-        for (std::size_t i = 0; i < row.size(); ++i) out[i] = static_cast<std::uint8_t>(row[i] >> (bits - 8));
-        return;
-    }
-    const int wire_bits = format == gvsp::kMono12 ? 12 : 16;
-    const int up = std::max(0, wire_bits - bits), down = std::max(0, bits - wire_bits);
-    if (up == 0 && down == 0) {
-        std::memcpy(out, row.data(),
-                    2 * row.size());  // the wire is little-endian, as are the machines Embree runs on
-        return;
-    }
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const auto value = static_cast<std::uint16_t>(row[i] << up >> down);
-        std::memcpy(out + 2 * i, &value, 2);
-    }
 }
 
 }  // namespace
@@ -99,12 +80,14 @@ struct GigeSink::Implementation {
         FrameRecord record;
         std::vector<std::uint8_t> payload;
 
-        std::size_t chunk() const { return state.packet_bytes - gvsp::kOverheadBytes; }
-        std::uint32_t packets() const {
-            return static_cast<std::uint32_t>((state.payload_bytes() + chunk() - 1) / chunk());
+        std::uint32_t trailer() const { return trailer_id(state); }
+        GigePacket packet(std::uint16_t id_of_block, std::uint32_t id) const {
+            return packet_of({state, {}, id_of_block, stamp(), 0, payload}, id, gvsp::kFresh);
         }
+        std::uint64_t stamp() const { return static_cast<std::uint64_t>(record.exposure_mid_monotonic_ns); }
     };
     std::array<Slot, kSlots> slots;
+    std::vector<std::uint16_t> scratch;
     std::atomic<std::uint64_t> head{0}, sent{0};
     std::counting_semaphore<> ready{0};
     std::atomic<bool> stopping{false};
@@ -128,8 +111,6 @@ struct GigeSink::Implementation {
     void send_frame(Slot& slot);
     void resend(const gvcp::ResendRequest& request);
     void test_packet(const GigeStreamState& state, std::size_t bytes);
-    std::size_t build_packet(const Slot& slot, std::uint16_t block, std::uint32_t packet,
-                             std::span<std::uint8_t> header, std::span<const std::uint8_t>& payload) const;
 };
 
 void GigeSink::Implementation::open() {
@@ -145,8 +126,8 @@ void GigeSink::Implementation::open() {
     getsockname(stream.get(), reinterpret_cast<sockaddr*>(&stream_address), &address_size);
     wakeup = open_wakeup();
     const CameraLimits limits = camera.limits();
-    const std::size_t bytes =
-        std::size_t{2} * static_cast<std::size_t>(limits.width) * static_cast<std::size_t>(limits.height);
+    const std::size_t bytes = most_payload_bytes(limits.width, limits.height, {});
+    scratch.resize(3 * static_cast<std::size_t>(limits.width) + 8);
     for (Slot& slot : slots) slot.payload = std::vector<std::uint8_t>(bytes);
     GigeDevice::Effects effects;
     effects.stream_changed = [this](const GigeStreamState& state) {
@@ -207,34 +188,6 @@ void GigeSink::Implementation::test_packet(const GigeStreamState& state, std::si
            reinterpret_cast<const sockaddr*>(&to), sizeof to);
 }
 
-// --- packets
-// -------------------------------------------------------------------------------------------------------
-
-// Header bytes into `header`; `payload` points into the slot. Gives the header's size.
-std::size_t GigeSink::Implementation::build_packet(const Slot& slot, std::uint16_t block,
-                                                   std::uint32_t packet, std::span<std::uint8_t> header,
-                                                   std::span<const std::uint8_t>& payload) const {
-    const std::uint32_t packets = slot.packets();
-    payload = {};
-    if (packet == 0) {
-        const GigeStreamState& s = slot.state;
-        gvsp::write_leader(block,
-                           {static_cast<std::uint64_t>(slot.record.exposure_mid_monotonic_ns),
-                            pfnc_code(s.format, {}), s.width, s.height, s.offset_x, s.offset_y},
-                           header);
-        return gvsp::kLeaderBytes;
-    }
-    if (packet > packets) {
-        gvsp::write_trailer(block, packet, slot.state.height, header);
-        return gvsp::kTrailerBytes;
-    }
-    gvsp::write_payload_header(block, packet, header);
-    const std::size_t from = (packet - 1) * slot.chunk();
-    payload =
-        std::span(slot.payload).subspan(from, std::min(slot.chunk(), slot.state.payload_bytes() - from));
-    return gvsp::kHeaderBytes;
-}
-
 void GigeSink::Implementation::resend(const gvcp::ResendRequest& request) {
     const auto block = static_cast<std::uint16_t>(request.block);
     const GigeStreamState& now = device->stream_state();
@@ -246,30 +199,27 @@ void GigeSink::Implementation::resend(const gvcp::ResendRequest& request) {
             slot = &candidate;
     std::uint32_t last = request.last_packet;
     // One request may not make more than one frame's worth of answers.
-    last = std::min(last, slot ? slot->packets() + 1 : request.first_packet);
+    last = std::min(last, slot ? slot->trailer() : request.first_packet);
     // The control port must not go silent for a client that reads slowly.
     const std::int64_t until_ns = monotonic_ns() + kResendPatience_ns;
     for (std::uint32_t id = request.first_packet; id <= last; ++id) {
         if (monotonic_ns() < until_ns)
             control_room.wait(stream_address, to, ReceiverRoom::bytes_of(now.packet_bytes), stopping);
-        std::size_t size = gvsp::kHeaderBytes;
+        GigePacket made = refusal_of(false, block, id, gvsp::kUnavailable);
         bool whole = false;
         if (slot) {
-            std::span<const std::uint8_t> payload;
-            size = build_packet(*slot, block, id, packet, payload);
-            std::copy(payload.begin(), payload.end(), packet.begin() + static_cast<std::ptrdiff_t>(size));
-            size += payload.size();
+            const GigePacket sent_once = slot->packet(block, id);
+            std::copy(sent_once.data.begin(), sent_once.data.end(), packet.begin() + gvsp::kMostHeadBytes);
             // The loop may have reused the slot meanwhile: then what was copied is of two frames.
             std::atomic_thread_fence(std::memory_order_acquire);
             whole = slot->block.load(std::memory_order_relaxed) == block;
+            if (whole) made = sent_once;
         }
-        if (!whole) {
-            gvsp::write_unavailable(block, id, gvcp::kPacketUnavailable, packet);
-            size = gvsp::kHeaderBytes;
-        }
+        std::copy_n(made.head.begin(), made.head_bytes,
+                    packet.begin() + static_cast<std::ptrdiff_t>(gvsp::kMostHeadBytes - made.head_bytes));
         (whole ? resent : unavailable).fetch_add(1);
-        sendto(stream.get(), packet.data(), size, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),
-               sizeof to);
+        sendto(stream.get(), packet.data() + (gvsp::kMostHeadBytes - made.head_bytes), made.bytes(),
+               MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to), sizeof to);
         if (!whole) return;
     }
 }
@@ -293,10 +243,10 @@ void GigeSink::Implementation::send_frames() {
 void GigeSink::Implementation::send_frame(Slot& slot) {
     sockaddr_in to = socket_address(slot.state.destination.ip, slot.state.destination.port);
     const std::uint16_t block = slot.block.load();
-    const std::uint32_t last = slot.packets() + 1;
+    const std::uint32_t last = slot.trailer();
     const double rate_ns = static_cast<double>(slot.state.packet_bytes) / config.rate_bytes_s * 1e9;
     const double interval_ns = std::max(rate_ns, static_cast<double>(slot.state.packet_delay_ns));
-    std::array<std::array<std::uint8_t, gvsp::kLeaderBytes>, kMostBatch> headers;
+    std::array<GigePacket, kMostBatch> packets;
     std::array<std::array<iovec, 2>, kMostBatch> parts;
     std::array<mmsghdr, kMostBatch> messages;
     const std::size_t packet_room = ReceiverRoom::bytes_of(slot.state.packet_bytes);
@@ -309,9 +259,9 @@ void GigeSink::Implementation::send_frame(Slot& slot) {
     while (id <= last) {
         unsigned count = 0;
         for (; count < batch && id <= last; ++count, ++id) {
-            std::span<const std::uint8_t> payload;
-            const std::size_t size = build_packet(slot, block, id, headers[count], payload);
-            parts[count][0] = {headers[count].data(), size};
+            GigePacket& made = packets[count] = slot.packet(block, id);
+            const auto payload = made.data;
+            parts[count][0] = {made.head.data(), made.head_bytes};
             parts[count][1] = {const_cast<std::uint8_t*>(payload.data()), payload.size()};
             messages[count] = {};
             messages[count].msg_hdr.msg_name = &to;
@@ -369,12 +319,7 @@ void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept
     slot.state = state;
     slot.epoch = state.epoch;
     slot.record = record;
-    std::uint8_t* out = slot.payload.data();
-    for (std::uint32_t y = 0; y < state.height; ++y) {
-        const auto row = frame.row(static_cast<int>(state.offset_y + y)).subspan(state.offset_x, state.width);
-        pack_row(row, pfnc_code(state.format, {}), record.bits, out);
-        out += row.size() * gvsp::bytes_per_pixel(pfnc_code(state.format, {}));
-    }
+    write_gige_payload(frame, record, state, {}, slot.stamp(), my.scratch, slot.payload);
     slot.block.store(block, std::memory_order_release);
     my.head.store(head + 1, std::memory_order_release);
     my.ready.release();
