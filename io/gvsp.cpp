@@ -77,6 +77,11 @@ std::size_t write_multipart_trailer(const PacketHeader& header, const ChunkTail*
     return out.size();
 }
 
+std::uint32_t packet_id(std::span<const std::uint8_t> packet, bool extended) {
+    return extended ? ByteReader(packet.subspan(16, 4)).u32()
+                    : ByteReader(packet.subspan(4, 4)).u32() & 0xFFFFFF;
+}
+
 void overwrite_packet_id(std::span<std::uint8_t> packet, bool extended, std::uint32_t id) {
     if (extended)
         ByteWriter(packet.subspan(16, 4)).u32(id);

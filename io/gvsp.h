@@ -74,7 +74,8 @@ std::size_t write_image_trailer(const PacketHeader& header, std::uint32_t size_y
 std::size_t write_multipart_trailer(const PacketHeader& header, const ChunkTail* chunks,
                                     std::span<std::uint8_t> out);
 
-// Where a packet's id lies, for who wants a wrong one.
+// For who wants a wrong id in a packet that is written.
+std::uint32_t packet_id(std::span<const std::uint8_t> packet, bool extended);
 void overwrite_packet_id(std::span<std::uint8_t> packet, bool extended, std::uint32_t id);
 
 }  // namespace hilcam::gvsp
