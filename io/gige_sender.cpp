@@ -61,11 +61,13 @@ void GigeSender::start() {
     thread_ = std::thread([this] { run(); });
 }
 
-void GigeSender::stop() noexcept {
-    if (!thread_.joinable()) return;
-    stopping_.store(true);
-    wake(wakeup_);
-    thread_.join();
+void GigeSender::close() noexcept {
+    if (thread_.joinable()) {
+        stopping_.store(true);
+        wake(wakeup_);
+        thread_.join();
+    }
+    socket_.reset();
 }
 
 bool GigeSender::order(const GigeOrder& order) noexcept {

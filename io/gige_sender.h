@@ -55,13 +55,13 @@ class GigeSender {
     // whose last frame has been sent.
     GigeSender(GigeRing& ring, FaultBoard& faults, DeliveryListener* listener, const GigePaceConfig& pace,
                std::function<void(std::uint64_t)> finished);
-    ~GigeSender() { stop(); }
+    ~GigeSender() { close(); }
 
-    // Owner thread. open() throws DeviceError; while the thread runs it may not be called.
+    // Owner thread. open() throws DeviceError; start() after it. close() ends the thread and may come twice.
     void open(std::uint32_t address);
     std::uint16_t port() const { return ntohs(address_.sin_port); }
     void start();
-    void stop() noexcept;
+    void close() noexcept;
 
     // Control thread.
     void set_stream(const GigeStreamNow& now) { stream_.write(now), wake(wakeup_); }

@@ -12,7 +12,8 @@ void PacketBatch::add(const GigePacket& packet, const PacketFate& fate, bool ext
         const auto id = static_cast<std::uint32_t>(gvsp::packet_id(m.packet.head, extended) + fate.id_error);
         gvsp::overwrite_packet_id(m.packet.head, extended, id);
     }
-    std::size_t parts = 0, left = packet.bytes() - std::min(packet.bytes(), fate.cut_bytes);
+    // Something is left of every packet.
+    std::size_t parts = 0, left = packet.bytes() - std::min(packet.bytes() - 1, fate.cut_bytes);
     bytes_ += left + 28;
     const auto put = [&](const std::uint8_t* data, std::size_t size) {
         const std::size_t taken = std::min(size, left);

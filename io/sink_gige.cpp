@@ -184,7 +184,7 @@ bool GigeSink::Implementation::change_address(std::uint32_t ip) {
 
 void GigeSink::Implementation::move_to_next_sockets() {
     sockets = std::move(next_sockets);
-    sender.stop();
+    sender.close();
     sender.open(net.address);
     sender.start();
     device->set_ports(sender.port(), sockets->message_port());
@@ -243,6 +243,7 @@ GigeSink::~GigeSink() { stop(); }
 void GigeSink::start() {
     Implementation& my = *implementation_;
     my.open();
+    my.stopping.store(false);
     my.sender.start();
     my.control_thread = std::thread([&my] { my.serve_control(); });
 }
@@ -267,7 +268,9 @@ void GigeSink::stop() noexcept {
     my.stopping.store(true);
     wake(my.wakeup);
     my.control_thread.join();
-    my.sender.stop();
+    my.sender.close();
+    my.sockets.reset();
+    my.next_sockets.reset();
 }
 
 SinkReport GigeSink::report() const {
