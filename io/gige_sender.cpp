@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "io/urgent_thread.h"
+
 namespace hilcam {
 namespace {
 
@@ -79,6 +81,7 @@ bool GigeSender::order(const GigeOrder& order) noexcept {
 void GigeSender::run() {
     // The kernel lets sleeps run 50 us over by default; pacing is finer.
     prctl(PR_SET_TIMERSLACK, 1000);
+    make_thread_urgent();
     while (!stopping_.load(std::memory_order_relaxed)) {
         const bool busy = serve_orders();
         if (GigeSlot* const slot = ring_.next()) {

@@ -10,6 +10,7 @@
 #include "io/gige_frame_writer.h"
 #include "io/gige_sender.h"
 #include "io/gige_sockets.h"
+#include "io/urgent_thread.h"
 #include "render/check.h"
 
 namespace hilcam {
@@ -195,6 +196,7 @@ void GigeSink::Implementation::move_to_next_sockets() {
 // ------------------------------------------------------------------------------------------------
 
 void GigeSink::Implementation::serve_control() {
+    make_thread_urgent();
     std::array<std::uint8_t, gvcp::kMostDatagramBytes> out;
     const GigeSockets::Receive answer = [&](std::span<const std::uint8_t> datagram, Endpoint from,
                                             bool broadcast) {
