@@ -83,7 +83,7 @@ std::string feature_node(const Feature& f) {
         case Feature::Kind::kEnumeration: {
             std::string out = "<Enumeration Name=\"" + name + "\">\n" + lock;
             for (const EnumEntry& entry : f.entries)
-                out += "<EnumEntry Name=\"" + std::string(entry.name) + "\">\n" +
+                out += "<EnumEntry Name=\"" + entry.name + "\">\n" +
                        tag("Value", std::to_string(entry.value)) + "</EnumEntry>\n";
             return out + value + "</Enumeration>\n" + register_node(f);
         }

@@ -21,8 +21,9 @@ constexpr std::uint32_t kMostMemoryRead = 536;
 
 }  // namespace
 
-GigeDevice::GigeDevice(const GigeIdentity& id, CameraControl& camera, Effects effects)
+GigeDevice::GigeDevice(const GigeIdentity& id, CameraControl& camera, FaultBoard& faults, Effects effects)
     : camera_(camera),
+      faults_(faults),
       effects_(std::move(effects)),
       features_(gige_features(camera.limits())),
       memory_(kMemoryBytes) {
@@ -62,9 +63,7 @@ GigeDevice::GigeDevice(const GigeIdentity& id, CameraControl& camera, Effects ef
     put(reg::kSensorHeight, static_cast<std::uint32_t>(limits.height));
     put(reg::kWidth, static_cast<std::uint32_t>(limits.width));
     put(reg::kHeight, static_cast<std::uint32_t>(limits.height));
-    put(reg::kPixelFormat, limits.bits <= 8    ? gvsp::kMono8
-                           : limits.bits <= 12 ? gvsp::kMono12
-                                               : gvsp::kMono16);
+    put(reg::kPixelFormat, pfnc_code(native_format(limits.bits, limits.color_pattern), limits.color_pattern));
     put(reg::kAcquisitionFrameCount, 1);
     put(reg::kExposureMode, 1);
     put(reg::kFrameRateEnable, 1);
@@ -102,9 +101,12 @@ void GigeDevice::refresh_live_registers() {
 // ------------------------------------------------------------------------------------------------------
 
 std::size_t GigeDevice::handle(std::span<const std::uint8_t> datagram, Endpoint from, std::int64_t now_ns,
-                               std::span<std::uint8_t> out) {
+                               std::span<std::uint8_t> out, bool broadcast) {
     gvcp::Header header;
     if (!gvcp::read_header(datagram, header)) return 0;
+    if (broadcast && (header.command != gvcp::kDiscovery ||
+                      (from.ip & get(bootstrap::kMask)) != (get(bootstrap::kIp) & get(bootstrap::kMask))))
+        return 0;
     tick(now_ns);
     if (from == controller_) last_heard_ns_ = now_ns;
     const bool changes = header.command == gvcp::kWriteRegister || header.command == gvcp::kWriteMemory;
@@ -150,7 +152,7 @@ GigeDevice::Answer GigeDevice::answer(const gvcp::Header& header, std::span<cons
             // controller's.
             if (gvcp::read_resend(payload, header.flags & gvcp::Header::kExtendedFlag, request) &&
                 effects_.resend && from.ip == stream_.destination.ip)
-                effects_.resend(request);
+                effects_.resend(request, from);
             return {};
         }
         default:
@@ -387,7 +389,14 @@ void GigeDevice::release_control() {
     publish_stream();
 }
 
+void GigeDevice::set_ports(std::uint16_t stream, std::uint16_t) { put(bootstrap::kStreamSourcePort, stream); }
+
+void GigeDevice::happened(const CameraEvent&, std::uint64_t, std::int64_t) {}
+
+std::int64_t GigeDevice::wake_ns() const { return ticked_ns_ + kLongestSleep_ns; }
+
 void GigeDevice::tick(std::int64_t now_ns) {
+    ticked_ns_ = now_ns;
     if (!controlled() || get(bootstrap::kGvcpConfig) & 1) return;
     if (now_ns - last_heard_ns_ > std::int64_t{get(bootstrap::kHeartbeat)} * 1'000'000) release_control();
 }
@@ -400,7 +409,9 @@ void GigeDevice::publish_stream() {
     stream_.packet_bytes = size & 0xFFFF;
     stream_.do_not_fragment = size & kDoNotFragment;
     stream_.packet_delay_ns = get(b::kPacketDelay);
-    stream_.pixel_format = get(reg::kPixelFormat);
+    const CameraLimits limits = camera_.limits();
+    for (const WireFormat format : formats_of(limits.color_pattern))
+        if (pfnc_code(format, limits.color_pattern) == get(reg::kPixelFormat)) stream_.format = format;
     stream_.width = get(reg::kWidth), stream_.height = get(reg::kHeight);
     stream_.offset_x = get(reg::kOffsetX), stream_.offset_y = get(reg::kOffsetY);
     const std::uint32_t mode = get(reg::kAcquisitionMode);

@@ -6,7 +6,7 @@
 // Access: the first application to write a non-zero control channel privilege (CCP) becomes the controller
 // until it writes 0 or stays silent longer than the heartbeat time-out. Others may read (unless the privilege
 // is exclusive) and get ACCESS_DENIED for writes. A repeated request (same application, same id) gets the
-// same answer and is not run twice. Owner thread, except stream_state() readers as said there.
+// same answer and is not run twice. One thread: the one that serves the control port.
 
 #include <array>
 #include <atomic>
@@ -17,9 +17,11 @@
 #include <vector>
 
 #include "io/camera_control.h"
+#include "io/fault.h"
+#include "io/frame_sink.h"
 #include "io/gige_features.h"
+#include "io/gige_stream.h"
 #include "io/gvcp.h"
-#include "io/gvsp.h"
 
 namespace hilcam {
 
@@ -30,51 +32,68 @@ struct GigeIdentity {
     std::uint32_t packet_bytes = 1500;
 };
 
-// An application: IPv4 address and UDP port, host order.
-struct Endpoint {
-    std::uint32_t ip = 0;
-    std::uint16_t port = 0;
-    friend bool operator==(const Endpoint&, const Endpoint&) = default;
-};
-
-// What the stream side needs to know; changes only by a control message.
-struct GigeStreamState {
-    bool open = false;         // a destination is set
-    bool acquiring = false;    // between AcquisitionStart and Stop
-    std::uint32_t epoch = 0;   // counts AcquisitionStarts
-    std::uint32_t frames = 0;  // of this acquisition; 0: endless
-    Endpoint destination;
-    std::uint32_t packet_bytes = 0;  // IP, UDP and GVSP headers included
-    bool do_not_fragment = false;
-    std::uint32_t packet_delay_ns = 0;
-    std::uint32_t pixel_format = 0;
-    std::uint32_t width = 0, height = 0, offset_x = 0, offset_y = 0;
-
-    std::size_t payload_bytes() const {
-        return std::size_t{width} * height * gvsp::bytes_per_pixel(pixel_format);
-    }
+// What the stream side counts; shown as features.
+struct GigeStreamStatistics {
+    std::uint64_t frames = 0;           // delivered
+    std::uint64_t frames_dropped = 0;   // not sent: too slow, or a fault
+    std::uint64_t packets = 0;          // sent for the first time
+    std::uint64_t packets_dropped = 0;  // by faults
+    std::uint64_t resend_requests = 0;
+    std::uint64_t packets_resent = 0;
+    std::uint64_t packets_refused = 0;  // asked for again and not to be had
+    std::uint64_t events_dropped = 0;   // camera events that found their ring full
 };
 
 class GigeDevice {
   public:
-    // What control messages set in motion; called from inside handle().
+    // What control messages set in motion. Called from inside handle(), tick() and happened(), by their
+    // thread. Any of them may be empty.
     struct Effects {
-        std::function<void(const GigeStreamState&)> stream_changed;
-        std::function<void(const gvcp::ResendRequest&)> resend;
+        std::function<void(const GigeStreamState&)> stream_changed{};
+        // Packets asked for again, by the stream's destination or (with SCCFG's resend destination) whoever
+        // is to get them. To be answered on the stream's socket; to the requester only when
+        // GigeStreamState::resend_to_requester, else to the stream's destination.
+        std::function<void(const gvcp::ResendRequest&, Endpoint requester)> resend{};
         // Send one datagram of this many payload bytes to the stream's destination.
-        std::function<void(const GigeStreamState&, std::size_t)> test_packet;
+        std::function<void(const GigeStreamState&, std::size_t)> test_packet{};
+        // Send a datagram from the message channel's socket (its port is given with set_ports()).
+        std::function<void(std::span<const std::uint8_t>, Endpoint)> send_message{};
+        // Send an answer that handle() did not give at once, from the control socket: a PENDING_ACK, an
+        // answer that was held back, or one for 255.255.255.255 (the socket needs SO_BROADCAST).
+        std::function<void(std::span<const std::uint8_t>, Endpoint)> send_answer{};
+        // The device has restarted: streams are closed, frames kept for resends are forgotten, block ids
+        // begin anew. stream_changed has been called.
+        std::function<void()> reset{};
+        // The camera is to live on another address. False: this machine has no such address, or its port is
+        // taken; nothing has changed then. True: sockets listen there from now on.
+        std::function<bool(std::uint32_t ip, std::uint32_t mask, std::uint32_t gateway)> change_address{};
     };
 
-    GigeDevice(const GigeIdentity& identity, CameraControl& camera, Effects effects);
+    GigeDevice(const GigeIdentity& identity, CameraControl& camera, FaultBoard& faults, Effects effects);
+
+    // Ports the kernel gave the stream's and the message channel's sockets; before the first handle().
+    void set_ports(std::uint16_t stream, std::uint16_t message);
 
     // Answers one datagram; gives the number of bytes written to `out` (at least kMostDatagramBytes), 0: no
-    // answer.
+    // answer now. `now_ns`: CLOCK_MONOTONIC. `broadcast`: it came to a broadcast address; then only
+    // DISCOVERY, FORCEIP and ACTION count, and a discovery is answered only when `from` is in the camera's
+    // own subnet (the client would talk to an address that the stream does not come from) or allows a
+    // broadcast answer.
     std::size_t handle(std::span<const std::uint8_t> datagram, Endpoint from, std::int64_t now_ns,
-                       std::span<std::uint8_t> out);
-    // To be called a few times a second: ends the control of an application that fell silent.
+                       std::span<std::uint8_t> out, bool broadcast = false);
+    // To be called at wake_ns() or earlier, and after each handle(): ends the control of an application that
+    // fell silent, sends answers that were held back, runs scheduled actions, repeats unanswered events.
     void tick(std::int64_t now_ns);
+    // When tick() is wanted next (CLOCK_MONOTONIC); never more than kLongestSleep_ns after the last tick.
+    std::int64_t wake_ns() const;
+    static constexpr std::int64_t kLongestSleep_ns = 50'000'000;
+
     // The stream side has delivered the last frame of a counted acquisition.
     void acquisition_finished(std::uint32_t epoch);
+    // From the loop, by way of the control thread: becomes an EVENT if a client wants it. An event's frame
+    // is FrameRecord::id; `block` is the stream's block id of that frame, 0 when it has none.
+    void happened(const CameraEvent& event, std::uint64_t block, std::int64_t now_ns);
+    void set_statistics(const GigeStreamStatistics& statistics) { statistics_ = statistics; }
 
     bool controlled() const { return controller_.port != 0; }
     const GigeStreamState& stream_state() const { return stream_; }
@@ -115,6 +134,9 @@ class GigeDevice {
     void put_text(std::uint32_t address, std::size_t size, const std::string& text);
 
     CameraControl& camera_;
+    FaultBoard& faults_;
+    GigeStreamStatistics statistics_;
+    std::int64_t ticked_ns_ = 0;
     Effects effects_;
     std::vector<Feature> features_;
     std::vector<std::uint8_t> memory_;

@@ -1,6 +1,6 @@
 #include "io/gige_features.h"
 
-#include "io/gvsp.h"
+#include "io/wire_format.h"
 
 namespace hilcam {
 
@@ -10,8 +10,9 @@ std::vector<Feature> gige_features(const CameraLimits& l) {
     namespace r = feature_register;
     namespace b = bootstrap;
     const double w = l.width, h = l.height;
-    const std::vector<EnumEntry> formats = {
-        {"Mono8", gvsp::kMono8}, {"Mono12", gvsp::kMono12}, {"Mono16", gvsp::kMono16}};
+    std::vector<EnumEntry> formats;
+    for (const WireFormat format : formats_of(l.color_pattern))
+        formats.push_back({pfnc_name(format, l.color_pattern), pfnc_code(format, l.color_pattern)});
     const std::vector<EnumEntry> modes = {
         {"Continuous", kContinuous}, {"SingleFrame", kSingleFrame}, {"MultiFrame", kMultiFrame}};
     const char *device = "DeviceControl", *image = "ImageFormatControl", *acquisition = "AcquisitionControl",

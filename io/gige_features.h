@@ -40,7 +40,7 @@ inline constexpr std::uint32_t kXmlAddress = 0x20000;
 enum AcquisitionMode : std::uint32_t { kContinuous = 0, kSingleFrame = 1, kMultiFrame = 2 };
 
 struct EnumEntry {
-    const char* name;
+    std::string name;
     std::uint32_t value;
 };
 

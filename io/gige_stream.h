@@ -1,6 +1,7 @@
 #pragma once
 // What the control side of a GigE Vision camera tells its stream side. It changes only by control messages.
 
+#include <cstddef>
 #include <cstdint>
 
 #include "io/wire_format.h"
@@ -62,6 +63,10 @@ struct GigeStreamState {
     bool do_not_fragment = false;
     bool extended_ids = false;  // 64-bit block ids, 20-byte headers
     bool multipart = false;
+    bool resend_to_requester = false;  // SCCFG b3: else to the destination
+    // Added to CLOCK_MONOTONIC it gives the device's clock, which all time stamps on the wire are of: 0
+    // unless a client reset the clock or enabled PTP (then it leads to CLOCK_TAI).
+    std::int64_t clock_offset_ns = 0;
     std::uint32_t packet_delay_ns = 0;
     double throughput_limit_bytes_s = 0;  // 0: the configuration's
     WireFormat format = WireFormat::kMono8;

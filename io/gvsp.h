@@ -1,33 +1,81 @@
 #pragma once
-// GigE Vision Streaming Protocol: headers of leader, payload and trailer packets, short (16-bit) block ids.
-// Packet ids: leader 0, payload 1 .. n, trailer n + 1.
+// GigE Vision Streaming Protocol: the bytes of leaders, payload headers and trailers. Pure functions; all
+// numbers big-endian. Layouts: GigE Vision 2.x as Wireshark's packet-gvsp dissector and Aravis decode it.
+//
+// A block (a frame) is a leader with packet id 0, payload packets 1 to n, a trailer n + 1. Short headers have
+// 16-bit block ids (1 to 65535) and 24-bit packet ids, extended ones 64 and 32 bits. A packet-size register
+// counts a packet's IP, UDP and GVSP headers.
 
 #include <cstdint>
 #include <span>
 
 namespace hilcam::gvsp {
 
-inline constexpr std::size_t kHeaderBytes = 8;
-inline constexpr std::size_t kLeaderBytes = kHeaderBytes + 36;
-inline constexpr std::size_t kTrailerBytes = kHeaderBytes + 8;
-// What a packet-size register counts beyond the payload: IP 20, UDP 8, GVSP 8.
-inline constexpr std::size_t kOverheadBytes = 36;
+enum Status : std::uint16_t {
+    kFresh = 0x0000,
+    kResent = 0x0100,
+    kUnavailable = 0x800C,           // never was, or is withheld
+    kNotYetAvailable = 0x8010,       // of a block that is still to come
+    kRemovedWithAllBefore = 0x8011,  // no longer kept, nor is any block before it
+    kRemoved = 0x8012,               // no longer kept
+};
 
-enum PixelFormat : std::uint32_t { kMono8 = 0x01080001, kMono12 = 0x01100005, kMono16 = 0x01100007 };
-inline constexpr std::uint32_t bytes_per_pixel(std::uint32_t format) { return (format >> 16 & 0xFF) / 8; }
+enum Format : std::uint8_t { kLeader = 1, kTrailer = 2, kPayload = 3, kMultipart = 7 };
 
-struct ImageInfo {
-    std::uint64_t timestamp_ns = 0;
-    std::uint32_t pixel_format = kMono8;
+enum PayloadType : std::uint16_t { kImage = 0x0001, kMultipartPayload = 0x000A, kWithChunks = 0x4000 };
+
+constexpr std::size_t header_bytes(bool extended) { return extended ? 20 : 8; }
+// What a packet-size register counts beyond the payload: IP 20, UDP 8, GVSP.
+constexpr std::size_t overhead_bytes(bool extended) { return 28 + header_bytes(extended); }
+inline constexpr std::size_t kPartPrefixBytes = 8;  // before a multipart payload
+
+struct PacketHeader {
+    Status status = kFresh;
+    Format format = kPayload;
+    bool extended = false;
+    std::uint64_t block = 0;
+    std::uint32_t packet = 0;
+    std::uint8_t parts = 0;  // of a multipart leader
+};
+
+struct Image {
+    std::uint32_t pixel_format = 0;  // PFNC
     std::uint32_t width = 0, height = 0, offset_x = 0, offset_y = 0;
 };
 
-void write_leader(std::uint16_t block, const ImageInfo& image, std::span<std::uint8_t> out);
-void write_payload_header(std::uint16_t block, std::uint32_t packet, std::span<std::uint8_t> out);
-void write_trailer(std::uint16_t block, std::uint32_t packet, std::uint32_t height,
-                   std::span<std::uint8_t> out);
-// "This packet cannot be had": the answer to a resend request for what is gone.
-void write_unavailable(std::uint16_t block, std::uint32_t packet, std::uint16_t status,
-                       std::span<std::uint8_t> out);
+// One part of a multipart block.
+struct Part {
+    enum Type : std::uint16_t { k2dImage = 0x0001, kChunkData = 0x000A } type = k2dImage;
+    std::uint64_t bytes = 0;
+    Image image;  // all 0 of chunk data
+};
+
+inline constexpr std::size_t kMostParts = 2;
+// The longest header with what follows it: a multipart leader.
+inline constexpr std::size_t kMostHeadBytes = header_bytes(true) + 12 + 48 * kMostParts;
+
+// All write to the front of `out` (kMostHeadBytes are enough) and give the number of bytes; header included.
+std::size_t write_header(const PacketHeader& header, std::span<std::uint8_t> out);
+std::size_t write_image_leader(const PacketHeader& header, bool chunks, std::uint64_t timestamp_ns,
+                               const Image& image, std::span<std::uint8_t> out);
+std::size_t write_multipart_leader(const PacketHeader& header, bool chunks, std::uint64_t timestamp_ns,
+                                   std::span<const Part> parts, std::span<std::uint8_t> out);
+// The header and what tells a multipart payload's place: the part and the offset in the whole block.
+std::size_t write_part_payload(const PacketHeader& header, std::uint8_t part, std::uint64_t offset,
+                               std::span<std::uint8_t> out);
+
+struct ChunkTail {
+    std::uint32_t bytes = 0;   // of all chunks, their ids and lengths included
+    std::uint32_t layout = 0;  // changes when the set of chunks does
+};
+// `chunks`: null without.
+std::size_t write_image_trailer(const PacketHeader& header, std::uint32_t size_y, const ChunkTail* chunks,
+                                std::span<std::uint8_t> out);
+std::size_t write_multipart_trailer(const PacketHeader& header, const ChunkTail* chunks,
+                                    std::span<std::uint8_t> out);
+
+// For who wants a wrong id in a packet that is written.
+std::uint32_t packet_id(std::span<const std::uint8_t> packet, bool extended);
+void overwrite_packet_id(std::span<std::uint8_t> packet, bool extended, std::uint32_t id);
 
 }  // namespace hilcam::gvsp

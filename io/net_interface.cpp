@@ -4,7 +4,10 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netpacket/packet.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
 
+#include <cstring>
 #include <memory>
 
 #include "io/fd.h"
@@ -28,6 +31,14 @@ std::uint64_t mac_of(const ifaddrs* list, const std::string& name) {
     return 0;
 }
 
+std::uint32_t mtu_of(const std::string& name) {
+    const Fd any(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    ifreq request{};
+    std::strncpy(request.ifr_name, name.c_str(), IFNAMSIZ - 1);
+    const bool told = any && ioctl(any.get(), SIOCGIFMTU, &request) == 0 && request.ifr_mtu > 0;
+    return told ? static_cast<std::uint32_t>(request.ifr_mtu) : NetInterface{}.mtu_bytes;
+}
+
 }  // namespace
 
 NetInterface find_interface(const std::string& wanted) {
@@ -45,7 +56,7 @@ NetInterface find_interface(const std::string& wanted) {
         const bool loopback = (i->ifa_flags & IFF_LOOPBACK) && is_address && address >> 24 == 127;
         if (!(is_address ? own == address || loopback : wanted == i->ifa_name)) continue;
         NetInterface found{i->ifa_name, loopback ? address : own, address_in(i->ifa_netmask),
-                           mac_of(list, i->ifa_name)};
+                           mac_of(list, i->ifa_name), mtu_of(i->ifa_name)};
         // Locally administered (bit 1 of the first byte) and unique per address.
         if (found.mac == 0) found.mac = 0x020000000000ull | found.address;
         return found;

@@ -1,63 +1,40 @@
 #include "io/sink_gige.h"
 
-#include <arpa/inet.h>
-#include <netinet/ip.h>
-#include <poll.h>
-#include <sys/socket.h>
 #include <time.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cstring>
-#include <semaphore>
+#include <cmath>
 #include <thread>
-#include <vector>
 
-#include "io/fd.h"
 #include "io/gige_device.h"
-#include "io/net_interface.h"
-#include "io/receiver_room.h"
-#include "render/latest.h"
+#include "io/gige_frame_writer.h"
+#include "io/gige_sender.h"
+#include "io/gige_sockets.h"
+#include "io/urgent_thread.h"
+#include "render/check.h"
 
 namespace hilcam {
 namespace {
 
-// Slots: those waiting to be sent plus those kept for resends.
-constexpr std::size_t kSlots = 12;
-constexpr std::size_t kMostWaiting = 3;
-// Packets per system call: so many, and no more than take a third of a client's default receive buffer.
-constexpr std::size_t kMostBatch = 8;
-constexpr std::size_t kBatchBytes = 70'000;
-constexpr std::int64_t kResendPatience_ns = 20'000'000;
+// Clients ask again for packets up to some 100 ms old (Aravis' frame_retention).
+constexpr double kKept_s = 0.2;
+constexpr double kMostRingBytes = 512e6;
 
 std::int64_t monotonic_ns() {
     timespec t{};
     clock_gettime(CLOCK_MONOTONIC, &t);
     return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
-void sleep_until_ns(std::int64_t ns) {
-    const timespec t{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
-    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr);
+
+std::size_t slots_for(double frame_rate_hz, std::size_t bytes_each) {
+    const double wanted = std::min(std::ceil(kKept_s * frame_rate_hz) + GigeRing::kMostWaiting + 1,
+                                   kMostRingBytes / static_cast<double>(bytes_each));
+    return std::max(GigeRing::kLeastSlots, static_cast<std::size_t>(wanted));
 }
 
-// Pixels of one row in the wire's format.
-void pack_row(std::span<const std::uint16_t> row, std::uint32_t format, int bits, std::uint8_t* out) {
-    if (format == gvsp::kMono8) {
-        for (std::size_t i = 0; i < row.size(); ++i) out[i] = static_cast<std::uint8_t>(row[i] >> (bits - 8));
-        return;
-    }
-    const int wire_bits = format == gvsp::kMono12 ? 12 : 16;
-    const int up = std::max(0, wire_bits - bits), down = std::max(0, bits - wire_bits);
-    if (up == 0 && down == 0) {
-        std::memcpy(out, row.data(),
-                    2 * row.size());  // the wire is little-endian, as are the machines Embree runs on
-        return;
-    }
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const auto value = static_cast<std::uint16_t>(row[i] << up >> down);
-        std::memcpy(out + 2 * i, &value, 2);
-    }
+// Packets longer than the link's MTU would be cut up by the kernel, and most clients' filters lose such.
+std::uint32_t first_packet_bytes(const GigeConfig& config, const NetInterface& net) {
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(config.packet_bytes, net.mtu_bytes / 4 * 4));
 }
 
 }  // namespace
@@ -69,328 +46,255 @@ Fields fields(GigeConfig& c) {
         text("serial", c.serial, "DeviceSerialNumber; unlike any other camera's on the network"),
         text("user_name", c.user_name, "DeviceUserID at the start"),
         integer("packet_bytes", c.packet_bytes, {576, 16384},
-                "of a stream packet until a client sets another"),
+                "of a stream packet until a client sets another; the interface's MTU at most"),
         number("rate_limit_mb_s", c.rate_bytes_s, 1e6, {1, 100000}, "upper limit of the stream"),
+        number("spread", c.spread_fraction, 1, {0, 1},
+               "share of the frame period that a frame's packets are spread over; 0: at the rate limit"),
     };
 }
 
 struct GigeSink::Implementation {
     GigeConfig config;
     CameraControl& camera;
-    DeliveryListener* listener;
+    FaultBoard& faults;
     NetInterface net;
+    GigeRing ring;
+    GigeFrameWriter writer;
+    GigeSender sender;
+    std::unique_ptr<GigeSockets> sockets, next_sockets;  // next: after a change of the address
     std::unique_ptr<GigeDevice> device;
-    Fd control, broadcast, stream, wakeup;
-    sockaddr_in stream_address{};
-    std::thread control_thread, sender_thread;
-    ReceiverRoom control_room, sender_room;  // one a thread
-
-    // Control thread -> loop, control thread -> sender.
-    Latest<GigeStreamState> for_loop, for_sender;
-    std::atomic<std::uint32_t> finished_epoch{0};
-
-    // A frame on the wire. `block` is 0 while the loop writes the slot; readers check it before and after.
-    struct Slot {
-        std::atomic<std::uint16_t> block{0};
-        std::uint32_t epoch = 0;
-        GigeStreamState state;
-        FrameRecord record;
-        std::vector<std::uint8_t> payload;
-
-        std::size_t chunk() const { return state.packet_bytes - gvsp::kOverheadBytes; }
-        std::uint32_t packets() const {
-            return static_cast<std::uint32_t>((state.payload_bytes() + chunk() - 1) / chunk());
-        }
-    };
-    std::array<Slot, kSlots> slots;
-    std::atomic<std::uint64_t> head{0}, sent{0};
-    std::counting_semaphore<> ready{0};
+    Fd wakeup = open_wakeup();  // of the control thread
+    std::thread control_thread;
     std::atomic<bool> stopping{false};
-    std::uint32_t loop_epoch = 0;
-    std::uint32_t loop_frames = 0;
-    std::uint16_t next_block = 1;
 
-    std::atomic<std::uint64_t> delivered{0}, dropped{0}, resent{0}, unavailable{0};
+    Latest<GigeStreamNow> for_loop;
+    std::uint64_t era = 1;  // counts resets; the upper half of an acquisition's number
+    std::atomic<std::uint64_t> finished{0};
+    BoundedQueue<CameraEvent, 1024> events;
+    std::atomic<std::uint64_t> events_dropped{0};
+    std::atomic<bool> controlled{false};
+    std::atomic<std::uint32_t> address;  // for reports; net is the control thread's
+    std::atomic<std::uint32_t> acquisitions{0};
 
-    Implementation(const GigeConfig& c, const SinkContext& context)
-        : config(c), camera(context.camera), listener(context.listener), net(find_interface(c.interface)) {}
+    Implementation(const GigeConfig& c, const SinkContext& context, const CameraLimits& limits,
+                   std::size_t payload_bytes)
+        : config(c),
+          camera(context.camera),
+          faults(context.faults),
+          net(find_interface(c.interface)),
+          ring(slots_for(camera.settings().frame_rate_hz, payload_bytes), payload_bytes),
+          writer(ring, faults, limits.color_pattern, limits.width),
+          sender(ring, faults, context.listener, {c.rate_bytes_s, c.spread_fraction},
+                 [this](std::uint64_t acquisition) { finish(acquisition); }),
+          address(net.address) {}
 
     void open();
+    GigeDevice::Effects effects();
+    void set_stream(const GigeStreamState& state);
+    void order_resend(const gvcp::ResendRequest& request, Endpoint requester);
+    void order_test_packet(const GigeStreamState& state, std::size_t payload_bytes);
+    bool change_address(std::uint32_t ip);
+    void move_to_next_sockets();
+
     void serve_control();
-    void answer_from(const Fd& socket);
-    void send_frames();
-    void send_frame(Slot& slot);
-    void resend(const gvcp::ResendRequest& request);
-    void test_packet(const GigeStreamState& state, std::size_t bytes);
-    std::size_t build_packet(const Slot& slot, std::uint16_t block, std::uint32_t packet,
-                             std::span<std::uint8_t> header, std::span<const std::uint8_t>& payload) const;
+    void tell_device(std::int64_t now_ns);
+    void finish(std::uint64_t acquisition) {
+        finished.store(acquisition, std::memory_order_release);
+        wake(wakeup);
+    }
 };
 
 void GigeSink::Implementation::open() {
-    control = open_udp(net.address, gvcp::kPort);
+    sockets = std::make_unique<GigeSockets>(net);
+    sender.open(net.address);
+    device =
+        std::make_unique<GigeDevice>(GigeIdentity{config.model, config.serial, config.user_name, net.address,
+                                                  net.mask, 0, net.mac, first_packet_bytes(config, net)},
+                                     camera, faults, effects());
+    device->set_ports(sender.port(), sockets->message_port());
+}
+
+// --- what the device sets in motion
+// -------------------------------------------------------------------------------
+
+GigeDevice::Effects GigeSink::Implementation::effects() {
+    GigeDevice::Effects e;
+    e.stream_changed = [this](const GigeStreamState& state) { set_stream(state); };
+    e.resend = [this](const gvcp::ResendRequest& request, Endpoint requester) {
+        order_resend(request, requester);
+    };
+    e.test_packet = [this](const GigeStreamState& state, std::size_t bytes) {
+        order_test_packet(state, bytes);
+    };
+    e.send_message = [this](std::span<const std::uint8_t> bytes, Endpoint to) {
+        if (!faults.strikes(FaultKind::kLinkDown, 0)) sockets->send_message(bytes, to);
+    };
+    e.send_answer = [this](std::span<const std::uint8_t> bytes, Endpoint to) {
+        if (!faults.strikes(FaultKind::kLinkDown, 0)) sockets->send_answer(bytes, to);
+    };
+    e.reset = [this] {
+        ++era;  // no frame that is kept belongs to what comes
+        set_stream(device->stream_state());
+    };
+    e.change_address = [this](std::uint32_t ip, std::uint32_t, std::uint32_t) { return change_address(ip); };
+    return e;
+}
+
+void GigeSink::Implementation::set_stream(const GigeStreamState& state) {
+    const GigeStreamNow now{state, era << 32 | state.epoch};
+    acquisitions.store(state.epoch);
+    for_loop.write(now);
+    sender.set_stream(now);
+}
+
+void GigeSink::Implementation::order_resend(const gvcp::ResendRequest& request, Endpoint requester) {
+    const GigeStreamState& s = device->stream_state();
+    if (!s.open || request.channel != 0) return;
+    sender.order({.kind = GigeOrder::Kind::kResend,
+                  .to = s.resend_to_requester ? requester : s.destination,
+                  .acquisition = era << 32 | s.epoch,
+                  .block = request.block,
+                  .next = request.first_packet,
+                  .last = request.last_packet,
+                  .extended_ids = s.extended_ids,
+                  .packet_bytes = s.packet_bytes});
+}
+
+void GigeSink::Implementation::order_test_packet(const GigeStreamState& s, std::size_t payload_bytes) {
+    GigeOrder order;
+    order.kind = GigeOrder::Kind::kTestPacket;
+    order.to = s.destination;
+    order.packet_bytes = static_cast<std::uint32_t>(payload_bytes + 28);
+    order.do_not_fragment = s.do_not_fragment;
+    sender.order(order);
+}
+
+// New sockets are opened at once, so that the device can say whether it worked; they are used when the
+// message at hand is answered.
+bool GigeSink::Implementation::change_address(std::uint32_t ip) {
+    if (ip == net.address) return true;
     try {
-        broadcast = open_udp(INADDR_BROADCAST, gvcp::kPort, true);
-    } catch (const DeviceError&) {
-        // Another program holds the broadcast address for itself: clients that know the camera's address
-        // still find it.
+        const NetInterface next = find_interface(format_ipv4(ip));
+        next_sockets = std::make_unique<GigeSockets>(next);
+        net = next;
+        return true;
+    } catch (const std::runtime_error&) {
+        return false;
     }
-    stream = open_udp(net.address, 0);
-    socklen_t address_size = sizeof stream_address;
-    getsockname(stream.get(), reinterpret_cast<sockaddr*>(&stream_address), &address_size);
-    wakeup = open_wakeup();
-    const CameraLimits limits = camera.limits();
-    const std::size_t bytes =
-        std::size_t{2} * static_cast<std::size_t>(limits.width) * static_cast<std::size_t>(limits.height);
-    for (Slot& slot : slots) slot.payload = std::vector<std::uint8_t>(bytes);
-    GigeDevice::Effects effects;
-    effects.stream_changed = [this](const GigeStreamState& state) {
-        for_loop.write(state);
-        for_sender.write(state);
-    };
-    effects.resend = [this](const gvcp::ResendRequest& request) { resend(request); };
-    effects.test_packet = [this](const GigeStreamState& state, std::size_t size) {
-        test_packet(state, size);
-    };
-    device = std::make_unique<GigeDevice>(
-        GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
-                     static_cast<std::uint32_t>(config.packet_bytes)},
-        camera, std::move(effects));
+}
+
+void GigeSink::Implementation::move_to_next_sockets() {
+    sockets = std::move(next_sockets);
+    sender.close();
+    sender.open(net.address);
+    sender.start();
+    device->set_ports(sender.port(), sockets->message_port());
+    address.store(net.address);
 }
 
 // --- control thread
 // ------------------------------------------------------------------------------------------------
 
 void GigeSink::Implementation::serve_control() {
-    std::array<pollfd, 3> watched = {
-        {{wakeup.get(), POLLIN, 0}, {control.get(), POLLIN, 0}, {broadcast.get(), POLLIN, 0}}};
-    std::uint32_t seen_finished = 0;
-    while (true) {
-        poll(watched.data(), broadcast ? 3 : 2, 50);
-        if (watched[0].revents) return;
-        if (watched[1].revents) answer_from(control);
-        if (broadcast && watched[2].revents) answer_from(broadcast);
-        const std::uint32_t finished = finished_epoch.load(std::memory_order_acquire);
-        if (finished != seen_finished) device->acquisition_finished(seen_finished = finished);
-        device->tick(monotonic_ns());
-    }
-}
-
-void GigeSink::Implementation::answer_from(const Fd& socket) {
-    std::array<std::uint8_t, 2048> in;
+    make_thread_urgent();
     std::array<std::uint8_t, gvcp::kMostDatagramBytes> out;
-    sockaddr_in sender{};
-    socklen_t size = sizeof sender;
-    const ssize_t got = recvfrom(socket.get(), in.data(), in.size(), MSG_DONTWAIT,
-                                 reinterpret_cast<sockaddr*>(&sender), &size);
-    if (got < 0) return;
-    const Endpoint from{ntohl(sender.sin_addr.s_addr), ntohs(sender.sin_port)};
-    // A broadcast comes in on every interface; only the one the sender lives on may answer, or the client
-    // would talk to an address that the stream does not come from.
-    if (&socket == &broadcast && (from.ip & net.mask) != (net.address & net.mask)) return;
-    const std::size_t answer =
-        device->handle({in.data(), static_cast<std::size_t>(got)}, from, monotonic_ns(), out);
-    if (answer > 0)
-        sendto(control.get(), out.data(), answer, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&sender),
-               sizeof sender);
-}
-
-void GigeSink::Implementation::test_packet(const GigeStreamState& state, std::size_t bytes) {
-    std::array<std::uint8_t, 16384> packet{};
-    const int discover = state.do_not_fragment ? IP_PMTUDISC_DO : IP_PMTUDISC_WANT;
-    setsockopt(stream.get(), IPPROTO_IP, IP_MTU_DISCOVER, &discover, sizeof discover);
-    const sockaddr_in to = socket_address(state.destination.ip, state.destination.port);
-    sendto(stream.get(), packet.data(), std::min(bytes, packet.size()), MSG_DONTWAIT,
-           reinterpret_cast<const sockaddr*>(&to), sizeof to);
-}
-
-// --- packets
-// -------------------------------------------------------------------------------------------------------
-
-// Header bytes into `header`; `payload` points into the slot. Gives the header's size.
-std::size_t GigeSink::Implementation::build_packet(const Slot& slot, std::uint16_t block,
-                                                   std::uint32_t packet, std::span<std::uint8_t> header,
-                                                   std::span<const std::uint8_t>& payload) const {
-    const std::uint32_t packets = slot.packets();
-    payload = {};
-    if (packet == 0) {
-        const GigeStreamState& s = slot.state;
-        gvsp::write_leader(block,
-                           {static_cast<std::uint64_t>(slot.record.exposure_mid_monotonic_ns), s.pixel_format,
-                            s.width, s.height, s.offset_x, s.offset_y},
-                           header);
-        return gvsp::kLeaderBytes;
-    }
-    if (packet > packets) {
-        gvsp::write_trailer(block, packet, slot.state.height, header);
-        return gvsp::kTrailerBytes;
-    }
-    gvsp::write_payload_header(block, packet, header);
-    const std::size_t from = (packet - 1) * slot.chunk();
-    payload =
-        std::span(slot.payload).subspan(from, std::min(slot.chunk(), slot.state.payload_bytes() - from));
-    return gvsp::kHeaderBytes;
-}
-
-void GigeSink::Implementation::resend(const gvcp::ResendRequest& request) {
-    const auto block = static_cast<std::uint16_t>(request.block);
-    const GigeStreamState& now = device->stream_state();
-    const sockaddr_in to = socket_address(now.destination.ip, now.destination.port);
-    std::array<std::uint8_t, 16384> packet;
-    const Slot* slot = nullptr;
-    for (const Slot& candidate : slots)
-        if (candidate.block.load(std::memory_order_acquire) == block && candidate.epoch == now.epoch)
-            slot = &candidate;
-    std::uint32_t last = request.last_packet;
-    // One request may not make more than one frame's worth of answers.
-    last = std::min(last, slot ? slot->packets() + 1 : request.first_packet);
-    // The control port must not go silent for a client that reads slowly.
-    const std::int64_t until_ns = monotonic_ns() + kResendPatience_ns;
-    for (std::uint32_t id = request.first_packet; id <= last; ++id) {
-        if (monotonic_ns() < until_ns)
-            control_room.wait(stream_address, to, ReceiverRoom::bytes_of(now.packet_bytes), stopping);
-        std::size_t size = gvsp::kHeaderBytes;
-        bool whole = false;
-        if (slot) {
-            std::span<const std::uint8_t> payload;
-            size = build_packet(*slot, block, id, packet, payload);
-            std::copy(payload.begin(), payload.end(), packet.begin() + static_cast<std::ptrdiff_t>(size));
-            size += payload.size();
-            // The loop may have reused the slot meanwhile: then what was copied is of two frames.
-            std::atomic_thread_fence(std::memory_order_acquire);
-            whole = slot->block.load(std::memory_order_relaxed) == block;
-        }
-        if (!whole) {
-            gvsp::write_unavailable(block, id, gvcp::kPacketUnavailable, packet);
-            size = gvsp::kHeaderBytes;
-        }
-        (whole ? resent : unavailable).fetch_add(1);
-        sendto(stream.get(), packet.data(), size, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),
-               sizeof to);
-        if (!whole) return;
+    const GigeSockets::Receive answer = [&](std::span<const std::uint8_t> datagram, Endpoint from,
+                                            bool broadcast) {
+        if (faults.strikes(FaultKind::kLinkDown, 0)) return;
+        const std::int64_t now_ns = monotonic_ns();
+        const std::size_t size = device->handle(datagram, from, now_ns, out, broadcast);
+        if (size > 0) sockets->send_answer({out.data(), size}, from);
+        device->tick(now_ns);
+    };
+    while (!stopping.load()) {
+        sockets->wait(wakeup, device->wake_ns() - monotonic_ns());
+        sockets->take(answer);
+        tell_device(monotonic_ns());
+        if (next_sockets) move_to_next_sockets();
     }
 }
 
-// --- sender thread
-// -------------------------------------------------------------------------------------------------
-
-void GigeSink::Implementation::send_frames() {
-    while (true) {
-        ready.acquire();
-        if (stopping.load()) return;
-        const std::uint64_t index = sent.load(std::memory_order_relaxed);
-        Slot& slot = slots[index % kSlots];
-        const GigeStreamState& now = for_sender.read();
-        // The client may have gone, or begun anew, since the frame was packed.
-        if (now.open && now.epoch == slot.epoch) send_frame(slot);
-        sent.store(index + 1, std::memory_order_release);
-    }
-}
-
-void GigeSink::Implementation::send_frame(Slot& slot) {
-    sockaddr_in to = socket_address(slot.state.destination.ip, slot.state.destination.port);
-    const std::uint16_t block = slot.block.load();
-    const std::uint32_t last = slot.packets() + 1;
-    const double rate_ns = static_cast<double>(slot.state.packet_bytes) / config.rate_bytes_s * 1e9;
-    const double interval_ns = std::max(rate_ns, static_cast<double>(slot.state.packet_delay_ns));
-    std::array<std::array<std::uint8_t, gvsp::kLeaderBytes>, kMostBatch> headers;
-    std::array<std::array<iovec, 2>, kMostBatch> parts;
-    std::array<mmsghdr, kMostBatch> messages;
-    const std::size_t packet_room = ReceiverRoom::bytes_of(slot.state.packet_bytes);
-    // A delay asked for by the client is per packet; without one, batches keep the rate.
-    const std::size_t batch = slot.state.packet_delay_ns > 100'000
-                                  ? 1
-                                  : std::clamp<std::size_t>(kBatchBytes / packet_room, 1, kMostBatch);
-    const std::int64_t first_ns = monotonic_ns();
-    std::uint32_t id = 0;
-    while (id <= last) {
-        unsigned count = 0;
-        for (; count < batch && id <= last; ++count, ++id) {
-            std::span<const std::uint8_t> payload;
-            const std::size_t size = build_packet(slot, block, id, headers[count], payload);
-            parts[count][0] = {headers[count].data(), size};
-            parts[count][1] = {const_cast<std::uint8_t*>(payload.data()), payload.size()};
-            messages[count] = {};
-            messages[count].msg_hdr.msg_name = &to;
-            messages[count].msg_hdr.msg_namelen = sizeof to;
-            messages[count].msg_hdr.msg_iov = parts[count].data();
-            messages[count].msg_hdr.msg_iovlen = payload.empty() ? 1 : 2;
-        }
-        sender_room.wait(stream_address, to, count * packet_room, stopping);
-        // What the kernel does not take now is lost like on a wire; the client asks for it again.
-        sendmmsg(stream.get(), messages.data(), count, 0);
-        if (id <= last) {
-            const std::int64_t due_ns = first_ns + static_cast<std::int64_t>(id * interval_ns);
-            // Shorter sleeps than this cost more than they pace.
-            if (due_ns - monotonic_ns() > 50'000) sleep_until_ns(due_ns);
-        }
-    }
-    delivered.fetch_add(1);
-    if (listener) listener->delivered(slot.record, first_ns, monotonic_ns());
+void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
+    for (CameraEvent e{}; events.pop(e);) device->happened(e, writer.block_of(e.frame), now_ns);
+    if (const std::uint64_t last = finished.exchange(0, std::memory_order_acquire); last >> 32 == era)
+        device->acquisition_finished(static_cast<std::uint32_t>(last));
+    const GigeSender::Counts& c = sender.counts();
+    device->set_statistics({.frames = c.frames,
+                            .frames_dropped = writer.dropped(),
+                            .packets = c.packets,
+                            .packets_dropped = c.packets_dropped,
+                            .resend_requests = c.resend_requests,
+                            .packets_resent = c.packets_resent,
+                            .packets_refused = c.packets_refused,
+                            .events_dropped = events_dropped});
+    device->tick(now_ns);
+    sender.set_frame_rate(camera.settings().frame_rate_hz);
+    controlled.store(device->controlled());
 }
 
 // --- the sink
 // ------------------------------------------------------------------------------------------------------
 
-GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context)
-    : implementation_(std::make_unique<Implementation>(config, context)) {}
+GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context) {
+    const CameraLimits limits = context.camera.limits();
+    const std::size_t bytes = most_payload_bytes(limits.width, limits.height, limits.color_pattern);
+    implementation_ = std::make_unique<Implementation>(config, context, limits, bytes);
+}
 GigeSink::~GigeSink() { stop(); }
 
 void GigeSink::start() {
     Implementation& my = *implementation_;
     my.open();
+    my.stopping.store(false);
+    my.sender.start();
     my.control_thread = std::thread([&my] { my.serve_control(); });
-    my.sender_thread = std::thread([&my] { my.send_frames(); });
 }
 
 void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
     Implementation& my = *implementation_;
-    const GigeStreamState& state = my.for_loop.read();
-    if (!state.open || !state.acquiring) return;
-    if (state.epoch != my.loop_epoch) {
-        my.loop_epoch = state.epoch;
-        my.loop_frames = 0;
-        my.next_block = 1;
-    }
-    if (state.frames != 0 && my.loop_frames >= state.frames) return;
-    const std::uint16_t block = my.next_block;
-    my.next_block = block == 65535 ? 1 : static_cast<std::uint16_t>(block + 1);
-    const std::uint64_t head = my.head.load(std::memory_order_relaxed);
-    if (head - my.sent.load(std::memory_order_acquire) >= kMostWaiting) {
-        my.dropped.fetch_add(1);  // the block id stays used: the client sees the gap
-        return;
-    }
-    Implementation::Slot& slot = my.slots[head % kSlots];
-    slot.block.store(0, std::memory_order_relaxed);
-    std::atomic_thread_fence(std::memory_order_release);
-    slot.state = state;
-    slot.epoch = state.epoch;
-    slot.record = record;
-    std::uint8_t* out = slot.payload.data();
-    for (std::uint32_t y = 0; y < state.height; ++y) {
-        const auto row = frame.row(static_cast<int>(state.offset_y + y)).subspan(state.offset_x, state.width);
-        pack_row(row, state.pixel_format, record.bits, out);
-        out += row.size() * gvsp::bytes_per_pixel(state.pixel_format);
-    }
-    slot.block.store(block, std::memory_order_release);
-    my.head.store(head + 1, std::memory_order_release);
-    my.ready.release();
-    if (state.frames != 0 && ++my.loop_frames == state.frames)
-        my.finished_epoch.store(state.epoch, std::memory_order_release);
+    const GigeStreamNow& now = my.for_loop.read();
+    const GigeFrameWriter::Outcome outcome = my.writer.write(frame, record, now);
+    if (outcome.written) my.sender.frame_ready();
+    if (outcome.finished) my.finish(now.acquisition);
+}
+
+void GigeSink::happened(const CameraEvent& event) noexcept {
+    Implementation& my = *implementation_;
+    if (!my.events.push(event)) my.events_dropped.fetch_add(1, std::memory_order_relaxed);
+    wake(my.wakeup);
 }
 
 void GigeSink::stop() noexcept {
     Implementation& my = *implementation_;
     if (!my.control_thread.joinable()) return;
     my.stopping.store(true);
-    my.ready.release();
     wake(my.wakeup);
-    my.sender_thread.join();
     my.control_thread.join();
+    my.sender.close();
+    my.sockets.reset();
+    my.next_sockets.reset();
 }
 
 SinkReport GigeSink::report() const {
     const Implementation& my = *implementation_;
-    return {"gige " + format_ipv4(my.net.address), my.delivered.load(), my.dropped.load(), ""};
+    const GigeSender::Counts& c = my.sender.counts();
+    const auto n = [](std::uint64_t count) { return static_cast<double>(count); };
+    return {.name = "gige " + format_ipv4(my.address.load()),
+            .frames = c.frames,
+            .dropped = my.writer.dropped() + my.writer.of_other_size(),
+            .fault = "",
+            .figures = {{"clients", my.controlled ? 1.0 : 0.0},
+                        {"acquisitions", n(my.acquisitions)},
+                        {"packets_sent", n(c.packets)},
+                        {"bytes_sent", n(c.bytes)},
+                        {"packets_dropped_by_faults", n(c.packets_dropped)},
+                        {"packets_not_taken_by_kernel", n(c.packets_failed)},
+                        {"resend_requests", n(c.resend_requests)},
+                        {"packets_resent", n(c.packets_resent)},
+                        {"packets_refused", n(c.packets_refused)},
+                        {"test_packets", n(c.test_packets)},
+                        {"frames_of_other_size", n(my.writer.of_other_size())},
+                        {"events_dropped", n(my.events_dropped)}}};
 }
 
 }  // namespace hilcam

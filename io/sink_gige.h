@@ -1,11 +1,11 @@
 #pragma once
-// Frames out of a GigE Vision camera on one IPv4 address: sockets and threads around gige_device.h.
+// Frames out of a GigE Vision camera on one IPv4 address: the threads around gige_device.h (control) and
+// gige_sender.h (stream).
 //
-// The loop packs each frame into a ring slot; a sender thread sends it in small batches with sleeps between,
-// so that a receiver with the kernel's default buffer keeps up; a control thread answers within its poll and
-// serves resend requests from the ring. Mono8 carries the upper 8 bits of a DN, Mono12 the DN scaled to 12
-// bits, Mono16 the DN in the most significant of 16 bits; samples are little-endian. Leaders carry the
-// exposure's middle on CLOCK_MONOTONIC, 1 tick = 1 ns.
+// The loop writes each frame into a ring slot (gige_frame_writer.h); the sender's thread sends it; the
+// control thread answers as soon as the machine lets it run, for it shares nothing with rendering. Leaders
+// carry the exposure's middle on the device's clock: CLOCK_MONOTONIC, 1 tick = 1 ns, unless a client reset it
+// or enabled PTP. Several cameras live in one process, one address each.
 
 #include <cstdint>
 #include <memory>
@@ -21,19 +21,22 @@ struct GigeConfig {
     std::string model = "hilcam";
     std::string serial = "HC000001";
     std::string user_name = "";
-    std::int64_t packet_bytes = 7680;  // before a client negotiates another
+    std::int64_t packet_bytes = 7680;  // before a client negotiates another; no more than the interface's MTU
     double rate_bytes_s = 400e6;       // upper limit of the stream
+    double spread_fraction = 0.5;      // of a frame period: what a frame's packets may be spread over
 };
 Fields fields(GigeConfig& config);
 
 class GigeSink : public FrameSink {
   public:
+    // Throws InputError when there is no such interface.
     GigeSink(const GigeConfig& config, const SinkContext& context);
     ~GigeSink() override;
 
-    // Throws InputError when there is no such interface, DeviceError when port 3956 there is taken.
+    // Throws DeviceError when port 3956 there is taken.
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
+    void happened(const CameraEvent& event) noexcept override;
     void stop() noexcept override;
     SinkReport report() const override;
 

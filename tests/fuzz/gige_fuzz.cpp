@@ -49,9 +49,9 @@ class AnyCamera : public hilcam::CameraControl {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hilcam;
     AnyCamera camera;
-    GigeDevice device(
-        {"camera", "S1", "", 0x7F000001, 0xFF000000, 0, 0x020000000001, 1500}, camera,
-        {nullptr, [](const gvcp::ResendRequest&) {}, [](const GigeStreamState&, std::size_t) {}});
+    FaultBoard faults;
+    GigeDevice device({"camera", "S1", "", 0x7F000001, 0xFF000000, 0, 0x020000000001, 1500}, camera, faults,
+                      {});
     std::vector<std::uint8_t> out(gvcp::kMostDatagramBytes);
     std::span<const std::uint8_t> rest(data, size);
     std::int64_t now_ns = 0;

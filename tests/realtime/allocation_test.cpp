@@ -5,16 +5,24 @@
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <thread>
 
 #include "emulator/emulator.h"
+#include "io/bytes.h"
+#include "io/fd.h"
+#include "io/gige_features.h"
+#include "io/gvcp.h"
 
 namespace {
 
@@ -92,13 +100,58 @@ TEST_F(Allocation, TheGuardSeesOne) {
     EXPECT_EQ(counted.load(), 1);
 }
 
-int allocations(const std::vector<std::string>& overrides) {
+// An application that has the camera stream to it and reads what comes.
+class StreamReader {
+  public:
+    static constexpr std::uint32_t kCamera = 0x7F530401;  // 127.83.4.1
+
+    StreamReader() : stream_(open_udp(kCamera, 0)), control_(open_udp(kCamera, 0)) {
+        sockaddr_in own{};
+        socklen_t size = sizeof own;
+        getsockname(stream_.get(), reinterpret_cast<sockaddr*>(&own), &size);
+        write(bootstrap::kControl, 2);
+        write(bootstrap::kStreamAddress, kCamera);
+        write(bootstrap::kStreamPort, ntohs(own.sin_port));
+        write(feature_register::kAcquisitionStart, 1);
+    }
+    // Gives the number of datagrams since the last call.
+    int drain() {
+        int count = 0;
+        while (recv(stream_.get(), bytes_.data(), bytes_.size(), MSG_DONTWAIT) > 0) ++count;
+        return count;
+    }
+
+  private:
+    // Until it is answered: the camera opens its sockets in its own time.
+    void write(std::uint32_t address, std::uint32_t value) {
+        const sockaddr_in to = socket_address(kCamera, gvcp::kPort);
+        for (int i = 0; i < 5000; ++i) {
+            std::array<std::uint8_t, 16> command;
+            ByteWriter(command).u8(0x42).u8(1).u16(gvcp::kWriteRegister).u16(8).u16(++id_);
+            ByteWriter(std::span(command).subspan(8)).u32(address).u32(value);
+            sendto(control_.get(), command.data(), command.size(), 0, reinterpret_cast<const sockaddr*>(&to),
+                   sizeof to);
+            pollfd watched{control_.get(), POLLIN, 0};
+            if (poll(&watched, 1, 10) > 0 && recv(control_.get(), bytes_.data(), bytes_.size(), 0) >= 8) {
+                EXPECT_EQ(ByteReader(bytes_).u16(), 0u);
+                return;
+            }
+        }
+        ADD_FAILURE() << "the camera does not answer";
+    }
+    Fd stream_, control_;
+    std::array<std::uint8_t, 16384> bytes_{};
+    std::uint16_t id_ = 0;
+};
+
+// `streaming`: with a GigE Vision camera whose frames an application takes.
+int allocations(const std::vector<std::string>& overrides, bool streaming = false) {
     const ScenarioConfig scenario =
         load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", overrides);
     RunLimits limits;
-    limits.frames = 80;
-    limits.paced = false;
-    limits.outputs = false;
+    limits.frames = streaming ? 300 : 80;
+    limits.paced = streaming;
+    limits.outputs = streaming;
     Emulator emulator(scenario, limits);
     std::thread runner([&] { emulator.run([] {}); });
     const auto frames = [&] { return emulator.loop().counters().frames.load(); };
@@ -106,20 +159,35 @@ int allocations(const std::vector<std::string>& overrides) {
         while (frames() < count && !emulator.loop().finished()) std::this_thread::yield();
     };
     wait_for(20);
+    std::optional<StreamReader> reader;
+    int packets = 0;
+    if (streaming) {
+        reader.emplace();
+        for (int i = 0; i < 5000 && packets == 0; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            packets += reader->drain();
+        }
+        EXPECT_GT(packets, 0);
+        packets = 0;
+    }
+    const std::uint64_t until = streaming ? frames() + 50 : 70;
     counted = 0;
     armed = true;
     Motion motion;
     motion.pose.position_world_m = {22, 15, 7};
-    for (std::uint32_t i = 0; frames() < 70 && !emulator.loop().finished(); ++i) {
+    for (std::uint32_t i = 0; frames() < until && !emulator.loop().finished(); ++i) {
         motion.time = emulator.clock().now();
         motion.rate_body_rad_s = scenario.camera_pose.rate_body_rad_s;
         emulator.world().set(0, motion, {i, monotonic_now_ns()});
+        if (reader) packets += reader->drain();
         std::this_thread::yield();
     }
     armed = false;
     const std::uint64_t measured = frames();
     runner.join();
-    EXPECT_GE(measured, 70u);
+    EXPECT_GE(measured, until);
+    // A leader, a trailer and one packet at the least, of each frame that the machine had time to send.
+    EXPECT_GE(packets, streaming ? 10 * 3 : 0);
     return counted.load();
 }
 
@@ -141,6 +209,10 @@ TEST_F(Allocation, NorWithAScanningLine) {
                      "camera_pose.rate_deg_s=[-2000, 0, 0]",
                      std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv"}),
         0);
+}
+
+TEST_F(Allocation, NorWhileACameraIsStreamedFrom) {
+    EXPECT_EQ(allocations({"outputs.gige.interface=127.83.4.1", "outputs.gige.serial=ALLOC"}, true), 0);
 }
 
 }  // namespace

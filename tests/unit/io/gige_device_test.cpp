@@ -43,12 +43,14 @@ constexpr Endpoint kClient{0x7F000001, 40000}, kOther{0x7F000001, 40001};
 
 struct Bench {
     FakeCamera camera;
+    FaultBoard faults;
     std::vector<gvcp::ResendRequest> resends;
     std::vector<std::size_t> tests;
     GigeDevice device{{"cam", "S1", "", 0x7F000001, 0xFF000000, 0, 0x020000000001, 1500},
                       camera,
-                      {nullptr, [this](const gvcp::ResendRequest& r) { resends.push_back(r); },
-                       [this](const GigeStreamState&, std::size_t n) { tests.push_back(n); }}};
+                      faults,
+                      {.resend = [this](const gvcp::ResendRequest& r, Endpoint) { resends.push_back(r); },
+                       .test_packet = [this](const GigeStreamState&, std::size_t n) { tests.push_back(n); }}};
     std::int64_t now_ns = 0;
     std::uint16_t id = 1;
 
@@ -164,7 +166,7 @@ TEST(GigeDevice, GeometryStaysOnTheSensorAndIsLockedWhileStreaming) {
     EXPECT_EQ(b.write(feature_register::kWidth, 320), gvcp::kSuccess);
     EXPECT_EQ(b.write(feature_register::kOffsetX, 320), gvcp::kSuccess);
     EXPECT_EQ(b.read(feature_register::kPayloadSize), 320u * 480 * 2);
-    EXPECT_EQ(b.write(feature_register::kPixelFormat, gvsp::kMono8), gvcp::kSuccess);
+    EXPECT_EQ(b.write(feature_register::kPixelFormat, pfnc_code(WireFormat::kMono8, {})), gvcp::kSuccess);
     EXPECT_EQ(b.read(feature_register::kPayloadSize), 320u * 480);
     EXPECT_EQ(b.write(feature_register::kPixelFormat, 0x02180014), gvcp::kInvalidParameter);
     b.write(feature_register::kAcquisitionStart, 1);

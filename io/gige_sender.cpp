@@ -1,0 +1,343 @@
+#include "io/gige_sender.h"
+
+#include <netinet/ip.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/time.h>
+#include <time.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "io/urgent_thread.h"
+
+namespace hilcam {
+namespace {
+
+// A batch takes at most a third of a client's default receive buffer.
+constexpr std::size_t kBatchRoom = 70'000;
+// A frame that has time is spread, but a cable of gigabit Ethernet would not have made it slower than this.
+constexpr double kGigabit_bytes_s = 125e6;
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+std::int64_t monotonic_ns() {
+    timespec t{};
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
+}
+sockaddr_in address_of(const Endpoint& e) { return socket_address(e.ip, e.port); }
+
+}  // namespace
+
+GigeSender::GigeSender(GigeRing& ring, FaultBoard& faults, DeliveryListener* listener,
+                       const GigePaceConfig& pace, std::function<void(std::uint64_t)> finished)
+    : ring_(ring),
+      faults_(faults),
+      listener_(listener),
+      pace_config_(pace),
+      finished_(std::move(finished)),
+      wakeup_(open_wakeup()) {
+    delayed_.reserve(kMostDelayed);
+}
+
+void GigeSender::open(std::uint32_t address) {
+    Fd fresh = open_udp(address, 0);
+    // A full network card must not hold the thread for good.
+    const timeval patience{0, 100'000};
+    setsockopt(fresh.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    // Streams to a group stay on the link they start on, and listeners on this machine hear them too.
+    const int one = 1;
+    const in_addr own{htonl(address)};
+    setsockopt(fresh.get(), IPPROTO_IP, IP_MULTICAST_TTL, &one, sizeof one);
+    setsockopt(fresh.get(), IPPROTO_IP, IP_MULTICAST_LOOP, &one, sizeof one);
+    setsockopt(fresh.get(), IPPROTO_IP, IP_MULTICAST_IF, &own, sizeof own);
+    socket_ = std::move(fresh);
+    socklen_t size = sizeof address_;
+    getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address_), &size);
+    do_not_fragment_ = true;
+    set_do_not_fragment(false);
+}
+
+void GigeSender::start() {
+    stopping_.store(false);
+    thread_ = std::thread([this] { run(); });
+}
+
+void GigeSender::close() noexcept {
+    if (thread_.joinable()) {
+        stopping_.store(true);
+        wake(wakeup_);
+        thread_.join();
+    }
+    socket_.reset();
+}
+
+bool GigeSender::order(const GigeOrder& order) noexcept {
+    const bool taken = orders_.push(order);
+    wake(wakeup_);
+    return taken;
+}
+
+void GigeSender::run() {
+    // The kernel lets sleeps run 50 us over by default; pacing is finer.
+    prctl(PR_SET_TIMERSLACK, 1000);
+    make_thread_urgent();
+    while (!stopping_.load(std::memory_order_relaxed)) {
+        const bool busy = serve_orders();
+        if (GigeSlot* const slot = ring_.next()) {
+            send_frame(*slot);
+            ring_.done(*slot);
+        } else if (!busy) {
+            sleep_until(next_due_ns());
+        }
+    }
+}
+
+// --- frames
+// ------------------------------------------------------------------------------------------------------
+
+void GigeSender::send_frame(GigeSlot& slot) {
+    const GigeStreamState& s = slot.frame.stream;
+    // The client may have gone, or begun anew, since the frame was taken.
+    const auto wanted = [&] {
+        const GigeStreamNow& now = stream_.read();
+        return now.state.open && now.acquisition == slot.acquisition;
+    };
+    if (history_of_ != slot.acquisition) history_.restart(s.extended_ids), history_of_ = slot.acquisition;
+    history_.sent(slot.frame.block);
+    set_do_not_fragment(s.do_not_fragment);
+    current_ = &slot;
+    std::int64_t first_ns = 0, last_ns = 0;
+    pacer_.begin(pace_of(slot), monotonic_ns());
+    PacketOrder order(trailer_id(s));
+    bool whole = true;
+    while (!order.done()) {
+        whole = wanted() && !stopping_.load(std::memory_order_relaxed);
+        if (!whole) break;
+        batch_.begin(address_of(s.destination));
+        fill_batch(slot, order);
+        if (first_ns == 0) first_ns = monotonic_ns();
+        counts_.packets.fetch_add(batch_.count(), std::memory_order_relaxed);
+        transmit(s.packet_bytes);
+        last_ns = monotonic_ns();
+        if (!order.done()) pause_until(pacer_.ready_ns());
+    }
+    current_ = nullptr;
+    if (whole) {
+        counts_.frames.fetch_add(1, std::memory_order_relaxed);
+        if (listener_) listener_->delivered(slot.record, first_ns, last_ns);
+    }
+    if (slot.last) finished_(slot.acquisition);
+}
+
+void GigeSender::fill_batch(const GigeSlot& slot, PacketOrder& order) {
+    const GigeStreamState& s = slot.frame.stream;
+    const std::uint32_t trailer = trailer_id(s);
+    const std::size_t most_bytes =
+        std::min(pacer_.batch_bytes(), kBatchRoom / ReceiverRoom::bytes_of(s.packet_bytes) * s.packet_bytes);
+    // One place stays free for a duplicate.
+    for (std::size_t taken = 0; !order.done() && batch_.count() + 1 < PacketBatch::kMostPackets;) {
+        const std::uint32_t id = order.next(faults_, slot.record.id);
+        const PacketFate fate = fate_of_packet(faults_, slot.record.id, id, trailer);
+        const GigePacket packet = packet_of(slot.frame, id, gvsp::kFresh);
+        if (fate.lost)
+            counts_.packets_dropped.fetch_add(1, std::memory_order_relaxed);
+        else if (fate.delay_ns)
+            delay(slot, id, gvsp::kFresh, fate, batch_.to());
+        else
+            batch_.add(packet, fate, s.extended_ids);
+        if (fate.twice) batch_.add(packet, fate, s.extended_ids);
+        taken += packet.bytes() + 28;
+        if (taken + s.packet_bytes > most_bytes) break;
+    }
+}
+
+void GigeSender::transmit(std::uint32_t packet_bytes) {
+    if (batch_.count() > 0) {
+        room_.wait(address_, batch_.to(), batch_.count() * ReceiverRoom::bytes_of(packet_bytes), stopping_);
+        counts_.packets_failed.fetch_add(batch_.send(socket_.get()), std::memory_order_relaxed);
+        counts_.bytes.fetch_add(batch_.bytes(), std::memory_order_relaxed);
+    }
+    pacer_.sent(batch_.count(), batch_.bytes(), monotonic_ns());
+}
+
+void GigeSender::set_do_not_fragment(bool on) {
+    if (on == do_not_fragment_) return;
+    do_not_fragment_ = on;
+    // PROBE: whatever was heard of the path's MTU; packets longer than the interface's own are refused.
+    const int discover = on ? IP_PMTUDISC_PROBE : IP_PMTUDISC_DONT;
+    setsockopt(socket_.get(), IPPROTO_IP, IP_MTU_DISCOVER, &discover, sizeof discover);
+}
+
+Pace GigeSender::pace_of(const GigeSlot& slot) {
+    const GigeStreamState& s = slot.frame.stream;
+    const double asked = s.throughput_limit_bytes_s;
+    double rate = asked > 0 ? asked : pace_config_.rate_bytes_s;
+    const double hz = frame_rate_hz_.load(std::memory_order_relaxed);
+    // Who sets a delay or a limit says how fast; else a frame takes the time it has.
+    if (asked <= 0 && s.packet_delay_ns == 0 && pace_config_.spread_fraction > 0) {
+        const double bytes = static_cast<double>(trailer_id(s)) * s.packet_bytes;
+        rate = std::min(rate, std::max(kGigabit_bytes_s, bytes * hz / pace_config_.spread_fraction));
+    }
+    if (const auto cap_mb_s = faults_.strikes(FaultKind::kBandwidthCap, slot.record.id))
+        rate = std::min(rate, *cap_mb_s * 1e6);
+    return {rate, s.packet_delay_ns};
+}
+
+// --- what is asked for
+// --------------------------------------------------------------------------------------------
+
+bool GigeSender::serve_orders() {
+    serve_delayed(monotonic_ns());
+    if (!resend_) {
+        GigeOrder order;
+        if (!orders_.pop(order)) return false;
+        if (order.kind == GigeOrder::Kind::kTestPacket) {
+            send_test_packet(order);
+            return true;
+        }
+        counts_.resend_requests.fetch_add(1, std::memory_order_relaxed);
+        resend_ = order;
+    }
+    serve_resend();
+    return true;
+}
+
+// One batch of the packets that resend_ asks for.
+void GigeSender::serve_resend() {
+    GigeOrder& r = *resend_;
+    std::uint64_t oldest = 0;
+    GigeSlot* const slot = borrow(r.acquisition, r.block, oldest);
+    batch_.begin(address_of(r.to));
+    if (!slot)
+        return refuse(history_of_ == r.acquisition ? history_.why_missing(r.block, oldest)
+                                                   : gvsp::kUnavailable);
+    const std::uint32_t trailer = trailer_id(slot->frame.stream);
+    const std::size_t most = kBatchRoom / ReceiverRoom::bytes_of(r.packet_bytes);
+    std::uint64_t resent = 0, refused = 0;
+    while (r.next <= std::min(r.last, trailer) &&
+           batch_.count() < std::min(most, PacketBatch::kMostPackets)) {
+        const std::uint32_t id = r.next++;
+        const PacketFate fate = fate_of_resend(faults_, slot->record.id, id);
+        if (fate.lost)
+            batch_.add(refusal_of(r.extended_ids, r.block, id, gvsp::kUnavailable), {}, r.extended_ids);
+        else if (fate.delay_ns)
+            delay(*slot, id, gvsp::kResent, fate, batch_.to());
+        else
+            batch_.add(packet_of(slot->frame, id, gvsp::kResent), fate, r.extended_ids);
+        ++(fate.lost ? refused : resent);
+    }
+    counts_.packets_resent.fetch_add(resent, std::memory_order_relaxed);
+    counts_.packets_refused.fetch_add(refused, std::memory_order_relaxed);
+    if (batch_.count() == 0 && r.next > trailer && resent == 0) {
+        give_back(slot);
+        return refuse(gvsp::kUnavailable);  // past the block's end
+    }
+    transmit(r.packet_bytes);
+    give_back(slot);
+    if (r.next > std::min(r.last, trailer)) resend_.reset();
+}
+
+// All that resend_ asks for; said of its first packets, for clients give up the block then.
+void GigeSender::refuse(gvsp::Status reason) {
+    const GigeOrder& r = *resend_;
+    for (std::uint32_t id = r.next; id <= r.last && id - r.next < 8; ++id)
+        batch_.add(refusal_of(r.extended_ids, r.block, id, reason), {}, r.extended_ids);
+    counts_.packets_refused.fetch_add(std::uint64_t{r.last} - r.next + 1, std::memory_order_relaxed);
+    transmit(r.packet_bytes);
+    resend_.reset();
+}
+
+void GigeSender::send_test_packet(const GigeOrder& order) {
+    const auto limit = faults_.would_strike(FaultKind::kTestPacketLimit, 0, order.packet_bytes);
+    if (limit && order.packet_bytes > *limit) {
+        faults_.strikes(FaultKind::kTestPacketLimit, 0, order.packet_bytes);
+        return;
+    }
+    if (faults_.strikes(FaultKind::kLinkDown, 0)) return;
+    static constexpr std::array<std::uint8_t, 65535> kZeros{};
+    set_do_not_fragment(order.do_not_fragment);
+    const sockaddr_in to = address_of(order.to);
+    const std::size_t bytes = order.packet_bytes - std::min<std::size_t>(order.packet_bytes, 28);
+    if (sendto(socket_.get(), kZeros.data(), std::min(bytes, kZeros.size()), 0,
+               reinterpret_cast<const sockaddr*>(&to), sizeof to) >= 0)
+        counts_.test_packets.fetch_add(1, std::memory_order_relaxed);
+    else
+        counts_.packets_failed.fetch_add(1, std::memory_order_relaxed);
+}
+
+GigeSlot* GigeSender::borrow(std::uint64_t acquisition, std::uint64_t block, std::uint64_t& oldest) {
+    if (current_ && current_->acquisition == acquisition && current_->frame.block == block) return current_;
+    return ring_.find(acquisition, block, oldest);
+}
+void GigeSender::give_back(GigeSlot* slot) {
+    if (slot != current_) ring_.keep(*slot);
+}
+
+// --- packets held back
+// --------------------------------------------------------------------------------------------
+
+void GigeSender::delay(const GigeSlot& slot, std::uint32_t id, gvsp::Status status, const PacketFate& fate,
+                       const sockaddr_in& to) {
+    if (delayed_.size() == kMostDelayed) {
+        counts_.packets_dropped.fetch_add(1, std::memory_order_relaxed);
+        return;
+    }
+    delayed_.push_back(
+        {monotonic_ns() + *fate.delay_ns, slot.acquisition, slot.frame.block, id, status, fate.id_error, to});
+}
+
+std::int64_t GigeSender::next_due_ns() const {
+    std::int64_t due_ns = kNever;
+    for (const Delayed& d : delayed_) due_ns = std::min(due_ns, d.due_ns);
+    return due_ns;
+}
+
+void GigeSender::serve_delayed(std::int64_t now_ns) {
+    for (std::size_t i = 0; i < delayed_.size();) {
+        const Delayed d = delayed_[i];
+        if (d.due_ns > now_ns) {
+            ++i;
+            continue;
+        }
+        delayed_.erase(delayed_.begin() + static_cast<std::ptrdiff_t>(i));
+        std::uint64_t oldest = 0;
+        GigeSlot* const slot = borrow(d.acquisition, d.block, oldest);
+        if (!slot) {  // later than the ring reaches back: lost
+            counts_.packets_dropped.fetch_add(1, std::memory_order_relaxed);
+            continue;
+        }
+        PacketFate fate;
+        fate.id_error = d.id_error;
+        const GigeStreamState& s = slot->frame.stream;
+        batch_.begin(d.to);
+        batch_.add(packet_of(slot->frame, d.id, d.status), fate, s.extended_ids);
+        if (d.status == gvsp::kFresh) counts_.packets.fetch_add(1, std::memory_order_relaxed);
+        transmit(s.packet_bytes);
+        give_back(slot);
+    }
+}
+
+// --- waiting
+// -----------------------------------------------------------------------------------------------------
+
+void GigeSender::pause_until(std::int64_t due_ns) {
+    while (!stopping_.load(std::memory_order_relaxed)) {
+        if (serve_orders()) continue;
+        if (due_ns - monotonic_ns() < Pacer::kShortestSleep_ns) return;
+        sleep_until(std::min(due_ns, next_due_ns()));
+    }
+}
+
+// Or until something is asked for.
+void GigeSender::sleep_until(std::int64_t due_ns) {
+    pollfd watched{wakeup_.get(), POLLIN, 0};
+    const std::int64_t left_ns = std::max<std::int64_t>(0, due_ns - monotonic_ns());
+    const timespec left{static_cast<time_t>(left_ns / 1'000'000'000),
+                        static_cast<long>(left_ns % 1'000'000'000)};
+    if (ppoll(&watched, 1, due_ns == kNever ? nullptr : &left, nullptr) <= 0) return;
+    std::uint64_t count = 0;
+    [[maybe_unused]] const auto got = ::read(wakeup_.get(), &count, sizeof count);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,42 @@
+#pragma once
+// When the next packets may leave: a token bucket. What was sent is paid for with time; a sender that came
+// late may catch up with little, so that its burst does not overrun a receiver's buffer.
+
+#include <algorithm>
+#include <cstdint>
+
+namespace hilcam {
+
+struct Pace {
+    double bytes_s = 1e9;
+    std::int64_t delay_ns = 0;  // after each packet, on top
+};
+
+class Pacer {
+  public:
+    static constexpr std::int64_t kCatchUp_ns = 1'000'000;
+
+    // A frame begins: nothing was saved up while there was none.
+    void begin(const Pace& pace, std::int64_t now_ns) {
+        pace_ = pace;
+        ready_ns_ = std::max(ready_ns_, now_ns);
+    }
+    void sent(std::size_t packets, std::size_t bytes, std::int64_t now_ns) {
+        ready_ns_ = std::max(ready_ns_, now_ns - kCatchUp_ns) +
+                    static_cast<std::int64_t>(static_cast<double>(bytes) / pace_.bytes_s * 1e9) +
+                    static_cast<std::int64_t>(packets) * pace_.delay_ns;
+    }
+    std::int64_t ready_ns() const { return ready_ns_; }
+    // Bytes worth sending at once: sleeps shorter than what they pay for would cost more than they pace.
+    std::size_t batch_bytes() const {
+        if (pace_.delay_ns > kShortestSleep_ns) return 1;
+        return static_cast<std::size_t>(std::clamp(pace_.bytes_s * 0.3e-3, 1.0, 1e9));
+    }
+    static constexpr std::int64_t kShortestSleep_ns = 50'000;
+
+  private:
+    Pace pace_;
+    std::int64_t ready_ns_ = 0;
+};
+
+}  // namespace hilcam
