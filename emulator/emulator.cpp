@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "emulator/scene_loader.h"
+#include "emulator/status.h"
 
 namespace hilcam {
 namespace {
@@ -116,12 +117,18 @@ void Emulator::make_sinks() {
     if (o.has_files)
         sinks_.push_back(
             std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));
+    if (o.has_preview)
+        sinks_.push_back(std::make_unique<PreviewSink>(o.preview, context, [this] { return status(); }));
 }
 
 std::vector<FrameSink*> Emulator::sinks() const {
     std::vector<FrameSink*> out;
     for (const auto& sink : sinks_) out.push_back(sink.get());
     return out;
+}
+
+std::string Emulator::status() const {
+    return run_status({scenario_, *loop_, delivery_, command_report(), sinks(), *settings_, faults_});
 }
 
 CommandReport Emulator::command_report() const { return commands_ ? commands_->report() : CommandReport{}; }

@@ -46,6 +46,7 @@ class Emulator {
 
   private:
     void make_sinks();
+    std::string status() const;
     void print_line(std::uint64_t& frames_before);
     void order_faults(double seconds);
     void log_faults();
