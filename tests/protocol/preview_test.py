@@ -355,9 +355,11 @@ class PageInBrowser(unittest.TestCase):
             text = page.run("document.getElementById('pixel').textContent")
             self.assertIn(f"x {x}  y {y}   {value(x, y)} DN", text)
             self.assertIn(" e⁻", text)
-            # The canvas has it at 8 bits of full scale: beside the middle, where no figure is written.
-            grey = page.run(f"""(() => {{ const r = preview.canvas.getBoundingClientRect();
-                return Array.from(preview.canvas.getContext('2d').getImageData({at[0]} - r.left - {at[2]} * .42, {at[1]} - r.top - {at[2]} * .3, 1, 1).data); }})()""")
+            # The canvas has it at 8 bits of full scale: beside the middle where the middle has the figure.
+            beside = 0.4 * at[2] if at[2] > 40 else 0
+            grey = page.run(f"""(() => {{ const r = preview.canvas.getBoundingClientRect(), one = new OffscreenCanvas(1, 1).getContext('2d');
+                one.drawImage(preview.canvas, Math.floor({at[0] - beside} - r.left), Math.floor({at[1] - beside} - r.top), 1, 1, 0, 0, 1, 1);
+                return Array.from(one.getImageData(0, 0, 1, 1).data); }})()""")
             self.assertEqual(len(set(grey[:3])), 1)
             self.assertAlmostEqual(grey[0], value(x, y) * 255 / 4095, delta=1)
 
