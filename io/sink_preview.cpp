@@ -260,6 +260,8 @@ void PreviewSink::Implementation::trigger(const httplib::Request& request, httpl
             return;
         case TriggerResult::kMissed:
             return refuse(response, 409, "missed: the camera is busy with the frame before");
+        case TriggerResult::kTooEarly:
+            return refuse(response, 409, "too early: the instant is not after that of the frame before");
         case TriggerResult::kNotArmed:
             return refuse(response, 409, "the camera does not listen to this trigger now");
     }
