@@ -177,6 +177,7 @@ Fields fields(OutputsConfig& o) {
         optional(section("gige", o.gige, "be a GigE Vision camera"), o.has_gige),
         optional(section("v4l2", o.v4l2, "feed a v4l2loopback device"), o.has_v4l2),
         optional(section("files", o.files, "write pictures"), o.has_files),
+        optional(section("preview", o.preview, "a web page with the live picture"), o.has_preview),
     };
 }
 

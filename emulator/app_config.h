@@ -13,6 +13,7 @@
 #include "io/height_map_file.h"
 #include "io/sink_files.h"
 #include "io/sink_gige.h"
+#include "io/sink_preview.h"
 #include "io/sink_v4l2.h"
 #include "render/atmosphere_config.h"
 #include "render/bodies.h"
@@ -139,10 +140,11 @@ struct CommandsConfig {
 Fields fields(CommandsConfig& commands);
 
 struct OutputsConfig {
-    bool has_gige = false, has_v4l2 = false, has_files = false;
+    bool has_gige = false, has_v4l2 = false, has_files = false, has_preview = false;
     GigeConfig gige;
     V4l2Config v4l2;
     FilesConfig files;
+    PreviewConfig preview;
 };
 Fields fields(OutputsConfig& outputs);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulator/scene_loader.h"
+#include "emulator/status.h"
 
 namespace hilcam {
 namespace {
@@ -77,6 +78,13 @@ void CameraStation::make_sinks() {
     if (o.has_files)
         sinks_.push_back(
             std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));
+    if (o.has_preview)
+        sinks_.push_back(std::make_unique<PreviewSink>(o.preview, context, [this] { return status(); }));
+}
+
+std::string CameraStation::status() const {
+    return run_status({scenario_, *loop_, delivery_, command_report_ ? command_report_() : CommandReport{},
+                       sinks(), settings_, faults_});
 }
 
 void CameraStation::load(const SpectralGrid& grid) {

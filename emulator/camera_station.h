@@ -32,6 +32,8 @@ class CameraStation {
     void load(const SpectralGrid& grid);
     // After all stations have loaded: the simulation's time begins. Throws InputError.
     void prepare(SimulatedClock& clock);
+    // What the preview tells of the bench's commands.
+    void set_command_report(std::function<CommandReport()> report) { command_report_ = std::move(report); }
 
     // Opens the outputs. Throws DeviceError.
     void start_outputs();
@@ -63,6 +65,7 @@ class CameraStation {
 
   private:
     void make_sinks();
+    std::string status() const;
 
     static constexpr std::size_t kMostLogged = 100'000;
 
@@ -72,6 +75,7 @@ class CameraStation {
     LiveSettings settings_;
     FaultBoard faults_;
     DeliveryMeter delivery_;
+    std::function<CommandReport()> command_report_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<SensorChain> chain_;

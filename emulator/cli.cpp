@@ -30,6 +30,7 @@ struct Options {
     std::uint64_t frames = 0;
     BenchOptions bench;
     bool json = false, sensor = false;
+    std::uint16_t preview_port = 0;  // 0: as the scenario says
     RenderStage stage = RenderStage::kFrame;
 };
 
@@ -43,14 +44,21 @@ std::optional<tbb::global_control> limit_threads(const ScenarioConfig& scenario)
 }
 
 int run(const Options& o) {
-    const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
+    std::vector<std::string> overrides = o.overrides;
+    if (o.preview_port > 0) overrides.push_back(fmt::format("outputs.preview.port={}", o.preview_port));
+    const ScenarioConfig scenario = load_scenario(o.config, overrides);
     const auto threads = limit_threads(scenario);
     RunLimits limits;
     limits.seconds = o.duration_s;
     limits.frames = o.frames;
     spdlog::info("loading {}", scenario.name);
     Emulator emulator(scenario, limits);
-    emulator.run([] { spdlog::info("running; Ctrl-C ends it"); });
+    emulator.run([&] {
+        const PreviewConfig& preview = scenario.outputs.preview;
+        if (scenario.outputs.has_preview)
+            spdlog::info("preview at http://{}:{}/", preview.address, preview.port);
+        spdlog::info("running; Ctrl-C ends it");
+    });
     const nlohmann::json report = run_report(emulator);
     std::uint64_t outside = 0;
     for (const auto& station : emulator.stations()) outside += station->renderer().rays_outside_air();
@@ -160,6 +168,9 @@ int run_command_line(int argc, char** argv) {
         ->check(CLI::NonNegativeNumber);
     run_app->add_option("--frames", o.frames, "stop after so many frames");
     run_app->add_option("--report", o.report, "write a report (JSON) at the end");
+    run_app
+        ->add_option("--preview", o.preview_port, "serve a web page with the live picture at this TCP port")
+        ->check(CLI::Range(1, 65535));
     run_app->callback([&] { action = [&] { return run(o); }; });
 
     CLI::App* render_app = app.add_subcommand("render", "one picture of the first instant");

@@ -46,6 +46,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     }
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         stations_[i]->load(grid_);
+        stations_[i]->set_command_report([this] { return command_report(); });
         bench[i].world = &stations_[i]->world();
     }
     // Loading took its time; the simulation starts now.

@@ -27,6 +27,19 @@ double DurationHistogram::quantile_ms(double q) const {
     return 0;
 }
 
+std::vector<DurationHistogram::Bucket> DurationHistogram::quarter_octaves() const {
+    constexpr std::size_t kMerged = kPerOctave / 4;
+    std::vector<Bucket> buckets;
+    for (std::size_t i = 0; i < buckets_.size(); i += kMerged) {
+        Bucket bucket{std::exp2(static_cast<double>(i) / kPerOctave) * 1e-3, 0};
+        for (std::size_t k = i; k < i + kMerged; ++k)
+            bucket.count += buckets_[k].load(std::memory_order_relaxed);
+        if (bucket.count > 0 || !buckets.empty()) buckets.push_back(bucket);
+    }
+    while (!buckets.empty() && buckets.back().count == 0) buckets.pop_back();
+    return buckets;
+}
+
 void DeliveryMeter::delivered(const FrameRecord& record, std::int64_t first_ns,
                               std::int64_t last_ns) noexcept {
     if (record.command_arrival_monotonic_ns != 0) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
 #include "io/frame_sink.h"
 
@@ -17,6 +18,12 @@ class DurationHistogram {
     std::uint64_t count() const { return count_.load(std::memory_order_relaxed); }
     // The duration [ms] that a share `q` of the records does not exceed; 0 without records.
     double quantile_ms(double q) const;
+    // The records by quarters of an octave, for drawing: from the first that has one to the last.
+    struct Bucket {
+        double from_ms = 0;  // to that of the next, 2^(1/4) times as much
+        std::uint64_t count = 0;
+    };
+    std::vector<Bucket> quarter_octaves() const;
 
   private:
     static constexpr int kPerOctave = 32;

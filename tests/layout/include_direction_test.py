@@ -12,6 +12,7 @@ ONLY_IN = {
     "assimp": {"io/mesh_file.cpp"},
     "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
     "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp"},
+    "httplib": {"io/sink_preview.cpp"},
     "erfa": {"render/bodies.cpp", "render/stars.cpp", "render/time.cpp"},
 }
 

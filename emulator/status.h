@@ -1,0 +1,27 @@
+#pragma once
+// The run as it is now, in JSON: what the preview's page shows (docs/preview.md). A report is of a whole run
+// (report.h), this is of an instant.
+
+#include <string>
+#include <vector>
+
+#include "emulator/app_config.h"
+#include "emulator/frame_loop.h"
+#include "io/command.h"
+#include "io/fault.h"
+
+namespace hilcam {
+
+struct StatusSources {
+    const ScenarioConfig& scenario;
+    const FrameLoop& loop;
+    const DeliveryMeter& delivery;
+    CommandReport commands;
+    std::vector<FrameSink*> sinks;
+    const CameraControl& camera;
+    const FaultBoard& faults;
+};
+// Any thread but the loop.
+std::string run_status(const StatusSources& sources);
+
+}  // namespace hilcam

@@ -1,0 +1,527 @@
+#!/usr/bin/python3
+"""The preview of the real program: in a real browser, and under abuse.
+
+    preview_test.py HILCAM SOURCE_DIR [--screenshot FILE.png]
+"""
+import json
+import os
+import pathlib
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import browser
+from browser import Browser, Page
+
+HILCAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
+PORT = 15262
+URL = f"http://127.0.0.1:{PORT}"
+
+
+class Running:
+    """hilcam run --preview, with a folder of frames beside it."""
+
+    def __init__(self, *extra, files=True, scenario=SCENARIO):
+        self.folder = tempfile.TemporaryDirectory()
+        self.frames = pathlib.Path(self.folder.name) / "frames"
+        self.report = pathlib.Path(self.folder.name) / "report.json"
+        files = ["--set", f"outputs.files.folder={self.frames}"] if files else []
+        self.process = subprocess.Popen(
+            [HILCAM, "run", str(scenario), "--preview", str(PORT), "--set", f"commands.udp.port={PORT + 1}", *files,
+             "--report", str(self.report), *extra], stderr=subprocess.PIPE, text=True)
+
+    def __enter__(self):
+        for _ in range(1200):
+            try:
+                get("/status")
+                return self
+            except OSError:
+                if self.process.poll() is not None:
+                    raise RuntimeError(self.process.stderr.read())
+                time.sleep(0.1)
+        raise RuntimeError("the preview does not answer")
+
+    def memory_mb(self):
+        for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
+            if line.startswith("VmRSS"):
+                return int(line.split()[1]) / 1024
+        raise RuntimeError("no VmRSS")
+
+    def file_of(self, frame):
+        return self.frames / f"frame_{frame:08d}.png"
+
+    def stop(self):
+        self.process.send_signal(signal.SIGINT)
+        _, log = self.process.communicate(timeout=20)
+        assert self.process.returncode == 0, log
+        return json.loads(self.report.read_text())
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.communicate()
+        self.folder.cleanup()
+
+
+def get(path, **headers):
+    with urllib.request.urlopen(urllib.request.Request(URL + path, headers=headers), timeout=10) as answer:
+        return answer.read()
+
+
+def status():
+    return json.loads(get("/status"))
+
+
+def post(path, body, **headers):
+    headers.setdefault("Origin", URL)
+    request = urllib.request.Request(URL + path, data=body.encode() if isinstance(body, str) else body, headers=headers)
+    with urllib.request.urlopen(request, timeout=10) as answer:
+        return answer.status
+
+
+def refusal(call, *arguments, **options):
+    try:
+        call(*arguments, **options)
+    except urllib.error.HTTPError as error:
+        return error.code, error.read().decode()
+    raise AssertionError("not refused")
+
+
+def fetch_picture(query=""):
+    """Id, x, y, width, height, step and samples of GET /frame, as docs/preview.md has them."""
+    data = get("/frame" + query)
+    assert data[:4] == b"HCP1"
+    begin, frame = struct.unpack_from("<IQ", data, 4)
+    x, y, width, height, step = struct.unpack_from("<5I", data, 24)
+    return frame, x, y, width, height, step, data[begin:]
+
+
+def wait_for(condition, seconds=20):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError("does not come true")
+        time.sleep(0.05)
+
+
+def read_png(file, patience=5):
+    """16-bit samples of a frame's file, row by row; waits until it is complete."""
+    from PIL import Image
+    deadline = time.monotonic() + patience
+    while True:
+        try:
+            with Image.open(file) as image:
+                return image.size, struct.pack(f"<{image.width * image.height}H", *image.getdata())
+        except (OSError, SyntaxError):  # not there yet, or half
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(0.05)
+
+
+class Requests(unittest.TestCase):
+    """What any client may send, without a browser."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.emulator = Running().__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.emulator.__exit__()
+
+    def test_pictures_are_the_frames_and_parts_of_them(self):
+        frame, x, y, width, height, step, data = fetch_picture()
+        self.assertEqual((x, y, width, height, step), (0, 0, 256, 192, 1))
+        size, whole = read_png(self.emulator.file_of(frame))
+        self.assertEqual((size, data), ((256, 192), whole))
+        frame, x, y, width, height, step, data = fetch_picture("?x=100&y=90&width=40&height=30")
+        self.assertEqual((x, y, width, height, step), (100, 90, 40, 30, 1))
+        _, whole = read_png(self.emulator.file_of(frame))
+        self.assertEqual(data, b"".join(whole[2 * (256 * row + 100):][:80] for row in range(90, 120)))
+        self.assertNotEqual(len(set(data)), 1, "the target is in this part")
+        newer = fetch_picture(f"?after={frame}")[0]
+        self.assertGreater(newer, frame)
+        self.assertEqual(fetch_picture("?step=4")[3:6], (64, 48, 4))
+
+    def test_bad_requests_get_one_line(self):
+        for code, needle, call in (
+                (400, "'step' is '0'", lambda: get("/frame?step=0")),
+                (400, "unknown key 'colour'", lambda: get("/frame?colour=1")),
+                (400, "character 37", lambda: get("/frame?x=%20")),
+                (404, "no such page", lambda: get("/secret")),
+                (400, "accepted: a number", lambda: post("/settings", "exposure_s=long")),
+                (409, "the camera refuses", lambda: post("/settings", "exposure_s=1e9")),
+                (400, "value is outside its kind's range", lambda: post("/fault", "kind=image_tear&value=7")),
+                (400, "a name of GET /status", lambda: post("/fault", "kind=meteor")),
+                (409, "does not listen", lambda: post("/trigger", "source=software")),
+                (413, "accepted: up to 4096 bytes", lambda: post("/settings", b"x" * 5000)),
+                (403, "Origin", lambda: post("/fault", "clear_all=1", Origin="http://evil.example")),
+                (403, "Origin", lambda: post("/fault", "clear_all=1", Origin="null")),
+                (403, "not known here", lambda: get("/status", Host="evil.example")),
+                (403, "not known here",
+                 lambda: post("/fault", "clear_all=1", Host="evil.example:80", Origin="http://evil.example:80"))):
+            with self.subTest(needle):
+                found, text = refusal(call)
+                self.assertEqual(found, code)
+                self.assertIn(needle, text)
+                self.assertEqual(text.count("\n"), 1)
+
+    def test_nothing_is_copied_while_nobody_looks(self):
+        def copies():
+            return next(o for o in status()["outputs"] if o["name"].startswith("preview"))["figures"]["copies"]
+        time.sleep(3)  # of the last request, until the slot stops asking
+        before, frames = copies(), status()["frames"]
+        wait_for(lambda: status()["frames"] > frames + 20)
+        self.assertEqual(copies(), before)
+        fetch_picture("?after=1")
+        self.assertGreater(copies(), before)
+
+    def test_the_port_is_not_shared(self):
+        second = subprocess.run([HILCAM, "run", str(SCENARIO), "--preview", str(PORT), "--frames", "1"],
+                                capture_output=True, text=True, timeout=60)
+        self.assertEqual(second.returncode, 1)
+        self.assertIn(f"127.0.0.1:{PORT} cannot be had", second.stderr)
+
+
+class Abuse(unittest.TestCase):
+    def test_floods_and_silent_clients_do_not_harm_the_loop(self):
+        with Running(files=False) as emulator:
+            fetch_picture()
+            wait_for(lambda: status()["frames"] > 60)
+            memory = emulator.memory_mb()
+            address = ("127.0.0.1", PORT)
+            frames = status()["frames"]
+
+            silent = []  # connections that say nothing, or half a header
+            for i in range(200):
+                s = socket.socket()
+                s.settimeout(5)
+                s.setblocking(False)
+                s.connect_ex(address)
+                silent.append(s)
+            time.sleep(0.5)
+            for s in silent[::2]:
+                try:
+                    s.send(b"GET /frame HTTP/1.1\r\nHo")
+                except OSError:
+                    pass
+            # Headers without end.
+            endless = socket.create_connection(address, timeout=10)
+            sent = 0
+            try:
+                endless.sendall(b"GET /status HTTP/1.1\r\nHost: 127.0.0.1\r\n")
+                while sent < 1 << 26:
+                    sent += endless.send(b"a: b\r\n" * 1000)
+            except OSError:
+                pass
+            self.assertLess(sent, 1 << 26, "endless headers are cut off")
+            for s in silent:
+                s.close()
+            endless.close()
+
+            wait_for(lambda: self.answers())
+            # A large body, announced or not.
+            for header in (b"Content-Length: 10485760", b"Transfer-Encoding: chunked", b"Content-Length: -1"):
+                s = socket.create_connection(address, timeout=10)
+                answer = b""
+                try:
+                    s.sendall(b"POST /settings HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nOrigin: http://127.0.0.1:%d\r\n%s\r\n\r\n"
+                              % (PORT, PORT, header))
+                    answer = s.recv(4096)
+                    for _ in range(160):
+                        s.sendall(b"x" * 65536)
+                except OSError:
+                    pass
+                self.assertRegex(answer, rb"^HTTP/1.1 4(11|13) ")
+                s.close()
+            # Clients that ask for pictures and do not read them.
+            deaf = []
+            for i in range(40):
+                s = socket.socket()
+                s.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+                s.setblocking(False)
+                s.connect_ex(address)
+                deaf.append(s)
+            time.sleep(0.3)
+            for i, s in enumerate(deaf):
+                try:
+                    s.send(b"GET /frame?viewer=%d HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n" % (i + 1))
+                except OSError:
+                    pass
+            time.sleep(1)
+            for s in deaf:
+                s.close()
+            wait_for(lambda: self.answers())
+            for _ in range(500):  # garbage and floods
+                try:
+                    with socket.create_connection(address, timeout=5) as s:
+                        s.sendall(os.urandom(64) + b"\r\n\r\n")
+                except OSError:
+                    pass
+            wait_for(lambda: self.answers(), 60)
+            self.assertGreater(status()["frames"], frames, "the loop goes on")
+            growth = emulator.memory_mb() - memory
+            self.assertLess(growth, 150, "MB")
+            # A client that sends byte by byte does not hold up the end.
+            drip = socket.create_connection(address, timeout=5)
+            drip.sendall(b"GET / HTTP/1.1\r\n")
+            report = emulator.stop()
+            drip.close()
+            print(f"\n  {report['deadline_misses']} of {report['frames']} exposures missed, memory grew by {growth:.0f} MB",
+                  end=" ", file=sys.stderr)
+
+    @staticmethod
+    def answers():
+        try:
+            return status()["frames"] > 0
+        except OSError:
+            return False
+
+
+@unittest.skipUnless(browser.PROGRAM, "Chromium is missing: the page is not looked at")
+class PageInBrowser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.emulator = Running().__enter__()
+        cls.browser = Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        report = cls.emulator.stop()
+        cls.emulator.__exit__()
+        assert next(o for o in report["outputs"] if o["name"].startswith("preview"))["frames"] > 0
+
+    def setUp(self):
+        post("/fault", "clear_all=1")
+        post("/settings", "exposure_s=0.00015&gain_db=0&test_pattern=off&running=1&triggered=0")
+        self.page = self.open()
+
+    def tearDown(self):
+        self.assertEqual(self.page.complaints(), [])
+        self.page.close()
+
+    def open(self, **options):
+        page = Page(self.browser, URL + "/", **options)
+        page.wait("window.preview && preview.frame && document.getElementById('trigger') && true")
+        return page
+
+    def freeze(self, page):
+        page.run("document.activeElement.blur()")
+        page.key(" ")
+        page.wait("preview.frozen")
+        return page.run("Number(preview.frame.id)")
+
+    def samples(self, page):
+        return bytes(page.run("Array.from(new Uint8Array(preview.frame.samples.slice().buffer))"))
+
+    def test_it_shows_the_frames_pixel_by_pixel(self):
+        frame = self.freeze(self.page)
+        _, whole = read_png(self.emulator.file_of(frame))
+        self.assertEqual(self.samples(self.page), whole)
+        time.sleep(0.5)
+        self.assertEqual(self.page.run("Number(preview.frame.id)"), frame, "frozen")
+        self.page.key(" ")
+        self.page.wait(f"Number(preview.frame.id) > {frame}")
+        for url in self.page.requested():
+            self.assertTrue(url.startswith((URL + "/", "data:")), url)
+
+    def test_the_value_under_the_cursor_and_on_the_canvas(self):
+        page = self.page
+        frame = self.freeze(page)
+        _, whole = read_png(self.emulator.file_of(frame))
+        value = lambda x, y: struct.unpack_from("<H", whole, 2 * (256 * y + x))[0]
+        brightest = max(range(256 * 192), key=lambda i: value(i % 256, i // 256))
+        page.run("document.getElementById('auto').value = 'full', document.getElementById('auto').dispatchEvent(new Event('change'))")
+        for zoom, (x, y) in ((None, (10, 20)), (None, (brightest % 256, brightest // 256)), (16, (128, 96)), (50, (120, 90))):
+            if zoom:
+                page.run(f"preview.zoom({zoom})")
+            else:
+                page.run("preview.fit()")
+            # Where the page draws the pixel's middle, by its own view.
+            at = page.run(f"""(() => {{ const r = preview.canvas.getBoundingClientRect(), s = preview.shownScale(), c = preview.shownCentre();
+                return [r.left + preview.canvas.width / 2 + ({x} + .5 - c.x) * s, r.top + preview.canvas.height / 2 + ({y} + .5 - c.y) * s,
+                        s]; }})()""")
+            page.mouse("mouseMoved", at[0], at[1])
+            text = page.run("document.getElementById('pixel').textContent")
+            self.assertIn(f"x {x}  y {y}   {value(x, y)} DN", text)
+            self.assertIn(" e⁻", text)
+            # The canvas has it at 8 bits of full scale: beside the middle where the middle has the figure.
+            beside = 0.4 * at[2] if at[2] > 40 else 0
+            grey = page.run(f"""(() => {{ const r = preview.canvas.getBoundingClientRect(), one = new OffscreenCanvas(1, 1).getContext('2d');
+                one.drawImage(preview.canvas, Math.floor({at[0] - beside} - r.left), Math.floor({at[1] - beside} - r.top), 1, 1, 0, 0, 1, 1);
+                return Array.from(one.getImageData(0, 0, 1, 1).data); }})()""")
+            self.assertEqual(len(set(grey[:3])), 1)
+            self.assertAlmostEqual(grey[0], value(x, y) * 255 / 4095, delta=1)
+
+    def test_stretch_zoom_and_keys(self):
+        page = self.page
+        self.freeze(page)
+        page.run("preview.auto = 'manual', preview.black = 64, preview.white = 1088")
+        for stretch, middle in (("linear", 127.5), ("sqrt", 255 * 0.5 ** 0.5)):
+            page.run(f"document.getElementById('stretch').value = '{stretch}', document.getElementById('stretch').dispatchEvent(new Event('change'))")
+            table = page.run("Array.from(preview.table())")
+            self.assertAlmostEqual(table[576], middle, delta=1)
+            self.assertEqual((table[64], table[63], table[1088], table[4095]), (0, 0, 255, 255))
+        for stretch in ("log", "asinh"):
+            table = page.run(f"preview.stretch = '{stretch}', Array.from(preview.table())")
+            self.assertEqual(table, sorted(table))
+            self.assertGreater(table[576], 190)
+        fitted = page.run("preview.shownScale()")
+        page.key("1")
+        self.assertEqual(page.run("preview.shownScale()"), 1)
+        page.key("f")
+        self.assertEqual(page.run("preview.shownScale()"), fitted)
+        box = page.run("(() => { const r = preview.canvas.getBoundingClientRect(); return [r.left, r.top]; })()")
+        spot = (box[0] + 200, box[1] + 150)
+        before = page.run("preview.toFrame({x: 200, y: 150})")
+        page.mouse("mouseWheel", *spot, deltaX=0, deltaY=-600)
+        page.wait(f"preview.shownScale() > {3.9 * fitted}")
+        after = page.run("preview.toFrame({x: 200, y: 150})")
+        self.assertAlmostEqual(before["x"], after["x"], delta=0.01)  # the point under the cursor stays
+        self.assertAlmostEqual(before["y"], after["y"], delta=0.01)
+        scale = page.run("preview.shownScale()")
+        page.mouse("mousePressed", *spot, button="left", clickCount=1)
+        page.mouse("mouseMoved", spot[0] + 100, spot[1], button="left", buttons=1)
+        page.mouse("mouseReleased", spot[0] + 100, spot[1], button="left", clickCount=1)
+        self.assertAlmostEqual(page.run("preview.toFrame({x: 200, y: 150})")["x"], before["x"] - 100 / scale, delta=0.01)
+
+    def test_settings_reach_the_camera(self):
+        page = self.page
+        change = "const i = document.getElementById('set-{}'); i.value = '{}'; i.dispatchEvent(new Event('change'))"
+        page.run("{" + change.format("exposure_s", 2.5) + "}")
+        wait_for(lambda: status()["settings"]["exposure_s"] == 0.0025)
+        page.wait("preview.frame.exposure === 0.0025")
+        page.run("{" + change.format("gain_db", 6) + "}")
+        wait_for(lambda: status()["settings"]["gain_db"] == 6)
+        page.run("{" + change.format("test_pattern", "ramp_horizontal") + "}")
+        wait_for(lambda: status()["settings"]["test_pattern"] == "ramp_horizontal")
+        # A command from elsewhere shows here.
+        sent = subprocess.run([HILCAM, "send", "--to", f"127.0.0.1:{PORT + 1}", "settings", "--gain-db", "3"], timeout=10)
+        self.assertEqual(sent.returncode, 0)
+        page.wait("document.getElementById('set-gain_db').value === '3'")
+        page.run("document.getElementById('run').click()")
+        wait_for(lambda: not status()["settings"]["running"])
+        page.wait("document.getElementById('chips').textContent.includes('stopped')")
+        page.run("document.getElementById('run').click()")
+        wait_for(lambda: status()["settings"]["running"])
+        # Triggered: a click makes a frame.
+        page.run("{" + change.format("triggered", 1) + "}")
+        page.wait("!document.getElementById('trigger').disabled")
+        # A refused value is said, and the old one stays.
+        page.run("{" + change.format("gain_db", 99) + "}")
+        page.wait("document.getElementById('settings-answer').textContent.includes('refuses')")
+        self.assertEqual(status()["settings"]["gain_db"], 3)
+        self.forgive(" 409 ")
+
+    def forgive(self, needle):
+        """A refusal that the test asked for is logged by the browser."""
+        complaints = self.page.complaints()
+        self.assertTrue(all(needle.strip() in c for c in complaints), complaints)
+        self.browser.events.clear()
+
+    def test_a_fault_button_strikes(self):
+        page = self.page
+        self.browser.events.clear()
+        strikes = lambda: next(f for f in status()["faults"] if f["kind"] == "image_black")["strikes"]
+        before = strikes()
+        page.run("document.querySelector('#fault-image_black button').click()")
+        page.wait("document.querySelector('#fault-image_black').classList.contains('active')")
+        self.check_strikes(strikes, before)
+        page.run("document.getElementById('clear').click()")
+        wait_for(lambda: not any("order" in f for f in status()["faults"]))
+        page.wait("!document.querySelector('.fault.active')")
+        # So many frames from now on.
+        page.run("document.getElementById('frames').value = 5, document.querySelector('#fault-frame_drop button').click()")
+        wait_for(lambda: any("order" in f for f in status()["faults"]))
+        found = next(f for f in status()["faults"] if f["kind"] == "frame_drop")["order"]
+        self.assertEqual(found["frames"], 5)
+        self.assertGreater(found["from_frame"], 1)
+        page.wait("!document.querySelector('.fault.active')")
+        page.run("document.getElementById('value').value = 9, document.querySelector('#fault-image_tear button').click()")
+        page.wait("document.getElementById('fault-answer').textContent.includes('outside its kind')")
+        self.forgive("400")
+
+    def check_strikes(self, strikes, before):
+        wait_for(lambda: strikes() > before + 3)
+        self.page.wait("Math.max(...preview.frame.samples) === 0")
+        self.page.wait("document.getElementById('frame').textContent.includes('image_black')")
+        self.page.wait("/[1-9]/.test(document.querySelector('#fault-image_black .strikes').textContent)")
+
+    def test_several_viewers_and_one_is_killed(self):
+        second = self.open(dark=True)
+        with Browser() as other:
+            third = Page(other, URL + "/")
+            third.wait("window.preview && preview.frame && true")
+            wait_for(lambda: self.viewers() >= 3)
+            for page in (self.page, second, third):
+                page.wait("preview.shownRate() > 0")
+        # The third's browser is dead by now.
+        frame = self.page.run("Number(preview.frame.id)")
+        self.page.wait(f"Number(preview.frame.id) > {frame + 5}")
+        second.close()
+        wait_for(lambda: self.viewers() == 1)
+
+    def viewers(self):
+        return next(o for o in status()["outputs"] if o["name"].startswith("preview"))["figures"]["viewers"]
+
+    def test_a_narrow_window_has_no_sideways_scroll(self):
+        for width in (360, 700, 1280, 1800):
+            self.page.resize(width, 800)
+            self.page.wait(f"document.documentElement.scrollWidth <= {width}")
+
+
+class LargeFrames(unittest.TestCase):
+    def test_only_the_part_in_view_is_fetched(self):
+        if not browser.PROGRAM:
+            self.skipTest("Chromium is missing: the page is not looked at")
+        size = ("--set", "camera.width_px=2048", "--set", "camera.height_px=1536", "--set", "camera.frame_rate_hz=4",
+                "--set", "camera.pitch_um=0.7")
+        with Running(*size) as emulator, Browser() as b:
+            page = Page(b, URL + "/")
+            page.wait("window.preview && preview.frame && preview.frame.step > 1", 60)
+            self.assertLess(page.run("preview.frame.samples.length"), 1.7e6)
+            page.run("preview.zoom(8)")
+            page.wait("preview.frame.step === 1 && preview.frame.width < 400")
+            page.run("document.activeElement.blur()")
+            page.key(" ")
+            page.wait("preview.frozen")
+            frame, x, y = page.run("[Number(preview.frame.id), preview.frame.x + 7, preview.frame.y + 5]")
+            _, whole = read_png(emulator.file_of(frame))
+            self.assertEqual(page.run(f"preview.valueAt({x}, {y})"), struct.unpack_from("<H", whole, 2 * (2048 * y + x))[0])
+            self.assertEqual(page.complaints(), [])
+            emulator.stop()
+
+
+def take_screenshot(file):
+    """docs/preview.png: a run with a client, commands and a fault."""
+    scenario = SOURCE / "configs/scenarios/geo_inspection.yaml"
+    with Running("--set", "outputs.gige.interface=127.0.26.1", files=False, scenario=scenario), Browser() as b:
+        client = subprocess.Popen(["arv-camera-test-0.8", "-n", "127.0.26.1", "--no-packet-socket", "--duration=60"],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        fly = subprocess.Popen([HILCAM, "send", "--to", f"127.0.0.1:{PORT + 1}", "fly", "--from-m", "22", "15", "7",
+                                "--duration-s", "60", "--rate-hz", "50"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        post("/fault", "kind=packet_drop&rate=0.002")
+        page = Page(b, URL + "/", width=1600, height=1000)
+        page.wait("window.preview && preview.frame && true", 60)
+        time.sleep(12)
+        page.screenshot(file)
+        client.kill()
+        fly.kill()
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("HILCAM_CACHE", tempfile.gettempdir() + f"/hilcam_test_cache_{os.getuid()}")
+    if "--screenshot" in sys.argv:
+        take_screenshot(sys.argv[sys.argv.index("--screenshot") + 1])
+    else:
+        unittest.main(argv=[sys.argv[0]] + sys.argv[3:], verbosity=2)
