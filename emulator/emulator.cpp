@@ -87,8 +87,8 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
         std::make_unique<WorldState>(initial_motions(scenario, start), scenario.origin, joints_of(scenario));
     renderer_->require_air(snapshot_at(scenario, start, start));
     dispatch_ = std::make_unique<CommandDispatch>(*world_, *settings_, faults_, clock_);
-    if (limits.outputs && scenario.commands.has_udp)
-        commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
+    if (limits.outputs) receivers_ = make_receivers(scenario.commands, *dispatch_, faults_);
+    if (limits.outputs) make_telemetry();
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario, grid_, world_->placed_objects());
     timed_faults_ = scenario.faults;
     std::stable_sort(timed_faults_.begin(), timed_faults_.end(),
@@ -118,19 +118,60 @@ void Emulator::make_sinks() {
             std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));
 }
 
+void Emulator::make_telemetry() {
+    if (!scenario_.has_telemetry && receivers_.empty()) return;
+    TelemetryConfig config = scenario_.telemetry;
+    if (!scenario_.has_telemetry) config.port.port = 0;
+    auto sink = std::make_unique<TelemetrySink>(config, [this] { return housekeeping(); });
+    std::vector<CommandReceiver*> receivers;
+    for (const auto& receiver : receivers_) receivers.push_back(receiver.get());
+    sink->serve(std::move(receivers));
+    telemetry_ = sink.get();
+    sinks_.push_back(std::move(sink));
+}
+
+// Called by telemetry's thread, once a second.
+HousekeepingFigures Emulator::housekeeping() {
+    HousekeepingFigures h;
+    const CameraSettings settings = settings_->settings();
+    h.mode = settings_->limits().lockstep ? OperatingMode::kLockstep
+             : settings.triggered         ? OperatingMode::kTriggered
+                                          : OperatingMode::kFreeRun;
+    h.running = settings.running;
+    h.simulated_time = clock_.now();
+    h.monotonic_ns = monotonic_now_ns();
+    h.uptime_s = static_cast<double>(h.monotonic_ns - begun_ns_) * 1e-9;
+    h.frames = loop_->counters().frames.load();
+    h.frame_rate_hz = static_cast<double>(h.frames - housekeeping_before_.frames) /
+                      std::max(h.uptime_s - housekeeping_before_.uptime_s, 1e-3);
+    h.deadline_misses = loop_->counters().deadline_misses.load();
+    const CommandReport commands = command_report();
+    h.commands_received = commands.received;
+    h.commands_refused = commands.refused;
+    h.commands_lost = commands.lost;
+    h.latency_p50_s = delivery_.command_to_last.quantile_ms(0.5) * 1e-3;
+    h.latency_p99_s = delivery_.command_to_last.quantile_ms(0.99) * 1e-3;
+    h.temperature_c = settings_->limits().temperature_c;
+    for (const FaultKind kind : kAllFaults) h.active_faults += faults_.order_of(kind) ? 1u : 0u;
+    h.clients = static_cast<std::uint32_t>(commands.clients + telemetry_->port_report().clients);
+    housekeeping_before_ = h;
+    return h;
+}
+
 std::vector<FrameSink*> Emulator::sinks() const {
     std::vector<FrameSink*> out;
     for (const auto& sink : sinks_) out.push_back(sink.get());
     return out;
 }
 
-CommandReport Emulator::command_report() const { return commands_ ? commands_->report() : CommandReport{}; }
+CommandReport Emulator::command_report() const { return report_of(receivers_); }
 
 void Emulator::run(const std::function<void()>& on_ready) {
     const SignalGuard guard;
     for (const auto& sink : sinks_) sink->start();
-    if (commands_) commands_->start();
+    for (const auto& receiver : receivers_) receiver->start();
     const std::int64_t begun_ns = monotonic_now_ns();
+    begun_ns_ = begun_ns;
     loop_->start();
     on_ready();
     const bool terminal = isatty(STDERR_FILENO);
@@ -151,7 +192,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     loop_->stop();
     log_faults();
     seconds_ = static_cast<double>(monotonic_now_ns() - begun_ns) * 1e-9;
-    if (commands_) commands_->stop();
+    for (const auto& receiver : receivers_) receiver->stop();
     for (const auto& sink : sinks_) sink->stop();
 }
 

@@ -9,6 +9,7 @@
 
 #include "emulator/app_config.h"
 #include "emulator/command_dispatch.h"
+#include "emulator/command_receivers.h"
 #include "emulator/exposure_renderer.h"
 #include "emulator/frame_loop.h"
 
@@ -46,6 +47,8 @@ class Emulator {
 
   private:
     void make_sinks();
+    void make_telemetry();
+    HousekeepingFigures housekeeping();
     void print_line(std::uint64_t& frames_before);
     void order_faults(double seconds);
     void log_faults();
@@ -61,7 +64,8 @@ class Emulator {
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<LiveSettings> settings_;
     std::unique_ptr<CommandDispatch> dispatch_;
-    std::unique_ptr<UdpCommandReceiver> commands_;
+    std::vector<std::unique_ptr<CommandReceiver>> receivers_;
+    TelemetrySink* telemetry_ = nullptr;  // one of sinks_, if there is any telemetry
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::unique_ptr<ExposureRenderer> exposures_;
     std::unique_ptr<FrameLoop> loop_;
@@ -70,6 +74,8 @@ class Emulator {
     std::size_t next_fault_ = 0;
     static constexpr std::size_t kMostLogged = 100'000;
     std::deque<FaultBoard::Entry> fault_log_;
+    std::atomic<std::int64_t> begun_ns_{0};
+    HousekeepingFigures housekeeping_before_;  // telemetry's thread
 };
 
 // The motions of camera and objects as the scenario begins them.

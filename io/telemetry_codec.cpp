@@ -39,7 +39,7 @@ void write(ByteWriter& out, const HousekeepingFigures& h) {
     out.u32(h.active_faults).u32(h.clients);
 }
 void read(ByteReader& in, HousekeepingFigures& h) {
-    h.mode = static_cast<CameraMode>(in.u8());
+    h.mode = static_cast<OperatingMode>(in.u8());
     h.running = in.u8() != 0;
     h.simulated_time.ns = in.i64();
     h.monotonic_ns = in.i64();

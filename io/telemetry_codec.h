@@ -31,10 +31,10 @@ struct FrameReport {
     std::uint32_t quality_level = 0;
 };
 
-enum class CameraMode : std::uint8_t { kFreeRun = 0, kTriggered = 1, kLockstep = 2 };
+enum class OperatingMode : std::uint8_t { kFreeRun = 0, kTriggered = 1, kLockstep = 2 };
 
 struct HousekeepingFigures {
-    CameraMode mode = CameraMode::kFreeRun;
+    OperatingMode mode = OperatingMode::kFreeRun;
     bool running = false;
     TimeTai simulated_time;
     std::int64_t monotonic_ns = 0;
