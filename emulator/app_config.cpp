@@ -169,7 +169,11 @@ void validate(const FaultConfig& f) {
 }
 
 Fields fields(CommandsConfig& c) {
-    return {optional(section("udp", c.udp, "listen for commands"), c.has_udp)};
+    return {
+        optional(section("udp", c.udp, "listen for commands"), c.has_udp),
+        optional(section("tcp", c.tcp, "the same over TCP, for several clients"), c.has_tcp),
+        optional(section("unix", c.unix_socket, "the same over a Unix socket"), c.has_unix),
+    };
 }
 
 Fields fields(OutputsConfig& o) {
@@ -242,6 +246,8 @@ Fields fields(ScenarioConfig& s) {
         sections("more_cameras", s.more_cameras, "beside the first, in the same world"),
         sections("faults", s.faults, "what goes wrong by itself"),
         section("commands", s.commands, "where commands come from"),
+        optional(section("telemetry", s.telemetry, "who gets frame reports and housekeeping unasked"),
+                 s.has_telemetry),
         section("outputs", s.outputs, "where frames go"),
     };
     for (std::size_t i = 0; i < kBodyCount; ++i)

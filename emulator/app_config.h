@@ -9,12 +9,15 @@
 #include <vector>
 
 #include "emulator/world_state.h"
+#include "io/commands_tcp.h"
 #include "io/commands_udp.h"
+#include "io/commands_unix.h"
 #include "io/height_map_file.h"
 #include "io/sink_files.h"
 #include "io/sink_gige.h"
 #include "io/sink_preview.h"
 #include "io/sink_v4l2.h"
+#include "io/telemetry.h"
 #include "render/atmosphere_config.h"
 #include "render/bodies.h"
 #include "render/body_light.h"
@@ -134,8 +137,10 @@ void validate(const FaultConfig& fault);
 FaultOrder order_of(const FaultConfig& fault);
 
 struct CommandsConfig {
-    bool has_udp = false;
+    bool has_udp = false, has_tcp = false, has_unix = false;
     UdpCommandConfig udp;
+    TcpCommandConfig tcp;
+    UnixCommandConfig unix_socket;
 };
 Fields fields(CommandsConfig& commands);
 
@@ -189,6 +194,8 @@ struct ScenarioConfig {
     std::vector<CameraConfig> more_cameras;
     std::vector<FaultConfig> faults;
     CommandsConfig commands;
+    TelemetryConfig telemetry;
+    bool has_telemetry = false;
     OutputsConfig outputs;
 };
 Fields fields(ScenarioConfig& scenario);

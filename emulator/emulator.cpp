@@ -52,15 +52,57 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     // Loading took its time; the simulation starts now.
     clock_ = SimulatedClock(parse_utc(scenario.time_utc), monotonic_now_ns(),
                             scenario.mode == CameraMode::kLockstep);
-    for (const auto& station : stations_) station->prepare(clock_);
     dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_);
-    if (limits.outputs && scenario.commands.has_udp)
-        commands_ = std::make_unique<UdpCommandReceiver>(scenario.commands.udp, *dispatch_);
+    if (limits.outputs) {
+        receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());
+        make_telemetry();
+    }
+    for (const auto& station : stations_) station->prepare(clock_);
 }
 
 Emulator::~Emulator() = default;
 
-CommandReport Emulator::command_report() const { return commands_ ? commands_->report() : CommandReport{}; }
+void Emulator::make_telemetry() {
+    if (!scenario_.has_telemetry && receivers_.empty()) return;
+    TelemetryConfig config = scenario_.telemetry;
+    if (!scenario_.has_telemetry) config.port.port = 0;
+    auto sink = std::make_unique<TelemetrySink>(config, [this] { return housekeeping(); });
+    std::vector<CommandReceiver*> receivers;
+    for (const auto& receiver : receivers_) receivers.push_back(receiver.get());
+    sink->serve(std::move(receivers));
+    telemetry_ = sink.get();
+    first().add_sink(std::move(sink));
+}
+
+// Called by telemetry's thread, once a second.
+HousekeepingFigures Emulator::housekeeping() {
+    HousekeepingFigures h;
+    const CameraSettings settings = first().settings().settings();
+    h.mode = first().settings().limits().lockstep ? OperatingMode::kLockstep
+             : settings.triggered                 ? OperatingMode::kTriggered
+                                                  : OperatingMode::kFreeRun;
+    h.running = settings.running;
+    h.simulated_time = clock_.now();
+    h.monotonic_ns = monotonic_now_ns();
+    h.uptime_s = static_cast<double>(h.monotonic_ns - begun_ns_) * 1e-9;
+    h.frames = loop().counters().frames.load();
+    h.frame_rate_hz = static_cast<double>(h.frames - housekeeping_before_.frames) /
+                      std::max(h.uptime_s - housekeeping_before_.uptime_s, 1e-3);
+    h.deadline_misses = loop().counters().deadline_misses.load();
+    const CommandReport commands = command_report();
+    h.commands_received = commands.received;
+    h.commands_refused = commands.refused;
+    h.commands_lost = commands.lost;
+    h.latency_p50_s = delivery().command_to_last.quantile_ms(0.5) * 1e-3;
+    h.latency_p99_s = delivery().command_to_last.quantile_ms(0.99) * 1e-3;
+    h.temperature_c = first().settings().limits().temperature_c;
+    for (const FaultKind kind : kAllFaults) h.active_faults += first().faults().order_of(kind) ? 1u : 0u;
+    h.clients = static_cast<std::uint32_t>(commands.clients + telemetry_->port_report().clients);
+    housekeeping_before_ = h;
+    return h;
+}
+
+CommandReport Emulator::command_report() const { return report_of(receivers_); }
 
 bool Emulator::finished() const {
     return std::all_of(stations_.begin(), stations_.end(),
@@ -70,8 +112,9 @@ bool Emulator::finished() const {
 void Emulator::run(const std::function<void()>& on_ready) {
     const SignalGuard guard;
     for (const auto& station : stations_) station->start_outputs();
-    if (commands_) commands_->start();
+    for (const auto& receiver : receivers_) receiver->start();
     const std::int64_t begun_ns = monotonic_now_ns();
+    begun_ns_ = begun_ns;
     for (const auto& station : stations_) station->start_loop();
     on_ready();
     const bool terminal = isatty(STDERR_FILENO);
@@ -90,7 +133,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     // Loops first: they answer what waits for a frame.
     for (const auto& station : stations_) station->stop_loop();
     seconds_ = static_cast<double>(monotonic_now_ns() - begun_ns) * 1e-9;
-    if (commands_) commands_->stop();
+    for (const auto& receiver : receivers_) receiver->stop();
     for (const auto& station : stations_) {
         station->stop_outputs();
         station->serve_faults(seconds_);

@@ -9,6 +9,7 @@
 #include "emulator/app_config.h"
 #include "emulator/camera_station.h"
 #include "emulator/command_dispatch.h"
+#include "emulator/command_receivers.h"
 
 namespace hilcam {
 
@@ -35,6 +36,8 @@ class Emulator {
     CommandReport command_report() const;
 
   private:
+    void make_telemetry();
+    HousekeepingFigures housekeeping();
     void print_line();
     bool finished() const;
 
@@ -44,9 +47,12 @@ class Emulator {
     SimulatedClock clock_;
     std::vector<std::unique_ptr<CameraStation>> stations_;
     std::unique_ptr<CommandDispatch> dispatch_;
-    std::unique_ptr<UdpCommandReceiver> commands_;
+    std::vector<std::unique_ptr<CommandReceiver>> receivers_;
+    TelemetrySink* telemetry_ = nullptr;  // one of the first camera's sinks, if there is any telemetry
     double seconds_ = 0;
     std::uint64_t frames_printed_ = 0;
+    std::atomic<std::int64_t> begun_ns_{0};
+    HousekeepingFigures housekeeping_before_;  // telemetry's thread
 };
 
 }  // namespace hilcam

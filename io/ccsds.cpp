@@ -49,4 +49,13 @@ std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
     return static_cast<std::uint16_t>(crc);
 }
 
+std::size_t seal_packet(SpacePacketHeader header, std::size_t body_bytes, std::span<std::uint8_t> bytes) {
+    const std::size_t covered = SpacePacketHeader::kBytes + body_bytes;
+    header.count &= 0x3FFF;
+    header.data_length = static_cast<std::uint16_t>(body_bytes + kCrcBytes - 1);
+    write_packet_header(header, bytes);
+    ByteWriter(bytes.subspan(covered)).u16(crc16(bytes.first(covered)));
+    return covered + kCrcBytes;
+}
+
 }  // namespace hilcam

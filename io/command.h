@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "io/fault.h"
@@ -87,11 +88,30 @@ class CommandHandler {
     virtual TimeTai now() const = 0;
 };
 
-// Counters of one receiver. `lost` counts gaps in the senders' sequence numbers.
+// Counters of one receiver, or of all together.
 struct CommandReport {
     std::uint64_t received = 0;
     std::uint64_t refused = 0;
-    std::uint64_t lost = 0;
+    std::uint64_t lost = 0;           // gaps in the senders' sequence numbers, less what came late
+    std::uint64_t duplicates = 0;     // packets whose number had come before
+    std::uint64_t skipped_bytes = 0;  // of streams, between packets
+    std::uint64_t strangers = 0;      // connections and datagrams of senders that are not allowed
+    std::uint64_t cut_off = 0;        // clients that did not read their answers
+    std::uint64_t clients = 0;        // connected now; over UDP: heard within a minute
+
+    CommandReport& operator+=(const CommandReport& other) {
+        received += other.received, refused += other.refused, lost += other.lost;
+        duplicates += other.duplicates, skipped_bytes += other.skipped_bytes;
+        strangers += other.strangers, cut_off += other.cut_off, clients += other.clients;
+        return *this;
+    }
+};
+
+// Counters of one sender.
+struct SenderReport {
+    std::string name;  // "127.0.0.1:40312"
+    std::uint64_t received = 0, refused = 0, lost = 0, duplicates = 0;
+    SubscribeCommand subscription;
 };
 
 }  // namespace hilcam

@@ -3,130 +3,159 @@
 #include <arpa/inet.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include "io/command_codec.h"
+#include "io/monotonic.h"
 
 namespace hilcam {
 namespace {
 
-std::int64_t now_ns(clockid_t clock) {
-    timespec t{};
-    clock_gettime(clock, &t);
-    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
+constexpr std::size_t kMostPeers = 16;
+constexpr std::int64_t kSilence_ns = 60'000'000'000;
+constexpr std::size_t kMostDatagramBytes = 65536;
 
 // The kernel stamps datagrams with CLOCK_REALTIME; the age moves it to CLOCK_MONOTONIC. Without a stamp: now.
 std::int64_t arrival_of(msghdr& message) {
-    const std::int64_t monotonic_ns = now_ns(CLOCK_MONOTONIC);
+    const std::int64_t now_ns = monotonic_ns();
     for (cmsghdr* c = CMSG_FIRSTHDR(&message); c; c = CMSG_NXTHDR(&message, c)) {
         if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
-        timespec stamp{};
+        timespec stamp{}, wall{};
         std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
+        clock_gettime(CLOCK_REALTIME, &wall);
         const std::int64_t age_ns =
-            now_ns(CLOCK_REALTIME) - (std::int64_t{stamp.tv_sec} * 1'000'000'000 + stamp.tv_nsec);
+            (std::int64_t{wall.tv_sec} - stamp.tv_sec) * 1'000'000'000 + wall.tv_nsec - stamp.tv_nsec;
         // A step of the wall clock between the two readings must not move the arrival by more than it can be
         // old.
-        return monotonic_ns - std::clamp<std::int64_t>(age_ns, 0, 1'000'000'000);
+        return now_ns - std::clamp<std::int64_t>(age_ns, 0, 1'000'000'000);
     }
-    return monotonic_ns;
+    return now_ns;
+}
+
+std::string text_of(const sockaddr_in& a) {
+    return format_ipv4(ntohl(a.sin_addr.s_addr)) + ":" + std::to_string(ntohs(a.sin_port));
 }
 
 }  // namespace
 
 Fields fields(UdpCommandConfig& c) {
-    return {
+    Fields list = {
         text("address", c.address, "IPv4 address of this machine to listen on"),
         integer("port", c.port, {1, 65535}, "UDP port to listen on"),
+        allow_field(c.allow),
     };
+    add_fields(c.dialect, list);
+    return list;
+}
+
+void validate(const UdpCommandConfig& c) {
+    validate(c.dialect);
+    AllowList(c.allow, c.address, "commands.udp");
 }
 
 UdpCommandReceiver::UdpCommandReceiver(const UdpCommandConfig& config, CommandHandler& handler)
-    : config_(config), handler_(handler) {}
+    : config_(config),
+      allow_(config.allow, config.address, "commands.udp"),
+      station_(handler, config.dialect),
+      stream_(station_.make_stream(kMostDatagramBytes)) {}
+
+std::string UdpCommandReceiver::name() const {
+    return "udp " + config_.address + ":" + std::to_string(config_.port);
+}
 
 void UdpCommandReceiver::start() {
     socket_ = open_udp(parse_ipv4(config_.address, "commands.udp.address"),
                        static_cast<std::uint16_t>(config_.port));
     const int on = 1;
     setsockopt(socket_.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
-    wakeup_ = open_wakeup();
+    stopping_ = false;
     thread_ = std::thread([this] { run(); });
 }
 
 void UdpCommandReceiver::stop() noexcept {
     if (!thread_.joinable()) return;
+    stopping_ = true;
     wake(wakeup_);
     thread_.join();
     socket_.reset();
 }
 
-CommandReport UdpCommandReceiver::report() const { return {received_.load(), refused_.load(), lost_.load()}; }
+void UdpCommandReceiver::tell(const Telemetry& telemetry) noexcept {
+    if (telemetry_.put(telemetry)) wake(wakeup_);
+}
 
 void UdpCommandReceiver::run() {
-    std::array<std::uint8_t, 65536> buffer;
     pollfd watched[] = {{socket_.get(), POLLIN, 0}, {wakeup_.get(), POLLIN, 0}};
     while (true) {
         if (poll(watched, 2, -1) < 0) continue;
-        if (watched[1].revents) return;
-        sockaddr_in sender{};
-        iovec io{buffer.data(), buffer.size()};
-        alignas(cmsghdr) std::array<char, 128> control;
-        msghdr message{&sender, sizeof sender, &io, 1, control.data(), control.size(), 0};
-        const ssize_t size = recvmsg(socket_.get(), &message, MSG_DONTWAIT);
-        if (size >= 0)
-            take_datagram({buffer.data(), static_cast<std::size_t>(size)}, arrival_of(message), sender);
+        if (stopping_) break;
+        if (watched[0].revents) receive();
+        if (watched[1].revents) {
+            drain(wakeup_);
+            send_telemetry();
+        }
+    }
+    for (Peer& peer : peers_) station_.close(*peer.sender);
+    peers_.clear();
+}
+
+void UdpCommandReceiver::receive() {
+    sockaddr_in from{};
+    const std::span<std::uint8_t> room = stream_.room();
+    iovec io{room.data(), room.size()};
+    alignas(cmsghdr) std::array<char, 128> control;
+    msghdr message{&from, sizeof from, &io, 1, control.data(), control.size(), 0};
+    const ssize_t size = recvmsg(socket_.get(), &message, MSG_DONTWAIT);
+    if (size < 0) return;
+    if (!allow_.allows(ntohl(from.sin_addr.s_addr))) return station_.count_stranger();
+    const std::int64_t arrival_ns = arrival_of(message);
+    Peer& peer = peer_of(from, arrival_ns);
+    const CommandStation::Answer answer = [&](std::span<const std::uint8_t> packet) { send(packet, from); };
+    if (size == 0) return station_.refuse_empty(*peer.sender, answer);
+    stream_.filled(static_cast<std::size_t>(size));
+    station_.take_all(stream_, arrival_ns, *peer.sender, answer);
+}
+
+// The sender at an address; the one heard longest ago makes room for a new one.
+UdpCommandReceiver::Peer& UdpCommandReceiver::peer_of(const sockaddr_in& address, std::int64_t now_ns) {
+    forget_silent(now_ns);
+    const auto known = std::find_if(peers_.begin(), peers_.end(), [&](const Peer& p) {
+        return p.address.sin_addr.s_addr == address.sin_addr.s_addr && p.address.sin_port == address.sin_port;
+    });
+    if (known != peers_.end()) {
+        peers_.splice(peers_.end(), peers_, known);
+    } else {
+        if (peers_.size() == kMostPeers) {
+            station_.close(*peers_.front().sender);
+            peers_.pop_front();
+        }
+        peers_.push_back({address, &station_.open(text_of(address)), now_ns});
+    }
+    peers_.back().heard_ns = now_ns;
+    return peers_.back();
+}
+
+void UdpCommandReceiver::forget_silent(std::int64_t now_ns) {
+    while (!peers_.empty() && now_ns - peers_.front().heard_ns > kSilence_ns) {
+        station_.close(*peers_.front().sender);
+        peers_.pop_front();
     }
 }
 
-void UdpCommandReceiver::take_datagram(std::span<const std::uint8_t> datagram, std::int64_t arrival_ns,
-                                       const sockaddr_in& sender) {
-    do {
-        std::size_t size = datagram.size();
-        if (size >= SpacePacketHeader::kBytes)
-            size = std::min(size, read_packet_header(datagram).total_bytes());
-        take_packet(datagram.first(size), arrival_ns, sender);
-        datagram = datagram.subspan(size);
-    } while (!datagram.empty());
+void UdpCommandReceiver::send_telemetry() {
+    forget_silent(monotonic_ns());
+    Telemetry telemetry;
+    while (telemetry_.take(telemetry))
+        station_.tell(telemetry, [&](CommandStation::Sender& sender, std::span<const std::uint8_t> packet) {
+            for (const Peer& peer : peers_)
+                if (peer.sender == &sender) send(packet, peer.address);
+        });
 }
 
-void UdpCommandReceiver::take_packet(std::span<const std::uint8_t> packet, std::int64_t arrival_ns,
-                                     const sockaddr_in& sender) {
-    const DecodedCommand decoded = decode_command(packet);
-    Acknowledgement answer;
-    answer.function = decoded.function;
-    answer.sequence = decoded.sequence;
-    answer.status = decoded.status;
-    answer.reason = decoded.reason;
-    if (decoded.status == CommandStatus::kAccepted) {
-        count_lost(decoded.sequence, sender);
-        answer.status = handler_.handle(decoded.command, decoded.sequence, arrival_ns);
-        if (answer.status != CommandStatus::kAccepted) answer.reason = name_of(answer.status);
-        if (const auto* ping = std::get_if<PingCommand>(&decoded.command)) answer.token = ping->token;
-    }
-    received_.fetch_add(1);
-    if (answer.status != CommandStatus::kAccepted) refused_.fetch_add(1);
-    answer.simulated_time = handler_.now();
-    std::array<std::uint8_t, kMostAcknowledgeBytes> bytes;
-    const std::size_t size = encode_acknowledgement(answer, acknowledgements_++, bytes);
-    sendto(socket_.get(), bytes.data(), size, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&sender),
-           sizeof sender);
-}
-
-// Gaps in a sender's 32-bit sequence. A sender that starts anew (a smaller number) is taken as new; the
-// sixteen senders seen last are remembered.
-void UdpCommandReceiver::count_lost(std::uint32_t sequence, const sockaddr_in& sender) {
-    const std::uint64_t endpoint = std::uint64_t{sender.sin_addr.s_addr} << 16 | sender.sin_port;
-    for (Sender& known : senders_) {
-        if (known.endpoint != endpoint) continue;
-        if (sequence > known.next) lost_.fetch_add(sequence - known.next);
-        known.next = sequence + 1;
-        return;
-    }
-    senders_[next_sender_] = {endpoint, sequence + 1};
-    next_sender_ = (next_sender_ + 1) % senders_.size();
+void UdpCommandReceiver::send(std::span<const std::uint8_t> packet, const sockaddr_in& to) {
+    sendto(socket_.get(), packet.data(), packet.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),
+           sizeof to);
 }
 
 }  // namespace hilcam

@@ -1,12 +1,13 @@
 #pragma once
-// Commands over UDP: a thread of its own receives datagrams, decodes, hands over and acknowledges.
+// Commands over UDP: a thread of its own receives datagrams, hands them to the station and sends the answers.
 
-#include <atomic>
-#include <cstdint>
+#include <list>
 #include <string>
 #include <thread>
 
-#include "io/command.h"
+#include "io/allow_list.h"
+#include "io/command_receiver.h"
+#include "io/command_station.h"
 #include "io/fd.h"
 #include "render/config_field.h"
 
@@ -15,43 +16,51 @@ namespace hilcam {
 struct UdpCommandConfig {
     std::string address = "127.0.0.1";
     std::int64_t port = 5010;
+    std::vector<std::string> allow{};
+    DialectConfig dialect{};
 };
 Fields fields(UdpCommandConfig& config);
+void validate(const UdpCommandConfig& config);
 
-// A datagram holds one or more packets back to back; each is acknowledged to the sender's address. What
-// cannot be cut into packets is refused once. Arrival is the kernel's receive time stamp, on CLOCK_MONOTONIC.
-// Not checked: who the sender is. Bind to loopback, or to a network of the bench alone.
-class UdpCommandReceiver {
+// A datagram holds one or more packets back to back; each is acknowledged to the sender's address and port,
+// one datagram each. What cannot be cut into packets is refused once. Arrival is the kernel's receive time
+// stamp, on CLOCK_MONOTONIC. The sixteen senders heard last are remembered, for a minute; a subscription to
+// telemetry ends with that.
+class UdpCommandReceiver : public CommandReceiver {
   public:
     UdpCommandReceiver(const UdpCommandConfig& config, CommandHandler& handler);
-    ~UdpCommandReceiver() { stop(); }
+    ~UdpCommandReceiver() override { stop(); }
 
-    // Throws DeviceError when the port is taken. Owner thread.
-    void start();
-    void stop() noexcept;
-    // Any thread.
-    CommandReport report() const;
+    // Throws DeviceError when the port is taken.
+    void start() override;
+    void stop() noexcept override;
+    std::string name() const override;
+    CommandReport report() const override { return station_.report(); }
+    std::vector<SenderReport> senders() const override { return station_.senders(); }
+    void tell(const Telemetry& telemetry) noexcept override;
 
   private:
+    struct Peer {
+        sockaddr_in address{};
+        CommandStation::Sender* sender = nullptr;
+        std::int64_t heard_ns = 0;
+    };
     void run();
-    void take_datagram(std::span<const std::uint8_t> datagram, std::int64_t arrival_ns,
-                       const sockaddr_in& sender);
-    void take_packet(std::span<const std::uint8_t> packet, std::int64_t arrival_ns,
-                     const sockaddr_in& sender);
-    void count_lost(std::uint32_t sequence, const sockaddr_in& sender);
+    void receive();
+    Peer& peer_of(const sockaddr_in& address, std::int64_t now_ns);
+    void forget_silent(std::int64_t now_ns);
+    void send_telemetry();
+    void send(std::span<const std::uint8_t> packet, const sockaddr_in& to);
 
     UdpCommandConfig config_;
-    CommandHandler& handler_;
-    Fd socket_, wakeup_;
+    AllowList allow_;
+    CommandStation station_;
+    PacketStream stream_;
+    TelemetryQueue telemetry_;
+    Fd socket_, wakeup_ = open_wakeup();
+    std::atomic<bool> stopping_{false};
     std::thread thread_;
-    std::uint16_t acknowledgements_ = 0;
-    struct Sender {
-        std::uint64_t endpoint = 0;
-        std::uint32_t next = 0;
-    };
-    std::array<Sender, 16> senders_{};
-    std::size_t next_sender_ = 0;
-    std::atomic<std::uint64_t> received_{0}, refused_{0}, lost_{0};
+    std::list<Peer> peers_;  // heard last: last
 };
 
 }  // namespace hilcam

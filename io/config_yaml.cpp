@@ -291,6 +291,16 @@ class Reader {
                     if (!node.IsScalar()) refuse(node, "a text");
                     *f.value = node.Scalar();
                 },
+                [&](const TextsField& f) {
+                    if (!node.IsScalar() && !node.IsSequence()) refuse(node, "a list of texts");
+                    std::vector<std::string> list_of_texts;
+                    if (node.IsScalar()) list_of_texts.push_back(node.Scalar());
+                    for (const auto& item : node) {
+                        if (!item.IsScalar()) refuse(item, "a text");
+                        list_of_texts.push_back(item.Scalar());
+                    }
+                    *f.value = list_of_texts;
+                },
                 [&](const PathField& f) {
                     if (!node.IsScalar() || node.Scalar().empty()) refuse(node, "a path");
                     *f.value = place.folder / node.Scalar();
@@ -396,6 +406,7 @@ std::string accepted_text(const Field& field) {
                           [](const IntegerField& f) { return "whole, " + show(f.range); },
                           [](const FlagField&) { return std::string("true, false"); },
                           [](const TextField&) { return std::string("text"); },
+                          [](const TextsField&) { return std::string("list of texts"); },
                           [](const PathField&) { return std::string("path"); },
                           [](const ChoiceField& f) {
                               std::string words;

@@ -46,25 +46,56 @@ sockaddr_in parse_endpoint(const std::string& text) {
     return socket_address(parse_ipv4(text.substr(0, colon), text), static_cast<std::uint16_t>(port));
 }
 
+namespace {
+
+// Binds, or says who has the port and what to do. `kind`: "UDP", "TCP".
+void bind_to(const Fd& fd, std::uint32_t address, std::uint16_t port, const std::string& kind) {
+    const sockaddr_in where = socket_address(address, port);
+    if (bind(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) == 0) return;
+    const int reason = errno;
+    const std::string endpoint = kind + " " + format_ipv4(address) + ":" + std::to_string(port);
+    if (reason == EADDRINUSE)
+        throw DeviceError(endpoint + " is taken by another program; stop it (ss -" +
+                          (kind == "UDP" ? "u" : "t") + "lpn shows it) or choose another address or port");
+    if (reason == EADDRNOTAVAIL)
+        throw DeviceError(endpoint + ": no interface of this machine has that address; 'ip addr' lists them");
+    throw DeviceError(endpoint + " cannot be opened: " + std::strerror(reason));
+}
+
+void reuse_address(const Fd& fd) {
+    const int on = 1;
+    setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+}
+
+}  // namespace
+
 Fd open_udp(std::uint32_t address, std::uint16_t port, bool reuse) {
     Fd fd(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
     if (!fd) throw DeviceError(std::string("no UDP socket: ") + std::strerror(errno));
-    if (reuse) {
-        const int on = 1;
-        setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    }
-    const sockaddr_in where = socket_address(address, port);
-    if (bind(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) == 0) return fd;
-    const int reason = errno;
-    const std::string endpoint = format_ipv4(address) + ":" + std::to_string(port);
-    if (reason == EADDRINUSE)
-        throw DeviceError("UDP " + endpoint +
-                          " is taken by another program; stop it (ss -ulpn shows it) or choose another " +
-                          "address or port");
-    if (reason == EADDRNOTAVAIL)
-        throw DeviceError("UDP " + endpoint +
-                          ": no interface of this machine has that address; 'ip addr' lists them");
-    throw DeviceError("UDP " + endpoint + " cannot be opened: " + std::strerror(reason));
+    if (reuse) reuse_address(fd);
+    bind_to(fd, address, port, "UDP");
+    return fd;
+}
+
+Fd listen_tcp(std::uint32_t address, std::uint16_t port) {
+    Fd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    if (!fd) throw DeviceError(std::string("no TCP socket: ") + std::strerror(errno));
+    reuse_address(fd);  // connections of a run before may linger
+    bind_to(fd, address, port, "TCP");
+    if (listen(fd.get(), 16) != 0)
+        throw DeviceError("TCP " + format_ipv4(address) + ":" + std::to_string(port) +
+                          " cannot be listened at: " + std::strerror(errno));
+    return fd;
+}
+
+sockaddr_un unix_address(const std::string& path) {
+    sockaddr_un out{};
+    out.sun_family = AF_UNIX;
+    if (path.empty() || path.size() >= sizeof out.sun_path)
+        throw InputError("'" + path + "': accepted: the path of a Unix socket, 1 to " +
+                         std::to_string(sizeof out.sun_path - 1) + " bytes long");
+    std::memcpy(out.sun_path, path.data(), path.size());
+    return out;
 }
 
 Fd open_wakeup() {
@@ -76,6 +107,11 @@ Fd open_wakeup() {
 void wake(const Fd& wakeup) {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(wakeup.get(), &one, sizeof one);
+}
+
+void drain(const Fd& wakeup) {
+    std::uint64_t count = 0;
+    [[maybe_unused]] const auto got = ::read(wakeup.get(), &count, sizeof count);
 }
 
 }  // namespace hilcam

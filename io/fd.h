@@ -1,7 +1,8 @@
 #pragma once
-// A file descriptor that closes itself, and IPv4 sockets.
+// A file descriptor that closes itself, and sockets.
 
 #include <netinet/in.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -42,8 +43,14 @@ sockaddr_in parse_endpoint(const std::string& text);
 // A UDP socket bound to an address. DeviceError says who has the port and what to do. `reuse` lets several
 // sockets share a broadcast address.
 Fd open_udp(std::uint32_t address, std::uint16_t port, bool reuse = false);
+// A non-blocking listening TCP socket, with the same errors.
+Fd listen_tcp(std::uint32_t address, std::uint16_t port);
+// Throws InputError when the path does not fit.
+sockaddr_un unix_address(const std::string& path);
 // An eventfd that wakes a poll().
 Fd open_wakeup();
 void wake(const Fd& wakeup);
+// After it, poll() waits again.
+void drain(const Fd& wakeup);
 
 }  // namespace hilcam

@@ -49,6 +49,10 @@ struct FlagField {
 struct TextField {
     std::string* value;
 };
+// A list of texts, in brackets; one text alone is a list of one.
+struct TextsField {
+    std::vector<std::string>* value;
+};
 // A path; relative ones are taken from the folder of the file that names it.
 struct PathField {
     std::filesystem::path* value;
@@ -102,8 +106,8 @@ struct SectionsField {
 struct Field {
     std::string key;
     std::string meaning;  // one line, with the unit where the key has none
-    std::variant<NumberField, IntegerField, FlagField, TextField, PathField, ChoiceField, NumbersField,
-                 Vec3Field, QuatField, CurveField, TableField, SectionField, SectionsField>
+    std::variant<NumberField, IntegerField, FlagField, TextField, TextsField, PathField, ChoiceField,
+                 NumbersField, Vec3Field, QuatField, CurveField, TableField, SectionField, SectionsField>
         target;
     bool required = false;
     bool* present = nullptr;  // set when the key is given
@@ -121,6 +125,9 @@ inline Field flag(std::string key, bool& value, std::string meaning) {
 }
 inline Field text(std::string key, std::string& value, std::string meaning) {
     return {std::move(key), std::move(meaning), TextField{&value}};
+}
+inline Field texts(std::string key, std::vector<std::string>& value, std::string meaning) {
+    return {std::move(key), std::move(meaning), TextsField{&value}};
 }
 inline Field path(std::string key, std::filesystem::path& value, std::string meaning) {
     return {std::move(key), std::move(meaning), PathField{&value}};

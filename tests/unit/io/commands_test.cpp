@@ -7,41 +7,10 @@
 #include "io/command_codec.h"
 #include "io/command_sender.h"
 #include "io/commands_udp.h"
+#include "tests/support/commands.h"
 
 namespace hilcam {
 namespace {
-
-std::vector<std::uint8_t> encoded(const Command& command, std::uint32_t sequence) {
-    std::vector<std::uint8_t> bytes(kMostCommandBytes);
-    bytes.resize(encode_command(command, sequence, bytes));
-    return bytes;
-}
-std::vector<std::uint8_t> with_crc(std::vector<std::uint8_t> bytes) {
-    const std::uint16_t crc = crc16(std::span(bytes).first(bytes.size() - 2));
-    bytes[bytes.size() - 2] = static_cast<std::uint8_t>(crc >> 8);
-    bytes[bytes.size() - 1] = static_cast<std::uint8_t>(crc & 0xFF);
-    return bytes;
-}
-PoseCommand some_pose() {
-    PoseCommand p;
-    p.object = 2;
-    p.motion.time.ns = 123456789;
-    p.motion.pose.position_world_m = {1.5, -2.5, 3.25};
-    p.motion.pose.world_from_body = {0.5, 0.5, -0.5, 0.5};
-    p.motion.velocity_world_m_s = {0.1, 0.2, 0.3};
-    p.motion.rate_body_rad_s = {-0.01, 0, 0.01};
-    return p;
-}
-std::string hex(std::span<const std::uint8_t> bytes) {
-    std::string out;
-    for (const std::uint8_t b : bytes) {
-        char text[4];
-        std::snprintf(text, sizeof text, "%02X ", b);
-        out += text;
-    }
-    out.pop_back();
-    return out;
-}
 
 TEST(Crc16, IsCcittFalse) {
     const std::string text = "123456789";  // the catalogue's check value
@@ -80,6 +49,54 @@ TEST(CommandCodec, JointComesBackAndWildAnglesAreRefused) {
     EXPECT_EQ(decode_command(encoded(joint, 4)).status, CommandStatus::kBadArgument);
     joint.angle_rad = std::nan("");
     EXPECT_EQ(decode_command(encoded(joint, 4)).status, CommandStatus::kBadArgument);
+}
+
+template <class T>
+T there_and_back(const T& command) {
+    const DecodedCommand d = decode_command(encoded(command, 9));
+    EXPECT_EQ(d.status, CommandStatus::kAccepted) << d.reason;
+    return std::get<T>(d.command);
+}
+
+TEST(CommandCodec, FaultComesBackAndWildOnesAreRefused) {
+    FaultCommand fault;
+    fault.order = {FaultKind::kPacketDelay, 0.25, 40, 1000, 20, 2.5};
+    const FaultOrder back = there_and_back(fault).order;
+    EXPECT_EQ(back.kind, FaultKind::kPacketDelay);
+    EXPECT_EQ(back.rate, 0.25);
+    EXPECT_EQ(back.value, 40);
+    EXPECT_EQ(back.from_frame, 1000u);
+    EXPECT_EQ(back.frames, 20u);
+    EXPECT_EQ(back.duration_s, 2.5);
+    EXPECT_FALSE(there_and_back(fault).clear_all);
+    fault.order.rate = 1.5;
+    const DecodedCommand refused = decode_command(encoded(fault, 1));
+    EXPECT_EQ(refused.status, CommandStatus::kBadArgument);
+    EXPECT_EQ(refused.reason, "rate is not 0 to 1");
+    fault.order = {static_cast<FaultKind>(200)};
+    EXPECT_EQ(decode_command(encoded(fault, 1)).status, CommandStatus::kBadArgument);
+    FaultCommand clear;
+    clear.clear_all = true;
+    clear.order.rate = 77;  // not looked at
+    EXPECT_TRUE(there_and_back(clear).clear_all);
+}
+
+TEST(CommandCodec, ExposeModeAndSubscriptionComeBack) {
+    const ExposeCommand expose = there_and_back(ExposeCommand{{-5}, 65535});
+    EXPECT_EQ(expose.time.ns, -5);
+    EXPECT_EQ(expose.frames, 65535);
+    const TriggerModeCommand mode = there_and_back(TriggerModeCommand{true, 7});
+    EXPECT_TRUE(mode.triggered);
+    EXPECT_EQ(mode.burst_frames, 7);
+    const SubscribeCommand wants = there_and_back(SubscribeCommand{false, true});
+    EXPECT_FALSE(wants.frame_reports);
+    EXPECT_TRUE(wants.housekeeping);
+    auto bytes = encoded(TriggerModeCommand{}, 1);
+    bytes[14] = 2;
+    EXPECT_EQ(decode_command(with_crc(bytes)).status, CommandStatus::kBadArgument);
+    bytes = encoded(SubscribeCommand{}, 1);
+    bytes[14] = 4;
+    EXPECT_EQ(decode_command(with_crc(bytes)).status, CommandStatus::kBadArgument);
 }
 
 // The worked examples of the protocol's document are what the program sends.
@@ -148,17 +165,6 @@ TEST(CommandCodec, DamagedBytesGiveFiniteCommandsOrRefusals) {
     }
 }
 
-class Recorder : public CommandHandler {
-  public:
-    CommandStatus handle(const Command& command, std::uint32_t, std::int64_t) override {
-        ++handled;
-        const auto* pose = std::get_if<PoseCommand>(&command);
-        return pose && pose->object > 1 ? CommandStatus::kUnknownObject : CommandStatus::kAccepted;
-    }
-    TimeTai now() const override { return {42}; }
-    std::atomic<int> handled{0};
-};
-
 TEST(CommandsUdp, AnswersCountsAndSeparatesPackets) {
     Recorder recorder;
     UdpCommandReceiver receiver({"127.0.0.1", 15010}, recorder);
@@ -166,7 +172,9 @@ TEST(CommandsUdp, AnswersCountsAndSeparatesPackets) {
     CommandSender sender("127.0.0.1:15010");
     EXPECT_EQ(sender.send(PingCommand{9}).token, 9u);
     EXPECT_EQ(sender.send(PingCommand{9}).simulated_time.ns, 42);
-    EXPECT_EQ(sender.send(some_pose()).status, CommandStatus::kUnknownObject);
+    PoseCommand pose = some_pose();
+    pose.object = 3;
+    EXPECT_EQ(sender.send(pose).status, CommandStatus::kUnknownObject);
 
     // Two packets in one datagram, then rubbish, then a gap in the sequence.
     const Fd socket = open_udp(0x7F000001, 0);

@@ -33,6 +33,7 @@ struct Outer {
     Quat attitude;
     Inner inner;
     std::vector<Inner> list;
+    std::vector<std::string> words;
 };
 Fields fields(Outer& c) {
     return {required(text("name", c.name, "name")),
@@ -42,7 +43,8 @@ Fields fields(Outer& c) {
             vector3("position_m", c.position, 1, {-10, 10}, "where"),
             quaternion("attitude_wxyz", c.attitude, "how"),
             section("inner", c.inner, "nested"),
-            sections("list", c.list, "many")};
+            sections("list", c.list, "many"),
+            texts("words", c.words, "some words")};
 }
 
 Outer read(const std::string& text, std::vector<std::string> overrides = {}) {
@@ -164,6 +166,17 @@ TEST(ConfigYaml, DamagedTextNeverCrashes) {
         } catch (const InputError&) {
         }
     }
+}
+
+TEST(ConfigYaml, ListsOfTextsMayBeOneTextAndNothingElse) {
+    EXPECT_EQ(read("name: x\nwords: [127.0.0.1, 10.0.0.0/8]").words,
+              (std::vector<std::string>{"127.0.0.1", "10.0.0.0/8"}));
+    EXPECT_EQ(read("name: x\nwords: any").words, std::vector<std::string>{"any"});
+    EXPECT_EQ(read("name: x", {"words=[a]"}).words, std::vector<std::string>{"a"});
+    EXPECT_TRUE(read("name: x\nwords: []").words.empty());
+    EXPECT_THAT(error_of("name: x\nwords: {a: 1}"),
+                HasSubstr("words: found a mapping; accepted: a list of texts"));
+    EXPECT_THAT(error_of("name: x\nwords: [a, [b]]"), HasSubstr("found a list of 1; accepted: a text"));
 }
 
 }  // namespace
