@@ -1,35 +1,21 @@
 #include "io/sink_v4l2.h"
 
-#include <fcntl.h>
-#include <linux/videodev2.h>
-#include <sys/ioctl.h>
-#include <sys/mman.h>
-
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 
+#include "io/camera_control.h"
+#include "io/fault.h"
+#include "io/v4l2_metadata_row.h"
 #include "render/check.h"
 
 namespace hilcam {
 namespace {
 
-int retry_ioctl(int fd, unsigned long request, void* argument) {
-    int result;
-    do result = ioctl(fd, request, argument);
-    while (result < 0 && errno == EINTR);
-    return result;
-}
-
-std::string fourcc_text(std::uint32_t code) {
-    std::string text;
-    for (int i = 0; i < 4; ++i) text += static_cast<char>(code >> (8 * i) & 0x7F);
-    return text;
-}
-
-constexpr const char* kAdvice =
-    "; load the module with: modprobe v4l2loopback video_nr=42 card_label=hilcam exclusive_caps=1 "
-    "max_buffers=4";
+constexpr std::int64_t kLeastInterval_ns = 1'000'000;  // whatever rate the camera claims
+constexpr std::int64_t kRetry_ns = 500'000'000;
 
 std::int64_t monotonic_ns() {
     timespec t{};
@@ -37,13 +23,40 @@ std::int64_t monotonic_ns() {
     return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
 
+void sleep_until(std::int64_t ns) {
+    const timespec t{ns / 1'000'000'000, ns % 1'000'000'000};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+    }
+}
+
+bool is_bayer(V4l2Format f) {
+    return f == V4l2Format::kBayer8 || f == V4l2Format::kBayer10 || f == V4l2Format::kBayer12;
+}
+
+void check_metadata_row(const V4l2Config& c, std::size_t bytes_per_line) {
+    if (c.metadata_row == V4l2Config::MetadataRow::kOff) return;
+    if (bytes_per_line < kMetadataBytes)
+        throw InputError("outputs.v4l2.metadata_row: needs lines of " + std::to_string(kMetadataBytes) +
+                         " bytes; this picture's have " + std::to_string(bytes_per_line));
+    if (c.metadata_row == V4l2Config::MetadataRow::kTop && is_bayer(c.format))
+        throw InputError(
+            "outputs.v4l2.metadata_row: found 'top', which shifts the phase of a mosaic; "
+            "accepted with Bayer formats: off, bottom");
+}
+
 }  // namespace
 
 Fields fields(V4l2Config& c) {
     return {
         text("device", c.device, "an output device of v4l2loopback"),
-        choice("format", c.format, {"GREY", "Y16"}, "8 bits, or 16 bits with the DN in the upper ones"),
-        choice("io", c.io, {"mmap", "write"}, "mmap: exposure time stamps; write: the module counts frames"),
+        choice("format", c.format, {"GREY", "Y16", "BAYER8", "BAYER10", "BAYER12", "YUYV", "RGB24"},
+               "GREY: the upper 8 bits; Y16: the DN in the upper ones of 16 bits; BAYER10 and 12: 16-bit "
+               "words, from v4l2loopback 0.14 on"),
+        choice("io", c.io, {"mmap", "write"},
+               "mmap: exposure time stamps; write: times by the module, and frames counted by all versions"),
+        choice("metadata_row", c.metadata_row, {"off", "top", "bottom"},
+               "one more row in the picture, with frame id, times, pose and faults (docs/devices.md)"),
+        integer("buffers", c.buffers, {2, 32}, "that go round; before v4l2loopback 0.14 its own max_buffers"),
     };
 }
 
@@ -52,141 +65,129 @@ V4l2Sink::V4l2Sink(const V4l2Config& config, int width, int height, double frame
     : config_(config),
       width_(width),
       height_(height),
-      frame_rate_hz_(frame_rate_hz),
-      listener_(context.listener),
-      mailbox_(width, height, 4) {}
+      pattern_(context.camera.limits().color_pattern),
+      context_(context),
+      format_(config.format),
+      mailbox_(width, height, 4) {
+    use(config.format);
+    check_metadata_row(config, pixels_.bytes_per_pixel * static_cast<std::size_t>(width));
+    row_.resize(3 * static_cast<std::size_t>(width) + 8);
+    // Half a period: jitter of the loop passes, a burst without pauses does not.
+    const double fastest_hz = std::max(frame_rate_hz, context.camera.limits().most_frame_rate_hz);
+    least_interval_ns_ =
+        std::max(kLeastInterval_ns, static_cast<std::int64_t>(std::llround(0.5e9 / fastest_hz)));
+}
 
-std::size_t V4l2Sink::frame_bytes() const {
-    const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-    return config_.format == V4l2Config::Format::kGrey ? pixels : 2 * pixels;
+void V4l2Sink::use(V4l2Format format) {
+    pixels_ = pixels_of(format, pattern_, width_);
+    format_ = format;
+}
+
+void V4l2Sink::open_device() {
+    V4l2Output::Request request;
+    request.device = config_.device;
+    request.fourcc = pixels_.fourcc;
+    request.width = width_;
+    request.height = height_ + (config_.metadata_row == V4l2Config::MetadataRow::kOff ? 0 : 1);
+    request.bytes_per_line = pixels_.bytes_per_pixel * static_cast<std::size_t>(width_);
+    request.frame_rate_hz = context_.camera.settings().frame_rate_hz;
+    request.mapped = config_.io == V4l2Config::Io::kMmap;
+    request.buffers = static_cast<unsigned>(config_.buffers);
+    device_.open(request);
 }
 
 void V4l2Sink::start() {
-    device_ = Fd(open(config_.device.c_str(), O_RDWR | O_CLOEXEC));
-    if (!device_) {
-        const int reason = errno;
-        const std::string advice = reason == EACCES ? "; add the user to the group 'video'" : kAdvice;
-        throw DeviceError(config_.device + ": cannot be opened: " + std::strerror(reason) + advice);
-    }
-    v4l2_capability capability{};
-    if (retry_ioctl(device_.get(), VIDIOC_QUERYCAP, &capability) < 0)
-        throw DeviceError(config_.device + ": is not a V4L2 device" + kAdvice);
-    const std::uint32_t can =
-        capability.capabilities & V4L2_CAP_DEVICE_CAPS ? capability.device_caps : capability.capabilities;
-    if (!(can & V4L2_CAP_VIDEO_OUTPUT))
-        throw DeviceError(config_.device +
-                          ": takes no frames (it is a camera, or another program feeds it already)" +
-                          kAdvice);
-    set_format();
-    if (config_.io == V4l2Config::Io::kMmap) map_buffers();
-    staging_.resize(frame_bytes());
-    int type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-    if (retry_ioctl(device_.get(), VIDIOC_STREAMON, &type) < 0)
-        throw DeviceError(config_.device + ": does not start streaming: " + std::strerror(errno));
+    open_device();
     thread_ = std::thread([this] { run(); });
-}
-
-void V4l2Sink::set_format() {
-    v4l2_format format{};
-    format.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-    format.fmt.pix.width = static_cast<std::uint32_t>(width_);
-    format.fmt.pix.height = static_cast<std::uint32_t>(height_);
-    format.fmt.pix.field = V4L2_FIELD_NONE;
-    format.fmt.pix.colorspace = V4L2_COLORSPACE_RAW;
-    const std::uint32_t asked =
-        config_.format == V4l2Config::Format::kGrey ? V4L2_PIX_FMT_GREY : V4L2_PIX_FMT_Y16;
-    format.fmt.pix.pixelformat = asked;
-    if (retry_ioctl(device_.get(), VIDIOC_S_FMT, &format) < 0)
-        throw DeviceError(config_.device + ": refuses " + fourcc_text(asked) + ": " + std::strerror(errno) +
-                          "; is another program feeding it, or a reader holding another format?");
-    // The module answers an unknown format with another one instead of an error.
-    const v4l2_pix_format& got = format.fmt.pix;
-    if (got.pixelformat != asked || got.width != static_cast<std::uint32_t>(width_) ||
-        got.height != static_cast<std::uint32_t>(height_) || got.sizeimage < frame_bytes())
-        throw DeviceError(config_.device + ": asked for " + fourcc_text(asked) + " " +
-                          std::to_string(width_) + "x" + std::to_string(height_) +
-                          ", the module fell back to " + fourcc_text(got.pixelformat) + " " +
-                          std::to_string(got.width) + "x" + std::to_string(got.height));
-    v4l2_streamparm rate{};
-    rate.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-    rate.parm.output.timeperframe = {1000, static_cast<std::uint32_t>(std::lround(frame_rate_hz_ * 1000))};
-    retry_ioctl(device_.get(), VIDIOC_S_PARM,
-                &rate);  // readers see it as the frame rate; not all modules take it
-}
-
-void V4l2Sink::map_buffers() {
-    v4l2_requestbuffers request{};
-    request.count = 4;
-    request.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-    request.memory = V4L2_MEMORY_MMAP;
-    if (retry_ioctl(device_.get(), VIDIOC_REQBUFS, &request) < 0 || request.count < 2)
-        throw DeviceError(config_.device + ": gives no buffers; try 'io: write'");
-    for (std::uint32_t i = 0; i < request.count; ++i) {
-        v4l2_buffer buffer{};
-        buffer.index = i;
-        buffer.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-        buffer.memory = V4L2_MEMORY_MMAP;
-        if (retry_ioctl(device_.get(), VIDIOC_QUERYBUF, &buffer) < 0)
-            throw DeviceError(config_.device + ": does not describe its buffers: " + std::strerror(errno));
-        void* memory = mmap(nullptr, buffer.length, PROT_READ | PROT_WRITE, MAP_SHARED, device_.get(),
-                            static_cast<off_t>(buffer.m.offset));
-        if (memory == MAP_FAILED)
-            throw DeviceError(config_.device + ": buffers cannot be mapped: " + std::strerror(errno));
-        buffers_.push_back({memory, buffer.length});
-    }
 }
 
 void V4l2Sink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
     mailbox_.put(frame, record);
 }
 
-void V4l2Sink::convert(const FrameMailbox::Item& item, std::uint8_t* out) const {
-    const int bits = item.record.bits;
-    const std::span<const std::uint16_t> in = item.frame.all();
-    if (config_.format == V4l2Config::Format::kGrey) {
-        for (std::size_t i = 0; i < in.size(); ++i) out[i] = static_cast<std::uint8_t>(in[i] >> (bits - 8));
-        return;
-    }
-    for (std::size_t i = 0; i < in.size(); ++i) {
-        const auto value = static_cast<std::uint16_t>(in[i] << (16 - bits));
-        out[2 * i] = static_cast<std::uint8_t>(value & 0xFF);
-        out[2 * i + 1] = static_cast<std::uint8_t>(value >> 8);
-    }
+void V4l2Sink::note_fault(const std::string& text) noexcept {
+    const std::lock_guard lock(mutex_);
+    fault_ = text;
 }
 
-bool V4l2Sink::write_frame(const FrameMailbox::Item& item) {
-    convert(item, staging_.data());
-    return ::write(device_.get(), staging_.data(), staging_.size()) == static_cast<ssize_t>(staging_.size());
-}
-
-bool V4l2Sink::queue_frame(const FrameMailbox::Item& item) {
-    v4l2_buffer buffer{};
-    buffer.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-    buffer.memory = V4L2_MEMORY_MMAP;
-    if (queued_ < buffers_.size())
-        buffer.index = static_cast<std::uint32_t>(queued_++);
-    else if (retry_ioctl(device_.get(), VIDIOC_DQBUF, &buffer) < 0)
+bool V4l2Sink::reopen() noexcept {
+    retry_ns_ = monotonic_ns() + kRetry_ns;
+    try {
+        open_device();
+        counters_.reopened.fetch_add(1);
+        note_fault("");
+        return true;
+    } catch (const std::exception& error) {
+        note_fault(error.what());
         return false;
-    if (buffer.index >= buffers_.size() || buffers_[buffer.index].size < frame_bytes()) return false;
-    convert(item, static_cast<std::uint8_t*>(buffers_[buffer.index].memory));
-    buffer.bytesused = static_cast<std::uint32_t>(frame_bytes());
-    buffer.field = V4L2_FIELD_NONE;
-    const std::int64_t stamp_ns = item.record.exposure_mid_monotonic_ns;
-    buffer.timestamp.tv_sec = stamp_ns / 1'000'000'000;
-    buffer.timestamp.tv_usec = stamp_ns % 1'000'000'000 / 1000;
-    return retry_ioctl(device_.get(), VIDIOC_QBUF, &buffer) == 0;
+    }
+}
+
+// Back to the format it had when the device does not take the other one.
+void V4l2Sink::flip_format() noexcept {
+    const V4l2Format before = format_;
+    device_.close();
+    try {
+        use(format_ == config_.format ? flipped(config_.format) : config_.format);
+        open_device();
+        counters_.reopened.fetch_add(1);
+    } catch (const std::exception&) {
+        counters_.flips_refused.fetch_add(1);
+        use(before);
+        reopen();
+    }
+}
+
+void V4l2Sink::strike_faults(std::uint64_t frame) noexcept {
+    if (context_.faults.strikes(FaultKind::kV4l2Restart, frame)) {
+        device_.close();
+        reopen();
+    }
+    if (context_.faults.strikes(FaultKind::kV4l2FormatFlip, frame)) flip_format();
+}
+
+void V4l2Sink::pace() noexcept {
+    const std::int64_t due_ns = last_ns_ + least_interval_ns_;
+    if (monotonic_ns() < due_ns) sleep_until(due_ns);
+    last_ns_ = monotonic_ns();
+}
+
+void V4l2Sink::draw(const FrameMailbox::Item& item, std::span<std::uint8_t> out) noexcept {
+    const std::size_t line = pixels_.bytes_per_pixel * static_cast<std::size_t>(width_);
+    const std::size_t picture = line * static_cast<std::size_t>(height_);
+    const bool top = config_.metadata_row == V4l2Config::MetadataRow::kTop;
+    write_wire(item.frame, {0, 0, width_, height_}, item.record.bits, pixels_.wire, pattern_, row_,
+               out.subspan(top ? line : 0, picture));
+    if (config_.metadata_row != V4l2Config::MetadataRow::kOff)
+        write_metadata_row(item.record, out.subspan(top ? 0 : picture, line));
+}
+
+bool V4l2Sink::deliver(const FrameMailbox::Item& item) noexcept {
+    const std::int64_t begun_ns = monotonic_ns();
+    const std::span<std::uint8_t> out = device_.next();
+    if (!out.empty()) draw(item, out);
+    if (out.empty() || !device_.submit(item.record.exposure_mid_monotonic_ns)) {
+        note_fault(config_.device + ": a frame was not taken: " + std::strerror(errno));
+        device_.close();
+        retry_ns_ = monotonic_ns() + kRetry_ns;
+        return false;
+    }
+    counters_.buffers.store(device_.buffers_in_use());
+    if (context_.listener) context_.listener->delivered(item.record, begun_ns, monotonic_ns());
+    return true;
 }
 
 void V4l2Sink::run() {
     while (const FrameMailbox::Item* item = mailbox_.wait()) {
-        const std::int64_t first_ns = monotonic_ns();
-        const bool sent = config_.io == V4l2Config::Io::kMmap ? queue_frame(*item) : write_frame(*item);
-        if (sent) {
-            delivered_.fetch_add(1);
-            if (listener_) listener_->delivered(item->record, first_ns, monotonic_ns());
-        } else if (failed_.fetch_add(1) == 0) {
-            const std::lock_guard lock(mutex_);
-            fault_ = config_.device + ": a frame was not taken: " + std::strerror(errno);
+        strike_faults(item->record.id);
+        if (!device_.is_open() && monotonic_ns() >= retry_ns_) reopen();
+        if (context_.faults.strikes(FaultKind::kV4l2Stall, item->record.id)) {
+            counters_.stalled.fetch_add(1);
+        } else if (device_.is_open()) {
+            pace();
+            (deliver(*item) ? counters_.delivered : counters_.failed).fetch_add(1);
+        } else {
+            counters_.failed.fetch_add(1);
         }
         mailbox_.done();
     }
@@ -196,17 +197,22 @@ void V4l2Sink::stop() noexcept {
     if (thread_.joinable()) {
         mailbox_.close();
         thread_.join();
-        int type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-        retry_ioctl(device_.get(), VIDIOC_STREAMOFF, &type);
     }
-    for (const Buffer& buffer : buffers_) munmap(buffer.memory, buffer.size);
-    buffers_.clear();
-    device_.reset();
+    device_.close();
 }
 
 SinkReport V4l2Sink::report() const {
+    SinkReport report;
+    report.name = "v4l2 " + config_.device;
+    report.frames = counters_.delivered.load();
+    report.dropped = mailbox_.dropped() + counters_.failed.load() + counters_.stalled.load();
+    report.figures = {{"stalled", static_cast<double>(counters_.stalled.load())},
+                      {"reopened", static_cast<double>(counters_.reopened.load())},
+                      {"format_flips_refused", static_cast<double>(counters_.flips_refused.load())},
+                      {"buffers", static_cast<double>(counters_.buffers.load())}};
     const std::lock_guard lock(mutex_);
-    return {"v4l2 " + config_.device, delivered_.load(), mailbox_.dropped() + failed_.load(), fault_};
+    report.fault = fault_;
+    return report;
 }
 
 }  // namespace hilcam
