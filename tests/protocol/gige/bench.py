@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import signal
+import socket
 import struct
 import subprocess
 import tempfile
@@ -16,6 +17,17 @@ SOURCE = HERE.parents[2]
 SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
 os.environ.setdefault("HILCAM_CACHE", tempfile.gettempdir() + f"/hilcam_test_cache_{os.getuid()}")
 PORTS = iter(range(15230, 15240))
+
+
+# Kinds of faults by their numbers in the command protocol.
+FAULTS = {
+    "packet_drop": 1, "packet_duplicate": 2, "packet_reorder": 3, "packet_delay": 4, "packet_corrupt": 5,
+    "packet_wrong_id": 6, "packet_truncate": 7, "leader_lost": 8, "trailer_lost": 9, "resend_refused": 10,
+    "resend_delayed": 11, "resend_wrong_id": 12, "bandwidth_cap": 13, "frame_drop": 20, "frame_repeat": 21,
+    "wrong_size_y": 22, "timestamp_step": 30, "timestamp_drift": 31, "timestamp_freeze": 32, "block_id_wrap": 33,
+    "control_silence": 40, "control_slow": 41, "control_busy": 42, "control_denied": 43, "heartbeat_ignored": 44,
+    "device_reset": 50, "link_down": 51, "ip_change": 52, "test_packet_limit": 53, "image_stuck": 80, "image_black": 81,
+    "image_saturated": 82, "image_bit_flips": 83, "image_tear": 84}
 
 
 def die_with_parent():
@@ -66,15 +78,28 @@ class Emulator:
             raise RuntimeError(f"send {arguments}: {result.stdout}{result.stderr}")
         return result
 
-    def fault(self, kind, **options):
+    def fault(self, kind, rate=1.0, value=0.0, from_frame=0, frames=0, duration_s=0.0):
         """Orders a fault: fault("packet_drop", rate=0.02, frames=10)."""
-        arguments = []
-        for name, value in options.items():
-            arguments += ["--" + name.replace("_", "-"), value]
-        self.send("fault", kind, *arguments)
+        self._command(7, struct.pack(">BxxxddQQd", FAULTS[kind], rate, value, from_frame, frames, duration_s))
 
     def clear_faults(self):
-        self.send("fault", "--clear-all")
+        self._command(7, struct.pack(">BxxxddQQd", 0, 0, 0, 0, 0, 0))
+
+    def _command(self, function, payload):
+        """A command of docs/protocol.md, until it is answered."""
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            sender.connect(("127.0.0.1", self.port))
+            sender.settimeout(1.0)
+            for _ in range(5):
+                sender.send(command_packet(function, 1, payload))
+                try:
+                    answer = sender.recv(2048)
+                except (TimeoutError, ConnectionRefusedError):
+                    continue
+                if answer[8] != 0:
+                    raise RuntimeError(f"command {function} is refused: status {answer[8]} {answer[32:-2]!r}")
+                return
+        raise RuntimeError("no answer to a command: " + self.log())
 
     def memory_bytes(self):
         """Resident."""

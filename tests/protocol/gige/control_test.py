@@ -190,10 +190,12 @@ class Malformed(CameraTest):
                 if i == 50_000:
                     memory = self.emulator.memory_bytes()
                 body = rng.randbytes(rng.choice((0, 4, 8, 12, 20, 56, 200, 560)))
-                kind = rng.randrange(3)
-                datagram = (rng.randbytes(8) + body if kind == 0 else
-                            g.command_bytes(rng.choice(codes), body, rng.randrange(256), rng.randrange(1, 65536)) if kind == 1
-                            else g.command_bytes(rng.choice(codes), body, 1, rng.randrange(1, 65536), length=rng.randrange(600)))
+                # Nonsense; commands with nonsense in them; commands with a wrong length.
+                if (kind := rng.randrange(3)) == 0:
+                    datagram = rng.randbytes(8) + body
+                else:
+                    datagram = g.command_bytes(rng.choice(codes), body, rng.randrange(256), rng.randrange(1, 65536),
+                                               length=rng.randrange(600) if kind == 2 else None)
                 try:
                     noise.send(datagram)
                     counts["sent"] += 1

@@ -16,8 +16,8 @@ def _number(text):
 
 def evaluate(formula, variables):
     """GenICam formulas: C's operators, with = for equality and <> for inequality, ** for powers."""
-    tokens = re.findall(r"0[xX][0-9A-Fa-f]+|\d+\.?\d*(?:[eE][-+]?\d+)?|[A-Za-z_][\w.]*|\*\*|<<|>>|<>|<=|>=|&&|\|\||[-+*/%&|^~<>=?:()]",
-                        formula)
+    tokens = re.findall(r"0[xX][0-9A-Fa-f]+|\d+\.?\d*(?:[eE][-+]?\d+)?|[A-Za-z_][\w.]*"
+                        r"|\*\*|<<|>>|<>|<=|>=|&&|\|\||[-+*/%&|^~<>=?:()]", formula)
     levels = [["||"], ["&&"], ["|"], ["^"], ["&"], ["=", "<>"], ["<", ">", "<=", ">="], ["<<", ">>"], ["+", "-"],
               ["*", "/", "%"]]
     apply = {"||": lambda a, b: int(bool(a or b)), "&&": lambda a, b: int(bool(a and b)), "|": lambda a, b: int(a) | int(b),
@@ -132,7 +132,9 @@ class Features:
         return total
 
     def length(self, name):
-        return int(_number(self.text(name, "Length"))) if self.text(name, "Length") else int(self.get(self.text(name, "pLength")))
+        if (text := self.text(name, "Length")) is not None:
+            return int(_number(text))
+        return int(self.get(self.text(name, "pLength")))
 
     def register_of(self, name):
         """Where a feature lives: (address, bytes), following pValue."""

@@ -213,8 +213,8 @@ class Chunks(StreamTest):
             shown = []
             for _ in range(10):
                 sequence += 1
-                # Looking along +x of the world, away from the target: an attitude about +y.
-                sender.send(pose_packet(sequence, (22.0 + sequence % 10, 15, 7), (0.7071067811865476, 0, 0.7071067811865476, 0)))
+                # Looking along +x of the world, away from the target: a quarter turn about +y.
+                sender.send(pose_packet(sequence, (22.0 + sequence % 10, 15, 7), (0.5**0.5, 0, 0.5**0.5, 0)))
                 values = self.feature.chunk_values(stream.take(1)[0])
                 shown.append((values["ChunkPoseSequence"], values["ChunkPoseTime"], values["ChunkExposureMid"]))
             self.eventually("the last pose is shown", lambda: self.feature.chunk_values(

@@ -176,8 +176,8 @@ class Dissected(CameraTest):
         self.answered(asked, answers)
         self.assertEqual({status for found in answers.values() for _, status in found}, {0})
         # Its stream port is what most datagrams go to.
-        to = collections.Counter(row["udp.dstport"] for row in recording.rows((), (), f"ip.src=={self.address}", ["udp.dstport"]))
-        port = to.most_common()[0][0]
+        sent = recording.rows((), (), f"ip.src=={self.address}", ["udp.dstport"])
+        port = collections.Counter(row["udp.dstport"] for row in sent).most_common()[0][0]
         self.nothing_malformed(recording, (port,), ())
 
 
