@@ -1,0 +1,228 @@
+#!/usr/bin/python3
+"""Clients that nobody here wrote: Aravis's conformance test, its test camera program and tool, GStreamer's source.
+
+    arv_test.py HILCAM [--long] [tests ...]
+
+--long: 100 start/stop cycles and 20 client kills, in place of 20 and 3.
+"""
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import gvcp_client as g
+from arv_lines import conformance
+from bench import FrameFiles, camera_test_figures, tool, wire_bytes
+from camera_case import CameraTest
+
+LONG = "--long" in sys.argv
+CameraTest.hilcam = sys.argv[1]
+CameraTest.address = "127.0.23.5"
+GROUPS = ("Genicam", "Properties", "MultipleAcquisitionA", "SingleAcquisition", "SoftwareTrigger", "MultipleAcquisitionB",
+          "Multipart", "Chunks", "GigEVision")
+
+import gi  # noqa: E402
+
+gi.require_version("Aravis", "0.8")
+from gi.repository import Aravis  # noqa: E402
+
+
+def run(name, *arguments, timeout=60, **options):
+    program = tool(name)
+    if program is None:
+        raise unittest.SkipTest(f"{name} is not installed (Debian packages aravis-tools, aravis-tools-cli)")
+    return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options).stdout
+
+
+class Conformance(CameraTest):
+    def run_test(self, *arguments):
+        """Frame rates are judged by the clock: where nothing else failed, a busy machine gets another chance."""
+        for _ in range(4):
+            results = conformance(run("arv-test", "-n", f"*T{self.emulator.port}*", *arguments))
+            failed = [name for name, line in results.items() if line[0] == "FAILURE"]
+            if not failed or not all(name.endswith(":FrameRate") for name in failed):
+                break
+        return results
+
+    def judge(self, results):
+        self.assertTrue(results)
+        self.assertEqual({name for name in GROUPS if not any(line.startswith(name + ":") for line in results)}, set())
+        failed = {name: line for name, line in results.items() if line[0] == "FAILURE"}
+        self.assertEqual(failed, {})
+
+    def test_arv_test_as_it_comes(self):
+        results = self.run_test()
+        self.judge(results)
+        # Without a configuration of our own it does not know the sensor's size and no schema.
+        ignored = {name for name, line in results.items() if line[0] == "IGNORED"}
+        self.assertEqual(ignored, {"Genicam:Schema", "Properties:SensorSizeCheck"})
+
+    def test_arv_test_with_all_it_can_check(self):
+        chunks = "FrameID Timestamp ExposureTime Gain BlackLevel OffsetX OffsetY Width Height PixelFormat"
+        with tempfile.NamedTemporaryFile("w", suffix=".cfg") as configuration:
+            # Schema: arv-test 0.8 validates descriptions of schema 1.1 against 1.0's (both are loaded from one
+            # resource); device_test.py validates against the right one.
+            configuration.write("[hilcam:test-camera]\nSchema=Ignore\nSensorSize=256;192\nSoftwareTriggerSupport=true\n"
+                                f"ChunksSupport=true\nChunkList={chunks}\n")
+            configuration.flush()
+            results = self.run_test("-c", configuration.name, "-a")
+        self.judge(results)
+        self.assertEqual([name for name, line in results.items() if line[0] == "IGNORED"], [])
+        self.assertIn("Genicam:RegisterCache", results)
+
+
+class Acquisition(CameraTest):
+    def camera_test(self, *arguments, seconds=4):
+        text = run("arv-camera-test", "-n", self.address, "--no-packet-socket", f"--duration={seconds}", *arguments)
+        figures = camera_test_figures(text)
+        self.assertIn("n_completed_buffers", figures, text)
+        return figures, text
+
+    def whole(self, figures, text, least):
+        self.assertGreater(figures["n_completed_buffers"], least, text)
+        for name in ("n_failures", "n_missing_frames", "n_underruns"):
+            self.assertEqual(figures[name], 0, text)
+
+    def test_frames_come_whole(self):
+        self.whole(*self.camera_test(), 30)
+
+    def test_registers_as_they_are_cached_and_in_their_ranges(self):
+        figures, text = self.camera_test("--register-cache=debug", "--range-check=debug", seconds=2)
+        self.whole(figures, text, 10)
+        self.assertNotIn("register cache errors", text.lower().replace("0 register cache errors", ""))
+
+    def test_software_triggers_take_a_frame_each(self):
+        figures, text = self.camera_test("-o", "5", seconds=4)
+        self.assertGreaterEqual(figures["n_completed_buffers"], 8, text)
+        self.assertEqual(figures["n_failures"], 0, text)
+
+    def test_chunks(self):
+        figures, text = self.camera_test("-u", "FrameID,Timestamp,ExposureTime,PoseSequence", seconds=2)
+        self.whole(figures, text, 10)
+
+    def test_window_exposure_and_rate_are_taken(self):
+        figures, text = self.camera_test("-w", "128", "-h", "64", "-e", "300", "-f", "40", "-g", "2", seconds=2)
+        self.whole(figures, text, 10)
+        self.assertRegex(text, r"image width\s+= 128")
+        with g.GvcpClient(self.address) as client:
+            from genicam_client import Features
+            features = Features(client)
+            self.assertEqual((features.get("Width"), features.get("Height")), (128, 64))
+            self.assertAlmostEqual(features.get("ExposureTime"), 300)
+            self.assertAlmostEqual(features.get("AcquisitionFrameRate"), 40, places=1)
+
+    def test_two_percent_of_packets_lost_and_every_frame_recovered(self):
+        self.fault("packet_drop", rate=0.02)
+        # Small packets: more of them to lose.
+        figures, text = self.camera_test("-i", "1400", "-j", "never", seconds=6)
+        self.whole(figures, text, 60)
+        self.assertGreater(figures["n_resend_requests"], 10, text)
+        self.assertEqual(figures["n_resent_packets"], figures["n_resend_requests"], text)
+
+    def test_a_busy_receiver_cannot_stop_the_camera(self):
+        """A client that is stopped (SIGSTOP) for longer than its buffers last, and goes on."""
+        process = subprocess.Popen([tool("arv-camera-test"), "-n", self.address, "--no-packet-socket", "--duration=4"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        time.sleep(1.5)
+        process.send_signal(signal.SIGSTOP)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGCONT)
+        text, _ = process.communicate(timeout=30)
+        self.assertGreater(camera_test_figures(text)["n_completed_buffers"], 20, text)
+        self.whole(*self.camera_test(seconds=2), 10)
+
+
+class ComingAndGoing(CameraTest):
+    def take(self, camera, count):
+        stream = camera.create_stream(None, None)
+        for _ in range(8):
+            stream.push_buffer(Aravis.Buffer.new_allocate(camera.get_payload()))
+        camera.start_acquisition()
+        for _ in range(count):
+            buffer = stream.timeout_pop_buffer(5_000_000)
+            self.assertIsNotNone(buffer, "no frame within five seconds")
+            self.assertEqual(buffer.get_status(), Aravis.BufferStatus.SUCCESS)
+            stream.push_buffer(buffer)
+        camera.stop_acquisition()
+
+    def connect(self):
+        camera = Aravis.Camera.new(self.address)
+        camera.gv_set_stream_options(Aravis.GvStreamOption.PACKET_SOCKET_DISABLED)
+        return camera
+
+    def test_starting_and_stopping(self):
+        camera = self.connect()
+        camera.set_acquisition_mode(Aravis.AcquisitionMode.CONTINUOUS)
+        for _ in range(100 if LONG else 20):
+            self.take(camera, 2)
+
+    def test_connecting_and_leaving(self):
+        for _ in range(20 if LONG else 5):
+            camera = self.connect()
+            self.take(camera, 1)
+            del camera
+
+    def test_killed_clients(self):
+        memory = None
+        for i in range(20 if LONG else 3):
+            client = subprocess.Popen([tool("arv-camera-test"), "-n", self.address, "--no-packet-socket", "--duration=60"],
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            with g.GvcpClient(self.address) as watcher:
+                self.eventually("the client streams", lambda: watcher.read_register(g.SCP) & 0xFFFF)
+                time.sleep(0.5)
+                client.send_signal(signal.SIGKILL)
+                client.wait()
+                self.eventually("the camera is free again", lambda: watcher.read_register(g.CCP) == 0)
+                self.assertEqual(watcher.read_register(g.SCP) & 0xFFFF, 0)
+            if i == 1:
+                memory = self.emulator.memory_bytes()
+        self.take(self.connect(), 3)
+        self.assertLess(self.emulator.memory_bytes() - memory, 4 << 20)
+
+
+class Tool(CameraTest):
+    def test_the_camera_is_listed_and_its_features_read_and_written(self):
+        name = f"hilcam-test-camera-T{self.emulator.port}"
+        self.assertIn(f"{name} ({self.address})", run("arv-tool"))
+        self.assertIn("<RegisterDescription", run("arv-tool", "-n", name, "genicam"))
+        listed = run("arv-tool", "-n", name, "features")
+        for feature in ("Width", "ExposureTime", "TriggerSoftware", "ChunkModeActive"):
+            self.assertIn(f"'{feature}'", listed)
+        self.assertNotIn("Error", run("arv-tool", "-n", name, "values"))
+        run("arv-tool", "-n", name, "control", "ExposureTime=222")
+        self.assertIn("222", run("arv-tool", "-n", name, "control", "ExposureTime"))
+
+
+class GStreamer(CameraTest):
+    sets = ("outputs.files.folder={folder}/frames", "camera.frame_rate_hz=15")
+
+    def test_frames_are_byte_for_byte_the_files(self):
+        """aravissrc's 16-bit and 8-bit pictures against the files output of the same run."""
+        if subprocess.run(["gst-inspect-1.0", "aravissrc"], capture_output=True).returncode != 0:
+            self.skipTest("GStreamer or its aravissrc is missing (gstreamer1.0-tools, libaravis-0.8-0)")
+        files = FrameFiles(self.folder.name + "/frames", 12)
+        for caps, name in (("video/x-raw,format=GRAY8", "Mono8"), ("video/x-raw,format=GRAY16_LE", "Mono16")):
+            with tempfile.TemporaryDirectory() as folder:
+                result = subprocess.run(
+                    ["gst-launch-1.0", "-e", "aravissrc", f"camera-name={self.address}", "num-buffers=8", "!", caps, "!",
+                     "multifilesink", f"location={folder}/%03d.raw"], capture_output=True, text=True, timeout=60)
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+                taken = [path.read_bytes() for path in sorted(pathlib.Path(folder).glob("*.raw"))]
+            self.assertEqual(len(taken), 8)
+            time.sleep(0.5)  # the files' thread writes behind the loop
+            index = {}
+            for frame in files.ids()[:-1]:
+                dn = files.dn(frame)
+                for form in ("Mono8", "Mono10", "Mono12", "Mono14", "Mono16"):
+                    if form == name or (name == "Mono16" and form != "Mono8"):
+                        index.setdefault(wire_bytes(dn, 12, form), frame)
+            found = [index.get(data) for data in taken]
+            self.assertNotIn(None, found, f"{caps}: frames that no file has")
+            self.assertEqual(found, sorted(set(found)))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *[a for a in sys.argv[2:] if a != "--long"]], verbosity=2)

@@ -1,0 +1,245 @@
+"""What the tests of the camera's outside share: the running program, its files, clients' figures."""
+import ctypes
+import json
+import os
+import pathlib
+import re
+import signal
+import socket
+import struct
+import subprocess
+import tempfile
+import threading
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parents[2]
+SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
+os.environ.setdefault("HILCAM_CACHE", tempfile.gettempdir() + f"/hilcam_test_cache_{os.getuid()}")
+PORTS = iter(range(15230, 15240))
+
+
+# Kinds of faults by their numbers in the command protocol.
+FAULTS = {
+    "packet_drop": 1, "packet_duplicate": 2, "packet_reorder": 3, "packet_delay": 4, "packet_corrupt": 5,
+    "packet_wrong_id": 6, "packet_truncate": 7, "leader_lost": 8, "trailer_lost": 9, "resend_refused": 10,
+    "resend_delayed": 11, "resend_wrong_id": 12, "bandwidth_cap": 13, "frame_drop": 20, "frame_repeat": 21,
+    "wrong_size_y": 22, "timestamp_step": 30, "timestamp_drift": 31, "timestamp_freeze": 32, "block_id_wrap": 33,
+    "control_silence": 40, "control_slow": 41, "control_busy": 42, "control_denied": 43, "heartbeat_ignored": 44,
+    "device_reset": 50, "link_down": 51, "ip_change": 52, "test_packet_limit": 53, "image_stuck": 80, "image_black": 81,
+    "image_saturated": 82, "image_bit_flips": 83, "image_tear": 84}
+
+
+def die_with_parent():
+    """No emulator outlives a test that is killed."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+
+
+class Emulator:
+    """`hilcam run` with one GigE Vision camera; ends with the block or by stop(), which gives the report."""
+
+    def __init__(self, hilcam, address, folder, *sets, scenario=SCENARIO, port=None, serial=None, arguments=(),
+                 namespace=None):
+        self.hilcam, self.address, self.folder = str(hilcam), address, pathlib.Path(folder)
+        self.port = next(PORTS) if port is None else port
+        self.report_file = self.folder / f"report_{self.port}.json"
+        self.log_file = self.folder / f"hilcam_{self.port}.log"
+        self.namespace = ["ip", "netns", "exec", namespace] if namespace else []
+        self.sets = [f"outputs.gige.interface={address}", f"outputs.gige.serial={serial or 'T%d' % self.port}",
+                     f"commands.udp.port={self.port}", *sets]
+        command = [*self.namespace, self.hilcam, "run", str(scenario)]
+        for value in self.sets:
+            command += ["--set", value]
+        with self.log_file.open("w") as log:
+            self.process = subprocess.Popen([*command, "--report", str(self.report_file), *arguments], stderr=log,
+                                            stdout=log, preexec_fn=die_with_parent)
+        try:
+            self._wait()
+        except BaseException:
+            self.kill()
+            raise
+
+    def _wait(self):
+        for _ in range(600):
+            if self.process.poll() is not None:
+                raise RuntimeError("the emulator ended: " + self.log())
+            if self.send("ping", check=False).returncode == 0:
+                return
+            time.sleep(0.05)
+        raise RuntimeError("the emulator does not answer: " + self.log())
+
+    def log(self):
+        return self.log_file.read_text()
+
+    def send(self, *arguments, check=True):
+        result = subprocess.run([*self.namespace, self.hilcam, "send", "--to", f"127.0.0.1:{self.port}", "--timeout-ms", "500",
+                                 *map(str, arguments)], capture_output=True, text=True, timeout=120)
+        if check and result.returncode != 0:
+            raise RuntimeError(f"send {arguments}: {result.stdout}{result.stderr}")
+        return result
+
+    def fault(self, kind, rate=1.0, value=0.0, from_frame=0, frames=0, duration_s=0.0):
+        """Orders a fault: fault("packet_drop", rate=0.02, frames=10)."""
+        self._command(7, struct.pack(">BxxxddQQd", FAULTS[kind], rate, value, from_frame, frames, duration_s))
+
+    def clear_faults(self):
+        self._command(7, struct.pack(">BxxxddQQd", 0, 0, 0, 0, 0, 0))
+
+    def _command(self, function, payload):
+        """A command of docs/protocol.md, until it is answered."""
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            sender.connect(("127.0.0.1", self.port))
+            sender.settimeout(1.0)
+            for _ in range(5):
+                sender.send(command_packet(function, 1, payload))
+                try:
+                    answer = sender.recv(2048)
+                except (TimeoutError, ConnectionRefusedError):
+                    continue
+                if answer[8] != 0:
+                    raise RuntimeError(f"command {function} is refused: status {answer[8]} {answer[32:-2]!r}")
+                return
+        raise RuntimeError("no answer to a command: " + self.log())
+
+    def memory_bytes(self):
+        """Resident."""
+        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(re.search(r"VmRSS:\s+(\d+) kB", status)[1]) * 1024
+
+    def alive(self):
+        return self.process.poll() is None
+
+    def stop(self):
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait(timeout=60)
+        if self.process.returncode != 0:
+            raise RuntimeError(f"the emulator ended with {self.process.returncode}: {self.log()}")
+        return json.loads(self.report_file.read_text())
+
+    def kill(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.kill()
+
+
+# --- numbers of the file output as bytes of a pixel format
+
+def read_png(file):
+    """A frame file: (height, width) of DN."""
+    import numpy
+    from PIL import Image
+    return numpy.asarray(Image.open(file)).astype(numpy.uint16)
+
+
+def wire_bytes(dn, bits, name):
+    """What the camera sends of these DN in a pixel format (PFNC name); colour formats that interpolate excepted."""
+    import numpy
+    flat = dn.reshape(-1).astype(numpy.uint32)
+    layout = re.fullmatch(r"(Mono|Bayer[RGB]{2})(\d+)(Packed|p)?", name)
+    depth, packing = int(layout[2]), layout[3]
+    # Fewer bits: the upper ones. More: so that full scale is full scale; 16 bits: in the most significant ones.
+    values = flat >> (bits - depth) if depth < bits else flat << (depth - bits)
+    if packing == "Packed":  # two pixels in three bytes: upper eight bits of each, the lower ones between
+        a, b = values[0::2], values[1::2]
+        low = depth - 8
+        mask = (1 << low) - 1
+        middle = (a & mask) | (b & mask) << 4
+        return numpy.stack([a >> low, middle, b >> low], axis=1).astype(numpy.uint8).tobytes()
+    if packing == "p":  # a bit stream, least significant first
+        stream = (values[:, None] >> numpy.arange(depth) & 1).astype(numpy.uint8).reshape(-1)
+        return numpy.packbits(stream, bitorder="little").tobytes()
+    return values.astype(numpy.uint8 if depth == 8 else "<u2").tobytes()
+
+
+class FrameFiles:
+    """The folder of the file output, indexed by what a frame looks like in a pixel format."""
+
+    def __init__(self, folder, bits):
+        self.folder, self.bits, self.found = pathlib.Path(folder), bits, {}
+
+    def file(self, frame_id):
+        return self.folder / f"frame_{frame_id:08d}.png"
+
+    def dn(self, frame_id):
+        return read_png(self.file(frame_id))
+
+    def ids(self):
+        return sorted(int(path.stem.split("_")[1]) for path in self.folder.glob("frame_*.png"))
+
+    def index(self, name, window=None):
+        """bytes -> frame id, of every frame; window: (x, y, width, height)."""
+        index = {}
+        for frame_id in self.ids():
+            dn = self.dn(frame_id)
+            if window:
+                x, y, w, h = window
+                dn = dn[y:y + h, x:x + w]
+            index[wire_bytes(dn, self.bits, name)] = frame_id
+        return index
+
+
+# --- commands of hilcam's own protocol (docs/protocol.md), for those who send many
+
+def crc16(data):
+    value = 0xFFFF
+    for byte in data:
+        value ^= byte << 8
+        for _ in range(8):
+            value = (value << 1 ^ 0x1021 if value & 0x8000 else value << 1) & 0xFFFF
+    return value
+
+
+def command_packet(function, sequence, payload):
+    body = struct.pack(">BBHI", 1, function, 0, sequence) + payload
+    packet = struct.pack(">HHH", 0x1900, 0xC000 | sequence & 0x3FFF, len(body) + 2 - 1) + body
+    return packet + struct.pack(">H", crc16(packet))
+
+
+def pose_packet(sequence, position, attitude=(1, 0, 0, 0), time_tag=0):
+    return command_packet(1, sequence, struct.pack(">HHq3d3d4d3d", 0, 0, time_tag, *position, 0, 0, 0, *attitude, 0, 0, 0))
+
+
+# --- Aravis's test programs
+
+def tool(name):
+    """Aravis programs carry their version in some releases of Debian: arv-test-0.8."""
+    import shutil
+    return shutil.which(name + "-0.8") or shutil.which(name)
+
+
+def camera_test_figures(text):
+    """The n_... lines that arv-camera-test ends with."""
+    return {match[1]: int(match[2]) for match in re.finditer(r"^\s*(n_\w+)\s*=\s*(-?\d+)", text, re.M)}
+
+
+class Background:
+    """Calls something again and again on a thread until the block ends."""
+
+    def __init__(self, call, pause_s):
+        self.stopping = threading.Event()
+
+        def run():
+            while not self.stopping.wait(pause_s):
+                call()
+        self.thread = threading.Thread(target=run, daemon=True)
+
+    def __enter__(self):
+        self.thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.stopping.set()
+        self.thread.join()
+
+
+def percentile(sorted_values, share):
+    """The value that a share of them does not exceed."""
+    if not sorted_values:
+        return float("nan")
+    return sorted_values[min(len(sorted_values) - 1, max(0, -(-int(share * 1e6) * len(sorted_values) // 1_000_000) - 1))]
