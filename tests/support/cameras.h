@@ -1,7 +1,9 @@
 #pragma once
 // Cameras for tests of the sensor.
 
+#include "render/stars.h"
 #include "sensor/chain.h"
+#include "sensor/optics.h"
 
 namespace hilcam {
 
@@ -60,5 +62,26 @@ struct Bench {
         return frame;
     }
 };
+
+// Electrons per second and unit of radiance, on the axis.
+inline double per_radiance(const CameraModel& c, const SpectralGrid& grid) {
+    return static_cast<double>(electrons_per_s_per_radiance(c, grid)[0]);
+}
+
+inline double at(const ElectronImage& image, int x, int y) {
+    return static_cast<double>(image.row(y)[static_cast<std::size_t>(x)]);
+}
+inline double sum(const ElectronImage& image) {
+    double total = 0;
+    for (const float v : image.all()) total += static_cast<double>(v);
+    return total;
+}
+
+inline PointSource point_at(double x, double y, double irradiance) {
+    PointSource p;
+    p.position_px = {static_cast<float>(x), static_cast<float>(y)};
+    p.irradiance_w_m2_um[0] = static_cast<float>(irradiance);
+    return p;
+}
 
 }  // namespace hilcam

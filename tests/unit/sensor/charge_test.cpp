@@ -12,12 +12,6 @@
 namespace hilcam {
 namespace {
 
-double sum(const ElectronImage& image) {
-    double total = 0;
-    for (const float v : image.all()) total += static_cast<double>(v);
-    return total;
-}
-
 TEST(Blooming, ExcessGoesUpAndDownTheColumnAndNoneIsLost) {
     ElectronImage q(300, 101);
     q.row(50)[280] = 11000;
