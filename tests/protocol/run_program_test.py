@@ -241,6 +241,46 @@ class Camera(unittest.TestCase):
             self.assertEqual(report["commands"]["refused"], 0)
 
 
+class Pair(unittest.TestCase):
+    """Two cameras in one process, an address each."""
+
+    def test_both_are_found_and_take_the_same_instants_from_their_own_places(self):
+        import numpy
+        from PIL import Image
+        scenario = SOURCE / "tests/protocol/pair_scenario.yaml"
+        with tempfile.TemporaryDirectory() as folder:
+            report_file = pathlib.Path(folder) / "report.json"
+            emulator = subprocess.Popen(
+                [HILCAM, "run", str(scenario), "--set", "mode=lockstep", "--report", str(report_file)],
+                stderr=subprocess.PIPE, text=True, cwd=folder)
+            try:
+                send = lambda *words: hilcam("send", "--to", "127.0.0.1:15024", "--timeout-ms", 20000, *words)
+                for _ in range(100):
+                    if send("ping").returncode == 0:
+                        break
+                    time.sleep(0.1)
+                found = subprocess.run(["arv-tool-0.8"], capture_output=True, text=True, timeout=30).stdout
+                self.assertIn("PAIR1", found)
+                self.assertIn("PAIR2", found)
+                for _ in range(3):
+                    self.assertEqual(send("expose").returncode, 0)
+                emulator.send_signal(signal.SIGINT)
+                log = emulator.communicate(timeout=30)[1]
+                self.assertEqual(emulator.returncode, 0, log)
+            finally:
+                emulator.kill()
+                emulator.communicate()
+            report = json.loads(report_file.read_text())
+            self.assertEqual([camera["frames"] for camera in report["cameras"]], [3, 3])
+            # The target is 27.5 m away and the focal length is 227 px: a metre to the right moves it by
+            # 227 / 27.5 = 8.3 px to the left. Light's middle, as the shape seen differs little.
+            def middle(name):
+                image = numpy.asarray(Image.open(pathlib.Path(folder) / name / "frame_00000002.png")).astype(float)
+                light = numpy.clip(image - image.min() - 0.1 * (image.max() - image.min()), 0, None)
+                return (light.sum(0) * numpy.arange(image.shape[1])).sum() / light.sum()
+            self.assertAlmostEqual(middle("left") - middle("right"), 8.3, delta=1.5)
+
+
 if __name__ == "__main__":
     os.environ.setdefault("HILCAM_CACHE", tempfile.gettempdir() + f"/hilcam_test_cache_{os.getuid()}")
     unittest.main(argv=[sys.argv[0]], verbosity=2)
