@@ -121,7 +121,7 @@ function drawLatency() {
       const x = Math.min(width - 0.5, at(10 ** decade) + 0.5);
       c.beginPath(); c.moveTo(x, 0); c.lineTo(x, height); c.stroke();
       c.textAlign = decade === from ? "left" : decade === to ? "right" : "center";
-      c.fillText(decade < 0 ? `${10 ** (decade + 3)} µs` : `${10 ** decade} ms`, x, height + 13);
+      c.fillText(decade < 0 ? `${10 ** (decade + 3)} µs` : decade < 3 ? `${10 ** decade} ms` : `${10 ** (decade - 3)} s`, x, height + 13);
     }
     for (const [key, , name] of DELAYS) {
       c.fillStyle = colour(name);
@@ -333,7 +333,7 @@ for (const name of ["black", "white"])
     if (picture.frame) drawHistogram();
   });
 document.addEventListener("keydown", event => {
-  if (event.target.matches("input, select, textarea") || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.target.matches(event.key === " " ? "input, select, button" : "input, select") || event.ctrlKey || event.metaKey || event.altKey) return;
   const act = { " ": freeze, f: () => picture.fit(), F: () => picture.fit(), 1: one, "+": () => picture.zoom(picture.shownScale() * 2),
     "-": () => picture.zoom(picture.shownScale() / 2) }[event.key];
   if (!act) return;
