@@ -216,7 +216,7 @@ function buildSettings() {
     inputs[key] = { input, factor: choices ? null : factor };
   }
   const flags = make("div", { className: "wide" });
-  for (const [key, label, there] of [["automatic_exposure", "automatic exposure", status.limits.has_automatic_exposure],
+  for (const [key, label, there] of [["automatic_exposure", "auto exposure", status.limits.has_automatic_exposure],
     ["reverse_x", "reverse x", status.limits.reversible], ["reverse_y", "reverse y", status.limits.reversible]]) {
     if (!there) continue;
     const input = make("input", { type: "checkbox", id: "set-" + key });
