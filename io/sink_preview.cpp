@@ -290,7 +290,6 @@ void PreviewSink::Implementation::add_routes() {
     server.Post("/fault", [this](const Request& q, Response& a) { order_fault(q, a); });
 
     server.set_pre_routing_handler([this](const Request& q, Response& a) {
-        requests.fetch_add(1);
         return refuse_stranger(q, a) ? httplib::Server::HandlerResponse::Handled
                                      : httplib::Server::HandlerResponse::Unhandled;
     });
@@ -310,6 +309,7 @@ void PreviewSink::Implementation::add_routes() {
         static_cast<void>(q);
     }));
     server.set_logger([this](const Request&, const Response& a) {
+        requests.fetch_add(1);
         if (a.status >= 400) refused.fetch_add(1);
     });
     server.set_default_headers(
