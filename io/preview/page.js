@@ -164,9 +164,10 @@ function showFigures() {
     bar.style.width = `${100 * stages[key].p50 / most}%`;
     return [name, level, ms(stages[key].p50), ms(stages[key].p99)];
   }), ["", "", "p50", "p99"]);
-  const links = status.commands.links ?? [];
-  const counts = c => [c.received, c.refused, c.lost].map(n => number(n ?? 0, 9));
-  rows($("commands"), [["all", ...counts(status.commands)], ...links.map(l => [l.name, ...counts(l)])], ["", "received", "refused", "lost"]);
+  const all = status.commands, links = all.links;
+  const counts = c => [c.clients, c.received, c.refused, c.lost].map(n => number(n, 9));
+  rows($("commands"), [...links.map(l => [l.name, ...counts(l)]), ...(links.length === 1 ? [] : [["all", ...counts(all)]])],
+    ["", "clients", "received", "refused", "lost"]);
   $("outputs").replaceChildren(...status.outputs.map(o => make("div", { className: "output" },
     make("div", {}, o.name),
     make("div", { className: "figures" }, [["frames", o.frames], ["dropped", o.dropped], ...Object.entries(o.figures)]

@@ -191,6 +191,14 @@ class Requests(unittest.TestCase):
         self.assertEqual(second.returncode, 1)
         self.assertIn(f"127.0.0.1:{PORT} cannot be had", second.stderr)
 
+    def test_a_start_that_fails_after_the_preview_ends_in_order(self):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+            taken.bind(("127.0.0.1", PORT + 2))
+            second = subprocess.run([HILCAM, "run", str(SCENARIO), "--preview", str(PORT + 3), "--set",
+                                     f"commands.udp.port={PORT + 2}"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(second.returncode, 1, second.stderr)
+        self.assertIn(str(PORT + 2), second.stderr)
+
 
 class Abuse(unittest.TestCase):
     def test_floods_and_silent_clients_do_not_harm_the_loop(self):
