@@ -83,8 +83,7 @@ void CameraStation::make_sinks() {
 }
 
 std::string CameraStation::status() const {
-    return run_status({scenario_, *loop_, delivery_, command_report_ ? command_report_() : CommandReport{},
-                       sinks(), settings_, faults_});
+    return run_status({scenario_, *loop_, delivery_, receivers_, sinks(), settings_, faults_});
 }
 
 void CameraStation::load(const SpectralGrid& grid) {

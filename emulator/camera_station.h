@@ -3,7 +3,6 @@
 // outputs, loop. A bench has one, or several that share commands and clock.
 
 #include <deque>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "emulator/app_config.h"
 #include "emulator/exposure_renderer.h"
 #include "emulator/frame_loop.h"
+#include "io/command_receiver.h"
 
 namespace hilcam {
 
@@ -33,7 +33,7 @@ class CameraStation {
     // After all stations have loaded: the simulation's time begins. Throws InputError.
     void prepare(SimulatedClock& clock);
     // What the preview tells of the bench's commands.
-    void set_command_report(std::function<CommandReport()> report) { command_report_ = std::move(report); }
+    void set_receivers(const std::vector<std::unique_ptr<CommandReceiver>>& all) { receivers_ = &all; }
 
     // Opens the outputs. Throws DeviceError.
     void start_outputs();
@@ -75,7 +75,7 @@ class CameraStation {
     LiveSettings settings_;
     FaultBoard faults_;
     DeliveryMeter delivery_;
-    std::function<CommandReport()> command_report_;
+    const std::vector<std::unique_ptr<CommandReceiver>>* receivers_ = nullptr;  // the bench's
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<SensorChain> chain_;

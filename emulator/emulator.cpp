@@ -46,7 +46,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     }
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         stations_[i]->load(grid_);
-        stations_[i]->set_command_report([this] { return command_report(); });
+        stations_[i]->set_receivers(receivers_);
         bench[i].world = &stations_[i]->world();
     }
     // Loading took its time; the simulation starts now.
@@ -60,7 +60,10 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     for (const auto& station : stations_) station->prepare(clock_);
 }
 
-Emulator::~Emulator() = default;
+// When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.
+Emulator::~Emulator() {
+    for (const auto& station : stations_) station->stop_outputs();
+}
 
 void Emulator::make_telemetry() {
     if (!scenario_.has_telemetry && receivers_.empty()) return;

@@ -83,6 +83,27 @@ json outputs_status(const std::vector<FrameSink*>& sinks) {
     return outputs;
 }
 
+json counts(const CommandReport& r) {
+    return {{"received", r.received},     {"refused", r.refused},     {"lost", r.lost},
+            {"duplicates", r.duplicates}, {"strangers", r.strangers}, {"clients", r.clients}};
+}
+
+json commands_status(const std::vector<std::unique_ptr<CommandReceiver>>* receivers) {
+    CommandReport all;
+    json links = json::array();
+    if (receivers)
+        for (const auto& receiver : *receivers) {
+            const CommandReport report = receiver->report();
+            all += report;
+            json link = counts(report);
+            link["name"] = receiver->name();
+            links.push_back(link);
+        }
+    json commands = counts(all);
+    commands["links"] = links;
+    return commands;
+}
+
 json faults_status(const FaultBoard& board) {
     json faults = json::array();
     for (const FaultKind kind : kAllFaults) {
@@ -106,23 +127,21 @@ json faults_status(const FaultBoard& board) {
 
 std::string run_status(const StatusSources& s) {
     const LoopCounters& counters = s.loop.counters();
-    const json status = {
-        {"scenario", s.scenario.name},
-        {"camera", camera_status(s.scenario.camera, s.camera.limits())},
-        {"settings", settings_status(s.camera.settings())},
-        {"limits", limits_status(s.camera.limits())},
-        {"frames", counters.frames.load()},
-        {"deadline_misses", counters.deadline_misses.load()},
-        {"monotonic_ns", monotonic_now_ns()},
-        {"latency_ms",
-         {{"first_packet", histogram(s.delivery.command_to_first)},
-          {"last_packet", histogram(s.delivery.command_to_last)},
-          {"exposure_mid_to_last_packet", histogram(s.delivery.exposure_to_last)}}},
-        {"stages_ms", stages_report(s.loop.meters())},
-        {"commands",
-         {{"received", s.commands.received}, {"refused", s.commands.refused}, {"lost", s.commands.lost}}},
-        {"outputs", outputs_status(s.sinks)},
-        {"faults", faults_status(s.faults)}};
+    const json status = {{"scenario", s.scenario.name},
+                         {"camera", camera_status(s.scenario.camera, s.camera.limits())},
+                         {"settings", settings_status(s.camera.settings())},
+                         {"limits", limits_status(s.camera.limits())},
+                         {"frames", counters.frames.load()},
+                         {"deadline_misses", counters.deadline_misses.load()},
+                         {"monotonic_ns", monotonic_now_ns()},
+                         {"latency_ms",
+                          {{"first_packet", histogram(s.delivery.command_to_first)},
+                           {"last_packet", histogram(s.delivery.command_to_last)},
+                           {"exposure_mid_to_last_packet", histogram(s.delivery.exposure_to_last)}}},
+                         {"stages_ms", stages_report(s.loop.meters())},
+                         {"commands", commands_status(s.receivers)},
+                         {"outputs", outputs_status(s.sinks)},
+                         {"faults", faults_status(s.faults)}};
     // Names come from files: bytes that are not UTF-8 are replaced.
     return status.dump(-1, ' ', false, json::error_handler_t::replace);
 }

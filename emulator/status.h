@@ -2,12 +2,13 @@
 // The run as it is now, in JSON: what the preview's page shows (docs/preview.md). A report is of a whole run
 // (report.h), this is of an instant.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "emulator/app_config.h"
 #include "emulator/frame_loop.h"
-#include "io/command.h"
+#include "io/command_receiver.h"
 #include "io/fault.h"
 
 namespace hilcam {
@@ -16,7 +17,7 @@ struct StatusSources {
     const ScenarioConfig& scenario;
     const FrameLoop& loop;
     const DeliveryMeter& delivery;
-    CommandReport commands;
+    const std::vector<std::unique_ptr<CommandReceiver>>* receivers;  // null: none
     std::vector<FrameSink*> sinks;
     const CameraControl& camera;
     const FaultBoard& faults;

@@ -1,5 +1,7 @@
 #include "io/preview_slot.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -38,6 +40,7 @@ void PreviewSlot::copy(const DnImage& frame, const FrameRecord& record) noexcept
 }
 
 void PreviewSlot::hand_over() {
+    setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         asked_.wait(lock, [&] { return stopping_ || Clock::now() < asked_until_; });

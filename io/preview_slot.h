@@ -17,6 +17,10 @@
 
 namespace hilcam {
 
+// Nice value of the preview's threads, so that neither a viewer nor a flood of requests takes the processor
+// from the loop. 0: as others, 19: the least.
+inline constexpr int kPreviewNiceness = 15;
+
 class PreviewSlot {
   public:
     struct Frame {

@@ -30,9 +30,6 @@ constexpr std::size_t kMostWaiting = 24;
 constexpr std::size_t kMostBody_bytes = 4096;
 // Browsers send less than 2 KB; a picture over a slow line takes its time.
 constexpr ConnectionGuard::Limits kConnectionLimits{.age = 30s, .received_bytes = 128 * 1024};
-// Of the server's threads, so that a flood of requests does not take the processor from the loop. 0: as
-// others, 19: the least.
-constexpr int kNiceness = 15;
 
 // The page's files, as string literals made by CMake.
 constexpr std::string_view kPageHtml =
@@ -88,7 +85,7 @@ class BoundedPool : public httplib::TaskQueue {
 
   private:
     void work() {
-        setpriority(PRIO_PROCESS, 0, kNiceness);  // Linux: of this thread alone
+        setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
         std::unique_lock lock(mutex_);
         while (true) {
             jobs_there_.wait(lock, [&] { return over_ || !jobs_.empty(); });
@@ -293,7 +290,6 @@ void PreviewSink::Implementation::add_routes() {
     server.Post("/fault", [this](const Request& q, Response& a) { order_fault(q, a); });
 
     server.set_pre_routing_handler([this](const Request& q, Response& a) {
-        requests.fetch_add(1);
         return refuse_stranger(q, a) ? httplib::Server::HandlerResponse::Handled
                                      : httplib::Server::HandlerResponse::Unhandled;
     });
@@ -313,6 +309,7 @@ void PreviewSink::Implementation::add_routes() {
         static_cast<void>(q);
     }));
     server.set_logger([this](const Request&, const Response& a) {
+        requests.fetch_add(1);
         if (a.status >= 400) refused.fetch_add(1);
     });
     server.set_default_headers(
@@ -352,7 +349,7 @@ void PreviewSink::start() {
     i.slot.start();
     i.guard.start(port, kConnectionLimits);
     i.thread = std::thread([&server = i.server] {
-        setpriority(PRIO_PROCESS, 0, kNiceness);
+        setpriority(PRIO_PROCESS, 0, kPreviewNiceness);
         server.listen_after_bind();
     });
     // stop() of a server that does not run yet would do nothing.

@@ -121,7 +121,7 @@ function drawLatency() {
       const x = Math.min(width - 0.5, at(10 ** decade) + 0.5);
       c.beginPath(); c.moveTo(x, 0); c.lineTo(x, height); c.stroke();
       c.textAlign = decade === from ? "left" : decade === to ? "right" : "center";
-      c.fillText(decade < 0 ? `${10 ** (decade + 3)} µs` : `${10 ** decade} ms`, x, height + 13);
+      c.fillText(decade < 0 ? `${10 ** (decade + 3)} µs` : decade < 3 ? `${10 ** decade} ms` : `${10 ** (decade - 3)} s`, x, height + 13);
     }
     for (const [key, , name] of DELAYS) {
       c.fillStyle = colour(name);
@@ -164,9 +164,10 @@ function showFigures() {
     bar.style.width = `${100 * stages[key].p50 / most}%`;
     return [name, level, ms(stages[key].p50), ms(stages[key].p99)];
   }), ["", "", "p50", "p99"]);
-  const links = status.commands.links ?? [];
-  const counts = c => [c.received, c.refused, c.lost].map(n => number(n ?? 0, 9));
-  rows($("commands"), [["all", ...counts(status.commands)], ...links.map(l => [l.name, ...counts(l)])], ["", "received", "refused", "lost"]);
+  const all = status.commands, links = all.links;
+  const counts = c => [c.clients, c.received, c.refused, c.lost].map(n => number(n, 9));
+  rows($("commands"), [...links.map(l => [l.name, ...counts(l)]), ...(links.length === 1 ? [] : [["all", ...counts(all)]])],
+    ["", "clients", "received", "refused", "lost"]);
   $("outputs").replaceChildren(...status.outputs.map(o => make("div", { className: "output" },
     make("div", {}, o.name),
     make("div", { className: "figures" }, [["frames", o.frames], ["dropped", o.dropped], ...Object.entries(o.figures)]
@@ -216,7 +217,7 @@ function buildSettings() {
     inputs[key] = { input, factor: choices ? null : factor };
   }
   const flags = make("div", { className: "wide" });
-  for (const [key, label, there] of [["automatic_exposure", "automatic exposure", status.limits.has_automatic_exposure],
+  for (const [key, label, there] of [["automatic_exposure", "auto exposure", status.limits.has_automatic_exposure],
     ["reverse_x", "reverse x", status.limits.reversible], ["reverse_y", "reverse y", status.limits.reversible]]) {
     if (!there) continue;
     const input = make("input", { type: "checkbox", id: "set-" + key });
@@ -333,7 +334,7 @@ for (const name of ["black", "white"])
     if (picture.frame) drawHistogram();
   });
 document.addEventListener("keydown", event => {
-  if (event.target.matches("input, select, textarea") || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.target.matches(event.key === " " ? "input, select, button" : "input, select") || event.ctrlKey || event.metaKey || event.altKey) return;
   const act = { " ": freeze, f: () => picture.fit(), F: () => picture.fit(), 1: one, "+": () => picture.zoom(picture.shownScale() * 2),
     "-": () => picture.zoom(picture.shownScale() / 2) }[event.key];
   if (!act) return;

@@ -44,18 +44,21 @@ export class Picture {
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.listen();
     this.poll();
+    setInterval(() => this.hurry(), 100);
   }
 
   // --- Frames.
   async poll() {
-    let after = 0n, asked = "";
+    let after = 0n;
+    this.asked = "";
     for (;;) {
       if (this.frozen || document.hidden) { await new Promise(r => setTimeout(r, 100)); continue; }
       const part = this.part();
-      if (part !== asked) after = 0n;  // another part of the same frame is news too
-      asked = part;
+      if (part !== this.asked) after = 0n;  // another part of the same frame is news too
+      this.asked = part;
+      this.patience = new AbortController();
       try {
-        const answer = await fetch(`frame?viewer=${this.viewer}&after=${after}${part}`);
+        const answer = await fetch(`frame?viewer=${this.viewer}&after=${after}${part}`, { signal: this.patience.signal });
         this.onlink(answer.ok ? "" : (await answer.text()).trim());
         if (answer.status === 200) {
           const frame = decode(await answer.arrayBuffer());
@@ -63,11 +66,14 @@ export class Picture {
           if (!this.frozen) this.take(frame);
         } else if (answer.status !== 204) await new Promise(r => setTimeout(r, 500));
       } catch (error) {
+        if (error.name === "AbortError") continue;
         this.onlink("no answer");
         await new Promise(r => setTimeout(r, 1000));
       }
     }
   }
+  // The view has moved on while a frame is waited for: ask for the new part.
+  hurry() { if (this.asked !== this.part()) this.patience?.abort(); }
   part() {
     const f = this.frame;
     if (!f || f.frameWidth * f.frameHeight <= WHOLE_SAMPLES) return "";
