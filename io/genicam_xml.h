@@ -1,12 +1,14 @@
 #pragma once
-// GenICam description (schema 1.1) of the camera, generated from its feature table.
+// GenICam description (GenApi schema 1.1) of the camera, generated from its feature table.
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "io/gige_features.h"
 
 namespace hilcam {
 
-std::string genicam_xml(const std::vector<Feature>& features, const std::string& model);
+std::string genicam_xml(const FeatureTable& table, const std::string& model);
 
 }  // namespace hilcam

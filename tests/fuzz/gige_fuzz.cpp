@@ -1,69 +1,105 @@
-// A conversation with the camera's control port: [u8 sender and seconds][u16 length][datagram] repeated.
-// Whatever is said, answers fit their buffer and the region of interest stays on the sensor.
+// A conversation with the camera's control port: [u8 sender, way and time][u16 length][datagram] repeated.
+// The byte: bit 0 which client, bit 1 by broadcast, bit 2 a mosaic's camera, bit 3 an exposure begins, upper
+// half: tenths of seconds that pass. Whatever is said, answers fit their buffer, the window stays on the
+// sensor, and what is told to the stream side is something it can do.
 
 #include <algorithm>
 #include <vector>
 
 #include "io/bytes.h"
 #include "io/gige_device.h"
+#include "io/gige_transport.h"
 #include "render/check.h"
 
 namespace {
 
-class AnyCamera : public hilcam::CameraControl {
+using namespace hilcam;
+
+class AnyCamera : public CameraControl {
   public:
-    hilcam::CameraSettings s{.exposure_s = 0.001, .frame_rate_hz = 30};
-    hilcam::CameraSettings settings() const override { return s; }
-    hilcam::CameraLimits limits() const override {
-        return {.width = 640,
-                .height = 480,
-                .bits = 12,
-                .color_pattern = {},
-                .least_exposure_s = 1e-5,
-                .most_exposure_s = 1,
-                .least_gain_db = 0,
-                .most_gain_db = 24,
-                .least_frame_rate_hz = 0.1,
-                .most_frame_rate_hz = 200};
-    }
-    bool change(const hilcam::SettingsChange& c) override {
-        const hilcam::CameraLimits l = limits();
-        if (c.exposure_s && !(*c.exposure_s >= l.least_exposure_s && *c.exposure_s <= l.most_exposure_s))
-            return false;
-        if (c.gain_db && !(*c.gain_db >= l.least_gain_db && *c.gain_db <= l.most_gain_db)) return false;
-        if (c.frame_rate_hz &&
-            !(*c.frame_rate_hz >= l.least_frame_rate_hz && *c.frame_rate_hz <= l.most_frame_rate_hz))
+    CameraSettings s{.exposure_s = 0.001, .frame_rate_hz = 30};
+    CameraLimits l{.width = 640,
+                   .height = 480,
+                   .bits = 12,
+                   .color_pattern = {},
+                   .least_exposure_s = 1e-5,
+                   .most_exposure_s = 1,
+                   .least_gain_db = 0,
+                   .most_gain_db = 24,
+                   .least_frame_rate_hz = 0.1,
+                   .most_frame_rate_hz = 200,
+                   .most_binning = 4,
+                   .reversible = true};
+
+    CameraSettings settings() const override { return s; }
+    CameraLimits limits() const override { return l; }
+    bool change(const SettingsChange& c) override {
+        const auto within = [](const auto& value, double least, double most) {
+            return !value || (static_cast<double>(*value) >= least && static_cast<double>(*value) <= most);
+        };
+        if (!within(c.exposure_s, l.least_exposure_s, l.most_exposure_s) ||
+            !within(c.gain_db, l.least_gain_db, l.most_gain_db) ||
+            !within(c.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz) ||
+            !within(c.binning_x, 1, 4) || !within(c.binning_y, 1, 4))
             return false;
         s.exposure_s = c.exposure_s.value_or(s.exposure_s);
         s.gain_db = c.gain_db.value_or(s.gain_db);
         s.frame_rate_hz = c.frame_rate_hz.value_or(s.frame_rate_hz);
+        s.triggered = c.triggered.value_or(s.triggered);
+        s.burst_frames = c.burst_frames.value_or(s.burst_frames);
+        s.binning_x = c.binning_x.value_or(s.binning_x);
+        s.binning_y = c.binning_y.value_or(s.binning_y);
         return true;
     }
-    hilcam::TriggerResult trigger(const hilcam::TriggerOrder&) override {
-        return hilcam::TriggerResult::kTaken;
-    }
+    TriggerResult trigger(const TriggerOrder&) override { return TriggerResult::kTaken; }
 };
+
+void check(const GigeStreamState& s) {
+    HILCAM_CHECK(s.width >= 1 && s.height >= 1 && s.width + s.offset_x <= 640 / s.binning_x &&
+                 s.height + s.offset_y <= 480 / s.binning_y);
+    HILCAM_CHECK(s.packet_bytes >= GigeTransport::kLeastPacketBytes &&
+                 s.packet_bytes <= GigeTransport::kMostPacketBytes && s.packet_bytes % 4 == 0);
+    HILCAM_CHECK(s.payload_bytes() < 640 * 480 * 3 + 1000);
+    HILCAM_CHECK(s.chunks < 1u << kChunks);
+}
+
+GigeEffects effects() {
+    GigeEffects e;
+    e.stream_changed = check;
+    e.resend = [](const gvcp::ResendRequest& r, Endpoint) {
+        HILCAM_CHECK(r.block != 0 && r.first_packet <= r.last_packet);
+    };
+    e.test_packet = [](const GigeStreamState&, std::size_t bytes) { HILCAM_CHECK(bytes <= 16384 - 28); };
+    e.send_message = [](std::span<const std::uint8_t> bytes, Endpoint to) {
+        HILCAM_CHECK(gvcp::read_header(bytes) && to.port != 0);
+    };
+    e.send_answer = [](std::span<const std::uint8_t> bytes, Endpoint) {
+        HILCAM_CHECK(gvcp::read_answer_header(bytes));
+    };
+    e.change_address = [](std::uint32_t ip, std::uint32_t, std::uint32_t) { return ip % 2 == 0; };
+    e.system_clock = [] { return GigeSystemClock{37'000'000'000, true, true}; };
+    return e;
+}
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace hilcam;
     AnyCamera camera;
+    if (size > 0 && data[0] & 4) camera.l.color_pattern = "RGGB";
     FaultBoard faults;
     GigeDevice device({"camera", "S1", "", 0x7F000001, 0xFF000000, 0, 0x020000000001, 1500}, camera, faults,
-                      {});
+                      effects());
     std::vector<std::uint8_t> out(gvcp::kMostDatagramBytes);
     std::span<const std::uint8_t> rest(data, size);
-    std::int64_t now_ns = 0;
+    std::int64_t now_ns = 1'000'000'000;
     while (rest.size() >= 3) {
         const Endpoint from{0x7F000001, static_cast<std::uint16_t>(40000 + (rest[0] & 1))};
-        now_ns += std::int64_t{rest[0] >> 4} * 1'000'000'000;
+        now_ns += std::int64_t{rest[0] >> 4} * 100'000'000;
         const std::size_t length = std::min<std::size_t>(ByteReader(rest.subspan(1)).u16(), rest.size() - 3);
-        HILCAM_CHECK(device.handle(rest.subspan(3, length), from, now_ns, out) <= out.size());
-        const GigeStreamState& s = device.stream_state();
-        HILCAM_CHECK(s.width >= 1 && s.height >= 1 && s.width + s.offset_x <= 640 &&
-                     s.height + s.offset_y <= 480);
-        HILCAM_CHECK(s.packet_bytes >= 576 && s.packet_bytes <= 16384);
+        if (rest[0] & 8) device.happened({CameraEvent::Kind::kExposureStart, 1, now_ns}, 1, now_ns);
+        HILCAM_CHECK(device.handle(rest.subspan(3, length), from, now_ns, out, rest[0] & 2) <= out.size());
+        check(device.stream_state());
+        HILCAM_CHECK(device.wake_ns() <= now_ns + GigeDevice::kLongestSleep_ns);
         rest = rest.subspan(3 + length);
     }
     return 0;

@@ -2,97 +2,12 @@
 
 #include <gmock/gmock.h>
 
-#include "io/bytes.h"
+#include "gige_bench.h"
 
 namespace hilcam {
 namespace {
 
-class FakeCamera : public CameraControl {
-  public:
-    CameraSettings s{.exposure_s = 0.001, .frame_rate_hz = 30};
-    CameraSettings settings() const override { return s; }
-    CameraLimits limits() const override {
-        return {.width = 640,
-                .height = 480,
-                .bits = 12,
-                .color_pattern = {},
-                .least_exposure_s = 1e-5,
-                .most_exposure_s = 1,
-                .least_gain_db = 0,
-                .most_gain_db = 24,
-                .least_frame_rate_hz = 0.1,
-                .most_frame_rate_hz = 200};
-    }
-    bool change(const SettingsChange& c) override {
-        const CameraLimits l = limits();
-        if (c.exposure_s && !(*c.exposure_s >= l.least_exposure_s && *c.exposure_s <= l.most_exposure_s))
-            return false;
-        if (c.gain_db && !(*c.gain_db >= l.least_gain_db && *c.gain_db <= l.most_gain_db)) return false;
-        if (c.frame_rate_hz &&
-            !(*c.frame_rate_hz >= l.least_frame_rate_hz && *c.frame_rate_hz <= l.most_frame_rate_hz))
-            return false;
-        s.exposure_s = c.exposure_s.value_or(s.exposure_s);
-        s.gain_db = c.gain_db.value_or(s.gain_db);
-        s.frame_rate_hz = c.frame_rate_hz.value_or(s.frame_rate_hz);
-        return true;
-    }
-    TriggerResult trigger(const TriggerOrder&) override { return TriggerResult::kTaken; }
-};
-
-constexpr Endpoint kClient{0x7F000001, 40000}, kOther{0x7F000001, 40001};
-
-struct Bench {
-    FakeCamera camera;
-    FaultBoard faults;
-    std::vector<gvcp::ResendRequest> resends;
-    std::vector<std::size_t> tests;
-    GigeDevice device{{"cam", "S1", "", 0x7F000001, 0xFF000000, 0, 0x020000000001, 1500},
-                      camera,
-                      faults,
-                      {.resend = [this](const gvcp::ResendRequest& r, Endpoint) { resends.push_back(r); },
-                       .test_packet = [this](const GigeStreamState&, std::size_t n) { tests.push_back(n); }}};
-    std::int64_t now_ns = 0;
-    std::uint16_t id = 1;
-
-    struct Reply {
-        unsigned status = 0xFFFF, command = 0, id = 0;
-        std::vector<std::uint8_t> payload;
-    };
-    Reply send(std::uint16_t command, const std::vector<std::uint8_t>& payload, Endpoint from = kClient,
-               std::uint16_t reuse = 0, std::uint8_t flags = 1) {
-        std::vector<std::uint8_t> bytes(8 + payload.size()), out(gvcp::kMostDatagramBytes);
-        ByteWriter(bytes)
-            .u8(0x42)
-            .u8(flags)
-            .u16(command)
-            .u16(payload.size())
-            .u16(reuse ? reuse : id++)
-            .copy(payload);
-        const std::size_t size = device.handle(bytes, from, now_ns, out);
-        if (size == 0) return {};
-        ByteReader in(std::span<const std::uint8_t>(out.data(), size));
-        Reply r;
-        r.status = in.u16();
-        r.command = in.u16();
-        in.u16();
-        r.id = in.u16();
-        r.payload.assign(in.rest().begin(), in.rest().end());
-        return r;
-    }
-    static std::vector<std::uint8_t> words(std::initializer_list<std::uint32_t> values) {
-        std::vector<std::uint8_t> out(4 * values.size());
-        ByteWriter w(out);
-        for (const std::uint32_t v : values) w.u32(v);
-        return out;
-    }
-    unsigned write(std::uint32_t address, std::uint32_t value, Endpoint from = kClient) {
-        return send(gvcp::kWriteRegister, words({address, value}), from).status;
-    }
-    std::uint32_t read(std::uint32_t address, Endpoint from = kClient) {
-        return ByteReader(send(gvcp::kReadRegister, words({address}), from).payload).u32();
-    }
-    void take_control() { ASSERT_EQ(write(bootstrap::kControl, 2), gvcp::kSuccess); }
-};
+using Bench = GigeBench;
 
 TEST(GigeDevice, DiscoveryGivesTheFirst248Registers) {
     Bench b;
@@ -115,6 +30,83 @@ TEST(GigeDevice, OnlyTheControllerMayWrite) {
     EXPECT_EQ(b.read(feature_register::kWidth, kOther), 100u);
     EXPECT_EQ(b.write(bootstrap::kControl, 1), gvcp::kSuccess);  // exclusive: others may not even read
     EXPECT_EQ(b.send(gvcp::kReadRegister, Bench::words({0}), kOther).status, gvcp::kAccessDenied);
+    EXPECT_EQ(b.read(bootstrap::kControl, kOther), 1u);  // but who has it
+    EXPECT_EQ(b.read(bootstrap::kPrimaryPort, kOther), kClient.port);
+}
+
+TEST(GigeDevice, ControlIsHandedOverToWhoHasTheKey) {
+    Bench b;
+    b.write(bootstrap::kControl, 2 | 4);
+    b.write(bootstrap::kSwitchoverKey, 0xBEEF);
+    b.write(bootstrap::kMessageAddress, kClient.ip);
+    b.write(bootstrap::kMessagePort, 41000);
+    b.open_stream();
+    EXPECT_EQ(b.write(bootstrap::kControl, 2, kOther), gvcp::kAccessDenied);
+    EXPECT_EQ(b.write(bootstrap::kControl, 0xBEEEu << 16 | 2, kOther), gvcp::kAccessDenied);
+    EXPECT_EQ(b.write(bootstrap::kControl, 0xBEEFu << 16, kOther), gvcp::kAccessDenied);  // asks for nothing
+    EXPECT_TRUE(b.messages.empty());
+    EXPECT_EQ(b.write(bootstrap::kControl, 0xBEEFu << 16 | 2, kOther), gvcp::kSuccess);
+    EXPECT_EQ(b.read(bootstrap::kPrimaryPort), kOther.port);
+    EXPECT_TRUE(b.device.stream_state().open);
+    EXPECT_EQ(b.write(feature_register::kWidth, 64), gvcp::kAccessDenied);
+    ASSERT_EQ(b.messages.size(), 1u);  // the one before is told
+    EXPECT_EQ(b.messages[0].to, (Endpoint{kClient.ip, 41000}));
+    EXPECT_EQ(ByteReader(std::span(b.messages[0].bytes).subspan(10)).u16(), gvcp::Event::kPrimarySwitch);
+    // Without the switch-over enabled no key helps.
+    EXPECT_EQ(b.write(bootstrap::kControl, 2), gvcp::kAccessDenied);
+}
+
+TEST(GigeDevice, TheHeartbeatCanBeDisabledAndStreamsMayGoOn) {
+    Bench b;
+    b.take_control();
+    b.open_stream();
+    b.write(bootstrap::kGvcpConfig, bootstrap::gvcp_config::kHeartbeatDisable);
+    b.wait_ms(100'000);
+    EXPECT_TRUE(b.device.controlled());
+    b.write(bootstrap::kGvcpConfig, 0);
+    b.write(bootstrap::kStreamConfig, bootstrap::stream_config::kUnconditional);
+    b.write(feature_register::kAcquisitionStart, 1);
+    b.wait_ms(3001);
+    EXPECT_FALSE(b.device.controlled());
+    EXPECT_TRUE(b.device.stream_state().acquiring);
+}
+
+TEST(GigeDevice, DiscoveryByBroadcastIsAnsweredToTheOwnSubnetOnly) {
+    Bench b;
+    const Endpoint far{0xC0A80102, 40000};
+    EXPECT_EQ(b.send(gvcp::kDiscovery, {}, kClient, 0xFFFF, 1, true).status, gvcp::kSuccess);
+    EXPECT_EQ(b.send(gvcp::kDiscovery, {}, far, 0xFFFF, 1, true).status, 0xFFFFu);
+    EXPECT_TRUE(b.late.empty());
+    EXPECT_EQ(b.send(gvcp::kDiscovery, {}, far, 0xFFFF, 0x11, true).status, 0xFFFFu);
+    ASSERT_EQ(b.late.size(), 1u);  // it allows a broadcast answer
+    EXPECT_EQ(b.late[0].to, (Endpoint{0xFFFFFFFF, 40000}));
+    EXPECT_EQ(b.send(gvcp::kDiscovery, {}, far, 0xFFFF).status, gvcp::kSuccess);  // unicast
+    EXPECT_EQ(b.send(gvcp::kReadRegister, Bench::words({0}), kClient, 0, 1, true).status, 0xFFFFu);
+}
+
+TEST(GigeDevice, ForceIpMovesTheCameraOnlyToAddressesOfThisMachine) {
+    Bench b;
+    const auto force = [&](std::uint64_t mac, std::uint32_t ip, std::uint32_t mask) {
+        std::vector<std::uint8_t> payload(56);
+        ByteWriter(std::span(payload).subspan(2)).u16(mac >> 32).u32(mac & 0xFFFFFFFF);
+        ByteWriter(std::span(payload).subspan(20)).u32(ip);
+        ByteWriter(std::span(payload).subspan(36)).u32(mask);
+        return b.send(gvcp::kForceIp, payload, kClient, 0, 1, true).status;
+    };
+    const std::uint64_t mac = 0x020000000001;
+    EXPECT_EQ(force(0x020000000002, 0x7F000002, 0xFF000000), 0xFFFFu);  // another camera's
+    EXPECT_EQ(force(mac, 0xE0000001, 0xFF000000), gvcp::kInvalidParameter);
+    EXPECT_EQ(force(mac, 0x7F000002, 0xFF00FF00), gvcp::kInvalidParameter);
+    EXPECT_EQ(force(mac, 0, 0), gvcp::kSuccess);
+    b.has_address = false;
+    EXPECT_EQ(force(mac, 0x7F000002, 0xFF000000), gvcp::kGenericError);
+    EXPECT_EQ(b.read(bootstrap::kIp), 0x7F000001u);
+    b.has_address = true;
+    EXPECT_EQ(force(mac, 0x7F000002, 0xFF000000), gvcp::kSuccess);
+    EXPECT_EQ(b.addresses, std::vector<std::uint32_t>{0x7F000002});
+    EXPECT_EQ(b.read(bootstrap::kIp), 0x7F000002u);
+    b.take_control();
+    EXPECT_EQ(force(mac, 0x7F000003, 0xFF000000), gvcp::kAccessDenied);
 }
 
 TEST(GigeDevice, ASilentControllerLosesTheCamera) {
@@ -123,13 +115,12 @@ TEST(GigeDevice, ASilentControllerLosesTheCamera) {
     b.write(bootstrap::kStreamAddress, kClient.ip);
     b.write(bootstrap::kStreamPort, 50000);
     b.write(feature_register::kAcquisitionStart, 1);
-    b.now_ns = 2'900'000'000;
+    b.wait_ms(2900);
     b.read(bootstrap::kControl);  // a heartbeat
-    b.now_ns = 5'800'000'000;
-    b.device.tick(b.now_ns);
+    b.wait_ms(2900);
     EXPECT_TRUE(b.device.controlled());
-    b.now_ns = 5'901'000'000;
-    b.device.tick(b.now_ns);
+    EXPECT_LE(b.device.wake_ns(), b.now_ns + GigeDevice::kLongestSleep_ns);
+    b.wait_ms(101);
     EXPECT_FALSE(b.device.controlled());
     EXPECT_FALSE(b.device.stream_state().acquiring);
     EXPECT_FALSE(b.device.stream_state().open);
@@ -159,69 +150,6 @@ TEST(GigeDevice, ConcatenatedWritesStopAtTheFirstFault) {
     EXPECT_EQ(b.read(feature_register::kHeight), 480u);
 }
 
-TEST(GigeDevice, GeometryStaysOnTheSensorAndIsLockedWhileStreaming) {
-    Bench b;
-    b.take_control();
-    EXPECT_EQ(b.write(feature_register::kOffsetX, 1), gvcp::kInvalidParameter);  // full width leaves no room
-    EXPECT_EQ(b.write(feature_register::kWidth, 320), gvcp::kSuccess);
-    EXPECT_EQ(b.write(feature_register::kOffsetX, 320), gvcp::kSuccess);
-    EXPECT_EQ(b.read(feature_register::kPayloadSize), 320u * 480 * 2);
-    EXPECT_EQ(b.write(feature_register::kPixelFormat, pfnc_code(WireFormat::kMono8, {})), gvcp::kSuccess);
-    EXPECT_EQ(b.read(feature_register::kPayloadSize), 320u * 480);
-    EXPECT_EQ(b.write(feature_register::kPixelFormat, 0x02180014), gvcp::kInvalidParameter);
-    b.write(feature_register::kAcquisitionStart, 1);
-    EXPECT_EQ(b.read(feature_register::kParamsLocked), 1u);
-    EXPECT_EQ(b.write(feature_register::kWidth, 100), gvcp::kWriteProtect);
-    b.write(feature_register::kAcquisitionStop, 1);
-    EXPECT_EQ(b.write(feature_register::kWidth, 100), gvcp::kSuccess);
-}
-
-TEST(GigeDevice, FloatsGoToTheCameraAndAreRefusedOutsideItsLimits) {
-    Bench b;
-    b.take_control();
-    std::vector<std::uint8_t> payload(12);
-    ByteWriter(payload).u32(feature_register::kExposureTime_us).f64(2500);
-    EXPECT_EQ(b.send(gvcp::kWriteMemory, payload).status, gvcp::kSuccess);
-    EXPECT_DOUBLE_EQ(b.camera.s.exposure_s, 0.0025);
-    ByteWriter(payload).u32(feature_register::kExposureTime_us).f64(1e9);
-    EXPECT_EQ(b.send(gvcp::kWriteMemory, payload).status, gvcp::kInvalidParameter);
-    ByteWriter(payload).u32(feature_register::kGain_db).f64(std::nan(""));
-    EXPECT_EQ(b.send(gvcp::kWriteMemory, payload).status, gvcp::kInvalidParameter);
-    // What another party changed is read back.
-    b.camera.s.gain_db = 7;
-    std::vector<std::uint8_t> ask(8);
-    ByteWriter(ask).u32(feature_register::kGain_db).u16(0).u16(8);
-    const auto r = b.send(gvcp::kReadMemory, ask);
-    EXPECT_EQ(ByteReader(std::span(r.payload).subspan(4)).f64(), 7);
-}
-
-TEST(GigeDevice, DescriptionIsReadableInPiecesAndTellsEveryFeature) {
-    Bench b;
-    std::string url;
-    std::vector<std::uint8_t> ask(8);
-    ByteWriter(ask).u32(bootstrap::kXmlUrl).u16(0).u16(512);
-    const auto r = b.send(gvcp::kReadMemory, ask);
-    url = reinterpret_cast<const char*>(r.payload.data() + 4);
-    const std::string xml = b.device.xml();
-    char expected[64];
-    std::snprintf(expected, sizeof expected, "Local:///hilcam.xml;20000;%zX", xml.size());
-    EXPECT_EQ(url, expected);
-    std::string read;
-    for (std::uint32_t at = 0; at < xml.size(); at += 512) {
-        ByteWriter(ask).u32(kXmlAddress + at).u16(0).u16(512);
-        const auto piece = b.send(gvcp::kReadMemory, ask);
-        ASSERT_EQ(piece.status, gvcp::kSuccess);
-        read.append(piece.payload.begin() + 4, piece.payload.end());
-    }
-    EXPECT_EQ(read.substr(0, xml.size()), xml);
-    for (const Feature& f : gige_features(b.camera.limits())) {
-        EXPECT_THAT(xml, testing::HasSubstr("<pFeature>" + std::string(f.name) + "</pFeature>"));
-        // Every register of the description exists.
-        ByteWriter(ask).u32(f.address).u16(0).u16(f.bytes);
-        EXPECT_EQ(b.send(gvcp::kReadMemory, ask).status, gvcp::kSuccess) << f.name;
-    }
-}
-
 TEST(GigeDevice, TestPacketAndResendReachTheStream) {
     Bench b;
     b.take_control();
@@ -241,8 +169,16 @@ TEST(GigeDevice, TestPacketAndResendReachTheStream) {
 
 TEST(GigeDevice, UnknownCommandsGetAnHonestAnswer) {
     Bench b;
-    EXPECT_EQ(b.send(gvcp::kForceIp, std::vector<std::uint8_t>(56)).status, gvcp::kNotImplemented);
-    EXPECT_EQ(b.send(0x0100, {}).status, gvcp::kNotImplemented);
+    EXPECT_EQ(b.send(0x0042, {}).status, gvcp::kNotImplemented);
+    EXPECT_EQ(b.send(gvcp::kEvent, std::vector<std::uint8_t>(16)).status, gvcp::kNotImplemented);
+    EXPECT_EQ(b.send(gvcp::kAction, {}).status, gvcp::kInvalidParameter);
+    EXPECT_EQ(b.send(gvcp::kForceIp, {}).status, gvcp::kInvalidParameter);
+    EXPECT_EQ(b.send(gvcp::kReadMemory, {1, 2, 3}).status, gvcp::kInvalidParameter);
+    EXPECT_EQ(b.send(gvcp::kWriteMemory, {1, 2, 3}).status, gvcp::kInvalidParameter);
+    EXPECT_EQ(b.send(gvcp::kReadRegister, Bench::words({0x5000})).status, gvcp::kInvalidAddress);
+    EXPECT_EQ(b.read_memory(0x5000, 512).status, gvcp::kInvalidAddress);
+    // A length that differs from the datagram's.
+    EXPECT_EQ(Bench::decoded(b.raw({0x42, 1, 0, 0x80, 0, 8, 0, 5, 0, 0, 0, 0})).status, gvcp::kInvalidHeader);
     EXPECT_EQ(b.send(gvcp::kReadRegister, Bench::words({2})).status, gvcp::kBadAlignment);
     EXPECT_EQ(b.send(gvcp::kReadRegister, Bench::words({0xFFFFFFF0})).status, gvcp::kInvalidAddress);
     EXPECT_EQ(b.send(gvcp::kReadRegister, {1, 2, 3}).status, gvcp::kInvalidParameter);
