@@ -249,11 +249,6 @@ void GigeSender::refuse(gvsp::Status reason) {
 }
 
 void GigeSender::send_test_packet(const GigeOrder& order) {
-    const auto limit = faults_.would_strike(FaultKind::kTestPacketLimit, 0, order.packet_bytes);
-    if (limit && order.packet_bytes > *limit) {
-        faults_.strikes(FaultKind::kTestPacketLimit, 0, order.packet_bytes);
-        return;
-    }
     if (faults_.strikes(FaultKind::kLinkDown, 0)) return;
     static constexpr std::array<std::uint8_t, 65535> kZeros{};
     set_do_not_fragment(order.do_not_fragment);
