@@ -199,7 +199,7 @@ TEST(BoundedQueue, GivesEachThingOnceInOrderOfEachThread) {
 
 TEST(Pacer, BytesArePaidForWithTime) {
     Pacer p;
-    p.begin({100e6, 0}, 1'000'000);
+    p.begin({.bytes_s = 100e6}, 1'000'000);
     p.sent(5, 50'000, 1'000'000);
     EXPECT_EQ(p.ready_ns(), 1'500'000);
     // On time, or a little late: the rate holds on average.
@@ -209,20 +209,20 @@ TEST(Pacer, BytesArePaidForWithTime) {
     p.sent(5, 50'000, 50'000'000);
     EXPECT_EQ(p.ready_ns(), 49'500'000);
     // Nothing is saved up between frames.
-    p.begin({100e6, 0}, 90'000'000);
+    p.begin({.bytes_s = 100e6}, 90'000'000);
     EXPECT_EQ(p.ready_ns(), 90'000'000);
     // A frame that ended early does not begin the next one early either.
-    p.begin({100e6, 0}, 89'000'000);
+    p.begin({.bytes_s = 100e6}, 89'000'000);
     EXPECT_EQ(p.ready_ns(), 90'000'000);
 }
 
 TEST(Pacer, ADelayIsPerPacket) {
     Pacer p;
-    p.begin({1e9, 200'000}, 0);
+    p.begin({.bytes_s = 1e9, .delay_ns = 200'000}, 0);
     p.sent(3, 3000, 0);
     EXPECT_EQ(p.ready_ns(), 3000 + 600'000);
     EXPECT_EQ(p.batch_bytes(), 1u);  // one at a time
-    p.begin({1e6, 0}, 10'000'000);
+    p.begin({.bytes_s = 1e6}, 10'000'000);
     EXPECT_EQ(p.batch_bytes(), 300u);
 }
 
