@@ -50,8 +50,8 @@ GigePacket trailer_of(const GigeFrame& f, const gvsp::PacketHeader& header) {
     const gvsp::ChunkTail* const chunks = s.chunk_mode ? &tail : nullptr;
     const auto size_y = s.height + static_cast<std::uint32_t>(f.size_y_error);
     GigePacket p;
-    p.head_bytes = is_multipart(s) ? gvsp::write_multipart_trailer(header, chunks, p.head)
-                                   : gvsp::write_image_trailer(header, size_y, chunks, p.head);
+    p.head_bytes = gvsp::write_trailer(header, is_multipart(s) ? gvsp::kMultipartPayload : gvsp::kImage,
+                                       size_y, chunks, p.head);
     return p;
 }
 

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kBatchRoom = 70'000;
 // A frame that has time is spread, but a cable of gigabit Ethernet would not have made it slower than this.
 constexpr double kGigabit_bytes_s = 125e6;
+constexpr std::int64_t kCatchUpSeen_ns = 50'000'000;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 std::int64_t monotonic_ns() {
@@ -181,7 +182,9 @@ Pace GigeSender::pace_of(const GigeSlot& slot) {
     }
     if (const auto cap_mb_s = faults_.strikes(FaultKind::kBandwidthCap, slot.record.id))
         rate = std::min(rate, *cap_mb_s * 1e6);
-    return {rate, s.packet_delay_ns};
+    // A receiver whose buffer can be seen is not overrun by a sender that makes up for lost time.
+    const bool seen = room_.free_bytes(address_, address_of(s.destination)).has_value();
+    return {rate, s.packet_delay_ns, seen ? kCatchUpSeen_ns : Pace{}.catch_up_ns};
 }
 
 // --- what is asked for
@@ -249,11 +252,6 @@ void GigeSender::refuse(gvsp::Status reason) {
 }
 
 void GigeSender::send_test_packet(const GigeOrder& order) {
-    const auto limit = faults_.would_strike(FaultKind::kTestPacketLimit, 0, order.packet_bytes);
-    if (limit && order.packet_bytes > *limit) {
-        faults_.strikes(FaultKind::kTestPacketLimit, 0, order.packet_bytes);
-        return;
-    }
     if (faults_.strikes(FaultKind::kLinkDown, 0)) return;
     static constexpr std::array<std::uint8_t, 65535> kZeros{};
     set_do_not_fragment(order.do_not_fragment);

@@ -61,18 +61,10 @@ std::size_t write_part_payload(const PacketHeader& header, std::uint8_t part, st
     return put_header(out, header).u8(part).u8(0).u16(offset >> 32 & 0xFFFF).u32(offset & 0xFFFFFFFF).size();
 }
 
-std::size_t write_image_trailer(const PacketHeader& header, std::uint32_t size_y, const ChunkTail* chunks,
-                                std::span<std::uint8_t> bytes) {
+std::size_t write_trailer(const PacketHeader& header, PayloadType type, std::uint32_t size_y,
+                          const ChunkTail* chunks, std::span<std::uint8_t> bytes) {
     ByteWriter out(bytes);
-    put_header(out, header).u16(0).u16(type_of(kImage, chunks != nullptr)).u32(size_y);
-    if (chunks) out.u32(chunks->bytes).u32(chunks->layout);
-    return out.size();
-}
-
-std::size_t write_multipart_trailer(const PacketHeader& header, const ChunkTail* chunks,
-                                    std::span<std::uint8_t> bytes) {
-    ByteWriter out(bytes);
-    put_header(out, header).u16(0).u16(type_of(kMultipartPayload, chunks != nullptr));
+    put_header(out, header).u16(0).u16(type_of(type, chunks != nullptr)).u32(size_y);
     if (chunks) out.u32(chunks->bytes).u32(chunks->layout);
     return out.size();
 }

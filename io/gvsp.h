@@ -68,11 +68,10 @@ struct ChunkTail {
     std::uint32_t bytes = 0;   // of all chunks, their ids and lengths included
     std::uint32_t layout = 0;  // changes when the set of chunks does
 };
-// `chunks`: null without.
-std::size_t write_image_trailer(const PacketHeader& header, std::uint32_t size_y, const ChunkTail* chunks,
-                                std::span<std::uint8_t> out);
-std::size_t write_multipart_trailer(const PacketHeader& header, const ChunkTail* chunks,
-                                    std::span<std::uint8_t> out);
+// `type`: the leader's. `chunks`: null without. (That a multipart trailer tells a height too is more than its
+// readers need.)
+std::size_t write_trailer(const PacketHeader& header, PayloadType type, std::uint32_t size_y,
+                          const ChunkTail* chunks, std::span<std::uint8_t> out);
 
 // For who wants a wrong id in a packet that is written.
 std::uint32_t packet_id(std::span<const std::uint8_t> packet, bool extended);

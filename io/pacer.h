@@ -10,19 +10,18 @@ namespace hilcam {
 struct Pace {
     double bytes_s = 1e9;
     std::int64_t delay_ns = 0;  // after each packet, on top
+    std::int64_t catch_up_ns = 1'000'000;
 };
 
 class Pacer {
   public:
-    static constexpr std::int64_t kCatchUp_ns = 1'000'000;
-
     // A frame begins: nothing was saved up while there was none.
     void begin(const Pace& pace, std::int64_t now_ns) {
         pace_ = pace;
         ready_ns_ = std::max(ready_ns_, now_ns);
     }
     void sent(std::size_t packets, std::size_t bytes, std::int64_t now_ns) {
-        ready_ns_ = std::max(ready_ns_, now_ns - kCatchUp_ns) +
+        ready_ns_ = std::max(ready_ns_, now_ns - pace_.catch_up_ns) +
                     static_cast<std::int64_t>(static_cast<double>(bytes) / pace_.bytes_s * 1e9) +
                     static_cast<std::int64_t>(packets) * pace_.delay_ns;
     }

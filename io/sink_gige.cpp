@@ -200,7 +200,6 @@ void GigeSink::Implementation::serve_control() {
     std::array<std::uint8_t, gvcp::kMostDatagramBytes> out;
     const GigeSockets::Receive answer = [&](std::span<const std::uint8_t> datagram, Endpoint from,
                                             bool broadcast) {
-        if (faults.strikes(FaultKind::kLinkDown, 0)) return;
         const std::int64_t now_ns = monotonic_ns();
         const std::size_t size = device->handle(datagram, from, now_ns, out, broadcast);
         if (size > 0) sockets->send_answer({out.data(), size}, from);

@@ -262,8 +262,8 @@ std::uint32_t pfnc_code(WireFormat format, BayerPattern pattern) {
 
 std::span<const WireFormat> formats_of(BayerPattern pattern) {
     using enum WireFormat;
-    static constexpr std::array kMono = {kMono8,        kMono10,       kMono12,  kMono14, kMono16,
-                                         kMono10Packed, kMono12Packed, kMono10p, kMono12p};
+    static constexpr std::array kMono = {kMono8,        kMono10,       kMono12,  kMono14,  kMono16,
+                                         kMono10Packed, kMono12Packed, kMono10p, kMono12p, kRgb8};
     static constexpr std::array kColour = {kBayer8,  kBayer10, kBayer12, kBayer12Packed,
                                            kBayer16, kRgb8,    kYuyv};
     return pattern.empty() ? std::span<const WireFormat>(kMono) : std::span<const WireFormat>(kColour);

@@ -46,7 +46,7 @@ BayerPattern shifted(BayerPattern pattern, int offset_x, int offset_y);
 // YUV422_8 (0x02100032).
 std::string pfnc_name(WireFormat format, BayerPattern pattern);
 std::uint32_t pfnc_code(WireFormat format, BayerPattern pattern);
-// Formats of a camera, its own bit depth's first.
+// Formats that a GigE Vision camera offers, fewest bits first; and the one that keeps every bit of a DN.
 std::span<const WireFormat> formats_of(BayerPattern pattern);
 WireFormat native_format(int bits, BayerPattern pattern);
 

@@ -63,10 +63,10 @@ TEST(Gvsp, EveryPacketHasTheStandardsBytes) {
          [&](Out o) { return write_image_leader(with(longer, kLeader), true, 5, image, o); },
          "0000 0000 81 000000 123456789ABCDEF0 89ABCDEF 0000 4001 0000000000000005"
          "01100005 00000280 000001E0 00000010 00000020 0000 0000"},
-        {"trailer", [&](Out o) { return write_image_trailer(with(plain, kTrailer), 480, nullptr, o); },
+        {"trailer", [&](Out o) { return write_trailer(with(plain, kTrailer), kImage, 480, nullptr, o); },
          "0000 1234 02 00ABCD 0000 0001 000001E0"},
         {"trailer of an image with chunks",
-         [&](Out o) { return write_image_trailer(with(longer, kTrailer), 480, &chunks, o); },
+         [&](Out o) { return write_trailer(with(longer, kTrailer), kImage, 480, &chunks, o); },
          "0000 0000 82 000000 123456789ABCDEF0 89ABCDEF 0000 4001 000001E0 00012345 00000042"},
         {"multipart leader",
          [&](Out o) { return write_multipart_leader(with(longer, kLeader), true, 5, parts, o); },
@@ -79,11 +79,11 @@ TEST(Gvsp, EveryPacketHasTheStandardsBytes) {
          [&](Out o) { return write_part_payload(with(longer, kMultipart), 1, 0x123456789A, o); },
          "0000 0000 87 000000 123456789ABCDEF0 89ABCDEF 01 00 0012 3456789A"},
         {"multipart trailer",
-         [&](Out o) { return write_multipart_trailer(with(longer, kTrailer), nullptr, o); },
-         "0000 0000 82 000000 123456789ABCDEF0 89ABCDEF 0000 000A"},
+         [&](Out o) { return write_trailer(with(longer, kTrailer), kMultipartPayload, 480, nullptr, o); },
+         "0000 0000 82 000000 123456789ABCDEF0 89ABCDEF 0000 000A 000001E0"},
         {"multipart trailer with chunks",
-         [&](Out o) { return write_multipart_trailer(with(longer, kTrailer), &chunks, o); },
-         "0000 0000 82 000000 123456789ABCDEF0 89ABCDEF 0000 400A 00012345 00000042"},
+         [&](Out o) { return write_trailer(with(longer, kTrailer), kMultipartPayload, 480, &chunks, o); },
+         "0000 0000 82 000000 123456789ABCDEF0 89ABCDEF 0000 400A 000001E0 00012345 00000042"},
     };
     for (const Row& row : rows) {
         std::vector<std::uint8_t> out(kMostHeadBytes + 1, 0xEE);
