@@ -195,7 +195,8 @@ class Faults(StreamTest):
         self.assertGreater(blocks[-1] - blocks[0], len(blocks) - 1)
         for frame in frames:
             self.same_as_file(frame)
-            self.assertEqual(frame.block - first.block, self.frame_id(frame) - self.frame_id(first))
+            # An exposure that the loop misses takes a frame id and no block id.
+            self.assertLessEqual(frame.block - first.block, self.frame_id(frame) - self.frame_id(first))
 
     def test_repeated_frames_show_the_picture_before(self):
         stream = self.streaming()

@@ -239,12 +239,12 @@ class StreamReceiver:
             block.last_id = packet.id
 
     def _look_after(self, now_ns):
-        newest = max(self.blocks, default=0)
+        newest = max((b.first_ns for b in self.blocks.values()), default=0)  # ids wrap
         for block in sorted(self.blocks.values(), key=lambda b: b.first_ns):
             if block.last_id is not None and len(block.packets) >= block.last_id + 1 and not block.missing():
                 self._finish(block)
                 continue
-            old = block.block != newest
+            old = block.first_ns != newest
             if not self.resend:
                 if old or now_ns - block.last_ns > 200_000_000:
                     self._finish(block)
