@@ -16,7 +16,7 @@ double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 json percentiles(const DurationHistogram& h) {
     return {{"p50", rounded(h.quantile_ms(0.5))},
             {"p99", rounded(h.quantile_ms(0.99))},
-            {"p99_9", rounded(h.quantile_ms(0.999))},
+            {"p99.9", rounded(h.quantile_ms(0.999))},
             {"max", rounded(h.quantile_ms(1))}};
 }
 
