@@ -23,7 +23,7 @@ TEST(GigeSettings, GeometryStaysOnTheSensorAndIsLockedWhileStreaming) {
     EXPECT_EQ(b.read(reg::kPayloadSize), 320u * 480 * 2);
     EXPECT_EQ(b.write(reg::kPixelFormat, pfnc_code(WireFormat::kMono8, {})), gvcp::kSuccess);
     EXPECT_EQ(b.read(reg::kPayloadSize), 320u * 480);
-    EXPECT_EQ(b.write(reg::kPixelFormat, 0x02180014), gvcp::kInvalidParameter);
+    EXPECT_EQ(b.write(reg::kPixelFormat, pfnc_code(WireFormat::kBayer8, "RGGB")), gvcp::kInvalidParameter);
     b.write(reg::kAcquisitionStart, 1);
     EXPECT_EQ(b.read(reg::kParamsLocked), 1u);
     for (const std::uint32_t address : {reg::kWidth, reg::kOffsetY, reg::kPixelFormat, reg::kBinningX,
