@@ -11,7 +11,7 @@ namespace {
 LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
     return {.lockstep = scenario.mode == CameraMode::kLockstep,
             .triggered = scenario.mode == CameraMode::kTriggered,
-            .fixed_size = scenario.outputs.has_v4l2};
+            .fixed_size = scenario.outputs.has_v4l2 || scenario.outputs.has_uvc};
 }
 
 // Cameras of one bench draw different noise.
@@ -72,6 +72,7 @@ void CameraStation::make_sinks() {
         if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;
         sinks_.push_back(std::make_unique<GigeSink>(gige, context));
     }
+    if (o.has_uvc) sinks_.push_back(std::make_unique<UvcSink>(o.uvc, width, height, context));
     if (o.has_v4l2)
         sinks_.push_back(
             std::make_unique<V4l2Sink>(o.v4l2, width, height, settings_.settings().frame_rate_hz, context));
