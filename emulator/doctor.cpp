@@ -55,44 +55,50 @@ void look_at_processor(const MachineFacts& m, Findings& out) {
         out.good("real-time rights", m.root ? "root" : fmt::format("rtprio limit {}", m.realtime_priority));
 }
 
+void look_at_interface(const BenchNeeds::Gige& need, const InterfaceFacts& i, const MachineFacts& m,
+                       Findings& out) {
+    if (!i.fault.empty())
+        return out.problem("gige interface", i.fault, "set outputs.gige.interface to one of them");
+    if (need.packet_bytes > i.mtu_bytes)
+        out.problem(
+            "gige interface",
+            fmt::format("{} carries {} bytes, outputs.gige.packet_bytes is {}", i.name, i.mtu_bytes,
+                        need.packet_bytes),
+            fmt::format("ip link set {} mtu 9000 on both ends, or packet_bytes: {}", i.name, i.mtu_bytes));
+    else
+        out.good("gige interface",
+                 fmt::format("{} on {}, {} bytes a packet", need.interface, i.name, i.mtu_bytes));
+    if (!i.multicast && i.name != "lo")
+        out.note("multicast", i.name + " has none", "ip link set " + i.name + " multicast on");
+    if (i.port_fault.empty())
+        out.good("gige port", "UDP 3956 is free");
+    else
+        out.problem("gige port", i.port_fault, "one GigE Vision device fits on an address");
+    // A client on this machine wants room for two frames; the kernel counts some 768 bytes more than a packet
+    // has.
+    const double each = static_cast<double>(std::max<std::int64_t>(1, need.packet_bytes));
+    const double wanted = 2 * need.frame_bytes * (1 + 768 / each);
+    const std::string room = fmt::format("receive {:.1f} MB, send {:.1f} MB at most",
+                                         static_cast<double>(m.receive_buffer_bytes) / kMegabyte,
+                                         static_cast<double>(m.send_buffer_bytes) / kMegabyte);
+    if (static_cast<double>(m.receive_buffer_bytes) < wanted)
+        out.note("socket buffers", room,
+                 fmt::format("where the client runs: sysctl -w net.core.rmem_max={:.0f} (two frames)",
+                             std::max(wanted, 33554432.0)));
+    else
+        out.good("socket buffers", room);
+}
+
 void look_at_network(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
-    if (n.gige) {
-        if (!m.interface_fault.empty())
-            out.problem("gige interface", m.interface_fault, "set outputs.gige.interface to one of them");
-        else if (n.gige->packet_bytes > m.mtu_bytes)
-            out.problem("gige interface",
-                        fmt::format("{} carries {} bytes, outputs.gige.packet_bytes is {}", m.interface_name,
-                                    m.mtu_bytes, n.gige->packet_bytes),
-                        fmt::format("ip link set {} mtu 9000 on both ends, or packet_bytes: {}",
-                                    m.interface_name, m.mtu_bytes));
+    for (std::size_t i = 0; i < n.gige.size() && i < m.interfaces.size(); ++i)
+        look_at_interface(n.gige[i], m.interfaces[i], m, out);
+    for (std::size_t i = 0; i < n.ports.size() && i < m.port_faults.size(); ++i) {
+        const BenchNeeds::Port& port = n.ports[i];
+        if (m.port_faults[i].empty())
+            out.good("port", fmt::format("{} {} can be had", port.tcp ? "TCP" : "UDP", port.endpoint));
         else
-            out.good("gige interface", fmt::format("{}, {} bytes a packet", m.interface_name, m.mtu_bytes));
-        if (m.interface_fault.empty() && !m.interface_multicast && m.interface_name != "lo")
-            out.note("multicast", m.interface_name + " has none",
-                     "ip link set " + m.interface_name + " multicast on");
-        if (!m.gvcp_fault.empty())
-            out.problem("gige port", m.gvcp_fault, "one GigE Vision device fits on an address");
-        else if (m.interface_fault.empty())
-            out.good("gige port", "UDP 3956 is free");
-        // A client on this machine wants room for two frames; the kernel counts 768 bytes more than a packet
-        // has.
-        const double wanted =
-            2 * n.frame_bytes *
-            (1 + 768.0 / static_cast<double>(std::max<std::int64_t>(1, n.gige->packet_bytes)));
-        const std::string room = fmt::format("receive {:.1f} MB, send {:.1f} MB at most",
-                                             static_cast<double>(m.receive_buffer_bytes) / kMegabyte,
-                                             static_cast<double>(m.send_buffer_bytes) / kMegabyte);
-        if (static_cast<double>(m.receive_buffer_bytes) < wanted)
-            out.note("socket buffers", room,
-                     fmt::format("where the client runs: sysctl -w net.core.rmem_max={:.0f} (two frames)",
-                                 std::max(wanted, 33554432.0)));
-        else
-            out.good("socket buffers", room);
+            out.problem("port", m.port_faults[i], "stop that program, or set " + port.key);
     }
-    for (const std::string& fault : m.command_faults)
-        out.problem("commands", fault, "stop that program, or set commands.udp.port");
-    if (!n.command_endpoints.empty() && m.command_faults.empty())
-        out.good("commands", fmt::format("UDP {} can be had", fmt::join(n.command_endpoints, ", ")));
     if (m.aravis_tools)
         out.good("aravis", "its tools are installed");
     else
@@ -133,7 +139,9 @@ void look_at_loopback_device(const BenchNeeds::V4l2& need, const MachineFacts& m
 }
 
 void look_at_v4l2(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
-    const bool needed = n.v4l2.has_value();
+    const bool needed = !n.v4l2.empty();
+    const bool wide_bayer =
+        std::any_of(n.v4l2.begin(), n.v4l2.end(), [](const auto& v) { return v.wide_bayer; });
     if (!m.loopback.loaded) {
         out.lacking(
             needed, "v4l2loopback", m.loopback_installed ? "installed, not loaded" : "not installed",
@@ -142,7 +150,7 @@ void look_at_v4l2(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
                 : "apt install v4l2loopback-dkms linux-headers-amd64 (with secure boot: sign the module)");
         return;
     }
-    if (m.loopback.shared_queue() && needed && n.v4l2->wide_bayer)
+    if (m.loopback.shared_queue() && wide_bayer)
         out.problem("v4l2loopback", m.loopback.name() + " has no Bayer formats above 8 bits",
                     "install 0.14 or later, or set outputs.v4l2.format to BAYER8 or Y16");
     else if (m.loopback.shared_queue())
@@ -157,22 +165,24 @@ void look_at_v4l2(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
                 "; 0.14 and later are free of this");
     else
         out.good("v4l2loopback", "version " + m.loopback.name());
-    if (needed) look_at_loopback_device(*n.v4l2, m, out);
+    for (const BenchNeeds::V4l2& need : n.v4l2) look_at_loopback_device(need, m, out);
 }
 
 void look_at_usb(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
-    const bool needed = n.uvc.has_value();
-    const bool named = needed && !n.uvc->udc.empty();
+    const bool needed = !n.uvc.empty();
+    const auto absent = std::find_if(n.uvc.begin(), n.uvc.end(), [&](const BenchNeeds::Uvc& need) {
+        return !need.udc.empty() &&
+               std::find(m.controllers.begin(), m.controllers.end(), need.udc) == m.controllers.end();
+    });
     if (m.controllers.empty())
         out.lacking(
             needed, "usb device side", "no USB device controller (/sys/class/udc is empty)",
             needed ? "use a board that has one (Raspberry Pi 4 with dtoverlay=dwc2, dwc3 in peripheral mode)"
-                   : "only needed for outputs.uvc and commands from a USB host");
-    else if (named &&
-             std::find(m.controllers.begin(), m.controllers.end(), n.uvc->udc) == m.controllers.end())
+                   : "only needed for outputs.uvc and for commands from a USB host");
+    else if (absent != n.uvc.end())
         out.problem(
             "usb device side",
-            fmt::format("no controller '{}'; there is {}", n.uvc->udc, fmt::join(m.controllers, ", ")),
+            fmt::format("no controller '{}'; there is {}", absent->udc, fmt::join(m.controllers, ", ")),
             "set outputs.uvc.udc");
     else if (needed && !m.configfs)
         out.problem("usb device side", "configfs has no usb_gadget",
@@ -211,19 +221,26 @@ const char* word_of(Level level) {
 
 }  // namespace
 
-BenchNeeds needs_of(const ScenarioConfig& s) {
+BenchNeeds needs_of(const ScenarioConfig& scenario) {
     BenchNeeds needs;
-    const auto [width, height] = frame_size(s.camera);
-    needs.frame_bytes = static_cast<double>(width) * height * (s.camera.frame_bits() > 8 ? 2 : 1);
-    const OutputsConfig& o = s.outputs;
-    if (o.has_gige)
-        needs.gige = {o.gige.interface, o.gige.packet_bytes, needs.frame_bytes * s.camera.frame_rate_hz};
-    if (o.has_v4l2)
-        needs.v4l2 = {o.v4l2.device,
-                      o.v4l2.format == V4l2Format::kBayer10 || o.v4l2.format == V4l2Format::kBayer12};
-    if (o.has_uvc) needs.uvc = {o.uvc.udc};
-    if (s.commands.has_udp)
-        needs.command_endpoints.push_back(fmt::format("{}:{}", s.commands.udp.address, s.commands.udp.port));
+    const auto port = [&](std::string key, const std::string& address, std::int64_t number, bool tcp) {
+        needs.ports.push_back({std::move(key), fmt::format("{}:{}", address, number), tcp});
+    };
+    for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
+        const ScenarioConfig s = scenario_of_camera(scenario, i);
+        const OutputsConfig& o = s.outputs;
+        const auto [width, height] = frame_size(s.camera);
+        const double frame_bytes = static_cast<double>(width) * height * (s.camera.frame_bits() > 8 ? 2 : 1);
+        if (o.has_gige) needs.gige.push_back({o.gige.interface, o.gige.packet_bytes, frame_bytes});
+        if (o.has_v4l2)
+            needs.v4l2.push_back({o.v4l2.device, o.v4l2.format == V4l2Format::kBayer10 ||
+                                                     o.v4l2.format == V4l2Format::kBayer12});
+        if (o.has_uvc) needs.uvc.push_back({o.uvc.udc});
+        if (o.has_preview) port("outputs.preview.port", o.preview.address, o.preview.port, true);
+    }
+    const CommandsConfig& c = scenario.commands;
+    if (c.has_udp) port("commands.udp.port", c.udp.address, c.udp.port, false);
+    if (c.has_tcp) port("commands.tcp.port", c.tcp.address, c.tcp.port, true);
     return needs;
 }
 

@@ -3,7 +3,6 @@
 // Pure: doctor_facts.h looks at the machine.
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ struct BenchNeeds {
     struct Gige {
         std::string interface;
         std::int64_t packet_bytes = 0;
-        double stream_bytes_s = 0;
+        double frame_bytes = 0;
     };
     struct V4l2 {
         std::string device;
@@ -26,11 +25,16 @@ struct BenchNeeds {
     struct Uvc {
         std::string udc;
     };
-    std::optional<Gige> gige;
-    std::optional<V4l2> v4l2;
-    std::optional<Uvc> uvc;
-    std::vector<std::string> command_endpoints;  // "127.0.0.1:5010", UDP
-    double frame_bytes = 0;
+    // A port of this machine, "127.0.0.1:5010".
+    struct Port {
+        std::string key, endpoint;
+        bool tcp = false;
+    };
+    // One for each camera that has such an output.
+    std::vector<Gige> gige;
+    std::vector<V4l2> v4l2;
+    std::vector<Uvc> uvc;
+    std::vector<Port> ports;
 };
 BenchNeeds needs_of(const ScenarioConfig& scenario);
 
@@ -44,6 +48,14 @@ struct VideoDevice {
     int buffers = 0;  // that go round now; 0: not told
 };
 
+struct InterfaceFacts {
+    std::string fault;  // why it is not there; then nothing else is known
+    std::string name;
+    std::uint32_t mtu_bytes = 0;
+    bool multicast = true;
+    std::string port_fault;  // why UDP 3956 cannot be had
+};
+
 struct MachineFacts {
     // Processor and rights.
     int cores = 1;
@@ -54,12 +66,8 @@ struct MachineFacts {
     std::string kernel;  // release
     // Network.
     std::uint64_t receive_buffer_bytes = 0, send_buffer_bytes = 0;  // net.core.rmem_max, wmem_max
-    std::string interface_fault;                                    // why the GigE interface is not there
-    std::string interface_name;
-    std::uint32_t mtu_bytes = 0;
-    bool interface_multicast = true;
-    std::string gvcp_fault;                   // why UDP 3956 cannot be had
-    std::vector<std::string> command_faults;  // why command ports cannot be had
+    std::vector<InterfaceFacts> interfaces;                         // for each of BenchNeeds::gige
+    std::vector<std::string> port_faults;  // of BenchNeeds::ports; empty: it can be had
     bool aravis_tools = false;
     // V4L2.
     LoopbackModule loopback;

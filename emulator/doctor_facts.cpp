@@ -5,10 +5,13 @@
 #include <net/if.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/timex.h>
 #include <sys/utsname.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <thread>
 
@@ -46,13 +49,40 @@ std::uint64_t limit_of(decltype(RLIMIT_RTPRIO) which) {
 }
 
 // Why a UDP port cannot be had, or empty.
-std::string port_fault(std::uint32_t address, std::uint16_t port) {
+std::string udp_fault(std::uint32_t address, std::uint16_t port) {
     try {
         open_udp(address, port);
         return "";
     } catch (const DeviceError& error) {
         return error.what();
     }
+}
+
+std::string port_fault(const BenchNeeds::Port& port) {
+    const sockaddr_in where = parse_endpoint(port.endpoint);
+    if (!port.tcp) return udp_fault(ntohl(where.sin_addr.s_addr), ntohs(where.sin_port));
+    const Fd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    const int on = 1;
+    setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    if (bind(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof where) == 0) return "";
+    return "TCP " + port.endpoint + ": " + std::strerror(errno);
+}
+
+InterfaceFacts look_at_interface(const std::string& name_or_address) {
+    InterfaceFacts facts;
+    try {
+        const NetInterface interface = find_interface(name_or_address);
+        facts.name = interface.name;
+        facts.mtu_bytes = interface.mtu_bytes;
+        std::ifstream in("/sys/class/net/" + interface.name + "/flags");
+        std::uint64_t flags = 0;
+        in >> std::hex >> flags;
+        facts.multicast = (flags & IFF_MULTICAST) != 0;
+        facts.port_fault = udp_fault(interface.address, kGvcpPort);
+    } catch (const InputError& error) {
+        facts.fault = error.what();
+    }
+    return facts;
 }
 
 void look_at_processor(MachineFacts& m) {
@@ -69,25 +99,8 @@ void look_at_processor(MachineFacts& m) {
 void look_at_network(const BenchNeeds& needs, MachineFacts& m) {
     m.receive_buffer_bytes = number_in("/proc/sys/net/core/rmem_max");
     m.send_buffer_bytes = number_in("/proc/sys/net/core/wmem_max");
-    if (needs.gige) {
-        try {
-            const NetInterface interface = find_interface(needs.gige->interface);
-            m.interface_name = interface.name;
-            m.mtu_bytes = interface.mtu_bytes;
-            std::ifstream flags("/sys/class/net/" + interface.name + "/flags");
-            std::uint64_t bits = 0;
-            flags >> std::hex >> bits;
-            m.interface_multicast = (bits & IFF_MULTICAST) != 0;
-            m.gvcp_fault = port_fault(interface.address, kGvcpPort);
-        } catch (const InputError& error) {
-            m.interface_fault = error.what();
-        }
-    }
-    for (const std::string& endpoint : needs.command_endpoints) {
-        const sockaddr_in where = parse_endpoint(endpoint);
-        const std::string fault = port_fault(ntohl(where.sin_addr.s_addr), ntohs(where.sin_port));
-        if (!fault.empty()) m.command_faults.push_back(fault);
-    }
+    for (const BenchNeeds::Gige& need : needs.gige) m.interfaces.push_back(look_at_interface(need.interface));
+    for (const BenchNeeds::Port& port : needs.ports) m.port_faults.push_back(port_fault(port));
     m.aravis_tools = fs::exists("/usr/bin/arv-camera-test-0.8") || fs::exists("/usr/bin/arv-tool-0.8");
 }
 

@@ -98,7 +98,7 @@ std::vector<ConfigfsStep> uvc_gadget_tree(const UvcConfig& c, const UvcStreamSha
     };
     file(frame / "dwMinBitRate", bits_per_second(shape.intervals_100ns.back()));
     file(frame / "dwMaxBitRate", bits_per_second(shape.intervals_100ns.front()));
-    file(frame / "dwDefaultFrameInterval", std::to_string(shape.intervals_100ns.front()));
+    file(frame / "dwDefaultFrameInterval", std::to_string(shape.preset_100ns));
     std::string intervals;
     for (const std::uint32_t interval : shape.intervals_100ns)
         intervals.append(intervals.empty() ? "" : "\n").append(std::to_string(interval));

@@ -15,22 +15,22 @@ void put(UvcAnswer& answer, std::size_t at, std::uint32_t value, std::size_t byt
         answer.bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-std::uint32_t interval_of(double rate_hz) { return static_cast<std::uint32_t>(std::lround(1e7 / rate_hz)); }
-
 }  // namespace
 
+std::uint32_t uvc_interval(double rate_hz) { return static_cast<std::uint32_t>(std::lround(1e7 / rate_hz)); }
+
 std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double most_frame_rate_hz) {
-    std::vector<std::uint32_t> list = {interval_of(frame_rate_hz)};
+    std::vector<std::uint32_t> list = {uvc_interval(frame_rate_hz)};
     for (const double rate_hz : {60.0, 30.0, 25.0, 20.0, 15.0, 10.0, 5.0, 1.0})
-        if (rate_hz <= most_frame_rate_hz) list.push_back(interval_of(rate_hz));
+        if (rate_hz <= most_frame_rate_hz) list.push_back(uvc_interval(rate_hz));
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     return list;
 }
 
 UvcStream::UvcStream(UvcStreamShape shape) : shape_(std::move(shape)) {
-    HILCAM_CHECK(!shape_.intervals_100ns.empty());
-    default_100ns_ = probe_100ns_ = commit_100ns_ = shape_.intervals_100ns.front();
+    HILCAM_CHECK(!shape_.intervals_100ns.empty() && shape_.preset_100ns > 0);
+    probe_100ns_ = commit_100ns_ = shape_.preset_100ns;
 }
 
 UvcAnswer UvcStream::control(std::uint32_t interval_100ns) const {
@@ -62,8 +62,10 @@ std::optional<UvcAnswer> UvcStream::setup(std::uint8_t selector, std::uint8_t re
             answer = control(selector == UVC_VS_PROBE_CONTROL ? probe_100ns_ : commit_100ns_);
             break;
         case UVC_GET_MIN:
+            answer = control(shape_.intervals_100ns.front());
+            break;
         case UVC_GET_DEF:
-            answer = control(default_100ns_);
+            answer = control(shape_.preset_100ns);
             break;
         case UVC_GET_MAX:
             answer = control(shape_.intervals_100ns.back());

@@ -14,14 +14,16 @@ namespace hilcam {
 struct UvcStreamShape {
     int width = 0, height = 0;
     std::vector<std::uint32_t> intervals_100ns;  // rising: the fastest rate first
+    std::uint32_t preset_100ns = 0;              // one of them: the camera's own rate
     std::uint32_t most_payload_bytes = 1024;     // of a USB packet
 
     std::uint32_t frame_bytes() const {
         return static_cast<std::uint32_t>(2 * width) * static_cast<std::uint32_t>(height);
     }
 };
-// The camera's own rate first, then what UVC hosts like to choose from, below its highest.
+// The camera's own rate, and what UVC hosts like to choose from below its highest.
 std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double most_frame_rate_hz);
+std::uint32_t uvc_interval(double frame_rate_hz);
 
 class UvcStream {
   public:
@@ -39,7 +41,7 @@ class UvcStream {
     UvcAnswer control(std::uint32_t interval_100ns) const;
 
     UvcStreamShape shape_;
-    std::uint32_t default_100ns_, probe_100ns_, commit_100ns_;
+    std::uint32_t probe_100ns_, commit_100ns_;
     std::uint8_t pending_ = 0;
 };
 

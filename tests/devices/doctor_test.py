@@ -67,7 +67,7 @@ class Doctor(unittest.TestCase):
             two.bind(("127.0.24.1", 3956))
             status, found = doctor("commands.udp.port=15240", "outputs.gige.interface=127.0.24.1")
             self.assertEqual(status, 1)
-            self.assertIn("is taken", found["commands"]["found"])
+            self.assertIn("is taken", found["port"]["found"])
             self.assertIn("is taken", found["gige port"]["found"])
 
 

@@ -18,8 +18,8 @@ MachineFacts good_machine() {
     m.kernel = "6.1.0";
     m.realtime_priority = 80;
     m.receive_buffer_bytes = 64'000'000;
-    m.interface_name = "eth1";
-    m.mtu_bytes = 9000;
+    m.interfaces = {{"", "eth1", 9000, true, ""}};
+    m.port_faults = {""};
     m.aravis_tools = true;
     m.loopback = {true, LoopbackVersion{0, 15, 0}};
     m.video = {{"/dev/video42", "hilcam", true, true, true, true, 0}};
@@ -32,11 +32,10 @@ MachineFacts good_machine() {
 
 BenchNeeds all_needs() {
     BenchNeeds n;
-    n.frame_bytes = 2e6;
-    n.gige = {"eth1", 8192, 5e7};
-    n.v4l2 = {"/dev/video42", false};
-    n.uvc = {""};
-    n.command_endpoints = {"127.0.0.1:5010"};
+    n.gige = {{"eth1", 8192, 2e6}};
+    n.v4l2 = {{"/dev/video42", false}};
+    n.uvc = {{""}};
+    n.ports = {{"commands.udp.port", "127.0.0.1:5010", false}};
     return n;
 }
 
@@ -73,7 +72,7 @@ TEST(Doctor, Loopback) {
     m.loopback = {true, {}};
     EXPECT_THAT(about("v4l2loopback", all_needs(), m, kNote), HasSubstr("before 0.13"));
     BenchNeeds n = all_needs();
-    n.v4l2->wide_bayer = true;
+    n.v4l2[0].wide_bayer = true;
     EXPECT_THAT(about("v4l2loopback", n, m, kProblem), HasSubstr("BAYER8 or Y16"));
 }
 
@@ -100,15 +99,16 @@ TEST(Doctor, LoopbackDevices) {
 
 TEST(Doctor, Network) {
     MachineFacts m = good_machine();
-    m.mtu_bytes = 1500;
+    m.interfaces[0].mtu_bytes = 1500;
     EXPECT_THAT(about("gige interface", all_needs(), m, kProblem), HasSubstr("ip link set eth1 mtu 9000"));
-    m.interface_fault = "no such interface";
+    m.interfaces[0].fault = "no such interface";
     EXPECT_THAT(about("gige interface", all_needs(), m, kProblem), HasSubstr("no such interface"));
     m = good_machine();
-    m.gvcp_fault = "UDP 3956 is taken";
+    m.interfaces[0].port_fault = "UDP 3956 is taken";
     EXPECT_THAT(about("gige port", all_needs(), m, kProblem), HasSubstr("is taken"));
-    m.command_faults = {"UDP 127.0.0.1:5010 is taken"};
-    EXPECT_THAT(about("commands", all_needs(), m, kProblem), HasSubstr("commands.udp.port"));
+    m.port_faults = {"UDP 127.0.0.1:5010 is taken"};
+    EXPECT_THAT(about("port", all_needs(), m, kProblem),
+                HasSubstr("is taken -> stop that program, or set commands.udp.port"));
     m.receive_buffer_bytes = 212992;
     EXPECT_THAT(about("socket buffers", all_needs(), m, kNote), HasSubstr("rmem_max=33554432"));
 }
@@ -122,7 +122,7 @@ TEST(Doctor, Usb) {
     m.root = false;
     EXPECT_THAT(about("usb device side", all_needs(), m, kProblem), HasSubstr("root"));
     BenchNeeds n = all_needs();
-    n.uvc->udc = "dwc3";
+    n.uvc[0].udc = "dwc3";
     EXPECT_THAT(about("usb device side", n, good_machine(), kProblem),
                 HasSubstr("no controller 'dwc3'; there is fe98"));
 }

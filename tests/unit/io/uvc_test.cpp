@@ -96,6 +96,7 @@ UvcStreamShape shape() {
     s.width = 160;
     s.height = 120;
     s.intervals_100ns = uvc_intervals(12, 30);
+    s.preset_100ns = uvc_interval(12);
     return s;
 }
 
@@ -151,7 +152,7 @@ TEST(UvcGadget, ItsTreeIsInAnOrderThatConfigfsTakes) {
     const std::string frame = "hilcam/functions/uvc.camera/streaming/uncompressed/yuyv/frame/";
     EXPECT_EQ(files[frame + "wWidth"], "160");
     EXPECT_EQ(files[frame + "dwMaxVideoFrameBufferSize"], "38400");
-    EXPECT_EQ(files[frame + "dwDefaultFrameInterval"], "333333");
+    EXPECT_EQ(files[frame + "dwDefaultFrameInterval"], "833333");
     EXPECT_THAT(files[frame + "dwFrameInterval"], HasSubstr("333333\n400000\n"));
     EXPECT_EQ(files[frame + "dwMaxBitRate"], "9216009");  // 38400 * 8 / 33.3333 ms
 }

@@ -1,6 +1,7 @@
-// How long frames of a V4L2 device take from their time stamp to this reader.    latency_reader DEVICE FRAMES
+// Reads frames of a V4L2 device and tells their times.    frame_reader DEVICE FRAMES [FILE]
 //
-// One line for each frame: microseconds from the buffer's time stamp to the return of VIDIOC_DQBUF.
+// One line for each frame: microseconds from the buffer's time stamp to the return of VIDIOC_DQBUF, the time
+// stamp itself in seconds, the sequence number. The pictures go to FILE.
 #include <fcntl.h>
 #include <linux/videodev2.h>
 #include <sys/ioctl.h>
@@ -11,7 +12,7 @@
 #include <cstdlib>
 
 int main(int argc, char** argv) {
-    if (argc != 3) return 2;
+    if (argc != 3 && argc != 4) return 2;
     const int fd = open(argv[1], O_RDWR);
     if (fd < 0) return std::perror(argv[1]), 1;
     v4l2_requestbuffers request{};
@@ -19,14 +20,16 @@ int main(int argc, char** argv) {
     request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     request.memory = V4L2_MEMORY_MMAP;
     if (ioctl(fd, VIDIOC_REQBUFS, &request)) return std::perror("VIDIOC_REQBUFS"), 1;
-    for (unsigned i = 0; i < request.count; ++i) {
+    std::FILE* file = argc == 4 ? std::fopen(argv[3], "wb") : nullptr;
+    void* memory[32] = {};
+    for (unsigned i = 0; i < request.count && i < 32; ++i) {
         v4l2_buffer buffer{};
         buffer.index = i;
         buffer.type = request.type;
         buffer.memory = request.memory;
         if (ioctl(fd, VIDIOC_QUERYBUF, &buffer)) return std::perror("VIDIOC_QUERYBUF"), 1;
-        if (mmap(nullptr, buffer.length, PROT_READ, MAP_SHARED, fd, buffer.m.offset) == MAP_FAILED)
-            return std::perror("mmap"), 1;
+        memory[i] = mmap(nullptr, buffer.length, PROT_READ, MAP_SHARED, fd, buffer.m.offset);
+        if (memory[i] == MAP_FAILED) return std::perror("mmap"), 1;
         if (ioctl(fd, VIDIOC_QBUF, &buffer)) return std::perror("VIDIOC_QBUF"), 1;
     }
     int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -41,7 +44,10 @@ int main(int argc, char** argv) {
         const double us = 1e6 * static_cast<double>(now.tv_sec - buffer.timestamp.tv_sec) +
                           1e-3 * static_cast<double>(now.tv_nsec) -
                           static_cast<double>(buffer.timestamp.tv_usec);
-        std::printf("%.1f\n", us);
+        std::printf("%.1f %lld.%06ld %u\n", us, static_cast<long long>(buffer.timestamp.tv_sec),
+                    static_cast<long>(buffer.timestamp.tv_usec), buffer.sequence);
+        if (file) std::fwrite(memory[buffer.index], 1, buffer.bytesused, file);
         if (ioctl(fd, VIDIOC_QBUF, &buffer)) return std::perror("VIDIOC_QBUF"), 1;
     }
+    return !file || std::fclose(file) == 0 ? 0 : 1;
 }
