@@ -48,6 +48,17 @@ class Reader {
         return 0;
     }
 
+    // The newest one's, once no more come. What a module still has from before a restart is not asked about.
+    std::uint64_t last_id(std::size_t bytes_per_line) {
+        std::uint64_t last = 0;
+        for (int silent = 0; silent < 3;) {
+            const std::uint64_t id = next_id(bytes_per_line, 100);
+            silent = id == 0 ? silent + 1 : 0;
+            last = id == 0 ? last : id;
+        }
+        return last;
+    }
+
   private:
     Fd fd_;
 };
@@ -93,7 +104,7 @@ TEST_F(V4l2Faults, AStallWithholdsFrames) {
     EXPECT_EQ(figure("stalled"), 4);
     EXPECT_EQ(delivered(), 7u);
     Reader reader;
-    EXPECT_EQ(reader.next_id(2 * kWidth), 11u);
+    EXPECT_EQ(reader.last_id(2 * kWidth), 11u);
 }
 
 TEST_F(V4l2Faults, ARestartIsSeenByAReaderAsAPauseOnly) {
@@ -106,11 +117,7 @@ TEST_F(V4l2Faults, ARestartIsSeenByAReaderAsAPauseOnly) {
     EXPECT_EQ(figure("reopened"), 1);
     EXPECT_EQ(delivered(), 7u);
     EXPECT_EQ(sink->report().fault, "");
-    std::uint64_t last = 0;
-    for (std::uint64_t next = reader.next_id(2 * kWidth, 200); next != 0;
-         next = reader.next_id(2 * kWidth, 200))
-        last = next;
-    EXPECT_EQ(last, 7u);
+    EXPECT_EQ(reader.last_id(2 * kWidth), 7u);
 }
 
 TEST_F(V4l2Faults, AFlipOpensWithTheOtherBitDepthAndBack) {
@@ -121,7 +128,7 @@ TEST_F(V4l2Faults, AFlipOpensWithTheOtherBitDepthAndBack) {
     publish(2);
     EXPECT_EQ(format_of_device(), "GREY");
     Reader reader;
-    EXPECT_EQ(reader.next_id(kWidth), 4u);
+    EXPECT_EQ(reader.last_id(kWidth), 4u);
     reader = Reader{};
     faults.order({.kind = FaultKind::kV4l2FormatFlip});
     publish(2);
