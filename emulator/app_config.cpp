@@ -180,6 +180,7 @@ Fields fields(OutputsConfig& o) {
     return {
         optional(section("gige", o.gige, "be a GigE Vision camera"), o.has_gige),
         optional(section("v4l2", o.v4l2, "feed a v4l2loopback device"), o.has_v4l2),
+        optional(section("uvc", o.uvc, "be a USB camera, with a USB device controller"), o.has_uvc),
         optional(section("files", o.files, "write pictures"), o.has_files),
         optional(section("preview", o.preview, "a web page with the live picture"), o.has_preview),
     };

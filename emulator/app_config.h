@@ -16,6 +16,7 @@
 #include "io/sink_files.h"
 #include "io/sink_gige.h"
 #include "io/sink_preview.h"
+#include "io/sink_uvc.h"
 #include "io/sink_v4l2.h"
 #include "io/telemetry.h"
 #include "render/atmosphere_config.h"
@@ -145,9 +146,10 @@ struct CommandsConfig {
 Fields fields(CommandsConfig& commands);
 
 struct OutputsConfig {
-    bool has_gige = false, has_v4l2 = false, has_files = false, has_preview = false;
+    bool has_gige = false, has_v4l2 = false, has_uvc = false, has_files = false, has_preview = false;
     GigeConfig gige;
     V4l2Config v4l2;
+    UvcConfig uvc;
     FilesConfig files;
     PreviewConfig preview;
 };

@@ -11,7 +11,7 @@ namespace {
 LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
     return {.lockstep = scenario.mode == CameraMode::kLockstep,
             .triggered = scenario.mode == CameraMode::kTriggered,
-            .fixed_size = scenario.outputs.has_v4l2};
+            .fixed_size = scenario.outputs.has_v4l2 || scenario.outputs.has_uvc};
 }
 
 // Cameras of one bench draw different noise.
@@ -72,9 +72,12 @@ void CameraStation::make_sinks() {
         if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;
         sinks_.push_back(std::make_unique<GigeSink>(gige, context));
     }
+    // These two cannot change size while they run: fixed_size above.
+    const auto [fixed_width, fixed_height] = frame_size(scenario_.camera);
+    if (o.has_uvc) sinks_.push_back(std::make_unique<UvcSink>(o.uvc, fixed_width, fixed_height, context));
     if (o.has_v4l2)
-        sinks_.push_back(
-            std::make_unique<V4l2Sink>(o.v4l2, width, height, settings_.settings().frame_rate_hz, context));
+        sinks_.push_back(std::make_unique<V4l2Sink>(o.v4l2, fixed_width, fixed_height,
+                                                    settings_.settings().frame_rate_hz, context));
     if (o.has_files)
         sinks_.push_back(
             std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));

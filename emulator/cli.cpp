@@ -12,6 +12,8 @@
 #include "emulator/bench.h"
 #include "emulator/characterise_report.h"
 #include "emulator/check_command.h"
+#include "emulator/doctor.h"
+#include "emulator/doctor_facts.h"
 #include "emulator/emulator.h"
 #include "emulator/render_command.h"
 #include "emulator/report.h"
@@ -145,6 +147,13 @@ int run_characterise(const Options& o) {
     return 0;
 }
 
+int run_doctor(const Options& o) {
+    const BenchNeeds needs = o.config.empty() ? BenchNeeds{} : needs_of(load_scenario(o.config, o.overrides));
+    const std::vector<Finding> findings = diagnose(needs, look_at_machine(needs));
+    fmt::print("{}", o.json ? findings_json(findings) : findings_text(findings));
+    return all_there(findings) ? 0 : 1;
+}
+
 void add_config(CLI::App* command, Options& o) {
     command->add_option("config", o.config, "scenario file (YAML)")->required();
     command->add_option("--set", o.overrides, "KEY=VALUE, replaces a value of the scenario; may be repeated")
@@ -211,6 +220,15 @@ int run_command_line(int argc, char** argv) {
     characterise_app->add_flag("--json", o.json, "machine-readable");
     characterise_app->add_option("--out", o.out, "folder for JSON, curves (CSV) and a page with plots");
     characterise_app->callback([&] { action = [&] { return run_characterise(o); }; });
+
+    CLI::App* doctor_app = app.add_subcommand(
+        "doctor", "what this machine lacks to run a bench, and what to do; status 1: something CONFIG needs");
+    doctor_app->add_option("config", o.config, "scenario file (YAML); none: nothing is required");
+    doctor_app
+        ->add_option("--set", o.overrides, "KEY=VALUE, replaces a value of the scenario; may be repeated")
+        ->allow_extra_args(false);
+    doctor_app->add_flag("--json", o.json, "machine-readable");
+    doctor_app->callback([&] { action = [&] { return run_doctor(o); }; });
 
     CLI::App* manual_app = app.add_subcommand("manual", "the keys of a scenario file as a Markdown table");
     manual_app->callback([&] {

@@ -74,8 +74,10 @@ void V4l2Output::check_output() {
     shared_queue_ = module_.shared_queue();
 }
 
-// Asked before S_FMT, because old modules answer an unknown format with another one and remember that.
+// Asked before S_FMT, because old modules answer an unknown format with another one and remember that. New
+// ones take more than they list, and refuse honestly.
 void V4l2Output::check_offered() const {
+    if (!shared_queue_) return;
     const std::vector<std::uint32_t> offered = offered_formats(fd_.get());
     std::string list;
     for (const std::uint32_t fourcc : offered) {
@@ -107,6 +109,9 @@ void V4l2Output::set_format() {
     const std::string asked = fourcc_text(request_.fourcc) + " " + size_text(pixels.width, pixels.height);
     if (v4l2_ioctl(fd_.get(), VIDIOC_S_FMT, &format) < 0) {
         const int reason = errno;
+        if (reason == EINVAL && !shared_queue_)
+            throw DeviceError(request_.device + ": has no " + asked + " (v4l2loopback " + module_.name() +
+                              ", driver's answer: " + std::strerror(reason) + ")");
         throw DeviceError(request_.device + ": refuses " + asked + ": " + std::strerror(reason) +
                           "; another program feeds it or has it open with another size; if none does, "
                           "reload the module (modprobe -r v4l2loopback)");

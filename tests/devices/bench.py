@@ -69,7 +69,7 @@ class Emulator:
         self.folder = pathlib.Path(tempfile.mkdtemp(dir="/dev/shm"))
         self.frames, self.report_file = self.folder / "frames", self.folder / "report.json"
         self.command = [str(HILCAM), "run", str(SCENARIO), "--report", str(self.report_file), *more]
-        settings = list(settings)
+        settings, self.device = list(settings), device
         if device:
             settings.append(f"outputs.v4l2.device={device}")
         if files:
@@ -83,6 +83,8 @@ class Emulator:
             self.process = subprocess.Popen(self.command, stderr=log)
         wait_until(lambda: "running" in self.text() or self.process.poll() is not None, 60, "the emulator")
         assert self.process.poll() is None, self.text()
+        if self.device:  # a camera to others from the first frame on
+            wait_until(lambda: "Video Capture" in run("v4l2-ctl", "-d", self.device, "--info")[1], 20, "the first frame")
         return self
 
     def text(self):

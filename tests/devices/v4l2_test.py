@@ -115,24 +115,20 @@ class Readers(unittest.TestCase):
 
 class Times(unittest.TestCase):
     def stamps(self, text):
-        """(sequence, time stamp [s]) of each buffer in v4l2-ctl's words."""
-        found = []
-        for line in text.splitlines():
-            if "seq:" in line and "ts:" in line:
-                words = line.replace(",", " ").split()
-                found.append((int(words[words.index("seq:") + 1]), float(words[words.index("ts:") + 1])))
-        return found
+        """(sequence, time stamp [s]) of each buffer."""
+        return [(int(sequence), float(stamp)) for _, stamp, sequence in map(str.split, text.splitlines())]
 
     def read(self, io):
         with Loopback(), Emulator(f"outputs.v4l2.io={io}", "outputs.v4l2.metadata_row=bottom") as emulator:
             file = emulator.folder / "frames.raw"
-            status, text = v4l2_ctl(file, 12)
+            status, text = run(bench.TOOLS / "frame_reader", DEVICE, 12, file)
             self.assertEqual(status, 0, text)
             emulator.stop()
             line = 2 * WIDTH
             size = (HEIGHT + 1) * line
             data = file.read_bytes()
             rows = [decode_row(data[at + HEIGHT * line:at + size]) for at in range(0, len(data), size)]
+            self.text = text
             self.written = sorted(emulator.numbers())
             return self.stamps(text), rows
 
@@ -143,7 +139,7 @@ class Times(unittest.TestCase):
 
     def test_mapped_frames_carry_the_time_of_their_exposure(self):
         stamps, rows = self.read("mmap")
-        self.assertEqual(len(stamps), len(rows))
+        self.assertEqual(len(stamps), len(rows), self.text)
         # Before 0.14 a reader's REQBUFS stamps all buffers anew: what was there before it has the time of that.
         first = 0 if bench.version() >= (0, 14, 0) else 2
         for (sequence, stamp), row in list(zip(stamps, rows))[first:]:
