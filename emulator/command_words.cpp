@@ -14,6 +14,22 @@ namespace {
 
 using Take = std::function<void(const Command&)>;
 
+// What cannot be made into a command is the user's error.
+template <class Make>
+void hand_over(const CLI::App* app, const Take& take, const Make& make) {
+    Command command;
+    try {
+        command = make();
+    } catch (const InputError& error) {
+        throw CLI::ValidationError(app->get_name(), error.what());
+    }
+    take(command);
+}
+template <class Make>
+void on(CLI::App* app, const Take& take, Make make) {
+    app->callback([app, take, make] { hand_over(app, take, make); });
+}
+
 Vec3d vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 void add_simple(CLI::App& app, const Take& take) {
@@ -31,12 +47,12 @@ void add_settings(CLI::App& app, const Take& take) {
     CLI::Option* exposure = settings->add_option("--exposure-ms", o->exposure_ms);
     CLI::Option* gain = settings->add_option("--gain-db", o->gain_db);
     CLI::Option* rate = settings->add_option("--frame-rate-hz", o->frame_rate_hz);
-    settings->callback([=] {
+    on(settings, take, [=] {
         SettingsCommand command;
         if (exposure->count()) command.exposure_s = o->exposure_ms * 1e-3;
         if (gain->count()) command.gain_db = o->gain_db;
         if (rate->count()) command.frame_rate_hz = o->frame_rate_hz;
-        take(command);
+        return command;
     });
 }
 
@@ -57,7 +73,7 @@ void add_pose(CLI::App& app, const Take& take) {
     pose->add_option("--up", o->up, "x y z, for --look-at-m");
     pose->add_option("--velocity-m-s", o->velocity_m_s, "x y z in the world");
     pose->add_option("--rate-deg-s", o->rate_deg_s, "x y z about the body axes");
-    pose->callback([=] {
+    on(pose, take, [=] {
         PoseCommand command;
         command.object = static_cast<std::uint16_t>(o->object);
         Motion& m = command.motion;
@@ -67,7 +83,7 @@ void add_pose(CLI::App& app, const Take& take) {
             m.pose.world_from_body = look_along(vec(o->look_at_m) - vec(o->position_m), vec(o->up));
         m.velocity_world_m_s = vec(o->velocity_m_s);
         m.rate_body_rad_s = kDegree_rad * vec(o->rate_deg_s);
-        take(command);
+        return command;
     });
 }
 
@@ -84,12 +100,12 @@ void add_joint(CLI::App& app, const Take& take) {
     joint->add_option("--joint", o->joint, "1, 2, ...: its joints")->check(CLI::Range(1, 65535));
     joint->add_option("--angle-deg", o->angle_deg, "from the file's own state")->required();
     joint->add_option("--rate-deg-s", o->rate_deg_s, "from then on");
-    joint->callback([=] {
-        take(JointCommand{static_cast<std::uint16_t>(o->object),
-                          static_cast<std::uint16_t>(o->joint),
-                          {},
-                          o->angle_deg * kDegree_rad,
-                          o->rate_deg_s * kDegree_rad});
+    on(joint, take, [=] {
+        return JointCommand{static_cast<std::uint16_t>(o->object),
+                            static_cast<std::uint16_t>(o->joint),
+                            {},
+                            o->angle_deg * kDegree_rad,
+                            o->rate_deg_s * kDegree_rad};
     });
 }
 
@@ -106,9 +122,9 @@ void add_expose(CLI::App& app, const Take& take) {
         "--at-utc", o->utc,
         "simulated time of the trigger, in lockstep of the exposure's middle; left out: now, in "
         "lockstep a frame period on");
-    expose->callback([=] {
-        take(ExposeCommand{o->utc.empty() ? TimeTai{} : parse_utc(o->utc),
-                           static_cast<std::uint16_t>(o->frames)});
+    on(expose, take, [=] {
+        return ExposeCommand{o->utc.empty() ? TimeTai{} : parse_utc(o->utc),
+                             static_cast<std::uint16_t>(o->frames)};
     });
 }
 
@@ -124,12 +140,12 @@ void add_mode(CLI::App& app, const Take& take) {
         ->check(CLI::IsMember({"free-run", "triggered"}));
     mode->add_option("--burst-frames", o->burst_frames, "frames of each trigger; left out: as it is")
         ->check(CLI::Range(1, 65535));
-    mode->callback([=] {
-        take(TriggerModeCommand{o->mode == "triggered", static_cast<std::uint16_t>(o->burst_frames)});
+    on(mode, take, [=] {
+        return TriggerModeCommand{o->mode == "triggered", static_cast<std::uint16_t>(o->burst_frames)};
     });
 }
 
-void add_fault(CLI::App& app, const Take& take) {
+void add_fault(CLI::App& app, const Take& take, const std::function<void()>& list_faults) {
     struct Options {
         std::string name;
         FaultOrder order;
@@ -143,18 +159,21 @@ void add_fault(CLI::App& app, const Take& take) {
     fault->add_option("--from-frame", o->order.from_frame, "first frame that can be struck; 0: at once");
     fault->add_option("--frames", o->order.frames, "how many frames; 0: no end");
     fault->add_option("--duration-s", o->order.duration_s, "how long; 0: no end");
-    fault->callback([=] {
+    const auto make = [o] {
         FaultCommand command{o->order, o->name == "clear"};
-        if (!command.clear_all) {
-            const std::optional<FaultKind> kind = fault_named(o->name);
-            if (!kind)
-                throw InputError("found '" + o->name +
-                                 "'; accepted: clear, or a fault's name ('hilcam send fault list')");
-            command.order.kind = *kind;
-            const std::string_view refusal = refusal_of(command.order);
-            if (!refusal.empty()) throw InputError("fault " + o->name + ": " + std::string(refusal));
-        }
-        take(command);
+        if (command.clear_all) return command;
+        const std::optional<FaultKind> kind = fault_named(o->name);
+        if (!kind)
+            throw InputError("found '" + o->name +
+                             "'; accepted: clear, or a fault's name ('hilcam send fault list')");
+        command.order.kind = *kind;
+        const std::string_view refusal = refusal_of(command.order);
+        if (!refusal.empty()) throw InputError(o->name + ": " + std::string(refusal));
+        return command;
+    };
+    fault->callback([=] {
+        if (list_faults && o->name == "list") return list_faults();
+        hand_over(fault, take, make);
     });
 }
 
@@ -188,14 +207,14 @@ Command parse_words(const std::string& words) {
 
 }  // namespace
 
-void add_command_words(CLI::App& app, const Take& take) {
+void add_command_words(CLI::App& app, const Take& take, const std::function<void()>& list_faults) {
     add_simple(app, take);
     add_settings(app, take);
     add_pose(app, take);
     add_joint(app, take);
     add_expose(app, take);
     add_mode(app, take);
-    add_fault(app, take);
+    add_fault(app, take, list_faults);
 }
 
 std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name) {

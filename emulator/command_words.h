@@ -11,8 +11,10 @@
 namespace hilcam {
 
 // Adds a subcommand for each command: ping, start, stop, settings, pose, joint, expose, mode, fault. `take`
-// gets the one that was chosen, when parsing ends well.
-void add_command_words(CLI::App& app, const std::function<void(const Command&)>& take);
+// gets the one that was chosen, when parsing ends well; `list_faults` is called for "fault list", which is no
+// command, unless it is empty.
+void add_command_words(CLI::App& app, const std::function<void(const Command&)>& take,
+                       const std::function<void()>& list_faults = {});
 
 // One line of a script: when, and what. Times are seconds since the script's start.
 struct ScriptLine {

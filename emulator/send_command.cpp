@@ -80,17 +80,13 @@ void add_send_command(CLI::App& app, std::function<int()>& action) {
     CLI::App* send = app.add_subcommand("send", "send commands to a running emulator");
     send->require_subcommand(1);
     add_target(*send, o->target);
-    add_command_words(*send, [&action, o](const Command& command) {
-        o->command = command;
-        action = [o] { return send_one(*o); };
-    });
-    // The one word that is no command.
-    CLI::App* fault = send->get_subcommand("fault");
-    fault->parse_complete_callback([] {});
-    fault->add_subcommand("list", "the faults and what they do")->callback([&action] {
-        action = list_faults;
-    });
-
+    add_command_words(
+        *send,
+        [&action, o](const Command& command) {
+            o->command = command;
+            action = [o] { return send_one(*o); };
+        },
+        [&action] { action = list_faults; });
     CLI::App* fly = send->add_subcommand("fly", "fly on a circle around a point, looking at it");
     add_fly_options(*fly, o->fly);
     fly->callback([&action, o] { action = [o] { return send_flight(o->target, o->fly); }; });

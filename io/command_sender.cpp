@@ -35,7 +35,7 @@ bool CommandSender::next_packet(std::span<const std::uint8_t>& packet, std::int6
         if (left_ns <= 0) return false;
         const CommandLink::Received got =
             link_->receive(stream_.room(), static_cast<int>(left_ns / 1'000'000 + 1));
-        if (got.broken) throw DeviceError(endpoint_ + ": the connection has ended");
+        if (got.broken) throw DeviceError(endpoint_ + ": nobody is there; is 'hilcam run' up and listening?");
         stream_.filled(got.bytes);
     }
 }
