@@ -173,6 +173,9 @@ Fields fields(CommandsConfig& c) {
         optional(section("udp", c.udp, "listen for commands"), c.has_udp),
         optional(section("tcp", c.tcp, "the same over TCP, for several clients"), c.has_tcp),
         optional(section("unix", c.unix_socket, "the same over a Unix socket"), c.has_unix),
+        optional(section("usb", c.usb, "the same from a USB device with a bulk pair"), c.has_usb),
+        optional(section("functionfs", c.functionfs, "the same as a USB device (FunctionFS)"),
+                 c.has_functionfs),
     };
 }
 

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "emulator/world_state.h"
+#include "io/commands_functionfs.h"
 #include "io/commands_tcp.h"
 #include "io/commands_udp.h"
 #include "io/commands_unix.h"
+#include "io/commands_usb.h"
 #include "io/height_map_file.h"
 #include "io/sink_files.h"
 #include "io/sink_gige.h"
@@ -138,10 +140,12 @@ void validate(const FaultConfig& fault);
 FaultOrder order_of(const FaultConfig& fault);
 
 struct CommandsConfig {
-    bool has_udp = false, has_tcp = false, has_unix = false;
+    bool has_udp = false, has_tcp = false, has_unix = false, has_usb = false, has_functionfs = false;
     UdpCommandConfig udp;
     TcpCommandConfig tcp;
     UnixCommandConfig unix_socket;
+    UsbCommandConfig usb;
+    FunctionFsConfig functionfs;
 };
 Fields fields(CommandsConfig& commands);
 

@@ -13,6 +13,7 @@ ONLY_IN = {
     "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
     "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp"},
     "httplib": {"io/sink_preview.cpp"},
+    "libusb": {"io/command_link_usb.cpp", "io/commands_usb.cpp", "io/usb_device.cpp"},
     "erfa": {"render/bodies.cpp", "render/stars.cpp", "render/time.cpp"},
 }
 

@@ -1,0 +1,16 @@
+#pragma once
+// Where `hilcam send` sends to.
+
+#include <string>
+
+#include "io/command_dialect.h"
+
+namespace hilcam {
+
+struct SendTarget {
+    std::string endpoint = "127.0.0.1:5010";
+    DialectConfig dialect{};
+    int timeout_ms = 1000;
+};
+
+}  // namespace hilcam
