@@ -203,7 +203,7 @@ class GStreamer(CameraTest):
         """aravissrc's 16-bit and 8-bit pictures against the files output of the same run."""
         if subprocess.run(["gst-inspect-1.0", "aravissrc"], capture_output=True).returncode != 0:
             self.skipTest("GStreamer or its aravissrc is missing (gstreamer1.0-tools, libaravis-0.8-0)")
-        files = FrameFiles(self.folder.name + "/frames", 12)
+        files = FrameFiles(self.folder.name + "/frames")
         for caps, name in (("video/x-raw,format=GRAY8", "Mono8"), ("video/x-raw,format=GRAY16_LE", "Mono16")):
             with tempfile.TemporaryDirectory() as folder:
                 result = subprocess.run(
