@@ -35,6 +35,15 @@ class Formats(StreamTest):
             self.assertIn(name, formats)
         self.each_format(formats)
 
+    def test_rgb_of_a_camera_without_colours_is_grey(self):
+        self.feature.set("PixelFormat", "RGB8")
+        self.chunks_on("FrameID")
+        stream = self.streaming()
+        frame = stream.take(2)[1]
+        grey = self.expected(self.frame_id(frame), "Mono8")
+        self.assertEqual([frame.image[i::3] for i in range(3)], [grey] * 3)
+        self.stop()
+
     def test_windows_of_odd_sizes(self):
         self.chunks_on("FrameID")
         for name, (x, y, w, h) in (("Mono12", (3, 5, 101, 67)), ("Mono8", (155, 91, 101, 101)), ("Mono8", (0, 0, 1, 1))):
