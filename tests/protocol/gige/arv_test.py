@@ -61,17 +61,18 @@ class Conformance(CameraTest):
         self.assertEqual(ignored, {"Genicam:Schema", "Properties:SensorSizeCheck"})
 
     def test_arv_test_with_all_it_can_check(self):
-        chunks = "FrameID Timestamp ExposureTime Gain BlackLevel OffsetX OffsetY Width Height PixelFormat"
+        # Integers only: arv-test 0.8 reads chunks as such.
+        chunks = ("FrameID Timestamp OffsetX OffsetY Width Height PixelFormat PoseSequence PoseTime ExposureMid TriggerSequence "
+                  "Faults")
         with tempfile.NamedTemporaryFile("w", suffix=".cfg") as configuration:
             # Schema: arv-test 0.8 validates descriptions of schema 1.1 against 1.0's (both are loaded from one
             # resource); device_test.py validates against the right one.
             configuration.write("[hilcam:test-camera]\nSchema=Ignore\nSensorSize=256;192\nSoftwareTriggerSupport=true\n"
                                 f"ChunksSupport=true\nChunkList={chunks}\n")
             configuration.flush()
-            results = self.run_test("-c", configuration.name, "-a")
+            results = self.run_test("-c", configuration.name)
         self.judge(results)
         self.assertEqual([name for name, line in results.items() if line[0] == "IGNORED"], [])
-        self.assertIn("Genicam:RegisterCache", results)
 
 
 class Acquisition(CameraTest):
@@ -203,7 +204,7 @@ class GStreamer(CameraTest):
         """aravissrc's 16-bit and 8-bit pictures against the files output of the same run."""
         if subprocess.run(["gst-inspect-1.0", "aravissrc"], capture_output=True).returncode != 0:
             self.skipTest("GStreamer or its aravissrc is missing (gstreamer1.0-tools, libaravis-0.8-0)")
-        files = FrameFiles(self.folder.name + "/frames", 12)
+        files = FrameFiles(self.folder.name + "/frames")
         for caps, name in (("video/x-raw,format=GRAY8", "Mono8"), ("video/x-raw,format=GRAY16_LE", "Mono16")):
             with tempfile.TemporaryDirectory() as folder:
                 result = subprocess.run(

@@ -130,13 +130,6 @@ class Emulator:
 
 # --- numbers of the file output as bytes of a pixel format
 
-def read_png(file):
-    """A frame file: (height, width) of DN."""
-    import numpy
-    from PIL import Image
-    return numpy.asarray(Image.open(file)).astype(numpy.uint16)
-
-
 def wire_bytes(dn, bits, name):
     """What the camera sends of these DN in a pixel format (PFNC name); colour formats that interpolate excepted."""
     import numpy
@@ -158,30 +151,25 @@ def wire_bytes(dn, bits, name):
 
 
 class FrameFiles:
-    """The folder of the file output, indexed by what a frame looks like in a pixel format."""
+    """The folder of the file output: PNG, or raw of 16 bits a pixel (needs the picture's width)."""
 
-    def __init__(self, folder, bits):
-        self.folder, self.bits, self.found = pathlib.Path(folder), bits, {}
+    def __init__(self, folder, raw_width=None):
+        self.folder, self.raw_width = pathlib.Path(folder), raw_width
+        self.ending = "raw" if raw_width else "png"
 
     def file(self, frame_id):
-        return self.folder / f"frame_{frame_id:08d}.png"
+        return self.folder / f"frame_{frame_id:08d}.{self.ending}"
 
     def dn(self, frame_id):
-        return read_png(self.file(frame_id))
+        """(height, width) of DN."""
+        import numpy
+        if self.raw_width:
+            return numpy.fromfile(self.file(frame_id), "<u2").reshape(-1, self.raw_width)
+        from PIL import Image
+        return numpy.asarray(Image.open(self.file(frame_id))).astype(numpy.uint16)
 
     def ids(self):
-        return sorted(int(path.stem.split("_")[1]) for path in self.folder.glob("frame_*.png"))
-
-    def index(self, name, window=None):
-        """bytes -> frame id, of every frame; window: (x, y, width, height)."""
-        index = {}
-        for frame_id in self.ids():
-            dn = self.dn(frame_id)
-            if window:
-                x, y, w, h = window
-                dn = dn[y:y + h, x:x + w]
-            index[wire_bytes(dn, self.bits, name)] = frame_id
-        return index
+        return sorted(int(path.stem.split("_")[1]) for path in self.folder.glob(f"frame_*.{self.ending}"))
 
 
 # --- commands of hilcam's own protocol (docs/protocol.md), for those who send many

@@ -21,7 +21,7 @@ class CameraTest(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.emulator = Emulator(cls.hilcam, cls.address, cls.folder.name,
                                 *(value.format(folder=cls.folder.name) for value in cls.sets))
-        cls.faulty = False
+        cls.faulty, cls.xml = False, None
 
     @classmethod
     def tearDownClass(cls):
@@ -29,7 +29,17 @@ class CameraTest(unittest.TestCase):
         cls.folder.cleanup()
 
     def setUp(self):
+        """A camera keeps its settings from one client to the next: begin with the factory's."""
         self.clients = []
+        with g.GvcpClient(self.address, CLIENT) as client:
+            self.eventually("the camera is free", lambda: client.exchange(g.WRITEREG, struct.pack(
+                ">II", g.CCP, g.CCP_CONTROL)).status == g.SUCCESS)
+            type(self).xml = self.xml or client.description()[0]
+            features = Features(client, self.xml)
+            features.set("UserSetSelector", "Default")
+            features.execute("UserSetLoad")
+            client.write_registers((g.HEARTBEAT, 3000), (g.GVCP_CONFIG, 0), (g.GVSP_CONFIG, 0))
+            client.release()
 
     def tearDown(self):
         for client in self.clients:
@@ -80,9 +90,10 @@ class StreamTest(CameraTest):
 
     @classmethod
     def setUpClass(cls):
-        cls.sets = (*cls.sets, "outputs.files.folder={folder}/frames")
+        # Raw files at half the frame rate: a busy machine writes them, too.
+        cls.sets = (*cls.sets, "outputs.files.folder={folder}/frames", "outputs.files.format=raw", "camera.frame_rate_hz=15")
         super().setUpClass()
-        cls.files = FrameFiles(cls.folder.name + "/frames", cls.BITS)
+        cls.files = FrameFiles(cls.folder.name + "/frames", 256)
 
     def setUp(self):
         super().setUp()
@@ -90,12 +101,8 @@ class StreamTest(CameraTest):
         self.feature = Features(self.camera)
 
     def tearDown(self):
-        """As the scenario has it."""
         try:
             self.feature.execute("AcquisitionStop")
-            self.feature.set("UserSetSelector", "Default")
-            self.feature.execute("UserSetLoad")
-            self.camera.write_register(g.GVSP_CONFIG, 0)
         finally:
             super().tearDown()
 

@@ -20,13 +20,6 @@ LOCKED = (g.WRITE_PROTECT, g.ACCESS_DENIED, g.BUSY)
 
 
 class Settings(CameraTest):
-    def setUp(self):
-        super().setUp()
-        features = self.features()
-        features.set("UserSetSelector", "Default")
-        features.execute("UserSetLoad")
-        self.clients.pop().release()
-
     def test_geometry_is_locked_while_streaming(self):
         client = self.controller()
         features = Features(client)

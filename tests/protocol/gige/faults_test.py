@@ -27,8 +27,8 @@ class Resend(StreamTest):
                 frames = stream.take(40)
                 self.stop()
                 self.emulator.clear_faults()
-                self.assertEqual([frame.block for frame in frames],
-                                 list(range(frames[0].block, frames[0].block + 40)))
+                # A frame that waits for its packets may be whole after the next.
+                self.assertEqual(sorted(frame.block for frame in frames), list(range(1, 41)))
                 for frame in frames:
                     self.same_as_file(frame)
                 # 40 frames of 103 packets: 82 lost on average; fewer than 40 has a probability below 1e-6.
@@ -43,7 +43,7 @@ class Resend(StreamTest):
         for block, first, last in ((60000, 0, 5), (60001, 3, 3)):
             self.camera.send(g.command_bytes(g.PACKETRESEND, g.resend_payload(block, first, last), 0, self.camera.new_id()))
         self.eventually("an answer", lambda: any(status & 0x8000 for status in stream.statuses))
-        self.assertLessEqual({status for status in stream.statuses if status & 0x8000}, {0x800C, 0x8011, 0x8012})
+        self.assertLessEqual({status for status in stream.statuses if status & 0x8000}, {0x800C, 0x8010, 0x8011, 0x8012})
         self.stop()
 
     def test_senseless_requests_do_no_harm(self):

@@ -89,6 +89,7 @@ class GvcpClient:
         self.socket.connect((camera, PORT))
         self.next_id = random.randint(1, 60000)
         self.pending_acks = []  # ms announced by PENDING_ACKs
+        self.sent_s = time.monotonic()
         self.retries = 0
 
     def close(self):
@@ -111,7 +112,16 @@ class GvcpClient:
         return self.next_id
 
     def send(self, datagram):
+        self.sent_s = time.monotonic()
         self.socket.send(datagram)
+
+    def keep_control(self):
+        """A heartbeat, when it is time for one."""
+        if time.monotonic() - self.sent_s > 1.0:
+            try:
+                self.exchange(READREG, struct.pack(">I", CCP), tries=1)
+            except NoAnswer:
+                pass
 
     def receive(self, timeout_s=None):
         """The next datagram, or None."""

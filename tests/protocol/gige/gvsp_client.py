@@ -173,10 +173,13 @@ class StreamReceiver:
         self.close()
 
     def next_frame(self, timeout_s=5.0):
-        with self.ready:
-            if not self.ready.wait_for(lambda: self.frames, timeout_s):
-                return None
-            return self.frames.popleft()
+        until = time.monotonic() + timeout_s
+        while (left := until - time.monotonic()) > 0:
+            self.client.keep_control()
+            with self.ready:
+                if self.ready.wait_for(lambda: self.frames, min(left, 0.5)):
+                    return self.frames.popleft()
+        return None
 
     def take(self, count, timeout_s=5.0):
         frames = []
@@ -220,12 +223,13 @@ class StreamReceiver:
             self.statistics["late_packets"] += 1
             return
         block = self.blocks.get(packet.block)
-        if block is None:
-            block = self.blocks[packet.block] = _Block(packet.block, now_ns)
         if packet.status & 0x8000:
             self.statistics["error_packets"] += 1
-            block.unavailable = True
+            if block is not None:
+                block.unavailable = True
             return
+        if block is None:
+            block = self.blocks[packet.block] = _Block(packet.block, now_ns)
         block.last_ns, block.extended = now_ns, packet.extended
         if packet.status == RESENT or packet.flags & 1:
             block.resent += 1

@@ -184,7 +184,9 @@ class Actions(CameraTest):
         self.assertEqual(client.exchange(g.ACTION, payload(at), flags).status, g.SUCCESS)
         frame = stream.next_frame(10)
         self.assertGreaterEqual(frame.timestamp, at)
+        client.write_register(g.GVCP_CONFIG, 1 << 18 | 1 << 2)  # status codes of GigE Vision 1.1 and 2.0
         late = client.exchange(g.ACTION, payload(at), flags)
+        client.write_register(g.GVCP_CONFIG, 0)
         self.assertEqual(late.status, ACTION_LATE)
         self.disarm(features, stream)
 

@@ -62,7 +62,8 @@ class Formats(StreamTest):
 
 class Colour(StreamTest):
     """The same through a colour filter array."""
-    sets = ("camera.color_filter.pattern=RGGB",)
+    sets = ("camera.color_filter={{pattern: RG GB, filters: [{{name: R, transmission: [[0.4, 0.1], [0.9, 0.9]]}}, "
+            "{{name: G, transmission: [[0.4, 0.5], [0.9, 0.5]]}}, {{name: B, transmission: [[0.4, 0.9], [0.9, 0.1]]}}]}}",)
 
     def test_every_mosaic_format_is_byte_for_byte_the_file(self):
         formats = [name for name in self.feature.entries("PixelFormat") if name.startswith("Bayer")]
