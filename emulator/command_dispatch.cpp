@@ -40,9 +40,7 @@ SettingsChange change_of(const TriggerModeCommand& m) {
 
 }  // namespace
 
-CommandStatus CommandDispatch::handle(const Command& command, std::uint32_t sequence,
-                                      std::int64_t arrival_monotonic_ns) {
-    const Source source{sequence, arrival_monotonic_ns, 0};
+CommandStatus CommandDispatch::handle(const Command& command, const CommandSource& source) {
     if (const auto* pose = std::get_if<PoseCommand>(&command)) return set_pose(*pose, source);
     if (const auto* joint = std::get_if<JointCommand>(&command)) return turn(*joint, source);
     if (const auto* settings = std::get_if<SettingsCommand>(&command))
@@ -72,14 +70,14 @@ CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act) {
 }
 
 // A tag of 0 is the arrival; false for one too far from it. In lockstep time goes where it is told to.
-bool CommandDispatch::resolve(TimeTai& tag, const Source& source) const {
+bool CommandDispatch::resolve(TimeTai& tag, const CommandSource& source) const {
     const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
     if (tag.ns == 0) tag = arrival;
     // Compared without subtracting: a hostile tag must not overflow.
     return clock_.lockstep() || !(tag < arrival + -kFarthestTag_ns || arrival + kFarthestTag_ns < tag);
 }
 
-CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const Source& source) {
+CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const CommandSource& source) {
     Motion motion = pose.motion;
     if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
     return for_cameras(0, [&](const CommandedCamera& c) {
@@ -89,7 +87,7 @@ CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const Source& s
     });
 }
 
-CommandStatus CommandDispatch::turn(const JointCommand& joint, const Source& source) {
+CommandStatus CommandDispatch::turn(const JointCommand& joint, const CommandSource& source) {
     WorldState::JointMotion motion{joint.time, joint.angle_rad, joint.rate_rad_s};
     if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
     return for_cameras(0, [&](const CommandedCamera& c) {
@@ -100,14 +98,14 @@ CommandStatus CommandDispatch::turn(const JointCommand& joint, const Source& sou
     });
 }
 
-CommandStatus CommandDispatch::change(const SettingsChange& change, const Source& source,
+CommandStatus CommandDispatch::change(const SettingsChange& change, const CommandSource& source,
                                       CommandStatus refused) {
     return for_cameras(source.camera, [&](const CommandedCamera& c) {
         return c.settings->change(change) ? CommandStatus::kAccepted : refused;
     });
 }
 
-CommandStatus CommandDispatch::expose(const ExposeCommand& e, const Source& source) {
+CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSource& source) {
     TriggerOrder order;
     order.source = TriggerSource::kLine0;
     order.frames = e.frames;
@@ -125,7 +123,7 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const Source& sour
 
 // Answers when the loops have seen the world for the order's last frame: commands that come later do not
 // count for its frames, so the same commands give the same frames at any pace.
-CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, const Source& source) {
+CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, const CommandSource& source) {
     const std::lock_guard one(lockstep_);
     const CommandStatus status = for_cameras(source.camera, [&](const CommandedCamera& c) {
         return status_of(c.settings->order_in_lockstep(order));
@@ -136,7 +134,7 @@ CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, con
     return status == CommandStatus::kAccepted ? done : status;
 }
 
-CommandStatus CommandDispatch::order(const FaultCommand& f, const Source& source) {
+CommandStatus CommandDispatch::order(const FaultCommand& f, const CommandSource& source) {
     if (!f.clear_all && !refusal_of(f.order).empty()) return CommandStatus::kBadArgument;
     return for_cameras(source.camera, [&](const CommandedCamera& c) {
         f.clear_all ? c.faults->clear_all() : c.faults->order(f.order);

@@ -28,26 +28,19 @@ class CommandDispatch : public CommandHandler {
     CommandDispatch(std::vector<CommandedCamera> cameras, const SimulatedClock& clock)
         : cameras_(std::move(cameras)), clock_(clock) {}
 
-    CommandStatus handle(const Command& command, std::uint32_t sequence,
-                         std::int64_t arrival_monotonic_ns) override;
+    CommandStatus handle(const Command& command, const CommandSource& source) override;
     TimeTai now() const override { return clock_.now(); }
 
   private:
-    // Which cameras: from 1; 0: all.
-    struct Source {
-        std::uint32_t sequence = 0;
-        std::int64_t arrival_monotonic_ns = 0;
-        std::uint16_t camera = 0;
-    };
     template <class F>
     CommandStatus for_cameras(std::uint16_t camera, F&& act);
-    CommandStatus set_pose(const PoseCommand& pose, const Source& source);
-    CommandStatus turn(const JointCommand& joint, const Source& source);
-    bool resolve(TimeTai& tag, const Source& source) const;
-    CommandStatus change(const SettingsChange& change, const Source& source, CommandStatus refused);
-    CommandStatus expose(const ExposeCommand& expose, const Source& source);
-    CommandStatus expose_in_lockstep(const TriggerOrder& order, const Source& source);
-    CommandStatus order(const FaultCommand& fault, const Source& source);
+    CommandStatus set_pose(const PoseCommand& pose, const CommandSource& source);
+    CommandStatus turn(const JointCommand& joint, const CommandSource& source);
+    bool resolve(TimeTai& tag, const CommandSource& source) const;
+    CommandStatus change(const SettingsChange& change, const CommandSource& source, CommandStatus refused);
+    CommandStatus expose(const ExposeCommand& expose, const CommandSource& source);
+    CommandStatus expose_in_lockstep(const TriggerOrder& order, const CommandSource& source);
+    CommandStatus order(const FaultCommand& fault, const CommandSource& source);
 
     std::vector<CommandedCamera> cameras_;
     const SimulatedClock& clock_;

@@ -32,7 +32,9 @@ int print(const Acknowledgement& a) {
 }
 
 int send_one(const SendOptions& o) {
-    return print(CommandSender(o.target.endpoint, o.target.dialect).send(o.command, o.target.timeout_ms));
+    CommandSender sender(o.target.endpoint, o.target.dialect);
+    sender.address(o.target.camera);
+    return print(sender.send(o.command, o.target.timeout_ms));
 }
 
 int list_faults() {
@@ -47,6 +49,7 @@ int play_script(const SendOptions& o) {
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     const std::vector<ScriptLine> lines = parse_script(text, o.script.string());
     CommandSender sender(o.target.endpoint, o.target.dialect);
+    sender.address(o.target.camera);
     const std::int64_t start_ns = monotonic_now_ns();
     std::size_t refused = 0;
     for (const ScriptLine& line : lines) {
@@ -69,6 +72,8 @@ void add_target(CLI::App& send, SendTarget& target) {
     const std::map<std::string, Dialect> dialects = {{"hilcam", Dialect::kHilcam}, {"cfs", Dialect::kCfs}};
     send.add_option("--dialect", target.dialect.dialect, "hilcam or cfs, as the emulator's")
         ->transform(CLI::CheckedTransformer(dialects));
+    send.add_option("--camera", target.camera,
+                    "which camera settings, triggers and faults are for, from 1; 0: every one");
     send.add_option("--timeout-ms", target.timeout_ms, "wait for an acknowledgement")
         ->check(CLI::Range(1, 600000));
 }

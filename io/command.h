@@ -77,13 +77,19 @@ enum class CommandStatus : std::uint8_t {
     kNotNow = 10,         // the camera's mode has no use for it
 };
 
+// Of a command that has arrived.
+struct CommandSource {
+    std::uint32_t sequence = 0;
+    std::int64_t arrival_monotonic_ns = 0;
+    std::uint16_t camera = 0;  // that it is for, from 1; 0: every one. Poses and angles are for all.
+};
+
 // What the emulator does with a decoded command. Called by the receivers' threads, one at a time per
 // receiver.
 class CommandHandler {
   public:
     virtual ~CommandHandler() = default;
-    virtual CommandStatus handle(const Command& command, std::uint32_t sequence,
-                                 std::int64_t arrival_monotonic_ns) = 0;
+    virtual CommandStatus handle(const Command& command, const CommandSource& source) = 0;
     // Simulated time now.
     virtual TimeTai now() const = 0;
 };

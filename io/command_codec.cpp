@@ -23,7 +23,7 @@ Refusal read_packet(std::span<const std::uint8_t> packet, DecodedCommand& out) {
     in.skip(SpacePacketHeader::kBytes);
     const std::uint8_t version = in.u8();
     out.function = in.u8();
-    in.u16();
+    out.camera = in.u16();
     out.sequence = in.u32();
     if (const Refusal r = check_header(out.header, packet.size()); r.status != CommandStatus::kAccepted)
         return r;
@@ -46,9 +46,10 @@ DecodedCommand decode_command(std::span<const std::uint8_t> packet) {
     return out;
 }
 
-std::size_t encode_command(const Command& command, std::uint32_t sequence, std::span<std::uint8_t> bytes) {
+std::size_t encode_command(const Command& command, std::uint32_t sequence, std::span<std::uint8_t> bytes,
+                           std::uint16_t camera) {
     ByteWriter out(bytes.subspan(SpacePacketHeader::kBytes));
-    out.u8(kProtocolVersion).u8(function_of(command)).u16(0).u32(sequence);
+    out.u8(kProtocolVersion).u8(function_of(command)).u16(camera).u32(sequence);
     write_payload(command, out);
     return seal_packet(
         {.command = true, .apid = kCommandApid, .count = static_cast<std::uint16_t>(sequence & 0x3FFF)},

@@ -22,12 +22,14 @@ struct DecodedCommand {
     Command command;
     SpacePacketHeader header;
     std::uint8_t function = 0;
+    std::uint16_t camera = 0;  // 0: every one
     std::uint32_t sequence = 0;
 };
 
 // Exactly one packet (its length already taken from the header).
 DecodedCommand decode_command(std::span<const std::uint8_t> packet);
 // Gives the number of bytes written.
-std::size_t encode_command(const Command& command, std::uint32_t sequence, std::span<std::uint8_t> bytes);
+std::size_t encode_command(const Command& command, std::uint32_t sequence, std::span<std::uint8_t> bytes,
+                           std::uint16_t camera = 0);
 
 }  // namespace hilcam

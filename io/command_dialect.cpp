@@ -49,9 +49,9 @@ DecodedCommand decode_command(std::span<const std::uint8_t> packet, const Dialec
                      : decode_command(packet);
 }
 std::size_t encode_command(const Command& command, std::uint32_t sequence, const DialectConfig& d,
-                           std::span<std::uint8_t> bytes) {
+                           std::span<std::uint8_t> bytes, std::uint16_t camera) {
     return is_cfs(d) ? encode_cfs_command(command, sequence, bytes)
-                     : encode_command(command, sequence, bytes);
+                     : encode_command(command, sequence, bytes, camera);
 }
 std::size_t encode_acknowledgement(const Acknowledgement& a, std::uint16_t count, const DialectConfig& d,
                                    std::span<std::uint8_t> bytes) {

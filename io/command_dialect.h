@@ -28,7 +28,7 @@ inline constexpr std::size_t kMostPacketBytes = 256;
 
 DecodedCommand decode_command(std::span<const std::uint8_t> packet, const DialectConfig& dialect);
 std::size_t encode_command(const Command& command, std::uint32_t sequence, const DialectConfig& dialect,
-                           std::span<std::uint8_t> bytes);
+                           std::span<std::uint8_t> bytes, std::uint16_t camera = 0);
 std::size_t encode_acknowledgement(const Acknowledgement& acknowledgement, std::uint16_t count,
                                    const DialectConfig& dialect, std::span<std::uint8_t> bytes);
 bool decode_acknowledgement(std::span<const std::uint8_t> packet, const DialectConfig& dialect,

@@ -45,7 +45,7 @@ Acknowledgement CommandSender::send(const Command& command, int timeout_ms) {
     // What comes back of a sequence number is what travels.
     const std::uint32_t sequence = dialect_.dialect == Dialect::kCfs ? sequence_ & 0x3FFF : sequence_;
     ++sequence_;
-    const std::size_t size = encode_command(command, sequence, dialect_, bytes);
+    const std::size_t size = encode_command(command, sequence, dialect_, bytes, camera_);
     if (!link_->send(std::span(bytes).first(size))) throw silent(timeout_ms);
     const std::int64_t deadline_ns = deadline_after(timeout_ms);
     std::span<const std::uint8_t> packet;

@@ -19,6 +19,8 @@ class CommandSender {
 
     // Sends once and waits. Throws DeviceError when no acknowledgement comes in time.
     Acknowledgement send(const Command& command, int timeout_ms = 1000);
+    // Which camera what follows is for, from 1; 0: every one. Not of the cFS dialect.
+    void address(std::uint16_t camera) { camera_ = camera; }
     // The next telemetry packet; false when none comes in time. Throws DeviceError when the link breaks.
     bool receive(Telemetry& telemetry, int timeout_ms);
 
@@ -32,6 +34,7 @@ class CommandSender {
     std::unique_ptr<CommandLink> link_;
     PacketStream stream_;
     std::deque<Telemetry> waiting_;  // came while an acknowledgement was waited for; the last 1000
+    std::uint16_t camera_ = 0;
     std::uint32_t sequence_ = 0;
 };
 

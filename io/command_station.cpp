@@ -108,7 +108,8 @@ CommandStatus CommandStation::perform(const DecodedCommand& decoded, std::span<c
     if (known && sender.repeats(packet, arrival_ns)) return sender.once_status;
     if (const auto* subscription = std::get_if<SubscribeCommand>(&decoded.command))
         sender.report.subscription = *subscription;
-    const CommandStatus status = handler_.handle(decoded.command, decoded.sequence, arrival_ns);
+    const CommandStatus status =
+        handler_.handle(decoded.command, {decoded.sequence, arrival_ns, decoded.camera});
     if (std::holds_alternative<ExposeCommand>(decoded.command) ||
         std::holds_alternative<FaultCommand>(decoded.command))
         sender.remember(packet, arrival_ns, status);

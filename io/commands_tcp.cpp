@@ -14,9 +14,7 @@ namespace {
 // Nobody asks it anything: the clients of a read-only port are not listened to.
 class NobodysHandler : public CommandHandler {
   public:
-    CommandStatus handle(const Command&, std::uint32_t, std::int64_t) override {
-        return CommandStatus::kNotNow;
-    }
+    CommandStatus handle(const Command&, const CommandSource&) override { return CommandStatus::kNotNow; }
     TimeTai now() const override { return {}; }
 };
 

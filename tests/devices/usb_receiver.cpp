@@ -17,8 +17,9 @@ namespace {
 
 class OrderCheck : public hilcam::CommandHandler {
   public:
-    hilcam::CommandStatus handle(const hilcam::Command& command, std::uint32_t sequence,
-                                 std::int64_t) override {
+    hilcam::CommandStatus handle(const hilcam::Command& command,
+                                 const hilcam::CommandSource& source) override {
+        const std::uint32_t sequence = source.sequence;
         const auto& pose = std::get<hilcam::PoseCommand>(command);
         const auto number = static_cast<std::uint32_t>(pose.motion.pose.position_world_m.x);
         if (number != sequence || sequence > next) ++wrong;

@@ -48,10 +48,10 @@ inline std::string hex(std::span<const std::uint8_t> bytes) {
 
 class Recorder : public CommandHandler {
   public:
-    CommandStatus handle(const Command& command, std::uint32_t sequence, std::int64_t) override {
+    CommandStatus handle(const Command& command, const CommandSource& source) override {
         const std::lock_guard lock(mutex_);
         commands_.push_back(command);
-        sequences_.push_back(sequence);
+        sequences_.push_back(source.sequence);
         const auto* pose = std::get_if<PoseCommand>(&command);
         return pose && pose->object > 2 ? CommandStatus::kUnknownObject : CommandStatus::kAccepted;
     }

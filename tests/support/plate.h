@@ -104,7 +104,7 @@ struct LoopRig {
     ~LoopRig() { loop.stop(); }
 
     CommandStatus send(const Command& command) {
-        return dispatch.handle(command, ++sequence_, monotonic_now_ns());
+        return dispatch.handle(command, {++sequence_, monotonic_now_ns()});
     }
 
   private:

@@ -128,16 +128,16 @@ TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
     SettingsCommand command;
     command.gain_db = 3;
     command.exposure_s = 1e9;
-    EXPECT_EQ(dispatch.handle(command, 1, 0), CommandStatus::kBadArgument);
+    EXPECT_EQ(dispatch.handle(command, {1, 0}), CommandStatus::kBadArgument);
     EXPECT_EQ(settings.settings().gain_db, camera.gain_db);
     PoseCommand pose;
     pose.motion.time.ns = std::numeric_limits<std::int64_t>::min();
-    EXPECT_EQ(dispatch.handle(pose, 1, 0), CommandStatus::kTimeOutOfRange);
+    EXPECT_EQ(dispatch.handle(pose, {1, 0}), CommandStatus::kTimeOutOfRange);
     pose.motion.time.ns = 0;
-    EXPECT_EQ(dispatch.handle(pose, 1, 0), CommandStatus::kAccepted);
+    EXPECT_EQ(dispatch.handle(pose, {1, 0}), CommandStatus::kAccepted);
     pose.object = 9;
-    EXPECT_EQ(dispatch.handle(pose, 1, 0), CommandStatus::kUnknownObject);
-    dispatch.handle(StopCommand{}, 1, 0);
+    EXPECT_EQ(dispatch.handle(pose, {1, 0}), CommandStatus::kUnknownObject);
+    dispatch.handle(StopCommand{}, {1, 0});
     EXPECT_FALSE(settings.settings().running);
 }
 
@@ -265,6 +265,36 @@ TEST(WorldState, AMountedCameraRidesOnItsBody) {
     // w about the body's z is about the camera's y.
     EXPECT_NEAR(snapshot.camera_rate_rad_s.y, w, 1e-5);
     EXPECT_NEAR(snapshot.camera_rate_rad_s.z, 0, 1e-5);
+}
+
+TEST(CommandDispatch, ACommandIsForTheCameraItNamesAndAPoseForAll) {
+    CameraModel camera;
+    LiveSettings left(camera), right(camera);
+    const Motion initial = at(0, 0);
+    WorldState left_world(std::span(&initial, 1), {}), right_world(std::span(&initial, 1), {});
+    FaultBoard left_faults, right_faults;
+    const SimulatedClock clock({1'000'000'000'000'000}, 0);
+    CommandDispatch dispatch({{&left_world, &left, &left_faults}, {&right_world, &right, &right_faults}},
+                             clock);
+    SettingsCommand settings;
+    settings.gain_db = 3;
+    EXPECT_EQ(dispatch.handle(settings, {1, 0, 2}), CommandStatus::kAccepted);
+    EXPECT_EQ(left.settings().gain_db, 0);
+    EXPECT_EQ(right.settings().gain_db, 3);
+    settings.gain_db = 6;
+    EXPECT_EQ(dispatch.handle(settings, {2, 0, 0}), CommandStatus::kAccepted);
+    EXPECT_EQ(left.settings().gain_db, 6);
+    EXPECT_EQ(right.settings().gain_db, 6);
+    EXPECT_EQ(dispatch.handle(settings, {3, 0, 3}), CommandStatus::kUnknownObject);
+    EXPECT_EQ(dispatch.handle(FaultCommand{{FaultKind::kFrameDrop, 1, 0, 0, 0, 0}, false}, {4, 0, 1}),
+              CommandStatus::kAccepted);
+    EXPECT_TRUE(left_faults.order_of(FaultKind::kFrameDrop));
+    EXPECT_FALSE(right_faults.order_of(FaultKind::kFrameDrop));
+    PoseCommand pose;
+    pose.motion = at(1'000'000'000'000'000, 7);
+    EXPECT_EQ(dispatch.handle(pose, {5, 1, 1}), CommandStatus::kAccepted);
+    EXPECT_EQ(x_of(left_world, 1'000'000'000'000'000), 7);
+    EXPECT_EQ(x_of(right_world, 1'000'000'000'000'000), 7);
 }
 
 }  // namespace

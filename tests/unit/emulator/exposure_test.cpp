@@ -293,7 +293,7 @@ TEST(LiveSettings, RefusesWhatTheCameraSetsItself) {
     SettingsCommand command;
     command.exposure_s = 1e-3;
     command.gain_db = 6;
-    EXPECT_EQ(dispatch.handle(command, 1, 0), CommandStatus::kBadArgument);
+    EXPECT_EQ(dispatch.handle(command, {1, 0}), CommandStatus::kBadArgument);
     EXPECT_EQ(automatic.settings().gain_db, 0);
 }
 
