@@ -12,6 +12,7 @@
 #include "io/monotonic.h"
 #include "io/usb_answers.h"
 #include "io/usb_device.h"
+#include "render/check.h"
 
 namespace hilcam {
 namespace {
@@ -59,6 +60,7 @@ class UsbCommandReceiver : public CommandReceiver {
     static void LIBUSB_CALL on_output(libusb_transfer* usb);
     static int LIBUSB_CALL on_hotplug(libusb_context*, libusb_device* device, libusb_hotplug_event event,
                                       void* owner);
+    void renew_context();
     void run();
     void handle_events(int milliseconds);
     void look_for_device();
@@ -96,27 +98,33 @@ class UsbCommandReceiver : public CommandReceiver {
 };
 
 void UsbCommandReceiver::start() {
-    UsbContext context = make_usb_context();
-    {
-        const std::lock_guard lock(context_mutex_);
-        context_ = std::move(context);
-    }
+    renew_context();
     for (Transfer& t : inputs_) t.owner = this, t.usb = libusb_alloc_transfer(0);
     output_.owner = this, output_.usb = libusb_alloc_transfer(0);
-    // Without hot-plug events the device is looked for twice a second all the same.
-    if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG))
-        libusb_hotplug_register_callback(
-            context_.get(), LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT,
-            LIBUSB_HOTPLUG_NO_FLAGS, id_.vendor, id_.product, LIBUSB_HOTPLUG_MATCH_ANY, on_hotplug, this,
-            nullptr);
     stopping_ = false;
     thread_ = std::thread([this] { run(); });
+}
+
+// libusb hears of new devices through udev; where no udev daemon runs (a small bench machine, a container)
+// only a new context sees them.
+void UsbCommandReceiver::renew_context() {
+    UsbContext context = make_usb_context();
+    if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG))
+        libusb_hotplug_register_callback(
+            context.get(), LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT,
+            LIBUSB_HOTPLUG_NO_FLAGS, id_.vendor, id_.product, LIBUSB_HOTPLUG_MATCH_ANY, on_hotplug, this,
+            nullptr);
+    const std::lock_guard lock(context_mutex_);
+    context_ = std::move(context);
 }
 
 void UsbCommandReceiver::stop() noexcept {
     if (!thread_.joinable()) return;
     stopping_ = true;
-    libusb_interrupt_event_handler(context_.get());
+    {
+        const std::lock_guard lock(context_mutex_);
+        libusb_interrupt_event_handler(context_.get());
+    }
     thread_.join();
     for (Transfer& t : inputs_) libusb_free_transfer(t.usb);
     libusb_free_transfer(output_.usb);
@@ -177,10 +185,16 @@ bool UsbCommandReceiver::detached_by_fault() {
 void UsbCommandReceiver::look_for_device() {
     const std::int64_t now_ns = monotonic_ns();
     if (!arrived_ && now_ns < next_try_ns_) return;
-    arrived_ = false;
     next_try_ns_ = now_ns + kTryAgain_ns;
     std::string why;
-    UsbDevice found = open_usb(context_.get(), id_, why);
+    UsbDevice found;
+    try {
+        if (!arrived_) renew_context();
+        arrived_ = false;
+        found = open_usb(context_.get(), id_, why);
+    } catch (const DeviceError& error) {
+        why = error.what();
+    }
     {
         const std::lock_guard lock(trouble_mutex_);
         trouble_ = why.empty() ? "" : "USB device " + to_string(id_) + " " + why;

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Commands over a real USB stack, both ways round. Runs in the test machine (tools/vm/boot) as root:
-#
-#   usb_commands.sh BIN_FOLDER SCENARIO
+# Commands over a real USB stack, both ways round. Runs in the test machine as root (tools/check-devices usb): HILCAM
+# is the program, with usb_pose_gadget and usb_receiver beside it.
 #
 # 1. A gadget (FunctionFS on dummy_hcd) sends 10,000 poses to hilcam's libusb receiver; the cable is pulled and
 #    plugged while it does; all come, in order.
@@ -9,14 +8,29 @@
 # 3. hilcam is the device (commands.functionfs), `hilcam send --to usb:...` the host; the device leaves the bus by
 #    a fault and comes back.
 set -u
-bin=$1 hilcam=$1/hilcam scenario=$2
+hilcam=$HILCAM
+bin=$(dirname "$hilcam")
+scenario=/run/scenario.yaml
 failures=0
+for program in hilcam usb_pose_gadget usb_receiver; do
+    [ -x "$bin/$program" ] || { echo "usb: $bin/$program is missing; build it"; exit 1; }
+done
+cat >$scenario <<'Y'
+name: usb
+time_utc: 2026-03-20T14:00:00Z
+camera: {name: usb, width_px: 64, height_px: 48, pitch_um: 5.5, focal_length_mm: 2.5, f_number: 8, quantum_efficiency: 0.5,
+    full_well_e: 13500, read_noise_e: 5, gain_dn_e: 0.29, bits: 12, exposure_ms: 0.15, frame_rate_hz: 10}
+camera_pose: {position_m: [0, -40, 0], attitude: look_at, look_at_m: [0, 0, 0], up: [0, 0, 1]}
+spectrum_edges_um: [0.4, 0.7, 0.95]
+quality: {samples_per_axis: 1, max_depth: 1, guard_px: 16}
+Y
 say() { echo "usb: $*"; }
 check() { if [ "$1" -eq 0 ]; then say "PASS $2"; else say "FAIL $2"; failures=$((failures + 1)); fi; }
 
 modprobe libcomposite && modprobe usb_f_fs && modprobe dummy_hcd num=2 || exit 1
 mountpoint -q /sys/kernel/config || mount -t configfs none /sys/kernel/config
-mapfile -t controllers < <(ls /sys/class/udc)
+controllers=(/sys/class/udc/*)
+controllers=("${controllers[@]##*/}")
 say "controllers: ${controllers[*]}"
 
 make_gadget() { # name, product id
@@ -35,7 +49,7 @@ plug() { echo "${controllers[0]}" >/sys/kernel/config/usb_gadget/poses/UDC; }
 pull() { echo >/sys/kernel/config/usb_gadget/poses/UDC; }
 start_gadget() { # count
     rm -f /run/says && mkfifo /run/says
-    "$bin/usb_pose_gadget" /dev/ffs-poses "$1" >/run/says &
+    timeout 200 "$bin/usb_pose_gadget" /dev/ffs-poses "$1" >/run/says &
     gadget=$!
     exec 7</run/says
     read -r line <&7

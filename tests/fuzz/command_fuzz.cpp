@@ -24,6 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     std::array<std::uint8_t, kMostCommandBytes> again;
     const std::size_t written = encode_command(decoded.command, decoded.sequence, again);
-    HILCAM_CHECK(decode_command(std::span(again).first(written)).status == CommandStatus::kAccepted);
+    const DecodedCommand back = decode_command(std::span(again).first(written));
+    HILCAM_CHECK(back.status == CommandStatus::kAccepted && back.sequence == decoded.sequence);
+    HILCAM_CHECK(back.command.index() == decoded.command.index());
     return 0;
 }

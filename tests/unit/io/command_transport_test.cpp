@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "io/allow_list.h"
+#include "io/command_sender.h"
 #include "io/commands_tcp.h"
 #include "io/commands_udp.h"
 #include "io/commands_unix.h"
@@ -304,6 +305,48 @@ TEST(CommandsUdp, TelemetryGoesToASubscriber) {
     Telemetry telemetry;
     ASSERT_TRUE(decode_telemetry(std::span(bytes).first(static_cast<std::size_t>(got)), telemetry));
     EXPECT_EQ(std::get<HousekeepingFigures>(telemetry).frames, 99u);
+}
+
+// What `hilcam send` does over each of them; a telemetry packet before an answer is kept.
+TEST(CommandSender, TalksOverEveryTransportAndDialect) {
+    const std::string path = "command_sender_" + std::to_string(getpid()) + ".sock";
+    for (const Dialect dialect : {Dialect::kHilcam, Dialect::kCfs}) {
+        Recorder recorder;
+        UdpCommandConfig udp;
+        udp.address = kAddress, udp.port = 15258, udp.dialect.dialect = dialect;
+        TcpCommandConfig tcp = tcp_config(15258);
+        tcp.dialect.dialect = dialect;
+        UnixCommandConfig unix_socket;
+        unix_socket.path = path, unix_socket.dialect.dialect = dialect;
+        unix_socket.type = UnixCommandConfig::Type::kSeqpacket;
+        UdpCommandReceiver udp_receiver(udp, recorder);
+        const auto tcp_receiver = make_tcp_receiver(tcp, recorder),
+                   unix_receiver = make_unix_receiver(unix_socket, recorder);
+        const std::pair<CommandReceiver*, std::string> transports[] = {
+            {&udp_receiver, "udp:127.0.25.1:15258"},
+            {&udp_receiver, "127.0.25.1:15258"},
+            {tcp_receiver.get(), "tcp:127.0.25.1:15258"},
+            {unix_receiver.get(), "unix:" + path}};
+        for (CommandReceiver* r :
+             {static_cast<CommandReceiver*>(&udp_receiver), tcp_receiver.get(), unix_receiver.get()})
+            r->start();
+        for (const auto& [receiver, endpoint] : transports) {
+            CommandSender sender(endpoint, {dialect});
+            EXPECT_EQ(sender.send(SubscribeCommand{true, true}, kPatience_ms).status,
+                      CommandStatus::kAccepted);
+            FrameReport report;
+            report.frame = 5;
+            receiver->tell(report);
+            EXPECT_EQ(sender.send(PingCommand{77}, kPatience_ms).token, 77u) << endpoint;
+            Telemetry telemetry;
+            ASSERT_TRUE(sender.receive(telemetry, kPatience_ms)) << endpoint;
+            EXPECT_EQ(std::get<FrameReport>(telemetry).frame, 5u);
+            sender.send(SubscribeCommand{}, kPatience_ms);
+        }
+    }
+    EXPECT_THAT(error_of([] { CommandSender("tcp:127.0.25.1:15259"); }), HasSubstr("is 'hilcam run' up"));
+    EXPECT_THAT(error_of([&] { CommandSender("unix:" + path); }), HasSubstr("is 'hilcam run' up"));
+    EXPECT_THROW(CommandSender("usb:nonsense"), InputError);
 }
 
 TEST(AllowList, NetworksAnyAndWhatIsRefused) {

@@ -99,21 +99,6 @@ TEST(CommandCodec, ExposeModeAndSubscriptionComeBack) {
     EXPECT_EQ(decode_command(with_crc(bytes)).status, CommandStatus::kBadArgument);
 }
 
-// The worked examples of the protocol's document are what the program sends.
-TEST(CommandCodec, DocumentedBytesAreTheRealOnes) {
-    std::ifstream in(std::string(HILCAM_SOURCE_DIR) + "/docs/protocol.md");
-    std::stringstream text;
-    text << in.rdbuf();
-    EXPECT_THAT(text.str(), testing::HasSubstr(hex(encoded(PingCommand{0x1122334455667788}, 5))));
-    SettingsCommand settings;
-    settings.exposure_s = 0.002;
-    EXPECT_THAT(text.str(), testing::HasSubstr(hex(encoded(settings, 6))));
-    Acknowledgement a{5, CommandStatus::kAccepted, 5, 0x1122334455667788, TimeTai{1'000'000'000}, ""};
-    std::vector<std::uint8_t> bytes(kMostAcknowledgeBytes);
-    bytes.resize(encode_acknowledgement(a, 0, bytes));
-    EXPECT_THAT(text.str(), testing::HasSubstr(hex(bytes)));
-}
-
 TEST(CommandCodec, EachFaultIsRefusedByItsName) {
     const std::vector<std::uint8_t> good = encoded(some_pose(), 1);
     const auto status = [](const std::vector<std::uint8_t>& bytes) { return decode_command(bytes).status; };

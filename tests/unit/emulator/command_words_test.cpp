@@ -1,0 +1,90 @@
+#include "emulator/command_words.h"
+
+#include <gmock/gmock.h>
+
+#include "emulator/send_watch.h"
+#include "render/check.h"
+
+namespace hilcam {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(const std::string& script) {
+    try {
+        parse_script(script, "a.txt");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(CommandScript, LinesHaveTimesAndCommands) {
+    const auto lines = parse_script(
+        "# a comment\n"
+        "ping\n"
+        "\n"
+        "+0.5 pose --object 2 --position-m 1 2 3 --attitude 0 1 0 0  # another\n"
+        "@2 fault packet_drop --rate 0.25 --frames 9\n"
+        "+0.25 fault clear\n"
+        "expose --frames 3\n"
+        "mode triggered --burst-frames 4\n"
+        "settings --gain-db 6\n"
+        "joint --object 1 --angle-deg 180\n"
+        "stop\n",
+        "a.txt");
+    ASSERT_EQ(lines.size(), 9u);
+    EXPECT_EQ(lines[0].at_s, 0);
+    EXPECT_EQ(lines[0].number, 2u);
+    const auto& pose = std::get<PoseCommand>(lines[1].command);
+    EXPECT_EQ(lines[1].at_s, 0.5);
+    EXPECT_EQ(pose.object, 2);
+    EXPECT_EQ(pose.motion.pose.position_world_m.z, 3);
+    EXPECT_EQ(pose.motion.pose.world_from_body.x, 1);
+    const auto& fault = std::get<FaultCommand>(lines[2].command);
+    EXPECT_EQ(lines[2].at_s, 2);
+    EXPECT_EQ(fault.order.kind, FaultKind::kPacketDrop);
+    EXPECT_EQ(fault.order.rate, 0.25);
+    EXPECT_EQ(fault.order.frames, 9u);
+    EXPECT_EQ(lines[3].at_s, 2.25);
+    EXPECT_TRUE(std::get<FaultCommand>(lines[3].command).clear_all);
+    EXPECT_EQ(lines[4].at_s, 2.25);
+    EXPECT_EQ(std::get<ExposeCommand>(lines[4].command).frames, 3);
+    const auto& mode = std::get<TriggerModeCommand>(lines[5].command);
+    EXPECT_TRUE(mode.triggered);
+    EXPECT_EQ(mode.burst_frames, 4);
+    EXPECT_EQ(std::get<SettingsCommand>(lines[6].command).gain_db, 6);
+    EXPECT_FALSE(std::get<SettingsCommand>(lines[6].command).exposure_s);
+    EXPECT_NEAR(std::get<JointCommand>(lines[7].command).angle_rad, 3.14159265, 1e-8);
+    EXPECT_TRUE(std::holds_alternative<StopCommand>(lines[8].command));
+}
+
+TEST(CommandScript, MistakesNameTheLine) {
+    EXPECT_THAT(error_of("ping\nfault nonsense\n"), HasSubstr("a.txt:2: found 'nonsense'; accepted: clear"));
+    EXPECT_THAT(error_of("fault packet_delay --value -4\n"), HasSubstr("value is outside its kind's range"));
+    EXPECT_THAT(error_of("@1 ping\n@0.5 ping\n"), HasSubstr("a.txt:2: its time @0.5 lies before"));
+    EXPECT_THAT(error_of("+x ping\n"), HasSubstr("accepted: @SECONDS"));
+    EXPECT_THAT(error_of("jump\n"), HasSubstr("a.txt:1:"));
+    EXPECT_THAT(error_of("+1\n"), HasSubstr("a.txt:1:"));
+    EXPECT_THAT(error_of("fault list\n"), HasSubstr("a.txt:1: found 'list'"));
+    EXPECT_THAT(error_of("pose --position-m 1 2 3 --look-at-m 1 2 3\n"), HasSubstr("a.txt:1:"));
+    EXPECT_EQ(error_of("# nothing\n\n"), "no error");
+}
+
+TEST(Watch, LinesSayWhatThePacketsDo) {
+    FrameReport report;
+    report.frame = 12;
+    report.latency_ns = 1'500'000;
+    report.faults = bit_of(FaultKind::kImageBlack);
+    EXPECT_THAT(text_of(report), HasSubstr("frame 12"));
+    EXPECT_THAT(text_of(report), HasSubstr("pose to frame 1.500 ms faults image_black"));
+    EXPECT_THAT(json_of(report), HasSubstr("\"faults\":[\"image_black\"]"));
+    HousekeepingFigures figures;
+    figures.mode = OperatingMode::kLockstep;
+    EXPECT_THAT(text_of(figures), HasSubstr("camera lockstep paused"));
+    figures.mode = static_cast<OperatingMode>(77);
+    EXPECT_THAT(json_of(figures), HasSubstr("unknown mode"));
+}
+
+}  // namespace
+}  // namespace hilcam
