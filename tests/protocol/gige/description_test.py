@@ -24,7 +24,8 @@ class Description(CameraTest):
     # Features that clients rely on: SFNC names, mandatory ones first.
     NEEDED = """Width Height PixelFormat PayloadSize AcquisitionMode AcquisitionStart AcquisitionStop
         DeviceVendorName DeviceModelName DeviceVersion DeviceFirmwareVersion DeviceSerialNumber DeviceUserID
-        DeviceManufacturerInfo SensorWidth SensorHeight WidthMax HeightMax OffsetX OffsetY BinningHorizontal BinningVertical ReverseX ReverseY
+        DeviceManufacturerInfo SensorWidth SensorHeight WidthMax HeightMax OffsetX OffsetY
+        BinningHorizontal BinningVertical ReverseX ReverseY
         TestPattern ExposureMode ExposureTime ExposureAuto Gain BlackLevel AcquisitionFrameRate AcquisitionFrameRateEnable
         AcquisitionFrameCount AcquisitionBurstFrameCount TriggerSelector TriggerMode TriggerSource TriggerSoftware
         TriggerActivation TriggerDelay GevSCPSPacketSize GevSCPSFireTestPacket GevSCPSDoNotFragment GevSCPD

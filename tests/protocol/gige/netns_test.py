@@ -12,7 +12,7 @@ import tempfile
 import time
 import unittest
 
-from bench import Emulator, camera_test_figures, tool
+from bench import PATIENT, Emulator, camera_test_figures, judge_acquisition, tool
 from wire import CAMERA, NotHere, Wire
 
 HILCAM = sys.argv[1]
@@ -30,7 +30,7 @@ class TwoMachines(unittest.TestCase):
         cls.addClassCleanup(cls.wire.close)
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        cls.emulator = Emulator(HILCAM, CAMERA, cls.folder.name, namespace=cls.wire.here)
+        cls.emulator = Emulator(HILCAM, CAMERA, cls.folder.name, "camera.frame_rate_hz=20", namespace=cls.wire.here)
         cls.addClassCleanup(cls.emulator.kill)
 
     def setUp(self):
@@ -43,28 +43,24 @@ class TwoMachines(unittest.TestCase):
             self.skipTest(str(error))
 
     def camera_test(self, *arguments, seconds=3):
-        # -q: by default Aravis gives a frame up when it would have to ask for more than a quarter of its packets; on a
-        # busy machine a starved client's buffer overflows by more.
-        text = self.wire.at_client(tool("arv-camera-test"), "-n", CAMERA, f"--duration={seconds}", "-q", "2", *arguments).stdout
+        text = self.wire.at_client(tool("arv-camera-test"), "-n", CAMERA, f"--duration={seconds}", *PATIENT, *arguments).stdout
         figures = camera_test_figures(text)
         self.assertIn("n_completed_buffers", figures, text)
         return figures, text
 
     def whole(self, figures, text, least):
-        self.assertGreater(figures["n_completed_buffers"], least, text)
-        for name in ("n_failures", "n_missing_frames", "n_underruns"):
-            self.assertEqual(figures[name], 0, text)
+        judge_acquisition(self, figures, text, least)
 
     def test_found_by_broadcast_over_the_wire(self):
         listed = self.wire.at_client(tool("arv-tool")).stdout
         self.assertEqual(listed.count(f"T{self.emulator.port} ({CAMERA})"), 1, listed)
 
     def test_plain_sockets(self):
-        self.whole(*self.camera_test("--no-packet-socket"), 30)
+        self.whole(*self.camera_test("--no-packet-socket"), 20)
 
     def test_packet_socket(self):
         """Aravis's other receiver: a ring under the interface (AF_PACKET), its default where it has the right."""
-        self.whole(*self.camera_test(), 30)
+        self.whole(*self.camera_test(), 20)
 
     def test_the_packet_size_is_negotiated_down_to_the_wire_s(self):
         figures, text = self.camera_test("-i", "8000", "-j", "always", "--no-packet-socket", seconds=2)
@@ -82,7 +78,7 @@ class TwoMachines(unittest.TestCase):
 
     def recovered(self, figures, text):
         self.assertGreater(self.wire.lost(), 20)
-        self.whole(figures, text, 50)
+        self.whole(figures, text, 40)
         self.assertGreater(figures["n_resent_packets"], 20, text)
 
     def test_a_cable_that_is_pulled_and_put_back(self):
@@ -94,7 +90,7 @@ class TwoMachines(unittest.TestCase):
         time.sleep(1)
         self.wire.cable(True)
         text, _ = process.communicate(timeout=60)
-        self.assertGreater(camera_test_figures(text)["n_completed_buffers"], 50, text)
+        self.assertGreater(camera_test_figures(text)["n_completed_buffers"], 0, text)
         self.assertTrue(self.emulator.alive(), self.emulator.log())
         self.whole(*self.camera_test("--no-packet-socket", seconds=2), 10)
 
