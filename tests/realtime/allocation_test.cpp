@@ -1,6 +1,6 @@
-// After its first frames the loop allocates nothing: every operator new of the program is counted, on every
+// After its first frames the loop allocates nothing: every operator new of the program is allocated, on every
 // thread. What libraries (Embree's commit of a scene, oneTBB's own pools) allocate is told apart by who calls
-// and not counted.
+// and not allocated.
 
 #include <dlfcn.h>
 #include <execinfo.h>
@@ -27,7 +27,7 @@
 namespace {
 
 std::atomic<bool> armed{false};
-std::atomic<int> counted{0};
+std::atomic<int> allocated{0};
 const char* own_file = nullptr;  // of this executable, as dladdr names it
 
 bool lies_in(const void* address, const char* file) {
@@ -40,7 +40,7 @@ void count(const void* caller) {
     const int depth = backtrace(frames.data(), static_cast<int>(frames.size()));
     for (int i = 0; i < depth; ++i)
         if (lies_in(frames[static_cast<std::size_t>(i)], "libembree")) return;
-    ++counted;
+    ++allocated;
 }
 void* allocate(std::size_t size, std::size_t alignment) {
     void* block = nullptr;
@@ -92,12 +92,12 @@ class Allocation : public testing::Test {
 };
 
 TEST_F(Allocation, TheGuardSeesOne) {
-    counted = 0;
+    allocated = 0;
     armed = true;
     auto* volatile number = new int(1);
     armed = false;
     delete number;
-    EXPECT_EQ(counted.load(), 1);
+    EXPECT_EQ(allocated.load(), 1);
 }
 
 // An application that has the camera stream to it and reads what comes.
@@ -171,7 +171,7 @@ int allocations(const std::vector<std::string>& overrides, bool streaming = fals
         packets = 0;
     }
     const std::uint64_t until = streaming ? frames() + 50 : 70;
-    counted = 0;
+    allocated = 0;
     armed = true;
     Motion motion;
     motion.pose.position_world_m = {22, 15, 7};
@@ -188,7 +188,7 @@ int allocations(const std::vector<std::string>& overrides, bool streaming = fals
     EXPECT_GE(measured, until);
     // A leader, a trailer and one packet at the least, of each frame that the machine had time to send.
     EXPECT_GE(packets, streaming ? 10 * 3 : 0);
-    return counted.load();
+    return allocated.load();
 }
 
 TEST_F(Allocation, TheLoopAllocatesNothing) { EXPECT_EQ(allocations({}), 0); }
