@@ -251,8 +251,10 @@ class Pair(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             report_file = pathlib.Path(folder) / "report.json"
             emulator = subprocess.Popen(
-                [HILCAM, "run", str(scenario), "--set", "mode=lockstep", "--report", str(report_file)],
-                stderr=subprocess.PIPE, text=True, cwd=folder)
+                [HILCAM, "run", str(scenario), "--set", "mode=lockstep", "--set",
+                 f"outputs.files.folder={folder}/left", "--set",
+                 f"more_cameras.0.outputs.files.folder={folder}/right", "--report", str(report_file)],
+                stderr=subprocess.PIPE, text=True)
             try:
                 send = lambda *words: hilcam("send", "--to", "127.0.0.1:15024", "--timeout-ms", 20000, *words)
                 for _ in range(100):

@@ -1,6 +1,6 @@
-// After its first frames the loop allocates nothing: every operator new of the program is allocated, on every
+// After its first frames the loop allocates nothing: every operator new of the program is counted, on every
 // thread. What libraries (Embree's commit of a scene, oneTBB's own pools) allocate is told apart by who calls
-// and not allocated.
+// and not counted.
 
 #include <dlfcn.h>
 #include <execinfo.h>

@@ -60,13 +60,13 @@ TEST(CommandScript, LinesHaveTimesAndCommands) {
 }
 
 TEST(CommandScript, MistakesNameTheLine) {
-    EXPECT_THAT(error_of("ping\nfault nonsense\n"), HasSubstr("a.txt:2: found 'nonsense'; accepted: clear"));
+    EXPECT_THAT(error_of("ping\nfault nonsense\n"), HasSubstr("a.txt:2: fault: found 'nonsense'; accepted: clear"));
     EXPECT_THAT(error_of("fault packet_delay --value -4\n"), HasSubstr("value is outside its kind's range"));
     EXPECT_THAT(error_of("@1 ping\n@0.5 ping\n"), HasSubstr("a.txt:2: its time @0.5 lies before"));
     EXPECT_THAT(error_of("+x ping\n"), HasSubstr("accepted: @SECONDS"));
     EXPECT_THAT(error_of("jump\n"), HasSubstr("a.txt:1:"));
     EXPECT_THAT(error_of("+1\n"), HasSubstr("a.txt:1:"));
-    EXPECT_THAT(error_of("fault list\n"), HasSubstr("a.txt:1: found 'list'"));
+    EXPECT_THAT(error_of("fault list\n"), HasSubstr("a.txt:1: fault: found 'list'"));
     EXPECT_THAT(error_of("pose --position-m 1 2 3 --look-at-m 1 2 3\n"), HasSubstr("a.txt:1:"));
     EXPECT_EQ(error_of("# nothing\n\n"), "no error");
 }

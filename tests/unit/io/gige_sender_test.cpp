@@ -235,14 +235,16 @@ TEST_P(Sender, ACountedAcquisitionTellsItsEnd) {
 
 TEST_P(Sender, AGroupIsHeardByAllItsListeners) {
     std::array<Fd, 2> listeners;
-    const sockaddr_in group = socket_address(0xEFC01601, 34567);  // 239.192.22.1
+    // 239.192.22.1; a port for each process, as tests run side by side.
+    const auto port = static_cast<std::uint16_t>(20000 + getpid() % 20000);
+    const sockaddr_in group = socket_address(0xEFC01601, port);
     for (Fd& listener : listeners) {
-        listener = open_udp(0xEFC01601, 34567, true);
+        listener = open_udp(0xEFC01601, port, true);
         const ip_mreq wanted{group.sin_addr, {htonl(kHere)}};
         if (setsockopt(listener.get(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &wanted, sizeof wanted) != 0)
             GTEST_SKIP() << "groups cannot be joined on the loopback interface";
     }
-    now_.state.destination = {0xEFC01601, 34567};
+    now_.state.destination = {0xEFC01601, port};
     ++now_.acquisition;
     sender_.set_stream(now_);
     send_frame();
