@@ -21,6 +21,7 @@ struct GigeIdentity {
     std::uint64_t mac = 0;
     std::uint32_t packet_bytes = 1500;
     std::uint32_t link_speed_mbit_s = 0;  // 0: not known
+    bool multipart = false;  // announce multipart payloads, as some clients test what is announced
 };
 
 // What the stream side counts; shown as features.

@@ -13,8 +13,10 @@ using When = GigeRegisterFile::When;
 
 namespace {
 
-constexpr std::uint32_t kStreamCan =
-    b::stream_config::kUnconditional | b::stream_config::kResendDestination | b::stream_config::kMultipart;
+std::uint32_t stream_can(const GigeIdentity& id) {
+    return b::stream_config::kUnconditional | b::stream_config::kResendDestination |
+           (id.multipart ? b::stream_config::kMultipart : 0);
+}
 constexpr std::size_t kIpAndUdpBytes = 28;
 constexpr std::uint64_t kLeastThroughput_bytes_s = 100'000, kMostThroughput_bytes_s = 100'000'000'000;
 
@@ -35,7 +37,7 @@ GigeTransport::GigeTransport(GigeCore& core, std::function<void()> closed)
         [this](std::uint64_t v) { return write_packet_size(v); });
     r.variable(b::kPacketDelay, s.packet_delay_ns, {0, 1'000'000'000}, tell);
     r.number(b::kStreamSourcePort, [this] { return source_port_; });
-    r.constant(b::kStreamChannelCapability, kStreamCan);
+    r.constant(b::kStreamChannelCapability, stream_can(core.identity));
     r.number(
         b::kStreamConfig,
         [&s] {
@@ -106,7 +108,7 @@ void GigeTransport::fire_test_packet(std::uint32_t packet_bytes) {
 
 Status GigeTransport::write_config(std::uint64_t value) {
     namespace c = b::stream_config;
-    if (value & ~std::uint64_t{kStreamCan}) return Status::kInvalidParameter;
+    if (value & ~std::uint64_t{stream_can(core_.identity)}) return Status::kInvalidParameter;
     GigeStreamState& s = core_.stream;
     const bool multipart = value & c::kMultipart;
     if (multipart != s.multipart && core_.locked()) return Status::kWriteProtect;

@@ -48,6 +48,7 @@ Fields fields(GigeConfig& c) {
         integer("packet_bytes", c.packet_bytes, {576, 16384},
                 "of a stream packet until a client sets another; the interface's MTU at most"),
         number("rate_limit_mb_s", c.rate_bytes_s, 1e6, {1, 100000}, "upper limit of the stream"),
+        flag("multipart", c.multipart, "announce multipart payloads (with 64-bit block ids)"),
         number("spread", c.spread_fraction, 1, {0, 1},
                "share of the frame period that a frame's packets are spread over; 0: at the rate limit"),
     };
@@ -107,10 +108,10 @@ struct GigeSink::Implementation {
 void GigeSink::Implementation::open() {
     sockets = std::make_unique<GigeSockets>(net);
     sender.open(net.address);
-    device =
-        std::make_unique<GigeDevice>(GigeIdentity{config.model, config.serial, config.user_name, net.address,
-                                                  net.mask, 0, net.mac, first_packet_bytes(config, net)},
-                                     camera, faults, effects());
+    device = std::make_unique<GigeDevice>(
+        GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
+                     first_packet_bytes(config, net), 0, config.multipart},
+        camera, faults, effects());
     device->set_ports(sender.port(), sockets->message_port());
 }
 
