@@ -108,9 +108,10 @@ void GigeTransport::fire_test_packet(std::uint32_t packet_bytes) {
 
 Status GigeTransport::write_config(std::uint64_t value) {
     namespace c = b::stream_config;
-    if (value & ~std::uint64_t{stream_can(core_.identity)}) return Status::kInvalidParameter;
+    // Aravis asks every camera for multipart, announced or not: where it is not, the bit stays 0.
+    if (value & ~std::uint64_t{stream_can(core_.identity) | c::kMultipart}) return Status::kInvalidParameter;
     GigeStreamState& s = core_.stream;
-    const bool multipart = value & c::kMultipart;
+    const bool multipart = core_.identity.multipart && (value & c::kMultipart);
     if (multipart != s.multipart && core_.locked()) return Status::kWriteProtect;
     s.unconditional = value & c::kUnconditional;
     s.resend_to_requester = value & c::kResendDestination;
