@@ -60,7 +60,8 @@ TEST(CommandScript, LinesHaveTimesAndCommands) {
 }
 
 TEST(CommandScript, MistakesNameTheLine) {
-    EXPECT_THAT(error_of("ping\nfault nonsense\n"), HasSubstr("a.txt:2: fault: found 'nonsense'; accepted: clear"));
+    EXPECT_THAT(error_of("ping\nfault nonsense\n"),
+                HasSubstr("a.txt:2: fault: found 'nonsense'; accepted: clear"));
     EXPECT_THAT(error_of("fault packet_delay --value -4\n"), HasSubstr("value is outside its kind's range"));
     EXPECT_THAT(error_of("@1 ping\n@0.5 ping\n"), HasSubstr("a.txt:2: its time @0.5 lies before"));
     EXPECT_THAT(error_of("+x ping\n"), HasSubstr("accepted: @SECONDS"));
