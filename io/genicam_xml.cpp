@@ -61,8 +61,7 @@ const char* access_of(const Feature& f) {
 // The order of elements in these functions is the schema's.
 std::string head_of(const Feature& f) {
     return optional_tag("ToolTip", f.meaning) + optional_tag("Visibility", f.visibility) +
-           optional_tag("pIsAvailable", f.available) + optional_tag("pIsLocked", f.lock) +
-           (f.is_constant ? tag("ImposedAccessMode", "RO") : "");
+           optional_tag("pIsLocked", f.lock) + (f.is_constant ? tag("ImposedAccessMode", "RO") : "");
 }
 std::string place_of(const Feature& f) {
     return tag("Address", hex(f.address)) + optional_tag("pAddress", f.address_feature) +

@@ -113,6 +113,8 @@ struct GigeCore {
     // A host has locked the geometry by TLParamsLocked.
     bool host_locked = false;
 
+    // A fault can take the network away: nothing comes in, nothing goes out.
+    bool link_is_up() const { return !faults.would_strike(FaultKind::kLinkDown, 0); }
     bool locked() const { return stream.acquiring || host_locked; }
     // Device time of an instant on CLOCK_MONOTONIC.
     std::uint64_t device_ns(std::int64_t monotonic_ns) const {

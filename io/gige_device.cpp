@@ -127,7 +127,7 @@ void GigeDevice::tick(std::int64_t now_ns) {
     Endpoint to;
     for (auto answer = my.answers.take_due(now_ns, to); !answer.empty();
          answer = my.answers.take_due(now_ns, to))
-        if (my.core.effects.send_answer) my.core.effects.send_answer(answer, to);
+        if (my.core.effects.send_answer && my.core.link_is_up()) my.core.effects.send_answer(answer, to);
 }
 
 std::int64_t GigeDevice::wake_ns() const {

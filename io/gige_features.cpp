@@ -1,7 +1,5 @@
 #include "io/gige_features.h"
 
-#include <iterator>
-
 namespace hilcam {
 
 std::vector<EnumEntry> counted(std::initializer_list<const char*> names) {
@@ -26,6 +24,8 @@ FeatureTable gige_features(const CameraLimits& limits) {
     add_event_features(table);
     add_transport_features(table);
     add_fault_features(table);
+    for (Feature& f : table.features)
+        if (f.category == "TransportLayerControl" && f.visibility.empty()) f.visibility = "Expert";
     return table;
 }
 

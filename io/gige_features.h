@@ -46,8 +46,7 @@ struct Feature {
     std::vector<EnumEntry> entries{};
     int high_bit = -1, low_bit = -1;  // of a register that several features share; bit 0 is the lowest
     bool is_signed = false;
-    std::string lock{};       // the feature that locks it when not 0
-    std::string available{};  // the feature without which it makes no sense
+    std::string lock{};  // the feature that locks it when not 0
     std::vector<std::string> selected{};
     std::string port = "Device";
     std::string address_feature{};  // added to the address
@@ -60,8 +59,6 @@ struct Feature {
     Feature&& every(double s) && { return step = s, std::move(*this); }
     Feature&& unit(const char* u) && { return unit_name = std::string(u), std::move(*this); }
     Feature&& as(const char* r) && { return representation = std::string(r), std::move(*this); }
-    Feature&& expert() && { return visibility = std::string("Expert"), std::move(*this); }
-    Feature&& guru() && { return visibility = std::string("Guru"), std::move(*this); }
     Feature&& invisible() && { return visibility = std::string("Invisible"), std::move(*this); }
     Feature&& read_only(bool yes = true) && {
         if (yes) access = Access::kRead;
@@ -73,7 +70,6 @@ struct Feature {
     Feature&& bit(int n) && { return high_bit = low_bit = n, std::move(*this); }
     Feature&& locked_by(const char* f) && { return lock = std::string(f), std::move(*this); }
     Feature&& locked() && { return lock = std::string("TLParamsLocked"), std::move(*this); }
-    Feature&& available_with(const char* f) && { return available = std::string(f), std::move(*this); }
     Feature&& selects(std::vector<std::string> names) && {
         return selected = std::move(names), std::move(*this);
     }

@@ -97,7 +97,7 @@ void GigeMessages::next() {
 }
 
 void GigeMessages::transmit(const Message& message) {
-    if (core_.effects.send_message)
+    if (core_.effects.send_message && core_.link_is_up())
         core_.effects.send_message(std::span(message.bytes).first(message.size), destination_);
 }
 

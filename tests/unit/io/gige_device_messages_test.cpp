@@ -182,6 +182,22 @@ TEST(GigeControlFaults, SilenceBusyDeniedAndALostLink) {
     }
 }
 
+TEST(GigeControlFaults, NothingLeavesOverALostLink) {
+    GigeBench bench;
+    open_messages(bench, 100, 10);
+    bench.faults.order({.kind = FaultKind::kControlSlow, .value = 100});
+    bench.read(b::kControl);
+    bench.faults.order({.kind = FaultKind::kLinkDown});
+    bench.device.happened({CameraEvent::Kind::kExposureStart, 1, 10}, 1, bench.now_ns);
+    bench.wait_ms(150);
+    EXPECT_TRUE(bench.messages.empty());
+    EXPECT_TRUE(bench.late.empty());
+    bench.faults.clear_all();
+    bench.wait_ms(100);
+    EXPECT_EQ(bench.messages.size(), 1u);  // it is repeated still; the answer is lost
+    EXPECT_TRUE(bench.late.empty());
+}
+
 TEST(GigeControlFaults, AStruckRequestMayPassWhenRepeated) {
     GigeBench bench;
     bench.take_control();
