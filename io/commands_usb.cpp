@@ -7,6 +7,7 @@
 #include <atomic>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "io/command_station.h"
 #include "io/monotonic.h"
@@ -99,8 +100,8 @@ class UsbCommandReceiver : public CommandReceiver {
 
 void UsbCommandReceiver::start() {
     renew_context();
-    for (Transfer& t : inputs_) t.owner = this, t.usb = libusb_alloc_transfer(0);
-    output_.owner = this, output_.usb = libusb_alloc_transfer(0);
+    for (Transfer& t : inputs_) t.owner = this;
+    output_.owner = this;
     stopping_ = false;
     thread_ = std::thread([this] { run(); });
 }
@@ -126,8 +127,6 @@ void UsbCommandReceiver::stop() noexcept {
         libusb_interrupt_event_handler(context_.get());
     }
     thread_.join();
-    for (Transfer& t : inputs_) libusb_free_transfer(t.usb);
-    libusb_free_transfer(output_.usb);
     const std::lock_guard lock(context_mutex_);
     context_.reset();
 }
@@ -202,8 +201,12 @@ void UsbCommandReceiver::look_for_device() {
     if (found) open_device(std::move(found));
 }
 
+// A transfer keeps hold of the device it was last submitted to, and that device of its context: so new ones
+// for every device.
 void UsbCommandReceiver::open_device(UsbDevice device) {
     device_ = std::move(device);
+    for (Transfer& t : inputs_) t.usb = libusb_alloc_transfer(0);
+    output_.usb = libusb_alloc_transfer(0);
     lost_ = halted_in_ = halted_out_ = false;
     errors_ = 0;
     sender_ = &station_.open("USB device " + to_string(id_));
@@ -221,6 +224,8 @@ void UsbCommandReceiver::close_device() {
         if (t.in_flight) libusb_cancel_transfer(t.usb);
     if (output_.in_flight) libusb_cancel_transfer(output_.usb);
     while (busy()) handle_events(10);
+    for (Transfer& t : inputs_) libusb_free_transfer(std::exchange(t.usb, nullptr));
+    libusb_free_transfer(std::exchange(output_.usb, nullptr));
     closing_ = false;
     const CommandStation::Answer nobody = [](std::span<const std::uint8_t>) {};
     station_.take_all(stream_, monotonic_ns(), *sender_, nobody);

@@ -62,18 +62,19 @@ start_gadget 10000
 receiver=$!
 sleep 0.5 # absent at first
 plug
-for turn in 1 2 3; do
-    sleep "${PULL_AFTER:-1.2}"
+for mark in $(seq 500 1000 8500); do
+    acknowledged=0
+    while [ "$acknowledged" -lt $mark ] && read -r -t 60 _ acknowledged _ <&7; do :; done
     pull
     sleep 0.5
     plug
-    say "pulled and plugged, $turn"
+    say "pulled and plugged after $acknowledged poses"
 done
 wait $receiver
-check $? "10,000 poses in order, with three pulls"
+check $? "10,000 poses in order, with nine pulls"
 wait $gadget
 check $? "every pose was acknowledged"
-cat <&7
+tail -n 1 <&7
 pull
 
 start_gadget 2000
@@ -83,7 +84,7 @@ emulator=$!
 plug
 wait $gadget
 check $? "2,000 poses to the emulator were acknowledged"
-cat <&7
+tail -n 1 <&7
 kill -INT $emulator
 wait $emulator
 check $? "the emulator ended well"
@@ -114,11 +115,11 @@ send fault usb_short_transfer --rate 0.5
 send fly --rate-hz 100 --duration-s 2
 check $? "answers cut in two transfers"
 send fault usb_short_transfer --rate 0
-send fault usb_bad_crc --duration-s 3 >/dev/null 2>&1
+send fault usb_bad_crc --rate 1 >/dev/null 2>&1 # its own answer is wrong already
 timeout 30 "$hilcam" send --to usb:1209:0002 --timeout-ms 300 ping
 [ $? -eq 1 ]
 check $? "an answer with a wrong CRC is no answer"
-sleep 3
+send fault usb_bad_crc --rate 0 >/dev/null 2>&1
 send ping
 check $? "and then all is well again"
 send fault usb_detach --duration-s 4

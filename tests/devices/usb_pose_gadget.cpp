@@ -3,8 +3,9 @@
 //
 //   usb_pose_gadget FUNCTIONFS_MOUNT COUNT
 //
-// Prints "ready" once it can be bound. When the cable is pulled it waits for the next host and goes on behind
-// the last pose that was acknowledged. Exit status 0: all COUNT poses were accepted.
+// Prints "ready" once it can be bound and "acknowledged N" on its way. When the cable is pulled it waits for
+// the next host and goes on behind the last pose that was acknowledged. Exit status 0: all COUNT poses were
+// accepted.
 
 #include <fcntl.h>
 #include <linux/usb/functionfs.h>
@@ -27,7 +28,8 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uint32_t kWindow = 64;  // poses sent and not acknowledged
+constexpr std::uint32_t kWindow = 64;     // poses sent and not acknowledged
+constexpr std::uint32_t kProgress = 200;  // poses between two lines that say how many were acknowledged
 
 [[noreturn]] void give_up(const char* what) {
     std::perror(what);
@@ -40,9 +42,10 @@ class Gadget {
         for (const auto& bytes : {functionfs_descriptors(), functionfs_strings("poses")})
             if (write(control_.get(), bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
                 give_up("ep0");
-        // Seen from the host: ep1 is OUT, ep2 is IN.
-        from_host_ = Fd(open((mount + "/ep1").c_str(), O_RDWR));
-        to_host_ = Fd(open((mount + "/ep2").c_str(), O_RDWR));
+        // Seen from the host: ep1 is OUT, ep2 is IN. Without O_NONBLOCK a write without a host would wait for
+        // the next one, and give it the middle of what was meant for the last.
+        from_host_ = Fd(open((mount + "/ep1").c_str(), O_RDWR | O_NONBLOCK));
+        to_host_ = Fd(open((mount + "/ep2").c_str(), O_RDWR | O_NONBLOCK));
         if (!from_host_ || !to_host_) give_up("endpoints");
         std::thread([this] { take_events(); }).detach();
         std::thread([this] { take_answers(); }).detach();
@@ -50,7 +53,7 @@ class Gadget {
 
     bool send_poses(std::uint32_t count) {
         std::mt19937 random(1);
-        std::uint32_t next = 0;
+        std::uint32_t next = 0, told = 0;
         std::uint64_t pulls = pulls_;
         std::vector<std::uint8_t> bytes;
         while (acknowledged_ < count && refused_ == 0) {
@@ -58,6 +61,11 @@ class Gadget {
                 pulls = pulls_;
                 next = acknowledged_;
                 bytes.clear();
+            }
+            if (acknowledged_ >= told + kProgress) {
+                told = acknowledged_;
+                std::printf("acknowledged %u\n", told);
+                std::fflush(stdout);
             }
             while (next < count && next < acknowledged_ + kWindow && bytes.size() < 4096)
                 add_pose(next++, bytes);
@@ -90,7 +98,6 @@ class Gadget {
         while (read(control_.get(), &event, sizeof event) > 0)
             if (event.type == FUNCTIONFS_DISABLE || event.type == FUNCTIONFS_UNBIND) pulls_.fetch_add(1);
     }
-    // A read that waits for an endpoint without a host ends when there is one.
     void take_answers() {
         PacketStream stream(answer_rule({}));
         while (true) {

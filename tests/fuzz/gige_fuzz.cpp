@@ -4,6 +4,7 @@
 // sensor, and what is told to the stream side is something it can do.
 
 #include <algorithm>
+#include <random>
 #include <vector>
 
 #include "io/bytes.h"
@@ -81,7 +82,79 @@ GigeEffects effects() {
     return e;
 }
 
+// A conversation's datagrams with the byte before each.
+struct Said {
+    std::uint8_t how;
+    std::vector<std::uint8_t> datagram;
+};
+
+std::vector<Said> read(std::span<const std::uint8_t> bytes) {
+    std::vector<Said> all;
+    while (bytes.size() >= 3) {
+        const std::size_t length =
+            std::min<std::size_t>(ByteReader(bytes.subspan(1)).u16(), bytes.size() - 3);
+        const auto datagram = bytes.subspan(3, length);
+        all.push_back({bytes[0], {datagram.begin(), datagram.end()}});
+        bytes = bytes.subspan(3 + length);
+    }
+    return all;
+}
+
+// One datagram changed: a byte, a bit, a register's neighbour, cut or longer. Mostly with a length and a
+// request id (bytes 4-7 of GVCP's header) that let it pass for a new command.
+void damage(std::vector<std::uint8_t>& datagram, std::mt19937& random) {
+    if (datagram.empty()) return;
+    const std::size_t at = random() % datagram.size();
+    switch (random() % 6) {
+        case 0:
+            datagram[at] = static_cast<std::uint8_t>(random());
+            break;
+        case 1:
+            datagram[at] ^= static_cast<std::uint8_t>(1u << random() % 8);
+            break;
+        case 2:
+            datagram[at] = random() % 2 ? 0xFF : 0;
+            break;
+        case 3:
+            datagram[at] = static_cast<std::uint8_t>(datagram[at] + (random() % 2 ? 4 : -4));
+            break;
+        case 4:
+            datagram.resize(at);
+            break;
+        default:
+            datagram.insert(datagram.end(), datagram.begin() + static_cast<std::ptrdiff_t>(at),
+                            datagram.end());
+    }
+    if (datagram.size() < 8 || random() % 8 == 0) return;
+    const std::size_t body = datagram.size() - 8;
+    datagram[4] = static_cast<std::uint8_t>(body >> 8);
+    datagram[5] = static_cast<std::uint8_t>(body);
+    datagram[6] = static_cast<std::uint8_t>(random());
+    datagram[7] = static_cast<std::uint8_t>(random());
+}
+
 }  // namespace
+
+// Keeps the datagrams apart, which bytes changed anywhere would not: what is said changes, not the framing.
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
+                                               unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<Said> all = read({data, size});
+    ByteWriter out({data, most});
+    const auto write = [&](const Said& said) {
+        if (out.size() + 3 + said.datagram.size() > most) return;
+        out.u8(said.how);
+        out.u16(static_cast<std::uint16_t>(said.datagram.size()));
+        out.copy(said.datagram);
+    };
+    for (Said& said : all) {
+        if (random() % 4 == 0) damage(said.datagram, random);
+        if (random() % 32 == 0) said.how = static_cast<std::uint8_t>(random());
+        if (random() % 32 != 0) write(said);
+        if (random() % 32 == 0) write(all[random() % all.size()]);
+    }
+    return out.size();
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     AnyCamera camera;

@@ -1,9 +1,13 @@
 // Runs a fuzz target without libFuzzer: over every file of a corpus and over damaged copies of them.
 //
-//   replay CORPUS_FOLDER COPIES
+//   replay CORPUS_FOLDER COPIES [CHAIN [SEED]]
 //
-// The damage comes from a fixed seed, so that a failure comes back. The input about to be tried is written to
-// the working folder as TARGET.last and removed at the end: it is what a crash leaves.
+// An input is CHAIN damaged copies one after the other (1), each of a file taken at random when there are
+// several. A target that knows its format damages it itself (LLVMFuzzerCustomMutator): every other time, and
+// always in a chain, which a wrong length would break.
+// The damage comes from SEED (1), so that a failure comes back. The input about to be tried is written to the
+// working folder as TARGET.last and removed at the end: it is what a crash leaves. Prints the memory it took
+// after a tenth of the inputs and at the end: they are the same.
 
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +20,8 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                                                     std::size_t most, unsigned seed);
 
 namespace {
 
@@ -52,6 +58,28 @@ void damage(Bytes& bytes, std::mt19937& random) {
     }
 }
 
+constexpr std::size_t kMostGrowth = 4096;
+
+Bytes damaged(Bytes bytes, bool in_chain, std::mt19937& random) {
+    if (LLVMFuzzerCustomMutator && (in_chain || random() % 2)) {
+        const std::size_t size = bytes.size();
+        bytes.resize(size + kMostGrowth);
+        bytes.resize(
+            LLVMFuzzerCustomMutator(bytes.data(), size, bytes.size(), static_cast<unsigned>(random())));
+    } else {
+        damage(bytes, random);
+    }
+    return bytes;
+}
+
+// What the process holds in memory, of /proc/self/status.
+long resident_kib() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmRSS:")) return std::strtol(line.c_str() + 6, nullptr, 10);
+    return 0;
+}
+
 void try_one(const Bytes& bytes, const std::filesystem::path& last) {
     std::ofstream(last, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -61,10 +89,12 @@ void try_one(const Bytes& bytes, const std::filesystem::path& last) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3) {
-        std::fprintf(stderr, "usage: %s CORPUS_FOLDER COPIES\n", argv[0]);
+    if (argc < 3 || argc > 5) {
+        std::fprintf(stderr, "usage: %s CORPUS_FOLDER COPIES [CHAIN [SEED]]\n", argv[0]);
         return 2;
     }
+    const long copies = std::atol(argv[2]), chain = argc > 3 ? std::atol(argv[3]) : 1;
+    std::mt19937 random(argc > 4 ? static_cast<unsigned>(std::atol(argv[4])) : 1);
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(argv[1])) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
@@ -73,19 +103,24 @@ int main(int argc, char** argv) {
         return 1;
     }
     const std::filesystem::path last = std::filesystem::path(argv[0]).filename().string() + ".last";
-    std::mt19937 random(1);
-    const int copies = std::atoi(argv[2]);
+    std::vector<Bytes> corpus;
     for (const auto& file : files) {
         std::ifstream in(file, std::ios::binary);
-        const Bytes whole{std::istreambuf_iterator<char>(in), {}};
-        try_one(whole, last);
-        for (int i = 0; i < copies; ++i) {
-            Bytes bytes = whole;
-            damage(bytes, random);
-            try_one(bytes, last);
+        corpus.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+        try_one(corpus.back(), last);
+    }
+    const long inputs = copies * static_cast<long>(corpus.size());
+    for (long i = 0; i < inputs; ++i) {
+        Bytes bytes = damaged(corpus[static_cast<std::size_t>(i / copies)], chain > 1, random);
+        for (long link = 1; link < chain; ++link) {
+            const Bytes next = damaged(corpus[random() % corpus.size()], true, random);
+            bytes.insert(bytes.end(), next.begin(), next.end());
         }
+        try_one(bytes, last);
+        if (i == inputs / 10) std::printf("%ld inputs, %ld KiB resident\n", i, resident_kib());
     }
     std::filesystem::remove(last);
-    std::printf("%zu files, %d damaged copies of each\n", files.size(), copies);
+    std::printf("%zu files, %ld inputs of %ld damaged copies each, %ld KiB resident\n", files.size(), inputs,
+                chain, resident_kib());
     return 0;
 }
