@@ -9,6 +9,8 @@
 // working folder as TARGET.last and removed at the end: it is what a crash leaves. Prints the memory it took
 // after a tenth of the inputs and at the end: they are the same.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +19,7 @@
 #include <iterator>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -80,9 +83,33 @@ long resident_kib() {
     return 0;
 }
 
-void try_one(const Bytes& bytes, const std::filesystem::path& last) {
-    std::ofstream(last, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+// The file that holds the input about to be tried.
+class LastInput {
+  public:
+    explicit LastInput(std::string name) : name_(std::move(name)), file_(std::fopen(name_.c_str(), "wb")) {
+        if (!file_) std::perror(name_.c_str()), std::exit(1);
+    }
+    ~LastInput() {
+        std::fclose(file_);
+        std::filesystem::remove(name_);
+    }
+    LastInput(const LastInput&) = delete;
+    LastInput& operator=(const LastInput&) = delete;
+
+    void keep(const Bytes& bytes) {
+        const auto size = static_cast<off_t>(bytes.size());
+        if (pwrite(fileno(file_), bytes.data(), bytes.size(), 0) != size ||
+            ftruncate(fileno(file_), size) != 0)
+            std::perror(name_.c_str()), std::exit(1);
+    }
+
+  private:
+    std::string name_;
+    std::FILE* file_;
+};
+
+void try_one(const Bytes& bytes, LastInput& last) {
+    last.keep(bytes);
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
 }
 
@@ -102,7 +129,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "%s: no corpus\n", argv[1]);
         return 1;
     }
-    const std::filesystem::path last = std::filesystem::path(argv[0]).filename().string() + ".last";
+    LastInput last(std::filesystem::path(argv[0]).filename().string() + ".last");
     std::vector<Bytes> corpus;
     for (const auto& file : files) {
         std::ifstream in(file, std::ios::binary);
@@ -119,7 +146,6 @@ int main(int argc, char** argv) {
         try_one(bytes, last);
         if (i == inputs / 10) std::printf("%ld inputs, %ld KiB resident\n", i, resident_kib());
     }
-    std::filesystem::remove(last);
     std::printf("%zu files, %ld inputs of %ld damaged copies each, %ld KiB resident\n", files.size(), inputs,
                 chain, resident_kib());
     return 0;
