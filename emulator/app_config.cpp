@@ -302,6 +302,9 @@ void validate(const ScenarioConfig& s) {
     parse_utc(s.time_utc);
     SpectralGrid grid(s.spectrum_edges_um);
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
+    if (s.more_cameras.size() > kMostCameras - 1)
+        throw InputError("more_cameras: found " + std::to_string(s.more_cameras.size()) +
+                         "; accepted: at most " + std::to_string(kMostCameras - 1));
     for (const CameraConfig& c : s.more_cameras)
         if (c.thing > static_cast<std::int64_t>(s.objects.size()))
             throw InputError("more_cameras: on: found " + std::to_string(c.thing) + "; accepted: 0 to " +

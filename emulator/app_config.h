@@ -159,6 +159,9 @@ struct OutputsConfig {
 };
 Fields fields(OutputsConfig& outputs);
 
+// All of a bench: telemetry numbers them by a byte, from 1.
+inline constexpr std::size_t kMostCameras = 255;
+
 // A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
 struct CameraConfig {
     CameraModel camera;
@@ -197,7 +200,7 @@ struct ScenarioConfig {
     QualityConfig quality;
     CameraMode mode = CameraMode::kFreeRun;
     Mount mount;  // of the camera that this scenario is about; the first sits where poses say
-    std::vector<CameraConfig> more_cameras;
+    std::vector<CameraConfig> more_cameras;  // kMostCameras - 1 at most
     std::vector<FaultConfig> faults;
     CommandsConfig commands;
     TelemetryConfig telemetry;

@@ -62,6 +62,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
 
 // When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.
 Emulator::~Emulator() {
+    if (telemetry_) telemetry_->stop();
     for (const auto& station : stations_) station->stop_outputs();
 }
 
@@ -69,15 +70,15 @@ void Emulator::make_telemetry() {
     if (!scenario_.has_telemetry && receivers_.empty()) return;
     TelemetryConfig config = scenario_.telemetry;
     if (!scenario_.has_telemetry) config.port.port = 0;
-    auto sink = std::make_unique<TelemetrySink>(config, [this] { return housekeeping(); });
+    telemetry_ = std::make_unique<TelemetrySender>(config, [this] { return housekeeping(); });
     std::vector<CommandReceiver*> receivers;
     for (const auto& receiver : receivers_) receivers.push_back(receiver.get());
-    sink->serve(std::move(receivers));
-    telemetry_ = sink.get();
-    first().add_sink(std::move(sink));
+    telemetry_->serve(std::move(receivers));
+    for (const auto& station : stations_)
+        station->add_sink(telemetry_->sink(static_cast<std::uint8_t>(station->number())));
 }
 
-// Called by telemetry's thread, once a second.
+// Called by telemetry's thread, once a second. What has no sum is the first camera's.
 HousekeepingFigures Emulator::housekeeping() {
     HousekeepingFigures h;
     const CameraSettings settings = first().settings().settings();
@@ -88,10 +89,12 @@ HousekeepingFigures Emulator::housekeeping() {
     h.simulated_time = clock_.now();
     h.monotonic_ns = monotonic_now_ns();
     h.uptime_s = static_cast<double>(h.monotonic_ns - begun_ns_) * 1e-9;
-    h.frames = loop().counters().frames.load();
+    for (const auto& station : stations_) {
+        h.frames += station->loop().counters().frames.load();
+        h.deadline_misses += station->loop().counters().deadline_misses.load();
+    }
     h.frame_rate_hz = static_cast<double>(h.frames - housekeeping_before_.frames) /
                       std::max(h.uptime_s - housekeeping_before_.uptime_s, 1e-3);
-    h.deadline_misses = loop().counters().deadline_misses.load();
     const CommandReport commands = command_report();
     h.commands_received = commands.received;
     h.commands_refused = commands.refused;
@@ -99,7 +102,10 @@ HousekeepingFigures Emulator::housekeeping() {
     h.latency_p50_s = delivery().command_to_last.quantile_ms(0.5) * 1e-3;
     h.latency_p99_s = delivery().command_to_last.quantile_ms(0.99) * 1e-3;
     h.temperature_c = first().settings().limits().temperature_c;
-    for (const FaultKind kind : kAllFaults) h.active_faults += first().faults().order_of(kind) ? 1u : 0u;
+    for (const FaultKind kind : kAllFaults)
+        h.active_faults += std::any_of(stations_.begin(), stations_.end(), [kind](const auto& s) {
+            return s->faults().order_of(kind).has_value();
+        });
     h.clients = static_cast<std::uint32_t>(commands.clients + telemetry_->port_report().clients);
     housekeeping_before_ = h;
     return h;
@@ -115,6 +121,7 @@ bool Emulator::finished() const {
 void Emulator::run(const std::function<void()>& on_ready) {
     const SignalGuard guard;
     for (const auto& station : stations_) station->start_outputs();
+    if (telemetry_) telemetry_->start();
     for (const auto& receiver : receivers_) receiver->start();
     const std::int64_t begun_ns = monotonic_now_ns();
     begun_ns_ = begun_ns;
@@ -137,6 +144,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     for (const auto& station : stations_) station->stop_loop();
     seconds_ = static_cast<double>(monotonic_now_ns() - begun_ns) * 1e-9;
     for (const auto& receiver : receivers_) receiver->stop();
+    if (telemetry_) telemetry_->stop();
     for (const auto& station : stations_) {
         station->stop_outputs();
         station->serve_faults(seconds_);

@@ -45,10 +45,10 @@ class Emulator {
     RunLimits limits_;
     SpectralGrid grid_;
     SimulatedClock clock_;
+    std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null
     std::vector<std::unique_ptr<CameraStation>> stations_;
     std::unique_ptr<CommandDispatch> dispatch_;
     std::vector<std::unique_ptr<CommandReceiver>> receivers_;
-    TelemetrySink* telemetry_ = nullptr;  // one of the first camera's sinks, if there is any telemetry
     double seconds_ = 0;
     std::uint64_t frames_printed_ = 0;
     std::atomic<std::int64_t> begun_ns_{0};

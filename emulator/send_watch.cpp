@@ -30,15 +30,16 @@ std::vector<std::string> fault_names(std::uint64_t bits) {
     return out;
 }
 
-std::string text(const FrameReport& r) {
+std::string text(const FrameReport& r, bool several) {
     const std::string latency =
         r.latency_ns < 0 ? "no new pose"
                          : fmt::format("pose to frame {:.3f} ms", static_cast<double>(r.latency_ns) * 1e-6);
-    return fmt::format("frame {} mid-exposure {} exposure {:.3f} ms gain {:.2f} dB pose {} trigger {} {}{}{}",
-                       r.frame, format_utc(r.exposure_mid), r.exposure_s * 1e3, r.gain_db, r.pose_sequence,
-                       r.trigger_sequence, latency,
-                       r.quality_level > 0 ? fmt::format(" quality {}", r.quality_level) : "",
-                       r.faults != 0 ? fmt::format(" faults {}", fmt::join(fault_names(r.faults), " ")) : "");
+    return fmt::format(
+        "{}frame {} mid-exposure {} exposure {:.3f} ms gain {:.2f} dB pose {} trigger {} {}{}{}",
+        several ? fmt::format("camera {} ", r.camera) : "", r.frame, format_utc(r.exposure_mid),
+        r.exposure_s * 1e3, r.gain_db, r.pose_sequence, r.trigger_sequence, latency,
+        r.quality_level > 0 ? fmt::format(" quality {}", r.quality_level) : "",
+        r.faults != 0 ? fmt::format(" faults {}", fmt::join(fault_names(r.faults), " ")) : "");
 }
 
 std::string text(const HousekeepingFigures& h) {
@@ -52,6 +53,7 @@ std::string text(const HousekeepingFigures& h) {
 
 nlohmann::json json(const FrameReport& r) {
     return {{"kind", "frame"},
+            {"camera", r.camera},
             {"frame", r.frame},
             {"exposure_mid_tai_ns", r.exposure_mid.ns},
             {"exposure_mid_monotonic_ns", r.exposure_mid_monotonic_ns},
@@ -85,8 +87,9 @@ nlohmann::json json(const HousekeepingFigures& h) {
 
 }  // namespace
 
-std::string text_of(const Telemetry& telemetry) {
-    return std::visit([](const auto& alternative) { return text(alternative); }, telemetry);
+std::string text_of(const Telemetry& telemetry, bool several) {
+    const FrameReport* const report = std::get_if<FrameReport>(&telemetry);
+    return report ? text(*report, several) : text(std::get<HousekeepingFigures>(telemetry));
 }
 std::string json_of(const Telemetry& telemetry) {
     return std::visit([](const auto& alternative) { return json(alternative).dump(); }, telemetry);
@@ -106,6 +109,7 @@ int watch_telemetry(const SendTarget& target, const WatchOptions& o) {
     const std::int64_t start_ns = monotonic_now_ns();
     std::int64_t renew_ns = start_ns;
     std::uint64_t frames = 0;
+    bool several = false;  // from the first report of another camera than the first on
     while (true) {
         const std::int64_t now_ns = monotonic_now_ns();
         if (o.duration_s > 0 && static_cast<double>(now_ns - start_ns) * 1e-9 >= o.duration_s) return 0;
@@ -115,9 +119,11 @@ int watch_telemetry(const SendTarget& target, const WatchOptions& o) {
         }
         Telemetry telemetry;
         if (!sender.receive(telemetry, kWait_ms)) continue;
-        fmt::print("{}\n", o.json ? json_of(telemetry) : text_of(telemetry));
+        const FrameReport* const report = std::get_if<FrameReport>(&telemetry);
+        several = several || (report && report->camera > 1);
+        fmt::print("{}\n", o.json ? json_of(telemetry) : text_of(telemetry, several));
         std::fflush(stdout);
-        if (std::holds_alternative<FrameReport>(telemetry) && o.frames > 0 && ++frames >= o.frames) return 0;
+        if (report && o.frames > 0 && ++frames >= o.frames) return 0;
     }
 }
 

@@ -18,8 +18,8 @@ void add_watch_options(CLI::App& app, WatchOptions& options);
 // Gives the exit status; throws DeviceError when the emulator is not there or goes.
 int watch_telemetry(const SendTarget& target, const WatchOptions& options);
 
-// A line for people, or a JSON object.
-std::string text_of(const Telemetry& telemetry);
+// A line for people, or a JSON object. several: there are cameras to be told apart.
+std::string text_of(const Telemetry& telemetry, bool several = false);
 std::string json_of(const Telemetry& telemetry);
 
 }  // namespace hilcam

@@ -22,6 +22,8 @@ class FrameMailbox {
     FrameMailbox(int width, int height, std::size_t slots) : items_(slots) {
         for (Item& item : items_) item.frame = DnImage(width, height);
     }
+    // From here to close() a thread takes what is put in. Owner thread.
+    void open() { open_.store(true, std::memory_order_relaxed); }
     // Loop, one thread.
     void put(const DnImage& frame, const FrameRecord& record) noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);
@@ -44,9 +46,13 @@ class FrameMailbox {
     }
     void done() { tail_.fetch_add(1, std::memory_order_release); }
     // Frames already in the ring are still delivered before wait() gives nullptr.
-    void close() { ready_.release(); }
-    // Loop: put() would find a place.
+    void close() {
+        open_.store(false, std::memory_order_relaxed);
+        ready_.release();
+    }
+    // Loop: put() finds a place, or nobody takes frames.
     bool has_room() const {
+        if (!open_.load(std::memory_order_relaxed)) return true;
         return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) < items_.size();
     }
     std::uint64_t dropped() const { return dropped_.load(); }
@@ -55,6 +61,7 @@ class FrameMailbox {
     std::vector<Item> items_;
     std::atomic<std::size_t> head_{0}, tail_{0};
     std::atomic<std::uint64_t> dropped_{0};
+    std::atomic<bool> open_{false};
     std::counting_semaphore<> ready_{0};
 };
 

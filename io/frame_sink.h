@@ -55,7 +55,9 @@ class FrameSink {
     // Takes a copy of the frame and returns; never waits for a client or a device. Loop. The image may be
     // overwritten as soon as this returns.
     virtual void publish(const DnImage& frame, const FrameRecord& record) noexcept = 0;
-    // False while the next publish() would have to drop its frame. Lockstep waits for it. Loop.
+    // False while the next publish() would drop a frame that somebody takes, because the one before is not
+    // out yet: never for long, and not where nobody takes frames (no client, the device gone, the sink
+    // stopped). Lockstep waits for it. Loop.
     virtual bool has_room() const noexcept { return true; }
     // Loop and any other thread, at the same time: never waits.
     virtual void happened(const CameraEvent&) noexcept {}

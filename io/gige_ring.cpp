@@ -13,8 +13,7 @@ GigeRing::GigeRing(std::size_t slots, std::size_t bytes_each) : slots_(slots) {
 }
 
 GigeSlot* GigeRing::claim() noexcept {
-    if (written_.load(std::memory_order_relaxed) - sent_.load(std::memory_order_acquire) >= kMostWaiting)
-        return nullptr;
+    if (!has_room()) return nullptr;
     for (std::uint64_t after = 0;;) {
         GigeSlot* oldest = nullptr;
         for (GigeSlot& slot : slots_)

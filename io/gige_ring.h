@@ -45,6 +45,11 @@ class GigeRing {
 
     // Loop: the slot with the oldest frame, to be written; null: the sender is too far behind.
     GigeSlot* claim() noexcept;
+    // Loop: claim() would give one.
+    bool has_room() const noexcept {
+        return written_.load(std::memory_order_relaxed) - sent_.load(std::memory_order_acquire) <
+               kMostWaiting;
+    }
     void publish(GigeSlot& slot) noexcept;
 
     // Sender: the next frame to send, or null; done() when it has been sent.

@@ -32,6 +32,7 @@ void FilesSink::start() {
     if (error)
         throw DeviceError("outputs.files.folder " + config_.folder.string() +
                           " cannot be made: " + error.message());
+    mailbox_.open();
     thread_ = std::thread([this] { run(); });
 }
 

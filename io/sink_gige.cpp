@@ -66,7 +66,7 @@ struct GigeSink::Implementation {
     std::unique_ptr<GigeDevice> device;
     Fd wakeup = open_wakeup();  // of the control thread
     std::thread control_thread;
-    std::atomic<bool> stopping{false};
+    std::atomic<bool> stopping{false}, running{false};  // running: the sender takes frames
 
     Latest<GigeStreamNow> for_loop;
     std::uint64_t era = 1;  // counts resets; the upper half of an acquisition's number
@@ -247,6 +247,7 @@ void GigeSink::start() {
     my.open();
     my.stopping.store(false);
     my.sender.start();
+    my.running.store(true);
     my.control_thread = std::thread([&my] { my.serve_control(); });
 }
 
@@ -256,6 +257,14 @@ void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept
     const GigeFrameWriter::Outcome outcome = my.writer.write(frame, record, now);
     if (outcome.written) my.sender.frame_ready();
     if (outcome.finished) my.finish(now.acquisition);
+}
+
+// A sender waits for no client for long, so a full ring has a place soon.
+bool GigeSink::has_room() const noexcept {
+    Implementation& my = *implementation_;
+    const GigeStreamState& s = my.for_loop.read().state;
+    const bool taken = s.open && s.acquiring && my.running.load(std::memory_order_relaxed);
+    return !taken || my.ring.has_room();
 }
 
 void GigeSink::happened(const CameraEvent& event) noexcept {
@@ -270,6 +279,7 @@ void GigeSink::stop() noexcept {
     my.stopping.store(true);
     wake(my.wakeup);
     my.control_thread.join();
+    my.running.store(false);
     my.sender.close();
     my.sockets.reset();
     my.next_sockets.reset();

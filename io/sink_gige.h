@@ -37,6 +37,7 @@ class GigeSink : public FrameSink {
     // Throws DeviceError when port 3956 there is taken.
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
+    bool has_room() const noexcept override;
     void happened(const CameraEvent& event) noexcept override;
     void stop() noexcept override;
     SinkReport report() const override;

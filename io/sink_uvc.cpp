@@ -59,6 +59,7 @@ void UvcSink::start() {
     gadget_.make();
     wakeup_ = open_wakeup();
     answering_ = std::thread([this] { answer_host(); });
+    mailbox_.open();
     feeding_ = std::thread([this] { feed(); });
 }
 

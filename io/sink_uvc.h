@@ -29,6 +29,7 @@ class UvcSink : public FrameSink {
     // Throws DeviceError (uvc_gadget.h).
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
+    bool has_room() const noexcept override { return mailbox_.has_room(); }
     void stop() noexcept override;
     SinkReport report() const override;
 

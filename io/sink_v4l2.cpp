@@ -98,6 +98,7 @@ void V4l2Sink::open_device() {
 
 void V4l2Sink::start() {
     open_device();
+    mailbox_.open();
     thread_ = std::thread([this] { run(); });
 }
 

@@ -41,6 +41,7 @@ class V4l2Sink : public FrameSink {
     // Throws DeviceError (v4l2_device.h).
     void start() override;
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
+    bool has_room() const noexcept override { return mailbox_.has_room(); }
     void stop() noexcept override;
     SinkReport report() const override;
 

@@ -1,6 +1,7 @@
 #pragma once
-// Telemetry: a report of every frame and housekeeping once a second, to the senders of commands that
-// subscribed, to clients of a read-only port, and to fixed UDP addresses.
+// Telemetry: a report of every camera's every frame and housekeeping once a second, to the senders of
+// commands that subscribed, to clients of a read-only port, and to fixed UDP addresses. One thread sends it
+// all; each camera's loop has a way of its own to it, a sink that takes the frames' records alone.
 
 #include <array>
 #include <atomic>
@@ -27,34 +28,33 @@ struct TelemetryConfig {
 Fields fields(TelemetryConfig& config);
 void validate(const TelemetryConfig& config);
 
-// A sink that takes the frames' records alone.
-class TelemetrySink : public FrameSink {
+class TelemetrySender {
   public:
-    // `figures` is asked once a second, by the sink's thread.
-    TelemetrySink(const TelemetryConfig& config, std::function<HousekeepingFigures()> figures);
-    ~TelemetrySink() override { TelemetrySink::stop(); }
+    // `figures` is asked once a second, by the sender's thread.
+    TelemetrySender(const TelemetryConfig& config, std::function<HousekeepingFigures()> figures);
+    ~TelemetrySender() { stop(); }
 
     // Receivers whose senders may subscribe; they outlive the sink's start() to stop(). Owner thread, before
     // start().
     void serve(std::vector<CommandReceiver*> receivers) { receivers_ = std::move(receivers); }
+    // The output of a camera that is to be reported; both are used only while the other lives. Owner thread,
+    // before start().
+    std::unique_ptr<FrameSink> sink(std::uint8_t camera);
 
-    void start() override;
-    void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
-    void stop() noexcept override;
-    SinkReport report() const override;
+    void start();
+    void stop() noexcept;
     // Of the read-only port. Any thread.
     CommandReport port_report() const { return port_ ? port_->report() : CommandReport{}; }
 
   private:
+    class Sink;
+
     void run();
+    void send_reports();
     void send(const Telemetry& telemetry);
 
-    // Reports on their way from the loop to the thread.
-    static constexpr std::size_t kRing = 256;
-    std::array<FrameReport, kRing> ring_;
-    std::atomic<std::size_t> head_{0}, tail_{0};
-    std::counting_semaphore<> ready_{0};
-    std::atomic<std::uint64_t> sent_{0}, dropped_{0};
+    std::vector<Sink*> sinks_;
+    std::counting_semaphore<> ready_{0};  // counts the reports that wait in all of them
 
     TelemetryConfig config_;
     std::function<HousekeepingFigures()> figures_;

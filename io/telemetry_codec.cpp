@@ -9,13 +9,14 @@ constexpr std::size_t kFrameReportBytes = 80, kHousekeepingBytes = 108;  // bodi
 std::uint64_t bits_of(std::int64_t value) { return static_cast<std::uint64_t>(value); }
 
 void write(ByteWriter& out, const FrameReport& r) {
-    out.u8(kProtocolVersion).u8(kFrameReportKind).u16(0);
+    out.u8(kProtocolVersion).u8(kFrameReportKind).u8(r.camera).u8(0);
     out.u64(r.frame).u64(bits_of(r.exposure_mid.ns)).u64(bits_of(r.exposure_mid_monotonic_ns));
     out.f64(r.exposure_s).f64(r.gain_db).u32(r.pose_sequence).u32(r.trigger_sequence);
     out.u64(bits_of(r.pose_time.ns)).u64(bits_of(r.latency_ns)).u64(r.faults).u32(r.quality_level);
 }
 void read(ByteReader& in, FrameReport& r) {
-    in.u16();
+    r.camera = in.u8();
+    in.u8();
     r.frame = in.u64();
     r.exposure_mid.ns = in.i64();
     r.exposure_mid_monotonic_ns = in.i64();

@@ -18,6 +18,7 @@ inline constexpr std::uint16_t kHousekeepingApid = 0x103;
 inline constexpr std::size_t kMostTelemetryBytes = 160;
 
 struct FrameReport {
+    std::uint8_t camera = 1;                     // which one took it, from 1, as commands name it
     std::uint64_t frame = 0;                     // FrameRecord::id
     TimeTai exposure_mid;                        // simulated
     std::int64_t exposure_mid_monotonic_ns = 0;  // the same instant on the machine's clock

@@ -20,10 +20,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const auto packet : {bytes, std::span<const std::uint8_t>(sealed).first(sealed_bytes)}) {
         Telemetry telemetry, back;
         if (!decode_telemetry(packet, telemetry)) continue;
-        std::array<std::uint8_t, kMostPacketBytes> again;
+        std::array<std::uint8_t, kMostPacketBytes> again, third;
         const std::size_t written = encode_telemetry(telemetry, 0, again);
         HILCAM_CHECK(decode_telemetry(std::span(again).first(written), back));
         HILCAM_CHECK(back.index() == telemetry.index());
+        HILCAM_CHECK(encode_telemetry(back, 0, third) == written);
+        HILCAM_CHECK(std::equal(again.begin(), again.begin() + written, third.begin()));
+        if (const auto* report = std::get_if<FrameReport>(&telemetry))
+            HILCAM_CHECK(report->camera == packet[8]);
     }
     return 0;
 }

@@ -264,8 +264,26 @@ class Pair(unittest.TestCase):
                 found = subprocess.run(["arv-tool-0.8"], capture_output=True, text=True, timeout=30).stdout
                 self.assertIn("PAIR1", found)
                 self.assertIn("PAIR2", found)
+                watches = [subprocess.Popen([HILCAM, "send", "--to", "127.0.0.1:15024", "watch", *words],
+                                            stdout=subprocess.PIPE, text=True, bufsize=1)
+                           for words in (("--json",), ("--frames", "6"))]
+                self.addCleanup(lambda: [(watch.kill(), watch.wait(), watch.stdout.close()) for watch in watches])
+                # Once it hears housekeeping it is subscribed.
+                for watch in watches:
+                    self.assertIn("housekeeping" if "--json" in watch.args else "camera lockstep", watch.stdout.readline())
                 for _ in range(3):
                     self.assertEqual(send("expose").returncode, 0)
+                told, frames = [], 0
+                for _ in range(60):  # housekeeping comes every second
+                    if len(told) == 6 and frames == 6:  # of both cameras
+                        break
+                    packet = json.loads(watches[0].stdout.readline())
+                    if packet["kind"] == "frame":
+                        told.append(packet)
+                    else:
+                        frames = packet["frames"]
+                lines = [line for line in watches[1].communicate(timeout=30)[0].splitlines() if " mid-exposure " in line]
+                self.assertEqual(frames, 6, "housekeeping counts the frames of both")
                 emulator.send_signal(signal.SIGINT)
                 log = emulator.communicate(timeout=30)[1]
                 self.assertEqual(emulator.returncode, 0, log)
@@ -274,6 +292,14 @@ class Pair(unittest.TestCase):
                 emulator.communicate()
             report = json.loads(report_file.read_text())
             self.assertEqual([camera["frames"] for camera in report["cameras"]], [3, 3])
+            for camera in (1, 2):
+                self.assertEqual([packet["frame"] for packet in told if packet["camera"] == camera], [1, 2, 3])
+            instants = [packet["exposure_mid_tai_ns"] for packet in told]
+            self.assertEqual(len(set(instants)), 3, "both take the same instants")
+            self.assertEqual(sum(line.startswith("camera 2 frame") for line in lines), 3, lines)
+            outputs = [[output for output in camera["outputs"] if output["name"] == "telemetry"]
+                       for camera in report["cameras"]]
+            self.assertEqual([(output["frames"], output["dropped"]) for (output,) in outputs], [(3, 0), (3, 0)])
             # The target is 27.5 m away and the focal length is 227 px: a metre to the right moves it by
             # 227 / 27.5 = 8.3 px to the left. Light's middle, as the shape seen differs little.
             def middle(name):

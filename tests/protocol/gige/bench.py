@@ -84,6 +84,15 @@ class Emulator:
     def clear_faults(self):
         self._command(7, struct.pack(">BxxxddQQd", 0, 0, 0, 0, 0, 0))
 
+    def expose(self, frames):
+        """In lockstep: takes so many frames."""
+        self._command(8, struct.pack(">HxxQ", frames, 0))
+
+    def frames(self):
+        """Taken so far, by housekeeping."""
+        line = self.send("watch", "--housekeeping", "--json", "--duration-s", 1.5).stdout.splitlines()[-1]
+        return json.loads(line)["frames"]
+
     def _command(self, function, payload):
         """A command of docs/protocol.md, until it is answered."""
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:

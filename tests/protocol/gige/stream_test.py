@@ -9,6 +9,7 @@ import unittest
 import gvcp_client as g
 from bench import pose_packet
 from camera_case import CLIENT, OTHER, CameraTest, StreamTest
+from genicam_client import Features
 from gvsp_client import StreamReceiver
 
 CameraTest.hilcam = sys.argv[1]
@@ -229,6 +230,28 @@ class Chunks(StreamTest):
         for number, tag, mid in shown:
             if number > 77_000:
                 self.assertLess(abs(mid - tag), 3_600_000_000_000)
+
+
+class Lockstep(CameraTest):
+    """Frames as fast as they are made, over a link that is slower."""
+    sets = ("mode=lockstep", "outputs.gige.rate_limit_mb_s=1")
+
+    def test_no_frame_is_lost_to_a_slow_link(self):
+        camera = self.controller()
+        features = Features(camera)
+        with StreamReceiver(camera, CLIENT) as stream:
+            stream.open(1500)
+            features.execute("AcquisitionStart")
+            self.emulator.expose(12)
+            frames = stream.take(12)
+            features.execute("AcquisitionStop")
+        self.assertEqual([frame.block for frame in frames], list(range(1, 13)))
+        self.assertTrue(all(frame.complete for frame in frames))
+
+    def test_frames_that_nobody_takes_are_not_waited_for(self):
+        before = self.emulator.frames()
+        self.emulator.expose(30)
+        self.eventually("frames without a client", lambda: self.emulator.frames() >= before + 30)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ namespace hilcam {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::string error_of(const std::string& script) {
     try {
@@ -77,7 +78,10 @@ TEST(Watch, LinesSayWhatThePacketsDo) {
     report.frame = 12;
     report.latency_ns = 1'500'000;
     report.faults = bit_of(FaultKind::kImageBlack);
-    EXPECT_THAT(text_of(report), HasSubstr("frame 12"));
+    EXPECT_THAT(text_of(report), StartsWith("frame 12"));
+    report.camera = 2;
+    EXPECT_THAT(text_of(report, true), StartsWith("camera 2 frame 12"));
+    EXPECT_THAT(json_of(report), HasSubstr("\"camera\":2"));
     EXPECT_THAT(text_of(report), HasSubstr("pose to frame 1.500 ms faults image_black"));
     EXPECT_THAT(json_of(report), HasSubstr("\"faults\":[\"image_black\"]"));
     HousekeepingFigures figures;

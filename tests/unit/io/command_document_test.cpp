@@ -60,6 +60,7 @@ TEST_F(ProtocolDocument, Acknowledgement) {
 
 FrameReport some_report() {
     FrameReport r;
+    r.camera = 2;
     r.frame = 100;
     r.exposure_mid.ns = 1'500'000'000;
     r.exposure_mid_monotonic_ns = 2'500'000'000;
@@ -113,6 +114,7 @@ TEST(TelemetryCodec, ComesBackAsItWentInBothDialects) {
         Telemetry back;
         ASSERT_TRUE(decode_telemetry(bytes, dialect, back));
         const auto& report = std::get<FrameReport>(back);
+        EXPECT_EQ(report.camera, 2);
         EXPECT_EQ(report.frame, 100u);
         EXPECT_EQ(report.exposure_mid_monotonic_ns, 2'500'000'000);
         EXPECT_EQ(report.pose_time.ns, 1'000'000'000);

@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cstring>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "io/fault.h"
 #include "io/gige_features.h"
@@ -143,6 +145,94 @@ TEST(GigeSink, TwoCamerasInOneProcess) {
     for (const auto& sink : sinks) sink->stop();
     EXPECT_EQ(sinks[1]->report().frames, 3u);
     EXPECT_EQ(sinks[0]->report().name, "gige 127.83.2.1");
+}
+
+// 6 kB a frame at 200 kB/s, 30 ms: the ring is full at once.
+struct SlowSink : testing::Test {
+    static constexpr std::uint32_t kCamera = 0x7F530501;
+    PlainCamera camera;
+    FaultBoard faults;
+    GigeSink sink{{.interface = format_ipv4(kCamera), .packet_bytes = 576, .rate_bytes_s = 200e3},
+                  {camera, faults}};
+    Client client{0x7F530502};
+    DnImage image{kWidth, kHeight};
+    FrameRecord record;
+
+    SlowSink() {
+        record.bits = 12;
+        sink.start();
+    }
+    void publish() {
+        ++record.id;
+        sink.publish(image, record);
+    }
+    bool wait_for_room() {
+        for (int i = 0; i < kPatience_ms && !sink.has_room(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return sink.has_room();
+    }
+};
+
+TEST_F(SlowSink, WhoWaitsForRoomLosesNoFrame) {
+    client.start(kCamera);
+    int waits = 0;
+    constexpr std::uint64_t kFrames = 10;  // that the client's buffer holds unread
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        waits += !sink.has_room();
+        ASSERT_TRUE(wait_for_room());
+        publish();
+    }
+    EXPECT_GT(waits, 0);
+    std::set<std::uint64_t> ended;  // the client's blocks that have a trailer
+    while (ended.size() < kFrames) {
+        const auto bytes = receive(client.stream(), kPatience_ms);
+        ASSERT_FALSE(bytes.empty()) << ended.size();
+        if (const Packet p = parse(bytes); p.format == gvsp::kTrailer) ended.insert(p.block);
+    }
+    EXPECT_EQ(sink.report().dropped, 0u);
+    // Who does not wait loses some, and was told so.
+    bool room = true;
+    for (int i = 0; i < 10; ++i) {
+        room = room && sink.has_room();
+        publish();
+    }
+    EXPECT_FALSE(room);
+    EXPECT_GT(sink.report().dropped, 0u);
+}
+
+TEST_F(SlowSink, FramesThatNobodyTakesAreNotWaitedFor) {
+    const auto always_room = [&] {
+        bool room = true;
+        for (int i = 0; i < 10; ++i, publish()) room = room && sink.has_room();
+        return room;
+    };
+    EXPECT_TRUE(always_room());  // no client
+    client.start(kCamera);
+    EXPECT_FALSE(always_room());
+    client.write(kCamera, feature_register::kAcquisitionStop, 1);
+    EXPECT_TRUE(always_room());
+    client.write(kCamera, feature_register::kAcquisitionStart, 1);
+    EXPECT_TRUE(wait_for_room());  // what waited was for nobody
+    EXPECT_FALSE(always_room());
+    client.write(kCamera, 0x0D00, 0);  // the stream's port
+    EXPECT_TRUE(always_room());
+}
+
+// Its buffer fills and is never read.
+TEST_F(SlowSink, AClientThatDoesNotTakeHoldsNobodyUp) {
+    const int least = 1;
+    setsockopt(client.stream().get(), SOL_SOCKET, SO_RCVBUF, &least, sizeof least);
+    client.start(kCamera);
+    for (int i = 0; i < 10; ++i, publish()) ASSERT_TRUE(wait_for_room()) << i;
+    EXPECT_EQ(sink.report().dropped, 0u);
+}
+
+TEST_F(SlowSink, NeitherDoesACutCableNorAStoppedOutput) {
+    client.start(kCamera);
+    faults.order({.kind = FaultKind::kLinkDown, .rate = 1});
+    for (int i = 0; i < 10; ++i, publish()) ASSERT_TRUE(wait_for_room()) << i;
+    sink.stop();
+    for (int i = 0; i < 10; ++i, publish()) EXPECT_TRUE(sink.has_room());
 }
 
 TEST(GigeSink, ATakenAddressIsSaid) {
