@@ -5,6 +5,9 @@
 // The damage comes from a fixed seed, so that a failure comes back. The input about to be tried is written to
 // the working folder as TARGET.last and removed at the end: it is what a crash leaves.
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -52,9 +55,37 @@ void damage(Bytes& bytes, std::mt19937& random) {
     }
 }
 
-void try_one(const Bytes& bytes, const std::filesystem::path& last) {
-    std::ofstream(last, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+// The file of the last input: open all the time, as opening it for each would take longer than most targets
+// do.
+class LastInput {
+  public:
+    explicit LastInput(const std::string& file)
+        : file_(file), fd_(open(file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {}
+    ~LastInput() { close(fd_); }
+    LastInput(const LastInput&) = delete;
+    LastInput& operator=(const LastInput&) = delete;
+
+    // Written to the kernel before the target runs: it outlives a crash of this process.
+    bool keep(const Bytes& bytes) {
+        const auto size = static_cast<ssize_t>(bytes.size());
+        if (pwrite(fd_, bytes.data(), bytes.size(), 0) != size) return false;
+        if (size < size_ && ftruncate(fd_, size) != 0) return false;
+        size_ = size;
+        return true;
+    }
+    void remove() const { std::filesystem::remove(file_); }
+
+  private:
+    std::string file_;
+    int fd_;
+    ssize_t size_ = 0;
+};
+
+void try_one(const Bytes& bytes, LastInput& last) {
+    if (!last.keep(bytes)) {
+        std::perror("the input cannot be kept");
+        std::exit(1);
+    }
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
 }
 
@@ -72,7 +103,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "%s: no corpus\n", argv[1]);
         return 1;
     }
-    const std::filesystem::path last = std::filesystem::path(argv[0]).filename().string() + ".last";
+    LastInput last(std::filesystem::path(argv[0]).filename().string() + ".last");
     std::mt19937 random(1);
     const int copies = std::atoi(argv[2]);
     for (const auto& file : files) {
@@ -85,7 +116,7 @@ int main(int argc, char** argv) {
             try_one(bytes, last);
         }
     }
-    std::filesystem::remove(last);
+    last.remove();
     std::printf("%zu files, %d damaged copies of each\n", files.size(), copies);
     return 0;
 }
