@@ -9,6 +9,7 @@ void GigeCore::publish_stream() {
     stream.format = settings.format;
     stream.chunk_mode = settings.chunk_mode;
     stream.chunks = settings.chunks;
+    stream.components = settings.components ? settings.components : bit_of(GigeComponent::kIntensity);
     stream.frames = settings.mode == AcquisitionMode::kSingleFrame  ? 1
                     : settings.mode == AcquisitionMode::kMultiFrame ? settings.frame_count
                                                                     : 0;

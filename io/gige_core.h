@@ -80,8 +80,9 @@ struct GigeSettings {
     bool rate_enabled = true;
     double rate_hz = 0;  // while not enabled: what to go back to
     bool chunk_mode = false;
-    std::uint32_t chunks = 0;  // bits by Chunk
-    std::uint32_t events = 0;  // bits by place in kGigeEvents
+    std::uint32_t chunks = 0;                                      // bits by Chunk
+    std::uint32_t components = bit_of(GigeComponent::kIntensity);  // parts of multipart frames
+    std::uint32_t events = 0;                                      // bits by place in kGigeEvents
     bool throughput_limited = false;
     std::uint64_t throughput_limit_bytes_s = 0;
 };

@@ -51,7 +51,7 @@ GigeDevice::Parts::Parts(const GigeIdentity& id, CameraControl& camera, FaultBoa
                     image.fit();
                     core.publish_stream();
                 }),
-      xml(padded(genicam_xml(gige_features(core.limits), id.model))),
+      xml(padded(genicam_xml(gige_features(core.limits, id.multipart), id.model))),
       zip(zip_of("hilcam.xml", xml)) {
     bootstrap.add_description(bytes_of(xml), zip);
     add_device_registers();

@@ -15,8 +15,8 @@ void FeatureTable::add(const char* category, std::vector<Feature> rows) {
     }
 }
 
-FeatureTable gige_features(const CameraLimits& limits) {
-    FeatureTable table(limits);
+FeatureTable gige_features(const CameraLimits& limits, bool multipart) {
+    FeatureTable table(limits, multipart);
     add_device_features(table);
     add_image_features(table);
     add_acquisition_features(table);

@@ -138,8 +138,9 @@ struct FeatureFormula {
 };
 
 struct FeatureTable {
-    explicit FeatureTable(const CameraLimits& l) : limits(l) {}
+    FeatureTable(const CameraLimits& l, bool has_parts) : limits(l), multipart(has_parts) {}
     const CameraLimits limits;
+    const bool multipart;
     std::vector<Feature> features;
     std::vector<FeaturePort> ports;
     std::vector<FeatureFormula> formulas;
@@ -148,7 +149,7 @@ struct FeatureTable {
 };
 
 // In the order of the description.
-FeatureTable gige_features(const CameraLimits& limits);
+FeatureTable gige_features(const CameraLimits& limits, bool multipart);
 
 // Its parts.
 void add_device_features(FeatureTable& table);

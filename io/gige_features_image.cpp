@@ -70,6 +70,20 @@ void add_image_features(FeatureTable& t) {
                                         boolean("ReverseX", r::kReverseX, "Left and right change places"),
                                         boolean("ReverseY", r::kReverseY, "Top and bottom change places"),
                                     });
+    if (t.multipart)
+        t.add(
+            "ImageFormatControl",
+            {
+                enumeration("ComponentSelector", r::kComponentSelector, counted({"Intensity", "Confidence"}),
+                            "A part of multipart frames")
+                    .selects({"ComponentEnable", "ComponentIDValue"}),
+                boolean("ComponentEnable", r::kComponentEnable,
+                        "Whether it is among them. Confidence is 0 where the DN is 0 or full scale, else 255")
+                    .locked(),
+                integer("ComponentIDValue", r::kComponentId, "Its id in the stream")
+                    .between(1, 6)
+                    .read_only(),
+            });
     t.add("", {
                   integer("WidthRoom", r::kWidthRoom, "").between(1, w).read_only(),
                   integer("HeightRoom", r::kHeightRoom, "").between(1, h).read_only(),

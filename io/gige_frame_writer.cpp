@@ -35,7 +35,7 @@ GigeFrameWriter::Outcome GigeFrameWriter::write(const DnImage& frame, const Fram
         return {};
     }
     const std::uint64_t block =
-        ids_.take(s.extended_ids, faults_.strikes(FaultKind::kBlockIdWrap, record.id).has_value());
+        ids_.take(s.long_ids(), faults_.strikes(FaultKind::kBlockIdWrap, record.id).has_value());
     newest_.write({record.id, block});
     if (faults_.strikes(FaultKind::kFrameDrop, record.id)) {
         dropped_.fetch_add(1, std::memory_order_relaxed);

@@ -23,6 +23,7 @@ GigeImage::GigeImage(GigeCore& core) : core_(core) {
     add_window();
     add_camera_settings();
     add_chunks();
+    if (core_.identity.multipart) add_components();
     reset();
 }
 
@@ -31,6 +32,7 @@ void GigeImage::reset() {
     s.format = native_format(core_.limits.bits, core_.limits.color_pattern);
     s.chunk_mode = false;
     s.chunks = kAllChunks;
+    s.components = bit_of(GigeComponent::kIntensity);
     s.offset_x = s.offset_y = 0;
     s.width = s.height = ~0u;
     fit();
@@ -201,6 +203,26 @@ void GigeImage::add_chunks() {
             return Status::kSuccess;
         },
         When::kUnlocked);
+}
+
+// Clients switch all components off before they switch on the ones they want: a frame of none has its
+// intensity.
+void GigeImage::add_components() {
+    GigeRegisterFile& r = core_.registers;
+    const auto selected = [this] { return static_cast<GigeComponent>(component_selector_); };
+    r.variable(reg::kComponentSelector, component_selector_, {0, 1});
+    r.number(
+        reg::kComponentEnable,
+        [this, selected] { return (core_.settings.components & bit_of(selected())) != 0; },
+        [this, selected](std::uint64_t on) {
+            if (on > 1) return Status::kInvalidParameter;
+            std::uint32_t& all = core_.settings.components;
+            all = on ? all | bit_of(selected()) : all & ~bit_of(selected());
+            core_.publish_stream();
+            return Status::kSuccess;
+        },
+        When::kUnlocked);
+    r.number(reg::kComponentId, [selected] { return std::uint64_t{id_of(selected())}; });
 }
 
 }  // namespace hilcam

@@ -1,8 +1,8 @@
 #pragma once
-// The picture's format: window, binning, pixel format, mirroring, test pattern, chunks. The window always
-// lies on the (binned) sensor; of a camera with colour filters it begins on even pixels and has even sizes,
-// so that its mosaic stays that of its pixel format. A window that does not fit is refused: clients set the
-// offsets to 0 first, as with other cameras.
+// The picture's format: window, binning, pixel format, mirroring, test pattern, chunks, parts. The window
+// always lies on the (binned) sensor; of a camera with colour filters it begins on even pixels and has even
+// sizes, so that its mosaic stays that of its pixel format. A window that does not fit is refused: clients
+// set the offsets to 0 first, as with other cameras.
 
 #include "io/gige_core.h"
 
@@ -25,6 +25,7 @@ class GigeImage {
     void add_window();
     void add_camera_settings();
     void add_chunks();
+    void add_components();
     struct Span {
         std::uint32_t& offset;
         std::uint32_t& size;
@@ -39,7 +40,7 @@ class GigeImage {
     std::uint32_t payload_bytes() const;
 
     GigeCore& core_;
-    std::uint32_t chunk_selector_ = 0;
+    std::uint32_t chunk_selector_ = 0, component_selector_ = 0;
 };
 
 }  // namespace hilcam

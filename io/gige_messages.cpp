@@ -78,7 +78,7 @@ void GigeMessages::send(const gvcp::Event& event, std::span<const std::uint8_t> 
     Message message;
     message.request_id = next_id_;
     next_id_ = next_id_ == 0xFFFF ? std::uint16_t{1} : static_cast<std::uint16_t>(next_id_ + 1);
-    message.size = gvcp::write_event(event, core_.stream.extended_ids, acknowledge, message.request_id, data,
+    message.size = gvcp::write_event(event, core_.stream.long_ids(), acknowledge, message.request_id, data,
                                      message.bytes);
     if (!acknowledge) {
         transmit(message);

@@ -7,12 +7,12 @@
 namespace hilcam {
 namespace {
 
-bool is_multipart(const GigeStreamState& s) { return s.multipart && s.extended_ids; }
+// PFNC 2.4.
+constexpr std::uint32_t kConfidence8 = 0x010800C6;
 
 // Payload bytes of a full packet.
 std::size_t piece_bytes(const GigeStreamState& s) {
-    return s.packet_bytes - gvsp::overhead_bytes(s.extended_ids) -
-           (is_multipart(s) ? gvsp::kPartPrefixBytes : 0);
+    return s.packet_bytes - gvsp::overhead_bytes(s.long_ids()) - (s.multipart ? gvsp::kPartPrefixBytes : 0);
 }
 std::uint32_t pieces(std::size_t bytes, const GigeStreamState& s) {
     return static_cast<std::uint32_t>((bytes + piece_bytes(s) - 1) / piece_bytes(s));
@@ -24,6 +24,32 @@ gvsp::Image image_of(const GigeFrame& f) {
     return {pfnc_code(s.format, seen), s.width, s.height, s.offset_x, s.offset_y};
 }
 
+struct Parts {
+    std::array<gvsp::Part, gvsp::kMostParts> parts;
+    std::size_t count = 0;
+
+    void add(const gvsp::Part& part) {
+        if (part.bytes > 0) parts[count++] = part;
+    }
+    std::span<const gvsp::Part> all() const { return std::span(parts).first(count); }
+};
+
+// In the order of the payload's bytes. A plain stream is one of a single part.
+Parts parts_of(const GigeFrame& f) {
+    const GigeStreamState& s = f.stream;
+    Parts p;
+    if (!s.multipart) {
+        p.add({gvsp::Part::k2dImage, s.payload_bytes(), {}});
+        return p;
+    }
+    gvsp::Image confidence = image_of(f);
+    confidence.pixel_format = kConfidence8;
+    p.add({gvsp::Part::k2dImage, s.image_bytes(), image_of(f), id_of(GigeComponent::kIntensity)});
+    p.add({gvsp::Part::kConfidenceMap, s.confidence_bytes(), confidence, id_of(GigeComponent::kConfidence)});
+    p.add({gvsp::Part::kChunkData, s.chunk_data_bytes(), {}});
+    return p;
+}
+
 // A layout id names the set of chunks; 0 is reserved for "not told".
 gvsp::ChunkTail chunk_tail(const GigeStreamState& s) {
     return {static_cast<std::uint32_t>(s.payload_bytes()), s.chunks + 1};
@@ -32,15 +58,10 @@ gvsp::ChunkTail chunk_tail(const GigeStreamState& s) {
 GigePacket leader_of(const GigeFrame& f, const gvsp::PacketHeader& header) {
     const GigeStreamState& s = f.stream;
     GigePacket p;
-    if (!is_multipart(s)) {
-        p.head_bytes = gvsp::write_image_leader(header, s.chunk_mode, f.timestamp_ns, image_of(f), p.head);
-        return p;
-    }
-    const std::array<gvsp::Part, gvsp::kMostParts> parts = {
-        {{gvsp::Part::k2dImage, s.image_bytes(), image_of(f)},
-         {gvsp::Part::kChunkData, s.payload_bytes() - s.image_bytes(), {}}}};
-    p.head_bytes = gvsp::write_multipart_leader(header, s.chunk_mode, f.timestamp_ns,
-                                                std::span(parts).first(s.chunk_mode ? 2 : 1), p.head);
+    p.head_bytes =
+        s.multipart
+            ? gvsp::write_multipart_leader(header, s.chunk_mode, f.timestamp_ns, parts_of(f).all(), p.head)
+            : gvsp::write_image_leader(header, s.chunk_mode, f.timestamp_ns, image_of(f), p.head);
     return p;
 }
 
@@ -50,13 +71,25 @@ GigePacket trailer_of(const GigeFrame& f, const gvsp::PacketHeader& header) {
     const gvsp::ChunkTail* const chunks = s.chunk_mode ? &tail : nullptr;
     const auto size_y = s.height + static_cast<std::uint32_t>(f.size_y_error);
     GigePacket p;
-    p.head_bytes = gvsp::write_trailer(header, is_multipart(s) ? gvsp::kMultipartPayload : gvsp::kImage,
-                                       size_y, chunks, p.head);
+    p.head_bytes = gvsp::write_trailer(header, s.multipart ? gvsp::kMultipartPayload : gvsp::kImage, size_y,
+                                       chunks, p.head);
     return p;
 }
 
 // --- chunks
 // ----------------------------------------------------------------------------------------------------------------------
+
+void write_confidence(const DnImage& frame, const Crop& crop, int bits, std::span<std::uint8_t> out) {
+    const auto full_scale = static_cast<std::uint16_t>((1u << bits) - 1);
+    auto at = out.begin();
+    for (int y = crop.top; y < crop.top + crop.height; ++y) {
+        const auto row =
+            frame.row(y).subspan(static_cast<std::size_t>(crop.left), static_cast<std::size_t>(crop.width));
+        at = std::transform(row.begin(), row.end(), at, [full_scale](std::uint16_t dn) {
+            return static_cast<std::uint8_t>(dn == 0 || dn >= full_scale ? 0 : 255);
+        });
+    }
+}
 
 void write_chunk(ByteWriter& out, Chunk chunk, const FrameRecord& r, const GigeStreamState& s,
                  BayerPattern seen, std::uint64_t timestamp_ns) {
@@ -111,10 +144,12 @@ void write_chunk(ByteWriter& out, Chunk chunk, const FrameRecord& r, const GigeS
 
 }  // namespace
 
-std::size_t most_payload_bytes(int width, int height, BayerPattern pattern) {
+std::size_t most_payload_bytes(int width, int height, BayerPattern pattern, bool multipart) {
     GigeStreamState all;
     all.width = static_cast<std::uint32_t>(width);
     all.height = static_cast<std::uint32_t>(height);
+    all.multipart = multipart;
+    if (multipart) all.components |= bit_of(GigeComponent::kConfidence);
     all.chunk_mode = true;
     all.chunks = (1u << kChunks) - 1;
     std::size_t most = 0;
@@ -131,10 +166,13 @@ void write_gige_payload(const DnImage& frame, const FrameRecord& record, const G
     const Crop crop{static_cast<int>(s.offset_x), static_cast<int>(s.offset_y), static_cast<int>(s.width),
                     static_cast<int>(s.height)};
     const BayerPattern seen = shifted(pattern, crop.left, crop.top);
-    write_wire(frame, crop, record.bits, s.format, seen, scratch, out.first(s.image_bytes()));
+    if (s.image_bytes() > 0)
+        write_wire(frame, crop, record.bits, s.format, seen, scratch, out.first(s.image_bytes()));
+    if (s.confidence_bytes() > 0)
+        write_confidence(frame, crop, record.bits, out.subspan(s.image_bytes(), s.confidence_bytes()));
     if (!s.chunk_mode) return;
-    ByteWriter chunks(out.subspan(s.image_bytes(), s.payload_bytes() - s.image_bytes()));
-    chunks.u32(kImageChunkId).u32(s.image_bytes());
+    ByteWriter chunks(out.subspan(s.image_bytes() + s.confidence_bytes(), s.chunk_data_bytes()));
+    chunks.u32(kImageChunkId).u32(s.image_bytes() + s.confidence_bytes());
     for (int i = 0; i < kChunks; ++i) {
         if ((s.chunks >> i & 1u) == 0) continue;
         const auto chunk = static_cast<Chunk>(i);
@@ -143,31 +181,32 @@ void write_gige_payload(const DnImage& frame, const FrameRecord& record, const G
     }
 }
 
+// Packets hold bytes of one part each.
 std::uint32_t trailer_id(const GigeStreamState& s) {
-    if (!is_multipart(s)) return pieces(s.payload_bytes(), s) + 1;
-    // Packets hold bytes of one part each.
-    return pieces(s.image_bytes(), s) + pieces(s.payload_bytes() - s.image_bytes(), s) + 1;
+    if (!s.multipart) return pieces(s.payload_bytes(), s) + 1;
+    return pieces(s.image_bytes(), s) + pieces(s.confidence_bytes(), s) + pieces(s.chunk_data_bytes(), s) + 1;
 }
 
 GigePacket packet_of(const GigeFrame& f, std::uint32_t id, gvsp::Status status) {
     const GigeStreamState& s = f.stream;
     const std::uint32_t last = trailer_id(s);
-    gvsp::PacketHeader header{.status = status, .extended = s.extended_ids, .block = f.block, .packet = id};
+    gvsp::PacketHeader header{.status = status, .extended = s.long_ids(), .block = f.block, .packet = id};
     header.format = id == 0 ? gvsp::kLeader : id >= last ? gvsp::kTrailer : gvsp::kPayload;
     if (header.format == gvsp::kLeader) return leader_of(f, header);
     if (header.format == gvsp::kTrailer) return trailer_of(f, header);
     GigePacket p;
-    std::size_t from = (id - 1) * piece_bytes(s), end = s.payload_bytes();
-    if (is_multipart(s)) {
-        const std::uint32_t of_image = pieces(s.image_bytes(), s);
-        const bool image = id <= of_image;
-        if (!image) from = s.image_bytes() + (id - 1 - of_image) * piece_bytes(s);
-        if (image) end = s.image_bytes();
-        header.format = gvsp::kMultipart;
-        p.head_bytes = gvsp::write_part_payload(header, image ? 0 : 1, from, p.head);
-    } else {
-        p.head_bytes = gvsp::write_header(header, p.head);
+    const Parts parts = parts_of(f);
+    std::uint8_t part = 0;
+    std::size_t begin = 0;
+    std::uint32_t place = id - 1;  // in the part
+    for (; place >= pieces(parts.parts[part].bytes, s); ++part) {
+        place -= pieces(parts.parts[part].bytes, s);
+        begin += parts.parts[part].bytes;
     }
+    const std::size_t from = begin + place * piece_bytes(s), end = begin + parts.parts[part].bytes;
+    if (s.multipart) header.format = gvsp::kMultipart;
+    p.head_bytes = s.multipart ? gvsp::write_part_payload(header, part, from, p.head)
+                               : gvsp::write_header(header, p.head);
     p.data = f.payload.subspan(from, std::min(piece_bytes(s), end - from));
     return p;
 }

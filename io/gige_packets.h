@@ -2,9 +2,10 @@
 // A frame as the packets of a GigE Vision stream. Pure: every packet is a function of the frame and the
 // packet's id, so that what is sent again is what was sent.
 //
-// The payload is the image and, in chunk mode, each chunk's data followed by its id and length, the image's
-// own tail first: clients walk from the end backwards. A multipart block (only with extended ids: a short
-// header has no room for the number of parts) has the image as one part and the chunks as another.
+// The payload is the image and, in chunk mode, each chunk's data followed by its id and length, first such a tail of
+// all that is before: clients walk from the end backwards. A multipart block has the image as one part, which of
+// its pixels can be believed as another (Confidence8: 0 where the DN is 0 or full scale, and so only a bound
+// of the signal; else 255), and the chunks as the last.
 
 #include <array>
 #include <cstdint>
@@ -26,8 +27,8 @@ struct GigeFrame {
     std::span<const std::uint8_t> payload;
 };
 
-// The largest payload of such a camera, whatever the format and the chunks.
-std::size_t most_payload_bytes(int width, int height, BayerPattern pattern);
+// The largest payload of such a camera, whatever the format, the chunks and, if it has them, the parts.
+std::size_t most_payload_bytes(int width, int height, BayerPattern pattern, bool multipart);
 
 // The frame's window and its chunks: exactly stream.payload_bytes() bytes of `out`. `scratch`: at least
 // 3 * stream.width + 8 numbers. The frame must contain the window. Loop.

@@ -79,8 +79,9 @@ inline constexpr std::uint32_t kGainSelector = 0xA180, kBlackLevelSelector = 0xA
 inline constexpr std::uint32_t kParamsLocked = 0xA200, kDeviceReset = 0xA204, kThroughputMode = 0xA208,
                                kTemperatureSelector = 0xA20C, kTemperature_c = 0xA210,
                                kThroughputLimit = 0xA218;
-// Chunks, events, user sets.
+// Chunks, components, events, user sets.
 inline constexpr std::uint32_t kChunkMode = 0xA300, kChunkSelector = 0xA304, kChunkEnable = 0xA308;
+inline constexpr std::uint32_t kComponentSelector = 0xA310, kComponentEnable = 0xA314, kComponentId = 0xA318;
 inline constexpr std::uint32_t kEventSelector = 0xA320, kEventNotification = 0xA324;
 inline constexpr std::uint32_t kUserSetSelector = 0xA340, kUserSetLoad = 0xA344, kUserSetSave = 0xA348,
                                kUserSetDefault = 0xA34C;

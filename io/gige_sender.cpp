@@ -104,7 +104,7 @@ void GigeSender::send_frame(GigeSlot& slot) {
         const GigeStreamNow& now = stream_.read();
         return now.state.open && now.acquisition == slot.acquisition;
     };
-    if (history_of_ != slot.acquisition) history_.restart(s.extended_ids), history_of_ = slot.acquisition;
+    if (history_of_ != slot.acquisition) history_.restart(s.long_ids()), history_of_ = slot.acquisition;
     history_.sent(slot.frame.block);
     set_do_not_fragment(s.do_not_fragment);
     current_ = &slot;
@@ -146,8 +146,8 @@ void GigeSender::fill_batch(const GigeSlot& slot, PacketOrder& order) {
         else if (fate.delay_ns)
             delay(slot, id, gvsp::kFresh, fate, batch_.to());
         else
-            batch_.add(packet, fate, s.extended_ids);
-        if (fate.twice) batch_.add(packet, fate, s.extended_ids);
+            batch_.add(packet, fate, s.long_ids());
+        if (fate.twice) batch_.add(packet, fate, s.long_ids());
         taken += packet.bytes() + 28;
         if (taken + s.packet_bytes > most_bytes) break;
     }
@@ -309,7 +309,7 @@ void GigeSender::serve_delayed(std::int64_t now_ns) {
         fate.id_error = d.id_error;
         const GigeStreamState& s = slot->frame.stream;
         batch_.begin(d.to);
-        batch_.add(packet_of(slot->frame, d.id, d.status), fate, s.extended_ids);
+        batch_.add(packet_of(slot->frame, d.id, d.status), fate, s.long_ids());
         if (d.status == gvsp::kFresh) counts_.packets.fetch_add(1, std::memory_order_relaxed);
         transmit(s.packet_bytes);
         give_back(slot);

@@ -52,6 +52,13 @@ constexpr std::uint32_t chunk_bytes(Chunk chunk) {
     }
 }
 
+// What a multipart stream can show of a frame; ids as GenDC and the SFNC number components.
+enum class GigeComponent : std::uint8_t { kIntensity, kConfidence };
+constexpr std::uint32_t bit_of(GigeComponent component) { return 1u << static_cast<unsigned>(component); }
+constexpr std::uint16_t id_of(GigeComponent component) {
+    return component == GigeComponent::kIntensity ? 1 : 6;
+}
+
 struct GigeStreamState {
     bool open = false;               // a destination is set
     bool acquiring = false;          // between AcquisitionStart and Stop
@@ -61,8 +68,8 @@ struct GigeStreamState {
     Endpoint destination;            // may be a multicast group
     std::uint32_t packet_bytes = 0;  // IP, UDP and GVSP headers included
     bool do_not_fragment = false;
-    bool extended_ids = false;  // 64-bit block ids, 20-byte headers
-    bool multipart = false;
+    bool extended_ids = false;         // 64-bit block ids, 20-byte headers, where the client asked for them
+    bool multipart = false;            // every block is of parts; brings 64-bit ids with it
     bool resend_to_requester = false;  // SCCFG b3: else to the destination
     // Added to CLOCK_MONOTONIC it gives the device's clock, which all time stamps on the wire are of: 0
     // unless a client reset the clock or enabled PTP (then it leads to CLOCK_TAI).
@@ -73,18 +80,29 @@ struct GigeStreamState {
     std::uint32_t width = 0, height = 0, offset_x = 0, offset_y = 0;
     std::uint32_t binning_x = 1, binning_y = 1;
     bool chunk_mode = false;
-    std::uint32_t chunks = 0;  // bits by Chunk, when chunk_mode is on
+    std::uint32_t chunks = 0;                                      // bits by Chunk, when chunk_mode is on
+    std::uint32_t components = bit_of(GigeComponent::kIntensity);  // of a multipart stream, at least one
 
-    std::size_t image_bytes() const { return wire_bytes(std::size_t{width} * height, format); }
+    // A short header has no room for the number of parts.
+    bool long_ids() const { return extended_ids || multipart; }
+    bool shows(GigeComponent component) const {
+        return multipart ? components & bit_of(component) : component == GigeComponent::kIntensity;
+    }
+    std::size_t image_bytes() const {
+        return shows(GigeComponent::kIntensity) ? wire_bytes(std::size_t{width} * height, format) : 0;
+    }
+    std::size_t confidence_bytes() const {
+        return shows(GigeComponent::kConfidence) ? std::size_t{width} * height : 0;
+    }
     // With a chunk's 8 bytes of id and length behind each, and behind the image.
-    std::size_t payload_bytes() const {
-        std::size_t bytes = image_bytes();
-        if (!chunk_mode) return bytes;
-        bytes += 8;
+    std::size_t chunk_data_bytes() const {
+        if (!chunk_mode) return 0;
+        std::size_t bytes = 8;
         for (int i = 0; i < kChunks; ++i)
             if (chunks >> i & 1u) bytes += 8 + chunk_bytes(static_cast<Chunk>(i));
         return bytes;
     }
+    std::size_t payload_bytes() const { return image_bytes() + confidence_bytes() + chunk_data_bytes(); }
 };
 
 }  // namespace hilcam

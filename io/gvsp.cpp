@@ -49,7 +49,7 @@ std::size_t write_multipart_leader(const PacketHeader& header, bool chunks, std:
         out.u16(part.type).u16(part.bytes >> 32 & 0xFFFF).u32(part.bytes & 0xFFFFFFFF);
         out.u32(part.image.pixel_format);
         // Reserved, source, additional zones; zone directions; purpose, region.
-        out.u16(0).u8(0).u8(0).u32(0).u16(0).u16(0);
+        out.u16(0).u8(0).u8(0).u32(0).u16(part.purpose).u16(0);
         put_size(out, part.image).u32(0);
     }
     return out.size();

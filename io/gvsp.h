@@ -45,12 +45,17 @@ struct Image {
 
 // One part of a multipart block.
 struct Part {
-    enum Type : std::uint16_t { k2dImage = 0x0001, kChunkData = 0x000A } type = k2dImage;
+    enum Type : std::uint16_t {
+        k2dImage = 0x0001,
+        kConfidenceMap = 0x0009,
+        kChunkData = 0x000A
+    } type = k2dImage;
     std::uint64_t bytes = 0;
-    Image image;  // all 0 of chunk data
+    Image image;                // all 0 of chunk data
+    std::uint16_t purpose = 0;  // the component that it shows: ComponentIDValue
 };
 
-inline constexpr std::size_t kMostParts = 2;
+inline constexpr std::size_t kMostParts = 3;
 // The longest header with what follows it: a multipart leader.
 inline constexpr std::size_t kMostHeadBytes = header_bytes(true) + 12 + 48 * kMostParts;
 

@@ -157,7 +157,7 @@ void GigeSink::Implementation::order_resend(const gvcp::ResendRequest& request, 
                   .block = request.block,
                   .next = request.first_packet,
                   .last = request.last_packet,
-                  .extended_ids = s.extended_ids,
+                  .extended_ids = s.long_ids(),
                   .packet_bytes = s.packet_bytes});
 }
 
@@ -237,7 +237,8 @@ void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
 
 GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context) {
     const CameraLimits limits = context.camera.limits();
-    const std::size_t bytes = most_payload_bytes(limits.width, limits.height, limits.color_pattern);
+    const std::size_t bytes =
+        most_payload_bytes(limits.width, limits.height, limits.color_pattern, config.multipart);
     implementation_ = std::make_unique<Implementation>(config, context, limits, bytes);
 }
 GigeSink::~GigeSink() { stop(); }

@@ -37,7 +37,7 @@ def run(name, *arguments, timeout=60, **options):
     return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options).stdout
 
 
-class Conformance(CameraTest):
+class ConformanceTest(CameraTest):
     def run_test(self, *arguments):
         """Acquisitions are judged by the clock: where nothing else failed, a busy machine gets another chance."""
         for _ in range(4):
@@ -55,6 +55,8 @@ class Conformance(CameraTest):
             self.skipTest(f"{too_busy()}: {failed}")
         self.assertEqual(failed, {})
 
+
+class Conformance(ConformanceTest):
     def test_arv_test_as_it_comes(self):
         results = self.run_test()
         self.judge(results)
@@ -75,6 +77,20 @@ class Conformance(CameraTest):
             results = self.run_test("-c", configuration.name)
         self.judge(results)
         self.assertEqual([name for name, line in results.items() if line[0] == "IGNORED"], [])
+
+
+class MultipartConformance(ConformanceTest):
+    """A camera of its own: arv-test fails one that announces multipart and whose configuration does not."""
+    sets = ("outputs.gige.multipart=true",)
+
+    def test_multipart(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".cfg") as configuration:
+            configuration.write("[hilcam:test-camera]\nMultipart=Intensity Confidence\n")
+            configuration.flush()
+            results = self.run_test("-c", configuration.name)
+        self.judge(results)
+        self.assertEqual(results["Multipart:Enable"][0], "SUCCESS")
+        self.assertEqual(results["Multipart:BufferCheck"][0], "SUCCESS")
 
 
 class Acquisition(CameraTest):

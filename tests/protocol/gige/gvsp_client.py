@@ -346,16 +346,17 @@ def _part(b):
 
 
 def _fill_parts(frame, packets):
-    """Each payload packet says which part it is of, and where in it."""
+    """Each payload packet says which part it is of, and where in the block (as Aravis reads it) its bytes belong."""
     parts = [bytearray(part.length) for part in frame.parts]
+    begins = [sum(part.length for part in frame.parts[:i]) for i in range(len(parts))]
     filled = [0] * len(parts)
     for packet in packets:
         if packet.format != MULTIPART_PAYLOAD:
             raise ValueError(f"packet {packet.id} of a multipart block has format {packet.format}")
         number, _, high, low = struct.unpack(">BBHI", packet.payload[:8])
-        at, data = high << 32 | low, packet.payload[8:]
-        if at + len(data) > len(parts[number]):
-            raise ValueError(f"part {number} of {len(parts[number])} bytes, packet {packet.id} ends at {at + len(data)}")
+        at, data = (high << 32 | low) - begins[number], packet.payload[8:]
+        if at < 0 or at + len(data) > len(parts[number]):
+            raise ValueError(f"part {number} of {len(parts[number])} bytes, packet {packet.id} is of {at} to {at + len(data)}")
         parts[number][at:at + len(data)] = data
         filled[number] += len(data)
     for part, data, count in zip(frame.parts, parts, filled):
@@ -365,3 +366,5 @@ def _fill_parts(frame, packets):
     image = frame.parts[0]
     frame.pixel_format, frame.width, frame.height = image.pixel_format, image.width, image.height
     frame.data = b"".join(part.data for part in frame.parts)
+    if frame.complete and frame.payload_type & WITH_CHUNKS:
+        frame.chunks = chunks_of(frame.data)

@@ -156,6 +156,34 @@ class Ids(StreamTest):
         self.camera.write_register(g.SCPD, 0)
 
 
+class Multipart(StreamTest):
+    sets = ("outputs.gige.multipart=true",)
+
+    def test_an_image_its_confidence_and_its_chunks(self):
+        self.chunks_on("FrameID")
+        self.feature.set("PixelFormat", "Mono12")
+        for confidence in (False, True):
+            with self.subTest(confidence=confidence):
+                self.feature.set("ComponentSelector", "Confidence")
+                self.feature.set("ComponentEnable", confidence)
+                self.camera.write_registers((g.SCCFG, 1 << 6))
+                stream = self.streaming()
+                frame = stream.take(2)[1]
+                self.stop()
+                self.assertTrue(frame.complete, stream.statistics)
+                self.assertTrue(frame.extended)
+                self.assertEqual(frame.payload_type, 0x400A)
+                self.assertEqual([part.type for part in frame.parts], [1, 9, 0x0A] if confidence else [1, 0x0A])
+                self.assertEqual(len(frame.data), self.feature.get("PayloadSize"))
+                self.same_as_file(frame)
+                if confidence:
+                    self.assertEqual((frame.parts[1].pixel_format, frame.parts[1].purpose),
+                                     (0x010800C6, self.feature.get("ComponentIDValue")))
+                    dn = self.files.dn(self.frame_id(frame))
+                    self.assertEqual(frame.parts[1].data, bytes(255 * (0 < v < 4095) for v in dn.flatten()))
+                stream.close()
+
+
 class Chunks(StreamTest):
     def test_every_chunk_says_what_is_true(self):
         self.feature.set("Width", 128)

@@ -92,8 +92,14 @@ struct GigeBench {
 
     explicit GigeBench(const CameraLimits* limits = nullptr)
         : camera(limits ? with(*limits) : PlainCamera()),
-          device({"cam", "S1", "", 0x7F000001, 0xFF000000, 0, 0x020000000001, 1500}, camera, faults,
-                 effects()) {
+          device({.model = "cam",
+                  .serial = "S1",
+                  .user_name = {},
+                  .ip = 0x7F000001,
+                  .mask = 0xFF000000,
+                  .mac = 0x020000000001,
+                  .multipart = true},
+                 camera, faults, effects()) {
         device.tick(now_ns);
     }
     static PlainCamera with(const CameraLimits& limits) {

@@ -161,6 +161,28 @@ TEST(GigeSettings, ChunksAreChosenOneByOneAndCounted) {
     EXPECT_EQ(b.write(reg::kChunkSelector, kChunks), gvcp::kInvalidParameter);
 }
 
+TEST(GigeSettings, AMultipartStreamMayHaveItsConfidenceToo) {
+    GigeBench b;
+    b.take_control();
+    const std::uint32_t image = b.read(reg::kPayloadSize), pixels = 640 * 480;
+    EXPECT_EQ(b.read(reg::kComponentId), 1u);
+
+    EXPECT_EQ(b.write(reg::kComponentSelector, 1), gvcp::kSuccess);
+    EXPECT_EQ(b.read(reg::kComponentId), 6u);
+    EXPECT_EQ(b.read(reg::kComponentEnable), 0u);
+    EXPECT_EQ(b.write(reg::kComponentEnable, 1), gvcp::kSuccess);
+    EXPECT_EQ(b.read(reg::kPayloadSize), image);  // of one part
+    EXPECT_EQ(b.write(bootstrap::kStreamConfig, bootstrap::stream_config::kMultipart), gvcp::kSuccess);
+    EXPECT_EQ(b.read(reg::kPayloadSize), image + pixels);
+    b.write(reg::kComponentSelector, 0);
+    EXPECT_EQ(b.write(reg::kComponentEnable, 0), gvcp::kSuccess);
+    EXPECT_EQ(b.read(reg::kPayloadSize), pixels);
+    b.write(reg::kComponentSelector, 1);
+    EXPECT_EQ(b.write(reg::kComponentEnable, 0), gvcp::kSuccess);
+    EXPECT_EQ(b.read(reg::kPayloadSize), image);  // none: the intensity
+    EXPECT_EQ(b.device.stream_state().components, 1u);
+}
+
 TEST(GigeSettings, UserSetsKeepAllThatIsSet) {
     GigeBench b;
     b.take_control();

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <vector>
 
@@ -51,7 +53,7 @@ std::vector<std::uint8_t> received(const GigeFrame& frame) {
     std::vector<std::uint8_t> out(s.payload_bytes(), 0xDD);
     for (std::uint32_t id = 1; id < trailer_id(s); ++id) {
         const GigePacket p = packet_of(frame, id, gvsp::kFresh);
-        const std::size_t header = gvsp::header_bytes(s.extended_ids);
+        const std::size_t header = gvsp::header_bytes(s.long_ids());
         std::size_t at = (id - 1) * (s.packet_bytes - 28 - header);
         if (p.head[4] == (0x80 | gvsp::kMultipart)) {
             EXPECT_EQ(p.head_bytes, header + 8);
@@ -75,6 +77,7 @@ TEST(GigePackets, PutTogetherTheyAreThePayload) {
                     GigeStreamState s = stream_of(width, 33);
                     s.extended_ids = extended;
                     s.multipart = multipart;
+                    s.components = 3;
                     s.chunk_mode = chunks;
                     s.chunks = chunks ? 0x7FFF : 0;
                     const Built b(s);
@@ -206,11 +209,54 @@ TEST(GigePackets, SentAgainOnlyTheStatusDiffers) {
     }
 }
 
+TEST(GigePackets, MultipartFramesAreAnImageItsConfidenceAndItsChunks) {
+    GigeStreamState s = stream_of(60, 40);
+    s.multipart = s.chunk_mode = true;
+    s.components = 3;
+    s.chunks = 1;
+    const Built b(s);
+    const GigePacket leader = packet_of(b.frame, 0, gvsp::kFresh);
+    // Multipart brings 64-bit ids with it, asked for or not; the byte before them counts the parts.
+    EXPECT_EQ(leader.head[4], 0x80 | gvsp::kLeader);
+    EXPECT_EQ(leader.head[7], 3);
+    ASSERT_EQ(leader.head_bytes, 20u + 12 + 3 * 48);
+    const std::array<std::array<std::uint32_t, 5>, 3> parts = {{{1, 4800, 0x01100005, 1, 60},  // Mono12
+                                                                {9, 2400, 0x010800C6, 6, 60},  // Confidence8
+                                                                {0x0A, 8 + 16, 0, 0, 0}}};
+    ByteReader in(std::span(leader.head).subspan(32));
+    for (const auto& [type, bytes, format, purpose, width] : parts) {
+        EXPECT_EQ(in.u16(), type);
+        EXPECT_EQ(in.u16(), 0u);
+        EXPECT_EQ(in.u32(), bytes);
+        EXPECT_EQ(in.u32(), format);
+        in.skip(8);
+        EXPECT_EQ(in.u16(), purpose);
+        in.skip(2);
+        EXPECT_EQ(in.u32(), width);
+        in.skip(20);
+    }
+    // The ramp begins with DN 0 and comes to 4095 in row 40.
+    EXPECT_EQ(b.payload[4800], 0);
+    EXPECT_EQ(std::count(b.payload.begin() + 4800, b.payload.begin() + 7200, 255), 2399);
+}
+
+TEST(GigePackets, APixelAtFullScaleIsNotBelieved) {
+    GigeStreamState s = stream_of(100, 41);
+    s.multipart = true;
+    s.components = 3;
+    const Built b(s);
+    const auto of = [&](std::size_t pixel) { return b.payload[2 * 4100 + pixel]; };
+    EXPECT_EQ(of(4094), 255);
+    EXPECT_EQ(of(4095), 0);
+    EXPECT_EQ(of(4096), 0);  // DN 0 again
+}
+
 TEST(GigePackets, TheLargestPayloadHoldsEveryFormatAndAllChunks) {
     // Image tail; 8 chunks of 8 bytes and 7 of 4, each with its id and length.
     constexpr std::size_t kAllChunks = 8 + 8 * 16 + 7 * 12;
-    EXPECT_EQ(most_payload_bytes(101, 51, ""), 3u * 101 * 51 + kAllChunks);
-    EXPECT_EQ(most_payload_bytes(101, 51, "RGGB"), 3u * 101 * 51 + kAllChunks);
+    EXPECT_EQ(most_payload_bytes(101, 51, "", false), 3u * 101 * 51 + kAllChunks);
+    EXPECT_EQ(most_payload_bytes(101, 51, "RGGB", false), 3u * 101 * 51 + kAllChunks);
+    EXPECT_EQ(most_payload_bytes(101, 51, "", true), 4u * 101 * 51 + kAllChunks);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr std::uint32_t kHere = 0x7F530101;  // 127.83.1.1
 class Sender : public testing::TestWithParam<bool> {
   protected:
     FaultBoard faults_{3};
-    GigeRing ring_{GigeRing::kLeastSlots, most_payload_bytes(kWidth, kHeight, "")};
+    GigeRing ring_{GigeRing::kLeastSlots, most_payload_bytes(kWidth, kHeight, "", false)};
     GigeFrameWriter writer_{ring_, faults_, "", kWidth};
     std::atomic<std::uint64_t> finished_{0};
     GigeSender sender_{ring_, faults_, nullptr, {}, [this](std::uint64_t a) { finished_ = a; }};
