@@ -59,7 +59,8 @@ class FrameSink {
     // out yet: never for long, and not where nobody takes frames (no client, the device gone, the sink
     // stopped). Lockstep waits for it. Loop.
     virtual bool has_room() const noexcept { return true; }
-    // Loop and any other thread, at the same time: never waits.
+    // Loop and any other thread, at the same time: never waits. An exposure's end is told by publish()'s
+    // thread, right before that frame's publish().
     virtual void happened(const CameraEvent&) noexcept {}
     // Ends the threads and closes everything; idempotent. Owner thread.
     virtual void stop() noexcept = 0;

@@ -19,24 +19,28 @@ GigeFrameWriter::GigeFrameWriter(GigeRing& ring, FaultBoard& faults, std::string
       pattern_(std::move(pattern)),
       scratch_(3 * static_cast<std::size_t>(width) + 8) {}
 
-GigeFrameWriter::Outcome GigeFrameWriter::write(const DnImage& frame, const FrameRecord& record,
-                                                const GigeStreamNow& now) noexcept {
+std::uint64_t GigeFrameWriter::admit(const DnImage& frame, const FrameRecord& record,
+                                     const GigeStreamNow& now) noexcept {
     const GigeStreamState& s = now.state;
-    if (!s.open || !s.acquiring) return {};
+    if (!s.open || !s.acquiring) return 0;
     if (now.acquisition != acquisition_) {
         acquisition_ = now.acquisition;
         frames_ = 0;
         ids_.restart();
         before_ = nullptr;
     }
-    if (s.frames != 0 && frames_ >= s.frames) return {};
+    if (s.frames != 0 && frames_ >= s.frames) return 0;
     if (!fits(frame, record, s)) {
         of_other_size_.fetch_add(1, std::memory_order_relaxed);
-        return {};
+        return 0;
     }
-    const std::uint64_t block =
-        ids_.take(s.long_ids(), faults_.strikes(FaultKind::kBlockIdWrap, record.id).has_value());
-    newest_.write({record.id, block});
+    return ids_.take(s.long_ids(), faults_.strikes(FaultKind::kBlockIdWrap, record.id).has_value());
+}
+
+GigeFrameWriter::Outcome GigeFrameWriter::write(const DnImage& frame, const FrameRecord& record,
+                                                const GigeStreamNow& now, std::uint64_t block) noexcept {
+    const GigeStreamState& s = now.state;
+    if (block == 0) return {};
     if (faults_.strikes(FaultKind::kFrameDrop, record.id)) {
         dropped_.fetch_add(1, std::memory_order_relaxed);
         return {.written = false, .finished = s.frames != 0 && ++frames_ == s.frames};
@@ -74,11 +78,6 @@ GigeFrameWriter::Outcome GigeFrameWriter::write(const DnImage& frame, const Fram
     before_ = slot;
     ring_.publish(*slot);
     return {.written = true, .finished = false};
-}
-
-std::uint64_t GigeFrameWriter::block_of(std::uint64_t frame) {
-    const Named& newest = newest_.read();
-    return frame != 0 && newest.frame == frame ? newest.block : 0;
 }
 
 }  // namespace hilcam

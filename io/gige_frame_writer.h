@@ -10,7 +10,6 @@
 #include "io/gige_blocks.h"
 #include "io/gige_ring.h"
 #include "io/stream_faults.h"
-#include "render/latest.h"
 
 namespace hilcam {
 
@@ -23,15 +22,17 @@ class GigeFrameWriter {
         bool written = false;   // the sender has something to do
         bool finished = false;  // the last frame of the acquisition will not be sent
     };
-    // Loop: no lock, no allocation. A frame whose size is not the stream's (the binning has just changed) is
-    // not sent and has no block id; one that finds the ring full, or is to be lost, leaves a gap in them.
-    Outcome write(const DnImage& frame, const FrameRecord& record, const GigeStreamNow& now) noexcept;
+    // Loop, once for each frame: the block id that it has from here on; 0: it is not to be sent. A frame
+    // whose size is not the stream's (the binning has just changed) is not.
+    std::uint64_t admit(const DnImage& frame, const FrameRecord& record, const GigeStreamNow& now) noexcept;
+    // Loop, after admit() of the same: no lock, no allocation. A frame that finds the ring full, or is to be
+    // lost, leaves a gap in the block ids.
+    Outcome write(const DnImage& frame, const FrameRecord& record, const GigeStreamNow& now,
+                  std::uint64_t block) noexcept;
 
     // Any thread.
     std::uint64_t dropped() const { return dropped_.load(); }
     std::uint64_t of_other_size() const { return of_other_size_.load(); }
-    // One thread: the block id of the newest frame if that is `frame`, else 0.
-    std::uint64_t block_of(std::uint64_t frame);
 
   private:
     GigeRing& ring_;
@@ -43,10 +44,6 @@ class GigeFrameWriter {
     BlockIds ids_;
     StampClock clock_;
     const GigeSlot* before_ = nullptr;  // the frame before, of this acquisition
-    struct Named {
-        std::uint64_t frame = 0, block = 0;
-    };
-    Latest<Named> newest_;
     std::atomic<std::uint64_t> dropped_{0}, of_other_size_{0};
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "io/gige_device.h"
@@ -71,7 +72,12 @@ struct GigeSink::Implementation {
     Latest<GigeStreamNow> for_loop;
     std::uint64_t era = 1;  // counts resets; the upper half of an acquisition's number
     std::atomic<std::uint64_t> finished{0};
-    BoundedQueue<CameraEvent, 1024> events;
+    struct Told {
+        CameraEvent event;
+        std::uint64_t block = 0;  // of the event's frame; 0: none, or not known yet
+    };
+    BoundedQueue<Told, 1024> events;
+    std::optional<CameraEvent> exposure_end;  // the loop's: told when publish() knows its frame's block
     std::atomic<std::uint64_t> events_dropped{0};
     std::atomic<bool> controlled{false};
     std::atomic<std::uint32_t> address;  // for reports; net is the control thread's
@@ -99,6 +105,10 @@ struct GigeSink::Implementation {
 
     void serve_control();
     void tell_device(std::int64_t now_ns);
+    void tell(const CameraEvent& event, std::uint64_t block) {
+        if (!events.push({event, block})) events_dropped.fetch_add(1, std::memory_order_relaxed);
+        wake(wakeup);
+    }
     void finish(std::uint64_t acquisition) {
         finished.store(acquisition, std::memory_order_release);
         wake(wakeup);
@@ -215,7 +225,7 @@ void GigeSink::Implementation::serve_control() {
 }
 
 void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
-    for (CameraEvent e{}; events.pop(e);) device->happened(e, writer.block_of(e.frame), now_ns);
+    for (Told told{}; events.pop(told);) device->happened(told.event, told.block, now_ns);
     if (const std::uint64_t last = finished.exchange(0, std::memory_order_acquire); last >> 32 == era)
         device->acquisition_finished(static_cast<std::uint32_t>(last));
     const GigeSender::Counts& c = sender.counts();
@@ -255,7 +265,10 @@ void GigeSink::start() {
 void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
     Implementation& my = *implementation_;
     const GigeStreamNow& now = my.for_loop.read();
-    const GigeFrameWriter::Outcome outcome = my.writer.write(frame, record, now);
+    const std::uint64_t block = my.writer.admit(frame, record, now);
+    if (my.exposure_end) my.tell(*my.exposure_end, my.exposure_end->frame == record.id ? block : 0);
+    my.exposure_end.reset();
+    const GigeFrameWriter::Outcome outcome = my.writer.write(frame, record, now, block);
     if (outcome.written) my.sender.frame_ready();
     if (outcome.finished) my.finish(now.acquisition);
 }
@@ -270,8 +283,12 @@ bool GigeSink::has_room() const noexcept {
 
 void GigeSink::happened(const CameraEvent& event) noexcept {
     Implementation& my = *implementation_;
-    if (!my.events.push(event)) my.events_dropped.fetch_add(1, std::memory_order_relaxed);
-    wake(my.wakeup);
+    // A frame has its block id when it is published: whether the stream takes it is not known before, so an
+    // exposure's start goes out without.
+    if (event.kind == CameraEvent::Kind::kExposureEnd)
+        my.exposure_end = event;
+    else
+        my.tell(event, 0);
 }
 
 void GigeSink::stop() noexcept {

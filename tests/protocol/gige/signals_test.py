@@ -61,6 +61,28 @@ class Events(CameraTest):
         self.assertEqual(len({event.request_id for event in events if event.acknowledge}),
                          len([event for event in events if event.acknowledge]))
 
+    def test_the_end_of_an_exposure_names_its_block(self):
+        client = self.controller()
+        features, messages = self.listen(client, "ExposureEnd")
+        exposure_ns = features.get("ExposureTime") * 1000
+        with messages, StreamReceiver(client, CLIENT) as stream:
+            stream.open()
+            features.execute("AcquisitionStart")
+            frames, events = stream.take(6), []
+            features.execute("AcquisitionStop")
+            while max((event.block for event in events), default=0) < frames[-1].block:
+                received = messages.receive(5)
+                self.assertTrue(received, f"{len(events)} events came")
+                events += received
+            messages.close()
+        self.off(features, "ExposureEnd")
+        ends = {event.block: event for event in events if event.block}
+        for frame in frames:
+            self.assertIn(frame.block, ends)
+            self.assertEqual(ends[frame.block].channel, 0)
+            # A frame's time stamp is the middle of its exposure.
+            self.assertAlmostEqual(ends[frame.block].timestamp - frame.timestamp, exposure_ns / 2, delta=2)
+
     def test_an_event_without_an_answer_is_sent_again(self):
         client = self.controller()
         client.write_registers((g.MCTT, 100), (g.MCRC, 2))

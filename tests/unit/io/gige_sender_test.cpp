@@ -49,12 +49,15 @@ class Sender : public testing::TestWithParam<bool> {
     void TearDown() override { sender_.close(); }
 
     std::uint32_t trailer() const { return trailer_id(now_.state); }
+    GigeFrameWriter::Outcome write() {
+        return writer_.write(image_, record_, now_, writer_.admit(image_, record_, now_));
+    }
     // Publishes a frame and waits until the sender is through with it.
     void send_frame() {
         ++record_.id;
         for (std::uint16_t& dn : image_.all()) dn = static_cast<std::uint16_t>(record_.id);
         const std::uint64_t before = sender_.counts().frames;
-        ASSERT_TRUE(writer_.write(image_, record_, now_).written);
+        ASSERT_TRUE(write().written);
         sender_.frame_ready();
         for (int i = 0; i < kPatience_ms && sender_.counts().frames == before; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -192,7 +195,7 @@ TEST_P(Sender, WhatCannotBeHadIsRefusedWithTheReason) {
     take(100);
     faults_.order({.kind = FaultKind::kFrameDrop, .rate = 1});
     ++record_.id;
-    EXPECT_FALSE(writer_.write(image_, record_, now_).written);
+    EXPECT_FALSE(write().written);
     faults_.clear_all();
     send_frame();
     EXPECT_EQ(ask(31, 1, 1).status, gvsp::kUnavailable);  // it never was

@@ -12,6 +12,7 @@
 
 #include "io/fault.h"
 #include "io/gige_features.h"
+#include "io/gige_messages.h"
 #include "io/gvcp.h"
 #include "io/gvsp.h"
 #include "tests/support/gvsp_receiver.h"
@@ -233,6 +234,61 @@ TEST_F(SlowSink, NeitherDoesACutCableNorAStoppedOutput) {
     for (int i = 0; i < 10; ++i, publish()) ASSERT_TRUE(wait_for_room()) << i;
     sink.stop();
     for (int i = 0; i < 10; ++i, publish()) EXPECT_TRUE(sink.has_room());
+}
+
+TEST(GigeSink, AnExposuresEndNamesItsFramesBlock) {
+    constexpr std::uint32_t kCamera = 0x7F530601, kHere = 0x7F530602;
+    PlainCamera camera;
+    FaultBoard faults;
+    GigeSink sink({.interface = format_ipv4(kCamera)}, {camera, faults});
+    sink.start();
+    Client client(kHere);
+    const Fd messages = open_udp(kHere, 0);
+    client.write(kCamera, 0x0A00, 2);  // control
+    client.write(kCamera, 0x0B10, kHere);
+    client.write(kCamera, 0x0B00, endpoint_of(messages).port);
+    for (const std::uint32_t exposure_event : {0u, 1u}) {
+        client.write(kCamera, feature_register::kEventSelector, exposure_event);
+        client.write(kCamera, feature_register::kEventNotification, 1);
+    }
+    struct Event {
+        unsigned id = 0, channel = 0, block = 0;
+        std::uint64_t frame = 0;
+        bool operator==(const Event&) const = default;
+    };
+    const auto next_event = [&] {
+        const auto bytes = receive(messages, kPatience_ms);
+        ByteReader in(bytes);
+        in.u64(), in.u16();  // header, reserved
+        Event e;
+        e.id = in.u16(), e.channel = in.u16(), e.block = in.u16();
+        in.u64();  // time
+        e.frame = in.u64();
+        return e;
+    };
+    DnImage image(kWidth, kHeight);
+    FrameRecord record;
+    record.bits = 12;
+    constexpr unsigned kStart = kGigeEvents[0].id, kEnd = kGigeEvents[1].id, kNone = 0xFFFF;
+    const auto expose = [&](std::uint64_t frame, unsigned block) {
+        record.id = frame;
+        sink.happened({CameraEvent::Kind::kExposureStart, frame + 1, 1000});  // the loop is a frame ahead
+        sink.happened({CameraEvent::Kind::kExposureEnd, frame, 2000});
+        sink.publish(image, record);
+        EXPECT_EQ(next_event(), (Event{kStart, kNone, 0, frame + 1}));
+        EXPECT_EQ(next_event(), (Event{kEnd, block == 0 ? kNone : 0, block, frame}));
+        if (block != 0) {
+            EXPECT_EQ(parse(receive(client.stream(), kPatience_ms)).block, block);
+        }
+        while (!receive(client.stream(), 50).empty()) continue;
+    };
+    expose(7, 0);  // to nobody
+    client.start(kCamera);
+    expose(8, 1);
+    faults.order({.kind = FaultKind::kFrameDrop, .rate = 1, .from_frame = 9, .frames = 1});
+    sink.publish(image, (record.id = 9, record));
+    expose(10, 3);
+    sink.stop();
 }
 
 TEST(GigeSink, ATakenAddressIsSaid) {
