@@ -136,18 +136,19 @@ void FaultBoard::order(const FaultOrder& o) {
     }
     Cell& c = cells_[place];
     const std::uint32_t version = c.version.load(std::memory_order_relaxed);
+    // Whoever reads (acquires) one of the values stored from here on also sees this odd version. No fences:
+    // ThreadSanitizer does not know them.
     c.version.store(version + 1, std::memory_order_relaxed);
-    std::atomic_thread_fence(std::memory_order_release);
     const std::int64_t now_ns = monotonic_ns();
-    c.rate.store(o.rate, std::memory_order_relaxed);
-    c.value.store(o.value, std::memory_order_relaxed);
-    c.from_frame.store(o.from_frame, std::memory_order_relaxed);
-    c.frames.store(o.frames, std::memory_order_relaxed);
-    c.duration_s.store(o.duration_s, std::memory_order_relaxed);
-    c.since_ns.store(now_ns, std::memory_order_relaxed);
+    c.rate.store(o.rate, std::memory_order_release);
+    c.value.store(o.value, std::memory_order_release);
+    c.from_frame.store(o.from_frame, std::memory_order_release);
+    c.frames.store(o.frames, std::memory_order_release);
+    c.duration_s.store(o.duration_s, std::memory_order_release);
+    c.since_ns.store(now_ns, std::memory_order_release);
     c.until_ns.store(o.duration_s > 0 ? now_ns + static_cast<std::int64_t>(o.duration_s * 1e9) : 0,
-                     std::memory_order_relaxed);
-    c.order.store(orders_.fetch_add(1) + 1, std::memory_order_relaxed);
+                     std::memory_order_release);
+    c.order.store(orders_.fetch_add(1) + 1, std::memory_order_release);
     c.version.store(version + 2, std::memory_order_release);
     writing_.clear(std::memory_order_release);
 }
@@ -161,15 +162,14 @@ FaultBoard::State FaultBoard::read(const Cell& c) const {
     std::uint32_t before = 0;
     do {
         before = c.version.load(std::memory_order_acquire);
-        s.order.rate = c.rate.load(std::memory_order_relaxed);
-        s.order.value = c.value.load(std::memory_order_relaxed);
-        s.order.from_frame = c.from_frame.load(std::memory_order_relaxed);
-        s.order.frames = c.frames.load(std::memory_order_relaxed);
-        s.order.duration_s = c.duration_s.load(std::memory_order_relaxed);
-        s.since_ns = c.since_ns.load(std::memory_order_relaxed);
-        s.until_ns = c.until_ns.load(std::memory_order_relaxed);
-        s.number = c.order.load(std::memory_order_relaxed);
-        std::atomic_thread_fence(std::memory_order_acquire);
+        s.order.rate = c.rate.load(std::memory_order_acquire);
+        s.order.value = c.value.load(std::memory_order_acquire);
+        s.order.from_frame = c.from_frame.load(std::memory_order_acquire);
+        s.order.frames = c.frames.load(std::memory_order_acquire);
+        s.order.duration_s = c.duration_s.load(std::memory_order_acquire);
+        s.since_ns = c.since_ns.load(std::memory_order_acquire);
+        s.until_ns = c.until_ns.load(std::memory_order_acquire);
+        s.number = c.order.load(std::memory_order_acquire);
     } while (before % 2 != 0 || before != c.version.load(std::memory_order_relaxed));
     return s;
 }
@@ -254,12 +254,11 @@ void FaultBoard::log(const Entry& entry) {
     const std::uint64_t turn = log_head_.fetch_add(1, std::memory_order_relaxed);
     LogSlot& slot = log_[turn % kLogLength];
     slot.turn.store(0, std::memory_order_relaxed);
-    std::atomic_thread_fence(std::memory_order_release);
-    slot.kind.store(entry.kind, std::memory_order_relaxed);
-    slot.frame.store(entry.frame, std::memory_order_relaxed);
-    slot.index.store(entry.index, std::memory_order_relaxed);
-    slot.value.store(entry.value, std::memory_order_relaxed);
-    slot.monotonic_ns.store(entry.monotonic_ns, std::memory_order_relaxed);
+    slot.kind.store(entry.kind, std::memory_order_release);
+    slot.frame.store(entry.frame, std::memory_order_release);
+    slot.index.store(entry.index, std::memory_order_release);
+    slot.value.store(entry.value, std::memory_order_release);
+    slot.monotonic_ns.store(entry.monotonic_ns, std::memory_order_release);
     slot.turn.store(turn + 1, std::memory_order_release);
 }
 
@@ -274,10 +273,9 @@ bool FaultBoard::take_entry(Entry& entry) {
             ++log_tail_;
             continue;
         }
-        entry = {slot.kind.load(std::memory_order_relaxed), slot.frame.load(std::memory_order_relaxed),
-                 slot.index.load(std::memory_order_relaxed), slot.value.load(std::memory_order_relaxed),
-                 slot.monotonic_ns.load(std::memory_order_relaxed)};
-        std::atomic_thread_fence(std::memory_order_acquire);
+        entry = {slot.kind.load(std::memory_order_acquire), slot.frame.load(std::memory_order_acquire),
+                 slot.index.load(std::memory_order_acquire), slot.value.load(std::memory_order_acquire),
+                 slot.monotonic_ns.load(std::memory_order_acquire)};
         const bool whole = slot.turn.load(std::memory_order_relaxed) == log_tail_ + 1;
         ++log_tail_;
         if (whole) return true;

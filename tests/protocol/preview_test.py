@@ -426,6 +426,8 @@ class PageInBrowser(unittest.TestCase):
         # Triggered: a click makes a frame.
         page.run("{" + change.format("triggered", 1) + "}")
         page.wait("!document.getElementById('trigger').disabled")
+        # A trigger during the last free-running exposure would be missed, as it should.
+        wait_for(self.no_more_frames)
         seen = page.run("Number(preview.frame.id)")
         page.run("document.getElementById('trigger').click()")
         page.wait(f"Number(preview.frame.id) > {seen}")
@@ -437,6 +439,12 @@ class PageInBrowser(unittest.TestCase):
         page.wait("document.getElementById('settings-answer').textContent.includes('refuses')")
         self.assertEqual(status()["settings"]["gain_db"], 3)
         self.forgive(" 409 ")
+
+    @staticmethod
+    def no_more_frames():
+        before = status()["frames"]
+        time.sleep(0.3)
+        return status()["frames"] == before
 
     def forgive(self, needle):
         """A refusal that the test asked for is logged by the browser."""

@@ -15,7 +15,6 @@ HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[2]
 SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
 os.environ.setdefault("HILCAM_CACHE", tempfile.gettempdir() + f"/hilcam_test_cache_{os.getuid()}")
-PORTS = iter(range(15230, 15240))
 
 
 # Kinds of faults by their numbers in the command protocol.
@@ -29,6 +28,13 @@ FAULTS = {
     "image_saturated": 82, "image_bit_flips": 83, "image_tear": 84}
 
 
+def free_port():
+    """For commands: a UDP port of 127.0.0.1 that nobody has."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
+        s.bind(("127.0.0.1", 0))
+        return s.getsockname()[1]
+
+
 def die_with_parent():
     """No emulator outlives a test that is killed."""
     ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
@@ -40,7 +46,7 @@ class Emulator:
     def __init__(self, hilcam, address, folder, *sets, scenario=SCENARIO, port=None, serial=None, arguments=(),
                  namespace=None):
         self.hilcam, self.address, self.folder = str(hilcam), address, pathlib.Path(folder)
-        self.port = next(PORTS) if port is None else port
+        self.port = free_port() if port is None else port
         self.report_file = self.folder / f"report_{self.port}.json"
         self.log_file = self.folder / f"hilcam_{self.port}.log"
         self.namespace = ["ip", "netns", "exec", namespace] if namespace else []

@@ -34,7 +34,12 @@ class Recording:
                 break
         else:
             raise unittest.SkipTest("tshark may not record on lo here (root, or dpkg-reconfigure wireshark-common)")
-        time.sleep(0.5)
+        # The file is opened after the interface and its filter: from then on nothing is missed.
+        until = time.monotonic() + 30
+        while not file.exists():
+            if time.monotonic() > until:
+                raise RuntimeError("tshark does not begin to record")
+            time.sleep(0.02)
 
     def __enter__(self):
         return self
