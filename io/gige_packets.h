@@ -2,10 +2,10 @@
 // A frame as the packets of a GigE Vision stream. Pure: every packet is a function of the frame and the
 // packet's id, so that what is sent again is what was sent.
 //
-// The payload is the image and, in chunk mode, each chunk's data followed by its id and length, first such a tail of
-// all that is before: clients walk from the end backwards. A multipart block has the image as one part, which of
-// its pixels can be believed as another (Confidence8: 0 where the DN is 0 or full scale, and so only a bound
-// of the signal; else 255), and the chunks as the last.
+// The payload is the image and, in chunk mode, each chunk's data followed by its id and length, first such a
+// tail of all that is before: clients walk from the end backwards. A multipart block has the image as one
+// part, which of its pixels can be believed as another (Confidence8: 0 where the DN is 0 or full scale, and
+// so only a bound of the signal; else 255), and the chunks as the last.
 
 #include <array>
 #include <cstdint>
