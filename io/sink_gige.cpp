@@ -49,7 +49,7 @@ Fields fields(GigeConfig& c) {
         integer("packet_bytes", c.packet_bytes, {576, 16384},
                 "of a stream packet until a client sets another; the interface's MTU at most"),
         number("rate_limit_mb_s", c.rate_bytes_s, 1e6, {1, 100000}, "upper limit of the stream"),
-        flag("multipart", c.multipart, "announce multipart payloads (with 64-bit block ids)"),
+        flag("multipart", c.multipart, "announce multipart frames; they bring 64-bit block ids with them"),
         number("spread", c.spread_fraction, 1, {0, 1},
                "share of the frame period that a frame's packets are spread over; 0: at the rate limit"),
     };

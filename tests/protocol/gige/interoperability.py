@@ -42,18 +42,28 @@ def version():
     return text or "unknown"
 
 
+def arv_test(options, *sets, configuration=""):
+    with tempfile.TemporaryDirectory() as folder, Emulator(options.hilcam, ADDRESS, folder, *sets) as emulator:
+        file = pathlib.Path(folder) / "arv-test.cfg"
+        file.write_text(configuration)
+        told = ["-c", file] if configuration else []
+        return conformance(subprocess.run([tool("arv-test"), "-n", f"*T{emulator.port}*", *told],
+                                          capture_output=True, text=True, timeout=120).stdout)
+
+
 def conformance_table(options):
-    with tempfile.TemporaryDirectory() as folder, Emulator(options.hilcam, ADDRESS, folder) as emulator:
-        ours = conformance(subprocess.run([tool("arv-test"), "-n", f"*T{emulator.port}*"], capture_output=True, text=True,
-                                          timeout=120).stdout)
+    ours = arv_test(options)
+    parts = arv_test(options, "outputs.gige.multipart=true",
+                     configuration="[hilcam:test-camera]\nSensorSize=256;192\nMultipart=Intensity Confidence\n")
     isolated = ["unshare", "-n"] if os.geteuid() == 0 else ["unshare", "-rn"]
     text = subprocess.run([*isolated, "bash", "-c", FAKE.format(fake=tool("arv-fake-gv-camera"), test=tool("arv-test"))],
                           capture_output=True, text=True, timeout=120)
     theirs = conformance(text.stdout)
-    print(f"`arv-test` (Aravis {version()}), as it comes, on both:\n\n| test | hilcam | Aravis's fake camera |\n|---|---|---|")
-    for name in [*ours, *[n for n in theirs if n not in ours]]:
-        cells = [" ".join(side[name]).strip() if name in side else "" for side in (ours, theirs)]
-        print(f"| {name} | {cells[0]} | {cells[1]} |")
+    print(f"`arv-test` (Aravis {version()}): as it comes; told of the sensor's size and of two parts, with `outputs.gige.multipart`; "
+          "and Aravis's fake camera, as it comes:\n\n| test | hilcam | hilcam, multipart | Aravis's fake camera |\n|---|---|---|---|")
+    for name in dict.fromkeys([*ours, *parts, *theirs]):
+        cells = [" ".join(side[name]).strip() if name in side else "" for side in (ours, parts, theirs)]
+        print("|", name, "|", " | ".join(cells), "|")
 
 
 def figures_row(name, figures, seconds, extra=""):
@@ -102,7 +112,7 @@ def cycles_table(options):
     with tempfile.TemporaryDirectory() as folder, Emulator(options.hilcam, ADDRESS, folder):
         whole = 0
         for _ in range(100):
-            text = subprocess.run([tool("arv-camera-test"), "-n", ADDRESS, "--no-packet-socket", "--duration=0.3"],
+            text = subprocess.run([tool("arv-camera-test"), "-n", ADDRESS, "--no-packet-socket", "--duration=1"],
                                   capture_output=True, text=True, timeout=60).stdout
             figures = camera_test_figures(text)
             whole += figures.get("n_completed_buffers", 0) > 0 and figures["n_failures"] == 0
@@ -118,7 +128,7 @@ def cycles_table(options):
                 until = time.monotonic() + 10
                 while watcher.read_register(g.CCP) and time.monotonic() < until:
                     time.sleep(0.1)
-            text = subprocess.run([tool("arv-camera-test"), "-n", ADDRESS, "--no-packet-socket", "--duration=0.3"],
+            text = subprocess.run([tool("arv-camera-test"), "-n", ADDRESS, "--no-packet-socket", "--duration=1"],
                                   capture_output=True, text=True, timeout=60).stdout
             again += camera_test_figures(text).get("n_completed_buffers", 0) > 0
         print(f"| SIGKILL while streaming, heartbeat runs out, another connects | 20 | {again} |")
