@@ -20,6 +20,7 @@
 #include "emulator/scene_loader.h"
 #include "emulator/send_command.h"
 #include "emulator/sensor_bench.h"
+#include "io/config_manual.h"
 #include "io/config_yaml.h"
 
 namespace hilcam {

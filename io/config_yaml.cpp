@@ -9,21 +9,17 @@
 #include <iterator>
 #include <optional>
 
+#include "io/config_advice.h"
+#include "io/config_manual.h"
 #include "io/plain_number.h"
 #include "render/check.h"
+#include "render/overloaded.h"
 
 namespace hilcam {
 namespace {
 
 constexpr std::uintmax_t kMostBytes = 4u << 20;
 constexpr int kDeepest = 16;
-
-template <class... F>
-struct Overloaded : F... {
-    using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;
 
 // Where a value stands: in a file, or on the command line.
 struct Place {
@@ -42,55 +38,6 @@ std::string show(const YAML::Node& node) {
     if (!node.IsDefined() || node.IsNull()) return "nothing";
     if (node.IsScalar()) return "'" + shorten(node.Scalar()) + "'";
     return node.IsMap() ? "a mapping" : "a list of " + std::to_string(node.size());
-}
-
-std::string show(const Range& range) {
-    const bool low = std::isfinite(range.least);
-    const bool high = std::isfinite(range.most);
-    if (low && high) return plain(range.least) + " to " + plain(range.most);
-    if (low) return plain(range.least) + " or more";
-    if (high) return plain(range.most) + " or less";
-    return "any number";
-}
-
-// Levenshtein, Soviet Physics Doklady 10(8), 1966.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = diagonal + (a[i - 1] != b[j - 1] ? 1 : 0);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-        }
-    }
-    return row[b.size()];
-}
-
-// The part before a unit suffix: "exposure" of "exposure_ms".
-std::string_view stem(std::string_view key) { return key.substr(0, key.rfind('_')); }
-// Units are short: "us" of "exposure_us", unlike "numbr" of "f_numbr".
-bool ends_in_unit(std::string_view key) {
-    const std::size_t at = key.rfind('_');
-    return at != std::string_view::npos && key.size() - at - 1 <= 3;
-}
-
-std::string advice_for(std::string_view key, const Fields& known) {
-    const Field* nearest = nullptr;
-    std::size_t least = std::string_view::npos;
-    for (const Field& field : known) {
-        if (field.key != key && ends_in_unit(key) && ends_in_unit(field.key) && stem(field.key) == stem(key))
-            return "; its unit here is another: " + field.key;
-        const std::size_t distance = edit_distance(key, field.key);
-        if (distance < least) least = distance, nearest = &field;
-    }
-    std::string text;
-    if (nearest && least <= 3) text = "; nearest known key: " + nearest->key;
-    text += "; known keys:";
-    for (const Field& field : known) text += " " + field.key;
-    return text;
 }
 
 std::optional<double> to_number(const YAML::Node& node) {
@@ -268,7 +215,8 @@ class Reader {
         };
         const auto number = [&](const YAML::Node& at, const Range& range) {
             const std::optional<double> value = to_number(at);
-            if (!value || *value < range.least || *value > range.most) refuse(at, "a number, " + show(range));
+            if (!value || *value < range.least || *value > range.most)
+                refuse(at, "a number, " + accepted(range));
             return *value;
         };
         const auto list = [&](std::size_t fewest, std::size_t most) {
@@ -360,7 +308,7 @@ class Reader {
         const auto as_double = static_cast<double>(value);
         if (text.empty() || error != std::errc{} || end != text.data() + text.size() ||
             as_double < range.least || as_double > range.most)
-            refuse(node, "a whole number, " + show(range));
+            refuse(node, "a whole number, " + accepted(range));
         return value;
     }
 
@@ -400,58 +348,6 @@ class Reader {
     }
 };
 
-std::string accepted_text(const Field& field) {
-    return std::visit(Overloaded{
-                          [](const NumberField& f) { return show(f.range); },
-                          [](const IntegerField& f) { return "whole, " + show(f.range); },
-                          [](const FlagField&) { return std::string("true, false"); },
-                          [](const TextField&) { return std::string("text"); },
-                          [](const TextsField&) { return std::string("list of texts"); },
-                          [](const PathField&) { return std::string("path"); },
-                          [](const ChoiceField& f) {
-                              std::string words;
-                              for (const std::string& w : f.words) words += (words.empty() ? "" : ", ") + w;
-                              return words;
-                          },
-                          [](const NumbersField& f) { return "list, each " + show(f.range); },
-                          [](const Vec3Field& f) { return "[x, y, z], each " + show(f.range); },
-                          [](const QuatField&) { return std::string("[w, x, y, z]"); },
-                          [](const CurveField& f) { return "number or curve, " + show(f.range); },
-                          [](const TableField& f) { return "[[" + f.x_name + ", " + f.y_name + "], ...]"; },
-                          [](const SectionField&) { return std::string("mapping or file"); },
-                          [](const SectionsField&) { return std::string("list of mappings"); },
-                      },
-                      field.target);
-}
-
-std::string default_text(const Field& field) {
-    if (field.required) return "(required)";
-    return std::visit(Overloaded{
-                          [](const NumberField& f) { return plain(*f.value / f.si_per_unit); },
-                          [](const IntegerField& f) { return std::to_string(*f.value); },
-                          [](const FlagField& f) { return std::string(*f.value ? "true" : "false"); },
-                          [](const TextField& f) { return *f.value; },
-                          [](const ChoiceField& f) { return f.words[f.get()]; },
-                          [](const CurveField& f) {
-                              return f.value->value.size() == 1 ? plain(f.value->value[0])
-                                                                : std::string("(curve)");
-                          },
-                          [](const auto&) { return std::string(); },
-                      },
-                      field.target);
-}
-
-void manual_rows(const SectionField& section, const std::string& prefix, std::string& out) {
-    for (const Field& field : section.fields) {
-        out += "| `" + prefix + field.key + "` | " + accepted_text(field) + " | " + default_text(field) +
-               " | " + field.meaning + " |\n";
-        if (const auto* nested = std::get_if<SectionField>(&field.target))
-            manual_rows(*nested, prefix + field.key + ".", out);
-        if (const auto* many = std::get_if<SectionsField>(&field.target))
-            manual_rows(many->append(), prefix + field.key + ".N.", out);
-    }
-}
-
 }  // namespace
 
 void read_config(const std::filesystem::path& file, const SectionField& root,
@@ -478,12 +374,6 @@ bool has_top_level_key(const std::filesystem::path& file, const std::string& key
     } catch (const YAML::Exception&) {
         return false;
     }
-}
-
-std::string config_manual(const SectionField& root) {
-    std::string out = "| key | accepted | default | meaning |\n|---|---|---|---|\n";
-    manual_rows(root, "", out);
-    return out;
 }
 
 }  // namespace hilcam

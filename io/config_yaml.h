@@ -27,8 +27,4 @@ void read_config_text(std::string_view text, const std::string& name, const std:
 // read: read_config() says why.
 bool has_top_level_key(const std::filesystem::path& file, const std::string& key);
 
-// A Markdown table of the keys: key, accepted, default, meaning. Nested sections follow as rows
-// "section.key".
-std::string config_manual(const SectionField& root);
-
 }  // namespace hilcam

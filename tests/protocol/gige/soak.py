@@ -27,6 +27,10 @@ from genicam_client import Features
 from gvsp_client import StreamReceiver
 from latency import look_back
 
+# "As fast as the camera can", which some clients ask for, is the configured rate: what this machine can render is another
+# question.
+RATE = "camera.frame_rate_range_hz=[0.1, 30]"
+
 ADDRESS, CLIENT, WATCHER = "127.0.23.12", "127.0.23.112", "127.0.23.113"
 
 # Faults with a value's range; each for up to three seconds.
@@ -195,7 +199,7 @@ class Soak:
 
 def run(options, seconds, clients):
     with tempfile.TemporaryDirectory() as folder, \
-            Emulator(options.hilcam, ADDRESS, folder, *options.set, scenario=options.scenario) as emulator:
+            Emulator(options.hilcam, ADDRESS, folder, RATE, *options.set, scenario=options.scenario) as emulator:
         # The clients take what the camera leaves: the question is what they do to it by talking to it, not that two
         # cores are few.
         os.setpriority(os.PRIO_PROCESS, 0, 19)

@@ -1,3 +1,4 @@
+#include "io/config_manual.h"
 #include "io/config_yaml.h"
 
 #include <gmock/gmock.h>
