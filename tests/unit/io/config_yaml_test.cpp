@@ -1,5 +1,5 @@
-#include "io/config_manual.h"
 #include "io/config_yaml.h"
+#include "io/config_manual.h"
 
 #include <gmock/gmock.h>
 
