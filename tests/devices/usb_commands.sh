@@ -115,11 +115,12 @@ send fault usb_short_transfer --rate 0.5
 send fly --rate-hz 100 --duration-s 2
 check $? "answers cut in two transfers"
 send fault usb_short_transfer --rate 0
-send fault usb_bad_crc --rate 1 >/dev/null 2>&1 # its own answer is wrong already
+send fault usb_bad_crc --rate 1 # its own answer is wrong already
 timeout 30 "$hilcam" send --to usb:1209:0002 --timeout-ms 300 ping
 [ $? -eq 1 ]
 check $? "an answer with a wrong CRC is no answer"
-send fault usb_bad_crc --rate 0 >/dev/null 2>&1
+send fault usb_bad_crc --rate 0
+check $? "the order that ends it is answered"
 send ping
 check $? "and then all is well again"
 send fault usb_detach --duration-s 4
