@@ -1,9 +1,8 @@
 #include "io/fault.h"
 
-#include <time.h>
-
 #include <cmath>
 
+#include "io/monotonic.h"
 #include "render/random.h"
 
 namespace hilcam {
@@ -63,12 +62,6 @@ constexpr std::array<Kind, kAllFaults.size()> kKinds = {{
     {FaultKind::kImageTear, "image_tear", "rows below `value` of the height are of the frame before", false,
      0, 1},
 }};
-
-std::int64_t monotonic_ns() {
-    timespec t{};
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 
 const Kind* find(FaultKind kind) {
     for (const Kind& k : kKinds)

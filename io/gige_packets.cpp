@@ -24,30 +24,26 @@ gvsp::Image image_of(const GigeFrame& f) {
     return {pfnc_code(s.format, seen), s.width, s.height, s.offset_x, s.offset_y};
 }
 
-struct Parts {
-    std::array<gvsp::Part, gvsp::kMostParts> parts;
-    std::size_t count = 0;
+// Of the parts, in the order of the payload's bytes; 0: not there. A plain stream is one of a single part.
+std::array<std::size_t, gvsp::kMostParts> part_bytes(const GigeStreamState& s) {
+    if (!s.multipart) return {s.payload_bytes()};
+    return {s.image_bytes(), s.confidence_bytes(), s.chunk_data_bytes()};
+}
 
-    void add(const gvsp::Part& part) {
-        if (part.bytes > 0) parts[count++] = part;
-    }
-    std::span<const gvsp::Part> all() const { return std::span(parts).first(count); }
-};
-
-// In the order of the payload's bytes. A plain stream is one of a single part.
-Parts parts_of(const GigeFrame& f) {
+std::size_t write_parts_leader(const GigeFrame& f, const gvsp::PacketHeader& header,
+                               std::span<std::uint8_t> out) {
     const GigeStreamState& s = f.stream;
-    Parts p;
-    if (!s.multipart) {
-        p.add({gvsp::Part::k2dImage, s.payload_bytes(), {}});
-        return p;
-    }
     gvsp::Image confidence = image_of(f);
     confidence.pixel_format = kConfidence8;
-    p.add({gvsp::Part::k2dImage, s.image_bytes(), image_of(f), id_of(GigeComponent::kIntensity)});
-    p.add({gvsp::Part::kConfidenceMap, s.confidence_bytes(), confidence, id_of(GigeComponent::kConfidence)});
-    p.add({gvsp::Part::kChunkData, s.chunk_data_bytes(), {}});
-    return p;
+    const auto [image_bytes, confidence_bytes, chunk_bytes] = part_bytes(s);
+    const std::array<gvsp::Part, gvsp::kMostParts> all = {
+        {{gvsp::Part::k2dImage, image_bytes, image_of(f), id_of(GigeComponent::kIntensity)},
+         {gvsp::Part::kConfidenceMap, confidence_bytes, confidence, id_of(GigeComponent::kConfidence)},
+         {gvsp::Part::kChunkData, chunk_bytes, {}}}};
+    std::array<gvsp::Part, gvsp::kMostParts> parts;
+    const auto end =
+        std::copy_if(all.begin(), all.end(), parts.begin(), [](const gvsp::Part& p) { return p.bytes > 0; });
+    return gvsp::write_multipart_leader(header, s.chunk_mode, f.timestamp_ns, {parts.begin(), end}, out);
 }
 
 // A layout id names the set of chunks; 0 is reserved for "not told".
@@ -58,10 +54,9 @@ gvsp::ChunkTail chunk_tail(const GigeStreamState& s) {
 GigePacket leader_of(const GigeFrame& f, const gvsp::PacketHeader& header) {
     const GigeStreamState& s = f.stream;
     GigePacket p;
-    p.head_bytes =
-        s.multipart
-            ? gvsp::write_multipart_leader(header, s.chunk_mode, f.timestamp_ns, parts_of(f).all(), p.head)
-            : gvsp::write_image_leader(header, s.chunk_mode, f.timestamp_ns, image_of(f), p.head);
+    p.head_bytes = s.multipart
+                       ? write_parts_leader(f, header, p.head)
+                       : gvsp::write_image_leader(header, s.chunk_mode, f.timestamp_ns, image_of(f), p.head);
     return p;
 }
 
@@ -183,8 +178,9 @@ void write_gige_payload(const DnImage& frame, const FrameRecord& record, const G
 
 // Packets hold bytes of one part each.
 std::uint32_t trailer_id(const GigeStreamState& s) {
-    if (!s.multipart) return pieces(s.payload_bytes(), s) + 1;
-    return pieces(s.image_bytes(), s) + pieces(s.confidence_bytes(), s) + pieces(s.chunk_data_bytes(), s) + 1;
+    std::uint32_t count = 0;
+    for (const std::size_t bytes : part_bytes(s)) count += pieces(bytes, s);
+    return count + 1;
 }
 
 GigePacket packet_of(const GigeFrame& f, std::uint32_t id, gvsp::Status status) {
@@ -195,15 +191,16 @@ GigePacket packet_of(const GigeFrame& f, std::uint32_t id, gvsp::Status status) 
     if (header.format == gvsp::kLeader) return leader_of(f, header);
     if (header.format == gvsp::kTrailer) return trailer_of(f, header);
     GigePacket p;
-    const Parts parts = parts_of(f);
-    std::uint8_t part = 0;
-    std::size_t begin = 0;
+    const auto parts = part_bytes(s);
+    std::size_t begin = 0, i = 0;
+    std::uint8_t part = 0;         // among those that are there
     std::uint32_t place = id - 1;  // in the part
-    for (; place >= pieces(parts.parts[part].bytes, s); ++part) {
-        place -= pieces(parts.parts[part].bytes, s);
-        begin += parts.parts[part].bytes;
+    for (; place >= pieces(parts[i], s); ++i) {
+        place -= pieces(parts[i], s);
+        begin += parts[i];
+        if (parts[i] > 0) ++part;
     }
-    const std::size_t from = begin + place * piece_bytes(s), end = begin + parts.parts[part].bytes;
+    const std::size_t from = begin + place * piece_bytes(s), end = begin + parts[i];
     if (s.multipart) header.format = gvsp::kMultipart;
     p.head_bytes = s.multipart ? gvsp::write_part_payload(header, part, from, p.head)
                                : gvsp::write_header(header, p.head);

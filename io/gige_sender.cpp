@@ -4,11 +4,11 @@
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/time.h>
-#include <time.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "io/monotonic.h"
 #include "io/urgent_thread.h"
 
 namespace hilcam {
@@ -21,11 +21,6 @@ constexpr double kGigabit_bytes_s = 125e6;
 constexpr std::int64_t kCatchUpSeen_ns = 50'000'000;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-std::int64_t monotonic_ns() {
-    timespec t{};
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 sockaddr_in address_of(const Endpoint& e) { return socket_address(e.ip, e.port); }
 
 }  // namespace

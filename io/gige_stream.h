@@ -52,7 +52,8 @@ constexpr std::uint32_t chunk_bytes(Chunk chunk) {
     }
 }
 
-// What a multipart stream can show of a frame; ids as GenDC and the SFNC number components.
+// What a multipart stream can show of a frame; ids as the SFNC 2.7 (4.13 ComponentIDValue) numbers
+// components.
 enum class GigeComponent : std::uint8_t { kIntensity, kConfidence };
 constexpr std::uint32_t bit_of(GigeComponent component) { return 1u << static_cast<unsigned>(component); }
 constexpr std::uint16_t id_of(GigeComponent component) {

@@ -1,7 +1,5 @@
 #include "io/sink_gige.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,6 +9,7 @@
 #include "io/gige_frame_writer.h"
 #include "io/gige_sender.h"
 #include "io/gige_sockets.h"
+#include "io/monotonic.h"
 #include "io/urgent_thread.h"
 #include "render/check.h"
 
@@ -20,12 +19,6 @@ namespace {
 // Clients ask again for packets up to some 100 ms old (Aravis' frame_retention).
 constexpr double kKept_s = 0.2;
 constexpr double kMostRingBytes = 512e6;
-
-std::int64_t monotonic_ns() {
-    timespec t{};
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 
 std::size_t slots_for(double frame_rate_hz, std::size_t bytes_each) {
     const double wanted = std::min(std::ceil(kKept_s * frame_rate_hz) + GigeRing::kMostWaiting + 1,

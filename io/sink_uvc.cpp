@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 
+#include "io/monotonic.h"
 #include "io/wire_format.h"
 #include "render/check.h"
 
@@ -21,12 +21,6 @@ namespace {
 
 constexpr int kBindRetry_ms = 200;
 constexpr unsigned kBuffers = 4;
-
-std::int64_t monotonic_ns() {
-    timespec t{};
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 
 UvcStreamShape shape_of(const UvcConfig& config, int width, int height, const CameraControl& camera) {
     if (width % 2 != 0)

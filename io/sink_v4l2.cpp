@@ -4,10 +4,10 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 
 #include "io/camera_control.h"
 #include "io/fault.h"
+#include "io/monotonic.h"
 #include "io/v4l2_metadata_row.h"
 #include "render/check.h"
 
@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::int64_t kLeastInterval_ns = 1'000'000;  // whatever rate the camera claims
 constexpr std::int64_t kRetry_ns = 500'000'000;
-
-std::int64_t monotonic_ns() {
-    timespec t{};
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 
 void sleep_until(std::int64_t ns) {
     const timespec t{ns / 1'000'000'000, ns % 1'000'000'000};

@@ -7,7 +7,7 @@
 // always in a chain, which a wrong length would break.
 // The damage comes from SEED (1), so that a failure comes back. The input about to be tried is written to the
 // working folder as TARGET.last and removed at the end: it is what a crash leaves. Prints the memory it took
-// after a tenth of the inputs and at the end: they are the same.
+// after a tenth of the inputs and at the end: a leak stands between them.
 
 #include <unistd.h>
 

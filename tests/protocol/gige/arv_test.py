@@ -6,6 +6,7 @@
 --long: 100 start/stop cycles and 20 client kills, in place of 20 and 3.
 """
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -37,13 +38,20 @@ def run(name, *arguments, timeout=60, **options):
     return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options).stdout
 
 
+def only_late(failed):
+    """What a busy machine does: a rate, a number of frames, a frame that did not come. A refusal is none of it."""
+    return all(name.endswith(":FrameRate") or
+               (name.endswith(":BufferCheck") and re.fullmatch(r"\d+/\d+|Buffer transfer failure|", line[1]))
+               for name, line in failed.items())
+
+
 class ConformanceTest(CameraTest):
     def run_test(self, *arguments):
         """Acquisitions are judged by the clock: where nothing else failed, a busy machine gets another chance."""
         for _ in range(4):
             results = conformance(run("arv-test", "-n", f"*T{self.emulator.port}*", *arguments))
-            failed = [name for name, line in results.items() if line[0] == "FAILURE"]
-            if not failed or not all(name.endswith((":FrameRate", ":BufferCheck")) for name in failed):
+            failed = {name: line for name, line in results.items() if line[0] == "FAILURE"}
+            if not failed or not only_late(failed):
                 break
         return results
 
@@ -51,7 +59,7 @@ class ConformanceTest(CameraTest):
         self.assertTrue(results)
         self.assertEqual({name for name in GROUPS if not any(line.startswith(name + ":") for line in results)}, set())
         failed = {name: line for name, line in results.items() if line[0] == "FAILURE"}
-        if failed and too_busy() and all(name.endswith((":FrameRate", ":BufferCheck")) for name in failed):
+        if failed and too_busy() and only_late(failed):
             self.skipTest(f"{too_busy()}: {failed}")
         self.assertEqual(failed, {})
 
