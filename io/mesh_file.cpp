@@ -210,10 +210,12 @@ class Loader {
             const aiFace& face = part.mFaces[i];
             if (face.mNumIndices != 3) continue;
             std::array<std::uint32_t, 3> t = {face.mIndices[0], face.mIndices[1], face.mIndices[2]};
-            if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2]) continue;
             if (std::max({t[0], t[1], t[2]}) >= part.mNumVertices)
                 refuse(file_, "triangle " + std::to_string(i) + " of part '" + part.mName.C_Str() +
                                   "' names a vertex that does not exist");
+            // By place: some of assimp's loaders give each corner a vertex of its own.
+            const auto at = [&](std::size_t corner) { return mesh_.vertices_m[base + t[corner]]; };
+            if (at(0) == at(1) || at(1) == at(2) || at(0) == at(2)) continue;
             if (mirrored) std::swap(t[1], t[2]);
             for (std::uint32_t& index : t) index += base;
             mesh_.triangles.push_back(t);

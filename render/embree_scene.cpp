@@ -10,6 +10,7 @@
 #include <tbb/concurrent_vector.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cstring>
@@ -142,8 +143,10 @@ struct EmbreeScene::Implementation {
         void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                   3 * sizeof(std::uint32_t), mesh.triangles.size());
         require_no_error("copying a mesh");
-        std::memcpy(vertices, mesh.vertices_m.data(), mesh.vertices_m.size() * sizeof(Vec3f));
-        std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(std::uint32_t));
+        // Not memcpy: a mesh without a triangle has no memory to copy from.
+        std::copy_n(mesh.vertices_m.data(), mesh.vertices_m.size(), static_cast<Vec3f*>(vertices));
+        std::copy_n(mesh.triangles.data(), mesh.triangles.size(),
+                    static_cast<std::array<std::uint32_t, 3>*>(triangles));
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);

@@ -90,13 +90,17 @@ TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& w
         for (int cx = 0; cx < cells; ++cx) {
             Spectrum sum;
             double x_sum = 0, y_sum = 0, light = 0;
-            for (int y = cy * samples_ / cells; y < (cy + 1) * samples_ / cells; ++y)
+            // Row by row: up to 512 x 512 samples are too many for one sum in single precision.
+            for (int y = cy * samples_ / cells; y < (cy + 1) * samples_ / cells; ++y) {
+                Spectrum row;
                 for (int x = cx * samples_ / cells; x < (cx + 1) * samples_ / cells; ++x) {
                     const Spectrum& here = picture_[static_cast<std::size_t>(y * samples_ + x)];
                     const auto amount = static_cast<double>(mean(here, frame.bins));
-                    sum += here;
+                    row += here;
                     x_sum += amount * (x + 0.5), y_sum += amount * (y + 0.5), light += amount;
                 }
+                sum += row;
+            }
             if (!(light > 0)) continue;
             const Vec3d at = world_from_view_ * view_.geometry.direction_camera(x_sum / light, y_sum / light);
             field.add(normalized(at), plan.distance_m - kMargin * radius_m, solid_angle * sum, points,

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "render/brdf_microfacet.h"
@@ -97,7 +98,14 @@ class HemispherePaths final : public PathModel {
     void follow(Tile& tile, std::span<const Vertex> vertices) {
         if (vertices.empty()) return;
         tile.frame.radiance->add_light(tile, vertices, LampLight::kQuadrature);
-        for (const Vertex& at : vertices) follow(tile, children(tile, at));
+        // What comes by way of each vertex is summed by itself: a pixel gets 60^depth contributions, and
+        // single precision loses the small ones when each is added to all that came before.
+        for (const Vertex& at : vertices) {
+            Spectrum& pixel = tile.pixels[at.pixel];
+            const Spectrum before = std::exchange(pixel, {});
+            follow(tile, children(tile, at));
+            pixel += before;
+        }
     }
 
     std::size_t choose(const FrameView& frame, const Vertex& at) {

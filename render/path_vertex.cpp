@@ -14,9 +14,16 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
     const Material& material = object.materials[triangle.surface];
 
-    const Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
-    const float squared = dot(geometric_raw, geometric_raw);
-    if (!(squared > 0)) return false;  // a needle without an area: nothing to see
+    Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+    float squared = dot(geometric_raw, geometric_raw);
+    // Twice the area, squared: of edges below 1e-8 m or above 1e7 m it leaves single precision's range.
+    if (!(squared > 1e-30f && squared < 1e30f)) {
+        const float greatest =
+            std::max({std::abs(geometric_raw.x), std::abs(geometric_raw.y), std::abs(geometric_raw.z)});
+        if (!(greatest > 0 && std::isfinite(greatest))) return false;  // without an area: nothing to see
+        geometric_raw = geometric_raw / greatest;
+        squared = dot(geometric_raw, geometric_raw);
+    }
     const Vec3f geometric_body = geometric_raw / std::sqrt(squared);
     const float u = hits.u[k];
     const float v = hits.v[k];

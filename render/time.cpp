@@ -43,11 +43,11 @@ bool scan(std::string_view text, CivilTime& t) {
 TimeTai parse_utc(std::string_view text) {
     const auto refuse = [&](const char* why) {
         throw InputError("time '" + std::string(text) + "' " + why +
-                         "; accepted: UTC as 2026-03-20T06:00:00.000Z, years 1960 to 2200");
+                         "; accepted: UTC as 2026-03-20T06:00:00.000Z, years 1950 to 2200");
     };
     CivilTime t;
     if (!scan(text, t)) refuse("is not a date and time");
-    if (t.year < 1960 || t.year > 2200) refuse("is out of range");
+    if (t.year < 1950 || t.year > 2200) refuse("is out of range");
     // ERFA's UTC is a quasi Julian date whose day may have a leap second; only it may count those seconds.
     double utc1, utc2, tai1, tai2;
     const int status = eraDtf2d("UTC", t.year, t.month, t.day, t.hour, t.minute, t.second, &utc1, &utc2);
