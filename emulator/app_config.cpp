@@ -1,5 +1,6 @@
 #include "emulator/app_config.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -129,8 +130,7 @@ Fields fields(QualityConfig& q) {
 }
 
 SensorSampling sampling_of(const QualityConfig& q) {
-    return {static_cast<int>(q.guard_px), static_cast<int>(q.render.samples_per_axis),
-            static_cast<int>(q.oversampling)};
+    return {static_cast<int>(q.guard_px), ray_grid_of(q.render), static_cast<int>(q.oversampling)};
 }
 
 Fields fields(FaultConfig& f) {
@@ -244,6 +244,7 @@ Fields fields(ScenarioConfig& s) {
         text("radiance", s.models.radiance, "reflected | emissive, or a plug-in's"),
         sections("plugins", s.plugins, "shared libraries that add models"),
         section("quality", s.quality, "speed against accuracy"),
+        section("loop", s.loop, "how the frame loop keeps its time"),
         choice(
             "mode", s.mode, {"free_run", "triggered", "lockstep"},
             "what makes the camera take frames: its rate, triggers, or each `expose` one in simulated time"),
@@ -289,6 +290,32 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
 }
 
 }  // namespace
+
+std::string governor_off(const ScenarioConfig& s) {
+    if (!(s.loop.frame_budget_s > 0)) return "loop.frame_budget_ms is 0";
+    if (s.mode == CameraMode::kLockstep) return "lockstep: the same commands give the same frames";
+    return "";
+}
+
+std::vector<RenderQuality> lower_levels(const ScenarioConfig& s) {
+    if (!governor_off(s).empty()) return {};
+    if (s.loop.levels.empty()) return built_in_levels(s.quality.render);
+    std::vector<RenderQuality> levels;
+    for (const QualityLevelConfig& level : s.loop.levels) levels.push_back(applied(s.quality.render, level));
+    return levels;
+}
+
+SensorSampling sampling_of(const ScenarioConfig& s) {
+    SensorSampling sampling = sampling_of(s.quality);
+    std::vector<RayGrid>& others = sampling.other_grids;
+    for (const RenderQuality& level : lower_levels(s)) {
+        const RayGrid grid = ray_grid_of(level);
+        if (grid != sampling.samples_per_axis &&
+            std::find(others.begin(), others.end(), grid) == others.end())
+            others.push_back(grid);
+    }
+    return sampling;
+}
 
 RenderModels models_of(const ScenarioConfig& s) {
     RenderModels models = s.models;

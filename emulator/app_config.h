@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/quality_ladder.h"
 #include "emulator/world_state.h"
 #include "io/commands_functionfs.h"
 #include "io/commands_tcp.h"
@@ -198,6 +199,7 @@ struct ScenarioConfig {
     bool has_rays = false;
     std::vector<PluginConfig> plugins;
     QualityConfig quality;
+    LoopConfig loop;
     CameraMode mode = CameraMode::kFreeRun;
     Mount mount;  // of the camera that this scenario is about; the first sits where poses say
     std::vector<CameraConfig> more_cameras;  // kMostCameras - 1 at most
@@ -212,6 +214,14 @@ void validate(const ScenarioConfig& scenario);
 
 // The scenario as one of its cameras has it, counted from 0.
 ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index);
+
+// Why the governor does not run, or empty: it has no budget, or frames must not depend on how fast the
+// machine is.
+std::string governor_off(const ScenarioConfig& scenario);
+// The qualities below the configured one that it may choose; none when it does not run.
+std::vector<RenderQuality> lower_levels(const ScenarioConfig& scenario);
+// How the radiance images of all of them are made.
+SensorSampling sampling_of(const ScenarioConfig& scenario);
 
 // The models to render with: rays as the camera's shutter has them, unless the scenario gives its own.
 RenderModels models_of(const ScenarioConfig& scenario);

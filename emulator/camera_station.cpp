@@ -14,6 +14,10 @@ LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
             .fixed_size = scenario.outputs.has_v4l2 || scenario.outputs.has_uvc};
 }
 
+GovernorSettings governor_of(const ScenarioConfig& scenario) {
+    return {scenario.loop.frame_budget_s * 1e3, 1 + lower_levels(scenario).size()};
+}
+
 // Cameras of one bench draw different noise.
 std::uint64_t seed_of(const ScenarioConfig& scenario, std::size_t number) {
     return static_cast<std::uint64_t>(scenario.seed) + (number - 1) * 0x9E3779B97F4A7C15u;
@@ -93,7 +97,7 @@ void CameraStation::load(const SpectralGrid& grid) {
     const ImageGeometry geometry = geometry_of(scenario_.camera, static_cast<int>(scenario_.quality.guard_px),
                                                static_cast<int>(scenario_.quality.oversampling));
     renderer_ = load_renderer(scenario_, grid, geometry);
-    chain_ = std::make_unique<SensorChain>(scenario_.camera, grid, sampling_of(scenario_.quality),
+    chain_ = std::make_unique<SensorChain>(scenario_.camera, grid, sampling_of(scenario_),
                                            load_detector_pictures(scenario_.camera));
     const TimeTai start = parse_utc(scenario_.time_utc);
     world_ = std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
@@ -104,9 +108,10 @@ void CameraStation::load(const SpectralGrid& grid) {
 
 void CameraStation::prepare(SimulatedClock& clock) {
     serve_faults(0);
-    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario_.camera, *world_, settings_, faults_,
-                                        clock, sinks(), seed_of(scenario_, number_),
-                                        LoopLimits{limits_.frames, limits_.paced});
+    loop_ = std::make_unique<FrameLoop>(
+        *exposures_, *chain_, scenario_.camera, *world_, settings_, faults_, clock, sinks(),
+        seed_of(scenario_, number_),
+        LoopLimits{limits_.frames, limits_.paced, governor_of(scenario_), scenario_.loop.prefer});
 }
 
 void CameraStation::start_outputs() {

@@ -32,6 +32,23 @@ std::string motion_line(const ScenarioConfig& s, Renderer& renderer, const Spect
     return out;
 }
 
+// Which levels the governor may choose, or why there is none.
+std::string governor_lines(const ScenarioConfig& s) {
+    const std::string off = governor_off(s);
+    if (!off.empty()) return "governor off (" + off + ")\n";
+    std::string out =
+        fmt::format("governor: each stage of a frame may take {:.4g} ms; quality level 0 is as configured\n",
+                    1e3 * s.loop.frame_budget_s);
+    RenderQuality last = s.quality.render;
+    int number = 0;
+    for (const RenderQuality& level : lower_levels(s)) {
+        const std::string what = difference(last, level);
+        out += fmt::format("  level {}: {}\n", ++number, what.empty() ? "as the one before" : what);
+        last = level;
+    }
+    return out;
+}
+
 }  // namespace
 
 bool is_camera_file(const std::filesystem::path& file) { return has_top_level_key(file, "pitch_um"); }
@@ -56,7 +73,7 @@ std::string check_scenario(const ScenarioConfig& s) {
                           "sunlight\nplan\n",
                           s.name, format_utc(time), 100 * share_in_bins(s.camera, grid));
     for (const std::string& line : renderer->explain_plan(world)) out += "  " + line + "\n";
-    return out + "  " + motion_line(s, *renderer, grid) + "\n";
+    return out + "  " + motion_line(s, *renderer, grid) + "\n" + governor_lines(s);
 }
 
 }  // namespace hilcam

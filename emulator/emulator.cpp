@@ -134,6 +134,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         seconds_ = static_cast<double>(now_ns - begun_ns) * 1e-9;
         if (limits_.seconds > 0 && seconds_ >= limits_.seconds) break;
         for (const auto& station : stations_) station->serve_faults(seconds_);
+        print_level_changes();
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
             print_line();
             next_line_ns += 1'000'000'000;
@@ -142,6 +143,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     }
     // Loops first: they answer what waits for a frame.
     for (const auto& station : stations_) station->stop_loop();
+    print_level_changes();
     seconds_ = static_cast<double>(monotonic_now_ns() - begun_ns) * 1e-9;
     for (const auto& receiver : receivers_) receiver->stop();
     if (telemetry_) telemetry_->stop();
@@ -149,6 +151,18 @@ void Emulator::run(const std::function<void()>& on_ready) {
         station->stop_outputs();
         station->serve_faults(seconds_);
     }
+}
+
+void Emulator::print_level_changes() {
+    LevelChange change;
+    for (const auto& station : stations_)
+        while (station->loop().take_level_change(change))
+            spdlog::info(
+                "{}: from frame {} on quality level {} instead of {}, whose frames took {:.2f} ms ({:.2f} ms "
+                "are "
+                "allowed)",
+                station->name(), change.frame, change.to, change.from, change.mean_ms,
+                1e3 * scenario_.loop.frame_budget_s);
 }
 
 // Of the first camera.

@@ -39,6 +39,7 @@ class Emulator {
     void make_telemetry();
     HousekeepingFigures housekeeping();
     void print_line();
+    void print_level_changes();
     bool finished() const;
 
     ScenarioConfig scenario_;

@@ -46,6 +46,8 @@ void accumulate(const RenderStats& part, float share, RenderStats& sum) {
     sum.setup_ms += part.setup_ms;
     sum.trace_ms += part.trace_ms;
     sum.points_ms += part.points_ms;
+    sum.lit_px += part.lit_px;
+    sum.within_budget_px += part.within_budget_px;
 }
 
 // About the camera's axes, from one attitude to another.
@@ -70,6 +72,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ScenarioConfig& s, 
       focal_length_px_(s.camera.focal_length_m / s.camera.pitch_m),
       oversampling_(static_cast<double>(s.quality.oversampling)),
       jitter_(s.camera.jitter, static_cast<std::uint64_t>(s.seed), parse_utc(s.time_utc)),
+      noise_(s.camera, grid, sampling_of(s.quality)),
       bins_(static_cast<std::size_t>(grid.size())) {
     if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
         motion_ = MotionQuality::kFast;
@@ -134,6 +137,7 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, TimeTai mid
     sample_middle(world, span, result.shown);
     exposure.image_rate_px_s = {};
     exposure.camera_rate_rad_s = {};
+    exposure.ray_grid = ray_grid_of(renderer_.quality());
     if (motion_ == MotionQuality::kExact) {
         sample_ends(world, span, true);
         const ImageMotion motion = renderer_.motion(middle_, before_, after_);
@@ -142,10 +146,12 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, TimeTai mid
         result.parts_limited = plan.parts_limited;
         set_rates(motion, result.parts, exposure);
         if (result.parts > 1) {
+            tell_noise(exposure, result.parts);
             render_parts(world, span, key, radiance, points, result);
             return result;
         }
     }
+    tell_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
     if (motion_ == MotionQuality::kOff) return result;
     if (motion_ == MotionQuality::kFast) {
@@ -154,6 +160,13 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, TimeTai mid
     }
     renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
     return result;
+}
+
+// The mean of parts may come from worse ones: each draws its own samples.
+void ExposureRenderer::tell_noise(const Exposure& exposure, int parts) {
+    PixelNoise noise = noise_.of(exposure);
+    noise.averaged *= static_cast<float>(parts);
+    renderer_.set_pixel_noise(noise);
 }
 
 void ExposureRenderer::render_parts(const WorldState& world, const Span& span, RandomKey key,

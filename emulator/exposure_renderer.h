@@ -22,6 +22,7 @@
 #include "emulator/world_state.h"
 #include "render/renderer.h"
 #include "sensor/chain.h"
+#include "sensor/expected_noise.h"
 #include "sensor/motion.h"
 
 namespace hilcam {
@@ -38,14 +39,17 @@ class ExposureRenderer {
     RadianceImage make_image() const;
     std::size_t most_points() const;
 
+    // The quality of the next exposures (lower_levels()): 0, as configured, or one of those below. Loop.
+    void use_level(std::size_t level) { renderer_.use_level(level); }
+
     struct Result {
         RenderStats stats;  // of all parts
         ShownCommand shown;
         int parts = 1;
         bool parts_limited = false;  // more than kMostParts were asked for
     };
-    // The exposure of exposure.exposure_s about an instant; sets the exposure's rates. Loop, one thread; no
-    // allocation.
+    // The exposure of exposure.exposure_s about an instant; sets the exposure's rates and ray grid. Loop, one
+    // thread; no allocation.
     Result render(WorldState& world, TimeTai middle, RandomKey key, RadianceImage& radiance,
                   std::vector<PointSource>& points, Exposure& exposure);
 
@@ -65,6 +69,7 @@ class ExposureRenderer {
     ShutterConfig shutter_;
     double focal_length_px_, oversampling_;
     PointingJitter jitter_;
+    ExpectedNoise noise_;
     WorldSnapshot middle_, before_, after_, part_world_;
     RadianceImage part_;  // of exact motion
     std::vector<PointSource> part_points_;
@@ -80,6 +85,7 @@ class ExposureRenderer {
     void sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
                       WorldSnapshot& out) const;
     void sample_ends(const WorldState& world, const Span& span, bool with_bodies);
+    void tell_noise(const Exposure& exposure, int parts);
     void render_parts(const WorldState& world, const Span& span, RandomKey key, RadianceImage& radiance,
                       std::vector<PointSource>& points, Result& result);
     double unexpected_px_s(double rate_px_s) const;

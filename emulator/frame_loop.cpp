@@ -31,7 +31,9 @@ FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const Came
       sinks_(std::move(sinks)),
       seed_(seed),
       limits_(limits),
-      lockstep_(settings.limits().lockstep) {
+      lockstep_(settings.limits().lockstep),
+      governor_(limits.paced && !lockstep_ ? limits.governor : GovernorSettings{}),
+      free_(limits.prefer == LoopPreference::kLatency ? 1 : 2) {
     for (Slot& slot : slots_) {
         slot.radiance = exposures.make_image();
         slot.points.reserve(exposures.most_points());
@@ -71,6 +73,7 @@ void FrameLoop::render_frames() {
         slot.record = {};
         slot.record.id = id;
         latch(start, slot);
+        choose_level(slot);
         tell(CameraEvent::Kind::kExposureStart, id, start.begin_ns);
         render_into(slot);
         if (start.ends_order) settings_.order_done();
@@ -109,6 +112,29 @@ void FrameLoop::latch(const FrameStarter::Start& start, Slot& slot) {
     slot.reverse_x = s.reverse_x, slot.reverse_y = s.reverse_y;
 }
 
+// How long the slot's last frame kept the next one waiting.
+double FrameLoop::frame_ms(const Slot& slot) const {
+    const std::int64_t ns = limits_.prefer == LoopPreference::kLatency
+                                ? slot.render_ns + slot.sense_ns
+                                : std::max(slot.render_ns, slot.sense_ns);
+    return static_cast<double>(ns) * 1e-6;
+}
+
+void FrameLoop::choose_level(Slot& slot) {
+    const std::size_t before = governor_.level();
+    std::size_t now = before;
+    if (slot.render_ns > 0) now = governor_.take(slot.level, frame_ms(slot));
+    if (now != before) {
+        counters_.level_changes.fetch_add(1, std::memory_order_relaxed);
+        level_changes_.push({slot.record.id, before, now, governor_.mean_ms(before)});
+        exposures_.use_level(now);
+    }
+    slot.level = now;
+    slot.record.quality_level = static_cast<std::uint32_t>(now);
+    counters_.level.store(slot.record.quality_level, std::memory_order_relaxed);
+    counters_.frames_at_level[now].fetch_add(1, std::memory_order_relaxed);
+}
+
 void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const {
     for (FrameSink* sink : sinks_) sink->happened({kind, frame, monotonic_ns});
 }
@@ -131,7 +157,20 @@ void FrameLoop::render_into(Slot& slot) {
     meters_.setup.record(from_ms(stats_.setup_ms));
     meters_.trace.record(from_ms(stats_.trace_ms));
     meters_.stars.record(from_ms(stats_.points_ms));
-    meters_.render.record(monotonic_now_ns() - begun_ns);
+    count_budget();
+    slot.render_ns = monotonic_now_ns() - begun_ns;
+    meters_.render.record(slot.render_ns);
+}
+
+void FrameLoop::count_budget() {
+    if (stats_.lit_px == 0) return counters_.within_budget.store(1, std::memory_order_relaxed);
+    counters_.lit_px.fetch_add(stats_.lit_px, std::memory_order_relaxed);
+    counters_.within_budget_px.fetch_add(stats_.within_budget_px, std::memory_order_relaxed);
+    const double share = static_cast<double>(stats_.within_budget_px) / static_cast<double>(stats_.lit_px);
+    counters_.within_budget.store(share, std::memory_order_relaxed);
+    // One writer.
+    if (share < counters_.worst_within_budget.load(std::memory_order_relaxed))
+        counters_.worst_within_budget.store(share, std::memory_order_relaxed);
 }
 
 // --- stage 2
@@ -164,7 +203,8 @@ void FrameLoop::sense(Slot& slot) {
     finish_picture(slot);
     slot.record.faults = frame_faults(faults_, slot.record.id);
     strike_image(faults_, slot.record, seed_, before_, frame_);
-    meters_.sense.record(monotonic_now_ns() - begun_ns);
+    slot.sense_ns = monotonic_now_ns() - begun_ns;
+    meters_.sense.record(slot.sense_ns);
 
     wait_to_publish(slot);
     tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.exposure_end_ns);
@@ -173,6 +213,7 @@ void FrameLoop::sense(Slot& slot) {
     std::swap(frame_, before_);
     const std::int64_t done_ns = monotonic_now_ns();
     meters_.publish.record(done_ns - publish_ns);
+    slot.sense_ns += done_ns - publish_ns;
     if (last_published_ns_ != 0) meters_.interval.record(done_ns - last_published_ns_);
     last_published_ns_ = done_ns;
     counters_.last_id.store(slot.record.id, std::memory_order_relaxed);

@@ -2,8 +2,13 @@
 // THE loop: pose -> radiance -> electrons -> DN -> sinks, frame after frame.
 //
 // Two threads, each a stage: `render` samples the world and traces, `sense` exposes, digitises and publishes.
-// While a frame is sensed the next one is rendered. Both use oneTBB's threads inside. Frames pass through two
-// slots allocated before the start; hand-over is by semaphores.
+// Both use oneTBB's threads inside. Frames pass through two slots allocated before the start; hand-over is by
+// semaphores. loop.prefer:
+//   throughput  while a frame is sensed the next one is rendered: frames come as fast as the longer stage
+//   goes latency     the next one waits until it is out: each stage has all threads to itself, so that a
+//   frame is
+//               through sooner; frames come as fast as both stages together go
+// Pixels are the same in both.
 //
 // When frames begin is frame_starter.h's business. Timing in free-run: frame k begins at s_k = s_0 + k period
 // on CLOCK_MONOTONIC; its middle, its end and the period follow from exposure, frame rate and shutter
@@ -16,6 +21,11 @@
 // Settings of a frame: exposure and gain are those of the live settings, or of its step of the camera's
 // sequence, or with automatic exposure what the frame two before it in the loop asks for: that is the one
 // whose slot it takes over, so it does not depend on timing.
+//
+// Quality: with a frame budget the governor (governor.h) chooses each frame's level by what earlier frames
+// took: the longer of the two stages, or with latency both, as that is how long the next frame has to wait.
+// It is told of a frame when its slot is taken over, two frames later. Off in lockstep, where frames must not
+// depend on the machine, and where frames are not paced.
 //
 // After start() both threads neither allocate nor lock nor log, but for what Embree does inside
 // rtcCommitScene.
@@ -32,10 +42,13 @@
 #include "emulator/clock.h"
 #include "emulator/exposure_renderer.h"
 #include "emulator/frame_starter.h"
+#include "emulator/governor.h"
 #include "emulator/latency.h"
 #include "emulator/live_settings.h"
+#include "emulator/quality_ladder.h"
 #include "emulator/shutter_timing.h"
 #include "emulator/world_state.h"
+#include "io/bounded_queue.h"
 #include "io/frame_sink.h"
 #include "render/renderer.h"
 #include "sensor/chain.h"
@@ -54,11 +67,27 @@ struct LoopCounters {
     std::atomic<std::uint64_t> deadline_misses{0};
     std::atomic<std::uint64_t> last_id{0};
     std::atomic<std::uint64_t> motion_limited{0};  // frames with more motion than exact motion divides
+    // Quality levels: that of the newest frame, how often it changed, how many frames each has had.
+    std::atomic<std::uint32_t> level{0}, level_changes{0};
+    std::array<std::atomic<std::uint64_t>, kMostLevels> frames_at_level{};
+    // With a noise budget: pixels with light, those within it, of all frames; the share in the newest and the
+    // worst frame (1 without light).
+    std::atomic<std::uint64_t> lit_px{0}, within_budget_px{0};
+    std::atomic<double> within_budget{1}, worst_within_budget{1};
+};
+
+// The governor's decision, from a frame on.
+struct LevelChange {
+    std::uint64_t frame = 0;
+    std::size_t from = 0, to = 0;
+    double mean_ms = 0;  // of the frames before it
 };
 
 struct LoopLimits {
     std::uint64_t frames = 0;  // 0: no limit
     bool paced = true;         // false: as fast as it goes, for benchmarks
+    GovernorSettings governor{};
+    LoopPreference prefer = LoopPreference::kThroughput;
 };
 
 class FrameLoop {
@@ -74,6 +103,8 @@ class FrameLoop {
 
     const LoopCounters& counters() const { return counters_; }
     const StageMeters& meters() const { return meters_; }
+    // One thread. False: there is none that was not taken yet.
+    bool take_level_change(LevelChange& change) noexcept { return level_changes_.pop(change); }
     // Of the frame rendered last; for benchmarks, when the loop is stopped.
     const RenderStats& render_stats() const { return stats_; }
 
@@ -87,6 +118,8 @@ class FrameLoop {
         std::int64_t not_before_ns = 0;  // may be published; 0: at any time
         double next_exposure_s = 0;      // automatic: of the slot's next frame; 0: not measured yet
         bool automatic = false;
+        std::size_t level = 0;                     // of quality, of the slot's last frame
+        std::int64_t render_ns = 0, sense_ns = 0;  // how long that took; 0: there was none
         TestPattern test_pattern = TestPattern::kOff;
         bool reverse_x = false, reverse_y = false;
     };
@@ -94,7 +127,10 @@ class FrameLoop {
     void render_frames();
     void sense_frames();
     void latch(const FrameStarter::Start& start, Slot& slot);
+    double frame_ms(const Slot& slot) const;
+    void choose_level(Slot& slot);
     void render_into(Slot& slot);
+    void count_budget();
     void sense(Slot& slot);
     void finish_picture(const Slot& slot);
     void wait_to_publish(const Slot& slot) const;
@@ -114,9 +150,11 @@ class FrameLoop {
     std::uint64_t seed_;
     LoopLimits limits_;
     bool lockstep_;
+    Governor governor_;
+    BoundedQueue<LevelChange, 64> level_changes_;
 
     std::array<Slot, 2> slots_;
-    std::counting_semaphore<> free_{2}, rendered_{0};
+    std::counting_semaphore<> free_, rendered_{0};
     RenderStats stats_;
     std::int64_t shown_arrival_ns_ = 0;
     ElectronImage electrons_;

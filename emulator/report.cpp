@@ -49,6 +49,12 @@ json stages_report(const StageMeters& m) {
             {"render", percentiles(m.render)},     {"sense", percentiles(m.sense)}};
 }
 
+json within_budget(const LoopCounters& counters) {
+    const std::uint64_t lit_px = counters.lit_px.load();
+    if (lit_px == 0) return nullptr;
+    return rounded(static_cast<double>(counters.within_budget_px.load()) / static_cast<double>(lit_px));
+}
+
 namespace {
 
 json outputs_report(const CameraStation& station, json& faults) {
@@ -78,10 +84,31 @@ json strikes_report(const CameraStation& station) {
     return {{"counts", counts}, {"log", log}};
 }
 
+json quality_report(CameraStation& station) {
+    const RenderQuality& quality = station.scenario().quality.render;
+    const LoopCounters& counters = station.loop().counters();
+    json frames_at_level = json::array();
+    for (std::size_t i = 0; i <= lower_levels(station.scenario()).size(); ++i)
+        frames_at_level.push_back(counters.frames_at_level[i].load());
+    json report = {{"samples_per_axis", quality.samples_per_axis},
+                   {"max_depth", quality.max_depth},
+                   {"contribution_threshold", quality.contribution_threshold},
+                   {"rays_outside_atmosphere", station.renderer().rays_outside_air()},
+                   {"motion_limited_frames", counters.motion_limited.load()},
+                   {"frame_budget_ms", station.scenario().loop.frame_budget_s * 1e3},
+                   {"level", counters.level.load()},
+                   {"level_changes", counters.level_changes.load()},
+                   {"frames_at_level", frames_at_level},
+                   {"noise_budget", quality.noise_budget},
+                   {"within_noise_budget", within_budget(counters)}};
+    if (!report["within_noise_budget"].is_null())
+        report["worst_within_noise_budget"] = rounded(counters.worst_within_budget.load());
+    return report;
+}
+
 json camera_report(CameraStation& station, double seconds) {
     const FrameLoop& loop = station.loop();
     const DeliveryMeter& delivery = station.delivery();
-    const RenderQuality& quality = station.scenario().quality.render;
     const auto frames = loop.counters().frames.load();
     json faults = json::array();
     json outputs = outputs_report(station, faults);
@@ -97,12 +124,7 @@ json camera_report(CameraStation& station, double seconds) {
         {"outputs", outputs},
         {"faults", faults},
         {"fault_strikes", strikes_report(station)},
-        {"quality",
-         {{"samples_per_axis", quality.samples_per_axis},
-          {"max_depth", quality.max_depth},
-          {"contribution_threshold", quality.contribution_threshold},
-          {"rays_outside_atmosphere", station.renderer().rays_outside_air()},
-          {"motion_limited_frames", loop.counters().motion_limited.load()}}},
+        {"quality", quality_report(station)},
         {"stages_ms", stages_report(loop.meters())},
     };
 }

@@ -12,6 +12,8 @@ namespace hilcam {
 nlohmann::json machine_report();
 // Median and 99th percentile of every stage [ms].
 nlohmann::json stages_report(const StageMeters& meters);
+// Share of the lit pixels of all frames whose rendering error was within the noise budget; null without one.
+nlohmann::json within_budget(const LoopCounters& counters);
 // Of the whole run: the first camera's figures at the top, with several cameras each one's under `cameras`.
 nlohmann::json run_report(const Emulator& emulator);
 // Throws DeviceError when the file cannot be written.

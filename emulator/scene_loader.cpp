@@ -51,6 +51,12 @@ std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, c
     return materials;
 }
 
+bool wants_levels_of_detail(const ScenarioConfig& scenario) {
+    const std::vector<RenderQuality> lower = lower_levels(scenario);
+    return scenario.quality.render.lod_error_px > 0 ||
+           std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
+}
+
 SceneObject make_object(const ObjectConfig& config, Mesh mesh, const ScenarioConfig& scenario,
                         const SpectralGrid& grid) {
     SceneObject object;
@@ -58,7 +64,7 @@ SceneObject make_object(const ObjectConfig& config, Mesh mesh, const ScenarioCon
     object.mesh = std::move(mesh);
     const auto scale = static_cast<float>(config.scale);
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
-    if (scenario.quality.render.lod_error_px > 0) object.levels = cached_levels(object.mesh, cache_folder());
+    if (wants_levels_of_detail(scenario)) object.levels = cached_levels(object.mesh, cache_folder());
     object.materials = load_materials(object.mesh, config.materials, grid);
     return object;
 }
@@ -122,7 +128,8 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
     for (const PluginConfig& plugin : scenario.plugins) plugins.push_back(plugin.file);
     load_plugins(plugins, modules);
     return std::make_unique<Renderer>(load_scene(scenario, grid, modules), grid, geometry,
-                                      scenario.quality.render, models_of(scenario), modules);
+                                      scenario.quality.render, models_of(scenario), modules,
+                                      lower_levels(scenario));
 }
 
 DetectorPictures load_detector_pictures(const CameraModel& camera) {

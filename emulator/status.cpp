@@ -123,6 +123,18 @@ json faults_status(const FaultBoard& board) {
     return faults;
 }
 
+// The newest frame's level and share of pixels within the noise budget; 0 ms: the governor is off.
+json quality_status(const ScenarioConfig& scenario, const LoopCounters& counters) {
+    json quality = {{"level", counters.level.load()},
+                    {"levels", 1 + lower_levels(scenario).size()},
+                    {"level_changes", counters.level_changes.load()},
+                    {"frame_budget_ms", scenario.loop.frame_budget_s * 1e3},
+                    {"noise_budget", scenario.quality.render.noise_budget},
+                    {"within_noise_budget", nullptr}};
+    if (counters.lit_px.load() > 0) quality["within_noise_budget"] = counters.within_budget.load();
+    return quality;
+}
+
 }  // namespace
 
 std::string run_status(const StatusSources& s) {
@@ -133,6 +145,7 @@ std::string run_status(const StatusSources& s) {
                          {"limits", limits_status(s.camera.limits())},
                          {"frames", counters.frames.load()},
                          {"deadline_misses", counters.deadline_misses.load()},
+                         {"quality", quality_status(s.scenario, counters)},
                          {"monotonic_ns", monotonic_now_ns()},
                          {"latency_ms",
                           {{"first_packet", histogram(s.delivery.command_to_first)},

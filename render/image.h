@@ -2,6 +2,7 @@
 // Images, one type per physical quantity, so that a stage cannot be fed the wrong one.
 // Rows run downwards (+y), columns to the right (+x); the centre of pixel (0, 0) is at (0.5, 0.5).
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -90,6 +91,7 @@ class RadianceImage : public Image<float, struct RadianceQuantity> {
     // Of the block that holds pixel (x, y).
     bool dark(int x, int y) const { return dark_[block(x, y)] != 0; }
     void mark_dark(int x, int y, bool dark) { dark_[block(x, y)] = dark ? 1 : 0; }
+    void clear_marks() { std::fill(dark_.begin(), dark_.end(), std::uint8_t{0}); }
 
   private:
     std::size_t block(int x, int y) const {

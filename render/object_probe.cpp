@@ -44,6 +44,10 @@ void ObjectProbe::aim(const FrameView& frame, const WorldSnapshot& world, std::s
     world_from_view_ = to_matrix(camera.world_from_body);
     view_.geometry = picture_of(samples_, radius_m, distance_m);
     view_.key = frame.key;
+    view_.max_depth = frame.max_depth;
+    view_.contribution_threshold = frame.contribution_threshold;
+    view_.sun_is_disk = frame.sun_is_disk;
+    view_.paths_sample_lobes = frame.paths_sample_lobes;
     view_.rays_world_m = frame.rays_world_m;
     view_.camera_m = frame.camera_m;
     std::copy(frame.world_from_body.begin(), frame.world_from_body.end(), view_.world_from_body.begin());

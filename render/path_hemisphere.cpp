@@ -75,10 +75,13 @@ class HemispherePaths final : public PathModel {
   public:
     void trace(Tile& tile) override {
         const std::size_t count = trace_primary_rays(tile, first_);
-        // A level of children per depth; made when a frame first asks for more.
-        const auto levels = static_cast<std::size_t>(tile.frame.max_depth);
-        if (levels_.size() < levels) levels_.resize(levels);
+        reserve_depth(tile.frame.max_depth);
         follow(tile, {first_.data(), count});
+    }
+    // A level of children per depth.
+    void reserve_depth(int max_depth) override {
+        const auto levels = static_cast<std::size_t>(max_depth);
+        if (levels_.size() < levels) levels_.resize(levels);
     }
 
   private:

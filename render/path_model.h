@@ -25,6 +25,8 @@ class PathModel {
 
     // Adds to the tile's pixels what its rays see.
     virtual void trace(Tile& tile) = 0;
+    // Makes all that tracing so deep needs; more is made by trace() when a frame first asks for it.
+    virtual void reserve_depth(int /*max_depth*/) {}
     // Its own directions can meet lamps that next-event estimation counts too; they are weighed then.
     virtual bool samples_lobes() const { return false; }
 };

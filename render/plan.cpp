@@ -91,9 +91,12 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
         (line << ... << parts);
         lines.push_back(line.str());
     };
-    add(f.bins, " spectral bins; ", planned.samples_per_axis, " x ", planned.samples_per_axis,
-        " rays per pixel");
-    add("path model ", planned.path_model, ", ", f.max_depth, " surfaces deep, paths end below ",
+    const RenderQuality& q = planned.quality;
+    add(f.bins, " spectral bins; ", q.samples_per_axis, " x ", q.samples_per_axis, " rays per pixel");
+    if (q.noise_budget > 0)
+        add("noise budget: pixels are sampled again, ", q.most_passes,
+            " times at most, while their error is above ", q.noise_budget, " of their sensor noise");
+    add("path model ", q.path_model, ", ", f.max_depth, " surfaces deep, paths end below ",
         f.contribution_threshold);
     add("rays begin at the ", f.start_before_m > 0 ? "objects (far away against their size)" : "camera");
     for (std::size_t i = 0; i < planned.plans.size(); ++i) {

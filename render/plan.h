@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/frame_view.h"
+#include "render/render_quality.h"
 #include "render/scene.h"
 
 namespace hilcam {
@@ -51,9 +52,8 @@ struct PlannedFrame {
     std::span<const ObjectPlan> plans;  // per object, as the next two
     std::span<const std::string> names;
     std::span<const std::size_t> triangles;
-    const std::string& path_model;
+    const RenderQuality& quality;
     std::size_t stars;
-    int samples_per_axis;
 };
 // The plan in words, a line each with its reason.
 std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapshot& world);

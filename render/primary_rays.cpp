@@ -43,13 +43,21 @@ class PrimaryRays {
                 rays_.count = 0;
                 for (int y = by; y < std::min(by + 4, box.y1); ++y)
                     for (int x = bx; x < std::min(bx + 4, box.x1); ++x) {
+                        if (!tile_.wants(x, y)) continue;
                         x_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(x - box.x0);
                         y_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(y - box.y0);
                         ++rays_.count;
                     }
-                for (int s = 0; s < n * n; ++s)
-                    trace_packet(objects, (static_cast<float>(s % n) + 0.5f) * step,
-                                 (static_cast<float>(s / n) + 0.5f) * step, static_cast<std::uint16_t>(s));
+                if (rays_.count == 0) continue;
+                for (int s = 0; s < n * n; ++s) {
+                    const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
+                    if (tile_.scattered)
+                        scatter(static_cast<float>(s % n), static_cast<float>(s / n), step, sample);
+                    else
+                        center((static_cast<float>(s % n) + 0.5f) * step,
+                               (static_cast<float>(s / n) + 0.5f) * step);
+                    trace_packet(objects, sample);
+                }
             }
         return count_;
     }
@@ -70,6 +78,21 @@ class PrimaryRays {
     std::array<float, kPacketSize> x_at_{}, y_at_{};  // of their samples
     std::array<CameraRay, kPacketSize> exact_;        // where they are not linear, or objects are far away
     std::size_t count_ = 0;
+
+    // The packet's samples, all at the same place of their pixels.
+    void center(float dx, float dy) {
+        for (std::size_t k = 0; k < kPacketSize; ++k) x_at_[k] = x_of_[k] + dx, y_at_[k] = y_of_[k] + dy;
+    }
+    // Each at a place of its own in a cell of its pixel, `step` wide.
+    void scatter(float cell_x, float cell_y, float step, std::uint16_t sample) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
+            const std::uint32_t pixel = tile_.frame_pixel(tile_.box.x0 + static_cast<int>(x_of_[k]),
+                                                          tile_.box.y0 + static_cast<int>(y_of_[k]));
+            const auto words = random_words(frame_.key, RandomPurpose::kPixelPlace, pixel, sample);
+            x_at_[k] = x_of_[k] + (cell_x + uniform01(words[0])) * step;
+            y_at_[k] = y_of_[k] + (cell_y + uniform01(words[1])) * step;
+        }
+    }
 
     void aim() {
         if (linear_ && frame_.start_before_m <= 0) {
@@ -129,8 +152,7 @@ class PrimaryRays {
         if (sun_) frame_.background->add_sun_disk(dir, weight, pixel);
     }
 
-    void trace_packet(bool objects, float dx, float dy, std::uint16_t sample) {
-        for (std::size_t k = 0; k < kPacketSize; ++k) x_at_[k] = x_of_[k] + dx, y_at_[k] = y_of_[k] + dy;
+    void trace_packet(bool objects, std::uint16_t sample) {
         aim();
         if (objects) {
             frame_.scene->intersect(rays_, Coherence::kCoherent, hits_);
@@ -148,7 +170,9 @@ class PrimaryRays {
             const auto pixel =
                 static_cast<std::uint32_t>(static_cast<int>(y_of_[k]) * width + static_cast<int>(x_of_[k]));
             if (objects && meets_object(k)) {
-                tile_.stats.covered_px += 1.0 / (tile_.samples_per_axis * tile_.samples_per_axis);
+                // One pass tells.
+                if (tile_.first_sample == 0)
+                    tile_.stats.covered_px += 1.0 / (tile_.samples_per_axis * tile_.samples_per_axis);
                 add_vertex(i, pixel, sample);
             } else if (bodies_ || sun_) {
                 add_backdrop(k, sun_cosine[k], tile_.pixels[pixel]);

@@ -8,42 +8,24 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "render/config_field.h"
 #include "render/image.h"
 #include "render/image_geometry.h"
 #include "render/image_motion.h"
 #include "render/modules.h"
+#include "render/pixel_noise.h"
 #include "render/plan.h"
 #include "render/point_source.h"
 #include "render/random.h"
+#include "render/render_quality.h"
 #include "render/scene.h"
 
 namespace hilcam {
 
-// Speed against accuracy; every value here is a named choice of the user.
-struct RenderQuality {
-    std::int64_t samples_per_axis = 1;  // n: a regular n x n grid of rays in each pixel
-    std::string path_model = "path";
-    std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
-    double contribution_threshold = 1e-3;  // see path_model.h
-    bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
-    double facets_behind_diffuse = 0.4;    // least GGX alpha there; 0: as they are
-    bool watertight = true;                // no ray slips through between two triangles
-    double lod_error_px = 0.25;            // of a coarser level of detail; 0: the mesh itself, always
-    std::int64_t rays_across =
-        128;  // of a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
-    std::int64_t point_samples = 96;  // of an object of few pixels, along one axis of its little picture
-};
-Fields fields(RenderQuality& quality);
-
-// The chosen models, by name.
-struct RenderModels {
-    RayConfig rays;
-    std::string radiance = "reflected";
-};
+struct PathModelSpeed;  // render_bench.h
 
 struct RenderStats {
     std::uint64_t primary_rays = 0;
@@ -53,22 +35,26 @@ struct RenderStats {
     double setup_ms = 0;   // instances, plan, background
     double trace_ms = 0;   // rays and shading
     double points_ms = 0;  // stars, and what is smaller than a pixel
-};
-
-// How fast a path model is against Embree alone on the same rays.
-struct PathModelSpeed {
-    std::string name;
-    std::uint64_t rays = 0;  // of all kinds, of one frame
-    double frame_ms = 0;
-    double bare_ms = 0;  // Embree alone
+    // With a noise budget: pixels that light falls on, points apart, and those of them within the budget.
+    std::uint64_t lit_px = 0, within_budget_px = 0;
 };
 
 class Renderer {
   public:
     // Builds the acceleration structures; takes the scene over. Throws InputError. Owner thread.
+    // lower: qualities that use_level() may choose instead, from 1 on. Only what RenderQuality marks may be
+    // different in them; the rest stays that of `quality`, which is level 0.
     Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-             const RenderQuality& quality, const RenderModels& models = {}, const Modules& modules = {});
+             const RenderQuality& quality, const RenderModels& models = {}, const Modules& modules = {},
+             std::span<const RenderQuality> lower = {});
     ~Renderer();
+
+    // The quality of the next frames. Loop: nothing is allocated.
+    void use_level(std::size_t level);
+    const RenderQuality& quality() const;
+    // What the noise budget is weighed against in the next frames; until it is told, pixels are sampled once.
+    // Loop.
+    void set_pixel_noise(const PixelNoise& noise);
 
     // Fills `radiance` (padded size, a plane per bin) and `points` (cleared first; capacity reserved by
     // reserve_points). Loop: after the first call with this thread pool nothing is allocated. Runs on oneTBB;
@@ -99,11 +85,8 @@ class Renderer {
     void require_air(const WorldSnapshot& world);
     std::uint64_t rays_outside_air() const;
 
-    // Time that bare Embree needs for the primary and shadow rays of this frame, on the same threads [ms]:
-    // the floor that no renderer built on it can go below. Not for the loop.
+    // See render_bench.h. Not for the loop.
     double floor_ms(const WorldSnapshot& world);
-
-    // One frame with every path model of the registry, medians of `runs`. Not for the loop.
     std::vector<PathModelSpeed> path_model_speeds(const WorldSnapshot& world, const Modules& modules,
                                                   int runs);
 

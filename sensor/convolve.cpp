@@ -79,12 +79,12 @@ HILCAM_CLONES void add(std::array<float, 2>* sum, const std::array<float, 2>* sp
 }
 // One column at frequency u [cycles/px]: along it v = y / height, negative beyond the middle.
 HILCAM_CLONES void blur_column(std::array<float, 2>* spectrum, std::size_t height, float smear_u_cy,
-                               float smear_y_px, float gauss_u, const float* gauss_v) {
+                               float smear_y_px, float factor_u, const float* factor_v) {
     const float step = 1.0f / static_cast<float>(height);
     for (std::size_t y = 0; y < height; ++y) {
         const float v =
             step * static_cast<float>(static_cast<std::int32_t>(y)) - (y > height / 2 ? 1.0f : 0.0f);
-        const float factor = gauss_u * gauss_v[y] * fast_sinc(smear_u_cy + v * smear_y_px);
+        const float factor = factor_u * factor_v[y] * fast_sinc(smear_u_cy + v * smear_y_px);
         spectrum[y][0] *= factor;
         spectrum[y][1] *= factor;
     }
@@ -108,7 +108,7 @@ struct Convolver::Implementation {
         Block row, columns, spectrum, sum;
     };
     std::vector<Scratch> scratch;
-    std::vector<float> gauss_v;  // of the blur, by row of the spectrum
+    std::vector<float> axis_v;  // the blur's factor along the columns, smear apart
     Plan row_forward, row_back, column_forward, column_back;
 
     float* row(int y, std::size_t layer) {
@@ -120,7 +120,7 @@ struct Convolver::Implementation {
           height(h),
           columns(static_cast<std::size_t>((w / 2 + 1 + kColumns - 1) / kColumns * kColumns)),
           stride(columns * 2),
-          gauss_v(static_cast<std::size_t>(h), 1.0f) {
+          axis_v(static_cast<std::size_t>(h), 1.0f) {
         for (const Transfer& transfer : transfers) add_layer(transfer);
         const auto block = static_cast<std::size_t>(2 * kColumns * h);
         scratch.resize(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
@@ -180,7 +180,7 @@ struct Convolver::Implementation {
     static Complex* complex(const Block& block) { return reinterpret_cast<Complex*>(block.get()); }
 
     // Columns lie one behind the other in the scratch blocks.
-    void filter_columns(std::size_t first, const MotionBlur& blur) {
+    void filter_columns(std::size_t first, const FrameBlur& blur) {
         Scratch& s = mine();
         const std::size_t count = kColumns * static_cast<std::size_t>(height);
         for (std::size_t l = 0; l < layers.size(); ++l) {
@@ -217,21 +217,26 @@ struct Convolver::Implementation {
         else
             multiply_complex(complex(s.spectrum), layer.real.data() + at, layer.imaginary.data() + at, count);
     }
-    void blur_columns(std::size_t first, const MotionBlur& blur, Scratch& s) {
+    // Beyond the half spectrum columns hold nothing.
+    static double along_axis(const FrameBlur& blur, double frequency) {
+        return blur.axis ? blur.axis(std::min(0.5, std::abs(frequency))) : 1.0;
+    }
+    void blur_columns(std::size_t first, const FrameBlur& blur, Scratch& s) {
         for (std::size_t k = 0; k < kColumns; ++k) {
             const double u = static_cast<double>(first + k) / width;
             const double a = kPi * u * blur.sigma_px.x;
+            const double factor = std::exp(-2 * a * a) * along_axis(blur, u);
             blur_column(complex(s.spectrum) + k * static_cast<std::size_t>(height),
                         static_cast<std::size_t>(height), static_cast<float>(u * blur.smear_px.x),
-                        static_cast<float>(blur.smear_px.y), static_cast<float>(std::exp(-2 * a * a)),
-                        gauss_v.data());
+                        static_cast<float>(blur.smear_px.y), static_cast<float>(factor), axis_v.data());
         }
     }
-    void prepare(const MotionBlur& blur) {
+    void prepare(const FrameBlur& blur) {
         for (int y = 0; y < height; ++y) {
             const double v = static_cast<double>(y <= height / 2 ? y : y - height) / height;
             const double a = kPi * v * blur.sigma_px.y;
-            gauss_v[static_cast<std::size_t>(y)] = static_cast<float>(std::exp(-2 * a * a));
+            axis_v[static_cast<std::size_t>(y)] =
+                static_cast<float>(std::exp(-2 * a * a) * along_axis(blur, v));
         }
     }
 };
@@ -260,7 +265,7 @@ std::span<const float> Convolver::row(int y, int layer) const {
     return {implementation_->row(y, static_cast<std::size_t>(layer)), static_cast<std::size_t>(width_)};
 }
 
-void Convolver::run(const MotionBlur& blur) {
+void Convolver::run(const FrameBlur& blur) {
     Implementation& my = *implementation_;
     if (!blur.none()) my.prepare(blur);
     const tbb::blocked_range<int> rows(0, height_, 16);

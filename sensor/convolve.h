@@ -20,12 +20,16 @@ namespace hilcam {
 // Of frequencies u, v in -0.5 .. 0.5 [cycles/px of the image].
 using Transfer = std::function<std::complex<double>(double u, double v)>;
 
-// What moves the picture while it is taken, all of it alike.
-struct MotionBlur {
-    Vec2d smear_px{};  // from start to end, at constant speed
-    Vec2d sigma_px{};  // Gaussian, along x and y
+// What is different for one frame: motion while it is taken, of all of it alike, and what else is a product
+// of the same function of u and of v.
+struct FrameBlur {
+    Vec2d smear_px{};                      // from start to end, at constant speed
+    Vec2d sigma_px{};                      // Gaussian, along x and y
+    std::function<double(double)> axis{};  // a further factor, of |u| and of |v|; none: 1
 
-    bool none() const { return smear_px.x == 0 && smear_px.y == 0 && sigma_px.x == 0 && sigma_px.y == 0; }
+    bool none() const {
+        return smear_px.x == 0 && smear_px.y == 0 && sigma_px.x == 0 && sigma_px.y == 0 && !axis;
+    }
 };
 
 // The least even number from n on whose prime factors are 2, 3, 5 and 7: others cost an FFT several times
@@ -47,7 +51,7 @@ class Convolver {
     std::span<float> row(int y, int layer = 0);
     std::span<const float> row(int y, int layer = 0) const;
     // Loop: no allocation after the first call with this thread pool, no lock.
-    void run(const MotionBlur& blur = {});
+    void run(const FrameBlur& blur = {});
 
   private:
     struct Implementation;

@@ -3,16 +3,22 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "render/vec.h"
 
 namespace hilcam {
 
+// The renderer's rays in a pixel: n for a regular n x n grid, or all over its area, at random.
+using RayGrid = int;
+inline constexpr RayGrid kScatteredRays = 0;
+
 // How the radiance image was made.
 struct SensorSampling {
-    int guard_px = 0;          // the image's border on each side, in pixels of the detector
-    int samples_per_axis = 1;  // the renderer's ray grid in each of its pixels
-    int oversampling = 1;      // pixels of the radiance image across one of the detector
+    int guard_px = 0;                    // the image's border on each side, in pixels of the detector
+    RayGrid samples_per_axis = 1;        // in each of its pixels
+    int oversampling = 1;                // pixels of the radiance image across one of the detector
+    std::vector<RayGrid> other_grids{};  // that single frames may have instead
 };
 
 // One exposure.
@@ -24,7 +30,8 @@ struct Exposure {
     // While it lasts. The picture of what is not at infinity moves as a whole; points (stars) as the camera
     // turns.
     Vec2d image_rate_px_s{};
-    Vec3d camera_rate_rad_s{};  // about the camera's axes
+    Vec3d camera_rate_rad_s{};          // about the camera's axes
+    std::optional<RayGrid> ray_grid{};  // default that of SensorSampling; else one of its others
 };
 
 }  // namespace hilcam

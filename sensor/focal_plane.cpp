@@ -341,13 +341,19 @@ void FocalPlane::collapse(const RadianceImage& radiance, const Exposure& exposur
 void FocalPlane::convolve(const Exposure& exposure) {
     Implementation& my = *implementation_;
     if (my.dark) return;
-    MotionBlur blur;
+    FrameBlur blur;
     const double m = my.view.sampling.oversampling, scale = exposure.exposure_s * m;
     blur.smear_px = {exposure.image_rate_px_s.x * scale, exposure.image_rate_px_s.y * scale};
     blur.sigma_px = {my.points.jitter_px() * m, my.points.jitter_px() * m};
+    const bool still = blur.none();
+    // The transfer functions are those of pictures of the usual grid.
+    const RayGrid usual = my.view.sampling.samples_per_axis, rays = exposure.ray_grid.value_or(usual);
+    if (rays != usual)
+        blur.axis = [usual, rays](double f) { return ray_grid_mtf(f, usual) / ray_grid_mtf(f, rays); };
     for (LightChannel& channel : my.channels) {
-        if (channel.kernel && blur.none())
-            channel.kernel->run(*channel.convolver);
+        CompactKernel* kernel = still ? channel.kernel_of(rays) : nullptr;
+        if (kernel)
+            kernel->run(*channel.convolver);
         else
             channel.convolver->run(blur);
     }
@@ -382,7 +388,8 @@ double FocalPlane::mtf(double u, double v) const {
 }
 
 int FocalPlane::kernel_radius() const {
-    const auto& kernel = implementation_->channels.front().kernel;
+    const CompactKernel* kernel =
+        implementation_->channels.front().kernel_of(implementation_->view.sampling.samples_per_axis);
     return kernel ? kernel->radius() : 0;
 }
 

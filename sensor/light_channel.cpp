@@ -21,11 +21,11 @@ double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
 // MTF_sys at the radiance image's frequencies. Its rays have averaged over its pixels already. With an even
 // number of them to a detector pixel, that pixel's centre lies on their corner: half a pixel back.
-std::complex<double> image_transfer(const SystemMtf& mtf, const SensorSampling& sampling, double u,
+std::complex<double> image_transfer(const SystemMtf& mtf, int oversampling, RayGrid rays, double u,
                                     double v) {
-    const int n = sampling.samples_per_axis, m = sampling.oversampling;
+    const int m = oversampling;
     const std::complex<double> shift = m % 2 ? 1.0 : std::polar(1.0, -kPi * (u + v));
-    return mtf.at(u * m, v * m) * shift / (ray_grid_mtf(u, n) * ray_grid_mtf(v, n));
+    return mtf.at(u * m, v * m) * shift / (ray_grid_mtf(u, rays) * ray_grid_mtf(v, rays));
 }
 
 }  // namespace
@@ -43,18 +43,35 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
       per_irradiance(electrons_per_s_per_irradiance(view.camera, grid, filter)) {
     for (const LensState& state : lens_states(view.camera))
         mtfs.emplace_back(view.camera, OpticsOtf(view.camera, grid, per_radiance, state));
+    const SensorSampling& sampling = view.sampling;
+    const auto transfer_of = [&](const SystemMtf& mtf, RayGrid rays) -> Transfer {
+        return [&mtf, rays, m = sampling.oversampling](double u, double v) {
+            return image_transfer(mtf, m, rays, u, v);
+        };
+    };
     std::vector<Transfer> transfers;
     for (const SystemMtf& mtf : mtfs) {
         spreads.emplace_back([&](double u, double v) { return mtf.of_point(u, v); }, view.camera.fill_factor);
-        transfers.push_back([&](double u, double v) { return image_transfer(mtf, view.sampling, u, v); });
+        transfers.push_back(transfer_of(mtf, sampling.samples_per_axis));
     }
     // What is over beside the picture and below it stays dark.
     const int width = fft_size(view.image.padded_width()), height = fft_size(view.image.padded_height());
     convolver.emplace(width, height, transfers);
     // A kernel's border of nothing must lie in the guard band.
-    if (transfers.size() == 1 && view.image.guard_px >= CompactKernel::kMostRadius)
-        kernel = CompactKernel::find(transfers.front(), width, height);
+    if (transfers.size() == 1 && view.image.guard_px >= CompactKernel::kMostRadius) {
+        std::vector<RayGrid> grids = sampling.other_grids;
+        grids.push_back(sampling.samples_per_axis);
+        for (const RayGrid rays : grids)
+            if (auto kernel = CompactKernel::find(transfer_of(mtfs.front(), rays), width, height))
+                kernels.push_back({rays, std::move(*kernel)});
+    }
     if (view.camera.stray_light.ghost_fraction > 0) ghost.emplace(view.camera.stray_light, view.detector);
+}
+
+CompactKernel* LightChannel::kernel_of(RayGrid rays) {
+    for (GridKernel& k : kernels)
+        if (k.rays == rays) return &k.kernel;
+    return nullptr;
 }
 
 double LightChannel::electrons_of(const Spectrum& irradiance_w_m2_um, int bins, double exposure_s) const {

@@ -42,9 +42,16 @@ struct LightChannel {
     std::vector<SystemMtf> mtfs;       // by zone of the field, at least one
     std::vector<PointSpread> spreads;  // likewise
     std::optional<Convolver> convolver;
-    std::optional<CompactKernel> kernel;  // does the same, faster
+    // Do the same, faster, for pictures of the grids that there are.
+    struct GridKernel {
+        RayGrid rays;
+        CompactKernel kernel;
+    };
+    std::vector<GridKernel> kernels;
     std::optional<Ghost> ghost;
 
+    // Null: there is none.
+    CompactKernel* kernel_of(RayGrid rays);
     // Photo-electrons of a point on a full-fill detector, on the axis.
     double electrons_of(const Spectrum& irradiance_w_m2_um, int bins, double exposure_s) const;
 };

@@ -50,7 +50,7 @@ double crosstalk_mtf(double u, double v, double fraction) {
 }
 
 double ray_grid_mtf(double frequency_cy_px, int n) {
-    return sinc(frequency_cy_px) / sinc(frequency_cy_px / n);
+    return n == kScatteredRays ? sinc(frequency_cy_px) : sinc(frequency_cy_px) / sinc(frequency_cy_px / n);
 }
 
 }  // namespace hilcam

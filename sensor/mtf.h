@@ -2,6 +2,8 @@
 // Modulation transfer functions, each by itself. Frequencies in cycles per pixel along the image axes; 1 at
 // zero frequency; a defocused lens may go below zero (reversed contrast).
 
+#include "sensor/exposure.h"
+
 namespace hilcam {
 
 // Diffraction OTF of a circular pupil with a central obscuration and defocus, at one wavelength:
@@ -28,8 +30,9 @@ double gaussian_mtf(double frequency_cy_px, double sigma_px);
 double crosstalk_mtf(double u, double v, double fraction);
 
 // What sampling each pixel on a regular grid of n rays along an axis has done to the image already:
-// sin(pi f) / (n sin(pi f / n)), the Dirichlet kernel; 1 for n = 1, the unit box for n to infinity. MTF_sys
+// sin(pi f) / (n sin(pi f / n)), the Dirichlet kernel; 1 for n = 1, the unit box for n to infinity and for
+// kScatteredRays. MTF_sys
 // divides by it, so that ray grid and pixel aperture together count once.
-double ray_grid_mtf(double frequency_cy_px, int samples_per_axis);
+double ray_grid_mtf(double frequency_cy_px, RayGrid rays);
 
 }  // namespace hilcam

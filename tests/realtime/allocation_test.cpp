@@ -144,8 +144,10 @@ class StreamReader {
     std::uint16_t id_ = 0;
 };
 
-// `streaming`: with a GigE Vision camera whose frames an application takes.
-int allocations(const std::vector<std::string>& overrides, bool streaming = false) {
+// `streaming`: with a GigE Vision camera whose frames an application takes. Gives how often the quality level
+// changed meanwhile.
+int allocations(const std::vector<std::string>& overrides, bool streaming = false,
+                std::uint32_t* level_changes = nullptr) {
     const ScenarioConfig scenario =
         load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", overrides);
     RunLimits limits;
@@ -171,6 +173,7 @@ int allocations(const std::vector<std::string>& overrides, bool streaming = fals
         packets = 0;
     }
     const std::uint64_t until = streaming ? frames() + 50 : 70;
+    const std::uint32_t changes = emulator.loop().counters().level_changes.load();
     allocated = 0;
     armed = true;
     Motion motion;
@@ -184,6 +187,7 @@ int allocations(const std::vector<std::string>& overrides, bool streaming = fals
     }
     armed = false;
     const std::uint64_t measured = frames();
+    if (level_changes) *level_changes = emulator.loop().counters().level_changes.load() - changes;
     runner.join();
     EXPECT_GE(measured, until);
     // A leader, a trailer and one packet at the least, of each frame that the machine had time to send.
@@ -201,6 +205,25 @@ TEST_F(Allocation, NorWithStarsAutomaticExposureJitterAndExactMotion) {
                    std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv",
                    "stars.faintest_magnitude=4"}),
               0);
+}
+
+TEST_F(Allocation, NorWithANoiseBudget) { EXPECT_EQ(allocations({"quality.noise_budget=0.2"}), 0); }
+
+// Below a budget that nothing meets it goes down a ladder of fifteen levels, five frames each: it is on its
+// way while it is watched.
+TEST_F(Allocation, NorWhileTheGovernorChangesTheLevel) {
+    std::string levels;
+    for (const char* three :
+         {"{path_model: hemisphere, max_depth: 3}", "{noise_budget: 0, samples_per_axis: 1}",
+          "{path_model: direct, noise_budget: 0, samples_per_axis: 3}"})
+        for (int i = 0; i < 5; ++i) levels += std::string(levels.empty() ? "" : ", ") + three;
+    std::uint32_t changes = 0;
+    EXPECT_EQ(allocations({"outputs.gige.interface=127.83.4.1", "outputs.gige.serial=ALLOC",
+                           "loop.frame_budget_ms=0.001", "loop.levels=[" + levels + "]",
+                           "quality.noise_budget=0.5", "quality.samples_per_axis=2"},
+                          true, &changes),
+              0);
+    EXPECT_GT(changes, 0u);
 }
 
 TEST_F(Allocation, NorWithAScanningLine) {

@@ -91,7 +91,7 @@ struct LoopRig {
           grid(scenario.spectrum_edges_um),
           renderer(load_renderer(scenario, grid,
                                  geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px)))),
-          chain(scenario.camera, grid, sampling_of(scenario.quality)),
+          chain(scenario.camera, grid, sampling_of(scenario)),
           start(parse_utc(scenario.time_utc)),
           world(initial_motions(scenario, start), scenario.origin, joints_of(scenario)),
           settings(scenario.camera, {.lockstep = scenario.mode == CameraMode::kLockstep,

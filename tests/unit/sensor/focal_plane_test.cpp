@@ -225,5 +225,32 @@ TEST(FocalPlane, AnEmptyPictureCostsNothingAndIsTheSame) {
     EXPECT_TRUE(std::equal(a.all().begin(), a.all().end(), b.all().begin()));
 }
 
+// A frame whose rays were placed in another way than usual is convolved for that way: as by a chain made for
+// it, by kernel and by FFT.
+TEST(FocalPlane, AFramesRayGridMayBeAnother) {
+    for (const bool by_kernel : {true, false}) {
+        CameraModel c = by_kernel ? gaussian_camera(0.7) : camera_64();
+        for (const RayGrid rays : {kScatteredRays, 1, 4}) {
+            Bench usual(c, {8, 2, 1, {kScatteredRays, 1, 4}}), made_for_it(c, {8, rays, 1});
+            for (Bench* b : {&usual, &made_for_it})
+                for (int y = 30; y < 45; ++y)
+                    for (std::size_t x = 33; x < 47; ++x) b->radiance.row(y)[x] = 1;
+            const ElectronImage& other = usual.expose({.exposure_s = 1, .ray_grid = rays});
+            const ElectronImage& own = made_for_it.expose({.exposure_s = 1});
+            const double full = at(own, 30, 30);
+            double most = 0, from_usual = 0;
+            for (int y = 0; y < 64; ++y)
+                for (int x = 0; x < 64; ++x) most = std::max(most, std::abs(at(other, x, y) - at(own, x, y)));
+            EXPECT_LT(most, 1e-4 * full) << rays << ' ' << by_kernel;
+            // The usual way is another: the difference would be seen.
+            const ElectronImage& as_usual = usual.expose({.exposure_s = 1});
+            for (int y = 0; y < 64; ++y)
+                for (int x = 0; x < 64; ++x)
+                    from_usual = std::max(from_usual, std::abs(at(as_usual, x, y) - at(own, x, y)));
+            EXPECT_GT(from_usual, 10e-4 * full) << rays << ' ' << by_kernel;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace hilcam

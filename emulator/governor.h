@@ -1,0 +1,74 @@
+#pragma once
+// Chooses a quality level so that frames meet their deadline: down when they do not, up again when there is
+// room. Decisions alone: frame times go in, a level comes out; no clock, no thread, no allocation.
+//
+// Level 0 is the best. A frame is a miss when it takes longer than the budget.
+//
+//   down  when more than kMostMisses of the last kWindow frames at a level were misses: a single hiccup of
+//         the machine changes nothing, three frames in a row that are too slow do. To the next level, past
+//         those that were measured to be too slow as well.
+//   up    by one level, when the level has been kept for the hold-off, its mean leaves room (below kRoom of
+//   the
+//         budget) and none of the last kWindow frames was a miss.
+//
+// That alone would swing where the budget lies between two levels: the lower has room, the upper misses. So
+// the hold-off, at first kLeastStay frames, doubles each time a climb has to be taken back, up to kMostStay;
+// a plant that does not change is tried at rising intervals, log2(kMostStay / kLeastStay) times, then once in
+// kMostStay frames (as TCP backs off: Jacobson, SIGCOMM 88). Only a load that has fallen below kFell of what
+// it was at the last climb from here is tried sooner, after a sixteenth of the hold-off. A climb that lasts
+// kMostStay frames is good: the hold-off is as at first.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hilcam {
+
+struct GovernorSettings {
+    double budget_ms = 0;    // 0: no governor
+    std::size_t levels = 1;  // how many there are
+
+    bool on() const { return budget_ms > 0 && levels > 1; }
+};
+
+class Governor {
+  public:
+    static constexpr int kWarmUp = 8;  // first frames, which do not count
+    static constexpr int kWindow = 32;
+    static constexpr int kMostMisses = 2;
+    static constexpr std::int64_t kLeastStay = 64, kMostStay = 65536;
+    static constexpr double kRoom = 0.85, kFell = 0.75;
+
+    // Owner thread; the others: loop.
+    explicit Governor(const GovernorSettings& settings) : settings_(settings), measured_(settings.levels) {}
+
+    // A frame of some level took so long [ms]; frames of a level that has been left since do not count. Gives
+    // the level of the next frame.
+    std::size_t take(std::size_t level, double frame_ms);
+    std::size_t level() const { return level_; }
+    // Of the frames since a level was last entered; 0: not used yet.
+    double mean_ms(std::size_t level) const { return measured_[level].mean_ms; }
+
+  private:
+    struct Measured {
+        double mean_ms = 0;
+        double at_climb_ms = 0;  // its mean when it was last left upwards; 0: never
+    };
+    GovernorSettings settings_;
+    std::vector<Measured> measured_;
+    std::size_t level_ = 0;
+    int warm_up_ = kWarmUp;
+    std::int64_t frames_ = 0;   // at this level
+    std::uint32_t misses_ = 0;  // a bit for each of the last kWindow of them
+    std::int64_t hold_off_ = kLeastStay;
+    bool climbed_ = false;  // to this level, not long ago
+
+    void measure(double frame_ms);
+    bool has_room() const;
+    std::int64_t wait() const;
+    void enter(std::size_t level, bool by_climbing);
+    void fall();
+};
+
+}  // namespace hilcam
