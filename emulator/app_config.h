@@ -115,10 +115,15 @@ Fields fields(StarsConfig& stars);
 // What is shown of the world's motion while the shutter is open (exposure_renderer.h).
 enum class MotionQuality { kOff, kFast, kExact };
 
+// How the picture gets its point spread function. kAuto: by a compact kernel where that is as accurate
+// (sensor/compact_kernel.h).
+enum class PsfMethod { kAuto, kFft };
+
 struct QualityConfig {
     RenderQuality render;
     std::int64_t guard_px = 28;
     std::int64_t oversampling = 1;
+    PsfMethod psf = PsfMethod::kAuto;
     MotionQuality motion = MotionQuality::kFast;
     double motion_error_px = 0.25;
 };

@@ -28,7 +28,7 @@ class Pilot {
         const double seconds_per_frame = flight.period_s / static_cast<double>(frames);
         thread_ = std::thread([this, seconds_per_frame] {
             for (std::uint32_t i = 1; !stop_.load(); ++i) {
-                const std::int64_t now_ns = monotonic_now_ns();
+                const std::int64_t now_ns = monotonic_ns();
                 const auto frame = emulator_.loop().counters().frames.load(std::memory_order_relaxed);
                 const double seconds = seconds_per_frame * static_cast<double>(frame);
                 emulator_.world().set(0, flight_.at(seconds, emulator_.clock().at(now_ns)), {i, now_ns});
@@ -73,9 +73,9 @@ double copy_ms(const ScenarioConfig& scenario) {
     DnImage to(from.width(), from.height());
     std::vector<double> times;
     for (int i = 0; i < 9; ++i) {
-        const std::int64_t start = monotonic_now_ns();
+        const std::int64_t start = monotonic_ns();
         std::copy(from.all().begin(), from.all().end(), to.all().begin());
-        times.push_back(static_cast<double>(monotonic_now_ns() - start) * 1e-6);
+        times.push_back(static_cast<double>(monotonic_ns() - start) * 1e-6);
     }
     return median(times);
 }

@@ -1,8 +1,6 @@
 #include "emulator/characterise_report.h"
 
-#include <spawn.h>
 #include <spdlog/fmt/fmt.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "emulator/page_maker.h"
 #include "emulator/report.h"
 #include "render/check.h"
 #include "render/units.h"
-
-extern char** environ;
 
 namespace hilcam {
 namespace {
@@ -260,24 +257,6 @@ void write_csv(const std::filesystem::path& file, const json& points) {
     if (!out) throw DeviceError(file.string() + ": cannot be written");
 }
 
-void make_page(const std::filesystem::path& json_file, const std::filesystem::path& page) {
-    const std::string name = "hilcam-plot-characterise";
-    std::error_code error;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
-    if (!std::filesystem::exists(program))
-        throw DeviceError(program.string() + " is missing: no page is made; build it (target " + name + ")");
-    std::string words[] = {name, json_file.string(), page.string()};
-    char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-    pid_t child = 0;
-    if (posix_spawn(&child, program.c_str(), nullptr, nullptr, argv, environ) != 0)
-        throw DeviceError(program.string() + " cannot be started: no page is made; it needs python3");
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        throw DeviceError(name + " failed (see above): " + page.string() + " is not made");
-}
-
 }  // namespace
 
 void write_characterisation(const json& report, const std::filesystem::path& folder) {
@@ -290,7 +269,8 @@ void write_characterisation(const json& report, const std::filesystem::path& fol
     write_csv(folder / "dark.csv", report["dark"]);
     write_csv(folder / "mtf_horizontal.csv", report["mtf"]["horizontal"]["points"]);
     write_csv(folder / "mtf_vertical.csv", report["mtf"]["vertical"]["points"]);
-    make_page(folder / "characterise.json", folder / "index.html");
+    run_page_maker("hilcam-plot-characterise",
+                   {(folder / "characterise.json").string(), (folder / "index.html").string()});
 }
 
 }  // namespace hilcam

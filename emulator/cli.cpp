@@ -20,6 +20,7 @@
 #include "emulator/scene_loader.h"
 #include "emulator/send_command.h"
 #include "emulator/sensor_bench.h"
+#include "emulator/tradeoff_report.h"
 #include "io/config_manual.h"
 #include "io/config_yaml.h"
 
@@ -32,6 +33,7 @@ struct Options {
     double duration_s = 0, time_offset_s = 0;
     std::uint64_t frames = 0;
     BenchOptions bench;
+    TradeoffOptions tradeoff;
     bool json = false, sensor = false;
     std::uint16_t preview_port = 0;  // 0: as the scenario says
     RenderStage stage = RenderStage::kFrame;
@@ -148,6 +150,18 @@ int run_characterise(const Options& o) {
     return 0;
 }
 
+int run_tradeoff(const Options& o) {
+    const ScenarioSource source{o.config, o.overrides};
+    const ScenarioConfig scenario = source.load();
+    const auto threads = limit_threads(scenario);
+    make_folder(o.out);
+    const Tradeoff result =
+        measure_tradeoff(source, o.tradeoff, [](const std::string& line) { spdlog::info("{}", line); });
+    fmt::print("{}", tradeoff_text(result));
+    write_tradeoff(result, o.out);
+    return 0;
+}
+
 int run_doctor(const Options& o) {
     const BenchNeeds needs = o.config.empty() ? BenchNeeds{} : needs_of(load_scenario(o.config, o.overrides));
     const std::vector<Finding> findings = diagnose(needs, look_at_machine(needs));
@@ -211,6 +225,43 @@ int run_command_line(int argc, char** argv) {
     bench_app->add_option("--frames", o.bench.frames, "frames of a run")->check(CLI::Range(1, 1000000));
     bench_app->add_option("--runs", o.bench.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
     bench_app->callback([&] { action = [&] { return run_bench(o); }; });
+
+    CLI::App* tradeoff_app =
+        app.add_subcommand("tradeoff", "measure speed against accuracy over the choices of a scenario");
+    add_config(tradeoff_app, o);
+    tradeoff_app->add_option("--out", o.out, "folder for CSV, JSON, presets and a page with plots")
+        ->required();
+    tradeoff_app
+        ->add_option("--frame-ms", o.tradeoff.frame_ms,
+                     "recommend a setting for this frame time (default: the camera's frame period)")
+        ->check(CLI::PositiveNumber);
+    tradeoff_app
+        ->add_option("--error-sigma", o.tradeoff.error_sigma,
+                     "recommend a setting for this error of 99 % of the lit pixels, in their sensor noise")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    tradeoff_app
+        ->add_option("--budget-s", o.tradeoff.budget_s,
+                     "seconds for the sweep; the reference, which comes before it, takes its own")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    tradeoff_app->add_option("--combinations", o.tradeoff.combinations, "how many to measure, at most")
+        ->check(CLI::Range(0, 100000))
+        ->capture_default_str();
+    tradeoff_app->add_option("--runs", o.tradeoff.runs, "frames of a setting to take the median of")
+        ->check(CLI::Range(5, 1000))
+        ->capture_default_str();
+    tradeoff_app
+        ->add_option(
+            "--reference-frames", o.tradeoff.reference.most_frames,
+            "of the reference: a power of two, this at most; fewer where its standard error is small before")
+        ->check(CLI::Range(4, 65536))
+        ->capture_default_str();
+    tradeoff_app
+        ->add_option("--reference-set", o.tradeoff.reference_set,
+                     "KEY=VALUE, replaces a value of the reference; may be repeated")
+        ->allow_extra_args(false);
+    tradeoff_app->callback([&] { action = [&] { return run_tradeoff(o); }; });
 
     CLI::App* characterise_app =
         app.add_subcommand("characterise", "measure a camera from its own frames (EMVA 1288, ISO 12233)");

@@ -6,15 +6,10 @@
 #include <atomic>
 #include <cstdint>
 
+#include "io/monotonic.h"
 #include "render/time.h"
 
 namespace hilcam {
-
-inline std::int64_t monotonic_now_ns() {
-    timespec t{};
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
-}
 
 inline void sleep_until_monotonic_ns(std::int64_t ns) {
     const timespec t{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
@@ -43,15 +38,15 @@ class SimulatedClock {
 
     TimeTai start() const { return start_; }
     // The two axes, whatever the mode.
-    TimeTai at(std::int64_t monotonic_ns) const { return start_ + (monotonic_ns - monotonic_start_ns_); }
+    TimeTai at(std::int64_t now_ns) const { return start_ + (now_ns - monotonic_start_ns_); }
     std::int64_t monotonic_at(TimeTai simulated) const {
         return monotonic_start_ns_ + (simulated.ns - start_.ns);
     }
     // What a message of that arrival means by "now".
-    TimeTai of_arrival(std::int64_t monotonic_ns) const {
-        return lockstep_ ? TimeTai{stepped_ns_.load()} : at(monotonic_ns);
+    TimeTai of_arrival(std::int64_t arrival_ns) const {
+        return lockstep_ ? TimeTai{stepped_ns_.load()} : at(arrival_ns);
     }
-    TimeTai now() const { return of_arrival(monotonic_now_ns()); }
+    TimeTai now() const { return of_arrival(monotonic_ns()); }
     bool lockstep() const { return lockstep_; }
     void step_to(TimeTai time) { stepped_ns_.store(time.ns); }
 

@@ -38,7 +38,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     : scenario_(scenario),
       limits_(limits),
       grid_(scenario.spectrum_edges_um),
-      clock_(parse_utc(scenario.time_utc), monotonic_now_ns()) {
+      clock_(parse_utc(scenario.time_utc), monotonic_ns()) {
     std::vector<CommandedCamera> bench;
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
         stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits));
@@ -50,7 +50,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
         bench[i].world = &stations_[i]->world();
     }
     // Loading took its time; the simulation starts now.
-    clock_ = SimulatedClock(parse_utc(scenario.time_utc), monotonic_now_ns(),
+    clock_ = SimulatedClock(parse_utc(scenario.time_utc), monotonic_ns(),
                             scenario.mode == CameraMode::kLockstep);
     dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_);
     if (limits.outputs) {
@@ -87,7 +87,7 @@ HousekeepingFigures Emulator::housekeeping() {
                                                   : OperatingMode::kFreeRun;
     h.running = settings.running;
     h.simulated_time = clock_.now();
-    h.monotonic_ns = monotonic_now_ns();
+    h.monotonic_ns = monotonic_ns();
     h.uptime_s = static_cast<double>(h.monotonic_ns - begun_ns_) * 1e-9;
     for (const auto& station : stations_) {
         h.frames += station->loop().counters().frames.load();
@@ -123,14 +123,14 @@ void Emulator::run(const std::function<void()>& on_ready) {
     for (const auto& station : stations_) station->start_outputs();
     if (telemetry_) telemetry_->start();
     for (const auto& receiver : receivers_) receiver->start();
-    const std::int64_t begun_ns = monotonic_now_ns();
+    const std::int64_t begun_ns = monotonic_ns();
     begun_ns_ = begun_ns;
     for (const auto& station : stations_) station->start_loop();
     on_ready();
     const bool terminal = isatty(STDERR_FILENO);
     std::int64_t next_line_ns = begun_ns + 1'000'000'000;
     while (!signalled && !finished()) {
-        const std::int64_t now_ns = monotonic_now_ns();
+        const std::int64_t now_ns = monotonic_ns();
         seconds_ = static_cast<double>(now_ns - begun_ns) * 1e-9;
         if (limits_.seconds > 0 && seconds_ >= limits_.seconds) break;
         for (const auto& station : stations_) station->serve_faults(seconds_);
@@ -144,7 +144,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     // Loops first: they answer what waits for a frame.
     for (const auto& station : stations_) station->stop_loop();
     print_level_changes();
-    seconds_ = static_cast<double>(monotonic_now_ns() - begun_ns) * 1e-9;
+    seconds_ = static_cast<double>(monotonic_ns() - begun_ns) * 1e-9;
     for (const auto& receiver : receivers_) receiver->stop();
     if (telemetry_) telemetry_->stop();
     for (const auto& station : stations_) {

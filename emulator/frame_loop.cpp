@@ -140,7 +140,7 @@ void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t m
 }
 
 void FrameLoop::render_into(Slot& slot) {
-    const std::int64_t begun_ns = monotonic_now_ns();
+    const std::int64_t begun_ns = monotonic_ns();
     FrameRecord& record = slot.record;
     const ExposureRenderer::Result result = exposures_.render(world_, record.exposure_mid, {seed_, record.id},
                                                               slot.radiance, slot.points, slot.exposure);
@@ -158,7 +158,7 @@ void FrameLoop::render_into(Slot& slot) {
     meters_.trace.record(from_ms(stats_.trace_ms));
     meters_.stars.record(from_ms(stats_.points_ms));
     count_budget();
-    slot.render_ns = monotonic_now_ns() - begun_ns;
+    slot.render_ns = monotonic_ns() - begun_ns;
     meters_.render.record(slot.render_ns);
 }
 
@@ -188,7 +188,7 @@ void FrameLoop::sense_frames() {
 }
 
 void FrameLoop::sense(Slot& slot) {
-    const std::int64_t begun_ns = monotonic_now_ns();
+    const std::int64_t begun_ns = monotonic_ns();
     const auto [width, height] = frame_size(camera_, slot.exposure.binning_x, slot.exposure.binning_y);
     frame_.reshape(width, height);
     chain_.expose(slot.radiance, slot.points, slot.exposure, electrons_);
@@ -203,15 +203,15 @@ void FrameLoop::sense(Slot& slot) {
     finish_picture(slot);
     slot.record.faults = frame_faults(faults_, slot.record.id);
     strike_image(faults_, slot.record, seed_, before_, frame_);
-    slot.sense_ns = monotonic_now_ns() - begun_ns;
+    slot.sense_ns = monotonic_ns() - begun_ns;
     meters_.sense.record(slot.sense_ns);
 
     wait_to_publish(slot);
     tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.exposure_end_ns);
-    const std::int64_t publish_ns = monotonic_now_ns();
+    const std::int64_t publish_ns = monotonic_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, slot.record);
     std::swap(frame_, before_);
-    const std::int64_t done_ns = monotonic_now_ns();
+    const std::int64_t done_ns = monotonic_ns();
     meters_.publish.record(done_ns - publish_ns);
     slot.sense_ns += done_ns - publish_ns;
     if (last_published_ns_ != 0) meters_.interval.record(done_ns - last_published_ns_);
@@ -234,14 +234,14 @@ void FrameLoop::finish_picture(const Slot& slot) {
 // Not before the exposure is over; in lockstep not before every output has room, as no frame may be lost.
 void FrameLoop::wait_to_publish(const Slot& slot) const {
     const auto go_on = [&] { return !stopping_.load(std::memory_order_relaxed); };
-    while (monotonic_now_ns() < slot.not_before_ns && go_on())
-        sleep_until_monotonic_ns(std::min(slot.not_before_ns, monotonic_now_ns() + kLongestSleep_ns));
+    while (monotonic_ns() < slot.not_before_ns && go_on())
+        sleep_until_monotonic_ns(std::min(slot.not_before_ns, monotonic_ns() + kLongestSleep_ns));
     if (!lockstep_) return;
     constexpr std::int64_t kPoll_ns = 200'000, kPatience_ns = 10'000'000'000;
-    const std::int64_t until_ns = monotonic_now_ns() + kPatience_ns;
+    const std::int64_t until_ns = monotonic_ns() + kPatience_ns;
     const auto room = [](const FrameSink* sink) { return sink->has_room(); };
-    while (!std::all_of(sinks_.begin(), sinks_.end(), room) && monotonic_now_ns() < until_ns && go_on())
-        sleep_until_monotonic_ns(monotonic_now_ns() + kPoll_ns);
+    while (!std::all_of(sinks_.begin(), sinks_.end(), room) && monotonic_ns() < until_ns && go_on())
+        sleep_until_monotonic_ns(monotonic_ns() + kPoll_ns);
 }
 
 void FrameLoop::measure_exposure(Slot& slot) {

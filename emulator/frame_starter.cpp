@@ -57,7 +57,7 @@ double FrameStarter::exposure_of(const CameraSettings& s) const {
 }
 
 bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& start) {
-    const std::int64_t arrived_ns = monotonic_now_ns();
+    const std::int64_t arrived_ns = monotonic_ns();
     if (idle_) schedule_.restart(arrived_ns);
     idle_ = false;
     const auto period_ns = [&] { return to_ns(period_s(start.settings, exposure_of(start.settings))); };
@@ -71,7 +71,7 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
                 start.settings.triggered)
                 return false;
             schedule_ = before;
-            const std::int64_t now_ns = monotonic_now_ns();
+            const std::int64_t now_ns = monotonic_ns();
             if (due.skipped == 0 && schedule_.next_ns(period_ns()) < now_ns) schedule_.restart(now_ns);
             due = schedule_.take(arrived_ns, period_ns());
         }
@@ -101,7 +101,7 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
         last_mid_ = clock_.at(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));
         clock_.step_to(last_mid_);
     } else {
-        start.late = monotonic_now_ns() > next_ns_ + period_ns;
+        start.late = monotonic_ns() > next_ns_ + period_ns;
     }
     next_ns_ += period_ns;
     start.trigger_sequence = order_.sequence;
@@ -133,9 +133,9 @@ void FrameStarter::forget_orders() {
 }
 
 bool FrameStarter::sleep_until(std::int64_t ns, const std::atomic<bool>& stopping) const {
-    while (monotonic_now_ns() < ns) {
+    while (monotonic_ns() < ns) {
         if (stopping.load(std::memory_order_relaxed)) return false;
-        sleep_until_monotonic_ns(std::min(ns, monotonic_now_ns() + kLongestSleep_ns));
+        sleep_until_monotonic_ns(std::min(ns, monotonic_ns() + kLongestSleep_ns));
     }
     return true;
 }

@@ -154,7 +154,7 @@ TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
     }
     bool missed = in - triggers_out_.load(std::memory_order_acquire) == kMostWaiting;
     if (!limits_.lockstep) {
-        const std::int64_t now_ns = monotonic_now_ns();
+        const std::int64_t now_ns = monotonic_ns();
         if (order.at_monotonic_ns == 0) order.at_monotonic_ns = now_ns;
         order.at_monotonic_ns += static_cast<std::int64_t>(settings_.trigger_delay_s * 1e9);
         missed = missed || order.at_monotonic_ns < ready_ns_;
@@ -198,12 +198,12 @@ bool LiveSettings::take_trigger(TriggerOrder& order) {
 }
 
 bool LiveSettings::wait_for_news_until(std::int64_t monotonic_ns) {
-    const std::int64_t left_ns = monotonic_ns - monotonic_now_ns();
+    const std::int64_t left_ns = monotonic_ns - monotonic_ns();
     if (left_ns <= 0) return false;
     static_cast<void>(news_.try_acquire_for(std::chrono::nanoseconds(std::min(left_ns, kLongestWait_ns))));
     while (news_.try_acquire()) {
     }
-    return monotonic_now_ns() < monotonic_ns;
+    return monotonic_ns() < monotonic_ns;
 }
 
 void LiveSettings::announce() { news_.release(); }

@@ -50,7 +50,7 @@ int play_script(const SendOptions& o) {
     const std::vector<ScriptLine> lines = parse_script(text, o.script.string());
     CommandSender sender(o.target.endpoint, o.target.dialect);
     sender.address(o.target.camera);
-    const std::int64_t start_ns = monotonic_now_ns();
+    const std::int64_t start_ns = monotonic_ns();
     std::size_t refused = 0;
     for (const ScriptLine& line : lines) {
         sleep_until_monotonic_ns(start_ns + static_cast<std::int64_t>(line.at_s * 1e9));

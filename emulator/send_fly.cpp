@@ -39,10 +39,10 @@ void add_fly_options(CLI::App& app, FlyOptions& o) {
 int send_flight(const SendTarget& target, const FlyOptions& o) {
     CommandSender sender(target.endpoint, target.dialect);
     const CircleFlight flight = flight_of(o);
-    const std::int64_t asked_ns = monotonic_now_ns();
+    const std::int64_t asked_ns = monotonic_ns();
     const Acknowledgement first = sender.send(PingCommand{}, target.timeout_ms);
     // The answer's clock reading lies half a round trip back.
-    const std::int64_t start_ns = monotonic_now_ns();
+    const std::int64_t start_ns = monotonic_ns();
     const SimulatedClock clock(first.simulated_time, asked_ns + (start_ns - asked_ns) / 2);
     std::vector<double> round_trips_ms;
     std::uint64_t accepted = 0, refused = 0;
@@ -51,12 +51,12 @@ int send_flight(const SendTarget& target, const FlyOptions& o) {
         const std::int64_t due_ns =
             start_ns + static_cast<std::int64_t>(static_cast<double>(i) / o.rate_hz * 1e9);
         sleep_until_monotonic_ns(due_ns);
-        const std::int64_t now_ns = monotonic_now_ns();
+        const std::int64_t now_ns = monotonic_ns();
         PoseCommand pose;
         pose.object = static_cast<std::uint16_t>(o.object);
         pose.motion = flight.at(static_cast<double>(now_ns - start_ns) * 1e-9, clock.at(now_ns));
         const Acknowledgement answer = sender.send(pose, target.timeout_ms);
-        round_trips_ms.push_back(static_cast<double>(monotonic_now_ns() - now_ns) * 1e-6);
+        round_trips_ms.push_back(static_cast<double>(monotonic_ns() - now_ns) * 1e-6);
         ++(answer.status == CommandStatus::kAccepted ? accepted : refused);
     }
     std::sort(round_trips_ms.begin(), round_trips_ms.end());

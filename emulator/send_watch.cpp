@@ -106,12 +106,12 @@ void add_watch_options(CLI::App& app, WatchOptions& o) {
 int watch_telemetry(const SendTarget& target, const WatchOptions& o) {
     CommandSender sender(target.endpoint, target.dialect);
     const SubscribeCommand subscription{!o.housekeeping_only, true};
-    const std::int64_t start_ns = monotonic_now_ns();
+    const std::int64_t start_ns = monotonic_ns();
     std::int64_t renew_ns = start_ns;
     std::uint64_t frames = 0;
     bool several = false;  // from the first report of another camera than the first on
     while (true) {
-        const std::int64_t now_ns = monotonic_now_ns();
+        const std::int64_t now_ns = monotonic_ns();
         if (o.duration_s > 0 && static_cast<double>(now_ns - start_ns) * 1e-9 >= o.duration_s) return 0;
         if (now_ns >= renew_ns) {
             sender.send(subscription, target.timeout_ms);

@@ -130,10 +130,10 @@ class Rig {
 
     // Milliseconds of one frame.
     double run() {
-        const std::int64_t start_ns = monotonic_now_ns();
+        const std::int64_t start_ns = monotonic_ns();
         chain_.expose(picture_.radiance, picture_.points, exposure_, mean_e_);
         chain_.digitise(mean_e_, exposure_, {1, ++frames_}, frame_);
-        return static_cast<double>(monotonic_now_ns() - start_ns) * 1e-6;
+        return static_cast<double>(monotonic_ns() - start_ns) * 1e-6;
     }
     SensorChain& chain() { return chain_; }
 
@@ -180,9 +180,9 @@ double copy_ms(const CameraModel& camera, int runs) {
     DnImage to(width, height);
     std::vector<double> times;
     for (int i = 0; i < runs; ++i) {
-        const std::int64_t start_ns = monotonic_now_ns();
+        const std::int64_t start_ns = monotonic_ns();
         std::copy(from.all().begin(), from.all().end(), to.all().begin());
-        times.push_back(static_cast<double>(monotonic_now_ns() - start_ns) * 1e-6);
+        times.push_back(static_cast<double>(monotonic_ns() - start_ns) * 1e-6);
     }
     return median(times);
 }

@@ -33,8 +33,8 @@ std::string accepted_text(const Field& field) {
                       field.target);
 }
 
-std::string default_text(const Field& field) {
-    if (field.required) return "(required)";
+// As YAML would have it; empty where it has no short text.
+std::string present_text(const Field& field) {
     return std::visit(Overloaded{
                           [](const NumberField& f) { return plain(*f.value / f.si_per_unit); },
                           [](const IntegerField& f) { return std::to_string(*f.value); },
@@ -45,9 +45,20 @@ std::string default_text(const Field& field) {
                               return f.value->value.size() == 1 ? plain(f.value->value[0])
                                                                 : std::string("(curve)");
                           },
+                          [](const NumbersField& f) {
+                              std::string list;
+                              for (const double value : *f.value)
+                                  list += (list.empty() ? "[" : ", ") + plain(value / f.si_per_unit);
+                              return list.empty() ? list : list + "]";
+                          },
                           [](const auto&) { return std::string(); },
                       },
                       field.target);
+}
+
+std::string default_text(const Field& field) {
+    if (field.required) return "(required)";
+    return std::holds_alternative<NumbersField>(field.target) ? std::string() : present_text(field);
 }
 
 void manual_rows(const SectionField& section, const std::string& prefix, std::string& out) {
@@ -70,6 +81,17 @@ std::string accepted(const Range& range) {
     if (low) return plain(range.least) + " or more";
     if (high) return plain(range.most) + " or less";
     return "any number";
+}
+
+std::string value_text(const SectionField& root, std::string_view key) {
+    const std::size_t dot = key.find('.');
+    for (const Field& field : root.fields) {
+        if (field.key != key.substr(0, dot)) continue;
+        if (dot == std::string_view::npos) return present_text(field);
+        const auto* nested = std::get_if<SectionField>(&field.target);
+        return nested ? value_text(*nested, key.substr(dot + 1)) : std::string();
+    }
+    return {};
 }
 
 std::string config_manual(const SectionField& root) {

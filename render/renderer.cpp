@@ -77,6 +77,9 @@ std::size_t Renderer::most_points() const {
     return placer.stars().size() + placer.objects() * cells + kBodyCount;
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
+double Renderer::object_radius_m(std::size_t object) const {
+    return implementation_->placer.radius_m(object);
+}
 const ImageGeometry& Renderer::geometry() const { return implementation_->placer.frame().geometry; }
 
 void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& radiance,

@@ -75,6 +75,8 @@ class Renderer {
     // An upper bound of the points that render() can give.
     std::size_t most_points() const;
     std::size_t triangles() const;
+    // Of the sphere about an object's origin that holds it, in the scene's order.
+    double object_radius_m(std::size_t object) const;
     const ImageGeometry& geometry() const;
 
     // What a frame of this world needs and why, a line each. Not for the loop.

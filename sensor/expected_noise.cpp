@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sensor/optics.h"
+#include "sensor/sensor_noise.h"
 
 namespace hilcam {
 namespace {
@@ -17,8 +18,6 @@ Spectrum most_sensitive(const CameraModel& camera, const SpectralGrid& grid) {
     return most;
 }
 
-double square(double x) { return x * x; }
-
 }  // namespace
 
 ExpectedNoise::ExpectedNoise(const CameraModel& camera, const SpectralGrid& grid,
@@ -27,17 +26,14 @@ ExpectedNoise::ExpectedNoise(const CameraModel& camera, const SpectralGrid& grid
 
 PixelNoise ExpectedNoise::of(const Exposure& exposure) const {
     const auto [binning_x, binning_y] = binning_of(camera_, exposure);
-    const auto binned = static_cast<double>(binning_x * binning_y);
-    const double reading_e2 =
-        square(camera_.dark_noise_e()) + square(1 / camera_.system_gain_dn_e(exposure.gain_db)) / 12;
+    const SensorNoise sensor(camera_, exposure.gain_db,
+                             camera_.binning == BinningKind::kCharge ? binning_x * binning_y : 1);
+    const double dark_e = camera_.dark_current_now_e_s() * exposure.exposure_s;
     PixelNoise noise;
     noise.electrons_per_radiance = static_cast<float>(exposure.exposure_s) * electrons_per_s_;
-    // Per pixel: n binned charges share one reading, so each has an n-th of its variance.
-    noise.dark_variance_e2 =
-        static_cast<float>(reading_e2 / (camera_.binning == BinningKind::kCharge ? binned : 1.0) +
-                           camera_.dark_current_now_e_s() * exposure.exposure_s + square(camera_.dsnu_e));
-    noise.gain_fraction = static_cast<float>(camera_.prnu_fraction);
-    noise.averaged = static_cast<float>(square(oversampling_));
+    noise.dark_variance_e2 = static_cast<float>(sensor.variance_e2(dark_e, dark_e));
+    noise.gain_fraction = static_cast<float>(sensor.light_share());
+    noise.averaged = static_cast<float>(oversampling_ * oversampling_);
     return noise;
 }
 

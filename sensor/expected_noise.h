@@ -2,11 +2,8 @@
 // The noise of a camera's pixels as a few plain numbers, for those who make its radiance images
 // (render/pixel_noise.h): what an error of rendering has to be small against.
 //
-// A pixel of the detector on the axis. In the dark: all temporal noise before the converter, the shot noise
-// of the mean dark current, the pixels' unequal dark signals (DSNU), and the converter's step (1/12 DN^2,
-// Bennett, Bell Syst. Tech. J. 27(3), 1948). With light: photons and PRNU. Row and column patterns, defects
-// and cosmic rays are left out: less noise than there is asks for more samples, never for fewer. Under a
-// colour filter array the electrons are those of the most sensitive filter of each bin, for the same reason.
+// A pixel of the detector on the axis (sensor_noise.h). Under a colour filter array the electrons are those
+// of the most sensitive filter of each bin: more samples than needed, never fewer.
 //
 // Pixels that are binned are averaged: their light and its noise together, the reading's noise once if it is
 // their charge that is binned.

@@ -181,7 +181,7 @@ int allocations(const std::vector<std::string>& overrides, bool streaming = fals
     for (std::uint32_t i = 0; frames() < until && !emulator.loop().finished(); ++i) {
         motion.time = emulator.clock().now();
         motion.rate_body_rad_s = scenario.camera_pose.rate_body_rad_s;
-        emulator.world().set(0, motion, {i, monotonic_now_ns()});
+        emulator.world().set(0, motion, {i, monotonic_ns()});
         if (reader) packets += reader->drain();
         std::this_thread::yield();
     }

@@ -97,14 +97,14 @@ struct LoopRig {
           settings(scenario.camera, {.lockstep = scenario.mode == CameraMode::kLockstep,
                                      .triggered = scenario.mode == CameraMode::kTriggered}),
           faults(1),
-          clock(start, monotonic_now_ns(), scenario.mode == CameraMode::kLockstep),
+          clock(start, monotonic_ns(), scenario.mode == CameraMode::kLockstep),
           exposures(*renderer, scenario, grid, world.placed_objects()),
           dispatch({{&world, &settings, &faults}}, clock),
           loop(exposures, chain, scenario.camera, world, settings, faults, clock, {&collector}, 1, limits) {}
     ~LoopRig() { loop.stop(); }
 
     CommandStatus send(const Command& command) {
-        return dispatch.handle(command, {++sequence_, monotonic_now_ns()});
+        return dispatch.handle(command, {++sequence_, monotonic_ns()});
     }
 
   private:

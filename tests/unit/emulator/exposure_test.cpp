@@ -301,7 +301,7 @@ std::vector<Collector::Frame> run_loop(const std::filesystem::path& file, std::u
                                        const std::vector<std::string>& overrides = {}) {
     LoopRig rig(file, {frames, false}, overrides);
     rig.loop.start();
-    while (!rig.loop.finished()) sleep_until_monotonic_ns(monotonic_now_ns() + 1'000'000);
+    while (!rig.loop.finished()) sleep_until_monotonic_ns(monotonic_ns() + 1'000'000);
     rig.loop.stop();
     return std::move(rig.collector.frames);
 }

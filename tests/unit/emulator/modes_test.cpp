@@ -87,7 +87,7 @@ TEST_F(PlateTest, EveryTriggerGivesItsFramesAndEarlyOnesAreMissed) {
     std::vector<std::int64_t> missed;
     rig.settings.on_missed_trigger([&](std::int64_t ns) { missed.push_back(ns); });
     rig.loop.start();
-    const std::int64_t t0 = monotonic_now_ns() + 50'000'000;
+    const std::int64_t t0 = monotonic_ns() + 50'000'000;
     const auto at = [&](std::int64_t ns) { return rig.clock.at(ns); };
     EXPECT_EQ(rig.send(expose(at(t0))), CommandStatus::kAccepted);
     EXPECT_EQ(rig.send(expose(at(t0 + 10'000'000))), CommandStatus::kBusy);  // 20 ms is the shortest period
@@ -127,7 +127,7 @@ TEST_F(PlateTest, ATriggeredCameraListensToItsSourceOnly) {
     ASSERT_TRUE(rig.settings.change({.trigger_source = TriggerSource::kAction1}));
     EXPECT_EQ(rig.settings.trigger(order), TriggerResult::kNotArmed);
     order.source = TriggerSource::kAction1;
-    order.at_monotonic_ns = monotonic_now_ns() + 1'000'000'000;
+    order.at_monotonic_ns = monotonic_ns() + 1'000'000'000;
     EXPECT_EQ(rig.settings.trigger(order), TriggerResult::kTaken);
     ASSERT_TRUE(rig.settings.change({.running = false}));
     EXPECT_EQ(rig.settings.trigger(order), TriggerResult::kNotArmed);

@@ -1,0 +1,36 @@
+#pragma once
+// How far a pixel's number is from its mean charge by the sensor alone: shot, read and fixed noise together,
+// in electrons. What a rendering error is measured by.
+//
+// EMVA 1288 Release 4.0 (linear), the noise of its total signal-to-noise ratio:
+//   sigma^2 = q + sigma_d^2 + 1/(12 K^2)              shot, read (all temporal noise in the dark),
+//   quantisation
+//           + DSNU^2 + rows^2 + columns^2 + (p q_d)^2  fixed, in the dark; p: spread of the dark currents
+//           + (PRNU^2 + columns' gains^2) (q - q_d)^2  fixed, with light
+// q: mean charge, q_d: its part that is dark current. Fixed noise is that of a pixel drawn at random: what
+// one camera's own maps say is not asked. Not counted: defects, cosmic rays, what blooming or late charge
+// brings.
+
+#include "sensor/camera_model.h"
+
+namespace hilcam {
+
+class SensorNoise {
+  public:
+    // charges_per_reading: that are binned before they are read; each has its share of the reading's
+    // variance.
+    SensorNoise(const CameraModel& camera, double gain_db, int charges_per_reading = 1);
+
+    // Of a pixel with that mean charge [e-, 0 or more], of which dark_e is dark current. Any thread.
+    double variance_e2(double mean_e, double dark_e) const;
+    double sigma_e(double mean_e, double dark_e) const;
+    // Standard deviation of the pixels' answers to the same light, over its mean.
+    double light_share() const;
+
+  private:
+    double floor_e2_;     // what does not depend on the charge
+    double dark_share2_;  // squares of shares
+    double light_share2_;
+};
+
+}  // namespace hilcam
