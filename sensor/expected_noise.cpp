@@ -26,8 +26,9 @@ ExpectedNoise::ExpectedNoise(const CameraModel& camera, const SpectralGrid& grid
 
 PixelNoise ExpectedNoise::of(const Exposure& exposure) const {
     const auto [binning_x, binning_y] = binning_of(camera_, exposure);
-    const SensorNoise sensor(camera_, exposure.gain_db,
-                             camera_.binning == BinningKind::kCharge ? binning_x * binning_y : 1);
+    const SensorNoise sensor(
+        camera_, exposure.gain_db,
+        camera_.binning == BinningKind::kCharge ? static_cast<int>(binning_x * binning_y) : 1);
     const double dark_e = camera_.dark_current_now_e_s() * exposure.exposure_s;
     PixelNoise noise;
     noise.electrons_per_radiance = static_cast<float>(exposure.exposure_s) * electrons_per_s_;
