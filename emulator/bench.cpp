@@ -67,6 +67,21 @@ struct Run {
     json path_models, within_budget;
 };
 
+// The world at nine places of the circle, the first one where it begins.
+std::vector<WorldSnapshot> around(Emulator& emulator, const CircleFlight& flight) {
+    std::vector<WorldSnapshot> out(9);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const std::int64_t now_ns = monotonic_ns();
+        const TimeTai now = emulator.clock().at(now_ns);
+        const double seconds = flight.period_s * static_cast<double>(i) / static_cast<double>(out.size());
+        emulator.world().set(0, flight.at(seconds, now), {0, now_ns});
+        out[i].objects.resize(emulator.world().placed_objects());
+        ShownCommand shown;
+        emulator.world().sample(now, out[i], shown);
+    }
+    return out;
+}
+
 double copy_ms(const ScenarioConfig& scenario) {
     const auto [width, height] = frame_size(scenario.camera);
     const DnImage from(width, height);
@@ -100,9 +115,9 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     limits.paced = false;
     limits.outputs = false;
     Emulator emulator(scenario, limits);
-    const std::vector<Motion> motions = initial_motions(scenario, parse_utc(scenario.time_utc));
+    const CircleFlight flight = flight_of(scenario, initial_motions(scenario, parse_utc(scenario.time_utc)));
     {
-        const Pilot pilot(emulator, flight_of(scenario, motions), limits.frames);
+        const Pilot pilot(emulator, flight, limits.frames);
         emulator.run([] {});
     }
     Run run;
@@ -113,12 +128,9 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     run.stages = stages_report(meters);
     run.render = emulator.loop().render_stats();
     run.within_budget = within_budget(emulator.loop().counters());
-    WorldSnapshot snapshot;
-    snapshot.objects.resize(emulator.world().placed_objects());
-    ShownCommand shown;
-    emulator.world().sample(emulator.clock().now(), snapshot, shown);
+    const std::vector<WorldSnapshot> snapshots = around(emulator, flight);
     std::vector<double> floor, fft;
-    for (int i = 0; i < 9; ++i) {
+    for (const WorldSnapshot& snapshot : snapshots) {
         floor.push_back(emulator.renderer().floor_ms(snapshot));
         fft.push_back(emulator.chain().fft_pair_ms());
     }
@@ -126,7 +138,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     run.fft_ms = median(fft);
     run.copy_ms = copy_ms(scenario);
     run.triangles = emulator.renderer().triangles();
-    if (options.path_models) run.path_models = path_models(emulator.renderer(), snapshot);
+    if (options.path_models) run.path_models = path_models(emulator.renderer(), snapshots.front());
     return run;
 }
 

@@ -197,13 +197,13 @@ bool LiveSettings::take_trigger(TriggerOrder& order) {
     return true;
 }
 
-bool LiveSettings::wait_for_news_until(std::int64_t monotonic_ns) {
-    const std::int64_t left_ns = monotonic_ns - monotonic_ns();
+bool LiveSettings::wait_for_news_until(std::int64_t until_ns) {
+    const std::int64_t left_ns = until_ns - monotonic_ns();
     if (left_ns <= 0) return false;
     static_cast<void>(news_.try_acquire_for(std::chrono::nanoseconds(std::min(left_ns, kLongestWait_ns))));
     while (news_.try_acquire()) {
     }
-    return monotonic_ns() < monotonic_ns;
+    return monotonic_ns() < until_ns;
 }
 
 void LiveSettings::announce() { news_.release(); }

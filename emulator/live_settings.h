@@ -56,7 +56,7 @@ class LiveSettings : public CameraControl {
     // All frames of an order are rendered, or the order is dropped.
     void order_done() { done_.release(); }
     // True at once when there is a change or a trigger, or after 50 ms; false when the instant has come.
-    bool wait_for_news_until(std::int64_t monotonic_ns);
+    bool wait_for_news_until(std::int64_t until_ns);
     // What a camera that sets them itself has set; settings() tells it.
     void tell_own(double exposure_s, double gain_db) {
         own_exposure_s_.store(exposure_s, std::memory_order_relaxed);

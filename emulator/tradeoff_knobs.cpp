@@ -33,6 +33,7 @@ const std::vector<KnobRow>& knob_rows() {
          KnobRole::kPathModel},
         {"depth", "quality.max_depth", {"1", "2", "3", "4", "6"}, Needs::kSurfaces, KnobRole::kDepth},
         {"samples per axis", "quality.samples_per_axis", {"1", "2", "3", "4"}},
+        {"noise budget", "quality.noise_budget", {"0", "2", "1", "0.5", "0.3"}, Needs::kSurfaces},
         {"contribution threshold",
          "quality.contribution_threshold",
          {"0.02", "0.001"},
@@ -193,6 +194,7 @@ std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
         // here.
         "quality.max_depth=8",
         fmt::format("quality.samples_per_axis={}", (kRaysPerAxis + oversampling - 1) / oversampling),
+        "quality.noise_budget=0",
         "quality.contribution_threshold=0.0001",
         "quality.sun_disk=true",
         "quality.facets_behind_diffuse=0",

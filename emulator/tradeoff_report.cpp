@@ -8,6 +8,7 @@
 
 #include "emulator/page_maker.h"
 #include "emulator/report.h"
+#include "emulator/tradeoff_ladder.h"
 #include "render/check.h"
 
 namespace hilcam {
@@ -228,6 +229,7 @@ void write_tradeoff(const Tradeoff& t, const std::filesystem::path& folder) {
                    preset(t, fmt::format("The fastest within {:g} of the sensor's noise.", t.error_sigma),
                           t.overrides_of(t.settings[*t.within_error].choices)));
     write_text(folder / "reference.yaml", preset(t, "For comparison, not for speed.", t.reference_overrides));
+    if (const std::string ladder = ladder_yaml(t); !ladder.empty()) write_text(folder / "loop.yaml", ladder);
     run_page_maker("hilcam-plot-tradeoff", {folder.string()});
 }
 

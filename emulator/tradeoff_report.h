@@ -19,9 +19,9 @@ nlohmann::json tradeoff_json(const Tradeoff& tradeoff);
 std::string tradeoff_text(const Tradeoff& tradeoff);
 
 // tradeoff.csv, tradeoff.json, quality files realtime.yaml (the least error within the frame time),
-// balanced.yaml (the fastest within the error) and reference.yaml; then index.html and its plots, which the
-// program hilcam-plot-tradeoff beside this one makes. DeviceError when something cannot be written or that
-// program fails.
+// balanced.yaml (the fastest within the error) and reference.yaml, loop.yaml (tradeoff_ladder.h); then
+// index.html and its plots, which the program hilcam-plot-tradeoff beside this one makes. DeviceError when
+// something cannot be written or that program fails.
 void write_tradeoff(const Tradeoff& tradeoff, const std::filesystem::path& folder);
 // Fails as write_tradeoff() would, before anything is measured.
 void make_folder(const std::filesystem::path& folder);

@@ -255,17 +255,21 @@ void EmbreeScene::start_recording() {
     implementation_->recorded = std::make_unique<tbb::concurrent_vector<Implementation::Recorded>>();
 }
 
-EmbreeScene::Replay EmbreeScene::replay() {
-    const auto packets = std::move(implementation_->recorded);
+EmbreeScene::Replay EmbreeScene::replay(Replayed which) {
+    const auto recorded = std::move(implementation_->recorded);
+    std::vector<Implementation::Recorded> packets;
+    for (const Implementation::Recorded& packet : *recorded)
+        if (which == Replayed::kAll || packet.occlusion || packet.coherence == Coherence::kCoherent)
+            packets.push_back(packet);
     Replay out;
-    for (const Implementation::Recorded& packet : *packets)
+    for (const Implementation::Recorded& packet : packets)
         out.rays += static_cast<std::uint64_t>(packet.rays.count);
     const auto start = std::chrono::steady_clock::now();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets->size(), 64),
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 64),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           HitPacket hits;
                           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                              const Implementation::Recorded& packet = (*packets)[i];
+                              const Implementation::Recorded& packet = packets[i];
                               if (packet.occlusion)
                                   occluded(packet.rays);
                               else

@@ -91,7 +91,8 @@ class EmbreeScene {
         std::uint64_t rays = 0;
         double milliseconds = 0;
     };
-    Replay replay();
+    enum class Replayed { kAll, kPrimaryAndShadow };  // the latter: without the rays that continue paths
+    Replay replay(Replayed which = Replayed::kAll);
 
   private:
     struct Implementation;

@@ -12,12 +12,12 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // One tile's way through its packets.
 class PrimaryRays {
   public:
-    PrimaryRays(Tile& tile, std::span<Vertex> vertices, bool background)
+    PrimaryRays(Tile& tile, std::span<Vertex> vertices)
         : tile_(tile),
           frame_(tile.frame),
           vertices_(vertices),
-          bodies_(background && frame_.may_see_body(tile.box)),
-          sun_(background && tile.box.overlaps(frame_.sun_box)),
+          bodies_(frame_.may_see_body(tile.box)),
+          sun_(tile.box.overlaps(frame_.sun_box)),
           linear_(frame_.rays->linear()),
           plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)) {
         sample_rad_ = static_cast<float>(1 / frame_.geometry.focal_length_px) /
@@ -207,26 +207,7 @@ class PrimaryRays {
 }  // namespace
 
 std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {
-    return PrimaryRays(tile, vertices, true).trace();
-}
-
-void trace_bare_rays(Tile& tile, std::span<Vertex> vertices) {
-    const std::size_t count = PrimaryRays(tile, vertices, false).trace();
-    const Vec3f sun = to_float(tile.frame.background->sun_world_dir());
-    RayPacket rays;
-    rays.count = 0;
-    const auto flush = [&] {
-        if (rays.count > 0) tile.frame.scene->occluded(rays);
-        tile.stats.shadow_rays += static_cast<std::uint64_t>(rays.count);
-        rays.count = 0;
-    };
-    for (const Vertex& at : vertices.first(count)) {
-        if (!at.surface.has_lobes() || dot(at.geometric_normal, sun) <= 0 || dot(at.normal, sun) <= 0)
-            continue;
-        rays.set(rays.count, at.start(), sun, 0, kInfinity);
-        if (++rays.count == kPacketSize) flush();
-    }
-    flush();
+    return PrimaryRays(tile, vertices).trace();
 }
 
 }  // namespace hilcam

@@ -11,7 +11,5 @@ namespace hilcam {
 // Writes at most vertices.size() vertices (PathModel::kMostSamples are enough) and adds the background to the
 // tile's pixels. Returns how many. Loop, any thread.
 std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices);
-// The same rays and one to the Sun from what they meet, nothing shaded: what the tile costs bare Embree.
-void trace_bare_rays(Tile& tile, std::span<Vertex> vertices);
 
 }  // namespace hilcam

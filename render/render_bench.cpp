@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "render/primary_rays.h"
-
 namespace hilcam {
 namespace {
 
@@ -35,23 +33,12 @@ PathModelSpeed speed_of(const std::string& name, FramePlacer& placer, FrameTrace
 
 }  // namespace
 
-double bare_rays_ms(const FramePlacer& placer, FrameTracer& tracer) {
-    struct Scratch {
-        std::vector<Vertex> vertices;
-        std::vector<Spectrum> pixels;
-    };
-    std::vector<Scratch> scratch(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
-    for (Scratch& s : scratch)
-        s.vertices.resize(PathModel::kMostSamples), s.pixels.resize(PathModel::kMostSamples);
-    const int n = static_cast<int>(tracer.quality().samples_per_axis);
-    const auto start = Clock::now();
-    tracer.for_each_tile([&](int, const PixelBox& box, std::size_t slot) {
-        if (!placer.frame().object_mask->any(box)) return;
-        TileStats stats;
-        Tile tile{placer.frame(), box, n, scratch[slot].pixels, stats};
-        trace_bare_rays(tile, scratch[slot].vertices);
-    });
-    return ms_since(start);
+double bare_rays_ms(FramePlacer& placer, FrameTracer& tracer) {
+    const FrameView& frame = placer.frame();
+    RadianceImage radiance(frame.geometry.padded_width(), frame.geometry.padded_height(), frame.bins);
+    placer.embree().start_recording();
+    tracer.trace(placer, radiance);
+    return placer.embree().replay(EmbreeScene::Replayed::kPrimaryAndShadow).milliseconds;
 }
 
 std::vector<PathModelSpeed> path_model_speeds(FramePlacer& placer, FrameTracer& tracer,

@@ -19,9 +19,9 @@ struct PathModelSpeed {
     double bare_ms = 0;  // Embree alone
 };
 
-// Time that bare Embree needs for the primary and shadow rays of the placed frame, one grid to each pixel, on
-// the same threads [ms]: the floor that no renderer built on it can go below.
-double bare_rays_ms(const FramePlacer& placer, FrameTracer& tracer);
+// Time that bare Embree needs for the primary and shadow rays that the placed frame traces, the same packets
+// on the same threads with nothing around them [ms]: the floor that no renderer built on it can go below.
+double bare_rays_ms(FramePlacer& placer, FrameTracer& tracer);
 
 // The placed frame with every path model of the registry, medians of `runs`.
 std::vector<PathModelSpeed> path_model_speeds(FramePlacer& placer, FrameTracer& tracer,

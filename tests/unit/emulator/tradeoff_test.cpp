@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "emulator/quality_ladder.h"
 #include "emulator/tradeoff_combinations.h"
+#include "emulator/tradeoff_ladder.h"
 #include "io/config_manual.h"
 #include "io/config_yaml.h"
 #include "tests/support/files.h"
@@ -188,6 +191,67 @@ TEST(TradeoffCombinations, OfManyKnobsAreLimited) {
     EXPECT_EQ(list.size(), 256u);
     for (const Choices& choices : list)
         EXPECT_GE(std::count_if(choices.begin(), choices.end(), [](std::size_t c) { return c != 0; }), 2);
+}
+
+// --- the governor's ladder
+
+// A knob of these values, the first one the scenario's own.
+Knob knob_of_quality(const std::string& key, const std::vector<std::string>& values) {
+    Knob knob{key, {values.front(), {}}, {}, KnobRole::kAlways};
+    for (std::size_t i = 1; i < values.size(); ++i)
+        knob.others.push_back({values[i], {"quality." + key + "=" + values[i]}});
+    return knob;
+}
+
+class TradeoffLadder : public FilesTest {
+  protected:
+    Tradeoff tradeoff;
+
+    TradeoffLadder() {
+        tradeoff.frame_ms = 16.5;
+        tradeoff.knobs = {knob_of_quality("max_depth", {"3", "2", "1"}),
+                          knob_of_quality("lod_error_px", {"0.5", "2"}),
+                          knob_of_quality("guard_px", {"28", "8"})};
+    }
+    void add(Choices choices, double frame_ms, double error) {
+        MeasuredSetting s = measured(MeasuredSetting::Kind::kSingle, std::move(choices), frame_ms, error);
+        s.errors.noise.p99 = error;
+        tradeoff.settings.push_back(s);
+    }
+};
+
+TEST_F(TradeoffLadder, IsTheFrontOfWhatMayChangeBetweenFramesBestFirst) {
+    add({0, 0, 0}, 20, 1);
+    add({2, 0, 0}, 10, 4);
+    add({1, 0, 0}, 15, 2);
+    add({0, 1, 0}, 16, 3);  // beaten by the one before
+    add({0, 0, 1}, 12, 1);  // the guard band is fixed for a run
+    add({2, 1, 0}, 9, 5);
+    add({0, 1, 1}, 25, 0.5);  // slower
+    const ScenarioConfig s = minimal().load({"loop=" + write("loop.yaml", ladder_yaml(tradeoff)).string()});
+    EXPECT_NEAR(s.loop.frame_budget_s, 0.0165, 1e-9);
+    ASSERT_EQ(s.loop.levels.size(), 3u);
+    EXPECT_EQ(s.loop.levels[0].values.max_depth, 2);
+    EXPECT_FALSE(s.loop.levels[0].has_lod_error_px);
+    EXPECT_EQ(s.loop.levels[1].values.max_depth, 1);
+    EXPECT_TRUE(s.loop.levels[2].has_max_depth && s.loop.levels[2].has_lod_error_px);
+}
+
+TEST_F(TradeoffLadder, IsNoneWhereNothingIsFaster) {
+    add({0, 0, 0}, 20, 1);
+    add({1, 0, 0}, 21, 0.5);
+    EXPECT_EQ(ladder_yaml(tradeoff), "");
+}
+
+TEST_F(TradeoffLadder, OfManyRungsKeepsBothEnds) {
+    std::vector<std::string> depths = {"40"};
+    for (int depth = 39; depth > 0; --depth) depths.push_back(std::to_string(depth));
+    tradeoff.knobs = {knob_of_quality("max_depth", depths)};
+    for (std::size_t i = 0; i < 40; ++i) add({i}, 50 - static_cast<double>(i), std::pow(1.2, i));
+    const ScenarioConfig s = minimal().load({"loop=" + write("loop.yaml", ladder_yaml(tradeoff)).string()});
+    ASSERT_EQ(s.loop.levels.size(), kMostLevels - 1);
+    EXPECT_EQ(s.loop.levels.front().values.max_depth, 39);
+    EXPECT_EQ(s.loop.levels.back().values.max_depth, 1);
 }
 
 }  // namespace
