@@ -133,8 +133,10 @@ Fields fields(QualityConfig& q) {
 }
 
 SensorSampling sampling_of(const QualityConfig& q) {
-    return {static_cast<int>(q.guard_px), ray_grid_of(q.render), static_cast<int>(q.oversampling),
-            q.psf == PsfMethod::kFft};
+    SensorSampling sampling{static_cast<int>(q.guard_px), ray_grid_of(q.render),
+                            static_cast<int>(q.oversampling)};
+    sampling.always_fft = q.psf == PsfMethod::kFft;
+    return sampling;
 }
 
 Fields fields(FaultConfig& f) {

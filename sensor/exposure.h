@@ -18,8 +18,8 @@ struct SensorSampling {
     int guard_px = 0;                    // the image's border on each side, in pixels of the detector
     RayGrid samples_per_axis = 1;        // in each of its pixels
     int oversampling = 1;                // pixels of the radiance image across one of the detector
-    bool always_fft = false;             // no compact kernel in place of the FFT pair, even where one will do
     std::vector<RayGrid> other_grids{};  // that single frames may have instead
+    bool always_fft = false;             // no compact kernel in place of the FFT pair, even where one will do
 };
 
 // One exposure.
