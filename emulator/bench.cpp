@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "emulator/emulator.h"
-#include "emulator/flight.h"
+#include "emulator/pilot.h"
 #include "emulator/report.h"
 #include "render/render_bench.h"
 
@@ -19,48 +18,9 @@ double median(std::vector<double> values) {
     return values.empty() ? 0 : values[values.size() / 2];
 }
 
-// Feeds poses as a simulator would, 100 a second, from a thread of its own: once round the target in the
-// frames of a run, so that every run sees the same views however fast it is.
-class Pilot {
-  public:
-    Pilot(Emulator& emulator, const CircleFlight& flight, std::uint64_t frames)
-        : emulator_(emulator), flight_(flight) {
-        const double seconds_per_frame = flight.period_s / static_cast<double>(frames);
-        thread_ = std::thread([this, seconds_per_frame] {
-            for (std::uint32_t i = 1; !stop_.load(); ++i) {
-                const std::int64_t now_ns = monotonic_ns();
-                const auto frame = emulator_.loop().counters().frames.load(std::memory_order_relaxed);
-                const double seconds = seconds_per_frame * static_cast<double>(frame);
-                emulator_.world().set(0, flight_.at(seconds, emulator_.clock().at(now_ns)), {i, now_ns});
-                sleep_until_monotonic_ns(now_ns + 10'000'000);
-            }
-        });
-    }
-    ~Pilot() {
-        stop_.store(true);
-        thread_.join();
-    }
-
-  private:
-    Emulator& emulator_;
-    CircleFlight flight_;
-    std::atomic<bool> stop_{false};
-    std::thread thread_;
-};
-
-// The camera's circle about the first object.
-CircleFlight flight_of(const ScenarioConfig& scenario, const std::vector<Motion>& motions) {
-    CircleFlight flight;
-    if (motions.size() > 1) flight.center_m = motions[1].pose.position_world_m;
-    flight.start_m = motions[0].pose.position_world_m;
-    flight.axis = flight.up = scenario.camera_pose.up;
-    flight.period_s = 120;
-    return flight;
-}
-
 struct Run {
     double rate_hz, p50_ms, p99_ms;
-    json stages;
+    json stages, latency;
     RenderStats render;
     double floor_render_ms, fft_ms, copy_ms;
     std::size_t triangles;
@@ -112,12 +72,17 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     constexpr std::uint64_t kWarmUp = 20;
     RunLimits limits;
     limits.frames = kWarmUp + options.frames;
+    limits.warm_up = kWarmUp;
     limits.paced = false;
     limits.outputs = false;
     Emulator emulator(scenario, limits);
-    const CircleFlight flight = flight_of(scenario, initial_motions(scenario, parse_utc(scenario.time_utc)));
+    const CircleFlight flight = flight_around_target(scenario);
     {
-        const Pilot pilot(emulator, flight, limits.frames);
+        // Once round in the frames of a run, so that every run sees the same views however fast it is.
+        const double seconds_per_frame = flight.period_s / static_cast<double>(limits.frames);
+        const Pilot pilot(emulator, flight, [&emulator, seconds_per_frame](std::int64_t) {
+            return seconds_per_frame * static_cast<double>(emulator.loop().counters().frames.load());
+        });
         emulator.run([] {});
     }
     Run run;
@@ -126,6 +91,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     run.p99_ms = meters.interval.quantile_ms(0.99);
     run.rate_hz = static_cast<double>(limits.frames) / emulator.seconds();
     run.stages = stages_report(meters);
+    run.latency = percentiles_report(meters.latency);
     run.render = emulator.loop().render_stats();
     run.within_budget = within_budget(emulator.loop().counters());
     const std::vector<WorldSnapshot> snapshots = around(emulator, flight);
@@ -142,6 +108,22 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     return run;
 }
 
+// Of figures that each run has in an object of the same keys, at any depth.
+json medians(const std::vector<json>& runs) {
+    if (!runs.front().is_object()) {
+        std::vector<double> values;
+        for (const json& run : runs) values.push_back(run.get<double>());
+        return median(values);
+    }
+    json out;
+    for (const auto& [key, ignored] : runs.front().items()) {
+        std::vector<json> parts;
+        for (const json& run : runs) parts.push_back(run[key]);
+        out[key] = medians(parts);
+    }
+    return out;
+}
+
 }  // namespace
 
 json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
@@ -151,6 +133,11 @@ json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
         std::vector<double> values;
         for (const Run& run : runs) values.push_back(run.*member);
         return median(values);
+    };
+    const auto figures_of = [&](auto member) {
+        std::vector<json> values;
+        for (const Run& run : runs) values.push_back(run.*member);
+        return values;
     };
     const double p50 = median_of(&Run::p50_ms);
     const double floor =
@@ -163,8 +150,10 @@ json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
         {"triangles", last.triangles},
         {"coverage", last.render.coverage},
         {"frame_rate_hz", median_of(&Run::rate_hz)},
-        {"frame_ms", {{"p50", p50}, {"p99", median_of(&Run::p99_ms)}}},
-        {"stages_ms", last.stages},
+        {"frame_ms",
+         {{"p50", p50}, {"p99", median_of(&Run::p99_ms)}, {"runs_p50", figures_of(&Run::p50_ms)}}},
+        {"stages_ms", medians(figures_of(&Run::stages))},
+        {"latency_ms", medians(figures_of(&Run::latency))},
         {"floor_ms", floor},
         {"floor_parts_ms",
          {{"embree", median_of(&Run::floor_render_ms)},

@@ -16,8 +16,9 @@ struct BenchOptions {
 };
 
 // The camera flies once around the first object while frames are computed as fast as the pipeline goes,
-// without outputs. floor_ms: bare Embree on the primary and shadow rays of such frames (the median of nine
-// places of the circle), plus one FFT pair, plus one copy of the frame.
+// without outputs. Figures are medians over the runs, counts those of the last. latency_ms: from a pose's
+// arrival to the first frame that shows it, handed over. floor_ms: bare Embree on the primary and shadow rays
+// of such frames (the median of nine places of the circle), plus one FFT pair, plus one copy of the frame.
 nlohmann::json bench(const ScenarioConfig& scenario, const BenchOptions& options);
 
 }  // namespace hilcam

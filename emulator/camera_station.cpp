@@ -108,10 +108,10 @@ void CameraStation::load(const SpectralGrid& grid) {
 
 void CameraStation::prepare(SimulatedClock& clock) {
     serve_faults(0);
-    loop_ = std::make_unique<FrameLoop>(
-        *exposures_, *chain_, scenario_.camera, *world_, settings_, faults_, clock, sinks(),
-        seed_of(scenario_, number_),
-        LoopLimits{limits_.frames, limits_.paced, governor_of(scenario_), scenario_.loop.prefer});
+    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario_.camera, *world_, settings_, faults_,
+                                        clock, sinks(), seed_of(scenario_, number_),
+                                        LoopLimits{limits_.frames, limits_.warm_up, limits_.paced,
+                                                   governor_of(scenario_), scenario_.loop.prefer});
 }
 
 void CameraStation::start_outputs() {

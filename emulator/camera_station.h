@@ -15,8 +15,9 @@
 namespace hilcam {
 
 struct RunLimits {
-    double seconds = 0;        // 0: until a signal
-    std::uint64_t frames = 0;  // of each camera; 0: no limit
+    double seconds = 0;         // 0: until a signal
+    std::uint64_t frames = 0;   // of each camera; 0: no limit
+    std::uint64_t warm_up = 0;  // of them, the first: their times are not kept
     bool paced = true;
     bool outputs = true;  // false: frames go nowhere, for benchmarks
 };

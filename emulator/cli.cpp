@@ -20,6 +20,7 @@
 #include "emulator/scene_loader.h"
 #include "emulator/send_command.h"
 #include "emulator/sensor_bench.h"
+#include "emulator/soak_report.h"
 #include "emulator/tradeoff_report.h"
 #include "io/config_manual.h"
 #include "io/config_yaml.h"
@@ -33,6 +34,7 @@ struct Options {
     double duration_s = 0, time_offset_s = 0;
     std::uint64_t frames = 0;
     BenchOptions bench;
+    SoakOptions soak;
     TradeoffOptions tradeoff;
     bool json = false, sensor = false;
     std::uint16_t preview_port = 0;  // 0: as the scenario says
@@ -111,9 +113,21 @@ int run_sensor_bench(const Options& o, const ScenarioConfig& scenario) {
     return 0;
 }
 
+int run_soak(const Options& o, const ScenarioConfig& scenario) {
+    make_folder(o.out);
+    spdlog::info("soaking {} for {:.0f} s", scenario.name, o.soak.seconds);
+    const Soak result = soak(scenario, o.soak);
+    if (result.slices.empty()) throw DeviceError("ended before the first slice: there is nothing to write");
+    const nlohmann::json report = soak_json(scenario, o.soak, result);
+    fmt::print("{}\n", o.json ? report.dump(2) : soak_text(result));
+    write_soak(result, report, o.out);
+    return 0;
+}
+
 int run_bench(const Options& o) {
     const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     const auto threads = limit_threads(scenario);
+    if (o.soak.seconds > 0) return run_soak(o, scenario);
     if (o.sensor) return run_sensor_bench(o, scenario);
     const nlohmann::json result = bench(scenario, o.bench);
     if (o.json) {
@@ -224,6 +238,23 @@ int run_command_line(int argc, char** argv) {
     bench_app->add_flag("--sensor", o.sensor, "the sensor stage alone, and what each of its effects costs");
     bench_app->add_option("--frames", o.bench.frames, "frames of a run")->check(CLI::Range(1, 1000000));
     bench_app->add_option("--runs", o.bench.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
+    CLI::Option* soak =
+        bench_app
+            ->add_option("--soak", o.soak.seconds,
+                         "for so many seconds at the camera's frame rate: what changes with time, to --out")
+            ->check(CLI::PositiveNumber);
+    CLI::Option* out =
+        bench_app->add_option("--out", o.out, "of --soak: folder for CSV, JSON and a page with a plot");
+    soak->needs(out)->excludes("--sensor", "--path-models");
+    out->needs(soak);
+    bench_app
+        ->add_option("--slice-s", o.soak.slice_s,
+                     "of --soak: seconds of a slice (default: a sixtieth of the soak, at least 10)")
+        ->check(CLI::PositiveNumber)
+        ->needs(soak);
+    bench_app
+        ->add_flag("--outputs", o.soak.outputs, "of --soak: also the scenario's outputs and command ports")
+        ->needs(soak);
     bench_app->callback([&] { action = [&] { return run_bench(o); }; });
 
     CLI::App* tradeoff_app =

@@ -214,10 +214,13 @@ void FrameLoop::sense(Slot& slot) {
     const std::int64_t done_ns = monotonic_ns();
     meters_.publish.record(done_ns - publish_ns);
     slot.sense_ns += done_ns - publish_ns;
+    meters_.work.record(slot.render_ns + slot.sense_ns);
+    if (slot.record.command_arrival_monotonic_ns != 0)
+        meters_.latency.record(done_ns - slot.record.command_arrival_monotonic_ns);
     if (last_published_ns_ != 0) meters_.interval.record(done_ns - last_published_ns_);
     last_published_ns_ = done_ns;
     counters_.last_id.store(slot.record.id, std::memory_order_relaxed);
-    counters_.frames.fetch_add(1, std::memory_order_relaxed);
+    if (counters_.frames.fetch_add(1, std::memory_order_relaxed) + 1 == limits_.warm_up) meters_.clear();
 }
 
 // What a camera does with its numbers on their way out.

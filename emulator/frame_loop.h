@@ -57,8 +57,18 @@ namespace hilcam {
 
 // How long each stage took, per frame.
 struct StageMeters {
-    DurationHistogram setup, trace, stars, collapse, convolve, points, digitise, publish, render, sense,
-        interval;
+    DurationHistogram setup, trace, stars, collapse, convolve, points, digitise, publish, render, sense;
+    DurationHistogram work;      // render, sense and publish: the frame without its waits
+    DurationHistogram interval;  // from one frame handed over to the next
+    // From the arrival of the newest command that a frame is the first to show to the frame handed over.
+    DurationHistogram latency;
+
+    // After warming up.
+    void clear() {
+        for (DurationHistogram* meter : {&setup, &trace, &stars, &collapse, &convolve, &points, &digitise,
+                                         &publish, &render, &sense, &work, &interval, &latency})
+            meter->clear();
+    }
 };
 
 struct LoopCounters {
@@ -84,8 +94,9 @@ struct LevelChange {
 };
 
 struct LoopLimits {
-    std::uint64_t frames = 0;  // 0: no limit
-    bool paced = true;         // false: as fast as it goes, for benchmarks
+    std::uint64_t frames = 0;   // 0: no limit
+    std::uint64_t warm_up = 0;  // of them, the first: their times are not kept
+    bool paced = true;          // false: as fast as it goes, for benchmarks
     GovernorSettings governor{};
     LoopPreference prefer = LoopPreference::kThroughput;
 };

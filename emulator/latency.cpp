@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hilcam {
 
@@ -13,14 +14,28 @@ void DurationHistogram::record(std::int64_t ns) {
     count_.fetch_add(1, std::memory_order_relaxed);
 }
 
+void DurationHistogram::clear() {
+    for (auto& bucket : buckets_) bucket.store(0, std::memory_order_relaxed);
+    count_.store(0, std::memory_order_relaxed);
+}
+
+void DurationHistogram::read(Counts& counts) const {
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = buckets_[i].load(std::memory_order_relaxed);
+}
+
 double DurationHistogram::quantile_ms(double q) const {
-    std::uint64_t total = 0;
-    for (const auto& bucket : buckets_) total += bucket.load(std::memory_order_relaxed);
+    Counts counts;
+    read(counts);
+    return quantile_ms(counts, q);
+}
+
+double DurationHistogram::quantile_ms(const Counts& counts, double q) {
+    const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
     if (total == 0) return 0;
     const auto wanted = static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(total)));
     std::uint64_t seen = 0;
-    for (std::size_t i = 0; i < buckets_.size(); ++i) {
-        seen += buckets_[i].load(std::memory_order_relaxed);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        seen += counts[i];
         // The bucket's middle.
         if (seen >= wanted) return std::exp2((static_cast<double>(i) + 0.5) / kPerOctave) * 1e-3;
     }

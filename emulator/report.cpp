@@ -13,13 +13,6 @@ using nlohmann::json;
 
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-json percentiles(const DurationHistogram& h) {
-    return {{"p50", rounded(h.quantile_ms(0.5))},
-            {"p99", rounded(h.quantile_ms(0.99))},
-            {"p99.9", rounded(h.quantile_ms(0.999))},
-            {"max", rounded(h.quantile_ms(1))}};
-}
-
 std::string processor_name() {
     std::ifstream in("/proc/cpuinfo");
     for (std::string line; std::getline(in, line);)
@@ -28,6 +21,13 @@ std::string processor_name() {
 }
 
 }  // namespace
+
+json percentiles_report(const DurationHistogram& h) {
+    return {{"p50", rounded(h.quantile_ms(0.5))},
+            {"p99", rounded(h.quantile_ms(0.99))},
+            {"p99.9", rounded(h.quantile_ms(0.999))},
+            {"max", rounded(h.quantile_ms(1))}};
+}
 
 json machine_report() {
     return {{"processor", processor_name()},
@@ -42,11 +42,11 @@ json machine_report() {
 }
 
 json stages_report(const StageMeters& m) {
-    return {{"setup", percentiles(m.setup)},       {"trace", percentiles(m.trace)},
-            {"stars", percentiles(m.stars)},       {"collapse", percentiles(m.collapse)},
-            {"convolve", percentiles(m.convolve)}, {"points", percentiles(m.points)},
-            {"digitise", percentiles(m.digitise)}, {"publish", percentiles(m.publish)},
-            {"render", percentiles(m.render)},     {"sense", percentiles(m.sense)}};
+    return {{"setup", percentiles_report(m.setup)},       {"trace", percentiles_report(m.trace)},
+            {"stars", percentiles_report(m.stars)},       {"collapse", percentiles_report(m.collapse)},
+            {"convolve", percentiles_report(m.convolve)}, {"points", percentiles_report(m.points)},
+            {"digitise", percentiles_report(m.digitise)}, {"publish", percentiles_report(m.publish)},
+            {"render", percentiles_report(m.render)},     {"sense", percentiles_report(m.sense)}};
 }
 
 json within_budget(const LoopCounters& counters) {
@@ -118,9 +118,9 @@ json camera_report(CameraStation& station, double seconds) {
         {"frame_rate_hz", rounded(static_cast<double>(frames) / std::max(1e-9, seconds))},
         {"deadline_misses", loop.counters().deadline_misses.load()},
         {"latency_ms",
-         {{"first_packet", percentiles(delivery.command_to_first)},
-          {"last_packet", percentiles(delivery.command_to_last)},
-          {"exposure_mid_to_last_packet", percentiles(delivery.exposure_to_last)}}},
+         {{"first_packet", percentiles_report(delivery.command_to_first)},
+          {"last_packet", percentiles_report(delivery.command_to_last)},
+          {"exposure_mid_to_last_packet", percentiles_report(delivery.exposure_to_last)}}},
         {"outputs", outputs},
         {"faults", faults},
         {"fault_strikes", strikes_report(station)},
@@ -143,6 +143,19 @@ json run_report(const Emulator& emulator) {
         for (const auto& station : emulator.stations())
             report["cameras"].push_back(camera_report(*station, emulator.seconds()));
     return report;
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw DeviceError(folder.string() + ": cannot be made: " + error.message());
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream out(file);
+    out << text;
+    out.close();
+    if (!out) throw DeviceError(file.string() + ": cannot be written");
 }
 
 void write_json(const std::filesystem::path& file, const json& value) {

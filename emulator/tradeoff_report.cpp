@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "emulator/page_maker.h"
@@ -127,13 +126,6 @@ std::vector<std::size_t> front_by_time(const Tradeoff& t) {
     return front;
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream out(file);
-    out << text;
-    out.close();
-    if (!out) throw DeviceError(file.string() + ": cannot be written");
-}
-
 // `quality` as a file; what else a setting changes does not belong there and is a comment.
 std::string preset(const Tradeoff& t, const std::string& title, const std::vector<std::string>& overrides) {
     std::vector<std::string> others;
@@ -208,12 +200,6 @@ std::string tradeoff_text(const Tradeoff& t) {
     out += answer_text(t, fmt::format("fastest within {:g} sigma", t.error_sigma), t.within_error,
                        "no measured setting is that accurate");
     return out;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw DeviceError(folder.string() + ": cannot be made: " + error.message());
 }
 
 void write_tradeoff(const Tradeoff& t, const std::filesystem::path& folder) {

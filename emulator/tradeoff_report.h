@@ -23,7 +23,5 @@ std::string tradeoff_text(const Tradeoff& tradeoff);
 // index.html and its plots, which the program hilcam-plot-tradeoff beside this one makes. DeviceError when
 // something cannot be written or that program fails.
 void write_tradeoff(const Tradeoff& tradeoff, const std::filesystem::path& folder);
-// Fails as write_tradeoff() would, before anything is measured.
-void make_folder(const std::filesystem::path& folder);
 
 }  // namespace hilcam

@@ -136,11 +136,12 @@ def cycles_table(options):
 
 def latency_table(options):
     print(latency.HEADER)
-    print(latency.rows("test scene, 256 x 192, 30 Hz",
-                       *latency.measure(options.hilcam, latency.SCENARIO, options.seconds, 200)))
     geo = SOURCE / "configs/scenarios/geo_inspection.yaml"
-    print(latency.rows("`geo_inspection`",
-                       *latency.measure(options.hilcam, geo, options.seconds, 200, start=(40.0, 27.0, 13.0))))
+    for name, scenario, start in (("test scene, 256 x 192, 30 Hz", latency.SCENARIO, latency.TEST_SCENE_START_M),
+                                  ("`geo_inspection`", geo, latency.GEO_START_M)):
+        for prefer in latency.PREFERENCES:
+            result = latency.measure(options.hilcam, scenario, prefer, options.seconds, 200, start=start)
+            print(latency.rows(name, prefer, *result), flush=True)
 
 
 def main():

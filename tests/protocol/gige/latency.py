@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """How long a pose takes to a client: from its sending to the first packet, the last packet and the client's buffer.
 
-    latency.py HILCAM [--scenario FILE] [--seconds 30] [--pose-rate-hz 200] [--set KEY=VALUE]...
+    latency.py HILCAM [--scenario FILE] [--seconds 30] [--pose-rate-hz 200] [--start-m X Y Z] [--prefer latency|throughput]
+               [--set KEY=VALUE]...
 
 Poses are sent over UDP, true on arrival; each frame says in a chunk which pose is the newest it shows. For every pose
 that a frame is the first to show: the time from the pose's arrival to that frame's first and last packet (the emulator's
 own report) and from its sending to the frame in the hands of an Aravis program. The time includes the wait for the next
-exposure: at a frame rate of f, poses arrive anywhere in the period 1/f. Prints a line of a Markdown table.
+exposure: at a frame rate of f, poses arrive anywhere in the period 1/f. Prints a Markdown table with a row for each
+`loop.prefer`, or for the one asked for.
 """
 import argparse
 import math
@@ -27,8 +29,10 @@ from gvsp_client import chunks_of
 gi.require_version("Aravis", "0.8")
 from gi.repository import Aravis  # noqa: E402
 
-HEADER = ("| scenario | frames | | first packet | last packet | client's buffer |\n"
-          "|---|---|---|---|---|---|")
+HEADER = ("| scenario | `loop.prefer` | frames | | first packet | last packet | client's buffer |\n"
+          "|---|---|---|---|---|---|---|")
+PREFERENCES = ("latency", "throughput")
+TEST_SCENE_START_M, GEO_START_M = (22.0, 15.0, 7.0), (40.0, 27.0, 13.0)  # of those scenarios' cameras
 
 
 def look_back(position):
@@ -88,7 +92,9 @@ class Sender(threading.Thread):
                 time.sleep(max(0.0, due - time.monotonic()))
 
 
-def measure(hilcam, scenario, seconds, rate_hz, sets=(), start=(22.0, 15.0, 7.0), address="127.0.23.11"):
+def measure(hilcam, scenario, prefer, seconds, rate_hz, sets=(), start=TEST_SCENE_START_M, address="127.0.23.11"):
+    """Latencies [ms, sorted], frames, of them failed, the emulator's report."""
+    sets = (f"loop.prefer={prefer}", *sets)
     with tempfile.TemporaryDirectory() as folder, Emulator(hilcam, address, folder, *sets, scenario=scenario) as emulator:
         camera = Aravis.Camera.new(address)
         camera.gv_set_stream_options(Aravis.GvStreamOption.PACKET_SOCKET_DISABLED)
@@ -125,13 +131,13 @@ def measure(hilcam, scenario, seconds, rate_hz, sets=(), start=(22.0, 15.0, 7.0)
     return sorted(latencies_ms), frames, failed, report
 
 
-def rows(name, latencies_ms, frames, failed, report):
+def rows(name, prefer, latencies_ms, frames, failed, report):
     told = report["latency_ms"]
     counted = f"{frames} at {report['frame_rate_hz']:.1f} Hz, {failed} failed, {report['deadline_misses']} exposures missed"
     lines = []
     for label, share in (("p50", 0.5), ("p99", 0.99), ("p99.9", 0.999)):
         packets = [f"{told[which][label]:.1f} ms" if label in told[which] else "" for which in ("first_packet", "last_packet")]
-        cells = [name, counted] if not lines else ["", ""]
+        cells = [name, prefer, counted] if not lines else ["", "", ""]
         lines.append("| " + " | ".join([*cells, label, *packets, f"{percentile(latencies_ms, share):.1f} ms"]) + " |")
     return "\n".join(lines)
 
@@ -142,13 +148,17 @@ def main():
     parser.add_argument("--scenario", type=pathlib.Path, default=SCENARIO)
     parser.add_argument("--seconds", type=float, default=30)
     parser.add_argument("--pose-rate-hz", type=float, default=200)
+    parser.add_argument("--start-m", type=float, nargs=3, default=TEST_SCENE_START_M, help="where the camera's circle begins")
+    parser.add_argument("--prefer", choices=PREFERENCES)
     parser.add_argument("--set", action="append", default=[])
     options = parser.parse_args()
-    result = measure(options.hilcam, options.scenario, options.seconds, options.pose_rate_hz, options.set)
     print(HEADER)
-    print(rows(options.scenario.stem, *result))
-    if not result[0]:
-        sys.exit("no frame showed a pose")
+    for prefer in [options.prefer] if options.prefer else PREFERENCES:
+        result = measure(options.hilcam, options.scenario, prefer, options.seconds, options.pose_rate_hz, options.set,
+                         options.start_m)
+        print(rows(options.scenario.stem, prefer, *result), flush=True)
+        if not result[0]:
+            sys.exit("no frame showed a pose")
 
 
 if __name__ == "__main__":
