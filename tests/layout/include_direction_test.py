@@ -11,7 +11,7 @@ ONLY_IN = {
     "yaml-cpp": {"io/config_yaml.cpp"},
     "assimp": {"io/mesh_file.cpp"},
     "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
-    "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp"},
+    "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp", "emulator/structural_similarity.cpp"},
     "httplib": {"io/sink_preview.cpp"},
     "libusb": {"io/command_link_usb.cpp", "io/commands_usb.cpp", "io/usb_device.cpp"},
     "erfa": {"render/bodies.cpp", "render/stars.cpp", "render/time.cpp"},
