@@ -50,8 +50,8 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
         bench[i].world = &stations_[i]->world();
     }
     // Loading took its time; the simulation starts now.
-    clock_ = SimulatedClock(parse_utc(scenario.time_utc), monotonic_ns(),
-                            scenario.mode == CameraMode::kLockstep);
+    clock_ =
+        SimulatedClock(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep);
     dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_);
     if (limits.outputs) {
         receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());

@@ -14,9 +14,7 @@ namespace {
 using Log = std::function<void(const std::string&)>;
 using Kind = MeasuredSetting::Kind;
 
-double seconds_since(std::int64_t start_ns) {
-    return static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
-}
+double seconds_since(std::int64_t start_ns) { return static_cast<double>(monotonic_ns() - start_ns) * 1e-9; }
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
