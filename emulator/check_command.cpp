@@ -1,6 +1,7 @@
 #include "emulator/check_command.h"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 
 #include "emulator/camera_sheet.h"
 #include "emulator/emulator.h"
@@ -32,12 +33,24 @@ std::string motion_line(const ScenarioConfig& s, Renderer& renderer, const Spect
     return out;
 }
 
+std::string loop_line(const ScenarioConfig& s) {
+    const RealTime& w = s.loop.real_time;
+    std::string out = s.loop.prefer == LoopPreference::kLatency
+                          ? "loop: one frame at a time, each with all threads"
+                          : "loop: a frame is rendered while the one before is sensed";
+    if (w.priority > 0) out += fmt::format("; real-time priority {}", w.priority);
+    if (!w.cores.empty()) out += fmt::format("; on cores {}", fmt::join(w.cores, ", "));
+    if (w.lock_memory) out += "; memory locked";
+    return out + "\n";
+}
+
 // Which levels the governor may choose, or why there is none.
 std::string governor_lines(const ScenarioConfig& s) {
     const std::string off = governor_off(s);
     if (!off.empty()) return "governor off (" + off + ")\n";
     std::string out =
-        fmt::format("governor: each stage of a frame may take {:.4g} ms; quality level 0 is as configured\n",
+        fmt::format("governor: {} may take {:.4g} ms; quality level 0 is as configured\n",
+                    s.loop.prefer == LoopPreference::kLatency ? "a frame" : "each of a frame's two stages",
                     1e3 * s.loop.frame_budget_s);
     RenderQuality last = s.quality.render;
     int number = 0;
@@ -73,7 +86,7 @@ std::string check_scenario(const ScenarioConfig& s) {
                           "sunlight\nplan\n",
                           s.name, format_utc(time), 100 * share_in_bins(s.camera, grid));
     for (const std::string& line : renderer->explain_plan(world)) out += "  " + line + "\n";
-    return out + "  " + motion_line(s, *renderer, grid) + "\n" + governor_lines(s);
+    return out + "  " + motion_line(s, *renderer, grid) + "\n" + loop_line(s) + governor_lines(s);
 }
 
 }  // namespace hilcam

@@ -35,7 +35,7 @@ class Findings {
 constexpr double kMegabyte = 1e6;
 constexpr std::uint64_t kLoopPriority = 50;  // room for the loop's threads below the kernel's own
 
-void look_at_processor(const MachineFacts& m, Findings& out) {
+void look_at_processor(const BenchNeeds& n, const MachineFacts& m, Findings& out) {
     const std::string cores = fmt::format("{} cores, Linux {}", m.cores, m.kernel);
     if (m.cores < 4)
         out.note("processor", cores,
@@ -46,11 +46,12 @@ void look_at_processor(const MachineFacts& m, Findings& out) {
         out.good("governor", m.governor.empty() ? "not told (a virtual machine, or fixed)" : m.governor);
     else
         out.note("governor", m.governor, "cpupower frequency-set -g performance keeps frame times even");
-    if (m.realtime_priority < kLoopPriority && !m.root)
-        out.note("real-time rights", fmt::format("rtprio limit {}", m.realtime_priority),
-                 "in /etc/security/limits.d/hilcam.conf: '@video - rtprio 80' and '@video - memlock "
-                 "unlimited'; then log "
-                 "in again");
+    if (m.realtime_priority < std::max(kLoopPriority, n.loop_priority) && !m.root)
+        out.lacking(m.realtime_priority < n.loop_priority, "real-time rights",
+                    fmt::format("rtprio limit {}", m.realtime_priority),
+                    "in /etc/security/limits.d/hilcam.conf: '@video - rtprio 80' and '@video - memlock "
+                    "unlimited'; then log "
+                    "in again");
     else
         out.good("real-time rights", m.root ? "root" : fmt::format("rtprio limit {}", m.realtime_priority));
 }
@@ -238,6 +239,7 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
         if (o.has_uvc) needs.uvc.push_back({o.uvc.udc});
         if (o.has_preview) port("outputs.preview.port", o.preview.address, o.preview.port, true);
     }
+    needs.loop_priority = static_cast<std::uint64_t>(scenario.loop.real_time.priority);
     const CommandsConfig& c = scenario.commands;
     if (c.has_udp) port("commands.udp.port", c.udp.address, c.udp.port, false);
     if (c.has_tcp) port("commands.tcp.port", c.tcp.address, c.tcp.port, true);
@@ -246,7 +248,7 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
 
 std::vector<Finding> diagnose(const BenchNeeds& needs, const MachineFacts& facts) {
     Findings out;
-    look_at_processor(facts, out);
+    look_at_processor(needs, facts, out);
     look_at_network(needs, facts, out);
     look_at_v4l2(needs, facts, out);
     look_at_usb(needs, facts, out);

@@ -35,6 +35,7 @@ struct BenchNeeds {
     std::vector<V4l2> v4l2;
     std::vector<Uvc> uvc;
     std::vector<Port> ports;
+    std::uint64_t loop_priority = 0;  // loop.priority
 };
 BenchNeeds needs_of(const ScenarioConfig& scenario);
 

@@ -39,6 +39,10 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
       limits_(limits),
       grid_(scenario.spectrum_edges_um),
       clock_(parse_utc(scenario.time_utc), monotonic_ns()) {
+    const RealTime& wishes = scenario.loop.real_time;
+    require_rights(wishes);
+    if (!wishes.cores.empty())
+        threads_.emplace(tbb::global_control::max_allowed_parallelism, wishes.cores.size());
     std::vector<CommandedCamera> bench;
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
         stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits));
@@ -120,12 +124,14 @@ bool Emulator::finished() const {
 
 void Emulator::run(const std::function<void()>& on_ready) {
     const SignalGuard guard;
+    lock_memory(scenario_.loop.real_time);
     for (const auto& station : stations_) station->start_outputs();
     if (telemetry_) telemetry_->start();
     for (const auto& receiver : receivers_) receiver->start();
     const std::int64_t begun_ns = monotonic_ns();
     begun_ns_ = begun_ns;
     for (const auto& station : stations_) station->start_loop();
+    raise_threads(scenario_.loop.real_time);
     on_ready();
     const bool terminal = isatty(STDERR_FILENO);
     std::int64_t next_line_ns = begun_ns + 1'000'000'000;

@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
+
+#include <tbb/global_control.h>
 
 #include "emulator/app_config.h"
 #include "emulator/camera_station.h"
@@ -44,6 +47,7 @@ class Emulator {
 
     ScenarioConfig scenario_;
     RunLimits limits_;
+    std::optional<tbb::global_control> threads_;  // as many as the loop has cores of its own
     SpectralGrid grid_;
     SimulatedClock clock_;
     std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null

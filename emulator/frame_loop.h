@@ -5,8 +5,8 @@
 // Both use oneTBB's threads inside. Frames pass through two slots allocated before the start; hand-over is by
 // semaphores. loop.prefer:
 //   throughput  while a frame is sensed the next one is rendered: frames come as fast as the longer stage
-//   goes latency     the next one waits until it is out: each stage has all threads to itself, so that a
-//   frame is
+//               goes
+//   latency     the next one waits until it is out: each stage has all threads to itself, so a frame is
 //               through sooner; frames come as fast as both stages together go
 // Pixels are the same in both.
 //

@@ -8,8 +8,7 @@
 //         the machine changes nothing, three frames in a row that are too slow do. To the next level, past
 //         those that were measured to be too slow as well.
 //   up    by one level, when the level has been kept for the hold-off, its mean leaves room (below kRoom of
-//   the
-//         budget) and none of the last kWindow frames was a miss.
+//         the budget) and none of the last kWindow frames was a miss.
 //
 // That alone would swing where the budget lies between two levels: the lower has room, the upper misses. So
 // the hold-off, at first kLeastStay frames, doubles each time a climb has to be taken back, up to kMostStay;

@@ -26,7 +26,7 @@ Fields fields(QualityLevelConfig& l) {
 }
 
 Fields fields(LoopConfig& l) {
-    return {
+    Fields list = {
         choice(
             "prefer", l.prefer, {"throughput", "latency"},
             "throughput: a frame is rendered while the one before is sensed; latency: one after the other, "
@@ -40,6 +40,8 @@ Fields fields(LoopConfig& l) {
             "what it may choose, best first: mappings of what is different from `quality` (or files with "
             "them); none: the program's own"),
     };
+    for (Field& field : fields(l.real_time)) list.push_back(std::move(field));
+    return list;
 }
 
 void validate(const LoopConfig& l) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/real_time.h"
 #include "render/config_field.h"
 #include "render/render_quality.h"
 #include "sensor/exposure.h"
@@ -32,6 +33,7 @@ struct LoopConfig {
     LoopPreference prefer = LoopPreference::kThroughput;
     double frame_budget_s = 0;  // 0: no governor
     std::vector<QualityLevelConfig> levels;
+    RealTime real_time;
 };
 Fields fields(LoopConfig& loop);
 void validate(const LoopConfig& loop);

@@ -3,8 +3,8 @@
 // in electrons. What a rendering error is measured by.
 //
 // EMVA 1288 Release 4.0 (linear), the noise of its total signal-to-noise ratio:
-//   sigma^2 = q + sigma_d^2 + 1/(12 K^2)              shot, read (all temporal noise in the dark),
-//   quantisation
+//   sigma^2 = q + sigma_d^2 + 1/(12 K^2)              shot, all temporal noise in the dark,
+//                                                      quantisation
 //           + DSNU^2 + rows^2 + columns^2 + (p q_d)^2  fixed, in the dark; p: spread of the dark currents
 //           + (PRNU^2 + columns' gains^2) (q - q_d)^2  fixed, with light
 // q: mean charge, q_d: its part that is dark current. Fixed noise is that of a pixel drawn at random: what

@@ -138,6 +138,9 @@ TEST(Doctor, ProcessorAndTime) {
     EXPECT_THAT(about("processor", {}, m, kNote), HasSubstr("four or more"));
     EXPECT_THAT(about("governor", {}, m, kNote), HasSubstr("performance"));
     EXPECT_THAT(about("real-time rights", {}, m, kNote), HasSubstr("rtprio 80"));
+    BenchNeeds needs;
+    needs.loop_priority = 40;
+    EXPECT_THAT(about("real-time rights", needs, m, kProblem), HasSubstr("rtprio 80"));
     EXPECT_THAT(about("clock", {}, m, kNote), HasSubstr("chrony"));
     EXPECT_THAT(about("tai", {}, m, kNote), HasSubstr("ptp4l"));
 }
