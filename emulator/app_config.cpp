@@ -1,5 +1,7 @@
 #include "emulator/app_config.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,7 +64,9 @@ Fields fields(ObjectConfig& o) {
         optional(section("generate", o.generate, "a mesh made at first use and cached, instead of a file"),
                  o.has_generate),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
-        section("pose", o.pose, "where it stands until commands say otherwise"),
+        optional(section("pose", o.pose, "where it stands until commands say otherwise"), o.has_pose),
+        optional(section("motion", o.motion, "how it moves until commands say otherwise, instead of pose"),
+                 o.has_motion),
         section("materials", o.materials, "replaces the mesh's own looks"),
         sections("joints", o.joints, "parts that turn; commands number them from 1"),
     };
@@ -72,6 +76,7 @@ void validate(const ObjectConfig& o) {
     if (o.has_mesh == o.has_generate)
         throw InputError("an object has either 'mesh' or 'generate'; found " +
                          std::string(o.has_mesh ? "both" : "neither"));
+    if (o.has_pose && o.has_motion) throw InputError("an object has either 'pose' or 'motion'; found both");
 }
 
 Fields fields(PlaceConfig& p) {
@@ -236,7 +241,14 @@ Fields fields(ScenarioConfig& s) {
         integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core"),
         section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
         required(section("camera", s.camera, "the camera's data sheet")),
-        section("camera_pose", s.camera_pose, "where the camera stands until commands say otherwise"),
+        optional(
+            section("camera_pose", s.camera_pose, "where the camera stands until commands say otherwise"),
+            s.has_camera_pose),
+        optional(section("camera_motion", s.camera_motion,
+                         "how the camera's body moves until commands say otherwise, instead of camera_pose"),
+                 s.has_camera_motion),
+        optional(section("leap_seconds", s.leap_seconds, "a table of them, instead of the built-in one"),
+                 s.has_leap_seconds),
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
         optional(section("terrain", s.terrain, "ground from a height map"), s.has_terrain),
         section("sun", s.sun, "the Sun"),
@@ -334,6 +346,8 @@ RenderModels models_of(const ScenarioConfig& s) {
 void validate(const ScenarioConfig& s) {
     parse_utc(s.time_utc);
     SpectralGrid grid(s.spectrum_edges_um);
+    if (s.has_camera_pose && s.has_camera_motion)
+        throw InputError("a scenario has either 'camera_pose' or 'camera_motion'; found both");
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
     if (s.more_cameras.size() > kMostCameras - 1)
         throw InputError("more_cameras: found " + std::to_string(s.more_cameras.size()) +
@@ -347,6 +361,10 @@ void validate(const ScenarioConfig& s) {
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
     ScenarioConfig scenario;
     read_config(file, section_of(scenario), overrides);
+    if (scenario.has_leap_seconds) {
+        const std::string warning = apply_leap_seconds(scenario.leap_seconds, scenario.time_utc);
+        if (!warning.empty()) spdlog::warn("{}", warning);
+    }
     return scenario;
 }
 

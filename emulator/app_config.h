@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/motion_config.h"
 #include "emulator/quality_ladder.h"
 #include "emulator/world_state.h"
 #include "io/commands_functionfs.h"
@@ -75,10 +76,12 @@ struct ObjectConfig {
     GeneratedMeshConfig generate;
     double scale = 1;
     PoseConfig pose;
+    MotionConfig motion;
     MaterialSet materials;
     std::vector<JointConfig> joints;
     bool has_mesh = false;
     bool has_generate = false;
+    bool has_pose = false, has_motion = false;
 };
 Fields fields(ObjectConfig& object);
 void validate(const ObjectConfig& object);
@@ -192,6 +195,10 @@ struct ScenarioConfig {
     OriginConfig origin;
     CameraModel camera;
     PoseConfig camera_pose;
+    MotionConfig camera_motion;
+    bool has_camera_pose = false, has_camera_motion = false;
+    LeapSecondsConfig leap_seconds;
+    bool has_leap_seconds = false;
     std::vector<ObjectConfig> objects;
     TerrainConfig terrain;
     bool has_terrain = false;
@@ -231,7 +238,7 @@ SensorSampling sampling_of(const ScenarioConfig& scenario);
 // The models to render with: rays as the camera's shutter has them, unless the scenario gives its own.
 RenderModels models_of(const ScenarioConfig& scenario);
 
-// Reads and checks a scenario. Throws InputError.
+// Reads and checks a scenario, and puts its leap seconds in place. Throws InputError.
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides);
 
 // The motion that a pose config describes at an instant. Throws InputError when look_at is not defined.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emulator/motion_builder.h"
 #include "emulator/scene_loader.h"
 #include "emulator/status.h"
 
@@ -42,7 +43,8 @@ std::vector<Joint> joints_of(const ScenarioConfig& scenario) {
 }
 
 WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time) {
-    WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario), scenario.mount);
+    WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario), scenario.mount,
+                     load_motion_sources(scenario));
     WorldSnapshot world;
     world.objects.resize(state.placed_objects());
     ShownCommand shown;
@@ -100,8 +102,9 @@ void CameraStation::load(const SpectralGrid& grid) {
     chain_ = std::make_unique<SensorChain>(scenario_.camera, grid, sampling_of(scenario_),
                                            load_detector_pictures(scenario_.camera));
     const TimeTai start = parse_utc(scenario_.time_utc);
-    world_ = std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
-                                          joints_of(scenario_), scenario_.mount);
+    world_ =
+        std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
+                                     joints_of(scenario_), scenario_.mount, load_motion_sources(scenario_));
     renderer_->require_air(snapshot_at(scenario_, start, start));
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
 }

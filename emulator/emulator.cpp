@@ -141,6 +141,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         if (limits_.seconds > 0 && seconds_ >= limits_.seconds) break;
         for (const auto& station : stations_) station->serve_faults(seconds_);
         print_level_changes();
+        print_held_motion();
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
             print_line();
             next_line_ns += 1'000'000'000;
@@ -169,6 +170,15 @@ void Emulator::print_level_changes() {
                 "allowed)",
                 station->name(), change.frame, change.to, change.from, change.mean_ms,
                 1e3 * scenario_.loop.frame_budget_s);
+}
+
+// Once: the simulated time has left what a file of motion knows.
+void Emulator::print_held_motion() {
+    if (told_held_motion_ || first().world().held() == 0) return;
+    told_held_motion_ = true;
+    spdlog::warn(
+        "a source of motion does not know the simulated time any more, {}: what it moves stands still",
+        format_utc(clock_.now()));
 }
 
 // Of the first camera.

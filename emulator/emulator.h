@@ -43,6 +43,7 @@ class Emulator {
     HousekeepingFigures housekeeping();
     void print_line();
     void print_level_changes();
+    void print_held_motion();
     bool finished() const;
 
     ScenarioConfig scenario_;
@@ -56,6 +57,7 @@ class Emulator {
     std::vector<std::unique_ptr<CommandReceiver>> receivers_;
     double seconds_ = 0;
     std::uint64_t frames_printed_ = 0;
+    bool told_held_motion_ = false;
     std::atomic<std::int64_t> begun_ns_{0};
     HousekeepingFigures housekeeping_before_;  // telemetry's thread
 };

@@ -69,8 +69,14 @@ Motion WorldState::History::motion_at(TimeTai time) const {
 }
 
 WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& origin,
-                       std::span<const Joint> joints, const Mount& mount)
-    : joints_(joints.begin(), joints.end()), objects_(motions.size() - 1), origin_(origin), mount_(mount) {
+                       std::span<const Joint> joints, const Mount& mount, MotionSources sources)
+    : joints_(joints.begin(), joints.end()),
+      objects_(motions.size() - 1),
+      origin_(origin),
+      mount_(mount),
+      sources_(std::move(sources)),
+      now_(motions.begin(), motions.end()),
+      live_(motions.size()) {
     HILCAM_CHECK(mount.thing <= objects_);
     const auto add = [&](const Motion& motion) {
         auto thing = std::make_unique<Thing>();
@@ -120,14 +126,29 @@ void WorldState::sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown)
     sample_again(time, true, world);
 }
 
+// Where the things are that sources move, after those that are commanded or at rest: sources may follow them.
+void WorldState::evaluate_sources(TimeTai time) const {
+    if (sources_.empty()) return;
+    for (std::size_t i = 0; i <= objects_; ++i) {
+        live_[i] = things_[i]->sampled->command.arrival_monotonic_ns != 0;
+        if (!follows_source(i)) now_[i] = things_[i]->sampled->motion_at(time);
+    }
+    held_.fetch_add(sources_.evaluate({time, origin_}, live_, now_), std::memory_order_relaxed);
+}
+
 void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const {
     world.time = time;
     if (with_bodies) world.bodies = bodies_at(time, origin_);
-    const Motion camera = mounted(things_[mount_.thing]->sampled->motion_at(time), mount_);
+    evaluate_sources(time);
+    const auto motion = [&](std::size_t thing) {
+        return follows_source(thing) ? now_[thing] : things_[thing]->sampled->motion_at(time);
+    };
+    const Motion camera = mounted(motion(mount_.thing), mount_);
     world.camera = camera.pose;
     world.camera_velocity_m_s = camera.velocity_world_m_s;
     world.camera_rate_rad_s = camera.rate_body_rad_s;
-    for (std::size_t i = 0; i < objects_; ++i) world.objects[i] = things_[1 + i]->sampled->at(time);
+    for (std::size_t i = 0; i < objects_; ++i)
+        world.objects[i] = follows_source(1 + i) ? now_[1 + i].pose : things_[1 + i]->sampled->at(time);
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         const Joint& joint = joints_[i];
         const double angle_rad = things_[1 + objects_ + i]->sampled->at(time).position_world_m.x;

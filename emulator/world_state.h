@@ -4,14 +4,16 @@
 // Poses come with time tags, in any order. For a frame at time t: between two known motions it interpolates
 // (cubic in position, slerp in attitude), else it propagates the motion before t with its velocity and rate,
 // or, when all known ones lie after t, the first of them backwards. The last 8 motions of each thing are
-// kept.
+// kept. A thing with a source of motion (motion_source.h) is where that says until its first command.
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
+#include "emulator/motion_source.h"
 #include "render/bodies.h"
 #include "render/latest.h"
 #include "render/scene.h"
@@ -45,7 +47,7 @@ class WorldState {
   public:
     // motions[0] is the camera's body, then the objects. Owner thread.
     WorldState(std::span<const Motion> motions, const OriginConfig& origin,
-               std::span<const Joint> joints = {}, const Mount& mount = {});
+               std::span<const Joint> joints = {}, const Mount& mount = {}, MotionSources sources = {});
 
     // Any thread but the loop. False when there is no such thing.
     bool set(std::size_t thing, const Motion& motion, ShownCommand command);
@@ -65,6 +67,8 @@ class WorldState {
     // Another instant, told from what the last sample() knew: commands that came since do not count. Without
     // bodies they stay as they are in `world`.
     void sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const;
+    // How often a source was asked for an instant that it does not know, and stood still. Any thread.
+    std::uint64_t held() const { return held_.load(std::memory_order_relaxed); }
 
   private:
     struct History {
@@ -89,7 +93,14 @@ class WorldState {
     std::size_t objects_;
     OriginConfig origin_;
     Mount mount_;
+    MotionSources sources_;
+    // The loop's: where all things are at the instant that is being sampled, and which are commanded.
+    mutable std::vector<Motion> now_;
+    mutable std::vector<std::uint8_t> live_;
+    mutable std::atomic<std::uint64_t> held_{0};
 
+    void evaluate_sources(TimeTai time) const;
+    bool follows_source(std::size_t thing) const { return sources_.has(thing) && !live_[thing]; }
     bool write(Thing& thing, const Motion& motion, ShownCommand command);
 };
 

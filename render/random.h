@@ -23,6 +23,7 @@ enum class RandomPurpose : std::uint32_t {
     kFault = 10,        // of a fault on demand; index: its kind
     kPixelPlace = 11,   // of a ray in its pixel; index: sample
     kPointing = 32,     // of the camera's line of sight; pixel: sinusoid, index: axis
+    kAttitude = 33,     // of a body's attitude; pixel: sinusoid, index: thing and axis
 };
 
 struct RandomKey {

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "render/check.h"
+#include "render/time_system.h"
 
 namespace hilcam {
 namespace {
@@ -16,12 +17,7 @@ namespace {
 constexpr double kEpochJulianDay = 2440587.5;
 constexpr std::int64_t kNsPerDay = 86'400'000'000'000;
 
-struct CivilTime {
-    int year = 0, month = 0, day = 0, hour = 0, minute = 0;
-    double second = 0;
-};
-
-bool scan(std::string_view text, CivilTime& t) {
+bool scan(std::string_view text, CalendarTime& t) {
     const std::string copy(text);
     char t_or_space = 0;
     int used = 0;
@@ -45,17 +41,12 @@ TimeTai parse_utc(std::string_view text) {
         throw InputError("time '" + std::string(text) + "' " + why +
                          "; accepted: UTC as 2026-03-20T06:00:00.000Z, years 1950 to 2200");
     };
-    CivilTime t;
+    CalendarTime t;
     if (!scan(text, t)) refuse("is not a date and time");
     if (t.year < 1950 || t.year > 2200) refuse("is out of range");
-    // ERFA's UTC is a quasi Julian date whose day may have a leap second; only it may count those seconds.
-    double utc1, utc2, tai1, tai2;
-    const int status = eraDtf2d("UTC", t.year, t.month, t.day, t.hour, t.minute, t.second, &utc1, &utc2);
-    if (status < 0 || status > 1) refuse("does not exist in UTC");
-    if (eraUtctai(utc1, utc2, &tai1, &tai2) < 0) refuse("does not exist in UTC");
-    const double days = (tai1 - kEpochJulianDay);
-    return {static_cast<std::int64_t>(std::llround(days)) * kNsPerDay +
-            std::llround(((days - std::round(days)) + tai2) * static_cast<double>(kNsPerDay))};
+    const std::optional<TimeTai> time = from_calendar(t, TimeSystem::kUtc);
+    if (!time) refuse("does not exist in UTC");
+    return *time;
 }
 
 std::string format_utc(TimeTai time) {

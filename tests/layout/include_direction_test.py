@@ -14,7 +14,7 @@ ONLY_IN = {
     "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp", "emulator/structural_similarity.cpp"},
     "httplib": {"io/sink_preview.cpp"},
     "libusb": {"io/command_link_usb.cpp", "io/commands_usb.cpp", "io/usb_device.cpp"},
-    "erfa": {"render/bodies.cpp", "render/stars.cpp", "render/time.cpp"},
+    "erfa": {"render/bodies.cpp", "render/earth_frames.cpp", "render/stars.cpp", "render/time.cpp", "render/time_system.cpp"},
 }
 
 

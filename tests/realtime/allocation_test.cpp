@@ -18,7 +18,9 @@
 #include <optional>
 #include <thread>
 
+#include "emulator/attitude_laws.h"
 #include "emulator/emulator.h"
+#include "emulator/trajectories.h"
 #include "io/bytes.h"
 #include "io/fd.h"
 #include "io/gige_features.h"
@@ -246,6 +248,47 @@ TEST_F(Allocation, NorWithAScanningLine) {
 TEST_F(Allocation, NorWhileACameraIsStreamedFrom) {
     EXPECT_EQ(
         allocations({"outputs.gige.interface=127.83.4.1", "outputs.gige.serial=ALLOC"}, Loop::kStreaming), 0);
+}
+
+// A satellite by its element set that looks at one by an ephemeris, and a third that drifts beside it.
+TEST_F(Allocation, NorDoSourcesOfMotion) {
+    const Tle tle = read_tles(
+                        "1 25544U 98067A   14020.93268519  .00009878  00000-0  18200-3 0  5082\n"
+                        "2 25544  51.6498 109.4756 0003572  55.9686 274.8005 15.49815350868473\n",
+                        "iss.tle")
+                        .at(0);
+    OemSegment segment;
+    segment.center_name = "EARTH";
+    segment.frame = CcsdsFrame::kEarthFixed;
+    for (int i = 0; i < 20; ++i)
+        segment.states.push_back({tle.epoch + i * 60'000'000'000, {7e6, 1e5 * i, 0}, {0, 1e5 / 60, 0}});
+    segment.usable_start = segment.states.front().time, segment.usable_stop = segment.states.back().time;
+    Pointing pointing;
+    pointing.aim = {Aim::Kind::kThing, {}, {}, 1};
+    JitterBand band;
+    band.rms_rad = {1e-5, 1e-5, 1e-5};
+    const PlacedFrame lvlh{PlacedFrame::Kind::kLvlh, 0, {}};
+    std::vector<std::unique_ptr<MotionSource>> sources;
+    sources.push_back(std::make_unique<MotionSource>(make_tle(tle, 86400, "iss.tle"), make_pointing(pointing),
+                                                     AttitudeJitter(band, 1, 0, tle.epoch)));
+    sources.push_back(
+        std::make_unique<MotionSource>(make_oem({segment}, "t.oem"), make_turning({}, {}, tle.epoch)));
+    sources.push_back(std::make_unique<MotionSource>(make_drifting(lvlh, {{-200, 0, 0}, {}}, 1e-3, tle.epoch),
+                                                     make_turning(lvlh, {}, tle.epoch)));
+    const std::array<std::string, 3> names{"a", "b", "c"};
+    const std::array<Motion, 3> at_rest{};
+    WorldState world(at_rest, {}, {}, {}, MotionSources(std::move(sources), names));
+    WorldSnapshot snapshot;
+    snapshot.objects.resize(2);
+    ShownCommand shown;
+    world.sample(tle.epoch, snapshot, shown);
+    allocated = 0;
+    armed = true;
+    for (int i = 0; i < 30; ++i)
+        world.sample(tle.epoch + i * 60'000'000'000, snapshot, shown);  // and past its end
+    armed = false;
+    EXPECT_EQ(allocated.load(), 0);
+    EXPECT_GT(world.held(), 0u);
 }
 
 }  // namespace
