@@ -47,8 +47,8 @@ class WorldState {
     WorldState(std::span<const Motion> motions, const OriginConfig& origin,
                std::span<const Joint> joints = {}, const Mount& mount = {});
 
-    // Any thread but the loop. False when there is no such thing.
-    bool set(std::size_t thing, const Motion& motion, ShownCommand command);
+    // Any thread but the loop. False when there is no such thing. `alone`: what was known of it is forgotten.
+    bool set(std::size_t thing, const Motion& motion, ShownCommand command, bool alone = false);
     // The angle of an object's joint at an instant, and how fast it turns from then on. object, joint:
     // from 1. False when there is no such joint.
     struct JointMotion {
@@ -90,7 +90,7 @@ class WorldState {
     OriginConfig origin_;
     Mount mount_;
 
-    bool write(Thing& thing, const Motion& motion, ShownCommand command);
+    bool write(Thing& thing, const Motion& motion, ShownCommand command, bool alone = false);
 };
 
 }  // namespace hilcam
