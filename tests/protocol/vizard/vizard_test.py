@@ -191,7 +191,8 @@ class OpticalNavigation(unittest.TestCase):
                 numpy.testing.assert_array_equal(pixels(pictures[3]) >> 4, written(folder, "second", number))
             self.assertEqual(vizard.remarks(), [])
             self.assertEqual(report["commands"]["refused"], 0)
-            self.assertEqual([o["frames"] for o in report["outputs"] if o["name"].startswith("vizard")], [2, 2])
+            outputs = [o for c in report["cameras"] for o in c["outputs"] if o["name"].startswith("vizard")]
+            self.assertEqual([(o["name"], o["frames"]) for o in outputs], [("vizard camera 1", 2), ("vizard camera 2", 2)])
             client.close()
 
     def test_the_pictures_axes_are_basilisks(self):

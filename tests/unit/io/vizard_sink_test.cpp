@@ -62,10 +62,11 @@ TEST(VizardSink, GivingUpAtAnyMomentLosesNothingElse) {
         while (!stop) {
             const std::uint32_t w = wanted.load();
             sink.publish(frame_of(static_cast<std::uint16_t>(w)), record_of(w, w));
+            std::this_thread::yield();  // both may have one core
         }
     });
     int given = 0;
-    for (std::uint32_t i = 1; i <= 20'000; ++i) {
+    for (std::uint32_t i = 1; i <= 6'000; ++i) {
         sink.expect(i, {i});
         wanted = i;
         if (i % 3 == 0) sink.forget();
@@ -78,7 +79,7 @@ TEST(VizardSink, GivingUpAtAnyMomentLosesNothingElse) {
     }
     stop = true;
     loop.join();
-    EXPECT_EQ(given, 6667);
+    EXPECT_EQ(given, 2000);
 }
 
 }  // namespace
