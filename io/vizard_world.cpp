@@ -13,7 +13,8 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostRemarks = 100;  // of a run: a flood of them says no more
+// Of a run, and of all: a flood of them says no more.
+constexpr std::size_t kMostRemarks = 100, kMostRemarksInAll = 1000;
 constexpr std::size_t kNoCamera = SIZE_MAX;
 // Of the fields of view: pitch and focal length of data sheets are rounded.
 constexpr double kViewTolerance_ratio = 0.01;
@@ -54,9 +55,12 @@ VizardWorld::VizardWorld(const Rules& rules, VizardBench bench, Remark remark)
     : rules_(rules), bench_(std::move(bench)), remark_(std::move(remark)), start_(bench_.start) {}
 
 void VizardWorld::remark_once(const std::string& topic, const std::string& text) {
-    if (said_.size() >= kMostRemarks || !said_.insert(topic).second) return;
+    if (said_.size() >= kMostRemarks || said_in_all_ >= kMostRemarksInAll || !said_.insert(topic).second)
+        return;
     remark_(text);
-    if (said_.size() == kMostRemarks) remark_("more remarks than these are not shown");
+    ++said_in_all_;
+    if (said_.size() == kMostRemarks || said_in_all_ == kMostRemarksInAll)
+        remark_("more remarks than these are not shown");
 }
 
 bool VizardWorld::refuse(const std::string& reason) {
@@ -65,11 +69,12 @@ bool VizardWorld::refuse(const std::string& reason) {
 }
 
 void VizardWorld::take(VizardUpdate update) {
-    // An epoch begins a run.
+    const TimeTai before = time();
     if (update.epoch) {
-        said_.clear();
         epoch_known_ = true;
         if (rules_.time == VizardTime::kMessage) start_ = *update.epoch;
+        // Some scripts send it every step: a run begins where time goes back, too.
+        if (start_ + update.elapsed_ns < before) said_.clear();
     }
     if (!epoch_known_ && rules_.time == VizardTime::kMessage)
         remark("no message had an epoch (was hilcam started after the simulation?): time counts from " +

@@ -104,6 +104,7 @@ class VizardWorld {
     VizardBench bench_;
     Remark remark_;
     std::set<std::string> said_;
+    std::size_t said_in_all_ = 0;
     VizardUpdate update_;
     TimeTai start_;  // of the simulation
     bool epoch_known_ = false, known_ = false;

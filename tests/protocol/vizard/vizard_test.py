@@ -222,6 +222,19 @@ class OpticalNavigation(unittest.TestCase):
             numpy.testing.assert_array_equal(pixels(picture), rendered(folder, 20, looking_at_target(), 60) >> (BITS - 8))
             client.close()
 
+    def test_a_mosaic_gives_colours(self):
+        filters = ", ".join(f"{{name: {name}, transmission: {t}}}" for name, t in (("R", 1), ("G", 0.5), ("B", 0.25)))
+        with tempfile.TemporaryDirectory() as folder, \
+                Vizard(folder, f"camera.color_filter={{pattern: RG GB, filters: [{filters}]}}") as vizard:
+            client = vizard.connect()
+            picture = client.step(update(1, 60, 20, looking_at_target()), [1])[1]
+            client.close()
+            vizard.stop()
+            self.assertEqual(png_form(picture), (8, 2))  # 2: red, green, blue
+            image, mosaic = pixels(picture), written(folder, "first", 1) >> (BITS - 8)
+            for channel, x, y in ((0, 0, 0), (1, 1, 0), (1, 0, 1), (2, 1, 1)):
+                numpy.testing.assert_array_equal(image[y::2, x::2, channel], mosaic[y::2, x::2])
+
     def test_cameras_can_be_named(self):
         with tempfile.TemporaryDirectory() as folder, Vizard(folder, "commands.vizard.cameras=[{id: 3, camera: 1}]") as vizard:
             client = vizard.connect()

@@ -184,11 +184,27 @@ TEST_F(VizardWorldTest, WhatIsMissingIsNamedOnceInARun) {
     EXPECT_THAT(remarks,
                 ElementsAre("camera 1: no picture, as SIM_UPDATE has no spacecraft 'nobody'",
                             HasSubstr("asks for depth"), HasSubstr("SIM_UPDATE has no such camera")));
-    // The next run is told again.
+    // An epoch alone is no new run, as scripts may send it every step; the next run is told again.
     u.epoch = kEpoch;
     w.take(u);
     EXPECT_FALSE(w.shot(1, shot));
+    EXPECT_EQ(remarks.size(), 3u);
+    u.elapsed_ns = 1;
+    w.take(u);
+    EXPECT_FALSE(w.shot(1, shot));
     EXPECT_EQ(remarks.size(), 4u);
+}
+
+TEST_F(VizardWorldTest, AFloodOfRemarksEnds) {
+    VizardWorld w = world();
+    for (int run = 0; run < 30; ++run) {
+        VizardUpdate u = update();
+        u.elapsed_ns = 1'000'000 - run;
+        w.take(u);
+        for (int i = 0; i < 200; ++i) w.remark(std::to_string(i));
+        EXPECT_EQ(remarks.size(), run < 10 ? 101u * static_cast<unsigned>(run + 1) : 1010u) << run;
+    }
+    EXPECT_EQ(remarks.back(), "more remarks than these are not shown");
 }
 
 TEST_F(VizardWorldTest, TimeIsTheMessagesOrTheScenarios) {
