@@ -187,6 +187,9 @@ Fields fields(CommandsConfig& c) {
         optional(section("usb", c.usb, "the same from a USB device with a bulk pair"), c.has_usb),
         optional(section("functionfs", c.functionfs, "the same as a USB device (FunctionFS)"),
                  c.has_functionfs),
+        optional(section("vizard", c.vizard,
+                         "take Vizard's place for Basilisk (docs/vizard.md); with mode: lockstep"),
+                 c.has_vizard),
     };
 }
 
@@ -223,6 +226,24 @@ ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t in
     own.has_rays = false;
     own.models.rays = {};
     return own;
+}
+
+VizardBench vizard_bench(const ScenarioConfig& s) {
+    VizardBench bench;
+    bench.start = parse_utc(s.time_utc);
+    bench.origin = s.origin;
+    for (const ObjectConfig& object : s.objects) bench.objects.push_back(object.name);
+    for (std::size_t i = 0; i <= s.more_cameras.size(); ++i) {
+        const ScenarioConfig own = scenario_of_camera(s, i);
+        const auto [width, height] = frame_size(own.camera);
+        // Of the undistorted lens, over all rows that a frame shows.
+        const double half_m = 0.5 * static_cast<double>(height * own.camera.binning_y) * own.camera.pitch_m;
+        bench.cameras.push_back({{own.mount.position_m, own.mount.thing_from_camera},
+                                 2 * std::atan2(half_m, own.camera.focal_length_m),
+                                 width,
+                                 height});
+    }
+    return bench;
 }
 
 Fields fields(PluginConfig& p) {
@@ -307,6 +328,22 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
                          "; camera.shutter.line_time_us is " + plain(shutter.line_time_s * 1e6));
 }
 
+// A picture that is asked for is one frame of a world that waits for it, seen from where the message says.
+void check_vizard(const ScenarioConfig& s) {
+    if (s.mode != CameraMode::kLockstep)
+        throw InputError(
+            "commands.vizard needs 'mode: lockstep': one frame for each image that is asked for");
+    const std::size_t cameras = 1 + s.more_cameras.size();
+    for (const VizardCameraConfig& c : s.commands.vizard.cameras)
+        if (c.camera > static_cast<std::int64_t>(cameras))
+            throw InputError("commands.vizard.cameras: camera: found " + std::to_string(c.camera) +
+                             "; accepted: 1 to " + std::to_string(cameras));
+    for (const CameraConfig& c : s.more_cameras)
+        if (c.thing != 0)
+            throw InputError("more_cameras: on: found " + std::to_string(c.thing) +
+                             "; accepted with commands.vizard: 0, as its messages place the cameras");
+}
+
 }  // namespace
 
 std::string governor_off(const ScenarioConfig& s) {
@@ -356,6 +393,7 @@ void validate(const ScenarioConfig& s) {
         if (c.thing > static_cast<std::int64_t>(s.objects.size()))
             throw InputError("more_cameras: on: found " + std::to_string(c.thing) + "; accepted: 0 to " +
                              std::to_string(s.objects.size()) + ", the number of objects");
+    if (s.commands.has_vizard) check_vizard(s);
 }
 
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

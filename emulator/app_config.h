@@ -16,6 +16,7 @@
 #include "io/commands_udp.h"
 #include "io/commands_unix.h"
 #include "io/commands_usb.h"
+#include "io/commands_vizard.h"
 #include "io/height_map_file.h"
 #include "io/sink_files.h"
 #include "io/sink_gige.h"
@@ -149,12 +150,14 @@ void validate(const FaultConfig& fault);
 FaultOrder order_of(const FaultConfig& fault);
 
 struct CommandsConfig {
-    bool has_udp = false, has_tcp = false, has_unix = false, has_usb = false, has_functionfs = false;
+    bool has_udp = false, has_tcp = false, has_unix = false, has_usb = false, has_functionfs = false,
+         has_vizard = false;
     UdpCommandConfig udp;
     TcpCommandConfig tcp;
     UnixCommandConfig unix_socket;
     UsbCommandConfig usb;
     FunctionFsConfig functionfs;
+    VizardConfig vizard;
 };
 Fields fields(CommandsConfig& commands);
 
@@ -223,6 +226,9 @@ struct ScenarioConfig {
 };
 Fields fields(ScenarioConfig& scenario);
 void validate(const ScenarioConfig& scenario);
+
+// What the Vizard side is told of the bench.
+VizardBench vizard_bench(const ScenarioConfig& scenario);
 
 // The scenario as one of its cameras has it, counted from 0.
 ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index);

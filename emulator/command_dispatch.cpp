@@ -81,7 +81,8 @@ CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const CommandSo
     Motion motion = pose.motion;
     if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
     return for_cameras(0, [&](const CommandedCamera& c) {
-        return c.world->set(pose.object, motion, {source.sequence, source.arrival_monotonic_ns, {}})
+        return c.world->set(pose.object, motion, {source.sequence, source.arrival_monotonic_ns, {}},
+                            pose.alone)
                    ? CommandStatus::kAccepted
                    : CommandStatus::kUnknownObject;
     });
@@ -110,6 +111,7 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
     order.source = TriggerSource::kLine0;
     order.frames = e.frames;
     order.sequence = source.sequence;
+    order.at_any_time = e.at_any_time;
     if (clock_.lockstep()) {
         order.at_simulated = e.time;
         return expose_in_lockstep(order, source);

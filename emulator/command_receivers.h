@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulator/app_config.h"
+#include "emulator/camera_station.h"
 #include "io/command_receiver.h"
 
 namespace hilcam {
@@ -12,6 +13,10 @@ namespace hilcam {
 // `handler` and `faults` outlive them.
 std::vector<std::unique_ptr<CommandReceiver>> make_receivers(const CommandsConfig& config,
                                                              CommandHandler& handler, FaultBoard& faults);
+// That of Basilisk's Vizard protocol, and an output for it in every camera. Before the loops are made.
+std::unique_ptr<CommandReceiver> make_vizard(const ScenarioConfig& scenario,
+                                             const std::vector<std::unique_ptr<CameraStation>>& stations,
+                                             CommandHandler& handler);
 // All together.
 CommandReport report_of(const std::vector<std::unique_ptr<CommandReceiver>>& receivers);
 

@@ -59,6 +59,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_);
     if (limits.outputs) {
         receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());
+        if (scenario.commands.has_vizard) receivers_.push_back(make_vizard(scenario, stations_, *dispatch_));
         make_telemetry();
     }
     for (const auto& station : stations_) station->prepare(clock_);
@@ -118,7 +119,9 @@ HousekeepingFigures Emulator::housekeeping() {
 CommandReport Emulator::command_report() const { return report_of(receivers_); }
 
 bool Emulator::finished() const {
-    return std::all_of(stations_.begin(), stations_.end(),
+    const auto asks = [](const auto& receiver) { return receiver->asks_to_end(); };
+    return std::any_of(receivers_.begin(), receivers_.end(), asks) ||
+           std::all_of(stations_.begin(), stations_.end(),
                        [](const auto& s) { return s->loop().finished(); });
 }
 

@@ -149,7 +149,7 @@ TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
     if (order.frames == 0) order.frames = settings_.burst_frames;
     const std::uint64_t in = triggers_in_.load(std::memory_order_relaxed);
     if (limits_.lockstep && order.at_simulated.ns != 0) {
-        if (!(newest_simulated_ < order.at_simulated)) return TriggerResult::kTooEarly;
+        if (!order.at_any_time && !(newest_simulated_ < order.at_simulated)) return TriggerResult::kTooEarly;
         newest_simulated_ = order.at_simulated;
     }
     bool missed = in - triggers_out_.load(std::memory_order_acquire) == kMostWaiting;

@@ -90,8 +90,8 @@ WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& orig
     HILCAM_CHECK(!things_.empty());
 }
 
-bool WorldState::set(std::size_t thing, const Motion& motion, ShownCommand command) {
-    return thing <= objects_ && write(*things_[thing], motion, command);
+bool WorldState::set(std::size_t thing, const Motion& motion, ShownCommand command, bool alone) {
+    return thing <= objects_ && write(*things_[thing], motion, command, alone);
 }
 
 bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m,
@@ -104,11 +104,11 @@ bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMot
     return false;
 }
 
-bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command) {
+bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command, bool alone) {
     const std::lock_guard lock(writers_);
     History& history = thing.written;
     // What the scenario file said holds only until the first command.
-    if (history.command.arrival_monotonic_ns == 0) history.count = 0;
+    if (alone || history.command.arrival_monotonic_ns == 0) history.count = 0;
     history.insert(motion);
     history.command = command;
     history.command.time = motion.time;

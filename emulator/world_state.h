@@ -49,8 +49,8 @@ class WorldState {
     WorldState(std::span<const Motion> motions, const OriginConfig& origin,
                std::span<const Joint> joints = {}, const Mount& mount = {}, MotionSources sources = {});
 
-    // Any thread but the loop. False when there is no such thing.
-    bool set(std::size_t thing, const Motion& motion, ShownCommand command);
+    // Any thread but the loop. False when there is no such thing. `alone`: what was known of it is forgotten.
+    bool set(std::size_t thing, const Motion& motion, ShownCommand command, bool alone = false);
     // The angle of an object's joint at an instant, and how fast it turns from then on. object, joint:
     // from 1. False when there is no such joint.
     struct JointMotion {
@@ -101,7 +101,7 @@ class WorldState {
 
     void evaluate_sources(TimeTai time) const;
     bool follows_source(std::size_t thing) const { return sources_.has(thing) && !live_[thing]; }
-    bool write(Thing& thing, const Motion& motion, ShownCommand command);
+    bool write(Thing& thing, const Motion& motion, ShownCommand command, bool alone = false);
 };
 
 }  // namespace hilcam

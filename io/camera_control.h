@@ -78,6 +78,7 @@ struct TriggerOrder {
     TimeTai at_simulated;              // lockstep: the instant of the exposure's middle; ns = 0: a period on
     std::int64_t frames = 0;           // 0: the settings' burst_frames
     std::uint32_t sequence = 0;        // of the command
+    bool at_any_time = false;          // lockstep: also not after the frame before
 };
 
 // Changes take effect with the next frame whose exposure has not begun. All functions: any thread, never from

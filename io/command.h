@@ -17,6 +17,9 @@ struct PoseCommand {
     std::uint16_t object = 0;
     // motion.time: the instant the pose is true at, simulated TAI; ns = 0 means "on arrival".
     Motion motion;
+    // All that was known of the object's motion before is forgotten. Not on the wire: of senders that tell
+    // the whole world for each frame.
+    bool alone = false;
 };
 // The angle of an object's turning part. object and joint: from 1, in the scenario's order.
 struct JointCommand {
@@ -37,6 +40,8 @@ struct ExposeCommand {
     // period after it. Triggered: when the trigger comes; ns = 0: on arrival.
     TimeTai time;
     std::uint16_t frames = 0;  // 0: as the settings have it
+    // Lockstep: the time may also be that of the frame before, or an earlier one. Not on the wire, as above.
+    bool at_any_time = false;
 };
 struct FaultCommand {
     FaultOrder order;

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/check.h"
@@ -73,6 +74,24 @@ void write_frame(const std::filesystem::path& file, const DnImage& frame) {
     }
     if (!written)
         throw DeviceError(file.string() + ": cannot be written; is the folder there, writable and not full?");
+}
+
+std::string encode_png(std::span<std::uint8_t> samples, int width, int height, PngSamples kind) {
+    const bool rgb = kind == PngSamples::kRgb8;
+    if (rgb)  // OpenCV has blue first
+        for (std::size_t i = 0; i + 2 < samples.size(); i += 3) std::swap(samples[i], samples[i + 2]);
+    const cv::Mat picture(height, width,
+                          rgb                           ? CV_8UC3
+                          : kind == PngSamples::kGray16 ? CV_16UC1
+                                                        : CV_8UC1,
+                          samples.data());
+    std::vector<std::uint8_t> png;
+    try {
+        if (!cv::imencode(".png", picture, png, {cv::IMWRITE_PNG_COMPRESSION, 1})) return {};
+    } catch (const cv::Exception&) {
+        return {};
+    }
+    return {png.begin(), png.end()};
 }
 
 void write_raw(const std::filesystem::path& file, const DnImage& frame, const PixelLayout& layout) {

@@ -1,7 +1,10 @@
 #pragma once
 // Pictures on disk: frames as 16-bit PNG or TIFF, radiance as OpenEXR.
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "render/image.h"
 #include "render/mesh.h"
@@ -14,6 +17,10 @@ namespace hilcam {
 // Frames as they are: DN, right-aligned in 16 bits. The kind follows from the ending, .png or .tiff.
 // InputError for another ending, DeviceError when the file cannot be written.
 void write_frame(const std::filesystem::path& file, const DnImage& frame);
+// A PNG in memory, of rows without padding: 16-bit numbers little-endian, colours as red, green, blue. Empty
+// when it cannot be made.
+enum class PngSamples { kGray8, kGray16, kRgb8 };
+std::string encode_png(std::span<std::uint8_t> samples, int width, int height, PngSamples kind);
 // The bytes of a camera's memory, row after row without a header. DeviceError when it cannot be written.
 void write_raw(const std::filesystem::path& file, const DnImage& frame, const PixelLayout& layout);
 // One 32-bit float channel per bin, named "L_0.450_0.550um" [W m^-2 sr^-1 um^-1], or "electrons" [e-].

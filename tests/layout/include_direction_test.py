@@ -13,6 +13,9 @@ ONLY_IN = {
     "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
     "opencv2": {"io/image_file.cpp", "io/mesh_file.cpp", "emulator/structural_similarity.cpp"},
     "httplib": {"io/sink_preview.cpp"},
+    "google": {"io/vizard_message.cpp"},
+    "vizard.pb": {"io/vizard_message.cpp"},
+    "zmq": {"io/commands_vizard.cpp"},
     "libusb": {"io/command_link_usb.cpp", "io/commands_usb.cpp", "io/usb_device.cpp"},
     "erfa": {"render/bodies.cpp", "render/earth_frames.cpp", "render/stars.cpp", "render/time.cpp", "render/time_system.cpp"},
 }

@@ -80,6 +80,29 @@ TEST_F(PlateTest, LockstepGoesOnByTheFramePeriodAndNeverBack) {
     EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // nobody would answer
 }
 
+// For simulators that tell the whole world for each frame, and start anew.
+TEST_F(PlateTest, LockstepGoesToAnyTimeForWhoAsksAndForgetsWhatWasThere) {
+    LoopRig rig(scenario(), {}, {"mode=lockstep"});
+    rig.loop.start();
+    const std::int64_t times_s[] = {100, 100, 40, -1000};
+    for (int i = 0; i < 4; ++i) {
+        const TimeTai time = rig.start + times_s[i] * 1'000'000'000;
+        PoseCommand pose = pose_at(time, 0.01 * i);
+        pose.alone = true;
+        EXPECT_EQ(rig.send(pose), CommandStatus::kAccepted);
+        EXPECT_EQ(rig.send(ExposeCommand{time, 1, true}), CommandStatus::kAccepted) << i;
+    }
+    EXPECT_EQ(rig.send(expose(rig.start + 40'000'000'000)), CommandStatus::kAccepted);  // after -1000 s
+    EXPECT_EQ(rig.send(expose(rig.start)), CommandStatus::kTimeOutOfRange);
+    ASSERT_TRUE(rig.collector.wait_for(5));
+    rig.loop.stop();
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(rig.collector.frames[i].record.exposure_mid - rig.start, times_s[i] * 1'000'000'000) << i;
+        // As above: with what was known before, the pose would be a mixture.
+        EXPECT_NEAR(mean_x(rig.collector.frames[i]), 32 - 1.6 * static_cast<double>(i), 0.2) << i;
+    }
+}
+
 // --- triggers
 
 TEST_F(PlateTest, EveryTriggerGivesItsFramesAndEarlyOnesAreMissed) {
