@@ -1,7 +1,8 @@
 #pragma once
-// A client's side of hilcam's command protocol (docs/protocol.md): every command to bytes, every acknowledgement
-// and telemetry packet from bytes, in both dialects. C99 and C++, one file, for flight computers as well: no
-// allocation, no global state, no system call, no libc beyond memcpy, whatever the machine's byte order.
+// A client's side of hilcam's command protocol (docs/protocol.md): every command to bytes, every
+// acknowledgement and telemetry packet from bytes, in both dialects. C99 and C++, one file, for flight
+// computers as well: no allocation, no global state, no system call, no libc beyond memcpy, whatever the
+// machine's byte order.
 //
 // Sending and receiving is the caller's:
 //
@@ -15,9 +16,10 @@
 //     if (hilcam_decode(HILCAM_DIALECT_OWN, bytes, (size_t)got, &answer) == HILCAM_KIND_ACKNOWLEDGEMENT)
 //         printf("%s\n", hilcam_status_name(answer.as.acknowledgement.status));
 //
-// Encoders give the packet's length, or 0 when it does not fit in `room` bytes. They do not judge: what is out of
-// range is encoded as it is, and hilcam's answer says what is wrong. A double must be an IEEE 754 binary64.
-// Times are nanoseconds since 1970-01-01T00:00:00 TAI on hilcam's simulated clock. Threads: any, nothing is shared.
+// Encoders give the packet's length, or 0 when it does not fit in `room` bytes. They do not judge: what is
+// out of range is encoded as it is, and hilcam's answer says what is wrong. A double must be an IEEE 754
+// binary64. Times are nanoseconds since 1970-01-01T00:00:00 TAI on hilcam's simulated clock. Threads: any,
+// nothing is shared.
 
 #include <stddef.h>
 #include <stdint.h>
@@ -36,8 +38,9 @@ enum { HILCAM_DIALECT_OWN = 0, HILCAM_DIALECT_CFS = 1 };
 // --- commands
 
 typedef struct {
-    uint8_t dialect;    // HILCAM_DIALECT_OWN or HILCAM_DIALECT_CFS
-    uint16_t camera;    // which one settings, modes, exposures and faults are for, from 1; 0: every one; not in cfs
+    uint8_t dialect;  // HILCAM_DIALECT_OWN or HILCAM_DIALECT_CFS
+    uint16_t
+        camera;  // which one settings, modes, exposures and faults are for, from 1; 0: every one; not in cfs
     uint32_t sequence;  // the answer has it again; in cfs its low 14 bits travel
 } hilcam_envelope;
 
@@ -46,7 +49,8 @@ typedef struct {
     int64_t time_tai_ns;  // when the pose is true; 0: on arrival
     double position_m[3];
     double velocity_m_s[3];
-    double attitude_wxyz[4];  // turns body axes into world axes; the camera's +z is its boresight, +x right, +y down
+    double attitude_wxyz[4];  // turns body axes into world axes; the camera's +z is its boresight, +x right,
+                              // +y down
     double rate_rad_s[3];     // about the body's own axes
 } hilcam_pose;
 
@@ -255,20 +259,22 @@ static inline double hilcam_get_double_(hilcam_reader_* r) {
     return value;
 }
 
-// CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF (CCSDS 132.0-B-3, 4.1.6.2). Without a table: a command is a
-// hundred bytes. Over bytes that end in their own CRC it is 0.
+// CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF (CCSDS 132.0-B-3, 4.1.6.2). Without a table: a command
+// is a hundred bytes. Over bytes that end in their own CRC it is 0.
 static inline uint16_t hilcam_crc16(const uint8_t* bytes, size_t size) {
     unsigned crc = 0xFFFFu;
     for (size_t i = 0; i < size; ++i) {
         crc ^= (unsigned)bytes[i] << 8;
-        for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x8000u) != 0 ? (crc << 1 ^ 0x1021u) & 0xFFFFu : crc << 1;
+        for (int bit = 0; bit < 8; ++bit)
+            crc = (crc & 0x8000u) != 0 ? (crc << 1 ^ 0x1021u) & 0xFFFFu : crc << 1;
     }
     return (uint16_t)crc;
 }
 
 // --- encoders
 
-static inline hilcam_writer_ hilcam_begin_(const hilcam_envelope* e, unsigned function, uint8_t* bytes, size_t room) {
+static inline hilcam_writer_ hilcam_begin_(const hilcam_envelope* e, unsigned function, uint8_t* bytes,
+                                           size_t room) {
     hilcam_writer_ w;
     w.bytes = bytes, w.room = room, w.at = 0;
     hilcam_put_(&w, 0x1900u, 2);  // a telecommand with a secondary header, APID 0x100
@@ -303,7 +309,8 @@ static inline size_t hilcam_end_(const hilcam_envelope* e, hilcam_writer_* w) {
     return total;
 }
 
-static inline size_t hilcam_encode_pose(const hilcam_envelope* e, const hilcam_pose* pose, uint8_t* bytes, size_t room) {
+static inline size_t hilcam_encode_pose(const hilcam_envelope* e, const hilcam_pose* pose, uint8_t* bytes,
+                                        size_t room) {
     hilcam_writer_ w = hilcam_begin_(e, 1, bytes, room);
     hilcam_put_(&w, pose->object, 2);
     hilcam_put_(&w, 0, 2);
@@ -315,8 +322,8 @@ static inline size_t hilcam_encode_pose(const hilcam_envelope* e, const hilcam_p
     return hilcam_end_(e, &w);
 }
 
-static inline size_t hilcam_encode_settings(const hilcam_envelope* e, const hilcam_settings* s, uint8_t* bytes,
-                                            size_t room) {
+static inline size_t hilcam_encode_settings(const hilcam_envelope* e, const hilcam_settings* s,
+                                            uint8_t* bytes, size_t room) {
     hilcam_writer_ w = hilcam_begin_(e, 2, bytes, room);
     double values[3];
     values[0] = (s->mask & HILCAM_SET_EXPOSURE) != 0 ? s->exposure_s : 0;
@@ -337,7 +344,8 @@ static inline size_t hilcam_encode_stop(const hilcam_envelope* e, uint8_t* bytes
     return hilcam_end_(e, &w);
 }
 
-static inline size_t hilcam_encode_ping(const hilcam_envelope* e, uint64_t token, uint8_t* bytes, size_t room) {
+static inline size_t hilcam_encode_ping(const hilcam_envelope* e, uint64_t token, uint8_t* bytes,
+                                        size_t room) {
     hilcam_writer_ w = hilcam_begin_(e, 5, bytes, room);
     hilcam_put_(&w, token, 8);
     return hilcam_end_(e, &w);
@@ -367,8 +375,8 @@ static inline size_t hilcam_encode_fault(const hilcam_envelope* e, const hilcam_
     return hilcam_end_(e, &w);
 }
 
-static inline size_t hilcam_encode_expose(const hilcam_envelope* e, const hilcam_expose* expose, uint8_t* bytes,
-                                          size_t room) {
+static inline size_t hilcam_encode_expose(const hilcam_envelope* e, const hilcam_expose* expose,
+                                          uint8_t* bytes, size_t room) {
     hilcam_writer_ w = hilcam_begin_(e, 8, bytes, room);
     hilcam_put_(&w, expose->frames, 2);
     hilcam_put_(&w, 0, 2);
@@ -376,7 +384,8 @@ static inline size_t hilcam_encode_expose(const hilcam_envelope* e, const hilcam
     return hilcam_end_(e, &w);
 }
 
-static inline size_t hilcam_encode_mode(const hilcam_envelope* e, const hilcam_mode* mode, uint8_t* bytes, size_t room) {
+static inline size_t hilcam_encode_mode(const hilcam_envelope* e, const hilcam_mode* mode, uint8_t* bytes,
+                                        size_t room) {
     hilcam_writer_ w = hilcam_begin_(e, 9, bytes, room);
     hilcam_put_(&w, mode->triggered, 1);
     hilcam_put_(&w, 0, 1);
@@ -385,7 +394,8 @@ static inline size_t hilcam_encode_mode(const hilcam_envelope* e, const hilcam_m
 }
 
 // telemetry: a mask of HILCAM_TELL_FRAMES and HILCAM_TELL_HOUSEKEEPING; what is not in it ends.
-static inline size_t hilcam_encode_subscribe(const hilcam_envelope* e, unsigned telemetry, uint8_t* bytes, size_t room) {
+static inline size_t hilcam_encode_subscribe(const hilcam_envelope* e, unsigned telemetry, uint8_t* bytes,
+                                             size_t room) {
     hilcam_writer_ w = hilcam_begin_(e, 10, bytes, room);
     hilcam_put_(&w, telemetry, 1);
     hilcam_put_(&w, 0, 3);
@@ -444,9 +454,10 @@ static inline void hilcam_read_housekeeping_(hilcam_reader_* r, hilcam_housekeep
     h->clients = (uint32_t)hilcam_get_(r, 4);
 }
 
-// Exactly one packet, as a datagram brings it or hilcam_find() has cut it out. HILCAM_KIND_NONE: it is no answer of
-// hilcam's, or a damaged one.
-static inline hilcam_kind hilcam_decode(int dialect, const uint8_t* bytes, size_t size, hilcam_packet* packet) {
+// Exactly one packet, as a datagram brings it or hilcam_find() has cut it out. HILCAM_KIND_NONE: it is no
+// answer of hilcam's, or a damaged one.
+static inline hilcam_kind hilcam_decode(int dialect, const uint8_t* bytes, size_t size,
+                                        hilcam_packet* packet) {
     const int cfs = dialect == HILCAM_DIALECT_CFS;
     const size_t header = cfs ? 16 : 6, check = cfs ? 0 : 2;
     hilcam_reader_ r;
@@ -476,8 +487,9 @@ static inline hilcam_kind hilcam_decode(int dialect, const uint8_t* bytes, size_
     return packet->kind;
 }
 
-// The first whole answer among a stream's bytes (TCP, Unix sockets, USB): it begins at *at, its length is given.
-// 0: there is none yet; the first *at bytes belong to none and can go. Sync markers and damage are stepped over.
+// The first whole answer among a stream's bytes (TCP, Unix sockets, USB): it begins at *at, its length is
+// given. 0: there is none yet; the first *at bytes belong to none and can go. Sync markers and damage are
+// stepped over.
 static inline size_t hilcam_find(int dialect, const uint8_t* bytes, size_t size, size_t* at) {
     hilcam_packet packet;
     for (*at = 0; *at < size; ++*at) {
@@ -494,9 +506,10 @@ static inline size_t hilcam_find(int dialect, const uint8_t* bytes, size_t size,
 }
 
 static inline const char* hilcam_status_name(unsigned status) {
-    static const char* const names[] = {"accepted",         "bad length",   "bad header",     "unknown APID",
-                                        "bad checksum",     "unknown function", "bad argument", "unknown object",
-                                        "time out of range", "busy",         "not now"};
+    static const char* const names[] = {"accepted",     "bad length",     "bad header",
+                                        "unknown APID", "bad checksum",   "unknown function",
+                                        "bad argument", "unknown object", "time out of range",
+                                        "busy",         "not now"};
     return status < sizeof names / sizeof names[0] ? names[status] : "unknown status";
 }
 

@@ -39,7 +39,8 @@ Camera::Camera(const std::string& name) {
     errors.check(what);
     stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, errors));
     errors.check(what);
-    // A busy machine makes camera and client wait: ask for what is missing for three seconds before giving up.
+    // A busy machine makes camera and client wait: ask for what is missing for three seconds before giving
+    // up.
     g_object_set(stream_.get(), "frame-retention", 3'000'000u, "packet-request-ratio", 2.0, nullptr);
     const std::size_t payload_bytes = arv_camera_get_payload(camera_.get(), errors);
     errors.check(what);

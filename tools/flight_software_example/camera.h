@@ -1,6 +1,6 @@
 #pragma once
-// The flight camera: a GigE Vision one, opened with Aravis as any vendor's would be. Nothing here knows that it
-// is emulated, but that its frames say in GenICam chunks when they were taken on the simulated clock.
+// The flight camera: a GigE Vision one, opened with Aravis as any vendor's would be. Nothing here knows that
+// it is emulated, but that its frames say in GenICam chunks when they were taken on the simulated clock.
 
 #include <arv.h>
 

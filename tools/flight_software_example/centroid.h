@@ -4,8 +4,8 @@
 // Sky level and noise come from the picture's border; what is brighter than the level by some of its noise is
 // joined with what is near, the group with the most light is the target, and its centroid is weighted by the
 // light above the level. The group reaches a little past its bright pixels, so that the blurred edge and dim
-// parts count and no pixel flickers in and out at the threshold. Not modelled: a target that fills the border,
-// a body's limb behind it.
+// parts count and no pixel flickers in and out at the threshold. Not modelled: a target that fills the
+// border, a body's limb behind it.
 //
 // Pixels as OpenCV has them: the centre of the upper left one is (0, 0), +x right, +y down.
 

@@ -29,7 +29,8 @@ Link::Link(const std::string& endpoint) : endpoint_(endpoint) {
     const std::size_t colon = endpoint.rfind(':');
     sockaddr_in to{};
     to.sin_family = AF_INET;
-    if (colon == std::string::npos || inet_pton(AF_INET, endpoint.substr(0, colon).c_str(), &to.sin_addr) != 1)
+    if (colon == std::string::npos ||
+        inet_pton(AF_INET, endpoint.substr(0, colon).c_str(), &to.sin_addr) != 1)
         throw std::runtime_error("'" + endpoint + "': accepted: ADDRESS:PORT");
     to.sin_port = htons(static_cast<std::uint16_t>(std::stoul(endpoint.substr(colon + 1))));
     socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);

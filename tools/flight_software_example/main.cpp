@@ -1,9 +1,9 @@
-// A small flight program in a closed loop with hilcam: takes frames from its GigE Vision camera, finds the target,
-// and steers the vehicle so that the target stays in the middle of the picture through an approach.
+// A small flight program in a closed loop with hilcam: takes frames from its GigE Vision camera, finds the
+// target, and steers the vehicle so that the target stays in the middle of the picture through an approach.
 //
-// Two programs of a bench are in it. The flight software (camera, centroid, pointing) knows the pictures alone.
-// The dynamics (vehicle, link) move the vehicle as the pointing law asks, and tell hilcam where it is. What the
-// law asks for acts a processing delay after the exposure's middle, in both modes.
+// Two programs of a bench are in it. The flight software (camera, centroid, pointing) knows the pictures
+// alone. The dynamics (vehicle, link) move the vehicle as the pointing law asks, and tell hilcam where it is.
+// What the law asks for acts a processing delay after the exposure's middle, in both modes.
 //
 //   lockstep   one frame for each command, simulated time: the same bits on any machine, as slow as it is
 //   free-run   the camera at its own rate in real time; poses a hundred times a second
@@ -40,10 +40,12 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& o) {
-    app.add_option("--camera", o.camera, "IPv4 address or name of the GigE Vision camera")->capture_default_str();
+    app.add_option("--camera", o.camera, "IPv4 address or name of the GigE Vision camera")
+        ->capture_default_str();
     app.add_option("--commands", o.commands, "ADDRESS:PORT where hilcam listens")->capture_default_str();
     app.add_option("--log", o.log, "a line for each frame, CSV")->capture_default_str();
-    app.add_flag("--free-run", o.free_run, "in real time; else in lockstep, with 'hilcam run --set mode=lockstep'");
+    app.add_flag("--free-run", o.free_run,
+                 "in real time; else in lockstep, with 'hilcam run --set mode=lockstep'");
     app.add_option("--duration-s", o.duration_s, "of the approach, simulated")->capture_default_str();
     app.add_option("--frame-period-s", o.frame_period_s, "lockstep: between frames")->capture_default_str();
     app.add_option("--frames", o.frames, "lockstep: end after so many; 0: at the approach's end");
@@ -51,10 +53,12 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--from-m", o.from_m, "x y z of the rail's far end")->expected(3)->capture_default_str();
     app.add_option("--to-m", o.to_m, "x y z of its near end")->expected(3)->capture_default_str();
-    app.add_option("--off-pointing-mrad", o.off_pointing_mrad, "error at the start, about the camera's x and y")
+    app.add_option("--off-pointing-mrad", o.off_pointing_mrad,
+                   "error at the start, about the camera's x and y")
         ->expected(2)
         ->capture_default_str();
-    app.add_option("--focal-px", o.focal_px, "the camera's focal length, of its calibration")->capture_default_str();
+    app.add_option("--focal-px", o.focal_px, "the camera's focal length, of its calibration")
+        ->capture_default_str();
 }
 
 cv::Vec3d vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
@@ -98,9 +102,11 @@ class Approach {
             link_.expose(tag_ns);
             Frame frame;
             if (!camera_.take(std::chrono::seconds(20), frame))
-                throw std::runtime_error("no frame came for an exposure in lockstep; is the camera in that mode?");
+                throw std::runtime_error(
+                    "no frame came for an exposure in lockstep; is the camera in that mode?");
             if (frame.exposure_mid_tai_ns != tag_ns)
-                throw std::runtime_error("frame " + std::to_string(frame.id) + " is not the one that was asked for");
+                throw std::runtime_error("frame " + std::to_string(frame.id) +
+                                         " is not the one that was asked for");
             before = now;
             now = see(frame, {t_s, attitude_});
             // What the last frame asked for acts on until this one has been looked at.
@@ -182,8 +188,8 @@ class Approach {
         cv::Vec2d error_px;
         if (target) error_px = target->at_px - law_.camera().boresight_px;
         std::fprintf(log_.get(), "%llu,%.9f,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d,%.17g,%.17g,%.17g\n",
-                     static_cast<unsigned long long>(frame.id), truth.t_s, p[0], p[1], p[2], q.w, q.x, q.y, q.z,
-                     target ? 1 : 0, error_px[0], error_px[1], target ? target->light_dn : 0.0);
+                     static_cast<unsigned long long>(frame.id), truth.t_s, p[0], p[1], p[2], q.w, q.x, q.y,
+                     q.z, target ? 1 : 0, error_px[0], error_px[1], target ? target->light_dn : 0.0);
     }
 
     struct Close {

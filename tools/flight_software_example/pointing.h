@@ -27,7 +27,8 @@ struct CameraCalibration {
 
 class PointingLaw {
   public:
-    PointingLaw(const CameraCalibration& camera, const PointingGains& gains) : camera_(camera), gains_(gains) {}
+    PointingLaw(const CameraCalibration& camera, const PointingGains& gains)
+        : camera_(camera), gains_(gains) {}
 
     const CameraCalibration& camera() const { return camera_; }
     // Where the target was at the middle of an exposure; none: it was not seen, and the vehicle coasts.

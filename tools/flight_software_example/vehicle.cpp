@@ -20,8 +20,8 @@ Attitude Attitude::looking(const cv::Vec3d& direction, const cv::Vec3d& up) {
     const cv::Vec3d z = cv::normalize(direction);
     const cv::Vec3d y = cv::normalize(up.dot(z) * z - up);
     const cv::Vec3d x = y.cross(z);
-    return Attitude(cv::Quatd::createFromRotMat(
-        cv::Matx33d(x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2])));
+    return Attitude(
+        cv::Quatd::createFromRotMat(cv::Matx33d(x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2])));
 }
 
 void Attitude::offset(const cv::Vec3d& rotation_rad) {

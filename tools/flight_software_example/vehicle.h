@@ -2,8 +2,8 @@
 // What a dynamics simulator does on a bench: moves the vehicle. Its place runs along a rail, its attitude is
 // that of a rigid body with three equal moments of inertia and ideal actuators.
 //
-// World and body axes as hilcam has them: the body is the camera's, +x right, +y down in the picture, +z along
-// the boresight. Not modelled: gyroscopic coupling (none between equal moments), actuators' errors.
+// World and body axes as hilcam has them: the body is the camera's, +x right, +y down in the picture, +z
+// along the boresight. Not modelled: gyroscopic coupling (none between equal moments), actuators' errors.
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/quaternion.hpp>

@@ -1,11 +1,11 @@
-// A C99 program that talks to a running hilcam through tools/client/hilcam_client.h and POSIX sockets: every command
-// once with its answer, then poses at a steady rate whose answers and frames are checked one by one.
+// A C99 program that talks to a running hilcam through tools/client/hilcam_client.h and POSIX sockets: every
+// command once with its answer, then poses at a steady rate whose answers and frames are checked one by one.
 //
 //     talk ADDRESS PORT udp|tcp own|cfs SECONDS POSES_A_SECOND
 //
-// Prints a line of figures. Exit status 1, and what is wrong on standard error, when a command is not answered as
-// docs/protocol.md says, when an answer is missing, comes twice or out of order, or when a frame's pose is older than
-// that of the frame before it or has not the tag that was sent.
+// Prints a line of figures. Exit status 1, and what is wrong on standard error, when a command is not
+// answered as docs/protocol.md says, when an answer is missing, comes twice or out of order, or when a
+// frame's pose is older than that of the frame before it or has not the tag that was sent.
 #define _POSIX_C_SOURCE 200809L
 
 #include <arpa/inet.h>
@@ -22,8 +22,8 @@
 
 #include "tools/client/hilcam_client.h"
 
-// As many as hilcam's receiving socket holds without its reader (200 kB of datagrams that count for 768 bytes each)
-// twice over: no burst of this program overflows it, however long that reader waits for a processor.
+// As many as hilcam's receiving socket holds without its reader (200 kB of datagrams that count for 768 bytes
+// each) twice over: no burst of this program overflows it, however long that reader waits for a processor.
 enum { MOST_UNANSWERED = 128, REMEMBERED_TAGS = 8192, STREAM_BYTES = 65536 };
 #define PATIENCE_NS 10000000000LL
 
@@ -83,7 +83,8 @@ static int receive(link_t* l, int timeout_ms, hilcam_packet* packet) {
 }
 
 // Sends and waits for the answer, past telemetry.
-static hilcam_acknowledgement ask(link_t* l, const uint8_t* bytes, size_t size, uint32_t sequence, unsigned expected) {
+static hilcam_acknowledgement ask(link_t* l, const uint8_t* bytes, size_t size, uint32_t sequence,
+                                  unsigned expected) {
     hilcam_packet packet;
     if (size == 0) problem(l, "a command was not encoded; its sequence", sequence);
     send_all(l, bytes, size);
@@ -91,7 +92,8 @@ static hilcam_acknowledgement ask(link_t* l, const uint8_t* bytes, size_t size, 
         const hilcam_acknowledgement* a = &packet.as.acknowledgement;
         if (packet.kind != HILCAM_KIND_ACKNOWLEDGEMENT || a->sequence != on_wire(l, sequence)) continue;
         if (a->status != expected) {
-            fprintf(stderr, "talk: function %u: %s: %s\n", a->function, hilcam_status_name(a->status), a->reason);
+            fprintf(stderr, "talk: function %u: %s: %s\n", a->function, hilcam_status_name(a->status),
+                    a->reason);
             problem(l, "another status was expected", expected);
         }
         return *a;
@@ -105,13 +107,14 @@ static hilcam_acknowledgement ask(link_t* l, const uint8_t* bytes, size_t size, 
 static void every_command(link_t* l) {
     uint8_t b[HILCAM_MOST_PACKET_BYTES];
     hilcam_envelope e = next_envelope(l);
-    if (ask(l, b, hilcam_encode_ping(&e, 0x0123456789ABCDEFu, b, sizeof b), e.sequence, HILCAM_ACCEPTED).token !=
-        0x0123456789ABCDEFu)
+    if (ask(l, b, hilcam_encode_ping(&e, 0x0123456789ABCDEFu, b, sizeof b), e.sequence, HILCAM_ACCEPTED)
+            .token != 0x0123456789ABCDEFu)
         problem(l, "the ping's token came back changed", e.sequence);
     e = next_envelope(l);
     hilcam_settings settings;
     settings.mask = HILCAM_SET_EXPOSURE | HILCAM_SET_GAIN;
-    settings.exposure_s = 0.0002, settings.gain_db = 0, settings.frame_rate_hz = -1;  // not in the mask: not looked at
+    settings.exposure_s = 0.0002, settings.gain_db = 0,
+    settings.frame_rate_hz = -1;  // not in the mask: not looked at
     ask(l, b, hilcam_encode_settings(&e, &settings, b, sizeof b), e.sequence, HILCAM_ACCEPTED);
     e = next_envelope(l);
     settings.gain_db = 1e6;
@@ -141,15 +144,15 @@ static void every_command(link_t* l) {
     mode.triggered = 0, mode.burst_frames = 0;
     ask(l, b, hilcam_encode_mode(&e, &mode, b, sizeof b), e.sequence, HILCAM_ACCEPTED);
     e = next_envelope(l);
-    ask(l, b, hilcam_encode_subscribe(&e, HILCAM_TELL_FRAMES | HILCAM_TELL_HOUSEKEEPING, b, sizeof b), e.sequence,
-        HILCAM_ACCEPTED);
+    ask(l, b, hilcam_encode_subscribe(&e, HILCAM_TELL_FRAMES | HILCAM_TELL_HOUSEKEEPING, b, sizeof b),
+        e.sequence, HILCAM_ACCEPTED);
 }
 
 // --- poses at a steady rate
 
 typedef struct {
-    uint32_t first;                   // sequence of the first pose
-    uint32_t sent, answered;          // poses
+    uint32_t first;                    // sequence of the first pose
+    uint32_t sent, answered;           // poses
     int64_t tags_ns[REMEMBERED_TAGS];  // by pose's number
     unsigned long frames, fresh, housekeeping, dropped;
     uint32_t newest_shown;   // pose's number + 1
@@ -158,7 +161,8 @@ typedef struct {
 
 static void check_answer(link_t* l, flight_t* f, const hilcam_acknowledgement* a) {
     if (a->status != HILCAM_ACCEPTED) problem(l, "a pose was refused; its number", f->answered);
-    if (a->sequence != on_wire(l, f->first + f->answered)) problem(l, "answers are not in order at", f->answered);
+    if (a->sequence != on_wire(l, f->first + f->answered))
+        problem(l, "answers are not in order at", f->answered);
     ++f->answered;
 }
 
@@ -170,10 +174,12 @@ static void check_report(link_t* l, flight_t* f, const hilcam_frame_report* r) {
     if (mask == 0x3FFFu && f->newest_shown > 0)  // 14 bits: the one next to what was shown before
         number = f->newest_shown - 1 + ((number - (f->newest_shown - 1)) & mask);
     if (number >= f->sent) {
-        if (f->newest_shown > 0) problem(l, "a frame shows a pose that was not sent, or an older one", r->pose_sequence);
+        if (f->newest_shown > 0)
+            problem(l, "a frame shows a pose that was not sent, or an older one", r->pose_sequence);
         return;
     }
-    if (number + 1 < f->newest_shown) problem(l, "a frame shows an older pose than the one before it", number);
+    if (number + 1 < f->newest_shown)
+        problem(l, "a frame shows an older pose than the one before it", number);
     if (number + 1 > f->newest_shown) ++f->fresh;
     f->newest_shown = number + 1;
     if (f->sent - number < REMEMBERED_TAGS && f->tags_ns[number % REMEMBERED_TAGS] != r->pose_time_tai_ns)
@@ -208,7 +214,8 @@ static void send_pose(link_t* l, flight_t* f, int64_t tag_ns, double t_s) {
     memset(&pose, 0, sizeof pose);
     pose.time_tai_ns = tag_ns;
     pose.position_m[0] = -30 - 0.001 * t_s, pose.velocity_m_s[0] = -0.001;
-    pose.attitude_wxyz[0] = 0.70710678118654752, pose.attitude_wxyz[2] = 0.70710678118654752;  // +z along the world's +x
+    pose.attitude_wxyz[0] = 0.70710678118654752,
+    pose.attitude_wxyz[2] = 0.70710678118654752;  // +z along the world's +x
     f->tags_ns[f->sent % REMEMBERED_TAGS] = tag_ns;
     send_all(l, bytes, hilcam_encode_pose(&e, &pose, bytes, sizeof bytes));
     ++f->sent;
@@ -220,7 +227,8 @@ static void fly(link_t* l, flight_t* f, double seconds, double rate_hz) {
     const int64_t asked_ns = now_ns();
     const int64_t simulated_ns =
         ask(l, b, hilcam_encode_ping(&e, 1, b, sizeof b), e.sequence, HILCAM_ACCEPTED).simulated_tai_ns;
-    const int64_t start_ns = now_ns(), to_simulated_ns = simulated_ns - (asked_ns + (start_ns - asked_ns) / 2);
+    const int64_t start_ns = now_ns(),
+                  to_simulated_ns = simulated_ns - (asked_ns + (start_ns - asked_ns) / 2);
     const uint32_t total = (uint32_t)(seconds * rate_hz + 0.5);
     int64_t last_progress_ns = start_ns;
     f->first = l->sequence;
@@ -243,7 +251,8 @@ static void fly(link_t* l, flight_t* f, double seconds, double rate_hz) {
     // The frames that show the last poses.
     const int64_t until_ns = now_ns() + 2000000000;
     while (now_ns() < until_ns && f->newest_shown < f->sent) take_answers(l, f, 50);
-    if (f->newest_shown != f->sent) problem(l, "no frame shows the last pose; the newest shown", f->newest_shown);
+    if (f->newest_shown != f->sent)
+        problem(l, "no frame shows the last pose; the newest shown", f->newest_shown);
 }
 
 static int open_link(const char* address, const char* port, int is_stream) {
@@ -277,10 +286,12 @@ int main(int argc, char** argv) {
     flight.next_count[0] = flight.next_count[1] = UINT32_MAX;
     every_command(&link);
     fly(&link, &flight, atof(argv[5]), atof(argv[6]));
-    printf("{\"commands\": %lu, \"poses\": %lu, \"answered\": %lu, \"frames\": %lu, \"frames_with_a_new_pose\": %lu, "
-           "\"housekeeping\": %lu, \"telemetry_dropped\": %lu, \"problems\": %lu}\n",
-           (unsigned long)link.sequence, (unsigned long)flight.sent, (unsigned long)flight.answered, flight.frames,
-           flight.fresh, flight.housekeeping, flight.dropped, link.problems);
+    printf(
+        "{\"commands\": %lu, \"poses\": %lu, \"answered\": %lu, \"frames\": %lu, \"frames_with_a_new_pose\": "
+        "%lu, "
+        "\"housekeeping\": %lu, \"telemetry_dropped\": %lu, \"problems\": %lu}\n",
+        (unsigned long)link.sequence, (unsigned long)flight.sent, (unsigned long)flight.answered,
+        flight.frames, flight.fresh, flight.housekeeping, flight.dropped, link.problems);
     close(link.socket);
     return link.problems == 0 ? 0 : 1;
 }

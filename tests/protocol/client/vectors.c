@@ -1,10 +1,11 @@
-// What tools/client/hilcam_client.h makes of numbers, for client_test.py, which feeds the same ones to the other
-// encoders. Lines on standard input, an answer on standard output for each; numbers are 64 bits in hexadecimal,
-// doubles by their bits, signed ones in two's complement.
+// What tools/client/hilcam_client.h makes of numbers, for client_test.py, which feeds the same ones to the
+// other encoders. Lines on standard input, an answer on standard output for each; numbers are 64 bits in
+// hexadecimal, doubles by their bits, signed ones in two's complement.
 //
 //     encode DIALECT CAMERA SEQUENCE FUNCTION NUMBERS...   the packet's bytes
-//     decode DIALECT BYTES                                 kind, count and fields; a reason by its bytes, last
-//     find DIALECT BYTES                                   where the first whole answer begins, and its length
+//     decode DIALECT BYTES                                 kind, count and fields; a reason by its bytes,
+//     last find DIALECT BYTES                                   where the first whole answer begins, and its
+//     length
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +31,8 @@ static int64_t signed_of(uint64_t bits) {
 }
 static void put(uint64_t value) { printf(" %llx", (unsigned long long)value); }
 
-static size_t encode(const hilcam_envelope* e, unsigned function, const uint64_t* n, uint8_t* bytes, size_t room) {
+static size_t encode(const hilcam_envelope* e, unsigned function, const uint64_t* n, uint8_t* bytes,
+                     size_t room) {
     switch (function) {
         case 1: {
             hilcam_pose pose;
@@ -52,9 +54,12 @@ static size_t encode(const hilcam_envelope* e, unsigned function, const uint64_t
             settings.frame_rate_hz = number_of(n[3]);
             return hilcam_encode_settings(e, &settings, bytes, room);
         }
-        case 3: return hilcam_encode_start(e, bytes, room);
-        case 4: return hilcam_encode_stop(e, bytes, room);
-        case 5: return hilcam_encode_ping(e, n[0], bytes, room);
+        case 3:
+            return hilcam_encode_start(e, bytes, room);
+        case 4:
+            return hilcam_encode_stop(e, bytes, room);
+        case 5:
+            return hilcam_encode_ping(e, n[0], bytes, room);
         case 6: {
             hilcam_joint joint;
             joint.object = (uint16_t)n[0];
@@ -86,8 +91,10 @@ static size_t encode(const hilcam_envelope* e, unsigned function, const uint64_t
             mode.burst_frames = (uint16_t)n[1];
             return hilcam_encode_mode(e, &mode, bytes, room);
         }
-        case 10: return hilcam_encode_subscribe(e, (unsigned)n[0], bytes, room);
-        default: return 0;
+        case 10:
+            return hilcam_encode_subscribe(e, (unsigned)n[0], bytes, room);
+        default:
+            return 0;
     }
 }
 
@@ -124,7 +131,8 @@ static void print_decoded(unsigned dialect, const uint8_t* bytes, size_t size) {
         const hilcam_housekeeping* h = &p.as.housekeeping;
         put(h->mode), put(h->running), put((uint64_t)h->simulated_tai_ns), put((uint64_t)h->monotonic_ns);
         put(bits_of(h->uptime_s)), put(h->frames), put(bits_of(h->frame_rate_hz)), put(h->deadline_misses);
-        put(h->commands_received), put(h->commands_refused), put(h->commands_lost), put(bits_of(h->latency_p50_s));
+        put(h->commands_received), put(h->commands_refused), put(h->commands_lost),
+            put(bits_of(h->latency_p50_s));
         put(bits_of(h->latency_p99_s)), put(bits_of(h->temperature_c)), put(h->faults), put(h->clients);
     }
     printf("\n");
@@ -133,7 +141,8 @@ static void print_decoded(unsigned dialect, const uint8_t* bytes, size_t size) {
 static size_t bytes_of(const char* text, uint8_t* bytes) {
     size_t size = 0;
     unsigned byte;
-    while (size < MOST_STREAM_BYTES && sscanf(text + 2 * size, "%2x", &byte) == 1) bytes[size++] = (uint8_t)byte;
+    while (size < MOST_STREAM_BYTES && sscanf(text + 2 * size, "%2x", &byte) == 1)
+        bytes[size++] = (uint8_t)byte;
     return size;
 }
 
@@ -147,7 +156,8 @@ int main(void) {
         uint64_t n[MOST_NUMBERS] = {strtoull(first, NULL, 16)};
         if (strcmp(verb, "encode") == 0) {
             const char* word;
-            for (size_t i = 1; i < MOST_NUMBERS && (word = strtok(NULL, " \n")) != NULL; ++i) n[i] = strtoull(word, NULL, 16);
+            for (size_t i = 1; i < MOST_NUMBERS && (word = strtok(NULL, " \n")) != NULL; ++i)
+                n[i] = strtoull(word, NULL, 16);
             print_encoded(n);
         } else {
             const char* text = strtok(NULL, " \n");

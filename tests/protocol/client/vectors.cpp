@@ -1,7 +1,8 @@
 // What hilcam's own codec makes of numbers, for client_test.py. Lines as vectors.c has them:
 //
 //     encode DIALECT CAMERA SEQUENCE FUNCTION NUMBERS...   a command's bytes
-//     answer DIALECT APID COUNT NUMBERS...                 the bytes of an acknowledgement (the last word is its
+//     answer DIALECT APID COUNT NUMBERS...                 the bytes of an acknowledgement (the last word is
+//     its
 //                                                          reason's bytes) or of telemetry
 //     faults                                               each kind's name and number
 
@@ -58,9 +59,12 @@ Command command_of(Line& in) {
             if (mask & 4) settings.frame_rate_hz = frame_rate_hz;
             return settings;
         }
-        case 3: return StartCommand{};
-        case 4: return StopCommand{};
-        case 5: return PingCommand{in.u64()};
+        case 3:
+            return StartCommand{};
+        case 4:
+            return StopCommand{};
+        case 5:
+            return PingCommand{in.u64()};
         case 6: {
             JointCommand joint;
             joint.object = in.as<std::uint16_t>();
