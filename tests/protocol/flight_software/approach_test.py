@@ -42,7 +42,7 @@ more_cameras:
       gain_dn_e: 4
       offset_dn: 64
       bits: 16
-      exposure_ms: 0.1
+      exposure_ms: 0.3
       frame_rate_hz: 5
     outputs:
       files: {{folder: "{folder}/light", format: raw, every_nth: {every_nth}}}
