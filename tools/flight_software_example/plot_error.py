@@ -1,16 +1,17 @@
 #!/usr/bin/python3
 """The centroid's error through an approach, from the log of hilcam-flight-example: figures as JSON, and a plot.
 
-    plot_error.py LOG.csv [--out PLOT.png] [--settled-from-s 30] [--light TRUE_LIGHT.csv]
+    plot_error.py LOG.csv [--out PLOT.png] [--settled-from-s 30] [--light LIGHT.csv] [--reference REFERENCE.csv]
 
-Three errors, each the distance in pixels between the boresight and the target, as its root mean square over both axes of
-all frames from --settled-from-s on:
+Up to three errors, each the distance in pixels between the boresight and the target's centre of light, as its root mean
+square over all frames from --settled-from-s on:
 
-  measured  the target's centre of light as the flight software found it in the camera's frames
-  pose      the line of sight to one point of the target, from the poses alone. The point is the centre of light: its two
-            coordinates across the line of sight, in metres, are what fits the measured places best, together with a
-            constant in pixels that would tell of a wrong boresight. That constant is not taken off the error.
-  light     with --light (columns frame, error_x_px, error_y_px): the true centre of light, of the same frames without noise
+  measured  as the flight software found it in the camera's frames
+  light     with --light (columns frame, error_x_px, error_y_px): the true one, of the same instants without noise
+  pose      with --reference (columns range_m, x_m, y_m): the one that follows from the commanded poses and from where on the
+            target, across the line of sight, its centre of light is from that far; no frame of the flight is in it
+
+tests/protocol/flight_software/approach_test.py writes both files.
 """
 import argparse
 import csv
@@ -50,22 +51,21 @@ class Log:
         across, down, along = numpy.einsum("ijn,nj->in", axes, -self.position_m)
         return FOCAL_PX * numpy.stack([across / along, down / along], axis=1)
 
-    def pose_error(self):
-        """(the line of sight to the centre of light by the poses [px], its place [m], the boresight's error [px], rest [px])."""
-        per_metre = FOCAL_PX / self.range_m
-        design = numpy.stack([per_metre, numpy.ones_like(per_metre)], axis=1)
-        target = self.measured_px - self.origin_px()
-        fit, *_ = numpy.linalg.lstsq(design[self.settled], target[self.settled], rcond=None)
-        rest = rms((target - design @ fit)[self.settled])
-        return self.origin_px() + per_metre[:, None] * fit[0], fit[0], fit[1], rest
+    def pose_error(self, reference):
+        """reference: rows of range and the centre of light's place from the target's origin, all [m]."""
+        reference = reference[numpy.argsort(reference[:, 0])]
+        place_m = [numpy.interp(self.range_m, reference[:, 0], reference[:, axis]) for axis in (1, 2)]
+        return self.origin_px() + FOCAL_PX / self.range_m[:, None] * numpy.stack(place_m, axis=1)
 
-    def figures(self):
-        pose_px, light_m, boresight_px, rest_px = self.pose_error()
-        return {"frames": len(self.frame), "not_found": int((~self.found).sum()),
-                "first_px": float(numpy.linalg.norm(self.measured_px[0])),
-                "settled_frames": int(self.settled.sum()), "measured_rms_px": rms(self.measured_px[self.settled]),
-                "pose_rms_px": rms(pose_px[self.settled]), "centre_of_light_m": light_m.tolist(),
-                "boresight_error_px": boresight_px.tolist(), "fit_rest_rms_px": rest_px}
+    def figures(self, light=None, reference=None):
+        figures = {"frames": len(self.frame), "not_found": int((~self.found).sum()),
+                   "first_px": float(numpy.linalg.norm(self.measured_px[0])), "settled_frames": int(self.settled.sum()),
+                   "measured_rms_px": rms(self.measured_px[self.settled])}
+        if light is not None:
+            figures["light_rms_px"] = rms(light[1][light[2]])
+        if reference is not None:
+            figures["pose_rms_px"] = rms(self.pose_error(reference)[self.settled])
+        return figures
 
 
 def light_error(file, log):
@@ -78,28 +78,37 @@ def light_error(file, log):
     return log.time_s[index], numpy.array([place[1:] for place in places]), log.settled[index]
 
 
-def plot(log, light, out):
+def read_reference(file):
+    return numpy.loadtxt(file, delimiter=",", skiprows=1, ndmin=2)
+
+
+def plot(log, light, reference, out):
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
     figure, (top, middle, bottom) = pyplot.subplots(3, 1, figsize=(9, 9), sharex=True, height_ratios=(3, 3, 1.3),
                                                     layout="constrained")
-    pose_px = log.pose_error()[0]
-    figures = log.figures()
-    top.semilogy(log.time_s[log.found], numpy.linalg.norm(log.measured_px[log.found], axis=1), lw=1, label="measured in the frames")
-    top.semilogy(log.time_s, numpy.linalg.norm(pose_px, axis=1), lw=1, label="by the poses")
-    if light:
-        top.semilogy(light[0], numpy.linalg.norm(light[1], axis=1), ".", ms=3, label="true centre of light")
-    top.axhline(0.1, color="0.5", lw=0.8, ls="--")
-    top.set_ylabel("error [px]")
-    top.legend(loc="upper right")
-    top.set_title(f"settled: {figures['measured_rms_px']:.3f} px RMS measured, {figures['pose_rms_px']:.3f} px by the poses")
+    figures = log.figures(light, reference)
     first = log.time_s[log.settled][0]
     after = log.time_s >= first
+    top.semilogy(log.time_s[log.found], numpy.linalg.norm(log.measured_px[log.found], axis=1), lw=0.8, color="C0",
+                 label=f"measured in the frames, {figures['measured_rms_px']:.3f} px RMS")
     for axis, name in enumerate("xy"):
-        middle.plot(log.time_s[after], log.measured_px[after, axis], lw=0.7, alpha=0.6, label=f"{name}, measured")
-        middle.plot(log.time_s[after], pose_px[after, axis], lw=1.2, label=f"{name}, by the poses")
-    middle.axvline(first, color="0.5", lw=0.8, ls="--")
+        middle.plot(log.time_s[after], log.measured_px[after, axis], lw=0.7, color=f"C{4 * axis}", alpha=0.7,
+                    label=f"{name}, measured")
+    if light is not None:
+        top.semilogy(light[0], numpy.linalg.norm(light[1], axis=1), ".", ms=2, color="C2",
+                     label=f"true centre of light, {figures['light_rms_px']:.3f} px RMS")
+    if reference is not None:
+        pose_px = log.pose_error(reference)
+        top.semilogy(log.time_s, numpy.linalg.norm(pose_px, axis=1), lw=1, color="C1",
+                     label=f"by the poses, {figures['pose_rms_px']:.3f} px RMS")
+        for axis, name in enumerate("xy"):
+            middle.plot(log.time_s[after], pose_px[after, axis], lw=1.4, color=f"C{1 + 2 * axis}", label=f"{name}, by the poses")
+    top.axhline(0.1, color="0.5", lw=0.8, ls="--")
+    top.axvline(first, color="0.5", lw=0.8, ls="--")
+    top.set_ylabel("error [px]")
+    top.legend(loc="upper right", title=f"RMS: from {first:.0f} s on")
     middle.set_ylabel("settled error [px]")
     middle.legend(ncols=4, loc="upper left")
     bottom.plot(log.time_s, log.range_m, color="0.3")
@@ -116,17 +125,16 @@ def main():
     parser.add_argument("--out", help="plot, PNG or SVG")
     parser.add_argument("--settled-from-s", type=float, default=30)
     parser.add_argument("--light", help="true centres of light, CSV")
+    parser.add_argument("--reference", help="where on the target the centre of light is, CSV")
     options = parser.parse_args()
     log = Log(options.log, options.settled_from_s)
     if not log.settled.any():
         sys.exit(f"{options.log}: no frame with the target after {options.settled_from_s} s")
     light = light_error(options.light, log) if options.light else None
-    figures = log.figures()
-    if light:
-        figures["light_rms_px"] = rms(light[1][light[2]])
-    print(json.dumps(figures, indent=2))
+    reference = read_reference(options.reference) if options.reference else None
+    print(json.dumps(log.figures(light, reference), indent=2))
     if options.out:
-        plot(log, light, options.out)
+        plot(log, light, reference, options.out)
 
 
 if __name__ == "__main__":
