@@ -34,7 +34,7 @@ struct Options {
     double processing_delay_s = 0.1;  // lockstep; in free-run it takes what it takes
     std::int64_t frames = 0;          // lockstep; 0: until the approach is over
     std::vector<double> from_m = {1879.4, -684.0, 0};
-    std::vector<double> to_m = {469.8, -171.0, 0};
+    std::vector<double> to_m = {470.5, -169.1, 1};     // past the target: the line of sight turns on the way
     std::vector<double> off_pointing_mrad = {9, -20};  // about x and y, at the start
     double focal_px = 25e-3 / 5.5e-6;
 };
