@@ -78,7 +78,7 @@ class Approach {
           law_({o.focal_px, {0.5 * (camera_.width_px() - 1), 0.5 * (camera_.height_px() - 1)}}, {}),
           rail_{vec3(o.from_m), vec3(o.to_m), o.duration_s},
           // The target is known to be near the world's origin, as a coarse sensor would say.
-          attitude_(Attitude::looking(-rail_.from_m, {0, 0, 1})),
+          attitude_(Attitude::looking(-rail_.from_m, {0, 0.5, 0.866})),
           log_(std::fopen(o.log.c_str(), "w")) {
         if (!log_) throw std::runtime_error(o.log + ": cannot be written");
         attitude_.offset(1e-3 * cv::Vec3d(o.off_pointing_mrad[0], o.off_pointing_mrad[1], 0));

@@ -26,7 +26,6 @@ EXAMPLE = SOURCE / "tools/flight_software_example"
 sys.path[:0] = [str(HERE.parent / "gige"), str(EXAMPLE)]
 from bench import Emulator  # noqa: E402
 from hilcam_client import Client, Expose, Ping, Pose  # noqa: E402
-from latency import look_back  # noqa: E402
 import plot_error  # noqa: E402
 
 ADDRESS = "127.0.23.15"
@@ -81,15 +80,18 @@ def fly(emulator, log, *options):
     return json.loads(result.stdout)
 
 
-def look_at_the_origin(emulator, places):
-    """Two frames from each place: upright, upside down."""
+def look_at_the_origin(emulator, log, rows):
+    """Two frames from each place: rolled as the flight was there, and upside down."""
     with Client(f"127.0.0.1:{emulator.port}", timeout_s=20) as client:
         time_ns = client.send(Ping()).simulated_tai_ns
-        for place in places:
-            w, x, y, z = look_back(place)
+        off_rad = log.origin_px() / plot_error.FOCAL_PX
+        for row in rows:
+            # The flight's attitude, turned by the little that its boresight is off the origin; hilcam makes the norm 1.
+            (w, x, y, z), (a, b) = log.attitude[row], off_rad[row] / 2
+            w, x, y, z = w + x * b - y * a, x - w * b - z * a, y + w * a - z * b, z + x * a + y * b
             for attitude in ((w, x, y, z), (-z, y, -x, w)):  # a half turn about the boresight
                 time_ns += 200_000_000
-                client.send(Pose(0, time_ns, place, attitude_wxyz=attitude))
+                client.send(Pose(0, time_ns, tuple(log.position_m[row]), attitude_wxyz=attitude))
                 client.send(Expose(1, time_ns))
 
 
@@ -103,7 +105,7 @@ class Approach(unittest.TestCase):
                 cls.log = log = plot_error.Log(log_file)
                 first = numpy.flatnonzero(log.settled)[0]
                 at = numpy.linspace(first, len(log.frame) - 1, REFERENCES).round().astype(int)
-                look_at_the_origin(emulator, [tuple(place) for place in log.position_m[at]])
+                look_at_the_origin(emulator, log, at)
                 cls.report = emulator.stop()
             lines = ["frame,error_x_px,error_y_px"]
             lines += [f"{frame},{x},{y}" for frame in log.frame[::5] for x, y in [centre_of_light(folder, frame)]]
