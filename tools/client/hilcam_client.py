@@ -21,6 +21,7 @@ from typing import ClassVar, Optional, Tuple, Union
 
 HILCAM, CFS = "hilcam", "cfs"  # dialects
 MOST_PACKET_BYTES = 256
+MOST_REASON_BYTES = 96
 ACCEPTED = 0
 STATUS_NAMES = ("accepted", "bad length", "bad header", "unknown APID", "bad checksum", "unknown function", "bad argument",
                 "unknown object", "time out of range", "busy", "not now")
@@ -256,7 +257,7 @@ def decode(packet, dialect=HILCAM):
         return None
     if identification == 0x0901 and len(body) >= 26:
         function, status, sequence, token, at_ns, reason_bytes = struct.unpack(">BBxIQqH", body[1:26])
-        if len(body) - 26 != reason_bytes:
+        if len(body) - 26 != reason_bytes or reason_bytes > MOST_REASON_BYTES:
             return None
         return Acknowledgement(function & 0x7F, status, sequence, token, at_ns, body[26:].decode(errors="replace"), count)
     if identification == 0x0902:

@@ -37,6 +37,7 @@ struct Options {
     std::vector<double> to_m = {470.5, -169.1, 1};     // past the target: the line of sight turns on the way
     std::vector<double> off_pointing_mrad = {9, -20};  // about x and y, at the start
     double focal_px = 25e-3 / 5.5e-6;
+    PointingGains gains;
 };
 
 void add_options(CLI::App& app, Options& o) {
@@ -59,6 +60,9 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--focal-px", o.focal_px, "the camera's focal length, of its calibration")
         ->capture_default_str();
+    app.add_option("--natural-frequency-rad-s", o.gains.natural_frequency_rad_s, "of the pointing loop")
+        ->capture_default_str();
+    app.add_option("--damping-ratio", o.gains.damping_ratio, "of the pointing loop")->capture_default_str();
 }
 
 cv::Vec3d vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
@@ -75,7 +79,7 @@ class Approach {
         : options_(o),
           link_(o.commands),
           camera_(o.camera),
-          law_({o.focal_px, {0.5 * (camera_.width_px() - 1), 0.5 * (camera_.height_px() - 1)}}, {}),
+          law_({o.focal_px, {0.5 * (camera_.width_px() - 1), 0.5 * (camera_.height_px() - 1)}}, o.gains),
           rail_{vec3(o.from_m), vec3(o.to_m), o.duration_s},
           // The target is known to be near the world's origin, as a coarse sensor would say.
           attitude_(Attitude::looking(-rail_.from_m, {0, 0.5, 0.866})),
@@ -185,7 +189,7 @@ class Approach {
     void write(const Frame& frame, const Sample& truth, const std::optional<Centroid>& target) {
         const cv::Vec3d p = rail_.position_m(truth.t_s);
         const cv::Quatd& q = truth.attitude.world_from_body();
-        cv::Vec2d error_px;
+        cv::Vec2d error_px(std::nan(""), std::nan(""));
         if (target) error_px = target->at_px - law_.camera().boresight_px;
         std::fprintf(log_.get(), "%llu,%.9f,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d,%.17g,%.17g,%.17g\n",
                      static_cast<unsigned long long>(frame.id), truth.t_s, p[0], p[1], p[2], q.w, q.x, q.y,

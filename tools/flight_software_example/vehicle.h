@@ -11,7 +11,7 @@
 namespace flight {
 
 // From one place to another with minimum jerk, at rest at both ends: s = 10 x^3 - 15 x^4 + 6 x^5 (Flash and
-// Hogan 1985, J. Neuroscience 5(7), eq. 3). It stays at the ends before and after.
+// Hogan 1985, J. Neuroscience 5(7), 1688). It stays at the ends before and after.
 struct Rail {
     cv::Vec3d from_m, to_m;
     double duration_s = 100;

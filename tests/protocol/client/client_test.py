@@ -189,6 +189,28 @@ class Decoders(unittest.TestCase):
             self.assertIsNone(h.decode(packet), packet.hex())
             self.assertEqual(c, "0", packet.hex())
 
+    def test_random_bytes_are_judged_alike(self):
+        """Lengths, bodies and kinds at random, with a right CRC; vectors.c is built with sanitizers."""
+        values, packets = Values(5), []
+        for _ in range(3000):
+            kind = values.rng.choice((1, 2, 3, 4))
+            size = values.rng.choice((0, 1, 9, 25, 26, 27, 80, 108, 122, 123, values.rng.randrange(248)))
+            body = bytes((values.rng.choice((1, 1, 1, 0)), kind - 1)) + values.rng.randbytes(size)
+            body = body[:size]
+            if kind == 1 and size >= 26 and values.rng.random() < 0.8:
+                body = body[:24] + (size - 26).to_bytes(2, "big") + body[26:]
+            packet = struct.pack(">HHH", 0x0900 | kind, values.rng.getrandbits(16), (size + 1) & 0xFFFF) + body
+            packets.append(packet + h.crc16(packet).to_bytes(2, "big"))
+        packets += [b"", b"\x09"] + [values.rng.randbytes(values.rng.randrange(1, 300)) for _ in range(1000)]
+        for dialect in (0, 1):
+            cs = ask(C, [f"decode {dialect} {packet.hex()}" for packet in packets])
+            kinds = [h.decode(packet, DIALECTS[dialect]) for packet in packets]
+            for packet, c, mine in zip(packets, cs, kinds, strict=True):
+                self.assertEqual(c.split()[0], f"{APIDS[type(mine)]:x}" if mine else "0", packet.hex())
+            if dialect == 0:
+                self.assertGreater(sum(kind is not None for kind in kinds), 100)
+            ask(C, [f"find {dialect} {packet.hex()}" for packet in packets])
+
     def test_both_find_the_packets_of_a_stream(self):
         for dialect in DIALECTS:
             values = Values(4)

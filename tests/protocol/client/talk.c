@@ -22,8 +22,8 @@
 
 #include "tools/client/hilcam_client.h"
 
-// As many as hilcam's receiving socket holds without its reader (200 kB of datagrams that count for 768 bytes
-// each) twice over: no burst of this program overflows it, however long that reader waits for a processor.
+// Half of what hilcam's receiving socket holds by Linux's default (256 datagrams of this size in 212992
+// bytes): no burst of this program overflows it, however long its reader waits for a processor.
 enum { MOST_UNANSWERED = 128, REMEMBERED_TAGS = 8192, STREAM_BYTES = 65536 };
 #define PATIENCE_NS 10000000000LL
 
