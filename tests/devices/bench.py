@@ -14,6 +14,7 @@ from PIL import Image
 
 HILCAM = pathlib.Path(os.environ["HILCAM"])
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "tools/client"))
 SCENARIO = SOURCE / "tests/devices/camera.yaml"
 MODULE = pathlib.Path(os.environ.get("V4L2LOOPBACK", ""))  # the v4l2loopback.ko to test with
 TOOLS = pathlib.Path(os.environ.get("DEVICE_TOOLS", ""))

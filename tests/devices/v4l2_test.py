@@ -9,6 +9,7 @@ import unittest
 
 import bench
 from bench import DEVICE, Emulator, HEIGHT, Loopback, WIDTH, ids_of, run
+from hilcam_client import crc16
 
 FRAMES = 8
 FILTERS = "camera.color_filter.pattern={} {}"
@@ -165,15 +166,6 @@ def decode_row(row):
     assert values["mark"] == b"HCMR" and values["version"] == 1 and values["length"] == 80
     assert crc16(row[:80]) == 0
     return values
-
-
-def crc16(data):
-    value = 0xFFFF
-    for byte in data:
-        value ^= byte << 8
-        for _ in range(8):
-            value = (value << 1 ^ 0x1021 if value & 0x8000 else value << 1) & 0xFFFF
-    return value
 
 
 class MetadataRow(unittest.TestCase):

@@ -6,26 +6,18 @@ import pathlib
 import re
 import signal
 import socket
-import struct
 import subprocess
+import sys
 import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[2]
+sys.path.insert(0, str(SOURCE / "tools/client"))
+from hilcam_client import HILCAM, Client, Expose, Fault  # noqa: E402
+
 SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
 os.environ.setdefault("HILCAM_CACHE", tempfile.gettempdir() + f"/hilcam_test_cache_{os.getuid()}")
-
-
-# Kinds of faults by their numbers in the command protocol.
-FAULTS = {
-    "packet_drop": 1, "packet_duplicate": 2, "packet_reorder": 3, "packet_delay": 4, "packet_corrupt": 5,
-    "packet_wrong_id": 6, "packet_truncate": 7, "leader_lost": 8, "trailer_lost": 9, "resend_refused": 10,
-    "resend_delayed": 11, "resend_wrong_id": 12, "bandwidth_cap": 13, "frame_drop": 20, "frame_repeat": 21,
-    "wrong_size_y": 22, "timestamp_step": 30, "timestamp_drift": 31, "timestamp_freeze": 32, "block_id_wrap": 33,
-    "control_silence": 40, "control_slow": 41, "control_busy": 42, "control_denied": 43, "heartbeat_ignored": 44,
-    "device_reset": 50, "link_down": 51, "ip_change": 52, "test_packet_limit": 53, "image_stuck": 80, "image_black": 81,
-    "image_saturated": 82, "image_bit_flips": 83, "image_tear": 84}
 
 
 def free_port():
@@ -44,8 +36,9 @@ class Emulator:
     """`hilcam run` with one GigE Vision camera; ends with the block or by stop(), which gives the report."""
 
     def __init__(self, hilcam, address, folder, *sets, scenario=SCENARIO, port=None, serial=None, arguments=(),
-                 namespace=None):
+                 namespace=None, dialect=HILCAM):
         self.hilcam, self.address, self.folder = str(hilcam), address, pathlib.Path(folder)
+        self.dialect, self.pings = dialect, 0
         self.port = free_port() if port is None else port
         self.report_file = self.folder / f"report_{self.port}.json"
         self.log_file = self.folder / f"hilcam_{self.port}.log"
@@ -68,6 +61,7 @@ class Emulator:
         for _ in range(600):
             if self.process.poll() is not None:
                 raise RuntimeError("the emulator ended: " + self.log())
+            self.pings += 1
             if self.send("ping", check=False).returncode == 0:
                 return
             time.sleep(0.05)
@@ -77,43 +71,36 @@ class Emulator:
         return self.log_file.read_text()
 
     def send(self, *arguments, check=True):
-        result = subprocess.run([*self.namespace, self.hilcam, "send", "--to", f"127.0.0.1:{self.port}", "--timeout-ms", "500",
-                                 *map(str, arguments)], capture_output=True, text=True, timeout=120)
+        result = subprocess.run([*self.namespace, self.hilcam, "send", "--to", f"127.0.0.1:{self.port}", "--dialect",
+                                 self.dialect, "--timeout-ms", "500", *map(str, arguments)], capture_output=True, text=True,
+                                timeout=120)
         if check and result.returncode != 0:
             raise RuntimeError(f"send {arguments}: {result.stdout}{result.stderr}")
         return result
 
+    def client(self):
+        return Client(f"127.0.0.1:{self.port}", dialect=self.dialect)
+
     def fault(self, kind, rate=1.0, value=0.0, from_frame=0, frames=0, duration_s=0.0):
         """Orders a fault: fault("packet_drop", rate=0.02, frames=10)."""
-        self._command(7, struct.pack(">BxxxddQQd", FAULTS[kind], rate, value, from_frame, frames, duration_s))
+        self._order(Fault(kind, rate, value, from_frame, frames, duration_s))
 
     def clear_faults(self):
-        self._command(7, struct.pack(">BxxxddQQd", 0, 0, 0, 0, 0, 0))
+        self._order(Fault())
 
     def expose(self, frames):
         """In lockstep: takes so many frames."""
-        self._command(8, struct.pack(">HxxQ", frames, 0))
+        self._order(Expose(frames))
 
     def frames(self):
         """Taken so far, by housekeeping."""
         line = self.send("watch", "--housekeeping", "--json", "--duration-s", 1.5).stdout.splitlines()[-1]
         return json.loads(line)["frames"]
 
-    def _command(self, function, payload):
-        """A command of docs/protocol.md, until it is answered."""
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-            sender.connect(("127.0.0.1", self.port))
-            sender.settimeout(1.0)
-            for _ in range(5):
-                sender.send(command_packet(function, 1, payload))
-                try:
-                    answer = sender.recv(2048)
-                except (TimeoutError, ConnectionRefusedError):
-                    continue
-                if answer[8] != 0:
-                    raise RuntimeError(f"command {function} is refused: status {answer[8]} {answer[32:-2]!r}")
-                return
-        raise RuntimeError("no answer to a command: " + self.log())
+    def _order(self, command):
+        """Until it is answered; throws RuntimeError when it is refused or never is."""
+        with self.client() as client:
+            client.send(command, tries=5)
 
     def memory_bytes(self):
         """Resident."""
@@ -184,27 +171,6 @@ class FrameFiles:
 
     def ids(self):
         return sorted(int(path.stem.split("_")[1]) for path in self.folder.glob(f"frame_*.{self.ending}"))
-
-
-# --- commands of hilcam's own protocol (docs/protocol.md), for those who send many
-
-def crc16(data):
-    value = 0xFFFF
-    for byte in data:
-        value ^= byte << 8
-        for _ in range(8):
-            value = (value << 1 ^ 0x1021 if value & 0x8000 else value << 1) & 0xFFFF
-    return value
-
-
-def command_packet(function, sequence, payload):
-    body = struct.pack(">BBHI", 1, function, 0, sequence) + payload
-    packet = struct.pack(">HHH", 0x1900, 0xC000 | sequence & 0x3FFF, len(body) + 2 - 1) + body
-    return packet + struct.pack(">H", crc16(packet))
-
-
-def pose_packet(sequence, position, attitude=(1, 0, 0, 0), time_tag=0):
-    return command_packet(1, sequence, struct.pack(">HHq3d3d4d3d", 0, 0, time_tag, *position, 0, 0, 0, *attitude, 0, 0, 0))
 
 
 # --- Aravis's test programs

@@ -13,7 +13,6 @@ exposure: at a frame rate of f, poses arrive anywhere in the period 1/f. Prints 
 import argparse
 import math
 import pathlib
-import socket
 import sys
 import tempfile
 import threading
@@ -22,9 +21,10 @@ import time
 import gi
 
 import gvcp_client as g
-from bench import Emulator, SCENARIO, percentile, pose_packet
+from bench import Emulator, SCENARIO, percentile
 from genicam_client import Features
 from gvsp_client import chunks_of
+from hilcam_client import Client, Pose
 
 gi.require_version("Aravis", "0.8")
 from gi.repository import Aravis  # noqa: E402
@@ -71,22 +71,17 @@ class Sender(threading.Thread):
     def run(self):
         radius, height = math.hypot(*self.start_m[:2]), self.start_m[2]
         begin = math.atan2(self.start_m[1], self.start_m[0])
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
-            out.connect(("127.0.0.1", self.port))
-            out.setblocking(False)
-            sequence, due = 0, time.monotonic()
+        with Client(f"127.0.0.1:{self.port}") as client:
+            client.sequence, due = 1, time.monotonic()
             while not self.stopping:
-                sequence += 1
+                sequence = client.sequence
                 angle = begin + 0.02 * sequence * self.period_s
                 position = (radius * math.cos(angle), radius * math.sin(angle), height)
-                packet = pose_packet(sequence, position, look_back(position))
+                pose = Pose(position_m=position, attitude_wxyz=look_back(position))
                 self.sent_ns[sequence] = time.monotonic_ns()
-                out.send(packet)
-                try:
-                    while True:
-                        out.recv(2048)  # acknowledgements
-                except BlockingIOError:
-                    pass
+                client.post(pose)
+                while client.receive() is not None:
+                    pass  # acknowledgements
                 # No rhythm with the frames: the wait is spread over half a period to one and a half.
                 due += self.period_s * (0.5 + (sequence * 0.6180339887) % 1)
                 time.sleep(max(0.0, due - time.monotonic()))

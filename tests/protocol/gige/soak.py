@@ -22,9 +22,10 @@ import threading
 import time
 
 import gvcp_client as g
-from bench import SCENARIO, Emulator, camera_test_figures, pose_packet, tool
+from bench import SCENARIO, Emulator, camera_test_figures, tool
 from genicam_client import Features
 from gvsp_client import StreamReceiver
+from hilcam_client import NoAnswer, Pose
 from latency import look_back
 
 # "As fast as the camera can", which some clients ask for, is the configured rate: what this machine can render is another
@@ -127,22 +128,17 @@ class Soak:
                 self.stopping.wait(0.5)
 
     def poses(self):
-        import socket
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
-            out.connect(("127.0.0.1", self.emulator.port))
-            out.setblocking(False)
-            sequence = 0
+        with self.emulator.client() as client:
             while not self.stopping.wait(0.01):
-                sequence += 1
-                angle = 0.0005 * sequence
+                angle = 0.0005 * client.sequence
                 position = (26 * math.cos(angle), 26 * math.sin(angle), 7)
                 try:
-                    out.send(pose_packet(sequence, position, look_back(position)))
-                    while True:
-                        out.recv(2048)
-                except OSError:
+                    client.post(Pose(position_m=position, attitude_wxyz=look_back(position)))
+                    while client.receive() is not None:
+                        pass
+                except NoAnswer:
                     pass
-            self.count("poses", sequence)
+            self.count("poses", client.sequence)
 
     def faults(self):
         rng = random.Random(self.rng.random())

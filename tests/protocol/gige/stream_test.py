@@ -7,10 +7,10 @@ import sys
 import unittest
 
 import gvcp_client as g
-from bench import pose_packet
 from camera_case import CLIENT, OTHER, CameraTest, StreamTest
 from genicam_client import Features
 from gvsp_client import StreamReceiver
+from hilcam_client import Pose
 
 CameraTest.hilcam = sys.argv[1]
 CameraTest.address = "127.0.23.4"
@@ -233,18 +233,15 @@ class Chunks(StreamTest):
         self.stop()
 
     def test_a_frame_says_which_pose_it_shows(self):
-        import socket
         self.chunks_on()
         stream = self.streaming()
         stream.take(2)
-        sequence = 77_000
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-            sender.connect(("127.0.0.1", self.emulator.port))
+        with self.emulator.client() as sender:
+            sender.sequence = 77_001
             shown = []
-            for _ in range(10):
-                sequence += 1
+            for turn in range(10):
                 # Looking along +x of the world, away from the target: a quarter turn about +y.
-                sender.send(pose_packet(sequence, (22.0 + sequence % 10, 15, 7), (0.5**0.5, 0, 0.5**0.5, 0)))
+                sequence = sender.post(Pose(position_m=(22.0 + turn, 15, 7), attitude_wxyz=(0.5**0.5, 0, 0.5**0.5, 0)))
                 values = self.feature.chunk_values(stream.take(1)[0])
                 shown.append((values["ChunkPoseSequence"], values["ChunkPoseTime"], values["ChunkExposureMid"]))
             self.eventually("the last pose is shown", lambda: self.feature.chunk_values(

@@ -1,0 +1,276 @@
+#!/usr/bin/python3
+"""The clients of tools/client beside hilcam's own codec, byte for byte, and against the running program.
+
+    client_test.py HILCAM VECTORS_C VECTORS_CPP TALK
+"""
+import dataclasses
+import os
+import pathlib
+import random
+import re
+import struct
+import subprocess
+import sys
+import unittest
+
+import pose_stream
+import hilcam_client as h
+
+VALUES = 400  # of each command and answer, in each dialect
+DIALECTS = (h.HILCAM, h.CFS)
+SPECIAL = (0.0, -0.0, 1.0, -1.0, 5e-324, -5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, float("inf"),
+           float("-inf"), float("nan"))
+I64 = (0, 1, -1, -2**63, 2**63 - 1)
+
+
+def ask(program, lines):
+    result = subprocess.run([program], input="\n".join(lines) + "\n", capture_output=True, text=True, check=True, timeout=120)
+    return result.stdout.splitlines()
+
+
+def bits(value):
+    """The number as vectors.c has it."""
+    if isinstance(value, float):
+        return f"{struct.unpack('>Q', struct.pack('>d', value))[0]:x}"
+    return f"{int(value) & 0xFFFFFFFFFFFFFFFF:x}"
+
+
+class Values:
+    """Random ones, and those at the ends of their types now and then."""
+
+    def __init__(self, seed):
+        self.rng = random.Random(seed)
+
+    def unsigned(self, width):
+        return self.rng.choice((0, 1, 2**width - 1, self.rng.getrandbits(width), self.rng.getrandbits(width)))
+
+    def i64(self):
+        return self.rng.choice((*I64, self.rng.getrandbits(64) - 2**63, self.rng.getrandbits(62)))
+
+    def f64(self):
+        if self.rng.random() < 0.2:
+            return self.rng.choice(SPECIAL)
+        value = struct.unpack(">d", struct.pack(">Q", self.rng.getrandbits(64)))[0]
+        return value if value == value else 0.25  # a signalling NaN may turn quiet in any register
+
+    def vector(self, count=3):
+        return tuple(self.f64() for _ in range(count))
+
+    def command(self, kind):
+        """(command, its numbers)."""
+        if kind is h.Pose:
+            c = h.Pose(self.unsigned(16), self.i64(), self.vector(), self.vector(), self.vector(4), self.vector())
+            return c, (c.object, c.time_tai_ns, *c.position_m, *c.velocity_m_s, *c.attitude_wxyz, *c.rate_rad_s)
+        if kind is h.Settings:
+            mask, values = self.rng.randrange(8), self.vector()
+            return h.Settings(*(v if mask >> i & 1 else None for i, v in enumerate(values))), (mask, *values)
+        if kind is h.Joint:
+            numbers = (self.unsigned(16), self.unsigned(16), self.i64(), self.f64(), self.f64())
+        elif kind is h.Fault:
+            # hilcam's own encoder writes a rate of 1 and no more where all faults end.
+            numbers = (self.rng.choice(list(h.FAULTS.values())), self.f64(), self.f64(), self.unsigned(64), self.unsigned(64),
+                       self.f64()) if self.rng.random() < 0.9 else (0, 1.0, 0.0, 0, 0, 0.0)
+        elif kind is h.Expose:
+            numbers = (self.unsigned(16), self.i64())
+        elif kind is h.Mode:
+            numbers = (self.rng.random() < 0.5, self.unsigned(16))
+        elif kind is h.Subscribe:
+            told = (self.rng.random() < 0.5, self.rng.random() < 0.5)
+            return h.Subscribe(*told), (told[0] | told[1] << 1,)
+        else:
+            numbers = (self.unsigned(64),) if kind is h.Ping else ()
+        return kind(*numbers), numbers
+
+    def answer(self, kind):
+        count = self.unsigned(14)
+        if kind is h.Acknowledgement:
+            reason = "".join(self.rng.choice("abc XYZ.09'é") for _ in range(self.rng.choice((0, 1, 40, 48))))
+            return h.Acknowledgement(self.rng.randrange(128), self.rng.randrange(256), self.unsigned(32), self.unsigned(64),
+                                     self.i64(), reason, count)
+        if kind is h.FrameReport:
+            return h.FrameReport(self.unsigned(8), self.unsigned(64), self.i64(), self.i64(), self.f64(), self.f64(),
+                                 self.unsigned(32), self.unsigned(32), self.i64(), self.i64(), self.unsigned(64),
+                                 self.unsigned(32), count)
+        return h.Housekeeping(self.rng.randrange(3), self.rng.randrange(2), self.i64(), self.i64(), self.f64(),
+                              self.unsigned(64), self.f64(), *(self.unsigned(64) for _ in range(4)), *self.vector(),
+                              self.unsigned(32), self.unsigned(32), count)
+
+
+APIDS = {h.Acknowledgement: 0x101, h.FrameReport: 0x102, h.Housekeeping: 0x103}
+
+
+def words_of(answer):
+    """Kind, count and fields as vectors.c prints them; the reason by its bytes."""
+    fields = [getattr(answer, f.name) for f in dataclasses.fields(answer)]
+    count, numbers = fields[-1], fields[:-1]
+    words = [f"{APIDS[type(answer)]:x}", bits(count)]
+    if isinstance(answer, h.Acknowledgement):
+        return [*words, *map(bits, numbers[:-1]), numbers[-1].encode().hex()]
+    return [*words, *map(bits, numbers)]
+
+
+def encoded_by_hilcam(answers, dialect):
+    """Packets, from the program's own encoder."""
+    lines = []
+    for answer in answers:
+        apid, count, *fields = words_of(answer)
+        if isinstance(answer, h.Acknowledgement):
+            fields[-1] = f"reason {fields[-1]}"
+        lines.append(" ".join(["answer", str(DIALECTS.index(dialect)), apid, count, *fields]))
+    return [bytes.fromhex(line) for line in ask(CPP, lines)]
+
+
+class Encoders(unittest.TestCase):
+    def test_all_three_write_the_same_bytes(self):
+        values = Values(1)
+        for dialect in DIALECTS:
+            lines, mine = [], []
+            for kind in h.COMMANDS:
+                for _ in range(VALUES):
+                    command, numbers = values.command(kind)
+                    camera, sequence = values.unsigned(16), values.unsigned(32)
+                    lines.append(" ".join(["encode", str(DIALECTS.index(dialect)), f"{camera:x}", f"{sequence:x}",
+                                           f"{kind.FUNCTION:x}", *map(bits, numbers)]))
+                    mine.append(h.encode(command, sequence, camera, dialect).hex())
+            hilcams, cs = ask(CPP, lines), ask(C, lines)
+            self.assertEqual(len(hilcams), len(h.COMMANDS) * VALUES)
+            for line, python, c, hilcam in zip(lines, mine, cs, hilcams, strict=True):
+                self.assertEqual(python, hilcam, line)
+                self.assertEqual(c, hilcam, line)
+
+    def test_they_have_every_command_of_the_document(self):
+        text = (pose_stream.SOURCE / "docs/protocol.md").read_text()
+        documented = {int(number): name for heading in re.findall(r"^### (\d.*)$", text, re.M)
+                      for number, name in re.findall(r"(\d+) (\w+)", heading.split("(")[0])}
+        self.assertEqual(documented, {kind.FUNCTION: kind.__name__.lower() for kind in h.COMMANDS})
+        header = (pose_stream.SOURCE / "tools/client/hilcam_client.h").read_text()
+        for name in documented.values():
+            self.assertIn(f"hilcam_encode_{name}(", header)
+
+    def test_the_documents_examples(self):
+        text = (pose_stream.SOURCE / "docs/protocol.md").read_text()
+        examples = {5: h.Ping(0x1122334455667788), 6: h.Settings(exposure_s=0.002),
+                    7: h.Fault("packet_drop", rate=0.02, duration_s=30), 8: h.Expose(3), 9: h.Mode(True, 5),
+                    10: h.Subscribe(True, True)}
+        for sequence, command in examples.items():
+            self.assertIn("\n    " + h.encode(command, sequence).hex(" ").upper() + "\n", text)
+        self.assertIn("\n    " + h.encode(h.Ping(0x1122334455667788), 5, dialect=h.CFS).hex(" ").upper() + "\n", text)
+
+    def test_faults_have_the_programs_names_and_numbers_in_its_order(self):
+        named = [(name, int(number)) for name, number in re.findall(r"(\w+):(\d+)", ask(CPP, ["faults"])[0])]
+        self.assertEqual(list(h.FAULTS.items()), named)
+        header = (pose_stream.SOURCE / "tools/client/hilcam_client.h").read_text()
+        in_header = re.findall(r"HILCAM_FAULT_(\w+) = (\d+)", header)
+        self.assertEqual([(name.lower(), int(number)) for name, number in in_header], [("none", 0), *named])
+
+
+class Decoders(unittest.TestCase):
+    def test_all_answers_come_back_as_they_went(self):
+        values = Values(2)
+        for dialect in DIALECTS:
+            answers = [values.answer(kind) for kind in APIDS for _ in range(VALUES)]
+            packets = encoded_by_hilcam(answers, dialect)
+            cs = ask(C, [f"decode {DIALECTS.index(dialect)} {packet.hex()}" for packet in packets])
+            for answer, packet, c in zip(answers, packets, cs, strict=True):
+                self.assertEqual(words_of(h.decode(packet, dialect)), words_of(answer))
+                self.assertEqual(c.split(), [word for word in words_of(answer) if word])
+
+    def test_damaged_packets_are_none(self):
+        values = Values(3)
+        damaged = []
+        for packet in encoded_by_hilcam([values.answer(kind) for kind in APIDS for _ in range(50)], h.HILCAM):
+            for _ in range(10):
+                bit = values.rng.randrange(8 * len(packet))
+                flipped = bytearray(packet)
+                flipped[bit // 8] ^= 1 << bit % 8
+                damaged.append(bytes(flipped))
+            damaged += [packet[:values.rng.randrange(1, len(packet))], packet + b"\0"]
+        for packet, c in zip(damaged, ask(C, [f"decode 0 {packet.hex()}" for packet in damaged]), strict=True):
+            self.assertIsNone(h.decode(packet), packet.hex())
+            self.assertEqual(c, "0", packet.hex())
+
+    def test_random_bytes_are_judged_alike(self):
+        """Lengths, bodies and kinds at random, with a right CRC; vectors.c is built with sanitizers."""
+        values, packets = Values(5), []
+        for _ in range(3000):
+            kind = values.rng.choice((1, 2, 3, 4))
+            size = values.rng.choice((0, 1, 9, 25, 26, 27, 80, 108, 122, 123, values.rng.randrange(248)))
+            body = bytes((values.rng.choice((1, 1, 1, 0)), kind - 1)) + values.rng.randbytes(size)
+            body = body[:size]
+            if kind == 1 and size >= 26 and values.rng.random() < 0.8:
+                body = body[:24] + (size - 26).to_bytes(2, "big") + body[26:]
+            packet = struct.pack(">HHH", 0x0900 | kind, values.rng.getrandbits(16), (size + 1) & 0xFFFF) + body
+            packets.append(packet + h.crc16(packet).to_bytes(2, "big"))
+        packets += [b"", b"\x09"] + [values.rng.randbytes(values.rng.randrange(1, 300)) for _ in range(1000)]
+        for dialect in (0, 1):
+            cs = ask(C, [f"decode {dialect} {packet.hex()}" for packet in packets])
+            kinds = [h.decode(packet, DIALECTS[dialect]) for packet in packets]
+            for packet, c, mine in zip(packets, cs, kinds, strict=True):
+                self.assertEqual(c.split()[0], f"{APIDS[type(mine)]:x}" if mine else "0", packet.hex())
+            if dialect == 0:
+                self.assertGreater(sum(kind is not None for kind in kinds), 100)
+            ask(C, [f"find {dialect} {packet.hex()}" for packet in packets])
+
+    def test_both_find_the_packets_of_a_stream(self):
+        for dialect in DIALECTS:
+            values = Values(4)
+            answers = [values.answer(values.rng.choice(list(APIDS))) for _ in range(60)]
+            stream = b""
+            for packet in encoded_by_hilcam(answers, dialect):
+                # A sync marker, bytes of no packet (with a header's first byte among them), or nothing between.
+                stream += values.rng.choice((b"", b"\x1a\xcf\xfc\x1d", b"\x09\x09\x00\xff", bytes(5))) + packet
+            cutter, got, at = h.Cutter(dialect), [], 0
+            while at < len(stream):
+                piece = values.rng.randrange(1, 200)
+                got += cutter.take(stream[at:at + piece])
+                at += piece
+            self.assertEqual([words_of(a) for a in got], [words_of(a) for a in answers])
+            found = []
+            while True:
+                begin, length = (int(word, 16) for word in ask(C, [f"find {DIALECTS.index(dialect)} {stream[:4096].hex()}"])[0].split())
+                if length == 0:
+                    break
+                found.append(words_of(h.decode(stream[begin:begin + length], dialect)))
+                stream = stream[begin + length:]
+            self.assertEqual(found, [words_of(a) for a in answers])
+
+
+class Running(unittest.TestCase):
+    """Five seconds of a thousand poses a second; pose_stream.py runs longer."""
+
+    def check_stream(self, client, transport, dialect=h.HILCAM):
+        figures, problems = pose_stream.stream(HILCAM, client, transport, dialect, 5, 1000, TALK)
+        self.assertEqual(problems, [], figures)
+        self.assertEqual(figures["answered"], 5000)
+        self.assertGreater(figures["frames_with_a_new_pose"], 10)
+        self.assertGreater(figures["housekeeping"], 2)
+
+    def test_c_over_udp(self):
+        self.check_stream("c", "udp")
+
+    def test_c_over_tcp(self):
+        self.check_stream("c", "tcp")
+
+    def test_c_over_udp_as_cfs(self):
+        self.check_stream("c", "udp", h.CFS)
+
+    def test_python_over_udp(self):
+        self.check_stream("python", "udp")
+
+    def test_python_over_tcp(self):
+        self.check_stream("python", "tcp")
+
+    def test_python_over_tcp_as_cfs(self):
+        self.check_stream("python", "tcp", h.CFS)
+
+    def test_silence_and_refusals_are_named(self):
+        port = pose_stream.free_port()
+        with h.Client(f"127.0.0.1:{port}") as client, self.assertRaisesRegex(h.NoAnswer, f"no acknowledgement from 127.0.0.1:{port}"):
+            client.send(h.Ping(), timeout_s=0.05, tries=2)
+        with self.assertRaisesRegex(h.NoAnswer, "is 'hilcam run' up"):
+            h.Client(f"tcp:127.0.0.1:{port}")
+
+
+if __name__ == "__main__":
+    HILCAM, C, CPP, TALK = sys.argv[1:5]
+    unittest.main(argv=[sys.argv[0], *sys.argv[5:]], verbosity=2)

@@ -1,0 +1,43 @@
+#pragma once
+// hilcam's command protocol over UDP, with tools/client/hilcam_client.h: what a dynamics simulator sends.
+
+#include <cstdint>
+#include <string>
+
+#include "tools/client/hilcam_client.h"
+
+namespace flight {
+
+// One thread. Throws std::runtime_error: no answer within ten seconds, or a command refused.
+class Link {
+  public:
+    explicit Link(const std::string& endpoint);  // ADDRESS:PORT
+    ~Link();
+    Link(const Link&) = delete;
+    Link& operator=(const Link&) = delete;
+
+    // Each waits for its acknowledgement.
+    void set_pose(const hilcam_pose& pose);
+    // Lockstep: takes a frame, its exposure's middle at that time.
+    void expose(std::int64_t exposure_mid_tai_ns);
+    hilcam_acknowledgement ping();
+
+    // Without waiting; the answers that came by now are looked at.
+    void post_pose(const hilcam_pose& pose);
+
+    // Simulated TAI = CLOCK_MONOTONIC + this, from the quickest of some pings. Not in lockstep.
+    std::int64_t simulated_offset_ns();
+
+  private:
+    hilcam_acknowledgement ask(std::size_t bytes);
+    bool receive(int timeout_ms, hilcam_acknowledgement& answer);
+
+    std::string endpoint_;
+    int socket_ = -1;
+    hilcam_envelope envelope_{};  // of the command being encoded into bytes_
+    std::uint8_t bytes_[HILCAM_MOST_PACKET_BYTES] = {};
+};
+
+std::int64_t monotonic_ns();
+
+}  // namespace flight
