@@ -121,9 +121,12 @@ void damage(std::vector<std::uint8_t>& datagram, std::mt19937& random) {
         case 4:
             datagram.resize(at);
             break;
-        default:
-            datagram.insert(datagram.end(), datagram.begin() + static_cast<std::ptrdiff_t>(at),
-                            datagram.end());
+        default: {  // its tail twice
+            const std::size_t tail = datagram.size() - at;
+            datagram.resize(datagram.size() + tail);
+            std::copy_n(datagram.begin() + static_cast<std::ptrdiff_t>(at), tail,
+                        datagram.end() - static_cast<std::ptrdiff_t>(tail));
+        }
     }
     if (datagram.size() < 8 || random() % 8 == 0) return;
     const std::size_t body = datagram.size() - 8;

@@ -3,6 +3,7 @@
 #include "io/sink_gige.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstring>
@@ -148,14 +149,21 @@ TEST(GigeSink, TwoCamerasInOneProcess) {
     EXPECT_EQ(sinks[0]->report().name, "gige 127.83.2.1");
 }
 
+// 127.64.0.0/10, of this process alone: the tests of a fixture run beside one another, and a camera's port is
+// always the same.
+std::uint32_t own_loopback(std::uint32_t host) {
+    const auto process = static_cast<std::uint32_t>(getpid());
+    return 0x7F400000u | (process & 0x3FFFu) << 8 | host;
+}
+
 // 6 kB a frame at 200 kB/s, 30 ms: the ring is full at once.
 struct SlowSink : testing::Test {
-    static constexpr std::uint32_t kCamera = 0x7F530501;
+    const std::uint32_t camera_address = own_loopback(1);
     PlainCamera camera;
     FaultBoard faults;
-    GigeSink sink{{.interface = format_ipv4(kCamera), .packet_bytes = 576, .rate_bytes_s = 200e3},
+    GigeSink sink{{.interface = format_ipv4(camera_address), .packet_bytes = 576, .rate_bytes_s = 200e3},
                   {camera, faults}};
-    Client client{0x7F530502};
+    Client client{own_loopback(2)};
     DnImage image{kWidth, kHeight};
     FrameRecord record;
 
@@ -175,7 +183,7 @@ struct SlowSink : testing::Test {
 };
 
 TEST_F(SlowSink, WhoWaitsForRoomLosesNoFrame) {
-    client.start(kCamera);
+    client.start(camera_address);
     int waits = 0;
     constexpr std::uint64_t kFrames = 10;  // that the client's buffer holds unread
     for (std::uint64_t i = 0; i < kFrames; ++i) {
@@ -208,14 +216,14 @@ TEST_F(SlowSink, FramesThatNobodyTakesAreNotWaitedFor) {
         return room;
     };
     EXPECT_TRUE(always_room());  // no client
-    client.start(kCamera);
+    client.start(camera_address);
     EXPECT_FALSE(always_room());
-    client.write(kCamera, feature_register::kAcquisitionStop, 1);
+    client.write(camera_address, feature_register::kAcquisitionStop, 1);
     EXPECT_TRUE(always_room());
-    client.write(kCamera, feature_register::kAcquisitionStart, 1);
+    client.write(camera_address, feature_register::kAcquisitionStart, 1);
     EXPECT_TRUE(wait_for_room());  // what waited was for nobody
     EXPECT_FALSE(always_room());
-    client.write(kCamera, 0x0D00, 0);  // the stream's port
+    client.write(camera_address, 0x0D00, 0);  // the stream's port
     EXPECT_TRUE(always_room());
 }
 
@@ -223,13 +231,13 @@ TEST_F(SlowSink, FramesThatNobodyTakesAreNotWaitedFor) {
 TEST_F(SlowSink, AClientThatDoesNotTakeHoldsNobodyUp) {
     const int least = 1;
     setsockopt(client.stream().get(), SOL_SOCKET, SO_RCVBUF, &least, sizeof least);
-    client.start(kCamera);
+    client.start(camera_address);
     for (int i = 0; i < 10; ++i, publish()) ASSERT_TRUE(wait_for_room()) << i;
     EXPECT_EQ(sink.report().dropped, 0u);
 }
 
 TEST_F(SlowSink, NeitherDoesACutCableNorAStoppedOutput) {
-    client.start(kCamera);
+    client.start(camera_address);
     faults.order({.kind = FaultKind::kLinkDown, .rate = 1});
     for (int i = 0; i < 10; ++i, publish()) ASSERT_TRUE(wait_for_room()) << i;
     sink.stop();
