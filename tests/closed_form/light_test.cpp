@@ -7,6 +7,7 @@
 
 #include "render/path_models.h"
 #include "render/sun.h"
+#include "tests/support/furnace.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {
@@ -43,31 +44,11 @@ TEST(ClosedForm, SphereFollowsLambertsPhaseLaw) {
     }
 }
 
-// Inside a closed box that emits as a black body does and reflects the rest, everything is as bright as the
-// black body.
+// What is deeper than the fixed directions go is a geometric series.
 TEST(ClosedForm, AFurnaceIsWhiteInside) {
-    for (const char* model : {"path", "hemisphere"}) {
-        Stage s;
-        s.models.radiance = "emissive";
-        s.quality.path_model = model;
-        const bool fixed = s.quality.path_model == "hemisphere";
-        s.quality.max_depth = fixed ? 4 : 64;
-        s.quality.contribution_threshold = 0;
-        // 60^depth rays want few pixels; what is deeper is a geometric series.
-        s.camera(fixed ? 2 : 32, 0.3);
-        s.quality.samples_per_axis = fixed ? 1 : 16;
-        MaterialConfig grey = lambert(0.3);
-        grey.temperature_k = 3000;
-        s.add(cube(grey, s.grid, 4), {0.2, 0.1, 0.3}, {0.1, 0.2, 0.3});
-        s.sun({0, 0, -1});  // outside
-        s.render();
-        double sum = 0;
-        for (const float value : s.radiance.plane(0)) sum += value;
-        const double mean = sum / static_cast<double>(s.radiance.plane(0).size());
-        const double black = planck_w_m2_sr_um(s.grid.center_um(0), 3000);
-        const double missing = fixed ? std::pow(0.3, 4) : 0;
-        EXPECT_NEAR(mean / (black * (1 - missing)), 1, 0.002) << model;
-    }
+    EXPECT_NEAR(furnace_mean("path", 64, 0.3, 16) / furnace_black(), 1, 0.002);
+    EXPECT_NEAR(furnace_mean("hemisphere", 4, 0.3, 16) / (furnace_black() * (1 - std::pow(0.3, 4))), 1,
+                0.002);
 }
 
 // A disk of radiance L and half angle a lights a surface that faces it with pi L sin^2 a.

@@ -2,7 +2,7 @@
 
 #include "render/units.h"
 #include "tests/extremes/groups.h"
-#include "tests/support/stage.h"
+#include "tests/support/furnace.h"
 
 namespace hilcam::extremes {
 
@@ -43,25 +43,9 @@ Group depth_of_paths() {
         group.cases.push_back(
             {std::string(box.model) + ", " + std::to_string(box.depth) + ", " + text(box.reflectance),
              {4 * kFloatGrain * (surfaces + 1) + directions * kFloatGrain * behind},
-             [box, fixed, surfaces] {
-                 Stage s;
-                 s.models.radiance = "emissive";
-                 s.quality.path_model = box.model;
-                 s.quality.max_depth = box.depth;
-                 s.quality.contribution_threshold = 0;
-                 // 60^depth rays want few pixels.
-                 s.camera(fixed ? 2 : 32, 0.3);
-                 s.quality.samples_per_axis = fixed ? 1 : 2;
-                 MaterialConfig grey = lambert(box.reflectance);
-                 grey.temperature_k = 3000;
-                 s.add(cube(grey, s.grid, 4), {0.2, 0.1, 0.3}, {0.1, 0.2, 0.3});
-                 s.sun({0, 0, -1});  // outside
-                 s.render();
-                 double sum = 0;
-                 for (const float value : s.radiance.plane(0)) sum += value;
-                 const double mean = sum / static_cast<double>(s.radiance.plane(0).size());
-                 const double truth =
-                     planck_w_m2_sr_um(s.grid.center_um(0), 3000) * (1 - std::pow(box.reflectance, surfaces));
+             [box, surfaces] {
+                 const double mean = furnace_mean(box.model, box.depth, box.reflectance, 2);
+                 const double truth = furnace_black() * (1 - std::pow(box.reflectance, surfaces));
                  return std::vector<Found>{{truth, relative(mean, truth)}};
              },
              std::string(box.model) == "hemisphere" && box.depth > 2});
