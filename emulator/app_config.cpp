@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "emulator/event_sequence.h"
 #include "io/config_yaml.h"
 #include "io/plain_number.h"
 #include "render/check.h"
@@ -228,6 +229,13 @@ ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t in
     return own;
 }
 
+EventWorld event_world(const ScenarioConfig& s) {
+    EventWorld world;
+    for (const ObjectConfig& object : s.objects) world.objects.push_back(object.name);
+    for (std::size_t i = 0; i < kBodyCount; ++i) world.visible[i] = s.bodies[i].visible;
+    return world;
+}
+
 VizardBench vizard_bench(const ScenarioConfig& s) {
     VizardBench bench;
     bench.start = parse_utc(s.time_utc);
@@ -289,6 +297,7 @@ Fields fields(ScenarioConfig& s) {
             "what makes the camera take frames: its rate, triggers, or each `expose` one in simulated time"),
         sections("more_cameras", s.more_cameras, "beside the first, in the same world"),
         sections("faults", s.faults, "what goes wrong by itself"),
+        sections("events", s.events, "what happens by itself, at a time or when something becomes true"),
         section("commands", s.commands, "where commands come from"),
         optional(section("telemetry", s.telemetry, "who gets frame reports and housekeeping unasked"),
                  s.has_telemetry),
@@ -393,6 +402,11 @@ void validate(const ScenarioConfig& s) {
         if (c.thing > static_cast<std::int64_t>(s.objects.size()))
             throw InputError("more_cameras: on: found " + std::to_string(c.thing) + "; accepted: 0 to " +
                              std::to_string(s.objects.size()) + ", the number of objects");
+    for (const EventConfig& event : s.events)
+        if (event.camera > static_cast<std::int64_t>(1 + s.more_cameras.size()))
+            throw InputError("events: camera: found " + std::to_string(event.camera) + "; accepted: 0 to " +
+                             std::to_string(1 + s.more_cameras.size()));
+    const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
     if (s.commands.has_vizard) check_vizard(s);
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "emulator/event_condition.h"
+#include "emulator/event_config.h"
 #include "emulator/motion_config.h"
 #include "emulator/quality_ladder.h"
 #include "emulator/world_state.h"
@@ -219,6 +221,7 @@ struct ScenarioConfig {
     Mount mount;  // of the camera that this scenario is about; the first sits where poses say
     std::vector<CameraConfig> more_cameras;  // kMostCameras - 1 at most
     std::vector<FaultConfig> faults;
+    std::vector<EventConfig> events;
     CommandsConfig commands;
     TelemetryConfig telemetry;
     bool has_telemetry = false;
@@ -226,6 +229,9 @@ struct ScenarioConfig {
 };
 Fields fields(ScenarioConfig& scenario);
 void validate(const ScenarioConfig& scenario);
+
+// What events can name.
+EventWorld event_world(const ScenarioConfig& scenario);
 
 // What the Vizard side is told of the bench.
 VizardBench vizard_bench(const ScenarioConfig& scenario);

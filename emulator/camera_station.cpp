@@ -117,6 +117,17 @@ void CameraStation::prepare(SimulatedClock& clock) {
                                                    governor_of(scenario_), scenario_.loop.prefer});
 }
 
+void CameraStation::record_to(Recorder& recorder) {
+    const auto camera = static_cast<std::uint16_t>(number_);
+    loop_->record_to(recorder, camera);
+    settings_.on_change([&recorder, camera](const SettingsChange& change) {
+        recorder.put(RecordedChange{camera, monotonic_ns(), change});
+    });
+    settings_.on_trigger([&recorder, camera](const TriggerOrder& order, TriggerResult result) {
+        recorder.put(RecordedTrigger{camera, monotonic_ns(), order, result});
+    });
+}
+
 void CameraStation::start_outputs() {
     for (const auto& sink : sinks_) sink->start();
 }

@@ -3,6 +3,7 @@
 // outputs, loop. A bench has one, or several that share commands and clock.
 
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,10 @@ struct RunLimits {
     std::uint64_t warm_up = 0;  // of them, the first: their times are not kept
     bool paced = true;
     bool outputs = true;  // false: frames go nowhere, for benchmarks
+    // A file to record to, or one whose frames to show once more; empty: none.
+    std::filesystem::path record{}, replay{};
+    bool replay_fast = false;   // not by the recording's times
+    bool replay_force = false;  // of another program or scenario
 };
 
 class CameraStation {
@@ -35,6 +40,9 @@ class CameraStation {
     void prepare(SimulatedClock& clock);
     // What the preview tells of the bench's commands.
     void set_receivers(const std::vector<std::unique_ptr<CommandReceiver>>& all) { receivers_ = &all; }
+
+    // What the loop and the settings do goes into a recording. After prepare().
+    void record_to(Recorder& recorder);
 
     // Opens the outputs. Throws DeviceError.
     void start_outputs();

@@ -15,6 +15,8 @@
 #include "emulator/doctor.h"
 #include "emulator/doctor_facts.h"
 #include "emulator/emulator.h"
+#include "emulator/program_version.h"
+#include "emulator/recording_text.h"
 #include "emulator/render_command.h"
 #include "emulator/report.h"
 #include "emulator/scene_loader.h"
@@ -37,6 +39,7 @@ struct Options {
     SoakOptions soak;
     TradeoffOptions tradeoff;
     bool json = false, sensor = false;
+    RunLimits run;
     std::uint16_t preview_port = 0;  // 0: as the scenario says
     RenderStage stage = RenderStage::kFrame;
 };
@@ -55,7 +58,7 @@ int run(const Options& o) {
     if (o.preview_port > 0) overrides.push_back(fmt::format("outputs.preview.port={}", o.preview_port));
     const ScenarioConfig scenario = load_scenario(o.config, overrides);
     const auto threads = limit_threads(scenario);
-    RunLimits limits;
+    RunLimits limits = o.run;
     limits.seconds = o.duration_s;
     limits.frames = o.frames;
     spdlog::info("loading {}", scenario.name);
@@ -76,6 +79,12 @@ int run(const Options& o) {
                  emulator.seconds(), report["deadline_misses"].get<std::uint64_t>());
     for (const nlohmann::json& fault : report["faults"]) spdlog::error("{}", fault.get<std::string>());
     return report["faults"].empty() ? 0 : 1;
+}
+
+int list_of_recording(const Options& o) {
+    RecordingReader recording(o.config);
+    list_recording(recording, [](const std::string& line) { fmt::print("{}\n", line); });
+    return 0;
 }
 
 int render(const Options& o) {
@@ -197,7 +206,7 @@ int run_command_line(int argc, char** argv) {
     Options o;
     std::function<int()> action;
     CLI::App app{"hilcam: a spacecraft's camera for the test bench"};
-    app.set_version_flag("--version", "hilcam 0.1.0");
+    app.set_version_flag("--version", std::string(kProgramVersion));
     app.require_subcommand(1);
 
     CLI::App* run_app = app.add_subcommand("run", "be the camera, in real time");
@@ -209,7 +218,20 @@ int run_command_line(int argc, char** argv) {
     run_app
         ->add_option("--preview", o.preview_port, "serve a web page with the live picture at this TCP port")
         ->check(CLI::Range(1, 65535));
+    CLI::Option* record = run_app->add_option("--record", o.run.record,
+                                              "keep what the frames depend on, to replay them bit by bit");
+    CLI::Option* replay =
+        run_app->add_option("--replay", o.run.replay, "the frames of such a recording once more")
+            ->excludes(record);
+    run_app->add_flag("--fast", o.run.replay_fast, "replay as fast as it goes, not by the recording's times")
+        ->needs(replay);
+    run_app->add_flag("--force", o.run.replay_force, "replay a recording of another scenario or version, too")
+        ->needs(replay);
     run_app->callback([&] { action = [&] { return run(o); }; });
+
+    CLI::App* recording_app = app.add_subcommand("recording", "what is in a recording, as JSON lines");
+    recording_app->add_option("file", o.config, "made by run --record")->required();
+    recording_app->callback([&] { action = [&] { return list_of_recording(o); }; });
 
     CLI::App* render_app = app.add_subcommand("render", "one picture of the first instant");
     add_config(render_app, o);

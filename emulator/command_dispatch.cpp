@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "emulator/event_director.h"
+#include "emulator/recorder.h"
+
 namespace hilcam {
 namespace {
 
@@ -41,6 +44,27 @@ SettingsChange change_of(const TriggerModeCommand& m) {
 }  // namespace
 
 CommandStatus CommandDispatch::handle(const Command& command, const CommandSource& source) {
+    const CommandStatus status = perform(command, source);
+    // Poses and joints are noted before they take effect: no frame may show one that is not noted.
+    const bool noted =
+        std::holds_alternative<PoseCommand>(command) || std::holds_alternative<JointCommand>(command);
+    const bool no_effect =
+        std::holds_alternative<PingCommand>(command) || std::holds_alternative<SubscribeCommand>(command);
+    if (recorder_ && !noted && !no_effect && status == CommandStatus::kAccepted) {
+        const std::lock_guard one(recording_);
+        note(command, source);
+    }
+    return status;
+}
+
+// Gives the command's number.
+std::uint64_t CommandDispatch::note(const Command& command, const CommandSource& source) {
+    const std::uint64_t number = recorder_->next_number();
+    recorder_->put(RecordedCommand{number, command, source});
+    return number;
+}
+
+CommandStatus CommandDispatch::perform(const Command& command, const CommandSource& source) {
     if (const auto* pose = std::get_if<PoseCommand>(&command)) return set_pose(*pose, source);
     if (const auto* joint = std::get_if<JointCommand>(&command)) return turn(*joint, source);
     if (const auto* settings = std::get_if<SettingsCommand>(&command))
@@ -78,24 +102,35 @@ bool CommandDispatch::resolve(TimeTai& tag, const CommandSource& source) const {
 }
 
 CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const CommandSource& source) {
-    Motion motion = pose.motion;
-    if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
+    PoseCommand resolved = pose;
+    if (!resolve(resolved.motion.time, source)) return CommandStatus::kTimeOutOfRange;
+    if (!cameras_.front().world->thing_of(pose.object)) return CommandStatus::kUnknownObject;
+    ShownCommand shown{source.sequence, source.arrival_monotonic_ns, {}, 0};
+    std::unique_lock one(recording_, std::defer_lock);
+    if (recorder_) {
+        one.lock();
+        shown.number = note(resolved, source);
+    }
     return for_cameras(0, [&](const CommandedCamera& c) {
-        return c.world->set(pose.object, motion, {source.sequence, source.arrival_monotonic_ns, {}},
-                            pose.alone)
-                   ? CommandStatus::kAccepted
-                   : CommandStatus::kUnknownObject;
+        return c.world->set(pose.object, resolved.motion, shown, pose.alone) ? CommandStatus::kAccepted
+                                                                             : CommandStatus::kUnknownObject;
     });
 }
 
 CommandStatus CommandDispatch::turn(const JointCommand& joint, const CommandSource& source) {
-    WorldState::JointMotion motion{joint.time, joint.angle_rad, joint.rate_rad_s};
-    if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
+    JointCommand resolved = joint;
+    if (!resolve(resolved.time, source)) return CommandStatus::kTimeOutOfRange;
+    if (!cameras_.front().world->thing_of(joint.object, joint.joint)) return CommandStatus::kUnknownObject;
+    const WorldState::JointMotion motion{resolved.time, joint.angle_rad, joint.rate_rad_s};
+    ShownCommand shown{source.sequence, source.arrival_monotonic_ns, {}, 0};
+    std::unique_lock one(recording_, std::defer_lock);
+    if (recorder_) {
+        one.lock();
+        shown.number = note(resolved, source);
+    }
     return for_cameras(0, [&](const CommandedCamera& c) {
-        return c.world->set_joint(joint.object, joint.joint, motion,
-                                  {source.sequence, source.arrival_monotonic_ns, {}})
-                   ? CommandStatus::kAccepted
-                   : CommandStatus::kUnknownObject;
+        return c.world->set_joint(joint.object, joint.joint, motion, shown) ? CommandStatus::kAccepted
+                                                                            : CommandStatus::kUnknownObject;
     });
 }
 
@@ -123,10 +158,26 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
                        [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); });
 }
 
-// Answers when the loops have seen the world for the order's last frame: commands that come later do not
-// count for its frames, so the same commands give the same frames at any pace.
+// With events each frame is an order of its own, so that they come between any two.
 CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, const CommandSource& source) {
     const std::lock_guard one(lockstep_);
+    if (!events_) return run_order(order, source);
+    TriggerOrder frame = order;
+    frame.frames = 1;
+    const std::int64_t burst = cameras_.front().settings->settings().burst_frames;
+    const std::int64_t frames = order.frames > 0 ? order.frames : burst;
+    for (std::int64_t i = 0; i < frames; ++i) {
+        events_->before_frame(frame);
+        const CommandStatus status = run_order(frame, source);
+        if (status != CommandStatus::kAccepted) return status;
+        frame.at_simulated = {};  // a period on
+    }
+    return CommandStatus::kAccepted;
+}
+
+// Answers when the loops have seen the world for the order's last frame: commands that come later do not
+// count for its frames, so the same commands give the same frames at any pace.
+CommandStatus CommandDispatch::run_order(const TriggerOrder& order, const CommandSource& source) {
     const CommandStatus status = for_cameras(source.camera, [&](const CommandedCamera& c) {
         return status_of(c.settings->order_in_lockstep(order));
     });

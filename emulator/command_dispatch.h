@@ -6,6 +6,7 @@
 // is refused for that one only, and the status says so.
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct CommandedCamera {
     FaultBoard* faults = nullptr;
 };
 
+class EventDirector;
+class Recorder;
+
 class CommandDispatch : public CommandHandler {
   public:
     CommandDispatch(std::vector<CommandedCamera> cameras, const SimulatedClock& clock)
@@ -31,7 +35,13 @@ class CommandDispatch : public CommandHandler {
     CommandStatus handle(const Command& command, const CommandSource& source) override;
     TimeTai now() const override { return clock_.now(); }
 
+    // All that is accepted goes into a recording. Before the first command; it outlives the last.
+    void record_to(Recorder& recorder) { recorder_ = &recorder; }
+    // In lockstep, events are asked before every frame. As above.
+    void ask_events(EventDirector& events) { events_ = &events; }
+
   private:
+    CommandStatus perform(const Command& command, const CommandSource& source);
     template <class F>
     CommandStatus for_cameras(std::uint16_t camera, F&& act);
     CommandStatus set_pose(const PoseCommand& pose, const CommandSource& source);
@@ -40,11 +50,17 @@ class CommandDispatch : public CommandHandler {
     CommandStatus change(const SettingsChange& change, const CommandSource& source, CommandStatus refused);
     CommandStatus expose(const ExposeCommand& expose, const CommandSource& source);
     CommandStatus expose_in_lockstep(const TriggerOrder& order, const CommandSource& source);
+    CommandStatus run_order(const TriggerOrder& order, const CommandSource& source);
+    std::uint64_t note(const Command& command, const CommandSource& source);
     CommandStatus order(const FaultCommand& fault, const CommandSource& source);
 
     std::vector<CommandedCamera> cameras_;
     const SimulatedClock& clock_;
-    std::mutex lockstep_;  // one order at a time
+    Recorder* recorder_ = nullptr;     // may be null
+    EventDirector* events_ = nullptr;  // may be null
+    std::mutex recording_;             // commands take effect in the order in which they are noted
+    // One order at a time; an event that takes a picture has its own order within one.
+    std::recursive_mutex lockstep_;
 };
 
 }  // namespace hilcam

@@ -195,16 +195,6 @@ bool read_time(const std::string& word, double before_s, double& at_s) {
     return true;
 }
 
-Command parse_words(const std::string& words) {
-    CLI::App app;
-    app.require_subcommand(1);
-    app.set_help_flag();
-    Command command;
-    add_command_words(app, [&](const Command& c) { command = c; });
-    app.parse(words, false);
-    return command;
-}
-
 }  // namespace
 
 void add_command_words(CLI::App& app, const Take& take, const std::function<void()>& list_faults) {
@@ -215,6 +205,16 @@ void add_command_words(CLI::App& app, const Take& take, const std::function<void
     add_expose(app, take);
     add_mode(app, take);
     add_fault(app, take, list_faults);
+}
+
+Command command_of_words(const std::string& words) {
+    CLI::App app;
+    app.require_subcommand(1);
+    app.set_help_flag();
+    Command command;
+    add_command_words(app, [&](const Command& c) { command = c; });
+    app.parse(words, false);
+    return command;
 }
 
 std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name) {
@@ -231,7 +231,7 @@ std::vector<ScriptLine> parse_script(const std::string& text, const std::string&
         try {
             std::string rest = line;
             if (read_time(first, before_s, entry.at_s)) std::getline(words, rest);
-            entry.command = parse_words(rest);
+            entry.command = command_of_words(rest);
         } catch (const std::exception& error) {
             throw InputError(name + ":" + std::to_string(number) + ": " + error.what());
         }

@@ -16,6 +16,9 @@ namespace hilcam {
 void add_command_words(CLI::App& app, const std::function<void(const Command&)>& take,
                        const std::function<void()>& list_faults = {});
 
+// The command of such words: "settings --exposure-ms 5". Throws what says why it is none.
+Command command_of_words(const std::string& words);
+
 // One line of a script: when, and what. Times are seconds since the script's start.
 struct ScriptLine {
     double at_s = 0;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <csignal>
 
+#include "emulator/recording_header.h"
+
 namespace hilcam {
 namespace {
 
@@ -39,6 +41,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
       limits_(limits),
       grid_(scenario.spectrum_edges_um),
       clock_(parse_utc(scenario.time_utc), monotonic_ns()) {
+    check_replay();
     const RealTime& wishes = scenario.loop.real_time;
     require_rights(wishes);
     if (!wishes.cores.empty())
@@ -57,18 +60,72 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     clock_ =
         SimulatedClock(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep);
     dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_);
-    if (limits.outputs) {
+    if (limits.outputs && limits.replay.empty()) {
         receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());
         if (scenario.commands.has_vizard) receivers_.push_back(make_vizard(scenario, stations_, *dispatch_));
-        make_telemetry();
     }
+    if (limits.outputs) make_telemetry();
     for (const auto& station : stations_) station->prepare(clock_);
+    make_replays();
+    make_recorder();
+    make_events();
+}
+
+// Before minutes go into a scene.
+void Emulator::check_replay() const {
+    if (limits_.replay.empty()) return;
+    const RecordingReader recording(limits_.replay);
+    const RecordingHeader own = recording_header(scenario_, clock_);
+    for (const std::string& warning :
+         check_recording(recording.header(), limits_.replay.string(), own, limits_.replay_force))
+        spdlog::warn("{}", warning);
+}
+
+void Emulator::make_replays() {
+    if (limits_.replay.empty()) return;
+    for (const auto& station : stations_) {
+        const ScenarioConfig& own = station->scenario();
+        const ReplayedCamera camera{static_cast<std::uint16_t>(station->number()),
+                                    &station->world(),
+                                    &station->faults(),
+                                    station->settings().limits(),
+                                    station->settings().settings(),
+                                    1 + lower_levels(own).size(),
+                                    ShutterTiming(own.camera)};
+        replays_.push_back(std::make_unique<Replay>(limits_.replay, camera, limits_.replay_fast));
+        station->loop().follow(*replays_.back());
+    }
+}
+
+void Emulator::make_recorder() {
+    if (limits_.record.empty()) return;
+    for (const std::string& warning : recording_warnings(scenario_)) spdlog::warn("{}", warning);
+    recorder_ = std::make_unique<Recorder>(limits_.record, recording_header(scenario_, clock_));
+    dispatch_->record_to(*recorder_);
+    for (const auto& station : stations_) station->record_to(*recorder_);
+}
+
+// A replay has what they did in its recording.
+void Emulator::make_events() {
+    if (scenario_.events.empty() || !limits_.replay.empty()) return;
+    const EventDirector::Bench bench{*dispatch_,
+                                     first().settings(),
+                                     clock_,
+                                     ShutterTiming(first().scenario().camera),
+                                     world().placed_objects(),
+                                     receivers_.empty()};
+    events_ = std::make_unique<EventDirector>(
+        EventSequence(scenario_.events, event_world(scenario_), clock_.start()), bench);
+    loop().tell(*events_);
+    if (clock_.lockstep()) dispatch_->ask_events(*events_);
 }
 
 // When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.
 Emulator::~Emulator() {
     if (telemetry_) telemetry_->stop();
     for (const auto& station : stations_) station->stop_outputs();
+    if (events_) events_->stop();
+    for (const auto& replay : replays_) replay->stop();
 }
 
 void Emulator::make_telemetry() {
@@ -120,7 +177,7 @@ CommandReport Emulator::command_report() const { return report_of(receivers_); }
 
 bool Emulator::finished() const {
     const auto asks = [](const auto& receiver) { return receiver->asks_to_end(); };
-    return std::any_of(receivers_.begin(), receivers_.end(), asks) ||
+    return std::any_of(receivers_.begin(), receivers_.end(), asks) || (events_ && events_->asks_to_end()) ||
            std::all_of(stations_.begin(), stations_.end(),
                        [](const auto& s) { return s->loop().finished(); });
 }
@@ -133,6 +190,9 @@ void Emulator::run(const std::function<void()>& on_ready) {
     for (const auto& receiver : receivers_) receiver->start();
     const std::int64_t begun_ns = monotonic_ns();
     begun_ns_ = begun_ns;
+    if (recorder_) recorder_->start();
+    for (const auto& replay : replays_) replay->start(clock_.monotonic_at(clock_.start()));
+    if (events_) events_->start();
     for (const auto& station : stations_) station->start_loop();
     raise_threads(scenario_.loop.real_time);
     on_ready();
@@ -152,7 +212,10 @@ void Emulator::run(const std::function<void()>& on_ready) {
         sleep_until_monotonic_ns(now_ns + 10'000'000);
     }
     // Loops first: they answer what waits for a frame.
+    if (events_) events_->ask_to_stop();
     for (const auto& station : stations_) station->stop_loop();
+    if (events_) events_->stop();
+    for (const auto& replay : replays_) replay->stop();
     print_level_changes();
     seconds_ = static_cast<double>(monotonic_ns() - begun_ns) * 1e-9;
     for (const auto& receiver : receivers_) receiver->stop();
@@ -160,6 +223,20 @@ void Emulator::run(const std::function<void()>& on_ready) {
     for (const auto& station : stations_) {
         station->stop_outputs();
         station->serve_faults(seconds_);
+    }
+    if (recorder_) recorder_->stop();
+    print_replays();
+}
+
+void Emulator::print_replays() const {
+    for (const auto& replay : replays_) {
+        const Replay::Outcome outcome = replay->outcome();
+        if (outcome.text.empty())
+            spdlog::info("the replay was ended after {} frames", outcome.frames);
+        else if (outcome.whole)
+            spdlog::info("replayed all {} frames", outcome.frames);
+        else
+            spdlog::warn("replayed {} frames, up to {}", outcome.frames, outcome.text);
     }
 }
 

@@ -13,6 +13,9 @@
 #include "emulator/camera_station.h"
 #include "emulator/command_dispatch.h"
 #include "emulator/command_receivers.h"
+#include "emulator/event_director.h"
+#include "emulator/recorder.h"
+#include "emulator/replay.h"
 
 namespace hilcam {
 
@@ -37,8 +40,17 @@ class Emulator {
     const SimulatedClock& clock() const { return clock_; }
     double seconds() const { return seconds_; }
     CommandReport command_report() const;
+    // Null: nothing is recorded.
+    const Recorder* recorder() const { return recorder_.get(); }
+    // By camera; none: this is no replay.
+    const std::vector<std::unique_ptr<Replay>>& replays() const { return replays_; }
 
   private:
+    void check_replay() const;
+    void make_replays();
+    void make_recorder();
+    void make_events();
+    void print_replays() const;
     void make_telemetry();
     HousekeepingFigures housekeeping();
     void print_line();
@@ -52,6 +64,9 @@ class Emulator {
     SpectralGrid grid_;
     SimulatedClock clock_;
     std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null
+    std::unique_ptr<Recorder> recorder_;          // outlives all that records; may be null
+    std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them
+    std::unique_ptr<EventDirector> events_;         // outlives the loop that it watches; may be null
     std::vector<std::unique_ptr<CameraStation>> stations_;
     std::unique_ptr<CommandDispatch> dispatch_;
     std::vector<std::unique_ptr<CommandReceiver>> receivers_;

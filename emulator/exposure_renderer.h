@@ -53,6 +53,9 @@ class ExposureRenderer {
     Result render(WorldState& world, TimeTai middle, RandomKey key, RadianceImage& radiance,
                   std::vector<PointSource>& points, Exposure& exposure);
 
+    // The world at the middle of the last exposure, the camera's jitter in it. Loop.
+    const WorldSnapshot& middle_world() const { return middle_; }
+
     // What exact motion would do, and how far things move [px of the detector]. Not for the loop.
     struct Plan {
         double picture_px = 0;  // what fills most of the picture

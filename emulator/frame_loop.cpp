@@ -46,6 +46,13 @@ FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const Came
     if (settings.limits().has_automatic_exposure) histogram_ = FrameHistogram(camera.frame_bits());
 }
 
+void FrameLoop::record_to(Recorder& recorder, std::uint16_t camera) {
+    recorder_ = &recorder;
+    recorded_camera_ = camera;
+    recorded_shown_.resize(world_.things());
+    for (Slot& slot : slots_) slot.shown.resize(world_.things());
+}
+
 void FrameLoop::start() {
     sense_thread_ = std::thread([this] { sense_frames(); });
     render_thread_ = std::thread([this] { render_frames(); });
@@ -61,22 +68,17 @@ void FrameLoop::stop() noexcept {
 // -------------------------------------------------------------------------------------------------------
 
 void FrameLoop::render_frames() {
-    std::uint64_t id = 0;
     for (std::size_t turn = 0;; ++turn) {
         free_.acquire();
         const bool enough = limits_.frames != 0 && turn >= limits_.frames;
         Slot& slot = slots_[turn % slots_.size()];
-        FrameStarter::Start start;
-        if (enough || !starter_.next(slot.next_exposure_s, stopping_, start)) break;
-        counters_.deadline_misses.fetch_add(start.skipped + (start.late ? 1 : 0), std::memory_order_relaxed);
-        id += 1 + start.skipped;
-        slot.record = {};
-        slot.record.id = id;
-        latch(start, slot);
-        choose_level(slot);
-        tell(CameraEvent::Kind::kExposureStart, id, start.begin_ns);
+        if (enough || !begin(slot)) break;
+        latch(slot);
+        tell(CameraEvent::Kind::kExposureStart, slot.use.id, slot.use.begin_ns);
         render_into(slot);
-        if (start.ends_order) settings_.order_done();
+        tell_watcher(slot);
+        if (slot.ends_order) settings_.order_done();
+        if (script_) script_->seen();
         rendered_.release();
     }
     settings_.close();
@@ -85,31 +87,66 @@ void FrameLoop::render_frames() {
     rendered_.release();
 }
 
-// The settings of a frame, from here on its own.
-void FrameLoop::latch(const FrameStarter::Start& start, Slot& slot) {
-    const CameraSettings& s = start.settings;
-    FrameRecord& record = slot.record;
-    record.exposure_s = start.exposure_s;
-    record.gain_db = s.gain_db;
-    if (!camera_.sequence.empty()) {
-        const SettingsStep& step = camera_.sequence[(record.id - 1) % camera_.sequence.size()];
-        record.exposure_s = step.exposure_s;
-        record.gain_db = step.gain_db;
+// Waits for the next frame's begin and says what it depends on; false when there is none.
+bool FrameLoop::begin(Slot& slot) {
+    if (script_) {
+        if (!script_->next(stopping_, slot.use, slot.not_before_ns)) return false;
+    } else {
+        FrameStarter::Start start;
+        if (!starter_.next(slot.next_exposure_s, stopping_, start)) return false;
+        take_settings(start, slot);
     }
-    settings_.tell_own(record.exposure_s, record.gain_db);
-    record.black_level_dn = s.black_level_dn;
-    record.bits = camera_.frame_bits();
-    record.binning_x = s.binning_x, record.binning_y = s.binning_y;
-    record.trigger_sequence = start.trigger_sequence;
-    record.exposure_mid_monotonic_ns = start.begin_ns + to_ns(timing_.middle_s(record.exposure_s));
-    record.exposure_mid = clock_.at(record.exposure_mid_monotonic_ns);
-    slot.exposure = {
-        record.exposure_s, record.gain_db, record.black_level_dn, record.binning_x, record.binning_y, {}, {}};
-    slot.exposure_end_ns = start.begin_ns + to_ns(timing_.end_s(record.exposure_s));
+    use_level(slot.use.quality_level);
+    last_id_ = slot.use.id;
+    counters_.deadline_misses.fetch_add(slot.use.skipped + (slot.use.late ? 1 : 0),
+                                        std::memory_order_relaxed);
+    return true;
+}
+
+void FrameLoop::take_settings(const FrameStarter::Start& start, Slot& slot) {
+    const CameraSettings& s = start.settings;
+    FrameUse use;
+    use.id = last_id_ + 1 + start.skipped;
+    use.skipped = start.skipped, use.late = start.late;
+    use.begin_ns = start.begin_ns;
+    use.exposure_s = start.exposure_s;
+    use.gain_db = s.gain_db;
+    if (!camera_.sequence.empty()) {
+        const SettingsStep& step = camera_.sequence[(use.id - 1) % camera_.sequence.size()];
+        use.exposure_s = step.exposure_s;
+        use.gain_db = step.gain_db;
+    }
+    use.exposure_mid = clock_.at(use.begin_ns + to_ns(timing_.middle_s(use.exposure_s)));
+    use.black_level_dn = s.black_level_dn;
+    use.binning_x = s.binning_x, use.binning_y = s.binning_y;
+    use.test_pattern = s.test_pattern;
+    use.reverse_x = s.reverse_x, use.reverse_y = s.reverse_y;
+    use.trigger_sequence = start.trigger_sequence;
+    use.quality_level = choose_level(slot, use.id);
+    slot.use = use;
     slot.not_before_ns = start.not_before_ns;
     slot.automatic = s.automatic_exposure;
-    slot.test_pattern = s.test_pattern;
-    slot.reverse_x = s.reverse_x, slot.reverse_y = s.reverse_y;
+    slot.ends_order = start.ends_order;
+}
+
+// What a frame depends on, from here on its own.
+void FrameLoop::latch(Slot& slot) {
+    const FrameUse& use = slot.use;
+    settings_.tell_own(use.exposure_s, use.gain_db);
+    FrameRecord& record = slot.record;
+    record = {};
+    record.id = use.id;
+    record.exposure_s = use.exposure_s;
+    record.gain_db = use.gain_db;
+    record.black_level_dn = use.black_level_dn;
+    record.bits = camera_.frame_bits();
+    record.binning_x = use.binning_x, record.binning_y = use.binning_y;
+    record.trigger_sequence = use.trigger_sequence;
+    record.quality_level = use.quality_level;
+    record.exposure_mid_monotonic_ns = use.begin_ns + to_ns(timing_.middle_s(use.exposure_s));
+    record.exposure_mid = use.exposure_mid;
+    slot.exposure = {use.exposure_s, use.gain_db, use.black_level_dn, use.binning_x, use.binning_y, {}, {}};
+    slot.exposure_end_ns = use.begin_ns + to_ns(timing_.end_s(use.exposure_s));
 }
 
 // How long the slot's last frame kept the next one waiting.
@@ -120,19 +157,22 @@ double FrameLoop::frame_ms(const Slot& slot) const {
     return static_cast<double>(ns) * 1e-6;
 }
 
-void FrameLoop::choose_level(Slot& slot) {
+std::uint32_t FrameLoop::choose_level(const Slot& slot, std::uint64_t frame) {
     const std::size_t before = governor_.level();
     std::size_t now = before;
-    if (slot.render_ns > 0) now = governor_.take(slot.level, frame_ms(slot));
-    if (now != before) {
+    if (slot.render_ns > 0) now = governor_.take(slot.use.quality_level, frame_ms(slot));
+    if (now != before) level_changes_.push({frame, before, now, governor_.mean_ms(before)});
+    return static_cast<std::uint32_t>(now);
+}
+
+void FrameLoop::use_level(std::uint32_t level) {
+    if (level != level_) {
         counters_.level_changes.fetch_add(1, std::memory_order_relaxed);
-        level_changes_.push({slot.record.id, before, now, governor_.mean_ms(before)});
-        exposures_.use_level(now);
+        exposures_.use_level(level);
     }
-    slot.level = now;
-    slot.record.quality_level = static_cast<std::uint32_t>(now);
-    counters_.level.store(slot.record.quality_level, std::memory_order_relaxed);
-    counters_.frames_at_level[now].fetch_add(1, std::memory_order_relaxed);
+    level_ = level;
+    counters_.level.store(level, std::memory_order_relaxed);
+    counters_.frames_at_level[level].fetch_add(1, std::memory_order_relaxed);
 }
 
 void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const {
@@ -149,8 +189,9 @@ void FrameLoop::render_into(Slot& slot) {
     record.pose_time = shown.time;
     // Latency is that of a command in the first frame that shows it.
     record.command_arrival_monotonic_ns =
-        shown.arrival_monotonic_ns > shown_arrival_ns_ ? shown.arrival_monotonic_ns : 0;
+        !script_ && shown.arrival_monotonic_ns > shown_arrival_ns_ ? shown.arrival_monotonic_ns : 0;
     shown_arrival_ns_ = std::max(shown_arrival_ns_, shown.arrival_monotonic_ns);
+    if (recorder_) world_.shown_numbers(slot.shown);
 
     stats_ = result.stats;
     if (result.parts_limited) counters_.motion_limited.fetch_add(1, std::memory_order_relaxed);
@@ -171,6 +212,12 @@ void FrameLoop::count_budget() {
     // One writer.
     if (share < counters_.worst_within_budget.load(std::memory_order_relaxed))
         counters_.worst_within_budget.store(share, std::memory_order_relaxed);
+}
+
+void FrameLoop::tell_watcher(const Slot& slot) {
+    const FrameUse& use = slot.use;
+    if (watcher_)
+        watcher_->seen({use.id, use.begin_ns, use.exposure_mid, use.exposure_s}, exposures_.middle_world());
 }
 
 // --- stage 2
@@ -201,12 +248,12 @@ void FrameLoop::sense(Slot& slot) {
     meters_.points.record(from_ms(times.points_ms));
     meters_.digitise.record(from_ms(times.digitise_ms));
     finish_picture(slot);
-    slot.record.faults = frame_faults(faults_, slot.record.id);
-    strike_image(faults_, slot.record, seed_, before_, frame_);
+    strike(slot);
     slot.sense_ns = monotonic_ns() - begun_ns;
     meters_.sense.record(slot.sense_ns);
 
     wait_to_publish(slot);
+    if (recorder_) record(slot);
     tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.exposure_end_ns);
     const std::int64_t publish_ns = monotonic_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, slot.record);
@@ -223,23 +270,45 @@ void FrameLoop::sense(Slot& slot) {
     if (counters_.frames.fetch_add(1, std::memory_order_relaxed) + 1 == limits_.warm_up) meters_.clear();
 }
 
+void FrameLoop::strike(Slot& slot) {
+    FrameUse& use = slot.use;
+    if (!script_) {
+        use.faults = frame_faults(faults_, use.id);
+        use.image = image_faults(faults_, use.id);
+    }
+    slot.record.faults = use.faults;
+    const std::uint64_t flipped = strike_image(use.image, slot.record, seed_, before_, frame_);
+    if (flipped > 0) faults_.count(FaultKind::kImageBitFlips, use.id, flipped, 0);
+}
+
+// What the frame shows of commands, where that has changed, then the frame.
+void FrameLoop::record(const Slot& slot) {
+    for (std::size_t i = 0; i < recorded_shown_.size(); ++i) {
+        if (slot.shown[i] == recorded_shown_[i]) continue;
+        recorded_shown_[i] = slot.shown[i];
+        recorder_->put(RecordedShown{recorded_camera_, static_cast<std::uint32_t>(i), slot.shown[i]});
+    }
+    recorder_->put(RecordedFrame{recorded_camera_, slot.use});
+}
+
 // What a camera does with its numbers on their way out.
 void FrameLoop::finish_picture(const Slot& slot) {
-    draw_test_pattern(slot.test_pattern, slot.record.bits, slot.record.id, frame_);
-    if (slot.reverse_x)
+    draw_test_pattern(slot.use.test_pattern, slot.record.bits, slot.record.id, frame_);
+    if (slot.use.reverse_x)
         for (int y = 0; y < frame_.height(); ++y) std::reverse(frame_.row(y).begin(), frame_.row(y).end());
-    if (slot.reverse_y)
+    if (slot.use.reverse_y)
         for (int y = 0; y < frame_.height() / 2; ++y)
             std::swap_ranges(frame_.row(y).begin(), frame_.row(y).end(),
                              frame_.row(frame_.height() - 1 - y).begin());
 }
 
-// Not before the exposure is over; in lockstep not before every output has room, as no frame may be lost.
+// Not before the exposure is over; in lockstep and in a replay not before every output has room, as no frame
+// may be lost.
 void FrameLoop::wait_to_publish(const Slot& slot) const {
     const auto go_on = [&] { return !stopping_.load(std::memory_order_relaxed); };
     while (monotonic_ns() < slot.not_before_ns && go_on())
         sleep_until_monotonic_ns(std::min(slot.not_before_ns, monotonic_ns() + kLongestSleep_ns));
-    if (!lockstep_) return;
+    if (!lockstep_ && !script_) return;
     constexpr std::int64_t kPoll_ns = 200'000, kPatience_ns = 10'000'000'000;
     const std::int64_t until_ns = monotonic_ns() + kPatience_ns;
     const auto room = [](const FrameSink* sink) { return sink->has_room(); };

@@ -27,6 +27,10 @@
 // It is told of a frame when its slot is taken over, two frames later. Off in lockstep, where frames must not
 // depend on the machine, and where frames are not paced.
 //
+// Recordings: with a recorder each frame leaves what it depends on (frame_script.h) and which commands it
+// shows, right before it is published; with a script it is the script that says when frames begin and what
+// they depend on, and clock, live settings, governor and faults do not matter.
+//
 // After start() both threads neither allocate nor lock nor log, but for what Embree does inside
 // rtcCommitScene.
 
@@ -41,11 +45,14 @@
 
 #include "emulator/clock.h"
 #include "emulator/exposure_renderer.h"
+#include "emulator/frame_script.h"
 #include "emulator/frame_starter.h"
+#include "emulator/frame_watcher.h"
 #include "emulator/governor.h"
 #include "emulator/latency.h"
 #include "emulator/live_settings.h"
 #include "emulator/quality_ladder.h"
+#include "emulator/recorder.h"
 #include "emulator/shutter_timing.h"
 #include "emulator/world_state.h"
 #include "io/bounded_queue.h"
@@ -108,6 +115,11 @@ class FrameLoop {
               std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits);
     ~FrameLoop() { stop(); }
 
+    // Before start(); they outlive the loop. Cameras count from 1.
+    void record_to(Recorder& recorder, std::uint16_t camera);
+    void follow(FrameScript& script) { script_ = &script; }
+    void tell(FrameWatcher& watcher) { watcher_ = &watcher; }
+
     void start();
     void stop() noexcept;
     bool finished() const { return finished_.load(); }
@@ -123,26 +135,32 @@ class FrameLoop {
     struct Slot {
         RadianceImage radiance;
         std::vector<PointSource> points;
+        FrameUse use;
         FrameRecord record;
+        std::vector<std::uint64_t> shown;  // for the recorder: the newest command of each thing
         Exposure exposure;
         std::int64_t exposure_end_ns = 0;
         std::int64_t not_before_ns = 0;  // may be published; 0: at any time
         double next_exposure_s = 0;      // automatic: of the slot's next frame; 0: not measured yet
         bool automatic = false;
-        std::size_t level = 0;                     // of quality, of the slot's last frame
-        std::int64_t render_ns = 0, sense_ns = 0;  // how long that took; 0: there was none
-        TestPattern test_pattern = TestPattern::kOff;
-        bool reverse_x = false, reverse_y = false;
+        bool ends_order = false;
+        std::int64_t render_ns = 0, sense_ns = 0;  // how long its last frame took; 0: there was none
     };
 
     void render_frames();
     void sense_frames();
-    void latch(const FrameStarter::Start& start, Slot& slot);
+    bool begin(Slot& slot);
+    void take_settings(const FrameStarter::Start& start, Slot& slot);
+    void latch(Slot& slot);
     double frame_ms(const Slot& slot) const;
-    void choose_level(Slot& slot);
+    std::uint32_t choose_level(const Slot& slot, std::uint64_t frame);
+    void use_level(std::uint32_t level);
     void render_into(Slot& slot);
     void count_budget();
+    void tell_watcher(const Slot& slot);
     void sense(Slot& slot);
+    void strike(Slot& slot);
+    void record(const Slot& slot);
     void finish_picture(const Slot& slot);
     void wait_to_publish(const Slot& slot) const;
     void tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const;
@@ -163,6 +181,13 @@ class FrameLoop {
     bool lockstep_;
     Governor governor_;
     BoundedQueue<LevelChange, 64> level_changes_;
+    FrameScript* script_ = nullptr;  // may be null, as the next two
+    FrameWatcher* watcher_ = nullptr;
+    Recorder* recorder_ = nullptr;
+    std::uint16_t recorded_camera_ = 0;
+    std::vector<std::uint64_t> recorded_shown_;  // the sensing thread's
+    std::uint64_t last_id_ = 0;                  // the rendering thread's, as the next
+    std::uint32_t level_ = 0;
 
     std::array<Slot, 2> slots_;
     std::counting_semaphore<> free_, rendered_{0};

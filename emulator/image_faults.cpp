@@ -21,10 +21,8 @@ bool same_size(const DnImage& a, const DnImage& b) {
 }
 
 // Which pixels: gaps between struck ones are geometric, so the work goes with their number.
-void flip_bits(FaultBoard& faults, const FrameRecord& record, std::uint64_t seed, DnImage& frame) {
-    const auto order = faults.order_of(FaultKind::kImageBitFlips);
-    if (!order || !faults.within_span(FaultKind::kImageBitFlips, record.id)) return;
-    const double log_miss = std::log1p(-std::min(order->rate, 1.0 - 1e-12));
+std::uint64_t flip_bits(double rate, const FrameRecord& record, std::uint64_t seed, DnImage& frame) {
+    const double log_miss = std::log1p(-std::min(rate, 1.0 - 1e-12));
     const std::span<std::uint16_t> pixels = frame.all();
     double at = 0;
     std::uint64_t struck = 0;
@@ -38,27 +36,37 @@ void flip_bits(FaultBoard& faults, const FrameRecord& record, std::uint64_t seed
             static_cast<std::uint16_t>(pixel ^ (1u << words[1] % static_cast<std::uint32_t>(record.bits)));
         at += 1;
     }
-    if (struck > 0) faults.count(FaultKind::kImageBitFlips, record.id, struck, order->value);
+    return struck;
 }
 
 }  // namespace
 
-void strike_image(FaultBoard& faults, const FrameRecord& record, std::uint64_t seed, const DnImage& before,
-                  DnImage& frame) {
-    const std::uint64_t id = record.id;
-    if (faults.strikes(FaultKind::kImageStuck, id) && same_size(before, frame))
+ImageFaults image_faults(FaultBoard& board, std::uint64_t frame) {
+    ImageFaults out;
+    out.stuck = board.strikes(FaultKind::kImageStuck, frame).has_value();
+    out.tear_share = board.strikes(FaultKind::kImageTear, frame);
+    out.black = board.strikes(FaultKind::kImageBlack, frame).has_value();
+    out.saturated = board.strikes(FaultKind::kImageSaturated, frame).has_value();
+    const auto flips = board.order_of(FaultKind::kImageBitFlips);
+    if (flips && board.within_span(FaultKind::kImageBitFlips, frame)) out.flip_rate = flips->rate;
+    return out;
+}
+
+std::uint64_t strike_image(const ImageFaults& faults, const FrameRecord& record, std::uint64_t seed,
+                           const DnImage& before, DnImage& frame) {
+    if (faults.stuck && same_size(before, frame))
         std::copy(before.all().begin(), before.all().end(), frame.all().begin());
-    if (const auto share = faults.strikes(FaultKind::kImageTear, id); share && same_size(before, frame)) {
-        const int first = static_cast<int>(*share * frame.height());
+    if (faults.tear_share && same_size(before, frame)) {
+        const int first = static_cast<int>(*faults.tear_share * frame.height());
         for (int y = first; y < frame.height(); ++y)
             std::copy(before.row(y).begin(), before.row(y).end(), frame.row(y).begin());
     }
     const auto fill = [&](std::uint32_t dn) {
         std::fill(frame.all().begin(), frame.all().end(), static_cast<std::uint16_t>(dn));
     };
-    if (faults.strikes(FaultKind::kImageBlack, id)) fill(0);
-    if (faults.strikes(FaultKind::kImageSaturated, id)) fill((1u << record.bits) - 1);
-    flip_bits(faults, record, seed, frame);
+    if (faults.black) fill(0);
+    if (faults.saturated) fill((1u << record.bits) - 1);
+    return faults.flip_rate ? flip_bits(*faults.flip_rate, record, seed, frame) : 0;
 }
 
 std::uint64_t frame_faults(const FaultBoard& faults, std::uint64_t frame) {

@@ -136,12 +136,20 @@ bool LiveSettings::change(const SettingsChange& c) {
         wanted.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
     settings_ = wanted;
     latest_.write(settings_);
+    if (changed_) changed_(c);
     announce();
     return true;
 }
 
 TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
     const std::lock_guard lock(mutex_);
+    const TriggerResult result = take_order(asked);
+    if (triggered_) triggered_(asked, result);
+    return result;
+}
+
+// Under the lock.
+TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     if (closed_.load() || !settings_.running || !settings_.triggered) return TriggerResult::kNotArmed;
     if (asked.source != (limits_.lockstep ? TriggerSource::kLine0 : settings_.trigger_source))
         return TriggerResult::kNotArmed;

@@ -35,6 +35,13 @@ class LiveSettings : public CameraControl {
     // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
 
+    // Called with a lock held for every change that is made, and for every trigger with what became of it;
+    // must not call back. Before the threads start.
+    void on_change(std::function<void(const SettingsChange&)> tell) { changed_ = std::move(tell); }
+    void on_trigger(std::function<void(const TriggerOrder&, TriggerResult)> tell) {
+        triggered_ = std::move(tell);
+    }
+
     // Lockstep, one caller at a time: trigger(), to be followed by wait_for_order(), which returns when the
     // loop has seen the world for the order's last frame, or at once when it was not taken. False when that
     // takes longer than `patience_s`.
@@ -67,6 +74,7 @@ class LiveSettings : public CameraControl {
 
   private:
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
+    TriggerResult take_order(const TriggerOrder& asked);
     void announce();
 
     CameraLimits limits_;
@@ -84,6 +92,8 @@ class LiveSettings : public CameraControl {
     bool ordered_ = false;
     TimeTai newest_simulated_;  // that was ordered
     std::function<void(std::int64_t)> missed_;
+    std::function<void(const SettingsChange&)> changed_;
+    std::function<void(const TriggerOrder&, TriggerResult)> triggered_;
 };
 
 }  // namespace hilcam

@@ -139,6 +139,16 @@ json run_report(const Emulator& emulator) {
     report["commands"] = {
         {"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}};
     report["machine"] = machine_report();
+    if (const Recorder* recorder = emulator.recorder()) {
+        const RecorderReport r = recorder->report();
+        report["recording"] = {{"file", r.file},   {"frames", r.frames}, {"commands", r.commands},
+                               {"bytes", r.bytes}, {"lost", r.lost},     {"complete", r.fault.empty()}};
+        if (!r.fault.empty()) report["faults"].push_back(r.fault);
+    }
+    for (const auto& replay : emulator.replays()) {
+        const Replay::Outcome outcome = replay->outcome();
+        report["replay"].push_back({{"frames", outcome.frames}, {"whole", outcome.whole}});
+    }
     if (emulator.stations().size() > 1)
         for (const auto& station : emulator.stations())
             report["cameras"].push_back(camera_report(*station, emulator.seconds()));

@@ -90,18 +90,28 @@ WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& orig
     HILCAM_CHECK(!things_.empty());
 }
 
-bool WorldState::set(std::size_t thing, const Motion& motion, ShownCommand command, bool alone) {
-    return thing <= objects_ && write(*things_[thing], motion, command, alone);
+std::optional<std::size_t> WorldState::thing_of(std::size_t object) const {
+    if (object > objects_) return {};
+    return object;
+}
+
+std::optional<std::size_t> WorldState::thing_of(std::size_t object, std::size_t joint) const {
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+        if (joints_[i].object + 1 == object && ++number == joint) return 1 + objects_ + i;
+    return {};
+}
+
+bool WorldState::set(std::size_t object, const Motion& motion, ShownCommand command, bool alone) {
+    const auto thing = thing_of(object);
+    return thing && write(*things_[*thing], motion, command, alone);
 }
 
 bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m,
                            ShownCommand command) {
-    std::size_t number = 0;
-    for (std::size_t i = 0; i < joints_.size(); ++i)
-        if (joints_[i].object + 1 == object && ++number == joint)
-            return write(*things_[1 + objects_ + i],
-                         {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}}, command);
-    return false;
+    const auto thing = thing_of(object, joint);
+    return thing &&
+           write(*things_[*thing], {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}}, command);
 }
 
 bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command, bool alone) {
@@ -124,6 +134,10 @@ void WorldState::sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown)
             shown = thing->sampled->command;
     }
     sample_again(time, true, world);
+}
+
+void WorldState::shown_numbers(std::span<std::uint64_t> numbers) const {
+    for (std::size_t i = 0; i < things_.size(); ++i) numbers[i] = things_[i]->sampled->command.number;
 }
 
 // Where the things are that sources move, after those that are commanded or at rest: sources may follow them.

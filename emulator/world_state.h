@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct ShownCommand {
     std::uint32_t sequence = 0;
     std::int64_t arrival_monotonic_ns = 0;  // 0: none yet
     TimeTai time{};                         // its tag; set by WorldState
+    std::uint64_t number = 0;               // in the recording, from 1; 0: in none
 };
 
 // A part of an object that turns about an axis (object's axes, unit).
@@ -50,7 +52,7 @@ class WorldState {
                std::span<const Joint> joints = {}, const Mount& mount = {}, MotionSources sources = {});
 
     // Any thread but the loop. False when there is no such thing. `alone`: what was known of it is forgotten.
-    bool set(std::size_t thing, const Motion& motion, ShownCommand command, bool alone = false);
+    bool set(std::size_t object, const Motion& motion, ShownCommand command, bool alone = false);
     // The angle of an object's joint at an instant, and how fast it turns from then on. object, joint:
     // from 1. False when there is no such joint.
     struct JointMotion {
@@ -59,6 +61,11 @@ class WorldState {
         double rate_rad_s = 0;
     };
     bool set_joint(std::size_t object, std::size_t joint, const JointMotion& motion, ShownCommand command);
+    // The thing that a command is about, counted as shown_numbers() does; none when there is no such one.
+    std::optional<std::size_t> thing_of(std::size_t object) const;
+    std::optional<std::size_t> thing_of(std::size_t object, std::size_t joint) const;
+    // The camera's body, objects and joints.
+    std::size_t things() const { return things_.size(); }
     // Objects and joints: what `world.objects` must have room for.
     std::size_t placed_objects() const { return things_.size() - 1; }
     // Loop, one thread. `world.objects` must have room for placed_objects(): the objects, then the joints'
@@ -67,6 +74,8 @@ class WorldState {
     // Another instant, told from what the last sample() knew: commands that came since do not count. Without
     // bodies they stay as they are in `world`.
     void sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const;
+    // Of each of things(), the number of the newest command that the last sample() knew. Loop.
+    void shown_numbers(std::span<std::uint64_t> numbers) const;
     // How often a source was asked for an instant that it does not know, and stood still. Any thread.
     std::uint64_t held() const { return held_.load(std::memory_order_relaxed); }
 

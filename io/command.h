@@ -87,6 +87,7 @@ struct CommandSource {
     std::uint32_t sequence = 0;
     std::int64_t arrival_monotonic_ns = 0;
     std::uint16_t camera = 0;  // that it is for, from 1; 0: every one. Poses and angles are for all.
+    std::uint16_t event = 0;   // of the scenario, from 1, that gave it; 0: a sender
 };
 
 // What the emulator does with a decoded command. Called by the receivers' threads, one at a time per

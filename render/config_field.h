@@ -101,6 +101,9 @@ struct SectionField {
 // earlier elements need not stay valid, because each element is read before the next is appended.
 struct SectionsField {
     std::function<SectionField()> append;
+    // The elements that there are, to list them.
+    std::function<std::size_t()> count{};
+    std::function<SectionField(std::size_t)> at{};
 };
 
 struct Field {
@@ -171,7 +174,9 @@ Field section(std::string key, T& value, std::string meaning) {
 template <class T>
 Field sections(std::string key, std::vector<T>& value, std::string meaning) {
     return {std::move(key), std::move(meaning),
-            SectionsField{[&value] { return section_of(value.emplace_back()); }}};
+            SectionsField{[&value] { return section_of(value.emplace_back()); },
+                          [&value] { return value.size(); },
+                          [&value](std::size_t i) { return section_of(value[i]); }}};
 }
 inline Field required(Field field, bool* present = nullptr) {
     field.required = true;

@@ -1,0 +1,24 @@
+#pragma once
+// Who wants to know what a loop has seen.
+
+#include <cstdint>
+
+#include "render/scene.h"
+
+namespace hilcam {
+
+struct SeenFrame {
+    std::uint64_t id = 0;       // 0: none yet
+    std::int64_t begin_ns = 0;  // of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it
+    TimeTai middle;             // of the exposure, simulated
+    double exposure_s = 0;
+};
+
+class FrameWatcher {
+  public:
+    virtual ~FrameWatcher() = default;
+    // A frame has been rendered; the world is that of its middle. Loop: no lock, no allocation.
+    virtual void seen(const SeenFrame& frame, const WorldSnapshot& world) noexcept = 0;
+};
+
+}  // namespace hilcam

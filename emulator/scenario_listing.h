@@ -1,0 +1,20 @@
+#pragma once
+// A scenario as lines "key = value": all that its frames depend on, so that two can be compared.
+//
+// Every key of the configuration, given or not, in the order of the manual; of a file that a key names, its
+// name, length and CRC-32. Not in it: what frames do not depend on (outputs, commands, telemetry, threads,
+// real time, names), and events and faults, which a recording holds as what they did. Files that those files
+// name in turn (a glTF file's textures) are not looked at.
+
+#include <string>
+
+#include "emulator/app_config.h"
+
+namespace hilcam {
+
+std::string scenario_listing(ScenarioConfig scenario);
+
+// Where two listings differ, for people: "camera.exposure_ms: 2 there, 5 here (and 3 more)". Empty: nowhere.
+std::string listing_difference(const std::string& there, const std::string& here);
+
+}  // namespace hilcam
