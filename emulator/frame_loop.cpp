@@ -123,6 +123,8 @@ void FrameLoop::take_settings(const FrameStarter::Start& start, Slot& slot) {
     use.reverse_x = s.reverse_x, use.reverse_y = s.reverse_y;
     use.trigger_sequence = start.trigger_sequence;
     use.quality_level = choose_level(slot, use.id);
+    use.faults = frame_faults(faults_, use.id);
+    use.image = image_faults(faults_, use.id);
     slot.use = use;
     slot.not_before_ns = start.not_before_ns;
     slot.automatic = s.automatic_exposure;
@@ -143,6 +145,7 @@ void FrameLoop::latch(Slot& slot) {
     record.binning_x = use.binning_x, record.binning_y = use.binning_y;
     record.trigger_sequence = use.trigger_sequence;
     record.quality_level = use.quality_level;
+    record.faults = use.faults;
     record.exposure_mid_monotonic_ns = use.begin_ns + to_ns(timing_.middle_s(use.exposure_s));
     record.exposure_mid = use.exposure_mid;
     slot.exposure = {use.exposure_s, use.gain_db, use.black_level_dn, use.binning_x, use.binning_y, {}, {}};
@@ -248,7 +251,8 @@ void FrameLoop::sense(Slot& slot) {
     meters_.points.record(from_ms(times.points_ms));
     meters_.digitise.record(from_ms(times.digitise_ms));
     finish_picture(slot);
-    strike(slot);
+    const std::uint64_t flipped = strike_image(slot.use.image, slot.record, seed_, before_, frame_);
+    if (flipped > 0) faults_.count(FaultKind::kImageBitFlips, slot.record.id, flipped, 0);
     slot.sense_ns = monotonic_ns() - begun_ns;
     meters_.sense.record(slot.sense_ns);
 
@@ -268,17 +272,6 @@ void FrameLoop::sense(Slot& slot) {
     last_published_ns_ = done_ns;
     counters_.last_id.store(slot.record.id, std::memory_order_relaxed);
     if (counters_.frames.fetch_add(1, std::memory_order_relaxed) + 1 == limits_.warm_up) meters_.clear();
-}
-
-void FrameLoop::strike(Slot& slot) {
-    FrameUse& use = slot.use;
-    if (!script_) {
-        use.faults = frame_faults(faults_, use.id);
-        use.image = image_faults(faults_, use.id);
-    }
-    slot.record.faults = use.faults;
-    const std::uint64_t flipped = strike_image(use.image, slot.record, seed_, before_, frame_);
-    if (flipped > 0) faults_.count(FaultKind::kImageBitFlips, use.id, flipped, 0);
 }
 
 // What the frame shows of commands, where that has changed, then the frame.

@@ -20,7 +20,8 @@
 //
 // Settings of a frame: exposure and gain are those of the live settings, or of its step of the camera's
 // sequence, or with automatic exposure what the frame two before it in the loop asks for: that is the one
-// whose slot it takes over, so it does not depend on timing.
+// whose slot it takes over, so it does not depend on timing. Faults of a frame are those that are in force
+// when it begins.
 //
 // Quality: with a frame budget the governor (governor.h) chooses each frame's level by what earlier frames
 // took: the longer of the two stages, or with latency both, as that is how long the next frame has to wait.
@@ -159,7 +160,6 @@ class FrameLoop {
     void count_budget();
     void tell_watcher(const Slot& slot);
     void sense(Slot& slot);
-    void strike(Slot& slot);
     void record(const Slot& slot);
     void finish_picture(const Slot& slot);
     void wait_to_publish(const Slot& slot) const;

@@ -13,11 +13,16 @@ using json = nlohmann::ordered_json;
 
 json list_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
+// Any two numbers have a difference: what a file says need not be a time.
+double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
+    const std::uint64_t ns = static_cast<std::uint64_t>(to_ns) - static_cast<std::uint64_t>(from_ns);
+    return 1e-9 * static_cast<double>(static_cast<std::int64_t>(ns));
+}
 double seconds_since(std::int64_t ns, const RecordingHeader& header) {
-    return 1e-9 * static_cast<double>(ns - header.monotonic_start_ns);
+    return seconds_between(header.monotonic_start_ns, ns);
 }
 double seconds_since(TimeTai time, const RecordingHeader& header) {
-    return 1e-9 * static_cast<double>(time.ns - header.start.ns);
+    return seconds_between(header.start.ns, time.ns);
 }
 
 template <class T>

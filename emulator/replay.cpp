@@ -170,7 +170,10 @@ void Replay::apply(const Pending& pending) {
 std::string Replay::refusal_of(const FrameUse& use) const {
     const CameraSettings& own = camera_.power_up;
     constexpr std::int64_t kFarthest_ns = 4'000'000'000'000'000'000;  // sums with it stay in range
-    if (use.begin_ns < -kFarthest_ns || use.begin_ns > kFarthest_ns) return "its time cannot be";
+    constexpr std::int64_t kFarthestTai_ns = 2 * kFarthest_ns;
+    if (use.begin_ns < -kFarthest_ns || use.begin_ns > kFarthest_ns ||
+        use.exposure_mid.ns < -kFarthestTai_ns || use.exposure_mid.ns > kFarthestTai_ns)
+        return "its time cannot be";
     if (use.id <= last_id_) return "its number is not after that of the frame before";
     if (!(use.exposure_s > 0 && use.exposure_s <= 1e5)) return "its exposure is not 0 to 1e5 s";
     if (!(std::abs(use.gain_db) <= 200)) return "its gain is not -200 to 200 dB";

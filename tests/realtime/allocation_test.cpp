@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <thread>
@@ -155,7 +157,7 @@ struct Seen {
     int allocations = 0;
     std::uint32_t level_changes = 0;
 };
-Seen run(const std::vector<std::string>& overrides, Loop loop) {
+Seen run(const std::vector<std::string>& overrides, Loop loop, const std::filesystem::path& record = {}) {
     const bool streaming = loop == Loop::kStreaming;
     const ScenarioConfig scenario =
         load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", overrides);
@@ -163,6 +165,7 @@ Seen run(const std::vector<std::string>& overrides, Loop loop) {
     limits.frames = streaming ? 300 : 80;
     limits.paced = loop != Loop::kUnpaced;
     limits.outputs = streaming;
+    limits.record = record;
     Emulator emulator(scenario, limits);
     std::thread runner([&] { emulator.run([] {}); });
     const auto frames = [&] { return emulator.loop().counters().frames.load(); };
@@ -235,6 +238,17 @@ TEST_F(Allocation, NorWhileTheGovernorChangesTheLevel) {
                           Loop::kPaced);
     EXPECT_EQ(seen.allocations, 0);
     EXPECT_GT(seen.level_changes, 0u);
+}
+
+TEST_F(Allocation, NorWhileItIsRecordedAndEventsAreWatchedFor) {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("hilcam_allocation_" + std::to_string(getpid()) + ".rec");
+    const Seen seen = run({"events=[{when: {object: target, distance_below_m: 1, light: lit}, do: stop}, "
+                           "{at_s: 10000, do: stop}]"},
+                          Loop::kPaced, file);
+    EXPECT_EQ(seen.allocations, 0);
+    EXPECT_GT(std::filesystem::file_size(file), 80u * 100);  // of a frame's record
+    std::filesystem::remove(file);
 }
 
 TEST_F(Allocation, NorWithAScanningLine) {
