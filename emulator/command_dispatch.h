@@ -6,7 +6,6 @@
 // is refused for that one only, and the status says so.
 
 #include <cstdint>
-#include <functional>
 #include <mutex>
 #include <vector>
 

@@ -76,8 +76,7 @@ Fields fields(EventConfig& e) {
         number("every_s", e.every_s, 1, {0, 1e9}, "of 'at_s' and 'at_utc': again and again"),
         integer("times", e.times, {0, 9e15}, "how often it may happen; 0: without end"),
         number("again_after_s", e.again_after_s, 1, {0, 1e9}, "of 'when': not sooner after the time before"),
-        integer("camera", e.camera, {0, static_cast<double>(65535)},
-                "that settings, faults and triggers are for; 0: every one"),
+        integer("camera", e.camera, {0, 65535}, "that settings, faults and triggers are for; 0: every one"),
         required(texts("do", e.actions, "commands in the words of 'hilcam send', or end: ends the run")),
     };
 }

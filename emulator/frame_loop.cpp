@@ -257,7 +257,7 @@ void FrameLoop::sense(Slot& slot) {
     meters_.sense.record(slot.sense_ns);
 
     wait_to_publish(slot);
-    if (recorder_) record(slot);
+    if (recorder_) keep(slot);
     tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.exposure_end_ns);
     const std::int64_t publish_ns = monotonic_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, slot.record);
@@ -275,7 +275,7 @@ void FrameLoop::sense(Slot& slot) {
 }
 
 // What the frame shows of commands, where that has changed, then the frame.
-void FrameLoop::record(const Slot& slot) {
+void FrameLoop::keep(const Slot& slot) {
     for (std::size_t i = 0; i < recorded_shown_.size(); ++i) {
         if (slot.shown[i] == recorded_shown_[i]) continue;
         recorded_shown_[i] = slot.shown[i];

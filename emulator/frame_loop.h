@@ -160,7 +160,7 @@ class FrameLoop {
     void count_budget();
     void tell_watcher(const Slot& slot);
     void sense(Slot& slot);
-    void record(const Slot& slot);
+    void keep(const Slot& slot);
     void finish_picture(const Slot& slot);
     void wait_to_publish(const Slot& slot) const;
     void tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const;

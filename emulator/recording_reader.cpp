@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-std::unique_ptr<std::istream> open(const std::filesystem::path& file) {
+std::unique_ptr<std::istream> open_file(const std::filesystem::path& file) {
     std::error_code error;
     auto in = std::make_unique<std::ifstream>(file, std::ios::binary);
     if (!*in || std::filesystem::is_directory(file, error))
@@ -22,12 +22,12 @@ std::unique_ptr<std::istream> open(const std::filesystem::path& file) {
 }  // namespace
 
 RecordingReader::RecordingReader(const std::filesystem::path& file)
-    : RecordingReader(open(file), file.string()) {}
+    : RecordingReader(open_file(file), file.string()) {}
 
 RecordingReader::RecordingReader(std::unique_ptr<std::istream> in, std::string name)
     : in_(std::move(in)), name_(std::move(name)) {
     std::array<std::uint8_t, kRecordingMagic.size()> magic{};
-    in_->read(reinterpret_cast<char*>(magic.data()), magic.size());
+    in_->read(reinterpret_cast<char*>(magic.data()), static_cast<std::streamsize>(magic.size()));
     const auto version_at = magic.end() - 1;
     if (!std::equal(magic.begin(), version_at, kRecordingMagic.begin()))
         throw InputError(name_ + ": is no recording; accepted: a file of hilcam run --record");
@@ -47,7 +47,7 @@ RecordingReader::RecordingReader(std::unique_ptr<std::istream> in, std::string n
 // Reads the next record into body_; nothing, and end_ says why, when there is no whole one.
 std::optional<std::size_t> RecordingReader::read_body(std::size_t most) {
     std::array<std::uint8_t, kRecordPrefixBytes> prefix{};
-    in_->read(reinterpret_cast<char*>(prefix.data()), prefix.size());
+    in_->read(reinterpret_cast<char*>(prefix.data()), static_cast<std::streamsize>(prefix.size()));
     end_ = RecordingEnd::kCutOff;
     if (static_cast<std::size_t>(in_->gcount()) < prefix.size()) return {};
     ByteReader fields(prefix);
