@@ -5,8 +5,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kFarthestTag_ns = 3'600'000'000'000;  // an hour
-constexpr double kPatience_s = 600;                          // for the frames of one order in lockstep
+constexpr double kPatience_s = 600;  // for the frames of one order in lockstep
 
 CommandStatus status_of(TriggerResult result) {
     switch (result) {
@@ -49,6 +48,7 @@ CommandStatus CommandDispatch::handle(const Command& command, const CommandSourc
         return change(change_of(*mode), source, CommandStatus::kNotNow);
     if (const auto* e = std::get_if<ExposeCommand>(&command)) return expose(*e, source);
     if (const auto* fault = std::get_if<FaultCommand>(&command)) return order(*fault, source);
+    if (const auto* clock = std::get_if<ClockCommand>(&command)) return order(*clock);
     if (std::holds_alternative<StartCommand>(command))
         return change({.running = true}, source, CommandStatus::kNotNow);
     if (std::holds_alternative<StopCommand>(command))
@@ -69,33 +69,64 @@ CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act) {
     return status;
 }
 
+void CommandDispatch::wake_cameras() {
+    for (const CommandedCamera& c : cameras_) c.settings->wake();
+}
+
+CommandStatus CommandDispatch::order(const ClockCommand& clock) {
+    const CommandStatus status = clock_.order(clock);
+    if (clock.action != ClockCommand::Action::kAsk) wake_cameras();
+    return status;
+}
+
 // A tag of 0 is the arrival; false for one too far from it. In lockstep time goes where it is told to.
 bool CommandDispatch::resolve(TimeTai& tag, const CommandSource& source) const {
     const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
     if (tag.ns == 0) tag = arrival;
     // Compared without subtracting: a hostile tag must not overflow.
-    return clock_.lockstep() || !(tag < arrival + -kFarthestTag_ns || arrival + kFarthestTag_ns < tag);
+    const std::int64_t horizon_ns = poses_.horizon_ns();
+    return clock_.lockstep() || !(tag < arrival + -horizon_ns || arrival + horizon_ns < tag);
+}
+
+// `set` moves a thing of one camera's world; its second argument: what was known of it is forgotten. `anew`:
+// the sender says so.
+template <class F>
+CommandStatus CommandDispatch::move(PoseWatch::Subject subject, TimeTai& tag, const CommandSource& source,
+                                    bool anew, F&& set) {
+    using Verdict = PoseWatch::Verdict;
+    const bool tagged = tag.ns != 0 && !anew;
+    if (!resolve(tag, source)) return CommandStatus::kTimeOutOfRange;
+    const Verdict verdict = tagged ? poses_.judge(subject, tag) : Verdict::kForwards;
+    if (source.notes) source.notes->went_back = verdict != Verdict::kForwards;
+    const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
+    const bool stopped = poses_.stops(arrival);
+    CommandStatus status = CommandStatus::kTimeBackwards;
+    if (verdict != Verdict::kRefused)
+        status = for_cameras(0, [&](const CommandedCamera& c) {
+            return set(*c.world, anew || verdict == Verdict::kBackwards) ? CommandStatus::kAccepted
+                                                                         : CommandStatus::kUnknownObject;
+        });
+    if (status == CommandStatus::kUnknownObject) return status;
+    poses_.took(subject, tag, arrival, anew ? Verdict::kAnew : verdict);
+    if (source.notes)
+        source.notes->tell_sender =
+            verdict == Verdict::kBackwards && poses_.rules().backwards == WhenBackwards::kFlag;
+    if (stopped) wake_cameras();
+    return status;
 }
 
 CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const CommandSource& source) {
     Motion motion = pose.motion;
-    if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
-    return for_cameras(0, [&](const CommandedCamera& c) {
-        return c.world->set(pose.object, motion, {source.sequence, source.arrival_monotonic_ns, {}},
-                            pose.alone)
-                   ? CommandStatus::kAccepted
-                   : CommandStatus::kUnknownObject;
+    return move({pose.object, 0}, motion.time, source, pose.alone, [&](WorldState& world, bool anew) {
+        return world.set(pose.object, motion, {source.sequence, source.arrival_monotonic_ns, {}}, anew);
     });
 }
 
 CommandStatus CommandDispatch::turn(const JointCommand& joint, const CommandSource& source) {
     WorldState::JointMotion motion{joint.time, joint.angle_rad, joint.rate_rad_s};
-    if (!resolve(motion.time, source)) return CommandStatus::kTimeOutOfRange;
-    return for_cameras(0, [&](const CommandedCamera& c) {
-        return c.world->set_joint(joint.object, joint.joint, motion,
-                                  {source.sequence, source.arrival_monotonic_ns, {}})
-                   ? CommandStatus::kAccepted
-                   : CommandStatus::kUnknownObject;
+    return move({joint.object, joint.joint}, motion.time, source, false, [&](WorldState& world, bool anew) {
+        return world.set_joint(joint.object, joint.joint, motion,
+                               {source.sequence, source.arrival_monotonic_ns, {}}, anew);
     });
 }
 
@@ -118,7 +149,8 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
     }
     TimeTai tag = e.time;
     if (!resolve(tag, source)) return CommandStatus::kTimeOutOfRange;
-    order.at_monotonic_ns = clock_.monotonic_at(tag);
+    order.at_monotonic_ns = source.arrival_monotonic_ns;
+    if (e.time.ns != 0) order.at_simulated = tag;
     return for_cameras(source.camera,
                        [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); });
 }

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kLongestSleep_ns = 50'000'000;  // how long a stop may have to wait
+constexpr std::int64_t kLongestSleep_ns = 5'000'000;  // how long a stop, or a change of the clock, may wait
 
 std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
 std::int64_t from_ms(double ms) { return static_cast<std::int64_t>(ms * 1e6); }
@@ -18,7 +18,8 @@ std::int64_t from_ms(double ms) { return static_cast<std::int64_t>(ms * 1e6); }
 
 FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const CameraModel& camera,
                      WorldState& world, LiveSettings& settings, FaultBoard& faults, SimulatedClock& clock,
-                     std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits)
+                     std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits,
+                     const PoseWatch* poses)
     : exposures_(exposures),
       chain_(chain),
       camera_(camera),
@@ -27,7 +28,8 @@ FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const Came
       settings_(settings),
       faults_(faults),
       clock_(clock),
-      starter_(camera, settings, clock, limits.paced),
+      poses_(poses),
+      starter_(camera, settings, clock, limits.paced, poses),
       sinks_(std::move(sinks)),
       seed_(seed),
       limits_(limits),
@@ -101,15 +103,39 @@ void FrameLoop::latch(const FrameStarter::Start& start, Slot& slot) {
     record.bits = camera_.frame_bits();
     record.binning_x = s.binning_x, record.binning_y = s.binning_y;
     record.trigger_sequence = start.trigger_sequence;
-    record.exposure_mid_monotonic_ns = start.begin_ns + to_ns(timing_.middle_s(record.exposure_s));
-    record.exposure_mid = clock_.at(record.exposure_mid_monotonic_ns);
+    place_in_time(start, slot);
     slot.exposure = {
         record.exposure_s, record.gain_db, record.black_level_dn, record.binning_x, record.binning_y, {}, {}};
-    slot.exposure_end_ns = start.begin_ns + to_ns(timing_.end_s(record.exposure_s));
-    slot.not_before_ns = start.not_before_ns;
     slot.automatic = s.automatic_exposure;
     slot.test_pattern = s.test_pattern;
     slot.reverse_x = s.reverse_x, slot.reverse_y = s.reverse_y;
+}
+
+// A frame's instants, and what it shows of the world's time: all of its exposure, part of it when time stops
+// on the way, or one instant.
+void FrameLoop::place_in_time(const FrameStarter::Start& start, Slot& slot) {
+    FrameRecord& record = slot.record;
+    const std::int64_t middle_ns = to_ns(timing_.middle_s(record.exposure_s));
+    const std::int64_t length_ns = to_ns(timing_.end_s(record.exposure_s));
+    slot.end_camera_ns = start.camera_ns + length_ns;
+    slot.until_end = start.until_end;
+    const TimeTai begin = clock_.simulated_of_camera(start.camera_ns);
+    const std::int64_t moved_ns = clock_.simulated_of_camera(slot.end_camera_ns) - begin;
+    const double moving =
+        moved_ns == length_ns ? 1 : static_cast<double>(moved_ns) / static_cast<double>(length_ns);
+    record.exposure_mid = begin + (moving == 1 ? middle_ns : moved_ns / 2);
+    record.exposure_mid_monotonic_ns = clock_.monotonic_of_camera(start.camera_ns + middle_ns);
+    slot.shown = {record.exposure_mid, moving};
+    slot.shutter_closed = false;
+    if (moving == 0) {
+        record.faults |= kTimeStandsBit;
+        counters_.standing.fetch_add(1, std::memory_order_relaxed);
+    }
+    if (!start.silence.stale) return;
+    record.faults |= kPosesStaleBit;
+    counters_.stale.fetch_add(1, std::memory_order_relaxed);
+    if (poses_->rules().when_stale == WhenStale::kHold) slot.shown = {start.silence.since, 0};
+    slot.shutter_closed = poses_->rules().when_stale == WhenStale::kBlack;
 }
 
 // How long the slot's last frame kept the next one waiting.
@@ -142,8 +168,17 @@ void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t m
 void FrameLoop::render_into(Slot& slot) {
     const std::int64_t begun_ns = monotonic_ns();
     FrameRecord& record = slot.record;
-    const ExposureRenderer::Result result = exposures_.render(world_, record.exposure_mid, {seed_, record.id},
-                                                              slot.radiance, slot.points, slot.exposure);
+    if (slot.shutter_closed) {
+        exposures_.keep_dark(slot.radiance, slot.points, slot.exposure);
+        slot.render_ns = 0;  // says nothing of what frames cost
+        return;
+    }
+    if (const std::uint64_t flagged = poses_ ? poses_->flagged() : 0; flagged != flagged_) {
+        record.faults |= kTagsWentBackBit;
+        flagged_ = flagged;
+    }
+    const ExposureRenderer::Result result = exposures_.render(
+        world_, slot.shown, {seed_, record.id}, slot.radiance, slot.points, slot.exposure);
     const ShownCommand& shown = result.shown;
     record.pose_sequence = shown.sequence;
     record.pose_time = shown.time;
@@ -201,13 +236,13 @@ void FrameLoop::sense(Slot& slot) {
     meters_.points.record(from_ms(times.points_ms));
     meters_.digitise.record(from_ms(times.digitise_ms));
     finish_picture(slot);
-    slot.record.faults = frame_faults(faults_, slot.record.id);
+    slot.record.faults |= frame_faults(faults_, slot.record.id);
     strike_image(faults_, slot.record, seed_, before_, frame_);
     slot.sense_ns = monotonic_ns() - begun_ns;
     meters_.sense.record(slot.sense_ns);
 
     wait_to_publish(slot);
-    tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.exposure_end_ns);
+    tell(CameraEvent::Kind::kExposureEnd, slot.record.id, clock_.monotonic_of_camera(slot.end_camera_ns));
     const std::int64_t publish_ns = monotonic_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, slot.record);
     std::swap(frame_, before_);
@@ -237,8 +272,9 @@ void FrameLoop::finish_picture(const Slot& slot) {
 // Not before the exposure is over; in lockstep not before every output has room, as no frame may be lost.
 void FrameLoop::wait_to_publish(const Slot& slot) const {
     const auto go_on = [&] { return !stopping_.load(std::memory_order_relaxed); };
-    while (monotonic_ns() < slot.not_before_ns && go_on())
-        sleep_until_monotonic_ns(std::min(slot.not_before_ns, monotonic_ns() + kLongestSleep_ns));
+    for (std::int64_t now_ns = monotonic_ns();
+         slot.until_end && clock_.camera_at(now_ns) < slot.end_camera_ns && go_on(); now_ns = monotonic_ns())
+        sleep_until_monotonic_ns(std::min(clock_.when_due(slot.end_camera_ns), now_ns + kLongestSleep_ns));
     if (!lockstep_) return;
     constexpr std::int64_t kPoll_ns = 200'000, kPatience_ns = 10'000'000'000;
     const std::int64_t until_ns = monotonic_ns() + kPatience_ns;

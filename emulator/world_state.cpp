@@ -94,13 +94,13 @@ bool WorldState::set(std::size_t thing, const Motion& motion, ShownCommand comma
     return thing <= objects_ && write(*things_[thing], motion, command, alone);
 }
 
-bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m,
-                           ShownCommand command) {
+bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m, ShownCommand command,
+                           bool alone) {
     std::size_t number = 0;
     for (std::size_t i = 0; i < joints_.size(); ++i)
         if (joints_[i].object + 1 == object && ++number == joint)
             return write(*things_[1 + objects_ + i],
-                         {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}}, command);
+                         {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}}, command, alone);
     return false;
 }
 

@@ -58,7 +58,8 @@ class WorldState {
         double angle_rad = 0;
         double rate_rad_s = 0;
     };
-    bool set_joint(std::size_t object, std::size_t joint, const JointMotion& motion, ShownCommand command);
+    bool set_joint(std::size_t object, std::size_t joint, const JointMotion& motion, ShownCommand command,
+                   bool alone = false);
     // Objects and joints: what `world.objects` must have room for.
     std::size_t placed_objects() const { return things_.size() - 1; }
     // Loop, one thread. `world.objects` must have room for placed_objects(): the objects, then the joints'
