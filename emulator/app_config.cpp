@@ -190,6 +190,7 @@ Fields fields(CommandsConfig& c) {
         optional(section("vizard", c.vizard,
                          "take Vizard's place for Basilisk (docs/vizard.md); with mode: lockstep"),
                  c.has_vizard),
+        section("poses", c.poses, "what is done when poses stop or their time goes back"),
     };
 }
 
@@ -258,6 +259,7 @@ Fields fields(ScenarioConfig& s) {
     Fields list = {
         text("name", s.name, "for reports"),
         required(text("time_utc", s.time_utc, "simulated time at the start")),
+        section("clock", s.clock, "how fast simulated time goes"),
         integer("seed", s.seed, {0, 9e15}, "of all random numbers"),
         integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core"),
         section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
@@ -344,6 +346,21 @@ void check_vizard(const ScenarioConfig& s) {
                              "; accepted with commands.vizard: 0, as its messages place the cameras");
 }
 
+// There simulated time goes from frame to frame, and each frame is asked for.
+void check_lockstep(const ScenarioConfig& s) {
+    if (s.clock.scale < 1 || s.clock.scale > 1)
+        throw InputError("clock.scale: found " + plain(s.clock.scale) +
+                         "; accepted with 'mode: lockstep': 1, as time goes from frame to frame");
+    if (s.clock.paused)
+        throw InputError(
+            "clock.paused: found true; accepted with 'mode: lockstep': false, as time stands "
+            "between frames anyway");
+    if (s.commands.poses.when_stale == WhenStale::kStop)
+        throw InputError(
+            "commands.poses.when_stale: found 'stop'; accepted with 'mode: lockstep': propagate, "
+            "hold, black, as each frame is asked for");
+}
+
 }  // namespace
 
 std::string governor_off(const ScenarioConfig& s) {
@@ -394,6 +411,7 @@ void validate(const ScenarioConfig& s) {
             throw InputError("more_cameras: on: found " + std::to_string(c.thing) + "; accepted: 0 to " +
                              std::to_string(s.objects.size()) + ", the number of objects");
     if (s.commands.has_vizard) check_vizard(s);
+    if (s.mode == CameraMode::kLockstep) check_lockstep(s);
 }
 
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "emulator/clock.h"
 #include "emulator/motion_config.h"
+#include "emulator/pose_watch.h"
 #include "emulator/quality_ladder.h"
 #include "emulator/world_state.h"
 #include "io/commands_functionfs.h"
@@ -158,6 +160,7 @@ struct CommandsConfig {
     UsbCommandConfig usb;
     FunctionFsConfig functionfs;
     VizardConfig vizard;
+    PoseRules poses;
 };
 Fields fields(CommandsConfig& commands);
 
@@ -193,6 +196,7 @@ struct ScenarioConfig {
 
     std::string name;
     std::string time_utc = "2026-01-01T00:00:00Z";
+    ClockConfig clock;
     std::int64_t seed = 1;
     std::int64_t threads = 0;
     OriginConfig origin;

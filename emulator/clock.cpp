@@ -58,7 +58,7 @@ void SimulatedClock::restart(TimeTai start, std::int64_t monotonic_start_ns) {
 
 SimulatedClock::Piece SimulatedClock::piece_from(const Beginning& from, double scale,
                                                  std::int64_t stand_ns) const {
-    Piece piece{from.monotonic_ns, from.camera_ns, scale,     from.simulated_ns - from.camera_ns,
+    Piece piece{from.monotonic_ns, from.camera_ns, scale,    from.simulated_ns - from.camera_ns,
                 from.least_ns,     kNever_ns,      kNever_ns};
     if (stand_ns == kNever_ns) return piece;
     if (config_.camera_in_pause == CameraInPause::kWaits)
@@ -109,6 +109,7 @@ std::int64_t SimulatedClock::monotonic_of_camera(std::int64_t camera_ns) const {
 }
 
 std::int64_t SimulatedClock::when_due(std::int64_t camera_ns) const {
+    if (camera_ns == kNever_ns) return kNever_ns;
     const State state = state_.read();
     const Piece& piece = state.of(camera_ns);
     return camera_ns > piece.camera_most_ns ? kNever_ns : piece.monotonic_of(camera_ns);

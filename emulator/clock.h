@@ -2,12 +2,13 @@
 // Simulated time against the machine's clock, and the camera's time between the two. All are int64 ns.
 //
 //     machine     CLOCK_MONOTONIC
-//     camera      what frame periods, exposures, shutters and trigger delays are counted in: the camera is part
+//     camera      what frame periods, exposures, shutters and trigger delays are counted in: the camera is
+//     part
 //                 of the simulated world. It goes `scale` times as fast as the machine's time.
 //     simulated   TAI of the world. Goes with the camera's time, or stands.
 //
-// So a bench whose machine or simulator is too slow runs at scale 0.1 and gets the frames that it would get in
-// real time: the same instants, the same blur, ten times as far apart for who receives them.
+// So a bench whose machine or simulator is too slow runs at scale 0.1 and gets the frames that it would get
+// in real time: the same instants, the same blur, ten times as far apart for who receives them.
 //
 // While simulated time stands (paused, or a step is over)
 //     camera_in_pause: streams   the camera's time goes on: frames keep coming at their rate, of the standing
@@ -18,7 +19,8 @@
 // A step lets time run, at the scale in force, for exactly that long: every frame that begins in it is taken.
 //
 // A change takes effect kLead_ns after it was asked for, when every thread has it: each instant of the
-// machine's has one simulated time, whoever asks and whenever. Simulated time never jumps and never goes back.
+// machine's has one simulated time, whoever asks and whenever. Simulated time never jumps and never goes
+// back.
 //
 //     camera    = min(c0 + scale (machine - m0), c_most)      a piece from m0, c0 on
 //     simulated = clamp(camera + shift, s_least, s_most)
@@ -27,7 +29,8 @@
 // Scaled times are rounded to 1 ns; at scale 1 they are exact.
 //
 // Lockstep: simulated time stands until it is told to step, `now` is that of the last frame, no scale means
-// anything, and changes are refused. The two other axes then run as if it were not so: they only name instants.
+// anything, and changes are refused. The two other axes then run as if it were not so: they only name
+// instants.
 //
 // Threads: any, without a lock, but for order(), which takes one and returns when the change is in effect.
 

@@ -38,7 +38,9 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     : scenario_(scenario),
       limits_(limits),
       grid_(scenario.spectrum_edges_um),
-      clock_(parse_utc(scenario.time_utc), monotonic_ns()) {
+      clock_(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep,
+             scenario.clock),
+      poses_(scenario.commands.poses, scenario.mode == CameraMode::kLockstep) {
     const RealTime& wishes = scenario.loop.real_time;
     require_rights(wishes);
     if (!wishes.cores.empty())
@@ -54,15 +56,14 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
         bench[i].world = &stations_[i]->world();
     }
     // Loading took its time; the simulation starts now.
-    clock_ =
-        SimulatedClock(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep);
-    dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_);
+    clock_.restart(parse_utc(scenario.time_utc), monotonic_ns());
+    dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_, &poses_);
     if (limits.outputs) {
         receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());
         if (scenario.commands.has_vizard) receivers_.push_back(make_vizard(scenario, stations_, *dispatch_));
         make_telemetry();
     }
-    for (const auto& station : stations_) station->prepare(clock_);
+    for (const auto& station : stations_) station->prepare(clock_, poses_);
 }
 
 // When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.
@@ -145,6 +146,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         for (const auto& station : stations_) station->serve_faults(seconds_);
         print_level_changes();
         print_held_motion();
+        silence_log_.look();
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
             print_line();
             next_line_ns += 1'000'000'000;

@@ -13,6 +13,7 @@
 #include "emulator/camera_station.h"
 #include "emulator/command_dispatch.h"
 #include "emulator/command_receivers.h"
+#include "emulator/silence_log.h"
 
 namespace hilcam {
 
@@ -35,6 +36,7 @@ class Emulator {
     WorldState& world() { return first().world(); }
     const DeliveryMeter& delivery() const { return first().delivery(); }
     const SimulatedClock& clock() const { return clock_; }
+    const PoseWatch& poses() const { return poses_; }
     double seconds() const { return seconds_; }
     CommandReport command_report() const;
 
@@ -51,6 +53,8 @@ class Emulator {
     std::optional<tbb::global_control> threads_;  // as many as the loop has cores of its own
     SpectralGrid grid_;
     SimulatedClock clock_;
+    PoseWatch poses_;
+    SilenceLog silence_log_{clock_, poses_};
     std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null
     std::vector<std::unique_ptr<CameraStation>> stations_;
     std::unique_ptr<CommandDispatch> dispatch_;

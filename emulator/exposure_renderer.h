@@ -55,8 +55,8 @@ class ExposureRenderer {
         int parts = 1;
         bool parts_limited = false;  // more than kMostParts were asked for
     };
-    // The exposure of exposure.exposure_s of a world about an instant; sets the exposure's rates and ray grid. Loop, one
-    // thread; no allocation.
+    // The exposure of exposure.exposure_s of a world about an instant; sets the exposure's rates and ray
+    // grid. Loop, one thread; no allocation.
     Result render(WorldState& world, const ShownWorld& shown, RandomKey key, RadianceImage& radiance,
                   std::vector<PointSource>& points, Exposure& exposure);
     // The same with the shutter closed. Loop.

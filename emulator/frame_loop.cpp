@@ -177,8 +177,8 @@ void FrameLoop::render_into(Slot& slot) {
         record.faults |= kTagsWentBackBit;
         flagged_ = flagged;
     }
-    const ExposureRenderer::Result result = exposures_.render(
-        world_, slot.shown, {seed_, record.id}, slot.radiance, slot.points, slot.exposure);
+    const ExposureRenderer::Result result =
+        exposures_.render(world_, slot.shown, {seed_, record.id}, slot.radiance, slot.points, slot.exposure);
     const ShownCommand& shown = result.shown;
     record.pose_sequence = shown.sequence;
     record.pose_time = shown.time;

@@ -11,19 +11,19 @@
 // Pixels are the same in both.
 //
 // When frames begin is frame_starter.h's business. Timing in free-run: frame k begins at s_k = s_0 + k period
-// in the camera's time (clock.h: at scale 1 that of CLOCK_MONOTONIC); its middle, its end and the period follow
-// from exposure, frame rate and shutter (shutter_timing.h). Rendering begins at s_k and shows
-// the pose of the middle, propagated; the frame leaves not before its end. Example of a global shutter at 30
-// Hz and 2 ms: rendering starts at 0.0, the pose is that of 1.0 ms, a frame computed in 25 ms leaves at 25
-// ms, the next rendering starts at 33.3 ms. A start missed by more than a period is skipped and counted;
-// frame ids leave a gap there.
+// in the camera's time (clock.h: at scale 1 that of CLOCK_MONOTONIC); its middle, its end and the period
+// follow from exposure, frame rate and shutter (shutter_timing.h). Rendering begins at s_k and shows the pose
+// of the middle, propagated; the frame leaves not before its end. Example of a global shutter at 30 Hz and 2
+// ms: rendering starts at 0.0, the pose is that of 1.0 ms, a frame computed in 25 ms leaves at 25 ms, the
+// next rendering starts at 33.3 ms. A start missed by more than a period is skipped and counted; frame ids
+// leave a gap there.
 //
 // Settings of a frame: exposure and gain are those of the live settings, or of its step of the camera's
 // sequence, or with automatic exposure what the frame two before it in the loop asks for: that is the one
 // whose slot it takes over, so it does not depend on timing.
 //
-// While simulated time stands, or poses are stale and the world is to be held (pose_watch.h), a frame shows the
-// world at one instant, without blur; where the shutter is to be closed then, nothing is rendered.
+// While simulated time stands, or poses are stale and the world is to be held (pose_watch.h), a frame shows
+// the world at one instant, without blur; where the shutter is to be closed then, nothing is rendered.
 //
 // Quality: with a frame budget the governor (governor.h) chooses each frame's level by what earlier frames
 // took: the longer of the two stages, or with latency both, as that is how long the next frame has to wait.
@@ -80,7 +80,7 @@ struct LoopCounters {
     // Exposures skipped, or of a trigger begun a period late, because the one before took too long.
     std::atomic<std::uint64_t> deadline_misses{0};
     std::atomic<std::uint64_t> last_id{0};
-    std::atomic<std::uint64_t> motion_limited{0};  // frames with more motion than exact motion divides
+    std::atomic<std::uint64_t> motion_limited{0};      // frames with more motion than exact motion divides
     std::atomic<std::uint64_t> standing{0}, stale{0};  // frames while time stood; while no poses came
     // Quality levels: that of the newest frame, how often it changed, how many frames each has had.
     std::atomic<std::uint32_t> level{0}, level_changes{0};
@@ -131,7 +131,7 @@ class FrameLoop {
         std::vector<PointSource> points;
         FrameRecord record;
         Exposure exposure;
-        ShownWorld shown{{}};
+        ShownWorld shown{TimeTai{}};
         bool shutter_closed = false;
         std::int64_t end_camera_ns = 0;  // of the exposure, camera's time
         bool until_end = false;          // not to be published before

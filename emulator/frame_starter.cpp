@@ -161,7 +161,8 @@ void FrameStarter::forget_orders() {
 
 // False when it is to stop, or the camera does not get there as the clock goes now.
 bool FrameStarter::sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const {
-    for (std::int64_t now_ns = monotonic_ns(); clock_.camera_at(now_ns) < camera_ns; now_ns = monotonic_ns()) {
+    for (std::int64_t now_ns = monotonic_ns(); clock_.camera_at(now_ns) < camera_ns;
+         now_ns = monotonic_ns()) {
         const std::int64_t due_ns = clock_.when_due(camera_ns);
         if (stopping.load(std::memory_order_relaxed) || due_ns == SimulatedClock::kNever_ns) return false;
         sleep_until_monotonic_ns(std::min(std::max(due_ns, now_ns + 1'000), now_ns + kLongestSleep_ns));

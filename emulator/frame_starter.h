@@ -9,9 +9,9 @@
 //               the same commands give the same frames on any machine
 //
 // All of it is in the camera's time (clock.h), which goes with the simulated one: slower, faster, or, where a
-// camera waits while time stands, not at all. A scheduled trigger waits for its instant on the machine's clock
-// or in simulated time, whichever it names. Where frames stop without poses (pose_watch.h), none begins and
-// orders that wait are dropped.
+// camera waits while time stands, not at all. A scheduled trigger waits for its instant on the machine's
+// clock or in simulated time, whichever it names. Where frames stop without poses (pose_watch.h), none begins
+// and orders that wait are dropped.
 //
 // Settings are those of the instant the exposure begins.
 

@@ -22,8 +22,9 @@ Fields fields(PoseRules& r) {
                "frames"),
         choice("watch", r.watch, {"any", "camera"},
                "whose poses count for that: any thing's and joint's, or those of the camera's body alone"),
-        number("late_s", r.late_s, 1, {0, 1e6},
-               "a time tag so much before the newest of its thing is late; farther back, time went backwards"),
+        number(
+            "late_s", r.late_s, 1, {0, 1e6},
+            "a time tag so much before the newest of its thing is late; farther back, time went backwards"),
         choice("backwards", r.backwards, {"flag", "accept", "refuse"},
                "what then. flag: the pose counts, frame and acknowledgement say so; accept: it counts; "
                "refuse: it does not"),
@@ -42,8 +43,7 @@ PoseWatch::Verdict PoseWatch::judge(Subject subject, TimeTai tag) const {
     const auto newest = newest_tags_.find(subject);
     // Tags of lockstep may be anything: compared without overflow.
     if (newest == newest_tags_.end() || tag >= newest->second) return Verdict::kForwards;
-    const auto back_ns =
-        static_cast<std::uint64_t>(newest->second.ns) - static_cast<std::uint64_t>(tag.ns);
+    const auto back_ns = static_cast<std::uint64_t>(newest->second.ns) - static_cast<std::uint64_t>(tag.ns);
     if (back_ns <= static_cast<std::uint64_t>(late_ns_)) return Verdict::kForwards;
     return rules_.backwards == WhenBackwards::kRefuse ? Verdict::kRefused : Verdict::kBackwards;
 }

@@ -2,11 +2,11 @@
 // Whether poses still come, and whether their time tags go forwards. One for a bench: commands tell it, every
 // camera's loop asks it.
 //
-// Silence is measured in simulated time, from the arrival of the newest pose or angle that is watched: at half
-// the speed a simulator sends half as often, and none while time stands. What a run shows does not depend on
-// its speed, so it is the same at another scale. In lockstep, where frames must not depend on the machine, it
-// is measured from the newest time tag. Before the first pose there is no silence: the scenario's own motion
-// holds.
+// Silence is measured in simulated time, from the arrival of the newest pose or angle that is watched: at
+// half the speed a simulator sends half as often, and none while time stands. What a run shows does not
+// depend on its speed, so it is the same at another scale. In lockstep, where frames must not depend on the
+// machine, it is measured from the newest time tag. Before the first pose there is no silence: the scenario's
+// own motion holds.
 //
 //     stale at an instant t:  t > newest + stale_after;  since:  newest + stale_after
 // Example: stale_after_s 0.5, the last pose came at 10 s: a frame whose exposure begins at 10.4 s is as any
@@ -18,10 +18,11 @@
 //   black      the shutter is closed: dark current, bias and noise remain
 //   stop       no exposure begins until a pose comes; orders that wait are dropped
 //
-// A tag more than late_s before the newest tag of its thing is a clock that went back (a simulator begun anew,
-// a clock stepped); what is less is a packet that came late, and takes its place between the others. Tags of 0
-// ("on arrival") cannot go back. Accepted, it begins the thing's motion anew: what was known of it is forgotten,
-// as the newest of it lies in a future that the sender has given up.
+// A tag more than late_s before the newest tag of its thing is a clock that went back (a simulator begun
+// anew, a clock stepped); what is less is a packet that came late, and takes its place between the others.
+// Tags of 0
+// ("on arrival") cannot go back. Accepted, it begins the thing's motion anew: what was known of it is
+// forgotten, as the newest of it lies in a future that the sender has given up.
 //
 // Threads: judge() and took() any but the loop (a lock); the rest any, without one.
 

@@ -77,8 +77,8 @@ bool decode_acknowledgement(std::span<const std::uint8_t> packet, Acknowledgemen
 std::string_view name_of(CommandStatus status) {
     // In the order of their numbers.
     constexpr std::array<std::string_view, 12> kNames = {
-        "accepted",         "bad length",   "bad header",     "unknown APID",      "bad checksum",
-        "unknown function", "bad argument", "unknown object", "time out of range", "busy",
+        "accepted",         "bad length",    "bad header",     "unknown APID",      "bad checksum",
+        "unknown function", "bad argument",  "unknown object", "time out of range", "busy",
         "not now",          "time went back"};
     const auto number = static_cast<std::size_t>(status);
     return number < kNames.size() ? kNames[number] : "unknown status";

@@ -93,7 +93,8 @@ struct ClockReading {
     TimeTai arrival, departure;
     std::int64_t arrival_monotonic_ns = 0, departure_monotonic_ns = 0;
     double scale = 1;  // in force when time runs, also while it stands
-    TimeTai stands_at{std::numeric_limits<std::int64_t>::max()};  // as yet; the last instant there is: nowhere
+    TimeTai stands_at{
+        std::numeric_limits<std::int64_t>::max()};  // as yet; the last instant there is: nowhere
 };
 
 // Travels in the acknowledgement; the numbers are part of the protocol.
@@ -123,7 +124,7 @@ struct CommandNotes {
 struct CommandSource {
     std::uint32_t sequence = 0;
     std::int64_t arrival_monotonic_ns = 0;
-    std::uint16_t camera = 0;  // that it is for, from 1; 0: every one. Poses and angles are for all.
+    std::uint16_t camera = 0;       // that it is for, from 1; 0: every one. Poses and angles are for all.
     CommandNotes* notes = nullptr;  // to be filled, also when it is refused; may be null
 };
 
@@ -159,7 +160,8 @@ struct CommandReport {
     CommandReport& operator+=(const CommandReport& other) {
         received += other.received, refused += other.refused, lost += other.lost;
         duplicates += other.duplicates, went_back += other.went_back;
-        skipped_bytes += other.skipped_bytes, strangers += other.strangers, cut_off += other.cut_off, clients += other.clients;
+        skipped_bytes += other.skipped_bytes, strangers += other.strangers, cut_off += other.cut_off,
+            clients += other.clients;
         return *this;
     }
 };

@@ -3,8 +3,8 @@
 // brings the bytes (commands_udp.h, stream_server.h, commands_usb.h, ...) knows nothing of commands.
 //
 // Commands take effect in the order they arrive, whatever their sequence numbers. An `expose`, a `fault` or a
-// clock's step that repeats an earlier packet of its sender byte by byte within a second is a retry, or the network's
-// doing: it is answered as the first was, and not done again.
+// clock's step that repeats an earlier packet of its sender byte by byte within a second is a retry, or the
+// network's doing: it is answered as the first was, and not done again.
 
 #include <array>
 #include <cstdint>
