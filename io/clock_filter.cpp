@@ -49,7 +49,7 @@ std::optional<TimeTai> ClockFilter::simulated_at(std::int64_t sender_ns) const {
 TimeTai simulated_at(const ClockReading& r, std::int64_t monotonic_ns) {
     const std::int64_t since_ns = difference(monotonic_ns, r.departure_monotonic_ns);
     const double scaled_ns = std::clamp(r.scale * static_cast<double>(since_ns), -4e18, 4e18);
-    const std::int64_t ahead_ns = r.scale == 1 ? since_ns : std::llround(scaled_ns);
+    const std::int64_t ahead_ns = r.scale == 1 || !(scaled_ns >= -4e18) ? since_ns : std::llround(scaled_ns);
     return std::min(TimeTai{sum(r.departure.ns, ahead_ns)}, r.stands_at);
 }
 
