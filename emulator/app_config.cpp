@@ -191,6 +191,7 @@ Fields fields(CommandsConfig& c) {
         optional(section("vizard", c.vizard,
                          "take Vizard's place for Basilisk (docs/vizard.md); with mode: lockstep"),
                  c.has_vizard),
+        section("poses", c.poses, "what is done when poses stop or their time goes back"),
     };
 }
 
@@ -266,6 +267,7 @@ Fields fields(ScenarioConfig& s) {
     Fields list = {
         text("name", s.name, "for reports"),
         required(text("time_utc", s.time_utc, "simulated time at the start")),
+        section("clock", s.clock, "how fast simulated time goes"),
         integer("seed", s.seed, {0, 9e15}, "of all random numbers"),
         integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core"),
         section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
@@ -353,6 +355,21 @@ void check_vizard(const ScenarioConfig& s) {
                              "; accepted with commands.vizard: 0, as its messages place the cameras");
 }
 
+// There simulated time goes from frame to frame, and each frame is asked for.
+void check_lockstep(const ScenarioConfig& s) {
+    if (s.clock.scale < 1 || s.clock.scale > 1)
+        throw InputError("clock.scale: found " + plain(s.clock.scale) +
+                         "; accepted with 'mode: lockstep': 1, as time goes from frame to frame");
+    if (s.clock.paused)
+        throw InputError(
+            "clock.paused: found true; accepted with 'mode: lockstep': false, as time stands "
+            "between frames anyway");
+    if (s.commands.poses.when_stale == WhenStale::kStop)
+        throw InputError(
+            "commands.poses.when_stale: found 'stop'; accepted with 'mode: lockstep': propagate, "
+            "hold, black, as each frame is asked for");
+}
+
 }  // namespace
 
 std::string governor_off(const ScenarioConfig& s) {
@@ -408,6 +425,7 @@ void validate(const ScenarioConfig& s) {
                              std::to_string(1 + s.more_cameras.size()));
     const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
     if (s.commands.has_vizard) check_vizard(s);
+    if (s.mode == CameraMode::kLockstep) check_lockstep(s);
 }
 
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

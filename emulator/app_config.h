@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "emulator/clock.h"
 #include "emulator/event_condition.h"
 #include "emulator/event_config.h"
 #include "emulator/motion_config.h"
+#include "emulator/pose_watch.h"
 #include "emulator/quality_ladder.h"
 #include "emulator/world_state.h"
 #include "io/commands_functionfs.h"
@@ -160,6 +162,7 @@ struct CommandsConfig {
     UsbCommandConfig usb;
     FunctionFsConfig functionfs;
     VizardConfig vizard;
+    PoseRules poses;
 };
 Fields fields(CommandsConfig& commands);
 
@@ -195,6 +198,7 @@ struct ScenarioConfig {
 
     std::string name;
     std::string time_utc = "2026-01-01T00:00:00Z";
+    ClockConfig clock;
     std::int64_t seed = 1;
     std::int64_t threads = 0;
     OriginConfig origin;

@@ -109,12 +109,13 @@ void CameraStation::load(const SpectralGrid& grid) {
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
 }
 
-void CameraStation::prepare(SimulatedClock& clock) {
+void CameraStation::prepare(SimulatedClock& clock, const PoseWatch& poses) {
     serve_faults(0);
     loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario_.camera, *world_, settings_, faults_,
                                         clock, sinks(), seed_of(scenario_, number_),
                                         LoopLimits{limits_.frames, limits_.warm_up, limits_.paced,
-                                                   governor_of(scenario_), scenario_.loop.prefer});
+                                                   governor_of(scenario_), scenario_.loop.prefer},
+                                        &poses);
 }
 
 void CameraStation::record_to(Recorder& recorder) {

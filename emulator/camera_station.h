@@ -36,8 +36,9 @@ class CameraStation {
 
     // Loads the scene and allocates all the loop needs; may take seconds. Throws InputError.
     void load(const SpectralGrid& grid);
-    // After all stations have loaded: the simulation's time begins. Throws InputError.
-    void prepare(SimulatedClock& clock);
+    // After all stations have loaded: the simulation's time begins. Both outlive the station. Throws
+    // InputError.
+    void prepare(SimulatedClock& clock, const PoseWatch& poses);
     // What the preview tells of the bench's commands.
     void set_receivers(const std::vector<std::unique_ptr<CommandReceiver>>& all) { receivers_ = &all; }
 

@@ -8,8 +8,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kFarthestTag_ns = 3'600'000'000'000;  // an hour
-constexpr double kPatience_s = 600;                          // for the frames of one order in lockstep
+constexpr double kPatience_s = 600;  // for the frames of one order in lockstep
 
 CommandStatus status_of(TriggerResult result) {
     switch (result) {
@@ -41,26 +40,33 @@ SettingsChange change_of(const TriggerModeCommand& m) {
     return change;
 }
 
+// Poses and joints are noted before they take effect: no frame may show one that is not noted. What only asks
+// is not noted at all.
+bool is_noted_after(const Command& command) {
+    const auto* clock = std::get_if<ClockCommand>(&command);
+    return !std::holds_alternative<PoseCommand>(command) && !std::holds_alternative<JointCommand>(command) &&
+           !std::holds_alternative<PingCommand>(command) &&
+           !std::holds_alternative<SubscribeCommand>(command) &&
+           !(clock && clock->action == ClockCommand::Action::kAsk);
+}
+
 }  // namespace
 
 CommandStatus CommandDispatch::handle(const Command& command, const CommandSource& source) {
     const CommandStatus status = perform(command, source);
-    // Poses and joints are noted before they take effect: no frame may show one that is not noted.
-    const bool noted =
-        std::holds_alternative<PoseCommand>(command) || std::holds_alternative<JointCommand>(command);
-    const bool no_effect =
-        std::holds_alternative<PingCommand>(command) || std::holds_alternative<SubscribeCommand>(command);
-    if (recorder_ && !noted && !no_effect && status == CommandStatus::kAccepted) {
+    if (recorder_ && status == CommandStatus::kAccepted && is_noted_after(command)) {
         const std::lock_guard one(recording_);
-        note(command, source);
+        note(command, source, false);
     }
     return status;
 }
 
 // Gives the command's number.
-std::uint64_t CommandDispatch::note(const Command& command, const CommandSource& source) {
+std::uint64_t CommandDispatch::note(const Command& command, const CommandSource& source, bool forgets) {
     const std::uint64_t number = recorder_->next_number();
-    recorder_->put(RecordedCommand{number, command, source});
+    RecordedCommand record{number, command, source, forgets};
+    record.source.notes = nullptr;  // the sender's, for now
+    recorder_->put(record);
     return number;
 }
 
@@ -73,6 +79,7 @@ CommandStatus CommandDispatch::perform(const Command& command, const CommandSour
         return change(change_of(*mode), source, CommandStatus::kNotNow);
     if (const auto* e = std::get_if<ExposeCommand>(&command)) return expose(*e, source);
     if (const auto* fault = std::get_if<FaultCommand>(&command)) return order(*fault, source);
+    if (const auto* clock = std::get_if<ClockCommand>(&command)) return order(*clock);
     if (std::holds_alternative<StartCommand>(command))
         return change({.running = true}, source, CommandStatus::kNotNow);
     if (std::holds_alternative<StopCommand>(command))
@@ -93,45 +100,76 @@ CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act) {
     return status;
 }
 
+void CommandDispatch::wake_cameras() {
+    for (const CommandedCamera& c : cameras_) c.settings->wake();
+}
+
+CommandStatus CommandDispatch::order(const ClockCommand& clock) {
+    const CommandStatus status = clock_.order(clock);
+    if (clock.action != ClockCommand::Action::kAsk) wake_cameras();
+    return status;
+}
+
 // A tag of 0 is the arrival; false for one too far from it. In lockstep time goes where it is told to.
 bool CommandDispatch::resolve(TimeTai& tag, const CommandSource& source) const {
     const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
     if (tag.ns == 0) tag = arrival;
     // Compared without subtracting: a hostile tag must not overflow.
-    return clock_.lockstep() || !(tag < arrival + -kFarthestTag_ns || arrival + kFarthestTag_ns < tag);
+    const std::int64_t horizon_ns = poses_.horizon_ns();
+    return clock_.lockstep() || !(tag < arrival + -horizon_ns || arrival + horizon_ns < tag);
+}
+
+// `set` moves a thing of one camera's world; its last argument: what was known of it is forgotten. `anew`:
+// the sender says so. `tag`: the command's own, which is resolved.
+template <class C, class F>
+CommandStatus CommandDispatch::move(const C& command, PoseWatch::Subject subject, TimeTai& tag,
+                                    const CommandSource& source, bool anew, F&& set) {
+    using Verdict = PoseWatch::Verdict;
+    const bool tagged = tag.ns != 0 && !anew;
+    if (!resolve(tag, source)) return CommandStatus::kTimeOutOfRange;
+    const Verdict verdict = tagged ? poses_.judge(subject, tag) : Verdict::kForwards;
+    if (source.notes) source.notes->went_back = verdict != Verdict::kForwards;
+    const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
+    const bool stopped = poses_.stops(arrival);
+    CommandStatus status = CommandStatus::kTimeBackwards;
+    if (verdict != Verdict::kRefused) {
+        const bool forgets = anew || verdict == Verdict::kBackwards;
+        ShownCommand shown{source.sequence, source.arrival_monotonic_ns, {}, 0};
+        std::unique_lock one(recording_, std::defer_lock);
+        if (recorder_) {
+            one.lock();
+            shown.number = note(command, source, forgets);
+        }
+        status = for_cameras(0, [&](const CommandedCamera& c) {
+            return set(*c.world, shown, forgets) ? CommandStatus::kAccepted : CommandStatus::kUnknownObject;
+        });
+    }
+    if (status == CommandStatus::kUnknownObject) return status;
+    poses_.took(subject, tag, arrival, anew ? Verdict::kAnew : verdict);
+    if (source.notes)
+        source.notes->tell_sender =
+            verdict == Verdict::kBackwards && poses_.rules().backwards == WhenBackwards::kFlag;
+    if (stopped) wake_cameras();
+    return status;
 }
 
 CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const CommandSource& source) {
-    PoseCommand resolved = pose;
-    if (!resolve(resolved.motion.time, source)) return CommandStatus::kTimeOutOfRange;
     if (!cameras_.front().world->thing_of(pose.object)) return CommandStatus::kUnknownObject;
-    ShownCommand shown{source.sequence, source.arrival_monotonic_ns, {}, 0};
-    std::unique_lock one(recording_, std::defer_lock);
-    if (recorder_) {
-        one.lock();
-        shown.number = note(resolved, source);
-    }
-    return for_cameras(0, [&](const CommandedCamera& c) {
-        return c.world->set(pose.object, resolved.motion, shown, pose.alone) ? CommandStatus::kAccepted
-                                                                             : CommandStatus::kUnknownObject;
-    });
+    PoseCommand resolved = pose;
+    return move(resolved, {pose.object, 0}, resolved.motion.time, source, pose.alone,
+                [&](WorldState& world, const ShownCommand& shown, bool anew) {
+                    return world.set(pose.object, resolved.motion, shown, anew);
+                });
 }
 
 CommandStatus CommandDispatch::turn(const JointCommand& joint, const CommandSource& source) {
-    JointCommand resolved = joint;
-    if (!resolve(resolved.time, source)) return CommandStatus::kTimeOutOfRange;
     if (!cameras_.front().world->thing_of(joint.object, joint.joint)) return CommandStatus::kUnknownObject;
-    const WorldState::JointMotion motion{resolved.time, joint.angle_rad, joint.rate_rad_s};
-    ShownCommand shown{source.sequence, source.arrival_monotonic_ns, {}, 0};
-    std::unique_lock one(recording_, std::defer_lock);
-    if (recorder_) {
-        one.lock();
-        shown.number = note(resolved, source);
-    }
-    return for_cameras(0, [&](const CommandedCamera& c) {
-        return c.world->set_joint(joint.object, joint.joint, motion, shown) ? CommandStatus::kAccepted
-                                                                            : CommandStatus::kUnknownObject;
-    });
+    JointCommand resolved = joint;
+    return move(resolved, {joint.object, joint.joint}, resolved.time, source, false,
+                [&](WorldState& world, const ShownCommand& shown, bool anew) {
+                    return world.set_joint(joint.object, joint.joint,
+                                           {resolved.time, joint.angle_rad, joint.rate_rad_s}, shown, anew);
+                });
 }
 
 CommandStatus CommandDispatch::change(const SettingsChange& change, const CommandSource& source,
@@ -153,7 +191,8 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
     }
     TimeTai tag = e.time;
     if (!resolve(tag, source)) return CommandStatus::kTimeOutOfRange;
-    order.at_monotonic_ns = clock_.monotonic_at(tag);
+    order.at_monotonic_ns = source.arrival_monotonic_ns;
+    if (e.time.ns != 0) order.at_simulated = tag;
     return for_cameras(source.camera,
                        [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); });
 }

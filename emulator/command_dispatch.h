@@ -3,7 +3,7 @@
 //
 // Every camera has a picture of the world of its own, so poses go to all of them. Settings, triggers and
 // faults go to the camera that a command names, or to all: with several, a setting that one of them refuses
-// is refused for that one only, and the status says so.
+// is refused for that one only, and the status says so. Time tags are judged by the watch over poses.
 
 #include <cstdint>
 #include <mutex>
@@ -11,6 +11,7 @@
 
 #include "emulator/clock.h"
 #include "emulator/live_settings.h"
+#include "emulator/pose_watch.h"
 #include "emulator/world_state.h"
 #include "io/command.h"
 
@@ -28,11 +29,15 @@ class Recorder;
 
 class CommandDispatch : public CommandHandler {
   public:
-    CommandDispatch(std::vector<CommandedCamera> cameras, const SimulatedClock& clock)
-        : cameras_(std::move(cameras)), clock_(clock) {}
+    // poses: the bench's; null: one of its own, by the default rules.
+    CommandDispatch(std::vector<CommandedCamera> cameras, SimulatedClock& clock, PoseWatch* poses = nullptr)
+        : cameras_(std::move(cameras)), clock_(clock), poses_(poses ? *poses : default_poses_) {}
 
     CommandStatus handle(const Command& command, const CommandSource& source) override;
     TimeTai now() const override { return clock_.now(); }
+    ClockReading read_clock(std::int64_t arrival_monotonic_ns) const override {
+        return clock_.read(arrival_monotonic_ns);
+    }
 
     // All that is accepted goes into a recording. Before the first command; it outlives the last.
     void record_to(Recorder& recorder) { recorder_ = &recorder; }
@@ -45,16 +50,23 @@ class CommandDispatch : public CommandHandler {
     CommandStatus for_cameras(std::uint16_t camera, F&& act);
     CommandStatus set_pose(const PoseCommand& pose, const CommandSource& source);
     CommandStatus turn(const JointCommand& joint, const CommandSource& source);
+    template <class C, class F>
+    CommandStatus move(const C& command, PoseWatch::Subject subject, TimeTai& tag,
+                       const CommandSource& source, bool anew, F&& set);
     bool resolve(TimeTai& tag, const CommandSource& source) const;
+    CommandStatus order(const ClockCommand& clock);
+    void wake_cameras();
     CommandStatus change(const SettingsChange& change, const CommandSource& source, CommandStatus refused);
     CommandStatus expose(const ExposeCommand& expose, const CommandSource& source);
     CommandStatus expose_in_lockstep(const TriggerOrder& order, const CommandSource& source);
     CommandStatus run_order(const TriggerOrder& order, const CommandSource& source);
-    std::uint64_t note(const Command& command, const CommandSource& source);
+    std::uint64_t note(const Command& command, const CommandSource& source, bool forgets);
     CommandStatus order(const FaultCommand& fault, const CommandSource& source);
 
     std::vector<CommandedCamera> cameras_;
-    const SimulatedClock& clock_;
+    SimulatedClock& clock_;
+    PoseWatch default_poses_;
+    PoseWatch& poses_;
     Recorder* recorder_ = nullptr;     // may be null
     EventDirector* events_ = nullptr;  // may be null
     std::mutex recording_;             // commands take effect in the order in which they are noted

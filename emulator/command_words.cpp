@@ -128,6 +128,41 @@ void add_expose(CLI::App& app, const Take& take) {
     });
 }
 
+void add_clock(CLI::App& app, const Take& take) {
+    struct Options {
+        std::string what;
+        double scale = 1, seconds = 0;
+    };
+    CLI::App* clock = app.add_subcommand("clock", "how simulated time goes: ask, or change it");
+    const auto o = std::make_shared<Options>();
+    CLI::Option* what = clock->add_option("what", o->what, "pause, resume or step")
+                            ->check(CLI::IsMember({"pause", "resume", "step"}));
+    CLI::Option* scale =
+        clock->add_option("--scale", o->scale, "simulated seconds in one of the machine's")->excludes(what);
+    CLI::Option* seconds =
+        clock->add_option("--seconds", o->seconds, "step: for so much simulated time, then it stands again");
+    on(clock, take, [=] {
+        using Action = ClockCommand::Action;
+        ClockCommand command;
+        if (scale->count()) {
+            command.action = Action::kScale;
+            command.scale = o->scale;
+            if (!(o->scale >= kLeastClockScale && o->scale <= kMostClockScale))
+                throw InputError("--scale: found " + std::to_string(o->scale) + "; accepted: 0.001 to 1000");
+        }
+        if (o->what == "pause") command.action = Action::kPause;
+        if (o->what == "resume") command.action = Action::kResume;
+        if (o->what == "step") command.action = Action::kStep;
+        if ((command.action == Action::kStep) != (seconds->count() > 0))
+            throw InputError("'step' and --seconds go together");
+        if (command.action != Action::kStep) return command;
+        if (!(o->seconds >= 1e-9 && o->seconds <= 1e7))
+            throw InputError("--seconds: found " + std::to_string(o->seconds) + "; accepted: 1e-9 to 1e7");
+        command.step_ns = std::llround(o->seconds * 1e9);
+        return command;
+    });
+}
+
 void add_mode(CLI::App& app, const Take& take) {
     struct Options {
         std::string mode;
@@ -204,6 +239,7 @@ void add_command_words(CLI::App& app, const Take& take, const std::function<void
     add_joint(app, take);
     add_expose(app, take);
     add_mode(app, take);
+    add_clock(app, take);
     add_fault(app, take, list_faults);
 }
 

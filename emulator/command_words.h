@@ -10,9 +10,9 @@
 
 namespace hilcam {
 
-// Adds a subcommand for each command: ping, start, stop, settings, pose, joint, expose, mode, fault. `take`
-// gets the one that was chosen, when parsing ends well; `list_faults` is called for "fault list", which is no
-// command, unless it is empty.
+// Adds a subcommand for each command: ping, start, stop, settings, pose, joint, expose, mode, clock, fault.
+// `take` gets the one that was chosen, when parsing ends well; `list_faults` is called for "fault list",
+// which is no command, unless it is empty.
 void add_command_words(CLI::App& app, const std::function<void(const Command&)>& take,
                        const std::function<void()>& list_faults = {});
 

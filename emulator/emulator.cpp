@@ -40,7 +40,9 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     : scenario_(scenario),
       limits_(limits),
       grid_(scenario.spectrum_edges_um),
-      clock_(parse_utc(scenario.time_utc), monotonic_ns()) {
+      clock_(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep,
+             scenario.clock),
+      poses_(scenario.commands.poses, scenario.mode == CameraMode::kLockstep) {
     check_replay();
     const RealTime& wishes = scenario.loop.real_time;
     require_rights(wishes);
@@ -57,15 +59,15 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
         bench[i].world = &stations_[i]->world();
     }
     // Loading took its time; the simulation starts now.
-    clock_ =
-        SimulatedClock(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep);
-    dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_);
+    clock_start_ns_ = monotonic_ns();
+    clock_.restart(parse_utc(scenario.time_utc), clock_start_ns_);
+    dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_, &poses_);
     if (limits.outputs && limits.replay.empty()) {
         receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());
         if (scenario.commands.has_vizard) receivers_.push_back(make_vizard(scenario, stations_, *dispatch_));
     }
     if (limits.outputs) make_telemetry();
-    for (const auto& station : stations_) station->prepare(clock_);
+    for (const auto& station : stations_) station->prepare(clock_, poses_);
     make_replays();
     make_recorder();
     make_events();
@@ -75,7 +77,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
 void Emulator::check_replay() const {
     if (limits_.replay.empty()) return;
     const RecordingReader recording(limits_.replay);
-    const RecordingHeader own = recording_header(scenario_, clock_);
+    const RecordingHeader own = recording_header(scenario_, clock_start_ns_);
     for (const std::string& warning :
          check_recording(recording.header(), limits_.replay.string(), own, limits_.replay_force))
         spdlog::warn("{}", warning);
@@ -90,8 +92,7 @@ void Emulator::make_replays() {
                                     &station->faults(),
                                     station->settings().limits(),
                                     station->settings().settings(),
-                                    1 + lower_levels(own).size(),
-                                    ShutterTiming(own.camera)};
+                                    1 + lower_levels(own).size()};
         replays_.push_back(std::make_unique<Replay>(limits_.replay, camera, limits_.replay_fast));
         station->loop().follow(*replays_.back());
     }
@@ -100,7 +101,7 @@ void Emulator::make_replays() {
 void Emulator::make_recorder() {
     if (limits_.record.empty()) return;
     for (const std::string& warning : recording_warnings(scenario_)) spdlog::warn("{}", warning);
-    recorder_ = std::make_unique<Recorder>(limits_.record, recording_header(scenario_, clock_));
+    recorder_ = std::make_unique<Recorder>(limits_.record, recording_header(scenario_, clock_start_ns_));
     dispatch_->record_to(*recorder_);
     for (const auto& station : stations_) station->record_to(*recorder_);
 }
@@ -191,7 +192,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     const std::int64_t begun_ns = monotonic_ns();
     begun_ns_ = begun_ns;
     if (recorder_) recorder_->start();
-    for (const auto& replay : replays_) replay->start(clock_.monotonic_at(clock_.start()));
+    for (const auto& replay : replays_) replay->start(clock_start_ns_);
     if (events_) events_->start();
     for (const auto& station : stations_) station->start_loop();
     raise_threads(scenario_.loop.real_time);
@@ -205,6 +206,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         for (const auto& station : stations_) station->serve_faults(seconds_);
         print_level_changes();
         print_held_motion();
+        silence_log_.look();
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
             print_line();
             next_line_ns += 1'000'000'000;

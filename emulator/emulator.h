@@ -16,6 +16,7 @@
 #include "emulator/event_director.h"
 #include "emulator/recorder.h"
 #include "emulator/replay.h"
+#include "emulator/silence_log.h"
 
 namespace hilcam {
 
@@ -38,6 +39,7 @@ class Emulator {
     WorldState& world() { return first().world(); }
     const DeliveryMeter& delivery() const { return first().delivery(); }
     const SimulatedClock& clock() const { return clock_; }
+    const PoseWatch& poses() const { return poses_; }
     double seconds() const { return seconds_; }
     CommandReport command_report() const;
     // Null: nothing is recorded.
@@ -63,6 +65,9 @@ class Emulator {
     std::optional<tbb::global_control> threads_;  // as many as the loop has cores of its own
     SpectralGrid grid_;
     SimulatedClock clock_;
+    std::int64_t clock_start_ns_ = 0;  // CLOCK_MONOTONIC
+    PoseWatch poses_;
+    SilenceLog silence_log_{clock_, poses_};
     std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null
     std::unique_ptr<Recorder> recorder_;          // outlives all that records; may be null
     std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them

@@ -96,34 +96,43 @@ void EventDirector::drive() {
 
 void EventDirector::run() {
     while (!stopping_.load()) {
+        const std::int64_t now_ns = monotonic_ns(), until_ns = wait_until_ns();
         const std::int64_t wait_ns =
-            std::clamp<std::int64_t>(wait_until_ns() - monotonic_ns(), 0, kLongestWait_ns);
+            std::clamp<std::int64_t>(until_ns, now_ns, now_ns + kLongestWait_ns) - now_ns;
         static_cast<void>(news_.try_acquire_for(std::chrono::nanoseconds(wait_ns)));
         while (news_.try_acquire()) {
         }
         look();
-        happen_until(free_run_horizon());
+        happen_until(horizon());
     }
 }
 
 // When the frame after the one that was seen last begins, if nothing comes between.
-std::int64_t EventDirector::next_begin_ns() const {
-    if (frame_.id == 0) return 0;
+EventDirector::NextBegin EventDirector::next_begin() const {
+    if (frame_.id == 0) return {};
+    const SimulatedClock& clock = bench_.clock;
     const CameraSettings s = bench_.settings.settings();
-    return frame_.begin_ns + to_ns(bench_.timing.period_s(s.frame_rate_hz, s.exposure_s));
+    const std::int64_t camera_ns =
+        clock.camera_at(frame_.begin_ns) + to_ns(bench_.timing.period_s(s.frame_rate_hz, s.exposure_s));
+    return {clock.when_due(camera_ns), clock.simulated_of_camera(camera_ns)};
 }
 
-// Of the next event that waits for its time.
+// Of the next event that waits for its time: never, as long as simulated time stands before it.
 std::int64_t EventDirector::wait_until_ns() const {
     const std::optional<TimeTai> due = sequence_.next_time();
-    if (!due) return monotonic_ns() + kLongestWait_ns;
-    const std::int64_t due_ns = bench_.clock.monotonic_at(*due), begin_ns = next_begin_ns();
+    const std::int64_t camera_ns = due ? bench_.clock.camera_of(*due) : SimulatedClock::kNever_ns;
+    if (camera_ns == SimulatedClock::kNever_ns) return camera_ns;
+    const std::int64_t due_ns = bench_.clock.when_due(camera_ns), begin_ns = next_begin().monotonic_ns;
     return due_ns > begin_ns - kLead_ns && due_ns <= begin_ns ? begin_ns - kLead_ns : due_ns;
 }
 
-TimeTai EventDirector::free_run_horizon() const {
-    const std::int64_t now_ns = monotonic_ns(), begin_ns = next_begin_ns();
-    return bench_.clock.at(now_ns >= begin_ns - kLead_ns ? std::max(now_ns, begin_ns) : now_ns);
+// Just before a frame begins, what is due when it does is due.
+TimeTai EventDirector::horizon() const {
+    const std::int64_t now_ns = monotonic_ns();
+    const TimeTai now = bench_.clock.at(now_ns);
+    const NextBegin next = next_begin();
+    const bool soon = next.monotonic_ns > now_ns && next.monotonic_ns - now_ns <= kLead_ns;
+    return soon ? std::max(now, next.simulated) : now;
 }
 
 // --- what happens

@@ -71,9 +71,13 @@ class EventDirector : public FrameWatcher {
     void drive();
     void look();
     TimeTai begin_of(const TriggerOrder& order) const;
-    std::int64_t next_begin_ns() const;
+    struct NextBegin {
+        std::int64_t monotonic_ns = 0;
+        TimeTai simulated;
+    };
+    NextBegin next_begin() const;
     std::int64_t wait_until_ns() const;
-    TimeTai free_run_horizon() const;
+    TimeTai horizon() const;
     bool happen_until(TimeTai until);
     void happen(const EventSequence::Due& due);
     Command stamped(Command command, const EventSequence::Due& due) const;

@@ -50,6 +50,12 @@ void accumulate(const RenderStats& part, float share, RenderStats& sum) {
     sum.within_budget_px += part.within_budget_px;
 }
 
+// The rows of a rolling or scanning camera are lit one after the other, while the world moves less.
+void slow_down(double moving, WorldSnapshot& world) {
+    world.camera_velocity_m_s = moving * world.camera_velocity_m_s;
+    world.camera_rate_rad_s = moving * world.camera_rate_rad_s;
+}
+
 // About the camera's axes, from one attitude to another.
 Vec3d mean_rate(Quat from, Quat to, double seconds) {
     const Quat turn = conjugate(from) * to;
@@ -98,6 +104,7 @@ void ExposureRenderer::sample_again(const WorldState& world, const Span& span, T
     if (!with_bodies) out.bodies = middle_.bodies;
     world.sample_again(time, with_bodies, out);
     out.camera = jitter_.applied(out.camera, span.middle, span.exposure_s);
+    slow_down(span.moving, out);
 }
 
 void ExposureRenderer::sample_ends(const WorldState& world, const Span& span, bool with_bodies) {
@@ -119,6 +126,21 @@ ExposureRenderer::Plan ExposureRenderer::plan_of(const ImageMotion& motion) cons
 void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownCommand& shown) {
     world.sample(span.middle, middle_, shown);
     middle_.camera = jitter_.applied(middle_.camera, span.middle, span.exposure_s);
+    slow_down(span.moving, middle_);
+}
+
+void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSource>& points,
+                                 Exposure& exposure) const {
+    for_each_row(radiance, [&](int y, int plane) {
+        const std::span<float> row = radiance.row(y, plane);
+        std::fill(row.begin(), row.end(), 0.0f);
+    });
+    for (int y = 0; y < radiance.height(); y += RadianceImage::kBlock_px)
+        for (int x = 0; x < radiance.width(); x += RadianceImage::kBlock_px) radiance.mark_dark(x, y, true);
+    points.clear();
+    exposure.image_rate_px_s = {};
+    exposure.camera_rate_rad_s = {};
+    exposure.ray_grid = ray_grid_of(renderer_.quality());
 }
 
 ExposureRenderer::Plan ExposureRenderer::plan(WorldState& world, TimeTai middle, double exposure_s) {
@@ -129,10 +151,11 @@ ExposureRenderer::Plan ExposureRenderer::plan(WorldState& world, TimeTai middle,
     return plan_of(renderer_.motion(middle_, before_, after_));
 }
 
-ExposureRenderer::Result ExposureRenderer::render(WorldState& world, TimeTai middle, RandomKey key,
+ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const ShownWorld& shown, RandomKey key,
                                                   RadianceImage& radiance, std::vector<PointSource>& points,
                                                   Exposure& exposure) {
-    const Span span{middle, std::llround(exposure.exposure_s * 1e9), exposure.exposure_s};
+    const Span span{shown.middle, std::llround(shown.moving * exposure.exposure_s * 1e9), exposure.exposure_s,
+                    shown.moving};
     Result result;
     sample_middle(world, span, result.shown);
     exposure.image_rate_px_s = {};

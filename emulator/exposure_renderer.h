@@ -27,6 +27,13 @@
 
 namespace hilcam {
 
+// What an exposure sees of the world's time.
+struct ShownWorld {
+    ShownWorld(TimeTai instant, double share = 1) : middle(instant), moving(share) {}
+    TimeTai middle;
+    double moving;  // share of the exposure through which the world moves, about the middle; 0: it stands
+};
+
 class ExposureRenderer {
   public:
     static constexpr int kMostParts = 64;
@@ -48,10 +55,12 @@ class ExposureRenderer {
         int parts = 1;
         bool parts_limited = false;  // more than kMostParts were asked for
     };
-    // The exposure of exposure.exposure_s about an instant; sets the exposure's rates and ray grid. Loop, one
-    // thread; no allocation.
-    Result render(WorldState& world, TimeTai middle, RandomKey key, RadianceImage& radiance,
+    // The exposure of exposure.exposure_s of a world about an instant; sets the exposure's rates and ray
+    // grid. Loop, one thread; no allocation.
+    Result render(WorldState& world, const ShownWorld& shown, RandomKey key, RadianceImage& radiance,
                   std::vector<PointSource>& points, Exposure& exposure);
+    // The same with the shutter closed. Loop.
+    void keep_dark(RadianceImage& radiance, std::vector<PointSource>& points, Exposure& exposure) const;
 
     // The world at the middle of the last exposure, the camera's jitter in it. Loop.
     const WorldSnapshot& middle_world() const { return middle_; }
@@ -80,8 +89,9 @@ class ExposureRenderer {
 
     struct Span {
         TimeTai middle;
-        std::int64_t length_ns = 0;
+        std::int64_t length_ns = 0;  // of the world's motion
         double exposure_s = 0;
+        double moving = 1;
     };
     void sample_middle(WorldState& world, const Span& span, ShownCommand& shown);
     Plan plan_of(const ImageMotion& motion) const;

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kLongestSleep_ns = 50'000'000;  // how long a stop may have to wait
+constexpr std::int64_t kLongestSleep_ns = 5'000'000;  // how long a stop, or a change of the clock, may wait
 
 std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
 std::int64_t from_ms(double ms) { return static_cast<std::int64_t>(ms * 1e6); }
@@ -18,7 +18,8 @@ std::int64_t from_ms(double ms) { return static_cast<std::int64_t>(ms * 1e6); }
 
 FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const CameraModel& camera,
                      WorldState& world, LiveSettings& settings, FaultBoard& faults, SimulatedClock& clock,
-                     std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits)
+                     std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits,
+                     const PoseWatch* poses)
     : exposures_(exposures),
       chain_(chain),
       camera_(camera),
@@ -27,7 +28,8 @@ FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const Came
       settings_(settings),
       faults_(faults),
       clock_(clock),
-      starter_(camera, settings, clock, limits.paced),
+      poses_(poses),
+      starter_(camera, settings, clock, limits.paced, poses),
       sinks_(std::move(sinks)),
       seed_(seed),
       limits_(limits),
@@ -50,7 +52,7 @@ void FrameLoop::record_to(Recorder& recorder, std::uint16_t camera) {
     recorder_ = &recorder;
     recorded_camera_ = camera;
     recorded_shown_.resize(world_.things());
-    for (Slot& slot : slots_) slot.shown.resize(world_.things());
+    for (Slot& slot : slots_) slot.shown_numbers.resize(world_.things());
 }
 
 void FrameLoop::start() {
@@ -108,7 +110,6 @@ void FrameLoop::take_settings(const FrameStarter::Start& start, Slot& slot) {
     FrameUse use;
     use.id = last_id_ + 1 + start.skipped;
     use.skipped = start.skipped, use.late = start.late;
-    use.begin_ns = start.begin_ns;
     use.exposure_s = start.exposure_s;
     use.gain_db = s.gain_db;
     if (!camera_.sequence.empty()) {
@@ -116,7 +117,6 @@ void FrameLoop::take_settings(const FrameStarter::Start& start, Slot& slot) {
         use.exposure_s = step.exposure_s;
         use.gain_db = step.gain_db;
     }
-    use.exposure_mid = clock_.at(use.begin_ns + to_ns(timing_.middle_s(use.exposure_s)));
     use.black_level_dn = s.black_level_dn;
     use.binning_x = s.binning_x, use.binning_y = s.binning_y;
     use.test_pattern = s.test_pattern;
@@ -126,7 +126,7 @@ void FrameLoop::take_settings(const FrameStarter::Start& start, Slot& slot) {
     use.faults = frame_faults(faults_, use.id);
     use.image = image_faults(faults_, use.id);
     slot.use = use;
-    slot.not_before_ns = start.not_before_ns;
+    place_in_time(start, slot);
     slot.automatic = s.automatic_exposure;
     slot.ends_order = start.ends_order;
 }
@@ -146,10 +146,34 @@ void FrameLoop::latch(Slot& slot) {
     record.trigger_sequence = use.trigger_sequence;
     record.quality_level = use.quality_level;
     record.faults = use.faults;
-    record.exposure_mid_monotonic_ns = use.begin_ns + to_ns(timing_.middle_s(use.exposure_s));
+    record.exposure_mid_monotonic_ns = use.middle_ns;
     record.exposure_mid = use.exposure_mid;
     slot.exposure = {use.exposure_s, use.gain_db, use.black_level_dn, use.binning_x, use.binning_y, {}, {}};
-    slot.exposure_end_ns = use.begin_ns + to_ns(timing_.end_s(use.exposure_s));
+    if (use.faults & kTimeStandsBit) counters_.standing.fetch_add(1, std::memory_order_relaxed);
+    if (use.faults & kPosesStaleBit) counters_.stale.fetch_add(1, std::memory_order_relaxed);
+}
+
+// A frame's instants, and what it shows of the world's time: all of its exposure, part of it when time stops
+// on the way, or one instant.
+void FrameLoop::place_in_time(const FrameStarter::Start& start, Slot& slot) {
+    FrameUse& use = slot.use;
+    const std::int64_t middle_ns = to_ns(timing_.middle_s(use.exposure_s));
+    const std::int64_t length_ns = to_ns(timing_.end_s(use.exposure_s));
+    slot.end_camera_ns = start.camera_ns + length_ns;
+    slot.until_end = start.until_end;
+    const TimeTai begin = clock_.simulated_of_camera(start.camera_ns);
+    const std::int64_t moved_ns = clock_.simulated_of_camera(slot.end_camera_ns) - begin;
+    use.moving = moved_ns == length_ns ? 1 : static_cast<double>(moved_ns) / static_cast<double>(length_ns);
+    use.begin_ns = start.begin_ns;
+    use.middle_ns = clock_.monotonic_of_camera(start.camera_ns + middle_ns);
+    use.end_ns = clock_.monotonic_of_camera(slot.end_camera_ns);
+    use.exposure_mid = begin + (use.moving == 1 ? middle_ns : moved_ns / 2);
+    use.shown_at = use.exposure_mid;
+    if (use.moving == 0) use.faults |= kTimeStandsBit;
+    if (!start.silence.stale) return;
+    use.faults |= kPosesStaleBit;
+    if (poses_->rules().when_stale == WhenStale::kHold) use.shown_at = start.silence.since, use.moving = 0;
+    use.shutter_closed = poses_->rules().when_stale == WhenStale::kBlack;
 }
 
 // How long the slot's last frame kept the next one waiting.
@@ -185,8 +209,19 @@ void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t m
 void FrameLoop::render_into(Slot& slot) {
     const std::int64_t begun_ns = monotonic_ns();
     FrameRecord& record = slot.record;
-    const ExposureRenderer::Result result = exposures_.render(world_, record.exposure_mid, {seed_, record.id},
-                                                              slot.radiance, slot.points, slot.exposure);
+    if (slot.use.shutter_closed) {
+        exposures_.keep_dark(slot.radiance, slot.points, slot.exposure);
+        slot.render_ns = 0;  // says nothing of what frames cost
+        return;
+    }
+    if (const std::uint64_t flagged = poses_ && !script_ ? poses_->flagged() : 0; flagged != flagged_) {
+        slot.use.faults |= kTagsWentBackBit;
+        record.faults = slot.use.faults;
+        flagged_ = flagged;
+    }
+    const ShownWorld moment{slot.use.shown_at, slot.use.moving};
+    const ExposureRenderer::Result result =
+        exposures_.render(world_, moment, {seed_, record.id}, slot.radiance, slot.points, slot.exposure);
     const ShownCommand& shown = result.shown;
     record.pose_sequence = shown.sequence;
     record.pose_time = shown.time;
@@ -194,7 +229,7 @@ void FrameLoop::render_into(Slot& slot) {
     record.command_arrival_monotonic_ns =
         !script_ && shown.arrival_monotonic_ns > shown_arrival_ns_ ? shown.arrival_monotonic_ns : 0;
     shown_arrival_ns_ = std::max(shown_arrival_ns_, shown.arrival_monotonic_ns);
-    if (recorder_) world_.shown_numbers(slot.shown);
+    if (recorder_) world_.shown_numbers(slot.shown_numbers);
 
     stats_ = result.stats;
     if (result.parts_limited) counters_.motion_limited.fetch_add(1, std::memory_order_relaxed);
@@ -258,7 +293,8 @@ void FrameLoop::sense(Slot& slot) {
 
     wait_to_publish(slot);
     if (recorder_) keep(slot);
-    tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.exposure_end_ns);
+    const std::int64_t end_ns = script_ ? slot.use.end_ns : clock_.monotonic_of_camera(slot.end_camera_ns);
+    tell(CameraEvent::Kind::kExposureEnd, slot.record.id, end_ns);
     const std::int64_t publish_ns = monotonic_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, slot.record);
     std::swap(frame_, before_);
@@ -276,10 +312,11 @@ void FrameLoop::sense(Slot& slot) {
 
 // What the frame shows of commands, where that has changed, then the frame.
 void FrameLoop::keep(const Slot& slot) {
-    for (std::size_t i = 0; i < recorded_shown_.size(); ++i) {
-        if (slot.shown[i] == recorded_shown_[i]) continue;
-        recorded_shown_[i] = slot.shown[i];
-        recorder_->put(RecordedShown{recorded_camera_, static_cast<std::uint32_t>(i), slot.shown[i]});
+    for (std::size_t i = 0; i < recorded_shown_.size() && !slot.use.shutter_closed; ++i) {
+        const std::uint64_t number = slot.shown_numbers[i];
+        if (number == recorded_shown_[i]) continue;
+        recorded_shown_[i] = number;
+        recorder_->put(RecordedShown{recorded_camera_, static_cast<std::uint32_t>(i), number});
     }
     recorder_->put(RecordedFrame{recorded_camera_, slot.use});
 }
@@ -301,6 +338,9 @@ void FrameLoop::wait_to_publish(const Slot& slot) const {
     const auto go_on = [&] { return !stopping_.load(std::memory_order_relaxed); };
     while (monotonic_ns() < slot.not_before_ns && go_on())
         sleep_until_monotonic_ns(std::min(slot.not_before_ns, monotonic_ns() + kLongestSleep_ns));
+    for (std::int64_t now_ns = monotonic_ns();
+         slot.until_end && clock_.camera_at(now_ns) < slot.end_camera_ns && go_on(); now_ns = monotonic_ns())
+        sleep_until_monotonic_ns(std::min(clock_.when_due(slot.end_camera_ns), now_ns + kLongestSleep_ns));
     if (!lockstep_ && !script_) return;
     constexpr std::int64_t kPoll_ns = 200'000, kPatience_ns = 10'000'000'000;
     const std::int64_t until_ns = monotonic_ns() + kPatience_ns;

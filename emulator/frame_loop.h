@@ -11,17 +11,20 @@
 // Pixels are the same in both.
 //
 // When frames begin is frame_starter.h's business. Timing in free-run: frame k begins at s_k = s_0 + k period
-// on CLOCK_MONOTONIC; its middle, its end and the period follow from exposure, frame rate and shutter
-// (shutter_timing.h). Rendering begins at s_k and shows
-// the pose of the middle, propagated; the frame leaves not before its end. Example of a global shutter at 30
-// Hz and 2 ms: rendering starts at 0.0, the pose is that of 1.0 ms, a frame computed in 25 ms leaves at 25
-// ms, the next rendering starts at 33.3 ms. A start missed by more than a period is skipped and counted;
-// frame ids leave a gap there.
+// in the camera's time (clock.h: at scale 1 that of CLOCK_MONOTONIC); its middle, its end and the period
+// follow from exposure, frame rate and shutter (shutter_timing.h). Rendering begins at s_k and shows the pose
+// of the middle, propagated; the frame leaves not before its end. Example of a global shutter at 30 Hz and 2
+// ms: rendering starts at 0.0, the pose is that of 1.0 ms, a frame computed in 25 ms leaves at 25 ms, the
+// next rendering starts at 33.3 ms. A start missed by more than a period is skipped and counted; frame ids
+// leave a gap there.
 //
 // Settings of a frame: exposure and gain are those of the live settings, or of its step of the camera's
 // sequence, or with automatic exposure what the frame two before it in the loop asks for: that is the one
 // whose slot it takes over, so it does not depend on timing. Faults of a frame are those that are in force
 // when it begins.
+//
+// While simulated time stands, or poses are stale and the world is to be held (pose_watch.h), a frame shows
+// the world at one instant, without blur; where the shutter is to be closed then, nothing is rendered.
 //
 // Quality: with a frame budget the governor (governor.h) chooses each frame's level by what earlier frames
 // took: the longer of the two stages, or with latency both, as that is how long the next frame has to wait.
@@ -52,6 +55,7 @@
 #include "emulator/governor.h"
 #include "emulator/latency.h"
 #include "emulator/live_settings.h"
+#include "emulator/pose_watch.h"
 #include "emulator/quality_ladder.h"
 #include "emulator/recorder.h"
 #include "emulator/shutter_timing.h"
@@ -84,7 +88,8 @@ struct LoopCounters {
     // Exposures skipped, or of a trigger begun a period late, because the one before took too long.
     std::atomic<std::uint64_t> deadline_misses{0};
     std::atomic<std::uint64_t> last_id{0};
-    std::atomic<std::uint64_t> motion_limited{0};  // frames with more motion than exact motion divides
+    std::atomic<std::uint64_t> motion_limited{0};      // frames with more motion than exact motion divides
+    std::atomic<std::uint64_t> standing{0}, stale{0};  // frames while time stood; while no poses came
     // Quality levels: that of the newest frame, how often it changed, how many frames each has had.
     std::atomic<std::uint32_t> level{0}, level_changes{0};
     std::array<std::atomic<std::uint64_t>, kMostLevels> frames_at_level{};
@@ -113,7 +118,8 @@ class FrameLoop {
   public:
     FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const CameraModel& camera, WorldState& world,
               LiveSettings& settings, FaultBoard& faults, SimulatedClock& clock,
-              std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits);
+              std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits,
+              const PoseWatch* poses = nullptr);
     ~FrameLoop() { stop(); }
 
     // Before start(); they outlive the loop. Cameras count from 1.
@@ -138,10 +144,11 @@ class FrameLoop {
         std::vector<PointSource> points;
         FrameUse use;
         FrameRecord record;
-        std::vector<std::uint64_t> shown;  // for the recorder: the newest command of each thing
+        std::vector<std::uint64_t> shown_numbers;  // for the recorder: the newest command of each thing
         Exposure exposure;
-        std::int64_t exposure_end_ns = 0;
-        std::int64_t not_before_ns = 0;  // may be published; 0: at any time
+        std::int64_t not_before_ns = 0;  // of a script's frame: may be published; 0: at any time
+        std::int64_t end_camera_ns = 0;  // of the exposure, camera's time
+        bool until_end = false;          // not to be published before
         double next_exposure_s = 0;      // automatic: of the slot's next frame; 0: not measured yet
         bool automatic = false;
         bool ends_order = false;
@@ -153,6 +160,7 @@ class FrameLoop {
     bool begin(Slot& slot);
     void take_settings(const FrameStarter::Start& start, Slot& slot);
     void latch(Slot& slot);
+    void place_in_time(const FrameStarter::Start& start, Slot& slot);
     double frame_ms(const Slot& slot) const;
     std::uint32_t choose_level(const Slot& slot, std::uint64_t frame);
     void use_level(std::uint32_t level);
@@ -174,6 +182,7 @@ class FrameLoop {
     LiveSettings& settings_;
     FaultBoard& faults_;
     SimulatedClock& clock_;
+    const PoseWatch* poses_;
     FrameStarter starter_;
     std::vector<FrameSink*> sinks_;
     std::uint64_t seed_;
@@ -193,6 +202,7 @@ class FrameLoop {
     std::counting_semaphore<> free_, rendered_{0};
     RenderStats stats_;
     std::int64_t shown_arrival_ns_ = 0;
+    std::uint64_t flagged_ = 0;  // of the time tags that went back, how many frames have told
     ElectronImage electrons_;
     DnImage frame_, before_;    // the one being finished, and the one published before it
     FrameHistogram histogram_;  // for automatic exposure

@@ -21,8 +21,12 @@ struct FrameUse {
     TestPattern test_pattern = TestPattern::kOff;
     std::uint32_t trigger_sequence = 0;
     std::uint32_t quality_level = 0;
-    std::int64_t begin_ns = 0;  // of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it
-    TimeTai exposure_mid;       // simulated
+    // Of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it.
+    std::int64_t begin_ns = 0, middle_ns = 0, end_ns = 0;
+    TimeTai exposure_mid;         // simulated
+    TimeTai shown_at;             // the world's instant that it shows
+    double moving = 1;            // share of the exposure through which the world moves (ShownWorld)
+    bool shutter_closed = false;  // it shows nothing
     double exposure_s = 0;
     double gain_db = 0;
     double black_level_dn = 0;

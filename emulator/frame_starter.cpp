@@ -6,23 +6,25 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kLongestSleep_ns = 50'000'000;  // how long a stop may have to wait
-constexpr std::int64_t kLastStretch_ns = 1'000'000;    // before a begin nothing else is listened to
+constexpr std::int64_t kLongestSleep_ns = 5'000'000;  // how long a stop, or a change of the clock, may wait
+constexpr std::int64_t kLastStretch_ns = 1'000'000;   // before a begin nothing else is listened to
 
 std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
 
 }  // namespace
 
 FrameStarter::FrameStarter(const CameraModel& camera, LiveSettings& settings, SimulatedClock& clock,
-                           bool paced)
+                           bool paced, const PoseWatch* poses)
     : settings_(settings),
       clock_(clock),
+      poses_(poses),
       timing_(camera),
       lockstep_(settings.limits().lockstep),
       paced_(paced),
       schedule_(0) {
     for (const SettingsStep& step : camera.sequence)
         longest_step_s_ = std::max(longest_step_s_, step.exposure_s);
+    settings.follow(clock, lockstep_ ? nullptr : poses);
 }
 
 double FrameStarter::period_s(const CameraSettings& s, double exposure_s) const {
@@ -33,8 +35,9 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
     own_exposure_s_ = own_exposure_s;
     while (!stopping.load(std::memory_order_relaxed)) {
         const CameraSettings& now = settings_.read_in_loop();
-        if (!now.running || !now.triggered) forget_orders();
-        if (!now.running) {
+        const bool takes_none = !now.running || waits_for_poses();
+        if (takes_none || !now.triggered) forget_orders();
+        if (takes_none) {
             idle_ = true;
             settings_.wait_for_news();
             continue;
@@ -43,8 +46,9 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
         start.settings = now;
         const bool begun = now.triggered ? begin_ordered(stopping, start) : begin_free_run(stopping, start);
         if (!begun) continue;
-        start.not_before_ns =
-            paced_ && !lockstep_ ? start.begin_ns + to_ns(timing_.end_s(start.exposure_s)) : 0;
+        start.until_end = paced_ && !lockstep_;
+        start.begin_ns = clock_.monotonic_of_camera(start.camera_ns);
+        if (poses_) start.silence = poses_->at(clock_.simulated_of_camera(start.camera_ns));
         return true;
     }
     settings_.close();
@@ -57,30 +61,36 @@ double FrameStarter::exposure_of(const CameraSettings& s) const {
 }
 
 bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& start) {
-    const std::int64_t arrived_ns = monotonic_ns();
+    const std::int64_t arrived_ns = camera_now();
     if (idle_) schedule_.restart(arrived_ns);
     idle_ = false;
-    const auto period_ns = [&] { return to_ns(period_s(start.settings, exposure_of(start.settings))); };
+    const auto period_now_ns = [&] { return to_ns(period_s(start.settings, exposure_of(start.settings))); };
     if (paced_) {
         const FrameSchedule before = schedule_;
-        FrameSchedule::Slot due = schedule_.take(arrived_ns, period_ns());
-        // A new period counts from the last frame on: what waits for its begin begins at another time.
-        while (settings_.wait_for_news_until(due.start_ns - kLastStretch_ns)) {
+        std::int64_t period_ns = period_now_ns();
+        FrameSchedule::Slot due = schedule_.take(arrived_ns, period_ns);
+        while (settings_.wait_for_news_until(clock_.when_due(due.start_ns) - kLastStretch_ns)) {
             start.settings = settings_.read_in_loop();
             if (stopping.load(std::memory_order_relaxed) || !start.settings.running ||
-                start.settings.triggered)
+                start.settings.triggered || waits_for_poses())
                 return false;
+            if (period_now_ns() == period_ns) continue;
+            // A new period counts from the last frame on: what waits for its begin begins at another time.
+            period_ns = period_now_ns();
             schedule_ = before;
-            const std::int64_t now_ns = monotonic_ns();
-            if (due.skipped == 0 && schedule_.next_ns(period_ns()) < now_ns) schedule_.restart(now_ns);
-            due = schedule_.take(arrived_ns, period_ns());
+            const std::int64_t now_ns = camera_now();
+            if (due.skipped == 0 && schedule_.next_ns(period_ns) < now_ns) schedule_.restart(now_ns);
+            due = schedule_.take(arrived_ns, period_ns);
         }
-        if (!sleep_until(due.start_ns, stopping)) return false;
-        start.begin_ns = due.start_ns;
+        if (!sleep_until(due.start_ns, stopping)) {
+            schedule_ = before;
+            return false;
+        }
+        start.camera_ns = due.start_ns;
         start.skipped = due.skipped;
         start.settings = settings_.read_in_loop();
     } else {
-        start.begin_ns = arrived_ns;
+        start.camera_ns = arrived_ns;
     }
     start.exposure_s = exposure_of(start.settings);
     return true;
@@ -92,16 +102,16 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
         settings_.wait_for_news();
         return false;
     }
-    if (!lockstep_ && !sleep_until(next_ns_, stopping)) return false;
+    if (!lockstep_ && !wait_for_order(stopping)) return false;
     start.settings = settings_.read_in_loop();
     start.exposure_s = exposure_of(start.settings);
-    start.begin_ns = next_ns_;
+    start.camera_ns = next_ns_;
     const std::int64_t period_ns = to_ns(period_s(start.settings, start.exposure_s));
     if (lockstep_) {
-        last_mid_ = clock_.at(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));
+        last_mid_ = clock_.simulated_of_camera(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));
         clock_.step_to(last_mid_);
     } else {
-        start.late = monotonic_ns() > next_ns_ + period_ns;
+        start.late = camera_now() > next_ns_ + period_ns;
     }
     next_ns_ += period_ns;
     start.trigger_sequence = order_.sequence;
@@ -109,20 +119,37 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     return true;
 }
 
+// In lockstep the camera's time is the simulated one.
 bool FrameStarter::take_order(const CameraSettings& settings, double exposure_s) {
     if (!settings_.take_trigger(order_)) return false;
     left_ = order_.frames;
-    if (!lockstep_) {
-        next_ns_ = order_.at_monotonic_ns;
-        return true;
-    }
+    order_begun_ = false;
+    if (!lockstep_) return true;
     const std::int64_t to_middle_ns = to_ns(timing_.middle_s(exposure_s));
     if (order_.at_simulated.ns != 0)
-        next_ns_ = clock_.monotonic_at(order_.at_simulated) - to_middle_ns;
+        next_ns_ = order_.at_simulated.ns - to_middle_ns;
     else if (last_mid_.ns != 0)
-        next_ns_ = clock_.monotonic_at(last_mid_) + to_ns(period_s(settings, exposure_s)) - to_middle_ns;
+        next_ns_ = last_mid_.ns + to_ns(period_s(settings, exposure_s)) - to_middle_ns;
     else
-        next_ns_ = clock_.monotonic_at(clock_.start());
+        next_ns_ = clock_.start().ns;
+    return true;
+}
+
+// As the clock goes now: it may change while the order waits.
+std::int64_t FrameStarter::begin_of_order() const {
+    if (order_.at_simulated.ns == 0) return clock_.camera_at(order_.at_monotonic_ns) + order_.delay_ns;
+    const std::int64_t due_ns = clock_.camera_of(order_.at_simulated);
+    return due_ns == SimulatedClock::kNever_ns ? due_ns : due_ns + order_.delay_ns;
+}
+
+// False when something else came first: the order goes on waiting, if it is not dropped for that.
+bool FrameStarter::wait_for_order(const std::atomic<bool>& stopping) {
+    if (!order_begun_) next_ns_ = begin_of_order();
+    const std::int64_t not_before_ns = order_begun_ ? 0 : order_.at_monotonic_ns;
+    const std::int64_t due_ns = std::max(clock_.when_due(next_ns_), not_before_ns);
+    if (settings_.wait_for_news_until(due_ns - kLastStretch_ns)) return false;
+    if (!sleep_until(next_ns_, stopping)) return false;
+    order_begun_ = true;
     return true;
 }
 
@@ -132,10 +159,13 @@ void FrameStarter::forget_orders() {
     while (settings_.take_trigger(order_)) settings_.order_done();
 }
 
-bool FrameStarter::sleep_until(std::int64_t ns, const std::atomic<bool>& stopping) const {
-    while (monotonic_ns() < ns) {
-        if (stopping.load(std::memory_order_relaxed)) return false;
-        sleep_until_monotonic_ns(std::min(ns, monotonic_ns() + kLongestSleep_ns));
+// False when it is to stop, or the camera does not get there as the clock goes now.
+bool FrameStarter::sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const {
+    for (std::int64_t now_ns = monotonic_ns(); clock_.camera_at(now_ns) < camera_ns;
+         now_ns = monotonic_ns()) {
+        const std::int64_t due_ns = clock_.when_due(camera_ns);
+        if (stopping.load(std::memory_order_relaxed) || due_ns == SimulatedClock::kNever_ns) return false;
+        sleep_until_monotonic_ns(std::min(std::max(due_ns, now_ns + 1'000), now_ns + kLongestSleep_ns));
     }
     return true;
 }

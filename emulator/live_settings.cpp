@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/clock.h"
-
 namespace hilcam {
 
 namespace {
 
 constexpr std::int64_t kMostBinning = 8;
 constexpr std::int64_t kLongestWait_ns = 50'000'000;
+
+// Whose three times are one.
+const SimulatedClock& machine_clock() {
+    static const SimulatedClock clock({0}, 0);
+    return clock;
+}
 
 // The first two letters of the pattern's first two rows, if that is all of it: what clients call Bayer.
 std::string bayer_of(const ColorFilterArrayConfig& filters) {
@@ -79,6 +83,7 @@ bool inside(double value, double least, double most) { return value >= least && 
 LiveSettings::LiveSettings(const CameraModel& c, const Mode& mode)
     : limits_(limits_of(c, mode)),
       timing_(c),
+      clock_(&machine_clock()),
       settings_(at_power_up(c, mode)),
       latest_(settings_),
       own_exposure_s_(settings_.exposure_s),
@@ -137,7 +142,7 @@ bool LiveSettings::change(const SettingsChange& c) {
     settings_ = wanted;
     latest_.write(settings_);
     if (changed_) changed_(c);
-    announce();
+    wake();
     return true;
 }
 
@@ -153,7 +158,8 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     if (closed_.load() || !settings_.running || !settings_.triggered) return TriggerResult::kNotArmed;
     if (asked.source != (limits_.lockstep ? TriggerSource::kLine0 : settings_.trigger_source))
         return TriggerResult::kNotArmed;
-    TriggerOrder order = asked;
+    if (poses_ && poses_->stops(clock_->now())) return TriggerResult::kNotArmed;
+    WaitingOrder order{asked};
     if (order.frames == 0) order.frames = settings_.burst_frames;
     const std::uint64_t in = triggers_in_.load(std::memory_order_relaxed);
     if (limits_.lockstep && order.at_simulated.ns != 0) {
@@ -164,21 +170,22 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     if (!limits_.lockstep) {
         const std::int64_t now_ns = monotonic_ns();
         if (order.at_monotonic_ns == 0) order.at_monotonic_ns = now_ns;
-        order.at_monotonic_ns += static_cast<std::int64_t>(settings_.trigger_delay_s * 1e9);
-        missed = missed || order.at_monotonic_ns < ready_ns_;
+        order.delay_ns = static_cast<std::int64_t>(settings_.trigger_delay_s * 1e9);
+        const std::int64_t due_ns = camera_time_of(order, now_ns) + order.delay_ns;
+        missed = missed || due_ns < ready_ns_;
         if (missed) {
             if (missed_) missed_(now_ns);
         } else {
             const double rate_hz = order.frames > 1 ? settings_.frame_rate_hz : limits_.most_frame_rate_hz;
             const double busy_s =
                 static_cast<double>(order.frames) * timing_.period_s(rate_hz, settings_.exposure_s);
-            ready_ns_ = order.at_monotonic_ns + static_cast<std::int64_t>(busy_s * 1e9);
+            ready_ns_ = due_ns + static_cast<std::int64_t>(busy_s * 1e9);
         }
     }
     if (missed) return TriggerResult::kMissed;
     triggers_[in % kMostWaiting] = order;
     triggers_in_.store(in + 1, std::memory_order_release);
-    announce();
+    wake();
     return TriggerResult::kTaken;
 }
 
@@ -197,7 +204,13 @@ bool LiveSettings::wait_for_order(double patience_s) {
     return done_.try_acquire_for(std::chrono::duration_cast<std::chrono::nanoseconds>(patience));
 }
 
-bool LiveSettings::take_trigger(TriggerOrder& order) {
+// If time goes on as it does now, and does not stand.
+std::int64_t LiveSettings::camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const {
+    if (order.at_simulated.ns == 0) return clock_->camera_at(order.at_monotonic_ns);
+    return clock_->camera_at(now_ns) + (order.at_simulated - clock_->at(now_ns));
+}
+
+bool LiveSettings::take_trigger(WaitingOrder& order) {
     const std::uint64_t out = triggers_out_.load(std::memory_order_relaxed);
     if (out == triggers_in_.load(std::memory_order_acquire)) return false;
     order = triggers_[out % kMostWaiting];
@@ -213,7 +226,5 @@ bool LiveSettings::wait_for_news_until(std::int64_t until_ns) {
     }
     return monotonic_ns() < until_ns;
 }
-
-void LiveSettings::announce() { news_.release(); }
 
 }  // namespace hilcam

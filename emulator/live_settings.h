@@ -6,9 +6,12 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <semaphore>
 
+#include "emulator/clock.h"
+#include "emulator/pose_watch.h"
 #include "emulator/shutter_timing.h"
 #include "io/camera_control.h"
 #include "render/latest.h"
@@ -25,12 +28,16 @@ class LiveSettings : public CameraControl {
     };
     explicit LiveSettings(const CameraModel& camera) : LiveSettings(camera, Mode{}) {}
     LiveSettings(const CameraModel& camera, const Mode& mode);
+    // Whose time frames and triggers go by, and who says that there shall be none; without it, the machine's
+    // and nobody. Both outlive the settings. Before the threads start.
+    void follow(const SimulatedClock& clock, const PoseWatch* poses) { clock_ = &clock, poses_ = poses; }
 
     CameraSettings settings() const override;
     CameraLimits limits() const override { return limits_; }
     bool change(const SettingsChange& change) override;
     // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
-    // highest frame rate; or, in lockstep, when kMostWaiting are waiting.
+    // highest frame rate, as the camera's time goes now (clock.h); or, in lockstep, when kMostWaiting are
+    // waiting. Not armed: also where frames wait for poses (pose_watch.h).
     TriggerResult trigger(const TriggerOrder& order) override;
     // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
     void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
@@ -51,13 +58,18 @@ class LiveSettings : public CameraControl {
     // --- Loop, one thread. No lock.
     const CameraSettings& read_in_loop() { return latest_.read(); }
     // The next trigger in its order of arrival; false when there is none.
-    bool take_trigger(TriggerOrder& order);
+    struct WaitingOrder : TriggerOrder {
+        std::int64_t delay_ns = 0;  // after its time, of the camera's time
+    };
+    bool take_trigger(WaitingOrder& order);
     // Returns after a change or a trigger, or after 50 ms.
     void wait_for_news() {
         static_cast<void>(news_.try_acquire_for(std::chrono::milliseconds(50)));
         while (news_.try_acquire()) {
         }
     }
+    // Any thread: the loop shall look anew at what it waits for.
+    void wake() { news_.release(); }
     // No order will be looked at any more.
     void close() { closed_.store(true); }
     // All frames of an order are rendered, or the order is dropped.
@@ -75,18 +87,20 @@ class LiveSettings : public CameraControl {
   private:
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
     TriggerResult take_order(const TriggerOrder& asked);
-    void announce();
+    std::int64_t camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const;
 
     CameraLimits limits_;
     ShutterTiming timing_;
+    const SimulatedClock* clock_;
+    const PoseWatch* poses_ = nullptr;
     mutable std::mutex mutex_;
     CameraSettings settings_;
     Latest<CameraSettings> latest_;
     std::atomic<double> own_exposure_s_, own_gain_db_;
     // Writers under the mutex, one reader.
-    std::array<TriggerOrder, kMostWaiting> triggers_;
+    std::array<WaitingOrder, kMostWaiting> triggers_;
     std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
-    std::int64_t ready_ns_ = 0;  // when the next trigger can be taken
+    std::int64_t ready_ns_ = std::numeric_limits<std::int64_t>::min();  // for the next trigger; camera's time
     std::counting_semaphore<> news_{0}, done_{0};
     std::atomic<bool> closed_{false};
     bool ordered_ = false;

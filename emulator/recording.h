@@ -33,6 +33,7 @@ struct RecordedCommand {
     std::uint64_t number = 0;  // from 1
     Command command;
     CommandSource source;
+    bool forgets = false;  // of a pose or joint: what was known of the thing before
 };
 // A camera's settings have changed, by a command or by a client of the camera.
 struct RecordedChange {

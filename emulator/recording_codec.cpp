@@ -161,7 +161,7 @@ void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordingH
 template <class A, class R>
 void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedCommand> {
     a(r.number), a(r.source.arrival_monotonic_ns), a(r.source.sequence);
-    a(r.source.camera), a(r.source.event);
+    a(r.source.camera), a(r.source.event), a(r.forgets);
     command(a, r.command);
 }
 template <class A, class R>
@@ -193,7 +193,8 @@ void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedFr
     auto& u = r.use;
     a(u.id), a(u.skipped), a(u.late), a(u.reverse_x), a(u.reverse_y);
     a.word(u.test_pattern, TestPattern::kRampHorizontalMoving);
-    a(u.trigger_sequence), a(u.quality_level), a(u.begin_ns), a(u.exposure_mid.ns);
+    a(u.trigger_sequence), a(u.quality_level), a(u.begin_ns), a(u.middle_ns), a(u.end_ns);
+    a(u.exposure_mid.ns), a(u.shown_at.ns), a(u.moving), a(u.shutter_closed);
     a(u.exposure_s), a(u.gain_db), a(u.black_level_dn), a(u.binning_x), a(u.binning_y), a(u.faults);
     a(u.image.stuck), a(u.image.black), a(u.image.saturated);
     maybe(a, u.image.tear_share), maybe(a, u.image.flip_rate);

@@ -72,6 +72,11 @@ void add_command(json& out, const Command& command, const RecordingHeader& heade
                        out["triggered"] = m.triggered;
                        out["burst_frames"] = m.burst_frames;
                    },
+                   [&](const ClockCommand& c) {
+                       out["action"] = static_cast<int>(c.action);
+                       out["scale"] = c.scale;
+                       out["step_s"] = seconds_between(0, c.step_ns);
+                   },
                    [](const auto&) {},
                },
                command);

@@ -160,20 +160,20 @@ void Replay::apply(const Pending& pending) {
     const RecordedCommand& c = pending.command;
     const ShownCommand shown{c.source.sequence, c.source.arrival_monotonic_ns, {}, c.number};
     if (const auto* pose = std::get_if<PoseCommand>(&c.command))
-        camera_.world->set(pose->object, pose->motion, shown, pose->alone);
+        camera_.world->set(pose->object, pose->motion, shown, c.forgets);
     if (const auto* joint = std::get_if<JointCommand>(&c.command))
         camera_.world->set_joint(joint->object, joint->joint,
-                                 {joint->time, joint->angle_rad, joint->rate_rad_s}, shown);
+                                 {joint->time, joint->angle_rad, joint->rate_rad_s}, shown, c.forgets);
 }
 
 // Why the loop cannot be given a frame, or empty: CRCs find accidents, not files that somebody has made.
 std::string Replay::refusal_of(const FrameUse& use) const {
     const CameraSettings& own = camera_.power_up;
     constexpr std::int64_t kFarthest_ns = 4'000'000'000'000'000'000;  // sums with it stay in range
-    constexpr std::int64_t kFarthestTai_ns = 2 * kFarthest_ns;
-    if (use.begin_ns < -kFarthest_ns || use.begin_ns > kFarthest_ns ||
-        use.exposure_mid.ns < -kFarthestTai_ns || use.exposure_mid.ns > kFarthestTai_ns)
-        return "its time cannot be";
+    for (const std::int64_t ns :
+         {use.begin_ns, use.middle_ns, use.end_ns, use.exposure_mid.ns / 2, use.shown_at.ns / 2})
+        if (ns < -kFarthest_ns || ns > kFarthest_ns) return "its time cannot be";
+    if (!(use.moving >= 0 && use.moving <= 1)) return "the world moves for more than its exposure";
     if (use.id <= last_id_) return "its number is not after that of the frame before";
     if (!(use.exposure_s > 0 && use.exposure_s <= 1e5)) return "its exposure is not 0 to 1e5 s";
     if (!(std::abs(use.gain_db) <= 200)) return "its gain is not -200 to 200 dB";
@@ -190,10 +190,10 @@ std::string Replay::refusal_of(const FrameUse& use) const {
 // Hands a frame over and waits until the loop has seen the world for it; false when the replay is stopped.
 bool Replay::offer(const FrameUse& use) {
     use_ = use;
-    use_.begin_ns += shift_ns_;
+    for (std::int64_t* const ns : {&use_.begin_ns, &use_.middle_ns, &use_.end_ns}) *ns += shift_ns_;
     not_before_ns_ = 0;
     if (paced_) {
-        not_before_ns_ = use_.begin_ns + std::llround(camera_.timing.end_s(use.exposure_s) * 1e9);
+        not_before_ns_ = use_.end_ns;
         for (std::int64_t now_ns = monotonic_ns(); now_ns < use_.begin_ns; now_ns = monotonic_ns()) {
             if (stopping_.load()) return false;
             sleep_until_monotonic_ns(std::min(use_.begin_ns, now_ns + kLongestSleep_ns));

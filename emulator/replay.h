@@ -20,7 +20,6 @@
 
 #include "emulator/frame_script.h"
 #include "emulator/recording_reader.h"
-#include "emulator/shutter_timing.h"
 #include "emulator/world_state.h"
 #include "io/camera_control.h"
 #include "io/fault.h"
@@ -41,7 +40,6 @@ struct ReplayedCamera {
     CameraLimits limits;
     CameraSettings power_up;  // what it begins with
     std::size_t levels = 1;   // of quality
-    ShutterTiming timing;
 };
 
 class Replay : public FrameScript {

@@ -117,6 +117,8 @@ json camera_report(CameraStation& station, double seconds) {
         {"frames", frames},
         {"frame_rate_hz", rounded(static_cast<double>(frames) / std::max(1e-9, seconds))},
         {"deadline_misses", loop.counters().deadline_misses.load()},
+        {"stale_frames", loop.counters().stale.load()},
+        {"standing_frames", loop.counters().standing.load()},
         {"latency_ms",
          {{"first_packet", percentiles_report(delivery.command_to_first)},
           {"last_packet", percentiles_report(delivery.command_to_last)},
@@ -138,6 +140,7 @@ json run_report(const Emulator& emulator) {
     report["seconds"] = rounded(emulator.seconds());
     report["commands"] = {
         {"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}};
+    report["poses"] = {{"went_back", emulator.poses().went_back()}};
     report["machine"] = machine_report();
     if (const Recorder* recorder = emulator.recorder()) {
         const RecorderReport r = recorder->report();

@@ -16,9 +16,9 @@ namespace hilcam {
 namespace {
 
 // Of keys that frames do not depend on.
-constexpr std::array<std::string_view, 9> kLeftOut = {"name",           "threads",   "loop.prefer",
-                                                      "loop.real_time", "events",    "faults",
-                                                      "commands",       "telemetry", "outputs"};
+constexpr std::array<std::string_view, 10> kLeftOut = {"name",           "clock",  "threads", "loop.prefer",
+                                                       "loop.real_time", "events", "faults",  "commands",
+                                                       "telemetry",      "outputs"};
 
 bool left_out(std::string_view key) {
     const auto is = [&](std::string_view word) {

@@ -8,6 +8,7 @@
 
 #include "emulator/clock.h"
 #include "emulator/command_words.h"
+#include "emulator/send_clock.h"
 #include "emulator/send_fly.h"
 #include "emulator/send_watch.h"
 #include "io/command_sender.h"
@@ -32,6 +33,7 @@ int print(const Acknowledgement& a) {
 }
 
 int send_one(const SendOptions& o) {
+    if (const auto* clock = std::get_if<ClockCommand>(&o.command)) return send_clock(o.target, *clock);
     CommandSender sender(o.target.endpoint, o.target.dialect);
     sender.address(o.target.camera);
     return print(sender.send(o.command, o.target.timeout_ms));

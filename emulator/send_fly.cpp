@@ -7,6 +7,7 @@
 
 #include "emulator/clock.h"
 #include "emulator/flight.h"
+#include "emulator/send_clock.h"
 #include "io/command_sender.h"
 
 namespace hilcam {
@@ -35,15 +36,17 @@ void add_fly_options(CLI::App& app, FlyOptions& o) {
     app.add_option("--duration-s", o.duration_s, "how long")->check(CLI::Range(0.0, 1e7));
 }
 
-// Poses with time tags, on the emulator's own simulated time.
+// Poses with time tags, on the emulator's own simulated time, which may go at another speed than this
+// machine's: the flight goes with it.
 int send_flight(const SendTarget& target, const FlyOptions& o) {
     CommandSender sender(target.endpoint, target.dialect);
     const CircleFlight flight = flight_of(o);
-    const std::int64_t asked_ns = monotonic_ns();
-    const Acknowledgement first = sender.send(PingCommand{}, target.timeout_ms);
-    // The answer's clock reading lies half a round trip back.
+    Acknowledgement first;
+    const ClockFilter clock =
+        measure_clock(sender, {}, static_cast<int>(ClockFilter::kSamples), target.timeout_ms, first);
     const std::int64_t start_ns = monotonic_ns();
-    const SimulatedClock clock(first.simulated_time, asked_ns + (start_ns - asked_ns) / 2);
+    // Where nobody tells it: the poses are true on arrival.
+    const TimeTai start = clock.simulated_at(start_ns).value_or(TimeTai{});
     std::vector<double> round_trips_ms;
     std::uint64_t accepted = 0, refused = 0;
     const auto count = static_cast<std::uint64_t>(o.duration_s * o.rate_hz);
@@ -54,7 +57,8 @@ int send_flight(const SendTarget& target, const FlyOptions& o) {
         const std::int64_t now_ns = monotonic_ns();
         PoseCommand pose;
         pose.object = static_cast<std::uint16_t>(o.object);
-        pose.motion = flight.at(static_cast<double>(now_ns - start_ns) * 1e-9, clock.at(now_ns));
+        const TimeTai time = clock.simulated_at(now_ns).value_or(TimeTai{});
+        pose.motion = flight.at(static_cast<double>(time - start) * 1e-9, time);
         const Acknowledgement answer = sender.send(pose, target.timeout_ms);
         round_trips_ms.push_back(static_cast<double>(monotonic_ns() - now_ns) * 1e-6);
         ++(answer.status == CommandStatus::kAccepted ? accepted : refused);

@@ -9,6 +9,7 @@
 #include "emulator/clock.h"
 #include "io/command_sender.h"
 #include "io/fault.h"
+#include "io/frame_sink.h"
 
 namespace hilcam {
 namespace {
@@ -27,6 +28,9 @@ std::vector<std::string> fault_names(std::uint64_t bits) {
     std::vector<std::string> out;
     for (const FaultKind kind : kAllFaults)
         if (bits & bit_of(kind)) out.emplace_back(hilcam::name_of(kind));
+    if (bits & kTimeStandsBit) out.emplace_back("time_stands");
+    if (bits & kPosesStaleBit) out.emplace_back("poses_stale");
+    if (bits & kTagsWentBackBit) out.emplace_back("tags_went_back");
     return out;
 }
 

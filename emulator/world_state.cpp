@@ -107,11 +107,11 @@ bool WorldState::set(std::size_t object, const Motion& motion, ShownCommand comm
     return thing && write(*things_[*thing], motion, command, alone);
 }
 
-bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m,
-                           ShownCommand command) {
+bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMotion& m, ShownCommand command,
+                           bool alone) {
     const auto thing = thing_of(object, joint);
-    return thing &&
-           write(*things_[*thing], {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}}, command);
+    return thing && write(*things_[*thing], {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}},
+                          command, alone);
 }
 
 bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command, bool alone) {

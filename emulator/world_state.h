@@ -60,7 +60,8 @@ class WorldState {
         double angle_rad = 0;
         double rate_rad_s = 0;
     };
-    bool set_joint(std::size_t object, std::size_t joint, const JointMotion& motion, ShownCommand command);
+    bool set_joint(std::size_t object, std::size_t joint, const JointMotion& motion, ShownCommand command,
+                   bool alone = false);
     // The thing that a command is about, counted as shown_numbers() does; none when there is no such one.
     std::optional<std::size_t> thing_of(std::size_t object) const;
     std::optional<std::size_t> thing_of(std::size_t object, std::size_t joint) const;

@@ -10,6 +10,23 @@ namespace {
 
 constexpr std::uint8_t kAcknowledgeBit = 0x80;
 constexpr std::size_t kMostReasonBytes = 96;
+constexpr std::size_t kClockBytes = 5 * 8;
+
+void write(ByteWriter& out, const ClockReading& r) {
+    out.u64(static_cast<std::uint64_t>(r.arrival.ns)).u64(static_cast<std::uint64_t>(r.arrival_monotonic_ns));
+    out.u64(static_cast<std::uint64_t>(r.departure_monotonic_ns)).f64(r.scale);
+    out.u64(static_cast<std::uint64_t>(r.stands_at.ns));
+}
+ClockReading read_clock(ByteReader& in, TimeTai departure) {
+    ClockReading r;
+    r.departure = departure;
+    r.arrival.ns = in.i64();
+    r.arrival_monotonic_ns = in.i64();
+    r.departure_monotonic_ns = in.i64();
+    r.scale = in.f64();
+    r.stands_at.ns = in.i64();
+    return r;
+}
 
 }  // namespace
 
@@ -19,6 +36,7 @@ void write_acknowledgement_body(const Acknowledgement& a, ByteWriter& out) {
     out.u8(static_cast<std::uint8_t>(a.status)).u8(0).u32(a.sequence).u64(a.token);
     out.u64(static_cast<std::uint64_t>(a.simulated_time.ns)).u16(reason_bytes);
     for (std::size_t i = 0; i < reason_bytes; ++i) out.u8(static_cast<std::uint8_t>(a.reason[i]));
+    if (a.clock) write(out, *a.clock);
 }
 
 bool read_acknowledgement_body(std::span<const std::uint8_t> body, Acknowledgement& a) {
@@ -31,8 +49,12 @@ bool read_acknowledgement_body(std::span<const std::uint8_t> body, Acknowledgeme
     a.token = in.u64();
     a.simulated_time.ns = in.i64();
     const std::size_t reason_bytes = in.u16();
-    if (!in.ok() || in.left() != reason_bytes) return false;
+    const bool has_clock = a.function == kClockFunction && in.left() == reason_bytes + kClockBytes;
+    if (!in.ok() || (in.left() != reason_bytes && !has_clock)) return false;
     a.reason.assign(reinterpret_cast<const char*>(in.rest().data()), reason_bytes);
+    in.skip(reason_bytes);
+    a.clock.reset();
+    if (has_clock) a.clock = read_clock(in, a.simulated_time);
     return true;
 }
 
@@ -54,10 +76,10 @@ bool decode_acknowledgement(std::span<const std::uint8_t> packet, Acknowledgemen
 
 std::string_view name_of(CommandStatus status) {
     // In the order of their numbers.
-    constexpr std::array<std::string_view, 11> kNames = {
-        "accepted",         "bad length",   "bad header",     "unknown APID",      "bad checksum",
-        "unknown function", "bad argument", "unknown object", "time out of range", "busy",
-        "not now"};
+    constexpr std::array<std::string_view, 12> kNames = {
+        "accepted",         "bad length",    "bad header",     "unknown APID",      "bad checksum",
+        "unknown function", "bad argument",  "unknown object", "time out of range", "busy",
+        "not now",          "time went back"};
     const auto number = static_cast<std::size_t>(status);
     return number < kNames.size() ? kNames[number] : "unknown status";
 }

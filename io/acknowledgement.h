@@ -3,6 +3,7 @@
 // Space Packet around it here is hilcam's own. Pure functions over bytes.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,15 +14,17 @@
 namespace hilcam {
 
 inline constexpr std::uint16_t kAcknowledgeApid = 0x101;
-inline constexpr std::size_t kMostAcknowledgeBytes = 160;
+inline constexpr std::size_t kMostAcknowledgeBytes = 176;
 
 struct Acknowledgement {
     std::uint8_t function = 0;
     CommandStatus status = CommandStatus::kAccepted;
     std::uint32_t sequence = 0;
-    std::uint64_t token = 0;  // of a ping
+    std::uint64_t token = 0;  // of a ping; of a clock command, sender_ns
     TimeTai simulated_time;
     std::string reason;  // up to 96 bytes of it travel
+    // With an accepted clock command. simulated_time and `departure` are one: both travel as the former.
+    std::optional<ClockReading> clock{};
 };
 
 // Gives the number of bytes written. `count` is the primary header's 14-bit counter.

@@ -75,10 +75,12 @@ enum class TriggerResult : std::uint8_t {
 struct TriggerOrder {
     TriggerSource source = TriggerSource::kSoftware;
     std::int64_t at_monotonic_ns = 0;  // 0: now
-    TimeTai at_simulated;              // lockstep: the instant of the exposure's middle; ns = 0: a period on
-    std::int64_t frames = 0;           // 0: the settings' burst_frames
-    std::uint32_t sequence = 0;        // of the command
-    bool at_any_time = false;          // lockstep: also not after the frame before
+    // Not before then, too; ns = 0: none. Lockstep: the instant of the exposure's middle; ns = 0: a period
+    // on.
+    TimeTai at_simulated;
+    std::int64_t frames = 0;     // 0: the settings' burst_frames
+    std::uint32_t sequence = 0;  // of the command
+    bool at_any_time = false;    // lockstep: also not after the frame before
 };
 
 // Changes take effect with the next frame whose exposure has not begun. All functions: any thread, never from

@@ -3,6 +3,7 @@
 // commands_udp.h's.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -62,9 +63,39 @@ struct StopCommand {};
 struct PingCommand {
     std::uint64_t token = 0;
 };
+// How simulated time goes on; and, whatever it asks for, one half of an exchange of clock readings
+// (clock_filter.h).
+struct ClockCommand {
+    enum class Action : std::uint8_t {
+        kAsk = 0,
+        kScale = 1,   // so many simulated seconds in one of the machine's, now or when time goes on
+        kPause = 2,   // simulated time stands
+        kResume = 3,  // and goes on
+        kStep = 4,    // goes on for so long; while it stands or such a step is on its way
+    } action = Action::kAsk;
+    std::int64_t sender_ns = 0;  // the sender's own clock, whatever its epoch; comes back
+    double scale = 1;
+    std::int64_t step_ns = 0;
+};
+inline constexpr double kLeastClockScale = 1e-3, kMostClockScale = 1e3;
+inline constexpr std::int64_t kMostClockStep_ns = 10'000'000'000'000'000;  // 116 days
+
 // In the order of their function codes.
-using Command = std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand,
-                             JointCommand, FaultCommand, ExposeCommand, TriggerModeCommand, SubscribeCommand>;
+using Command =
+    std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand, JointCommand,
+                 FaultCommand, ExposeCommand, TriggerModeCommand, SubscribeCommand, ClockCommand>;
+inline constexpr std::uint8_t kClockFunction = 11;
+
+// The other half: when a packet came and its answer went, by simulated time and by the machine's
+// CLOCK_MONOTONIC, and how the two go together from then on:
+//     simulated = min(departure + scale (monotonic - departure_monotonic), stands_at)
+struct ClockReading {
+    TimeTai arrival, departure;
+    std::int64_t arrival_monotonic_ns = 0, departure_monotonic_ns = 0;
+    double scale = 1;  // in force when time runs, also while it stands
+    TimeTai stands_at{
+        std::numeric_limits<std::int64_t>::max()};  // as yet; the last instant there is: nowhere
+};
 
 // Travels in the acknowledgement; the numbers are part of the protocol.
 enum class CommandStatus : std::uint8_t {
@@ -77,17 +108,25 @@ enum class CommandStatus : std::uint8_t {
     kBadArgument =
         6,  // a number that is not finite, a quaternion that is not one, a value outside its limits
     kUnknownObject = 7,
-    kTimeOutOfRange = 8,  // a time tag more than an hour from the simulated now
+    kTimeOutOfRange = 8,  // a time tag further from the simulated now than commands.poses.horizon_s
     kBusy = 9,            // the trigger came too early, or too many frames are waiting: try again later
-    kNotNow = 10,         // the camera's mode has no use for it
+    kNotNow = 10,         // the camera's mode, or the clock's, has no use for it
+    kTimeBackwards = 11,  // a time tag before the newest of its thing, where that is to be refused
+};
+
+// What is to be said of an accepted command.
+struct CommandNotes {
+    bool went_back = false;    // its time tag lies before the newest of its thing: a sender's clock is wrong
+    bool tell_sender = false;  // that, in the acknowledgement
 };
 
 // Of a command that has arrived.
 struct CommandSource {
     std::uint32_t sequence = 0;
     std::int64_t arrival_monotonic_ns = 0;
-    std::uint16_t camera = 0;  // that it is for, from 1; 0: every one. Poses and angles are for all.
-    std::uint16_t event = 0;   // of the scenario, from 1, that gave it; 0: a sender
+    std::uint16_t camera = 0;       // that it is for, from 1; 0: every one. Poses and angles are for all.
+    CommandNotes* notes = nullptr;  // to be filled, also when it is refused; may be null
+    std::uint16_t event = 0;        // of the scenario, from 1, that gave it; 0: a sender
 };
 
 // What the emulator does with a decoded command. Called by the receivers' threads, one at a time per
@@ -98,6 +137,13 @@ class CommandHandler {
     virtual CommandStatus handle(const Command& command, const CommandSource& source) = 0;
     // Simulated time now.
     virtual TimeTai now() const = 0;
+    // For the answer to a ClockCommand that came then.
+    virtual ClockReading read_clock(std::int64_t arrival_monotonic_ns) const {
+        ClockReading reading;
+        reading.arrival = reading.departure = now();
+        reading.arrival_monotonic_ns = reading.departure_monotonic_ns = arrival_monotonic_ns;
+        return reading;
+    }
 };
 
 // Counters of one receiver, or of all together.
@@ -106,6 +152,7 @@ struct CommandReport {
     std::uint64_t refused = 0;
     std::uint64_t lost = 0;           // gaps in the senders' sequence numbers, less what came late
     std::uint64_t duplicates = 0;     // packets whose number had come before
+    std::uint64_t went_back = 0;      // poses and angles whose time tag went back
     std::uint64_t skipped_bytes = 0;  // of streams, between packets
     std::uint64_t strangers = 0;      // connections and datagrams of senders that are not allowed
     std::uint64_t cut_off = 0;        // clients that did not read their answers
@@ -113,8 +160,9 @@ struct CommandReport {
 
     CommandReport& operator+=(const CommandReport& other) {
         received += other.received, refused += other.refused, lost += other.lost;
-        duplicates += other.duplicates, skipped_bytes += other.skipped_bytes;
-        strangers += other.strangers, cut_off += other.cut_off, clients += other.clients;
+        duplicates += other.duplicates, went_back += other.went_back;
+        skipped_bytes += other.skipped_bytes, strangers += other.strangers, cut_off += other.cut_off,
+            clients += other.clients;
         return *this;
     }
 };
@@ -122,7 +170,7 @@ struct CommandReport {
 // Counters of one sender.
 struct SenderReport {
     std::string name;  // "127.0.0.1:40312"
-    std::uint64_t received = 0, refused = 0, lost = 0, duplicates = 0;
+    std::uint64_t received = 0, refused = 0, lost = 0, duplicates = 0, went_back = 0;
     SubscribeCommand subscription;
 };
 

@@ -11,7 +11,7 @@ struct Layout {
     std::size_t bytes;
 };
 // By function code - 1.
-constexpr std::array<Layout, 10> kLayouts = {{
+constexpr std::array<Layout, 11> kLayouts = {{
     {"pose", 2 + 2 + 8 + 13 * 8},
     {"settings", 4 + 3 * 8},
     {"start", 0},
@@ -22,10 +22,12 @@ constexpr std::array<Layout, 10> kLayouts = {{
     {"expose", 2 + 2 + 8},
     {"mode", 4},
     {"subscribe", 4},
+    {"clock", 4 + 3 * 8},
 }};
 static_assert(std::variant_size_v<Command> == kLayouts.size());
 static_assert(std::is_same_v<std::variant_alternative_t<6, Command>, FaultCommand>);
 static_assert(std::is_same_v<std::variant_alternative_t<9, Command>, SubscribeCommand>);
+static_assert(std::is_same_v<std::variant_alternative_t<kClockFunction - 1, Command>, ClockCommand>);
 // Which settings a settings command carries, and what a subscription asks for.
 constexpr std::uint32_t kExposureBit = 1, kGainBit = 2, kFrameRateBit = 4;
 constexpr std::uint8_t kFrameReportsBit = 1, kHousekeepingBit = 2;
@@ -172,6 +174,32 @@ Refusal read(ByteReader& in, SubscribeCommand& subscribe) {
 }
 void write(ByteWriter& out, const SubscribeCommand& s) {
     out.u8((s.frame_reports ? kFrameReportsBit : 0u) | (s.housekeeping ? kHousekeepingBit : 0u)).u8(0).u16(0);
+}
+
+// What the action does not need is not examined.
+Refusal read(ByteReader& in, ClockCommand& clock) {
+    using Action = ClockCommand::Action;
+    const std::uint8_t action = in.u8();
+    in.skip(3);
+    clock.sender_ns = in.i64();
+    clock.scale = in.f64();
+    clock.step_ns = in.i64();
+    if (action > static_cast<std::uint8_t>(Action::kStep)) return bad("action of the clock is not 0 to 4");
+    clock.action = static_cast<Action>(action);
+    if (clock.action != Action::kScale)
+        clock.scale = 1;
+    else if (!(clock.scale >= kLeastClockScale && clock.scale <= kMostClockScale))
+        return bad("scale of time is not 0.001 to 1000");
+    if (clock.action != Action::kStep)
+        clock.step_ns = 0;
+    else if (clock.step_ns < 1 || clock.step_ns > kMostClockStep_ns)
+        return bad("step of time is not 1 to 1e16 ns");
+    return {};
+}
+void write(ByteWriter& out, const ClockCommand& clock) {
+    out.u8(static_cast<std::uint8_t>(clock.action)).u8(0).u16(0);
+    out.u64(static_cast<std::uint64_t>(clock.sender_ns)).f64(clock.scale);
+    out.u64(static_cast<std::uint64_t>(clock.step_ns));
 }
 
 // The alternative of a function code, made and read.

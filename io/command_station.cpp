@@ -88,30 +88,42 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
     out.sequence = decoded.sequence;
     out.status = decoded.status;
     out.reason = decoded.reason;
+    CommandNotes notes;
     if (decoded.status == CommandStatus::kAccepted) {
-        out.status = perform(decoded, packet, arrival_ns, sender);
-        if (out.status != CommandStatus::kAccepted) out.reason = name_of(out.status);
+        out.status = perform(decoded, packet, arrival_ns, sender, notes);
+        if (out.status != CommandStatus::kAccepted || notes.tell_sender)
+            out.reason = name_of(notes.tell_sender ? CommandStatus::kTimeBackwards : out.status);
         if (const auto* ping = std::get_if<PingCommand>(&decoded.command)) out.token = ping->token;
     }
+    const std::uint64_t went_back = notes.went_back ? 1 : 0;
+    report_.went_back += went_back, sender.report.went_back += went_back;
     const std::uint64_t refused = out.status == CommandStatus::kAccepted ? 0 : 1;
     report_.received += 1, sender.report.received += 1;
     report_.refused += refused, sender.report.refused += refused;
     out.simulated_time = handler_.now();
+    const auto* clock = std::get_if<ClockCommand>(&decoded.command);
+    if (clock && out.status == CommandStatus::kAccepted) {
+        out.token = static_cast<std::uint64_t>(clock->sender_ns);
+        out.clock = handler_.read_clock(arrival_ns);
+        out.simulated_time = out.clock->departure;
+    }
     std::array<std::uint8_t, kMostPacketBytes> bytes;
     const std::size_t size = encode_acknowledgement(out, sender.acknowledgements++, dialect_, bytes);
     answer(std::span(bytes).first(size));
 }
 
 CommandStatus CommandStation::perform(const DecodedCommand& decoded, std::span<const std::uint8_t> packet,
-                                      std::int64_t arrival_ns, Sender& sender) {
+                                      std::int64_t arrival_ns, Sender& sender, CommandNotes& notes) {
     const bool known = count(decoded.sequence, sender);
     if (known && sender.repeats(packet, arrival_ns)) return sender.once_status;
     if (const auto* subscription = std::get_if<SubscribeCommand>(&decoded.command))
         sender.report.subscription = *subscription;
     const CommandStatus status =
-        handler_.handle(decoded.command, {decoded.sequence, arrival_ns, decoded.camera});
+        handler_.handle(decoded.command, {decoded.sequence, arrival_ns, decoded.camera, &notes});
+    const auto* clock = std::get_if<ClockCommand>(&decoded.command);
     if (std::holds_alternative<ExposeCommand>(decoded.command) ||
-        std::holds_alternative<FaultCommand>(decoded.command))
+        std::holds_alternative<FaultCommand>(decoded.command) ||
+        (clock && clock->action == ClockCommand::Action::kStep))
         sender.remember(packet, arrival_ns, status);
     return status;
 }

@@ -2,9 +2,9 @@
 // Where the commands of all transports are taken: packets of a sender in, acknowledgements to it out. What
 // brings the bytes (commands_udp.h, stream_server.h, commands_usb.h, ...) knows nothing of commands.
 //
-// Commands take effect in the order they arrive, whatever their sequence numbers. An `expose` or a `fault`
-// that repeats an earlier packet of its sender byte by byte within a second is a retry, or the network's
-// doing: it is answered as the first was, and not done again.
+// Commands take effect in the order they arrive, whatever their sequence numbers. An `expose`, a `fault` or a
+// clock's step that repeats an earlier packet of its sender byte by byte within a second is a retry, or the
+// network's doing: it is answered as the first was, and not done again.
 
 #include <array>
 #include <cstdint>
@@ -58,7 +58,7 @@ class CommandStation {
     void take_packet(std::span<const std::uint8_t> packet, std::int64_t arrival_ns, Sender& sender,
                      const Answer& answer);
     CommandStatus perform(const DecodedCommand& decoded, std::span<const std::uint8_t> packet,
-                          std::int64_t arrival_ns, Sender& sender);
+                          std::int64_t arrival_ns, Sender& sender, CommandNotes& notes);
     bool count(std::uint32_t sequence, Sender& sender);
 
     CommandHandler& handler_;

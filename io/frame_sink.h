@@ -12,6 +12,13 @@
 
 namespace hilcam {
 
+// Bits of FrameRecord::faults beside those of the faults on demand, for what the run's own time and input did
+// to a frame: who trusts frames without faults alone need not know of these.
+inline constexpr std::uint64_t kTimeStandsBit = std::uint64_t{1} << 61;  // simulated time stood
+inline constexpr std::uint64_t kPosesStaleBit = std::uint64_t{1} << 62;  // no pose came (pose_watch.h)
+inline constexpr std::uint64_t kTagsWentBackBit = std::uint64_t{1}
+                                                  << 63;  // the first after time tags went back
+
 // What travels with a frame. Monotonic times are CLOCK_MONOTONIC nanoseconds; 0 means "none".
 struct FrameRecord {
     std::uint64_t id = 0;                        // 1, 2, 3, ... of this run; skipped frames leave a gap
@@ -25,7 +32,8 @@ struct FrameRecord {
     std::uint32_t pose_sequence = 0;     // of the newest command that this frame shows
     TimeTai pose_time;                   // that command's time tag
     std::uint32_t trigger_sequence = 0;  // of the `expose` that asked for it
-    std::uint64_t faults = 0;         // bits of the faults that strike it (fault.h), those of packets apart
+    std::uint64_t faults =
+        0;  // bits of the faults that strike it (fault.h), those of packets apart; and above
     std::uint32_t quality_level = 0;  // 0: as configured
     std::int64_t command_arrival_monotonic_ns =
         0;  // when that command arrived; 0 when no new one came since the last frame

@@ -251,6 +251,11 @@ TEST_F(Allocation, NorWhileItIsRecordedAndEventsAreWatchedFor) {
     std::filesystem::remove(file);
 }
 
+TEST_F(Allocation, NorWhenSimulatedTimeGoesFasterOrStands) {
+    EXPECT_EQ(allocations({"clock.scale=3"}, Loop::kPaced), 0);
+    EXPECT_EQ(allocations({"clock.paused=true", "camera_pose.rate_deg_s=[0, 10, 0]"}, Loop::kPaced), 0);
+}
+
 TEST_F(Allocation, NorWithAScanningLine) {
     EXPECT_EQ(
         allocations({"camera.shutter={kind: line_scan, line_time_us: 50}",

@@ -58,6 +58,10 @@ class Collector : public FrameSink {
     }
     void stop() noexcept override {}
     SinkReport report() const override { return {}; }
+    std::size_t count() {
+        const std::lock_guard lock(mutex_);
+        return frames.size();
+    }
     // False when they do not come within a minute.
     bool wait_for(std::size_t count) {
         std::unique_lock lock(mutex_);
@@ -80,6 +84,7 @@ struct LoopRig {
     LiveSettings settings;
     FaultBoard faults;
     SimulatedClock clock;
+    PoseWatch poses;
     ExposureRenderer exposures;
     CommandDispatch dispatch;
     Collector collector;
@@ -97,10 +102,12 @@ struct LoopRig {
           settings(scenario.camera, {.lockstep = scenario.mode == CameraMode::kLockstep,
                                      .triggered = scenario.mode == CameraMode::kTriggered}),
           faults(1),
-          clock(start, monotonic_ns(), scenario.mode == CameraMode::kLockstep),
+          clock(start, monotonic_ns(), scenario.mode == CameraMode::kLockstep, scenario.clock),
+          poses(scenario.commands.poses, scenario.mode == CameraMode::kLockstep),
           exposures(*renderer, scenario, grid, world.placed_objects()),
-          dispatch({{&world, &settings, &faults}}, clock),
-          loop(exposures, chain, scenario.camera, world, settings, faults, clock, {&collector}, 1, limits) {}
+          dispatch({{&world, &settings, &faults}}, clock, &poses),
+          loop(exposures, chain, scenario.camera, world, settings, faults, clock, {&collector}, 1, limits,
+               &poses) {}
     ~LoopRig() { loop.stop(); }
 
     CommandStatus send(const Command& command) {

@@ -81,6 +81,21 @@ typedef struct {
 
 enum { HILCAM_TELL_FRAMES = 1, HILCAM_TELL_HOUSEKEEPING = 2 };
 
+// How simulated time goes on, and half of an exchange of clock readings (hilcam_clock_filter).
+enum {
+    HILCAM_CLOCK_ASK = 0,
+    HILCAM_CLOCK_SCALE = 1,
+    HILCAM_CLOCK_PAUSE = 2,
+    HILCAM_CLOCK_RESUME = 3,
+    HILCAM_CLOCK_STEP = 4
+};
+typedef struct {
+    uint8_t action;
+    int64_t sender_ns;  // the sender's clock as this leaves; comes back
+    double scale;       // SCALE: simulated seconds in one of the machine's
+    int64_t step_ns;    // STEP: so much simulated time, then it stands again
+} hilcam_clock;
+
 // `hilcam send fault list` says what each does and what its value means.
 typedef enum {
     HILCAM_FAULT_NONE = 0,  // ends them all
@@ -149,17 +164,35 @@ enum {
     HILCAM_UNKNOWN_OBJECT = 7,
     HILCAM_TIME_OUT_OF_RANGE = 8,
     HILCAM_BUSY = 9,
-    HILCAM_NOT_NOW = 10
+    HILCAM_NOT_NOW = 10,
+    HILCAM_TIME_WENT_BACK = 11
 };
+
+// From the answer's departure on:
+//     simulated = min(departure_tai + scale (monotonic - departure_monotonic), stands_at_tai)
+typedef struct {
+    int64_t arrival_tai_ns, arrival_monotonic_ns;  // of the command
+    int64_t departure_tai_ns, departure_monotonic_ns;
+    double scale;              // while time runs
+    int64_t stands_at_tai_ns;  // where time stands or will; INT64_MAX: nowhere
+} hilcam_clock_reading;
 
 typedef struct {
     uint8_t function;  // of the command: 1 pose, 2 settings, ...
     uint8_t status;
     uint32_t sequence;         // of the command
-    uint64_t token;            // of a ping, else 0
+    uint64_t token;            // of a ping; of a clock command its sender_ns; else 0
     int64_t simulated_tai_ns;  // when the answer was made
     char reason[HILCAM_MOST_REASON_BYTES + 1];
+    uint8_t has_clock;  // with an accepted clock command
+    hilcam_clock_reading clock;
 } hilcam_acknowledgement;
+
+// Bits of `faults` beside those of the faults on demand: simulated time stood, no poses came, a time tag went
+// back.
+#define HILCAM_TIME_STANDS ((uint64_t)1 << 61)
+#define HILCAM_POSES_STALE ((uint64_t)1 << 62)
+#define HILCAM_TAGS_WENT_BACK ((uint64_t)1 << 63)
 
 typedef struct {
     uint8_t camera;  // from 1
@@ -245,12 +278,13 @@ static inline uint64_t hilcam_get_(hilcam_reader_* r, unsigned count) {
 }
 
 // Two's complement, without a conversion that C leaves to the compiler.
-static inline int64_t hilcam_get_i64_(hilcam_reader_* r) {
-    const uint64_t bits = hilcam_get_(r, 8);
+static inline int64_t hilcam_i64_(uint64_t bits) {
     int64_t value;
     memcpy(&value, &bits, sizeof value);
     return value;
 }
+
+static inline int64_t hilcam_get_i64_(hilcam_reader_* r) { return hilcam_i64_(hilcam_get_(r, 8)); }
 
 static inline double hilcam_get_double_(hilcam_reader_* r) {
     const uint64_t bits = hilcam_get_(r, 8);
@@ -402,6 +436,17 @@ static inline size_t hilcam_encode_subscribe(const hilcam_envelope* e, unsigned 
     return hilcam_end_(e, &w);
 }
 
+static inline size_t hilcam_encode_clock(const hilcam_envelope* e, const hilcam_clock* clock, uint8_t* bytes,
+                                         size_t room) {
+    hilcam_writer_ w = hilcam_begin_(e, 11, bytes, room);
+    hilcam_put_(&w, clock->action, 1);
+    hilcam_put_(&w, 0, 3);
+    hilcam_put_(&w, (uint64_t)clock->sender_ns, 8);
+    hilcam_put_doubles_(&w, &clock->scale, 1);
+    hilcam_put_(&w, (uint64_t)clock->step_ns, 8);
+    return hilcam_end_(e, &w);
+}
+
 // --- decoders
 
 static inline int hilcam_read_acknowledgement_(hilcam_reader_* r, size_t left, hilcam_acknowledgement* a) {
@@ -413,9 +458,18 @@ static inline int hilcam_read_acknowledgement_(hilcam_reader_* r, size_t left, h
     a->token = hilcam_get_(r, 8);
     a->simulated_tai_ns = hilcam_get_i64_(r);
     const size_t reason_bytes = (size_t)hilcam_get_(r, 2);
-    if (left - 25 != reason_bytes || reason_bytes > HILCAM_MOST_REASON_BYTES) return 0;
+    a->has_clock = a->function == 11 && left - 25 == reason_bytes + 40;
+    if (reason_bytes > HILCAM_MOST_REASON_BYTES || (left - 25 != reason_bytes && !a->has_clock)) return 0;
     memcpy(a->reason, r->bytes, reason_bytes);
     a->reason[reason_bytes] = 0;
+    if (!a->has_clock) return 1;
+    r->bytes += reason_bytes;
+    a->clock.arrival_tai_ns = hilcam_get_i64_(r);
+    a->clock.arrival_monotonic_ns = hilcam_get_i64_(r);
+    a->clock.departure_monotonic_ns = hilcam_get_i64_(r);
+    a->clock.scale = hilcam_get_double_(r);
+    a->clock.stands_at_tai_ns = hilcam_get_i64_(r);
+    a->clock.departure_tai_ns = a->simulated_tai_ns;
     return 1;
 }
 
@@ -509,8 +563,82 @@ static inline const char* hilcam_status_name(unsigned status) {
     static const char* const names[] = {"accepted",     "bad length",     "bad header",
                                         "unknown APID", "bad checksum",   "unknown function",
                                         "bad argument", "unknown object", "time out of range",
-                                        "busy",         "not now"};
+                                        "busy",         "not now",        "time went back"};
     return status < sizeof names / sizeof names[0] ? names[status] : "unknown status";
+}
+
+// --- time
+//
+// How far hilcam's machine clock (CLOCK_MONOTONIC) is ahead of the sender's, from four instants of each
+// exchange: t1 sent and t4 received by the sender's clock, t2 arrived and t3 departed by the machine's. RFC
+// 5905, section 8: offset ((t2 - t1) + (t3 - t4)) / 2, delay (t4 - t1) - (t3 - t2), which errs by no more than
+// half the delay. Of the last eight the one with the least error counts (section 10), which grows by 15 ppm of
+// its age. No scale and no pause of simulated time touches the offset; how simulated time goes on from there
+// is in the newest answer.
+//
+//     hilcam_clock_filter filter = {0};
+//     clock.sender_ns = my_clock_ns();                         // then hilcam_encode_clock, send, receive
+//     hilcam_clock_take(&filter, clock.sender_ns, my_clock_ns(), &answer.as.acknowledgement.clock);
+//     pose.time_tai_ns = hilcam_clock_simulated(&filter, my_clock_ns());
+
+enum { HILCAM_CLOCK_SAMPLES = 8 };
+typedef struct {
+    struct {
+        int64_t offset_ns, delay_ns, received_ns;
+    } samples[HILCAM_CLOCK_SAMPLES];
+    uint32_t count;  // of them; `next` is overwritten next
+    uint32_t next;
+    hilcam_clock_reading newest;
+} hilcam_clock_filter;
+
+// Clocks of any epoch: what overflows wraps.
+static inline int64_t hilcam_minus_(int64_t a, int64_t b) { return hilcam_i64_((uint64_t)a - (uint64_t)b); }
+
+// 0, and nothing is changed, for an exchange that cannot be: an answer before its question.
+static inline int hilcam_clock_take(hilcam_clock_filter* f, int64_t sent_ns, int64_t received_ns,
+                                    const hilcam_clock_reading* r) {
+    const int64_t there = hilcam_minus_(r->arrival_monotonic_ns, sent_ns);
+    const int64_t back = hilcam_minus_(r->departure_monotonic_ns, received_ns);
+    const int64_t delay = hilcam_minus_(there, back);
+    if (received_ns < sent_ns || r->departure_monotonic_ns < r->arrival_monotonic_ns || delay < 0) return 0;
+    f->samples[f->next].offset_ns = there / 2 + back / 2 + (there % 2 + back % 2) / 2;
+    f->samples[f->next].delay_ns = delay;
+    f->samples[f->next].received_ns = received_ns;
+    f->next = (f->next + 1) % HILCAM_CLOCK_SAMPLES;
+    if (f->count < HILCAM_CLOCK_SAMPLES) ++f->count;
+    f->newest = *r;
+    return 1;
+}
+
+// How far the machine's clock is ahead, at an instant of the sender's: the error at the most [ns] is given,
+// -1 before the first exchange. delay_ns: there and back.
+static inline double hilcam_clock_estimate(const hilcam_clock_filter* f, int64_t sender_ns,
+                                           int64_t* offset_ns, int64_t* delay_ns) {
+    double least = -1;
+    for (uint32_t i = 0; i < f->count; ++i) {
+        const double age = (double)hilcam_minus_(sender_ns, f->samples[i].received_ns);
+        const double error = (double)f->samples[i].delay_ns / 2 + 15e-6 * (age < 0 ? -age : age);
+        if (least >= 0 && error >= least) continue;
+        least = error;
+        *offset_ns = f->samples[i].offset_ns;
+        *delay_ns = f->samples[i].delay_ns;
+    }
+    return least;
+}
+
+// The simulated time then, while nobody changes how it goes; it errs by the error times the scale. 0 before
+// the first exchange: as a time tag, "on arrival".
+static inline int64_t hilcam_clock_simulated(const hilcam_clock_filter* f, int64_t sender_ns) {
+    const hilcam_clock_reading* r = &f->newest;
+    int64_t offset = 0, delay = 0, since, simulated;
+    double scaled;
+    if (hilcam_clock_estimate(f, sender_ns, &offset, &delay) < 0) return 0;
+    since = hilcam_minus_(hilcam_i64_((uint64_t)sender_ns + (uint64_t)offset), r->departure_monotonic_ns);
+    scaled = r->scale * (double)since;
+    if (r->scale != 1 && scaled > -4e18 && scaled < 4e18)
+        since = (int64_t)(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
+    simulated = hilcam_i64_((uint64_t)r->departure_tai_ns + (uint64_t)since);
+    return simulated < r->stands_at_tai_ns ? simulated : r->stands_at_tai_ns;
 }
 
 #ifdef __cplusplus

@@ -24,7 +24,7 @@ MOST_PACKET_BYTES = 256
 MOST_REASON_BYTES = 96
 ACCEPTED = 0
 STATUS_NAMES = ("accepted", "bad length", "bad header", "unknown APID", "bad checksum", "unknown function", "bad argument",
-                "unknown object", "time out of range", "busy", "not now")
+                "unknown object", "time out of range", "busy", "not now", "time went back")
 MODES = ("free_run", "triggered", "lockstep")
 
 # Kinds of faults; `hilcam send fault list` says what each does and what its value means, in this order.
@@ -37,6 +37,9 @@ FAULTS = {
     "device_reset": 50, "link_down": 51, "ip_change": 52, "test_packet_limit": 53, "v4l2_stall": 60, "v4l2_restart": 61,
     "v4l2_format_flip": 62, "usb_detach": 70, "usb_short_transfer": 71, "usb_stall": 72, "usb_bad_crc": 73,
     "image_stuck": 80, "image_black": 81, "image_saturated": 82, "image_bit_flips": 83, "image_tear": 84}
+
+# Bits of FrameReport.faults beside those of FAULTS: simulated time stood, no poses came, a time tag went back.
+TIME_STANDS, POSES_STALE, TAGS_WENT_BACK = 1 << 61, 1 << 62, 1 << 63
 
 Vector = Tuple[float, float, float]
 
@@ -161,7 +164,21 @@ class Subscribe:
         return struct.pack(">Bxxx", self.frame_reports | self.housekeeping << 1)
 
 
-COMMANDS = (Pose, Settings, Start, Stop, Ping, Joint, Fault, Expose, Mode, Subscribe)
+@dataclasses.dataclass(frozen=True)
+class Clock:
+    """How simulated time goes on, and half of an exchange of clock readings (ClockFilter)."""
+    ASK, SCALE, PAUSE, RESUME, STEP = range(5)
+    FUNCTION: ClassVar[int] = 11
+    action: int = ASK
+    sender_ns: int = 0  # the sender's clock as this leaves; comes back
+    scale: float = 1.0  # SCALE: simulated seconds in one of the machine's
+    step_ns: int = 0  # STEP: so much simulated time, then it stands again
+
+    def payload(self):
+        return struct.pack(">Bxxxqdq", self.action, self.sender_ns, self.scale, self.step_ns)
+
+
+COMMANDS = (Pose, Settings, Start, Stop, Ping, Joint, Fault, Expose, Mode, Subscribe, Clock)
 
 
 def encode(command, sequence, camera=0, dialect=HILCAM):
@@ -181,14 +198,31 @@ def encode(command, sequence, camera=0, dialect=HILCAM):
 # --- answers. count: 14 bits, of each kind; a gap in telemetry's is telemetry that was dropped
 
 @dataclasses.dataclass(frozen=True)
+class ClockReading:
+    """simulated = min(departure_tai + scale * (monotonic - departure_monotonic), stands_at_tai), from then on."""
+    arrival_tai_ns: int  # when the command came
+    arrival_monotonic_ns: int
+    departure_monotonic_ns: int  # when the answer left
+    scale: float  # while time runs
+    stands_at_tai_ns: int  # where time stands or will; 2**63 - 1: nowhere
+    departure_tai_ns: int = 0  # the acknowledgement's simulated_tai_ns
+
+    def simulated_tai_ns(self, monotonic_ns):
+        since_ns = monotonic_ns - self.departure_monotonic_ns
+        return min(self.departure_tai_ns + (since_ns if self.scale == 1 else round(self.scale * since_ns)),
+                   self.stands_at_tai_ns)
+
+
+@dataclasses.dataclass(frozen=True)
 class Acknowledgement:
     function: int
     status: int
     sequence: int  # of the command
-    token: int  # of a ping, else 0
+    token: int  # of a Ping; of a Clock its sender_ns, unsigned; else 0
     simulated_tai_ns: int  # when the answer was made
     reason: str
     count: int
+    clock: Optional[ClockReading] = None  # with an accepted Clock
 
     @property
     def accepted(self):
@@ -257,9 +291,15 @@ def decode(packet, dialect=HILCAM):
         return None
     if identification == 0x0901 and len(body) >= 26:
         function, status, sequence, token, at_ns, reason_bytes = struct.unpack(">BBxIQqH", body[1:26])
-        if len(body) - 26 != reason_bytes or reason_bytes > MOST_REASON_BYTES:
+        function, clock = function & 0x7F, None
+        if reason_bytes > MOST_REASON_BYTES:
             return None
-        return Acknowledgement(function & 0x7F, status, sequence, token, at_ns, body[26:].decode(errors="replace"), count)
+        if function == Clock.FUNCTION and len(body) == 26 + reason_bytes + 40:
+            clock = ClockReading(*struct.unpack(">qqqdq", body[-40:]), at_ns)
+        elif len(body) != 26 + reason_bytes:
+            return None
+        reason = body[26:26 + reason_bytes].decode(errors="replace")
+        return Acknowledgement(function, status, sequence, token, at_ns, reason, count, clock)
     if identification == 0x0902:
         return _telemetry(FrameReport, 1, ">BxQqqddIIqqQI", body, count)
     if identification == 0x0903:
@@ -290,6 +330,39 @@ class Cutter:
                 answers.append(answer)
         self.bytes = self.bytes[at:] if at >= 0 else b""
         return answers
+
+
+# --- time
+
+class ClockFilter:
+    """How far hilcam's machine clock (CLOCK_MONOTONIC) is ahead of the sender's, from four instants of each exchange: t1 sent
+    and t4 received by the sender's, t2 arrived and t3 departed by the machine's. RFC 5905, section 8:
+    offset ((t2 - t1) + (t3 - t4)) / 2, delay (t4 - t1) - (t3 - t2), which errs by no more than half the delay. Of the last
+    eight the one with the least error counts (section 10), which grows by 15 ppm of its age. No scale and no pause of
+    simulated time touches the offset; how simulated time goes on from there is in the newest answer."""
+    SAMPLES, DRIFT = 8, 15e-6
+
+    def __init__(self):
+        self._samples = collections.deque(maxlen=self.SAMPLES)  # (offset, delay, t4) [ns]
+        self.reading = None  # the newest
+
+    def take(self, sent_ns, received_ns, reading):
+        """False for an exchange that cannot be: an answer before its question."""
+        there, back = reading.arrival_monotonic_ns - sent_ns, reading.departure_monotonic_ns - received_ns
+        if received_ns < sent_ns or reading.departure_monotonic_ns < reading.arrival_monotonic_ns or there < back:
+            return False
+        self._samples.append(((there + back) // 2, there - back, received_ns))
+        self.reading = reading
+        return True
+
+    def estimate(self, sender_ns):
+        """(offset_ns, delay_ns, error_ns) at an instant of the sender's clock."""
+        return min(((offset, delay, delay / 2 + self.DRIFT * abs(sender_ns - at)) for offset, delay, at in self._samples),
+                   key=lambda sample: sample[2])
+
+    def simulated_tai_ns(self, sender_ns):
+        """The simulated time then, while nobody changes how it goes; errs by the error times the scale."""
+        return self.reading.simulated_tai_ns(sender_ns + self.estimate(sender_ns)[0])
 
 
 # --- the client
@@ -358,8 +431,8 @@ class Client:
         return sequence
 
     def send(self, command, camera=None, timeout_s=None, tries=1, check=True):
-        """Sends and waits for the Acknowledgement. A further try repeats the same bytes; an Expose or a Fault that hilcam
-        has done is not done again. Throws NoAnswer, and Refused unless `check` is False."""
+        """Sends and waits for the Acknowledgement. A further try repeats the same bytes; an Expose, a Fault or a
+        Clock's step that hilcam has done is not done again. Throws NoAnswer, and Refused unless `check` is False."""
         sequence = self.sequence & (0x3FFF if self.dialect == CFS else 0xFFFFFFFF)
         self.sequence = sequence + 1
         packet = encode(command, sequence, self.camera if camera is None else camera, self.dialect)
@@ -380,17 +453,32 @@ class Client:
         """The next answer of any kind; None: there is none in time."""
         return self._kept.popleft() if self._kept else self._next(time.monotonic() + timeout_s)
 
-    def simulated_clock(self, pings=8):
-        """(offset_ns, uncertainty_ns): simulated TAI = time.monotonic_ns() + offset, from the quickest of some pings.
-        It holds while simulated time runs with the machine's, and not in lockstep, where time stands between frames."""
-        best = None
-        for token in range(1, pings + 1):
+    def clock(self, exchanges=8, filter=None):
+        """A ClockFilter by time.monotonic_ns(), after some exchanges: its simulated_tai_ns(time.monotonic_ns()) makes time
+        tags. To be asked again now and then, with the filter that was given, and after each change of how time goes."""
+        filter = filter or ClockFilter()
+        for _ in range(exchanges):
             sent_ns = time.monotonic_ns()
-            answer = self.send(Ping(token))
-            came_ns = time.monotonic_ns()
-            if best is None or came_ns - sent_ns < 2 * best[1]:
-                best = answer.simulated_tai_ns - (sent_ns + came_ns) // 2, (came_ns - sent_ns + 1) // 2
-        return best
+            answer = self.send(Clock(sender_ns=sent_ns))
+            filter.take(sent_ns, time.monotonic_ns(), answer.clock)
+        return filter
+
+    def scale_time(self, scale):
+        """So many simulated seconds in one of the machine's. This and the next ones give the ClockReading after the change."""
+        return self._order_time(Clock(Clock.SCALE, scale=scale))
+
+    def pause_time(self):
+        return self._order_time(Clock(Clock.PAUSE))
+
+    def resume_time(self):
+        return self._order_time(Clock(Clock.RESUME))
+
+    def step_time(self, step_ns):
+        """Simulated time runs for so long and stands again; it must stand, or be on such a step, to which this one is added."""
+        return self._order_time(Clock(Clock.STEP, step_ns=step_ns))
+
+    def _order_time(self, command):
+        return self.send(dataclasses.replace(command, sender_ns=time.monotonic_ns())).clock
 
     def _put(self, packet):
         try:

@@ -11,6 +11,7 @@ import re
 import struct
 import subprocess
 import sys
+import time
 import unittest
 
 import pose_stream
@@ -74,6 +75,8 @@ class Values:
             numbers = (self.unsigned(16), self.i64())
         elif kind is h.Mode:
             numbers = (self.rng.random() < 0.5, self.unsigned(16))
+        elif kind is h.Clock:
+            numbers = (self.rng.randrange(5), self.i64(), self.f64(), self.i64())
         elif kind is h.Subscribe:
             told = (self.rng.random() < 0.5, self.rng.random() < 0.5)
             return h.Subscribe(*told), (told[0] | told[1] << 1,)
@@ -85,8 +88,12 @@ class Values:
         count = self.unsigned(14)
         if kind is h.Acknowledgement:
             reason = "".join(self.rng.choice("abc XYZ.09'é") for _ in range(self.rng.choice((0, 1, 40, 48))))
-            return h.Acknowledgement(self.rng.randrange(128), self.rng.randrange(256), self.unsigned(32), self.unsigned(64),
-                                     self.i64(), reason, count)
+            function, clock, at_ns = self.rng.randrange(128), None, self.i64()
+            if self.rng.random() < 0.3:
+                function = h.Clock.FUNCTION
+                clock = h.ClockReading(self.i64(), self.i64(), self.i64(), self.f64(), self.i64(), at_ns)
+            return h.Acknowledgement(function, self.rng.randrange(256), self.unsigned(32), self.unsigned(64), at_ns, reason,
+                                     count, clock)
         if kind is h.FrameReport:
             return h.FrameReport(self.unsigned(8), self.unsigned(64), self.i64(), self.i64(), self.f64(), self.f64(),
                                  self.unsigned(32), self.unsigned(32), self.i64(), self.i64(), self.unsigned(64),
@@ -101,12 +108,14 @@ APIDS = {h.Acknowledgement: 0x101, h.FrameReport: 0x102, h.Housekeeping: 0x103}
 
 def words_of(answer):
     """Kind, count and fields as vectors.c prints them; the reason by its bytes."""
-    fields = [getattr(answer, f.name) for f in dataclasses.fields(answer)]
-    count, numbers = fields[-1], fields[:-1]
-    words = [f"{APIDS[type(answer)]:x}", bits(count)]
-    if isinstance(answer, h.Acknowledgement):
-        return [*words, *map(bits, numbers[:-1]), numbers[-1].encode().hex()]
-    return [*words, *map(bits, numbers)]
+    numbers = {f.name: getattr(answer, f.name) for f in dataclasses.fields(answer)}
+    words = [f"{APIDS[type(answer)]:x}", bits(numbers.pop("count"))]
+    if not isinstance(answer, h.Acknowledgement):
+        return [*words, *map(bits, numbers.values())]
+    reason, clock = numbers.pop("reason"), numbers.pop("clock")
+    read = (clock.arrival_tai_ns, clock.arrival_monotonic_ns, clock.departure_monotonic_ns, clock.scale,
+            clock.stands_at_tai_ns) if clock else ()
+    return [*words, *map(bits, numbers.values()), *map(bits, read), reason.encode().hex()]
 
 
 def encoded_by_hilcam(answers, dialect):
@@ -151,7 +160,7 @@ class Encoders(unittest.TestCase):
         text = (pose_stream.SOURCE / "docs/protocol.md").read_text()
         examples = {5: h.Ping(0x1122334455667788), 6: h.Settings(exposure_s=0.002),
                     7: h.Fault("packet_drop", rate=0.02, duration_s=30), 8: h.Expose(3), 9: h.Mode(True, 5),
-                    10: h.Subscribe(True, True)}
+                    10: h.Subscribe(True, True), 11: h.Clock(h.Clock.SCALE, 1_000_000_000, scale=0.5)}
         for sequence, command in examples.items():
             self.assertIn("\n    " + h.encode(command, sequence).hex(" ").upper() + "\n", text)
         self.assertIn("\n    " + h.encode(h.Ping(0x1122334455667788), 5, dialect=h.CFS).hex(" ").upper() + "\n", text)
@@ -194,11 +203,13 @@ class Decoders(unittest.TestCase):
         values, packets = Values(5), []
         for _ in range(3000):
             kind = values.rng.choice((1, 2, 3, 4))
-            size = values.rng.choice((0, 1, 9, 25, 26, 27, 80, 108, 122, 123, values.rng.randrange(248)))
+            size = values.rng.choice((0, 1, 9, 25, 26, 27, 66, 80, 108, 122, 123, 162, values.rng.randrange(248)))
             body = bytes((values.rng.choice((1, 1, 1, 0)), kind - 1)) + values.rng.randbytes(size)
             body = body[:size]
             if kind == 1 and size >= 26 and values.rng.random() < 0.8:
                 body = body[:24] + (size - 26).to_bytes(2, "big") + body[26:]
+            elif kind == 1 and size >= 66:
+                body = body[:1] + b"\x8b" + body[2:24] + (size - 66).to_bytes(2, "big") + body[26:]
             packet = struct.pack(">HHH", 0x0900 | kind, values.rng.getrandbits(16), (size + 1) & 0xFFFF) + body
             packets.append(packet + h.crc16(packet).to_bytes(2, "big"))
         packets += [b"", b"\x09"] + [values.rng.randbytes(values.rng.randrange(1, 300)) for _ in range(1000)]
@@ -235,6 +246,51 @@ class Decoders(unittest.TestCase):
             self.assertEqual(found, [words_of(a) for a in answers])
 
 
+class Filters(unittest.TestCase):
+    """Four instants of each exchange, made from clocks that are known."""
+
+    def test_the_true_offset_lies_within_the_error_and_all_three_agree(self):
+        rng, lines, expected = random.Random(7), [], []
+        for _ in range(300):
+            offset, scale = rng.randrange(-10**15, 10**15), rng.choice((1.0, 0.1, 10.0, 0.5))
+            tai_0, stands = rng.randrange(10**18), rng.choice((2**63 - 1, 10**18 + 10**9))
+            own, numbers, filter = rng.randrange(10**15), [], h.ClockFilter()
+            for _ in range(rng.randrange(1, 20)):
+                there, busy, back = (round(rng.expovariate(1e-5)) for _ in range(3))
+                t1 = own
+                t2, t3 = t1 + there + offset, t1 + there + busy + offset
+                t4 = t1 + there + busy + back
+                simulated = [min(tai_0 + round(scale * (t - offset - 10**14)), stands) for t in (t2, t3)]
+                reading = h.ClockReading(simulated[0], t2, t3, scale, stands, simulated[1])
+                self.assertTrue(filter.take(t1, t4, reading))
+                numbers += [t1, t4, simulated[0], t2, simulated[1], t3, scale, stands]
+                own = t4 + rng.randrange(10**9)
+            at = own + rng.randrange(10**10)
+            got, delay, error = filter.estimate(at)
+            self.assertLessEqual(abs(got - offset), error + 1)
+            self.assertLessEqual(delay / 2, error)
+            # Simulated time is exact but for the offset's error, which it has by its scale.
+            true = min(filter.reading.departure_tai_ns + scale * (at + offset - filter.reading.departure_monotonic_ns), stands)
+            self.assertLessEqual(abs(filter.simulated_tai_ns(at) - true), scale * (error + 1) + 256)  # doubles of 1e18
+            lines.append(" ".join(["filter", *map(bits, [at, *numbers])]))
+            expected.append((got, delay, filter.simulated_tai_ns(at)))
+        for program in (C, CPP):
+            for line, mine, answer in zip(lines, expected, ask(program, lines), strict=True):
+                words = [int(word, 16) for word in answer.split()]
+                theirs = [word - 2**64 if word >= 2**63 else word for word in words]
+                for a, b in zip(mine, theirs, strict=True):
+                    self.assertLessEqual(abs(a - b), 16, line)  # rounding: of halves, and by the scale
+
+    def test_what_cannot_be_is_not_taken(self):
+        reading = h.ClockReading(0, 1000, 2000, 1.0, 2**63 - 1, 0)
+        filter = h.ClockFilter()
+        self.assertFalse(filter.take(500, 400, reading))
+        self.assertFalse(filter.take(0, 999, reading))  # back sooner than it was answered
+        self.assertTrue(filter.take(0, 1000, reading))
+        self.assertEqual(filter.estimate(1000), (1000, 0, 0.0))
+        self.assertFalse(filter.take(0, 5000, dataclasses.replace(reading, departure_monotonic_ns=900)))
+
+
 class Running(unittest.TestCase):
     """Five seconds of a thousand poses a second; pose_stream.py runs longer."""
 
@@ -269,6 +325,49 @@ class Running(unittest.TestCase):
             client.send(h.Ping(), timeout_s=0.05, tries=2)
         with self.assertRaisesRegex(h.NoAnswer, "is 'hilcam run' up"):
             h.Client(f"tcp:127.0.0.1:{port}")
+
+
+class Time(unittest.TestCase):
+    """Simulated time of the running program, by the Python client."""
+
+    def test_it_is_asked_for_scaled_paused_and_stepped(self):
+        for dialect in DIALECTS:
+            with pose_stream.running(HILCAM, dialect) as to, h.Client(to, dialect=dialect, timeout_s=10) as client:
+                clock = client.clock()
+                offset_ns, delay_ns, error_ns = clock.estimate(time.monotonic_ns())
+                self.assertLessEqual(abs(offset_ns), error_ns)  # one machine, one clock
+                self.assertGreater(delay_ns, 0)
+                with self.assertRaisesRegex(h.Refused, "not now"):
+                    client.step_time(1)
+                slow = client.scale_time(0.25)
+                self.assertEqual(slow.scale, 0.25)
+                time.sleep(0.2)
+                later = client.clock(1).reading
+                self.assertAlmostEqual((later.departure_tai_ns - slow.departure_tai_ns) /
+                                       (later.departure_monotonic_ns - slow.departure_monotonic_ns), 0.25, delta=1e-6)
+                stood = client.pause_time()
+                self.assertEqual(stood.departure_tai_ns, stood.stands_at_tai_ns)
+                client.step_time(10_000_000)
+                client.step_time(5_000_000)
+                time.sleep(0.2)  # 15 ms at a quarter of the speed: 60 ms
+                self.assertEqual(client.clock(1).reading.departure_tai_ns, stood.departure_tai_ns + 15_000_000)
+                went_on = client.resume_time()
+                self.assertEqual(went_on.stands_at_tai_ns, 2**63 - 1)
+                self.assertEqual(went_on.scale, 0.25)
+                self.assertGreaterEqual(went_on.departure_tai_ns, stood.departure_tai_ns + 15_000_000)
+                for command in (h.Clock(9), h.Clock(h.Clock.SCALE, scale=0.0), h.Clock(h.Clock.STEP, step_ns=0)):
+                    with self.assertRaisesRegex(h.Refused, "is not"):
+                        client.send(command)
+
+    def test_time_tags_that_go_back_are_told(self):
+        with pose_stream.running(HILCAM) as to, h.Client(to, timeout_s=10) as client:
+            now_ns = client.clock().simulated_tai_ns(time.monotonic_ns())
+            self.assertEqual(client.send(h.Pose(0, now_ns)).reason, "")
+            self.assertEqual(client.send(h.Pose(0, now_ns - 500_000_000)).reason, "")  # late
+            self.assertEqual(client.send(h.Pose(0, now_ns - 5_000_000_000)).reason, "time went back")
+            self.assertEqual(client.send(h.Pose(0, now_ns - 4_000_000_000)).reason, "")
+            with self.assertRaisesRegex(h.Refused, "time out of range"):
+                client.send(h.Pose(0, now_ns - 3700 * 10**9))
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[2]
 sys.path[:0] = [str(HERE.parent / "gige"), str(SOURCE / "tools/client")]
 from bench import Emulator, free_port  # noqa: E402
-from hilcam_client import (CFS, HILCAM, Acknowledgement, Client, Expose, Fault, FrameReport, Housekeeping, Joint, Mode,  # noqa: E402
+from hilcam_client import (CFS, HILCAM, Acknowledgement, Client, Clock, Expose, Fault, FrameReport, Housekeeping, Joint, Mode,  # noqa: E402
                            Ping, Pose, Settings, Start, Stop, Subscribe)
 
 ADDRESS = "127.0.23.14"
@@ -80,6 +80,8 @@ class Flight:
 def every_command(client):
     """Each is answered as docs/protocol.md says, by a camera that runs free and has one object without joints."""
     assert client.send(Ping(0x0123456789ABCDEF)).token == 0x0123456789ABCDEF
+    clock = client.send(Clock(sender_ns=-5))
+    assert (clock.token, clock.clock.scale) == (2**64 - 5, 1.0), clock
     expected = [(Settings(exposure_s=0.0002, gain_db=0), 0), (Settings(gain_db=1e6), 6), (Stop(), 0), (Start(), 0),
                 (Joint(1, 999), 7), (Fault("image_black", frames=1), 0), (Fault(), 0), (Expose(1), 10), (Mode(), 0),
                 (Subscribe(frame_reports=True, housekeeping=True), 0)]
@@ -92,8 +94,8 @@ def python_flight(to, dialect, seconds, rate_hz):
     """(commands sent, of them to be refused, figures, problems)."""
     with Client(to, dialect=dialect, timeout_s=10) as client:
         every_command(client)
-        commands = 11 + 8
-        offset_ns, _ = client.simulated_clock(pings=8)
+        commands = 12 + 8
+        clock = client.clock(exchanges=8)
         flight, total = Flight(client.sequence, dialect), round(seconds * rate_hz)
         start = last_progress = time.monotonic()
         while flight.answered < total:
@@ -101,7 +103,7 @@ def python_flight(to, dialect, seconds, rate_hz):
             # As many as are due by now: what a busy machine delays is made up for, up to the window.
             while (len(flight.tags_ns) < total and len(flight.tags_ns) - flight.answered < MOST_UNANSWERED
                    and (now - start) * rate_hz >= len(flight.tags_ns)):
-                tag_ns = time.monotonic_ns() + offset_ns
+                tag_ns = clock.simulated_tai_ns(time.monotonic_ns())
                 flight.tags_ns.append(tag_ns)
                 client.post(Pose(0, tag_ns, (-30 - 0.001 * (now - start), 0, 0), (-0.001, 0, 0), ALONG_X))
                 now = time.monotonic()
@@ -134,6 +136,15 @@ def c_flight(talk, port, transport, dialect, seconds, rate_hz):
     if result.returncode != 0 and not problems:
         problems = [f"talk ended with {result.returncode}"]
     return figures, problems
+
+
+@contextlib.contextmanager
+def running(hilcam, dialect=HILCAM):
+    """A program of its own, and where it listens by UDP."""
+    with tempfile.TemporaryDirectory() as folder:
+        sets = [] if dialect == HILCAM else [f"commands.udp.dialect={dialect}"]
+        with Emulator(hilcam, ADDRESS, folder, *sets, dialect=dialect) as emulator:
+            yield f"127.0.0.1:{emulator.port}"
 
 
 def stream(hilcam, client, transport, dialect, seconds, rate_hz, talk=None):

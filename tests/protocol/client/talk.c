@@ -111,6 +111,13 @@ static void every_command(link_t* l) {
             .token != 0x0123456789ABCDEFu)
         problem(l, "the ping's token came back changed", e.sequence);
     e = next_envelope(l);
+    hilcam_clock clock;
+    clock.action = HILCAM_CLOCK_ASK, clock.sender_ns = -5, clock.scale = 0, clock.step_ns = 0;
+    const hilcam_acknowledgement told =
+        ask(l, b, hilcam_encode_clock(&e, &clock, b, sizeof b), e.sequence, HILCAM_ACCEPTED);
+    if (told.token != (uint64_t)-5 || !told.has_clock || told.clock.scale < 1 || told.clock.scale > 1)
+        problem(l, "the clock's answer is not one", e.sequence);
+    e = next_envelope(l);
     hilcam_settings settings;
     settings.mask = HILCAM_SET_EXPOSURE | HILCAM_SET_GAIN;
     settings.exposure_s = 0.0002, settings.gain_db = 0,
@@ -223,12 +230,18 @@ static void send_pose(link_t* l, flight_t* f, int64_t tag_ns, double t_s) {
 
 static void fly(link_t* l, flight_t* f, double seconds, double rate_hz) {
     uint8_t b[HILCAM_MOST_PACKET_BYTES];
-    const hilcam_envelope e = next_envelope(l);
-    const int64_t asked_ns = now_ns();
-    const int64_t simulated_ns =
-        ask(l, b, hilcam_encode_ping(&e, 1, b, sizeof b), e.sequence, HILCAM_ACCEPTED).simulated_tai_ns;
-    const int64_t start_ns = now_ns(),
-                  to_simulated_ns = simulated_ns - (asked_ns + (start_ns - asked_ns) / 2);
+    hilcam_clock_filter filter;
+    memset(&filter, 0, sizeof filter);
+    for (int i = 0; i < HILCAM_CLOCK_SAMPLES; ++i) {
+        const hilcam_envelope e = next_envelope(l);
+        hilcam_clock clock;
+        clock.action = HILCAM_CLOCK_ASK, clock.sender_ns = now_ns(), clock.scale = 0, clock.step_ns = 0;
+        const hilcam_acknowledgement told =
+            ask(l, b, hilcam_encode_clock(&e, &clock, b, sizeof b), e.sequence, HILCAM_ACCEPTED);
+        if (!hilcam_clock_take(&filter, clock.sender_ns, now_ns(), &told.clock))
+            problem(l, "an exchange of clock readings cannot be", e.sequence);
+    }
+    const int64_t start_ns = now_ns();
     const uint32_t total = (uint32_t)(seconds * rate_hz + 0.5);
     int64_t last_progress_ns = start_ns;
     f->first = l->sequence;
@@ -238,7 +251,7 @@ static void fly(link_t* l, flight_t* f, double seconds, double rate_hz) {
         // As many as are due by now: what a busy machine delays is made up for, up to the window.
         while (f->sent < total && f->sent - f->answered < MOST_UNANSWERED &&
                (double)(now - start_ns) * 1e-9 * rate_hz >= f->sent) {
-            send_pose(l, f, now + to_simulated_ns, (double)(now - start_ns) * 1e-9);
+            send_pose(l, f, hilcam_clock_simulated(&filter, now), (double)(now - start_ns) * 1e-9);
             now = now_ns();
         }
         take_answers(l, f, 1);

@@ -6,13 +6,15 @@
 //     decode DIALECT BYTES                                 kind, count and fields; a reason by its bytes,
 //     last find DIALECT BYTES                                   where the first whole answer begins, and its
 //     length
+//     filter AT EXCHANGES...                               offset, delay and simulated time at that instant;
+//         an exchange: sent, received, arrival (TAI, monotonic), departure (both), scale, where time stands
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tools/client/hilcam_client.h"
 
-enum { MOST_NUMBERS = 24, MOST_STREAM_BYTES = 4096, LINE_BYTES = 2 * MOST_STREAM_BYTES + 64 };
+enum { MOST_NUMBERS = 161, MOST_STREAM_BYTES = 4096, LINE_BYTES = 2 * MOST_STREAM_BYTES + 64 };
 
 static double number_of(uint64_t bits) {
     double value;
@@ -93,6 +95,14 @@ static size_t encode(const hilcam_envelope* e, unsigned function, const uint64_t
         }
         case 10:
             return hilcam_encode_subscribe(e, (unsigned)n[0], bytes, room);
+        case 11: {
+            hilcam_clock clock;
+            clock.action = (uint8_t)n[0];
+            clock.sender_ns = signed_of(n[1]);
+            clock.scale = number_of(n[2]);
+            clock.step_ns = signed_of(n[3]);
+            return hilcam_encode_clock(e, &clock, bytes, room);
+        }
         default:
             return 0;
     }
@@ -119,6 +129,11 @@ static void print_decoded(unsigned dialect, const uint8_t* bytes, size_t size) {
     if (p.kind == HILCAM_KIND_ACKNOWLEDGEMENT) {
         const hilcam_acknowledgement* a = &p.as.acknowledgement;
         put(a->function), put(a->status), put(a->sequence), put(a->token), put((uint64_t)a->simulated_tai_ns);
+        if (a->has_clock) {
+            put((uint64_t)a->clock.arrival_tai_ns), put((uint64_t)a->clock.arrival_monotonic_ns);
+            put((uint64_t)a->clock.departure_monotonic_ns), put(bits_of(a->clock.scale));
+            put((uint64_t)a->clock.stands_at_tai_ns);
+        }
         printf(" ");
         for (const char* c = a->reason; *c; ++c) printf("%02x", (unsigned char)*c);
     } else if (p.kind == HILCAM_KIND_FRAME_REPORT) {
@@ -138,6 +153,22 @@ static void print_decoded(unsigned dialect, const uint8_t* bytes, size_t size) {
     printf("\n");
 }
 
+static void print_filtered(const uint64_t* n, size_t count) {
+    hilcam_clock_filter filter;
+    int64_t offset = 0, delay = 0;
+    memset(&filter, 0, sizeof filter);
+    for (size_t at = 1; at + 8 <= count; at += 8) {
+        hilcam_clock_reading r;
+        r.arrival_tai_ns = signed_of(n[at + 2]), r.arrival_monotonic_ns = signed_of(n[at + 3]);
+        r.departure_tai_ns = signed_of(n[at + 4]), r.departure_monotonic_ns = signed_of(n[at + 5]);
+        r.scale = number_of(n[at + 6]), r.stands_at_tai_ns = signed_of(n[at + 7]);
+        hilcam_clock_take(&filter, signed_of(n[at]), signed_of(n[at + 1]), &r);
+    }
+    hilcam_clock_estimate(&filter, signed_of(n[0]), &offset, &delay);
+    put((uint64_t)offset), put((uint64_t)delay), put((uint64_t)hilcam_clock_simulated(&filter, signed_of(n[0])));
+    printf("\n");
+}
+
 static size_t bytes_of(const char* text, uint8_t* bytes) {
     size_t size = 0;
     unsigned byte;
@@ -154,11 +185,15 @@ int main(void) {
         const char* first = strtok(NULL, " \n");
         if (!verb || !first) return 2;
         uint64_t n[MOST_NUMBERS] = {strtoull(first, NULL, 16)};
-        if (strcmp(verb, "encode") == 0) {
+        if (strcmp(verb, "encode") == 0 || strcmp(verb, "filter") == 0) {
             const char* word;
-            for (size_t i = 1; i < MOST_NUMBERS && (word = strtok(NULL, " \n")) != NULL; ++i)
-                n[i] = strtoull(word, NULL, 16);
-            print_encoded(n);
+            size_t count = 1;
+            for (; count < MOST_NUMBERS && (word = strtok(NULL, " \n")) != NULL; ++count)
+                n[count] = strtoull(word, NULL, 16);
+            if (strcmp(verb, "encode") == 0)
+                print_encoded(n);
+            else
+                print_filtered(n, count);
         } else {
             // In memory of just that size: the sanitizers see a byte too far.
             const char* text = strtok(NULL, " \n");

@@ -5,6 +5,7 @@
 //     its
 //                                                          reason's bytes) or of telemetry
 //     faults                                               each kind's name and number
+//     filter AT EXCHANGES...                               as vectors.c has it
 
 #include <bit>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "io/clock_filter.h"
 #include "io/command_dialect.h"
 
 namespace {
@@ -97,6 +99,14 @@ Command command_of(Line& in) {
             mode.burst_frames = in.as<std::uint16_t>();
             return mode;
         }
+        case 11: {
+            ClockCommand clock;
+            clock.action = in.as<ClockCommand::Action>();
+            clock.sender_ns = in.i64();
+            clock.scale = in.f64();
+            clock.step_ns = in.i64();
+            return clock;
+        }
         default: {
             const std::uint64_t mask = in.u64();
             return SubscribeCommand{(mask & 1) != 0, (mask & 2) != 0};
@@ -113,6 +123,12 @@ Acknowledgement acknowledgement_of(Line& in) {
     a.sequence = in.as<std::uint32_t>();
     a.token = in.u64();
     a.simulated_time.ns = in.i64();
+    if (in.at < in.numbers.size()) {
+        ClockReading& r = a.clock.emplace();
+        r.arrival.ns = in.i64(), r.arrival_monotonic_ns = in.i64(), r.departure_monotonic_ns = in.i64();
+        r.scale = in.f64();
+        r.stands_at.ns = in.i64();
+    }
     for (std::size_t i = 0; i + 1 < in.last.size(); i += 2)
         a.reason += static_cast<char>(std::stoul(in.last.substr(i, 2), nullptr, 16));
     return a;
@@ -168,6 +184,24 @@ std::size_t answer(Line& in, std::span<std::uint8_t> bytes) {
     return encode_telemetry(telemetry, count, dialect, bytes);
 }
 
+void print_filtered(Line& in) {
+    ClockFilter filter;
+    const std::int64_t at_ns = in.i64();
+    while (in.at < in.numbers.size()) {
+        ClockExchange x;
+        x.sent_ns = in.i64(), x.received_ns = in.i64();
+        x.reading.arrival.ns = in.i64(), x.reading.arrival_monotonic_ns = in.i64();
+        x.reading.departure.ns = in.i64(), x.reading.departure_monotonic_ns = in.i64();
+        x.reading.scale = in.f64(), x.reading.stands_at.ns = in.i64();
+        filter.take(x);
+    }
+    const auto estimate = filter.estimate(at_ns).value_or(ClockFilter::Estimate{});
+    const TimeTai simulated = filter.simulated_at(at_ns).value_or(TimeTai{});
+    for (const std::int64_t value : {estimate.offset_ns, estimate.delay_ns, simulated.ns})
+        std::printf(" %llx", static_cast<unsigned long long>(value));
+    std::printf("\n");
+}
+
 }  // namespace
 
 int main() {
@@ -186,6 +220,10 @@ int main() {
         const bool has_reason = text.find(" reason ") != std::string::npos;
         while (words >> word && word != "reason") line.numbers.push_back(std::stoull(word, nullptr, 16));
         if (has_reason) words >> line.last;
+        if (verb == "filter") {
+            print_filtered(line);
+            continue;
+        }
         std::vector<std::uint8_t> bytes(kMostPacketBytes);
         bytes.resize(verb == "encode" ? encode(line, bytes) : answer(line, bytes));
         for (const std::uint8_t byte : bytes) std::printf("%02x", byte);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "emulator/send_watch.h"
+#include "io/frame_sink.h"
 #include "render/check.h"
 
 namespace hilcam {
@@ -32,9 +33,13 @@ TEST(CommandScript, LinesHaveTimesAndCommands) {
         "mode triggered --burst-frames 4\n"
         "settings --gain-db 6\n"
         "joint --object 1 --angle-deg 180\n"
-        "stop\n",
+        "stop\n"
+        "clock --scale 0.1\n"
+        "clock step --seconds 0.5\n"
+        "clock pause\n"
+        "clock\n",
         "a.txt");
-    ASSERT_EQ(lines.size(), 9u);
+    ASSERT_EQ(lines.size(), 13u);
     EXPECT_EQ(lines[0].at_s, 0);
     EXPECT_EQ(lines[0].number, 2u);
     const auto& pose = std::get<PoseCommand>(lines[1].command);
@@ -58,6 +63,14 @@ TEST(CommandScript, LinesHaveTimesAndCommands) {
     EXPECT_FALSE(std::get<SettingsCommand>(lines[6].command).exposure_s);
     EXPECT_NEAR(std::get<JointCommand>(lines[7].command).angle_rad, 3.14159265, 1e-8);
     EXPECT_TRUE(std::holds_alternative<StopCommand>(lines[8].command));
+    using Action = ClockCommand::Action;
+    const auto clock = [&](std::size_t line) { return std::get<ClockCommand>(lines[line].command); };
+    EXPECT_EQ(clock(9).action, Action::kScale);
+    EXPECT_EQ(clock(9).scale, 0.1);
+    EXPECT_EQ(clock(10).action, Action::kStep);
+    EXPECT_EQ(clock(10).step_ns, 500'000'000);
+    EXPECT_EQ(clock(11).action, Action::kPause);
+    EXPECT_EQ(clock(12).action, Action::kAsk);
 }
 
 TEST(CommandScript, MistakesNameTheLine) {
@@ -70,11 +83,17 @@ TEST(CommandScript, MistakesNameTheLine) {
     EXPECT_THAT(error_of("+1\n"), HasSubstr("a.txt:1:"));
     EXPECT_THAT(error_of("fault list\n"), HasSubstr("a.txt:1: fault: found 'list'"));
     EXPECT_THAT(error_of("pose --position-m 1 2 3 --look-at-m 1 2 3\n"), HasSubstr("a.txt:1:"));
+    EXPECT_THAT(error_of("clock step\n"), HasSubstr("'step' and --seconds go together"));
+    EXPECT_THAT(error_of("clock pause --seconds 1\n"), HasSubstr("'step' and --seconds go together"));
+    EXPECT_THAT(error_of("clock --scale 0\n"), HasSubstr("accepted: 0.001 to 1000"));
+    EXPECT_THAT(error_of("clock faster\n"), HasSubstr("a.txt:1:"));
     EXPECT_EQ(error_of("# nothing\n\n"), "no error");
 }
 
 TEST(Watch, LinesSayWhatThePacketsDo) {
     FrameReport report;
+    report.faults = kPosesStaleBit | kTimeStandsBit;
+    EXPECT_THAT(text_of(report), HasSubstr("faults time_stands poses_stale"));
     report.frame = 12;
     report.latency_ns = 1'500'000;
     report.faults = bit_of(FaultKind::kImageBlack);

@@ -8,6 +8,7 @@
 #include "emulator/clock.h"
 #include "emulator/command_dispatch.h"
 #include "emulator/flight.h"
+#include "emulator/frame_schedule.h"
 #include "emulator/latency.h"
 #include "emulator/scene_loader.h"
 #include "io/config_yaml.h"
@@ -122,7 +123,7 @@ TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
     LiveSettings settings(camera);
     const Motion initial = at(0, 0);
     WorldState world(std::span(&initial, 1), {});
-    const SimulatedClock clock({1'000'000'000'000'000}, 0);
+    SimulatedClock clock({1'000'000'000'000'000}, 0);
     FaultBoard faults;
     CommandDispatch dispatch({{&world, &settings, &faults}}, clock);
     SettingsCommand command;
@@ -273,7 +274,7 @@ TEST(CommandDispatch, ACommandIsForTheCameraItNamesAndAPoseForAll) {
     const Motion initial = at(0, 0);
     WorldState left_world(std::span(&initial, 1), {}), right_world(std::span(&initial, 1), {});
     FaultBoard left_faults, right_faults;
-    const SimulatedClock clock({1'000'000'000'000'000}, 0);
+    SimulatedClock clock({1'000'000'000'000'000}, 0);
     CommandDispatch dispatch({{&left_world, &left, &left_faults}, {&right_world, &right, &right_faults}},
                              clock);
     SettingsCommand settings;

@@ -288,7 +288,7 @@ TEST(LiveSettings, RefusesWhatTheCameraSetsItself) {
     const Motion initial;
     WorldState world(std::span(&initial, 1), {});
     FaultBoard faults;
-    const SimulatedClock clock({0}, 0);
+    SimulatedClock clock({0}, 0);
     CommandDispatch dispatch({{&world, &automatic, &faults}}, clock);
     SettingsCommand command;
     command.exposure_s = 1e-3;

@@ -46,7 +46,8 @@ FrameUse some_use() {
     use.id = 1'000'000'007, use.skipped = 3, use.late = true, use.reverse_y = true;
     use.test_pattern = TestPattern::kRampHorizontalMoving;
     use.trigger_sequence = 77, use.quality_level = 5;
-    use.begin_ns = 123456789, use.exposure_mid = {-5};
+    use.begin_ns = 123456789, use.middle_ns = 123456790, use.end_ns = 123456792, use.exposure_mid = {-5};
+    use.shown_at = {-6}, use.moving = 0.125, use.shutter_closed = true;
     use.exposure_s = 1.0 / 3, use.gain_db = -0.0, use.black_level_dn = 12.5;
     use.binning_x = 2, use.binning_y = 4, use.faults = ~std::uint64_t{0};
     use.image = {true, false, true, 0.25, 1e-9};
@@ -77,9 +78,11 @@ std::vector<Record> all_kinds() {
                                 ExposeCommand{{11}, 12, true},
                                 FaultCommand{{FaultKind::kImageTear, 0.5, 0.25, 1, 2, 3}, false},
                                 FaultCommand{{}, true},
-                                TriggerModeCommand{true, 4}};
+                                TriggerModeCommand{true, 4},
+                                ClockCommand{ClockCommand::Action::kScale, 5, 0.5, 6}};
     std::uint64_t number = 0;
-    for (const Command& command : commands) all.push_back(RecordedCommand{++number, command, {5, 6, 1, 2}});
+    for (const Command& command : commands)
+        all.push_back(RecordedCommand{++number, command, {5, 6, 1, nullptr, 2}, true});
     return all;
 }
 
@@ -95,11 +98,12 @@ TEST(Recording, EveryRecordComesBackBitByBit) {
     ASSERT_TRUE(frame);
     EXPECT_EQ(std::get<RecordedFrame>(*frame).use, some_use());
     EXPECT_TRUE(std::signbit(std::get<RecordedFrame>(*frame).use.gain_db));
-    const std::optional<Record> pose = read_back(bytes_of(RecordedCommand{1, odd_pose(), {}}));
+    const std::optional<Record> pose = read_back(bytes_of(RecordedCommand{1, odd_pose(), {}, true}));
     ASSERT_TRUE(pose);
     const auto& read = std::get<PoseCommand>(std::get<RecordedCommand>(*pose).command);
     EXPECT_EQ(read.motion.pose.world_from_body.w, 0.1);
     EXPECT_TRUE(read.alone);
+    EXPECT_TRUE(std::get<RecordedCommand>(*pose).forgets);
 }
 
 // By hand, from docs/recording.md; the CRC from Python's zlib.crc32.

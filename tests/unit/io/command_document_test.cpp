@@ -50,12 +50,20 @@ TEST_F(ProtocolDocument, Commands) {
     expect_there(encoded(ExposeCommand{{}, 3}, 8));
     expect_there(encoded(TriggerModeCommand{true, 5}, 9));
     expect_there(encoded(SubscribeCommand{true, true}, 10));
+    expect_there(encoded(ClockCommand{ClockCommand::Action::kScale, 1'000'000'000, 0.5, 0}, 11));
 }
 
 TEST_F(ProtocolDocument, Acknowledgement) {
     expect_there(encoded(hilcam::Acknowledgement{5, CommandStatus::kAccepted, 5, 0x1122334455667788,
                                                  TimeTai{1'000'000'000}, ""},
                          {}));
+    hilcam::Acknowledgement clock{
+        kClockFunction, CommandStatus::kAccepted, 11, 1'000'000'000, TimeTai{2'000'001'000}, ""};
+    ClockReading& reading = clock.clock.emplace();
+    reading.arrival.ns = 2'000'000'000;
+    reading.arrival_monotonic_ns = 10'000'000'000, reading.departure_monotonic_ns = 10'000'002'000;
+    reading.scale = 0.5;
+    expect_there(encoded(clock, {}));
 }
 
 FrameReport some_report() {
@@ -147,7 +155,7 @@ TEST(CfsCodec, ChecksumIsRequiredUnlessItIsSaidToBeOptional) {
     EXPECT_EQ(decode_command(bytes, kLax).status, CommandStatus::kAccepted);
     bytes[6] |= 0x80;  // a reserved bit
     EXPECT_EQ(decode_command(bytes, kLax).status, CommandStatus::kAccepted);
-    bytes[6] = 11;
+    bytes[6] = 99;
     EXPECT_EQ(decode_command(bytes, kLax).status, CommandStatus::kUnknownFunction);
     bytes[6] = 3;
     EXPECT_EQ(decode_command(bytes, kLax).status, CommandStatus::kBadLength);

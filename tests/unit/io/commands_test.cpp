@@ -99,6 +99,51 @@ TEST(CommandCodec, ExposeModeAndSubscriptionComeBack) {
     EXPECT_EQ(decode_command(with_crc(bytes)).status, CommandStatus::kBadArgument);
 }
 
+TEST(CommandCodec, ClockComesBackAndWildOnesAreRefused) {
+    using Action = ClockCommand::Action;
+    const ClockCommand scale = there_and_back(ClockCommand{Action::kScale, -5, 0.25, 77});
+    EXPECT_EQ(scale.action, Action::kScale);
+    EXPECT_EQ(scale.sender_ns, -5);
+    EXPECT_EQ(scale.scale, 0.25);
+    EXPECT_EQ(scale.step_ns, 0);  // not looked at
+    const ClockCommand step = there_and_back(ClockCommand{Action::kStep, 9, std::nan(""), kMostClockStep_ns});
+    EXPECT_EQ(step.step_ns, kMostClockStep_ns);
+    EXPECT_EQ(step.scale, 1);
+    const auto reason = [](const ClockCommand& command) {
+        return std::string(decode_command(encoded(command, 1)).reason);
+    };
+    for (const double wild : {0.0, -1.0, 0.0009, 1001.0, std::nan(""), HUGE_VAL})
+        EXPECT_EQ(reason({Action::kScale, 0, wild, 0}), "scale of time is not 0.001 to 1000") << wild;
+    for (const std::int64_t wild : {std::int64_t{0}, std::int64_t{-1}, kMostClockStep_ns + 1})
+        EXPECT_EQ(reason({Action::kStep, 0, 1, wild}), "step of time is not 1 to 1e16 ns") << wild;
+    EXPECT_EQ(reason({static_cast<Action>(5), 0, 1, 0}), "action of the clock is not 0 to 4");
+}
+
+TEST(AcknowledgementCodec, CarriesAReadingOfTheClockAfterAClockCommandAlone) {
+    for (const DialectConfig& dialect : {DialectConfig{}, DialectConfig{Dialect::kCfs}}) {
+        Acknowledgement a{kClockFunction, CommandStatus::kAccepted, 3, 4, {5'000'000'000}, "told"};
+        ClockReading& r = a.clock.emplace();
+        r.arrival.ns = 4, r.arrival_monotonic_ns = 5, r.departure_monotonic_ns = 6, r.scale = 0.1;
+        r.stands_at.ns = -7;
+        std::vector<std::uint8_t> bytes(kMostPacketBytes);
+        bytes.resize(encode_acknowledgement(a, 1, dialect, bytes));
+        Acknowledgement back;
+        ASSERT_TRUE(decode_acknowledgement(bytes, dialect, back));
+        EXPECT_EQ(back.reason, "told");
+        ASSERT_TRUE(back.clock);
+        EXPECT_EQ(back.clock->arrival.ns, 4);
+        EXPECT_EQ(back.clock->arrival_monotonic_ns, 5);
+        EXPECT_EQ(back.clock->departure_monotonic_ns, 6);
+        EXPECT_EQ(back.clock->departure.ns, 5'000'000'000);
+        EXPECT_EQ(back.clock->scale, 0.1);
+        EXPECT_EQ(back.clock->stands_at.ns, -7);
+        a.function = 5;  // the same bytes behind another answer are too many
+        bytes.assign(kMostPacketBytes, 0);
+        bytes.resize(encode_acknowledgement(a, 1, dialect, bytes));
+        EXPECT_FALSE(decode_acknowledgement(bytes, dialect, back));
+    }
+}
+
 TEST(CommandCodec, EachFaultIsRefusedByItsName) {
     const std::vector<std::uint8_t> good = encoded(some_pose(), 1);
     const auto status = [](const std::vector<std::uint8_t>& bytes) { return decode_command(bytes).status; };
@@ -157,6 +202,13 @@ TEST(CommandsUdp, AnswersCountsAndSeparatesPackets) {
     CommandSender sender("127.0.0.1:15010");
     EXPECT_EQ(sender.send(PingCommand{9}).token, 9u);
     EXPECT_EQ(sender.send(PingCommand{9}).simulated_time.ns, 42);
+    EXPECT_FALSE(sender.send(PingCommand{9}).clock);
+    const std::int64_t sent_ns = monotonic_ns();
+    const Acknowledgement clock = sender.send(ClockCommand{ClockCommand::Action::kAsk, -3, 1, 0});
+    EXPECT_EQ(clock.token, static_cast<std::uint64_t>(-3));
+    ASSERT_TRUE(clock.clock);
+    EXPECT_GE(clock.clock->arrival_monotonic_ns, sent_ns);
+    EXPECT_LE(clock.clock->arrival_monotonic_ns, monotonic_ns());
     PoseCommand pose = some_pose();
     pose.object = 3;
     EXPECT_EQ(sender.send(pose).status, CommandStatus::kUnknownObject);

@@ -1,0 +1,58 @@
+#include "emulator/send_clock.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <limits>
+#include <string>
+
+#include "io/monotonic.h"
+
+namespace hilcam {
+namespace {
+
+constexpr int kExchanges = static_cast<int>(ClockFilter::kSamples);
+
+std::string way_of(const ClockReading& r) {
+    const double left_s = static_cast<double>(r.stands_at - r.departure) * kSecondsPerNs;
+    if (left_s <= 0) return fmt::format("stands (scale {} when it goes on)", r.scale);
+    if (r.stands_at.ns == std::numeric_limits<std::int64_t>::max()) return fmt::format("scale {}", r.scale);
+    return fmt::format("scale {}, stands in {:.9f} s", r.scale, left_s);
+}
+
+}  // namespace
+
+ClockFilter measure_clock(CommandSender& sender, const ClockCommand& order, int count, int timeout_ms,
+                          Acknowledgement& first) {
+    ClockFilter filter;
+    for (int i = 0; i < count; ++i) {
+        ClockCommand command = i == 0 ? order : ClockCommand{};
+        command.sender_ns = monotonic_ns();
+        const Acknowledgement answer = sender.send(command, timeout_ms);
+        if (answer.clock) filter.take({command.sender_ns, monotonic_ns(), *answer.clock});
+        if (i == 0) first = answer;
+    }
+    return filter;
+}
+
+int send_clock(const SendTarget& target, const ClockCommand& order) {
+    CommandSender sender(target.endpoint, target.dialect);
+    Acknowledgement first;
+    const ClockFilter filter = measure_clock(sender, order, kExchanges, target.timeout_ms, first);
+    const bool accepted = first.status == CommandStatus::kAccepted;
+    const std::int64_t now_ns = monotonic_ns();
+    const auto estimate = filter.estimate(now_ns);
+    if (!accepted || !first.clock || !estimate) {
+        fmt::print("{}{}{} simulated time {}\n", name_of(first.status), first.reason.empty() ? "" : ": ",
+                   first.reason, format_utc(first.simulated_time));
+        return accepted ? 0 : 1;
+    }
+    fmt::print("accepted simulated time {}, {}\n",
+               format_utc(filter.simulated_at(now_ns).value_or(TimeTai{})), way_of(*first.clock));
+    fmt::print(
+        "its machine's clock is {:.3f} us ahead of this one's, within {:.3f} us; there and back {:.3f} us\n",
+        static_cast<double>(estimate->offset_ns) * 1e-3, estimate->error_ns * 1e-3,
+        static_cast<double>(estimate->delay_ns) * 1e-3);
+    return 0;
+}
+
+}  // namespace hilcam
