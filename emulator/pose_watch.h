@@ -27,6 +27,7 @@
 // Threads: judge() and took() any but the loop (a lock); the rest any, without one.
 
 #include <atomic>
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <map>
