@@ -204,10 +204,11 @@ std::vector<Collector::Frame> go_silent(const std::filesystem::path& file, const
     EXPECT_TRUE(rig.collector.wait_for(4));
     EXPECT_EQ(rig.loop.counters().stale.load(), 2u);
     rig.loop.stop();
+    constexpr std::array<std::int64_t, 4> kExpected_ms = {400, 1000, 2000, 3000};
     for (std::size_t i = 0; i < 4; ++i) {
         const FrameRecord& r = rig.collector.frames[i].record;
         EXPECT_EQ(r.faults, i == 1 || i == 2 ? kPosesStaleBit : 0u) << when_stale << i;
-        EXPECT_EQ(r.exposure_mid - rig.start, std::array{400, 1000, 2000, 3000}[i] * kMs_ns);
+        EXPECT_EQ(r.exposure_mid - rig.start, kExpected_ms[i] * kMs_ns);
     }
     return std::move(rig.collector.frames);
 }
