@@ -355,21 +355,6 @@ void check_vizard(const ScenarioConfig& s) {
                              "; accepted with commands.vizard: 0, as its messages place the cameras");
 }
 
-// There simulated time goes from frame to frame, and each frame is asked for.
-void check_lockstep(const ScenarioConfig& s) {
-    if (s.clock.scale < 1 || s.clock.scale > 1)
-        throw InputError("clock.scale: found " + plain(s.clock.scale) +
-                         "; accepted with 'mode: lockstep': 1, as time goes from frame to frame");
-    if (s.clock.paused)
-        throw InputError(
-            "clock.paused: found true; accepted with 'mode: lockstep': false, as time stands "
-            "between frames anyway");
-    if (s.commands.poses.when_stale == WhenStale::kStop)
-        throw InputError(
-            "commands.poses.when_stale: found 'stop'; accepted with 'mode: lockstep': propagate, "
-            "hold, black, as each frame is asked for");
-}
-
 }  // namespace
 
 std::string governor_off(const ScenarioConfig& s) {
@@ -425,7 +410,7 @@ void validate(const ScenarioConfig& s) {
                              std::to_string(1 + s.more_cameras.size()));
     const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
     if (s.commands.has_vizard) check_vizard(s);
-    if (s.mode == CameraMode::kLockstep) check_lockstep(s);
+    if (s.mode == CameraMode::kLockstep) require_lockstep(s.clock), require_lockstep(s.commands.poses);
 }
 
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/plain_number.h"
+#include "render/check.h"
+
 namespace hilcam {
 namespace {
 
@@ -27,6 +30,16 @@ Fields fields(ClockConfig& c) {
                "while simulated time stands. streams: frames of the standing world at the camera's rate; "
                "waits: none begin"),
     };
+}
+
+void require_lockstep(const ClockConfig& c) {
+    if (c.scale < 1 || c.scale > 1)
+        throw InputError("clock.scale: found " + plain(c.scale) +
+                         "; accepted with 'mode: lockstep': 1, as time goes from frame to frame");
+    if (c.paused)
+        throw InputError(
+            "clock.paused: found true; accepted with 'mode: lockstep': false, as time stands between frames "
+            "anyway");
 }
 
 std::int64_t SimulatedClock::Piece::camera_at(std::int64_t monotonic) const {

@@ -62,6 +62,8 @@ struct ClockConfig {
     CameraInPause camera_in_pause = CameraInPause::kStreams;
 };
 Fields fields(ClockConfig& clock);
+// Throws InputError for what makes no sense in lockstep, where simulated time goes from frame to frame.
+void require_lockstep(const ClockConfig& clock);
 
 class SimulatedClock {
   public:

@@ -59,10 +59,11 @@ void add_settings(CLI::App& app, const Take& take) {
 void add_pose(CLI::App& app, const Take& take) {
     struct Options {
         unsigned object = 0;
+        std::string utc;
         std::array<double, 3> position_m{}, velocity_m_s{}, rate_deg_s{}, look_at_m{}, up{0, 0, 1};
         std::array<double, 4> attitude{1, 0, 0, 0};
     };
-    CLI::App* pose = app.add_subcommand("pose", "one pose, true on arrival");
+    CLI::App* pose = app.add_subcommand("pose", "one pose");
     const auto o = std::make_shared<Options>();
     pose->add_option("--object", o->object, "0: the camera; 1, 2, ...: the scenario's objects")
         ->check(CLI::Range(0, 65535));
@@ -72,11 +73,13 @@ void add_pose(CLI::App& app, const Take& take) {
         pose->add_option("--look-at-m", o->look_at_m, "x y z, instead of an attitude")->excludes(attitude);
     pose->add_option("--up", o->up, "x y z, for --look-at-m");
     pose->add_option("--velocity-m-s", o->velocity_m_s, "x y z in the world");
+    pose->add_option("--at-utc", o->utc, "simulated time it is true at; left out: on arrival");
     pose->add_option("--rate-deg-s", o->rate_deg_s, "x y z about the body axes");
     on(pose, take, [=] {
         PoseCommand command;
         command.object = static_cast<std::uint16_t>(o->object);
         Motion& m = command.motion;
+        if (!o->utc.empty()) m.time = parse_utc(o->utc);
         m.pose.position_world_m = vec(o->position_m);
         m.pose.world_from_body = {o->attitude[0], o->attitude[1], o->attitude[2], o->attitude[3]};
         if (look->count())
@@ -91,8 +94,9 @@ void add_joint(CLI::App& app, const Take& take) {
     struct Options {
         unsigned object = 1, joint = 1;
         double angle_deg = 0, rate_deg_s = 0;
+        std::string utc;
     };
-    CLI::App* joint = app.add_subcommand("joint", "turn a part of an object, true on arrival");
+    CLI::App* joint = app.add_subcommand("joint", "turn a part of an object");
     const auto o = std::make_shared<Options>();
     joint->add_option("--object", o->object, "1, 2, ...: the scenario's objects")
         ->required()
@@ -100,11 +104,10 @@ void add_joint(CLI::App& app, const Take& take) {
     joint->add_option("--joint", o->joint, "1, 2, ...: its joints")->check(CLI::Range(1, 65535));
     joint->add_option("--angle-deg", o->angle_deg, "from the file's own state")->required();
     joint->add_option("--rate-deg-s", o->rate_deg_s, "from then on");
+    joint->add_option("--at-utc", o->utc, "simulated time it is true at; left out: on arrival");
     on(joint, take, [=] {
-        return JointCommand{static_cast<std::uint16_t>(o->object),
-                            static_cast<std::uint16_t>(o->joint),
-                            {},
-                            o->angle_deg * kDegree_rad,
+        return JointCommand{static_cast<std::uint16_t>(o->object), static_cast<std::uint16_t>(o->joint),
+                            o->utc.empty() ? TimeTai{} : parse_utc(o->utc), o->angle_deg * kDegree_rad,
                             o->rate_deg_s * kDegree_rad};
     });
 }

@@ -49,6 +49,8 @@ bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping
         start.until_end = paced_ && !lockstep_;
         start.begin_ns = clock_.monotonic_of_camera(start.camera_ns);
         if (poses_) start.silence = poses_->at(clock_.simulated_of_camera(start.camera_ns));
+        // It has come while the last stretch was slept through.
+        if (start.silence.stale && !lockstep_ && poses_->rules().when_stale == WhenStale::kStop) continue;
         return true;
     }
     settings_.close();

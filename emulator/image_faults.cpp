@@ -9,6 +9,9 @@
 namespace hilcam {
 namespace {
 
+// The bits beyond are those of kTimeStandsBit and its neighbours.
+static_assert(kAllFaults.size() <= 60);
+
 constexpr std::array kWholeFrame = {
     FaultKind::kLeaderLost,     FaultKind::kTrailerLost,     FaultKind::kFrameDrop,
     FaultKind::kFrameRepeat,    FaultKind::kWrongSizeY,      FaultKind::kTimestampStep,

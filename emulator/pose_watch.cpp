@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/check.h"
+
 namespace hilcam {
 namespace {
 
@@ -29,6 +31,14 @@ Fields fields(PoseRules& r) {
                "what then. flag: the pose counts, frame and acknowledgement say so; accept: it counts; "
                "refuse: it does not"),
     };
+}
+
+void require_lockstep(const PoseRules& r) {
+    if (r.when_stale == WhenStale::kStop)
+        throw InputError(
+            "commands.poses.when_stale: found 'stop'; accepted with 'mode: lockstep': propagate, hold, "
+            "black, "
+            "as each frame is asked for");
 }
 
 PoseWatch::PoseWatch(const PoseRules& rules, bool lockstep)

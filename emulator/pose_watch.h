@@ -27,6 +27,7 @@
 // Threads: judge() and took() any but the loop (a lock); the rest any, without one.
 
 #include <atomic>
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -50,6 +51,8 @@ struct PoseRules {
     WhenBackwards backwards = WhenBackwards::kFlag;
 };
 Fields fields(PoseRules& rules);
+// Throws InputError for what makes no sense in lockstep, where each frame is asked for.
+void require_lockstep(const PoseRules& rules);
 
 class PoseWatch {
   public:

@@ -85,7 +85,8 @@ json outputs_status(const std::vector<FrameSink*>& sinks) {
 
 json counts(const CommandReport& r) {
     return {{"received", r.received},     {"refused", r.refused},     {"lost", r.lost},
-            {"duplicates", r.duplicates}, {"strangers", r.strangers}, {"clients", r.clients}};
+            {"duplicates", r.duplicates}, {"strangers", r.strangers}, {"clients", r.clients},
+            {"went_back", r.went_back}};
 }
 
 json commands_status(const std::vector<std::unique_ptr<CommandReceiver>>* receivers) {

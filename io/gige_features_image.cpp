@@ -204,7 +204,9 @@ std::vector<ChunkRow> chunk_rows(const CameraLimits& l) {
         {Chunk::kTriggerSequence, "TriggerSequence",
          u32("ChunkTriggerSequence", "Of the command that asked for the frame")},
         {Chunk::kFaults, "Faults",
-         u64("ChunkFaults", "Faults that struck the frame: bit n is FaultSelector n")},
+         u64("ChunkFaults",
+             "Faults that struck the frame: bit n is FaultSelector n; 60 time stood, 61 no poses came, 62 "
+             "time tags went back")},
     };
 }
 

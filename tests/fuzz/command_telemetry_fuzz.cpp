@@ -1,4 +1,5 @@
-// Any bytes are a telemetry packet or none; what is one says the same after another round trip.
+// Any bytes are a telemetry packet, an acknowledgement or none; what is one says the same after another round
+// trip.
 
 #include <algorithm>
 #include <array>
@@ -6,11 +7,23 @@
 #include "io/command_dialect.h"
 #include "render/check.h"
 
+using namespace hilcam;
+
+// Reasons come back as far as they travel.
+static void check_acknowledgement(std::span<const std::uint8_t> packet) {
+    Acknowledgement answer, back;
+    if (!decode_acknowledgement(packet, answer)) return;
+    std::array<std::uint8_t, kMostPacketBytes> again;
+    const std::size_t written = encode_acknowledgement(answer, 0, again);
+    HILCAM_CHECK(written <= kMostAcknowledgeBytes);
+    HILCAM_CHECK(decode_acknowledgement(std::span(again).first(written), back));
+    HILCAM_CHECK(back.sequence == answer.sequence && back.token == answer.token);
+    HILCAM_CHECK(back.clock.has_value() == answer.clock.has_value());
+    HILCAM_CHECK(!back.clock || back.clock->stands_at == answer.clock->stands_at);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace hilcam;
     const std::span<const std::uint8_t> bytes(data, size);
-    Acknowledgement acknowledgement;
-    decode_acknowledgement(bytes, acknowledgement);
     // With a right CRC, too: mutations seldom find one.
     std::array<std::uint8_t, kMostPacketBytes> sealed;
     std::copy_n(data, std::min(size, sealed.size()), sealed.begin());
@@ -18,6 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size > 8 && size <= sealed.size())
         sealed_bytes = seal_packet(read_packet_header(bytes), size - 8, sealed);
     for (const auto packet : {bytes, std::span<const std::uint8_t>(sealed).first(sealed_bytes)}) {
+        check_acknowledgement(packet);
         Telemetry telemetry, back;
         if (!decode_telemetry(packet, telemetry)) continue;
         std::array<std::uint8_t, kMostPacketBytes> again, third;

@@ -190,9 +190,9 @@ typedef struct {
 
 // Bits of `faults` beside those of the faults on demand: simulated time stood, no poses came, a time tag went
 // back.
-#define HILCAM_TIME_STANDS ((uint64_t)1 << 61)
-#define HILCAM_POSES_STALE ((uint64_t)1 << 62)
-#define HILCAM_TAGS_WENT_BACK ((uint64_t)1 << 63)
+#define HILCAM_TIME_STANDS ((uint64_t)1 << 60)
+#define HILCAM_POSES_STALE ((uint64_t)1 << 61)
+#define HILCAM_TAGS_WENT_BACK ((uint64_t)1 << 62)
 
 typedef struct {
     uint8_t camera;  // from 1
@@ -571,10 +571,10 @@ static inline const char* hilcam_status_name(unsigned status) {
 //
 // How far hilcam's machine clock (CLOCK_MONOTONIC) is ahead of the sender's, from four instants of each
 // exchange: t1 sent and t4 received by the sender's clock, t2 arrived and t3 departed by the machine's. RFC
-// 5905, section 8: offset ((t2 - t1) + (t3 - t4)) / 2, delay (t4 - t1) - (t3 - t2), which errs by no more than
-// half the delay. Of the last eight the one with the least error counts (section 10), which grows by 15 ppm of
-// its age. No scale and no pause of simulated time touches the offset; how simulated time goes on from there
-// is in the newest answer.
+// 5905, section 8: offset ((t2 - t1) + (t3 - t4)) / 2, delay (t4 - t1) - (t3 - t2), which errs by no more
+// than half the delay. Of the last eight the one with the least error counts (section 10), which grows by 15
+// ppm of its age. No scale and no pause of simulated time touches the offset; how simulated time goes on from
+// there is in the newest answer.
 //
 //     hilcam_clock_filter filter = {0};
 //     clock.sender_ns = my_clock_ns();                         // then hilcam_encode_clock, send, receive

@@ -39,7 +39,7 @@ FAULTS = {
     "image_stuck": 80, "image_black": 81, "image_saturated": 82, "image_bit_flips": 83, "image_tear": 84}
 
 # Bits of FrameReport.faults beside those of FAULTS: simulated time stood, no poses came, a time tag went back.
-TIME_STANDS, POSES_STALE, TAGS_WENT_BACK = 1 << 61, 1 << 62, 1 << 63
+TIME_STANDS, POSES_STALE, TAGS_WENT_BACK = 1 << 60, 1 << 61, 1 << 62
 
 Vector = Tuple[float, float, float]
 

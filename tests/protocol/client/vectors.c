@@ -165,7 +165,8 @@ static void print_filtered(const uint64_t* n, size_t count) {
         hilcam_clock_take(&filter, signed_of(n[at]), signed_of(n[at + 1]), &r);
     }
     hilcam_clock_estimate(&filter, signed_of(n[0]), &offset, &delay);
-    put((uint64_t)offset), put((uint64_t)delay), put((uint64_t)hilcam_clock_simulated(&filter, signed_of(n[0])));
+    put((uint64_t)offset), put((uint64_t)delay),
+        put((uint64_t)hilcam_clock_simulated(&filter, signed_of(n[0])));
     printf("\n");
 }
 

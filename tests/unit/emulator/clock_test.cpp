@@ -67,8 +67,8 @@ TEST(SimulatedClock, WhileTimeStandsTheCameraStreamsOrWaits) {
     EXPECT_EQ(streams.simulated_of_camera(streams.camera_at(9 * kSecond_ns)), start);
     EXPECT_EQ(streams.camera_of(start + 1), kNever_ns);
     EXPECT_EQ(streams.when_due(kNever_ns), kNever_ns);
-    const SimulatedClock waits(
-        start, 0, false, {.scale = 2, .paused = true, .camera_in_pause = CameraInPause::kWaits});
+    const SimulatedClock waits(start, 0, false,
+                               {.scale = 2, .paused = true, .camera_in_pause = CameraInPause::kWaits});
     EXPECT_EQ(waits.at(9 * kSecond_ns), start);
     EXPECT_EQ(waits.camera_at(9 * kSecond_ns), waits.camera_at(0));
     EXPECT_EQ(waits.when_due(waits.camera_at(0)), 0);

@@ -32,7 +32,7 @@ TEST(CommandScript, LinesHaveTimesAndCommands) {
         "expose --frames 3\n"
         "mode triggered --burst-frames 4\n"
         "settings --gain-db 6\n"
-        "joint --object 1 --angle-deg 180\n"
+        "joint --object 1 --angle-deg 180 --at-utc 2026-01-01T00:00:00Z\n"
         "stop\n"
         "clock --scale 0.1\n"
         "clock step --seconds 0.5\n"
@@ -62,6 +62,8 @@ TEST(CommandScript, LinesHaveTimesAndCommands) {
     EXPECT_EQ(std::get<SettingsCommand>(lines[6].command).gain_db, 6);
     EXPECT_FALSE(std::get<SettingsCommand>(lines[6].command).exposure_s);
     EXPECT_NEAR(std::get<JointCommand>(lines[7].command).angle_rad, 3.14159265, 1e-8);
+    EXPECT_EQ(std::get<JointCommand>(lines[7].command).time, parse_utc("2026-01-01T00:00:00Z"));
+    EXPECT_EQ(pose.motion.time.ns, 0);  // on arrival
     EXPECT_TRUE(std::holds_alternative<StopCommand>(lines[8].command));
     using Action = ClockCommand::Action;
     const auto clock = [&](std::size_t line) { return std::get<ClockCommand>(lines[line].command); };

@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
+
+#include "emulator/app_config.h"
 #include "emulator/command_dispatch.h"
+#include "render/check.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
@@ -179,7 +184,8 @@ TEST_F(TimeConfig, WhatLockstepCannotHaveIsRefusedByName) {
         return text.find(part) != std::string::npos ? testing::AssertionSuccess()
                                                     : testing::AssertionFailure() << text;
     };
-    EXPECT_TRUE(has(error_of({"mode=lockstep", "clock.scale=2"}), "clock.scale: found 2; accepted with 'mode: lockstep': 1"));
+    EXPECT_TRUE(has(error_of({"mode=lockstep", "clock.scale=2"}),
+                    "clock.scale: found 2; accepted with 'mode: lockstep': 1"));
     EXPECT_TRUE(has(error_of({"mode=lockstep", "clock.paused=true"}), "clock.paused: found true"));
     EXPECT_TRUE(has(error_of({"mode=lockstep", "commands.poses.when_stale=stop"}),
                     "commands.poses.when_stale: found 'stop'"));

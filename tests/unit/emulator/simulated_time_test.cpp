@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <thread>
 
+#include "render/units.h"
 #include "tests/support/plate.h"
 
 namespace hilcam {
@@ -109,8 +111,8 @@ TEST_F(PlateTest, WhileTimeStandsFramesOfTheStandingWorldKeepComing) {
     const auto& frames = rig.collector.frames;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const FrameRecord& r = frames[i].record;
-        EXPECT_EQ(r.id, i + 1 + (r.id - i - 1));  // ids rise
         if (i > 0) {
+            EXPECT_GT(r.id, frames[i - 1].record.id);
             const std::int64_t interval_ns =
                 r.exposure_mid_monotonic_ns - frames[i - 1].record.exposure_mid_monotonic_ns;
             EXPECT_EQ(interval_ns % (20 * kMs_ns), 0) << i;  // the camera's rate, all the while
@@ -187,10 +189,12 @@ TEST_F(PlateTest, ATriggerWaitsForItsSimulatedInstantAlsoWhileTimeStands) {
 
 // --- when poses stop
 
-// In lockstep: one pose at the start, 20 mm/s to the side, then frames 0.4, 1 and 2 s after it, then a new one.
+// In lockstep: one pose at the start, 20 mm/s to the side, then frames 0.4, 1 and 2 s after it, then a new
+// one.
 std::vector<Collector::Frame> go_silent(const std::filesystem::path& file, const std::string& when_stale) {
-    LoopRig rig(file, {},
-                {"mode=lockstep", "commands.poses.stale_after_s=0.5", "commands.poses.when_stale=" + when_stale});
+    LoopRig rig(
+        file, {},
+        {"mode=lockstep", "commands.poses.stale_after_s=0.5", "commands.poses.when_stale=" + when_stale});
     rig.loop.start();
     EXPECT_EQ(rig.send(pose_at(rig.start, 0, 0.02)), CommandStatus::kAccepted);
     for (const std::int64_t at_ms : {400, 1000, 2000})
@@ -200,10 +204,11 @@ std::vector<Collector::Frame> go_silent(const std::filesystem::path& file, const
     EXPECT_TRUE(rig.collector.wait_for(4));
     EXPECT_EQ(rig.loop.counters().stale.load(), 2u);
     rig.loop.stop();
+    constexpr std::array<std::int64_t, 4> kExpected_ms = {400, 1000, 2000, 3000};
     for (std::size_t i = 0; i < 4; ++i) {
         const FrameRecord& r = rig.collector.frames[i].record;
         EXPECT_EQ(r.faults, i == 1 || i == 2 ? kPosesStaleBit : 0u) << when_stale << i;
-        EXPECT_EQ(r.exposure_mid - rig.start, std::array{400, 1000, 2000, 3000}[i] * kMs_ns);
+        EXPECT_EQ(r.exposure_mid - rig.start, kExpected_ms[i] * kMs_ns);
     }
     return std::move(rig.collector.frames);
 }

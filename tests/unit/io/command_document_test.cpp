@@ -57,8 +57,8 @@ TEST_F(ProtocolDocument, Acknowledgement) {
     expect_there(encoded(hilcam::Acknowledgement{5, CommandStatus::kAccepted, 5, 0x1122334455667788,
                                                  TimeTai{1'000'000'000}, ""},
                          {}));
-    hilcam::Acknowledgement clock{
-        kClockFunction, CommandStatus::kAccepted, 11, 1'000'000'000, TimeTai{2'000'001'000}, ""};
+    hilcam::Acknowledgement clock{kClockFunction, CommandStatus::kAccepted, 11,
+                                  1'000'000'000,  TimeTai{2'000'001'000},   ""};
     ClockReading& reading = clock.clock.emplace();
     reading.arrival.ns = 2'000'000'000;
     reading.arrival_monotonic_ns = 10'000'000'000, reading.departure_monotonic_ns = 10'000'002'000;
