@@ -48,10 +48,10 @@ class ExposureRenderer {
         int parts = 1;
         bool parts_limited = false;  // more than kMostParts were asked for
     };
-    // The exposure of exposure.exposure_s about an instant; sets the exposure's rates and ray grid. Loop, one
-    // thread; no allocation.
+    // The exposure of exposure.exposure_s about an instant; sets the exposure's rates and ray grid. truth: to
+    // be told of the frame's middle, or null. Loop, one thread; no allocation.
     Result render(WorldState& world, TimeTai middle, RandomKey key, RadianceImage& radiance,
-                  std::vector<PointSource>& points, Exposure& exposure);
+                  std::vector<PointSource>& points, Exposure& exposure, FrameTruth* truth = nullptr);
 
     // What exact motion would do, and how far things move [px of the detector]. Not for the loop.
     struct Plan {

@@ -109,7 +109,7 @@ void FrameLoop::latch(const FrameStarter::Start& start, Slot& slot) {
     slot.not_before_ns = start.not_before_ns;
     slot.automatic = s.automatic_exposure;
     slot.test_pattern = s.test_pattern;
-    slot.reverse_x = s.reverse_x, slot.reverse_y = s.reverse_y;
+    record.reverse_x = s.reverse_x, record.reverse_y = s.reverse_y;
 }
 
 // How long the slot's last frame kept the next one waiting.
@@ -142,8 +142,9 @@ void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t m
 void FrameLoop::render_into(Slot& slot) {
     const std::int64_t begun_ns = monotonic_ns();
     FrameRecord& record = slot.record;
-    const ExposureRenderer::Result result = exposures_.render(world_, record.exposure_mid, {seed_, record.id},
-                                                              slot.radiance, slot.points, slot.exposure);
+    FrameTruth* const truth = truth_ ? truth_->begin(record) : nullptr;
+    const ExposureRenderer::Result result = exposures_.render(
+        world_, record.exposure_mid, {seed_, record.id}, slot.radiance, slot.points, slot.exposure, truth);
     const ShownCommand& shown = result.shown;
     record.pose_sequence = shown.sequence;
     record.pose_time = shown.time;
@@ -226,9 +227,9 @@ void FrameLoop::sense(Slot& slot) {
 // What a camera does with its numbers on their way out.
 void FrameLoop::finish_picture(const Slot& slot) {
     draw_test_pattern(slot.test_pattern, slot.record.bits, slot.record.id, frame_);
-    if (slot.reverse_x)
+    if (slot.record.reverse_x)
         for (int y = 0; y < frame_.height(); ++y) std::reverse(frame_.row(y).begin(), frame_.row(y).end());
-    if (slot.reverse_y)
+    if (slot.record.reverse_y)
         for (int y = 0; y < frame_.height() / 2; ++y)
             std::swap_ranges(frame_.row(y).begin(), frame_.row(y).end(),
                              frame_.row(frame_.height() - 1 - y).begin());

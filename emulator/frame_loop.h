@@ -50,6 +50,7 @@
 #include "emulator/world_state.h"
 #include "io/bounded_queue.h"
 #include "io/frame_sink.h"
+#include "io/sink_truth.h"
 #include "render/renderer.h"
 #include "sensor/chain.h"
 
@@ -108,6 +109,8 @@ class FrameLoop {
               std::vector<FrameSink*> sinks, std::uint64_t seed, const LoopLimits& limits);
     ~FrameLoop() { stop(); }
 
+    // One of the sinks, which is told what frames show while they are rendered. Before start().
+    void tell_truth_to(TruthSink& sink) { truth_ = &sink; }
     void start();
     void stop() noexcept;
     bool finished() const { return finished_.load(); }
@@ -132,7 +135,6 @@ class FrameLoop {
         std::size_t level = 0;                     // of quality, of the slot's last frame
         std::int64_t render_ns = 0, sense_ns = 0;  // how long that took; 0: there was none
         TestPattern test_pattern = TestPattern::kOff;
-        bool reverse_x = false, reverse_y = false;
     };
 
     void render_frames();
@@ -158,6 +160,7 @@ class FrameLoop {
     SimulatedClock& clock_;
     FrameStarter starter_;
     std::vector<FrameSink*> sinks_;
+    TruthSink* truth_ = nullptr;  // may be null
     std::uint64_t seed_;
     LoopLimits limits_;
     bool lockstep_;

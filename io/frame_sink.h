@@ -27,6 +27,7 @@ struct FrameRecord {
     std::uint32_t trigger_sequence = 0;  // of the `expose` that asked for it
     std::uint64_t faults = 0;         // bits of the faults that strike it (fault.h), those of packets apart
     std::uint32_t quality_level = 0;  // 0: as configured
+    bool reverse_x = false, reverse_y = false;
     std::int64_t command_arrival_monotonic_ns =
         0;  // when that command arrived; 0 when no new one came since the last frame
 };
