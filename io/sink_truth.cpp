@@ -1,5 +1,6 @@
 #include "io/sink_truth.h"
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 
@@ -9,8 +10,8 @@
 namespace hilcam {
 namespace {
 
-// Linux: of one thread alone; between those that make frames and the preview.
-constexpr int kTruthNiceness = 10;
+// Than those that make frames; the preview's threads are nicer still.
+constexpr int kNicer = 10;
 // Of an IPv4 datagram: 65535 bytes less the headers of IP and UDP.
 constexpr std::size_t kMostDatagramBytes = 65507;
 
@@ -39,7 +40,9 @@ void TruthSink::start() {
     if (server_) server_->start();
     open_.store(true);
     thread_ = std::thread([this] {
-        setpriority(PRIO_PROCESS, 0, kTruthNiceness);
+        pthread_setname_np(pthread_self(), kTruthThreadName);
+        // Linux: of this thread alone.
+        setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
         nice_.release();
         run();
     });

@@ -28,6 +28,9 @@
 
 namespace hilcam {
 
+// As `top -H` shows it.
+inline constexpr const char* kTruthThreadName = "truth";
+
 class TruthSink : public FrameSink {
   public:
     // make_slot: gives a record with room for any frame; asked several times. Throws InputError. Owner
