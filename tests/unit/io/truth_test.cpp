@@ -7,8 +7,11 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <semaphore>
 #include <thread>
 
 #include "io/fault.h"
@@ -192,6 +195,8 @@ TEST_F(TruthOut, WhoDoesNotReadIsCutOffAndTheOthersGoOn) {
         EXPECT_NE(quick.line(), "");
     }
     EXPECT_EQ(figure("cut_off"), 1);
+    for (int i = 0; i < kPatience_ms && figure("clients") > 1; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_EQ(figure("clients"), 1);
     EXPECT_TRUE(frame(id + 1));
     EXPECT_EQ(json::parse(quick.line())["frame"].get<std::uint64_t>(), id + 1);
