@@ -169,6 +169,8 @@ void TruthProbe::measure_outline(SeenThing& thing) {
     if (thing.is_body && std::none_of(disks.begin(), disks.end(),
                                       [&](const PlacedBody& body) { return truth_id(body.id) == thing.id; }))
         return;
+    // Ground has no outline of its own: there is as much of it as the camera needs.
+    if (placer_.has_terrain() && thing.id == 1 + owner_of(placer_.objects() - 1)) return;
     const PixelBox bounds = canvas_bounds(thing);
     if (bounds.empty()) return;
     if (bounds.x1 - bounds.x0 <= SeenThing::kSmall_px && bounds.y1 - bounds.y0 <= SeenThing::kSmall_px)
