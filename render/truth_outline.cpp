@@ -136,7 +136,7 @@ TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, i
                                 });
 }
 
-// In the frame, behind other things.
+// In the frame, behind other things and under black pixels.
 TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelBox& bounds) const {
     const PixelBox box{std::max(bounds.x0, 0), std::max(bounds.y0, 0),
                        std::min(bounds.x1, truth_.raster.width_px),
@@ -146,7 +146,10 @@ TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelB
         const std::span<const std::uint32_t> ids = std::as_const(truth_.layers.object).row(y);
         for (int x = box.x0; x < box.x1; ++x) {
             const std::uint32_t id = ids[static_cast<std::size_t>(x)];
-            if (id != kSkyId && id != thing.id) packets.add({x + 0.5, y + 0.5}, 1);
+            if (id == thing.id) continue;
+            // Black pixels have had no ray.
+            const Vec2d at{x + 0.5, y + 0.5};
+            if (id != kSkyId || !on_image(truth_.raster.image_px(at))) packets.add(at, 1);
         }
     });
 }
