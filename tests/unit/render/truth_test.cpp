@@ -150,8 +150,8 @@ TEST(Truth, ASphereHasItsOutlineDepthAndNormals) {
     std::uint64_t least = 0, most = 0;
     for (int y = 0; y < 128; ++y)
         for (int x = 0; x < 128; ++x) {
-            least += distance(x + 0.5, y + 0.5, 1 - kInside) >= 0 ? 1 : 0;
-            most += distance(x + 0.5, y + 0.5, 1) >= 0 ? 1 : 0;
+            least += distance(x + 0.5, y + 0.5, 1 - kInside) >= 0 ? 1u : 0u;
+            most += distance(x + 0.5, y + 0.5, 1) >= 0 ? 1u : 0u;
         }
     const SeenThing& thing = t.things[0];
     EXPECT_GE(thing.visible_px, least);
