@@ -202,6 +202,8 @@ Fields fields(OutputsConfig& o) {
         optional(section("uvc", o.uvc, "be a USB camera, with a USB device controller"), o.has_uvc),
         optional(section("files", o.files, "write pictures"), o.has_files),
         optional(section("preview", o.preview, "a web page with the live picture"), o.has_preview),
+        optional(section("truth", o.truth, "what each frame shows, as the renderer had it (docs/truth.md)"),
+                 o.has_truth),
     };
 }
 

@@ -28,6 +28,7 @@
 #include "io/sink_uvc.h"
 #include "io/sink_v4l2.h"
 #include "io/telemetry.h"
+#include "io/truth_config.h"
 #include "render/atmosphere_config.h"
 #include "render/bodies.h"
 #include "render/body_light.h"
@@ -167,12 +168,14 @@ struct CommandsConfig {
 Fields fields(CommandsConfig& commands);
 
 struct OutputsConfig {
-    bool has_gige = false, has_v4l2 = false, has_uvc = false, has_files = false, has_preview = false;
+    bool has_gige = false, has_v4l2 = false, has_uvc = false, has_files = false, has_preview = false,
+         has_truth = false;
     GigeConfig gige;
     V4l2Config v4l2;
     UvcConfig uvc;
     FilesConfig files;
     PreviewConfig preview;
+    TruthConfig truth;
 };
 Fields fields(OutputsConfig& outputs);
 

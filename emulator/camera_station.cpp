@@ -5,6 +5,7 @@
 #include "emulator/motion_builder.h"
 #include "emulator/scene_loader.h"
 #include "emulator/status.h"
+#include "emulator/truth_source.h"
 
 namespace hilcam {
 namespace {
@@ -107,6 +108,11 @@ void CameraStation::load(const SpectralGrid& grid) {
                                      joints_of(scenario_), scenario_.mount, load_motion_sources(scenario_));
     renderer_->require_air(snapshot_at(scenario_, start, start));
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
+    if (limits_.outputs && scenario_.outputs.has_truth) {
+        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_);
+        truth_ = truth.get();
+        sinks_.push_back(std::move(truth));
+    }
 }
 
 void CameraStation::prepare(SimulatedClock& clock, const PoseWatch& poses) {
@@ -116,6 +122,7 @@ void CameraStation::prepare(SimulatedClock& clock, const PoseWatch& poses) {
                                         LoopLimits{limits_.frames, limits_.warm_up, limits_.paced,
                                                    governor_of(scenario_), scenario_.loop.prefer},
                                         &poses);
+    if (truth_) loop_->tell_truth_to(*truth_);
 }
 
 void CameraStation::record_to(Recorder& recorder) {

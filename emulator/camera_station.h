@@ -91,6 +91,7 @@ class CameraStation {
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<ExposureRenderer> exposures_;
+    TruthSink* truth_ = nullptr;  // of the sinks; may be null
     std::unique_ptr<FrameLoop> loop_;
     std::vector<FaultConfig> timed_faults_;  // by time
     std::size_t next_fault_ = 0;

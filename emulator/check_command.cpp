@@ -34,6 +34,19 @@ std::string motion_line(const ScenarioConfig& s, Renderer& renderer, const Spect
     return out;
 }
 
+// What telling the truth of frames computes, and why.
+std::string truth_line(const ScenarioConfig& s) {
+    if (!s.outputs.has_truth) return {};
+    const TruthWishes wishes = wishes_of(s.outputs.truth);
+    std::string out = "truth: poses and places";
+    if (wishes.rays())
+        out += fmt::format("; a ray for each pixel that can meet something ({}{}{})",
+                           wishes.visibility ? "visibility" : "",
+                           wishes.visibility && wishes.layers() ? ", " : "", wishes.layers() ? "layers" : "");
+    if (wishes.stars) out += "; stars in view";
+    return "  " + out + "\n";
+}
+
 std::string loop_line(const ScenarioConfig& s) {
     const RealTime& w = s.loop.real_time;
     std::string out = s.loop.prefer == LoopPreference::kLatency
@@ -87,7 +100,8 @@ std::string check_scenario(const ScenarioConfig& s) {
                           "sunlight\nplan\n",
                           s.name, format_utc(time), 100 * share_in_bins(s.camera, grid));
     for (const std::string& line : renderer->explain_plan(world)) out += "  " + line + "\n";
-    return out + "  " + motion_line(s, *renderer, grid) + "\n" + loop_line(s) + governor_lines(s);
+    return out + "  " + motion_line(s, *renderer, grid) + "\n" + truth_line(s) + loop_line(s) +
+           governor_lines(s);
 }
 
 }  // namespace hilcam

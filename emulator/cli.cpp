@@ -31,7 +31,7 @@ namespace hilcam {
 namespace {
 
 struct Options {
-    std::filesystem::path config, out, report;
+    std::filesystem::path config, out, report, truth;
     std::vector<std::string> overrides;
     double duration_s = 0, time_offset_s = 0;
     std::uint64_t frames = 0;
@@ -90,7 +90,7 @@ int list_of_recording(const Options& o) {
 int render(const Options& o) {
     const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     const auto threads = limit_threads(scenario);
-    render_to_file(scenario, o.stage, o.time_offset_s, o.out);
+    render_to_file(scenario, o.stage, o.time_offset_s, o.out, o.truth);
     return 0;
 }
 
@@ -245,6 +245,8 @@ int run_command_line(int argc, char** argv) {
                      "FILE.exr for radiance and electrons, FILE.png, .tiff or .raw for a frame")
         ->required();
     render_app->add_option("--time-offset-s", o.time_offset_s, "seconds after the scenario's start");
+    render_app->add_option("--truth", o.truth,
+                           "also write what the picture shows to this folder (docs/truth.md)");
     render_app->callback([&] { action = [&] { return render(o); }; });
 
     CLI::App* check_app = app.add_subcommand(

@@ -238,6 +238,7 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
                                                      o.v4l2.format == V4l2Format::kBayer12});
         if (o.has_uvc) needs.uvc.push_back({o.uvc.udc});
         if (o.has_preview) port("outputs.preview.port", o.preview.address, o.preview.port, true);
+        if (o.has_truth && o.truth.port != 0) port("outputs.truth.port", o.truth.address, o.truth.port, true);
     }
     needs.loop_priority = static_cast<std::uint64_t>(scenario.loop.real_time.priority);
     const CommandsConfig& c = scenario.commands;

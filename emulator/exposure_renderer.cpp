@@ -153,7 +153,7 @@ ExposureRenderer::Plan ExposureRenderer::plan(WorldState& world, TimeTai middle,
 
 ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const ShownWorld& shown, RandomKey key,
                                                   RadianceImage& radiance, std::vector<PointSource>& points,
-                                                  Exposure& exposure) {
+                                                  Exposure& exposure, FrameTruth* truth) {
     const Span span{shown.middle, std::llround(shown.moving * exposure.exposure_s * 1e9), exposure.exposure_s,
                     shown.moving};
     Result result;
@@ -163,7 +163,9 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     exposure.ray_grid = ray_grid_of(renderer_.quality());
     if (motion_ == MotionQuality::kExact) {
         sample_ends(world, span, true);
+        // The middle is placed now, and parts will not be it.
         const ImageMotion motion = renderer_.motion(middle_, before_, after_);
+        if (truth) renderer_.tell_truth(*truth);
         const Plan plan = plan_of(motion);
         result.parts = plan.parts;
         result.parts_limited = plan.parts_limited;
@@ -176,6 +178,7 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     }
     tell_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
+    if (truth && motion_ != MotionQuality::kExact) renderer_.tell_truth(*truth);
     if (motion_ == MotionQuality::kOff) return result;
     if (motion_ == MotionQuality::kFast) {
         sample_ends(world, span, renderer_.last_shows_body());

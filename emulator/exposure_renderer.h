@@ -56,9 +56,9 @@ class ExposureRenderer {
         bool parts_limited = false;  // more than kMostParts were asked for
     };
     // The exposure of exposure.exposure_s of a world about an instant; sets the exposure's rates and ray
-    // grid. Loop, one thread; no allocation.
+    // grid. truth: to be told of the frame's middle, or null. Loop, one thread; no allocation.
     Result render(WorldState& world, const ShownWorld& shown, RandomKey key, RadianceImage& radiance,
-                  std::vector<PointSource>& points, Exposure& exposure);
+                  std::vector<PointSource>& points, Exposure& exposure, FrameTruth* truth = nullptr);
     // The same with the shutter closed. Loop.
     void keep_dark(RadianceImage& radiance, std::vector<PointSource>& points, Exposure& exposure) const;
 

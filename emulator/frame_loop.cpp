@@ -145,6 +145,7 @@ void FrameLoop::latch(Slot& slot) {
     record.binning_x = use.binning_x, record.binning_y = use.binning_y;
     record.trigger_sequence = use.trigger_sequence;
     record.quality_level = use.quality_level;
+    record.reverse_x = use.reverse_x, record.reverse_y = use.reverse_y;
     record.faults = use.faults;
     record.exposure_mid_monotonic_ns = use.middle_ns;
     record.exposure_mid = use.exposure_mid;
@@ -219,9 +220,10 @@ void FrameLoop::render_into(Slot& slot) {
         record.faults = slot.use.faults;
         flagged_ = flagged;
     }
+    FrameTruth* const truth = truth_ ? truth_->begin(record) : nullptr;
     const ShownWorld moment{slot.use.shown_at, slot.use.moving};
-    const ExposureRenderer::Result result =
-        exposures_.render(world_, moment, {seed_, record.id}, slot.radiance, slot.points, slot.exposure);
+    const ExposureRenderer::Result result = exposures_.render(
+        world_, moment, {seed_, record.id}, slot.radiance, slot.points, slot.exposure, truth);
     const ShownCommand& shown = result.shown;
     record.pose_sequence = shown.sequence;
     record.pose_time = shown.time;

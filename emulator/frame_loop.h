@@ -62,6 +62,7 @@
 #include "emulator/world_state.h"
 #include "io/bounded_queue.h"
 #include "io/frame_sink.h"
+#include "io/sink_truth.h"
 #include "render/renderer.h"
 #include "sensor/chain.h"
 
@@ -126,6 +127,8 @@ class FrameLoop {
     void record_to(Recorder& recorder, std::uint16_t camera);
     void follow(FrameScript& script) { script_ = &script; }
     void tell(FrameWatcher& watcher) { watcher_ = &watcher; }
+    // One of the sinks, which is told what frames show while they are rendered. Before start().
+    void tell_truth_to(TruthSink& sink) { truth_ = &sink; }
 
     void start();
     void stop() noexcept;
@@ -185,6 +188,7 @@ class FrameLoop {
     const PoseWatch* poses_;
     FrameStarter starter_;
     std::vector<FrameSink*> sinks_;
+    TruthSink* truth_ = nullptr;  // may be null
     std::uint64_t seed_;
     LoopLimits limits_;
     bool lockstep_;

@@ -48,8 +48,8 @@ SensorChain& StillCamera::chain() {
     return *chain_;
 }
 
-const RadianceImage& StillCamera::render(RandomKey key) {
-    exposures_.render(world_, time_, key, radiance_, points_, exposure_);
+const RadianceImage& StillCamera::render(RandomKey key, FrameTruth* truth) {
+    exposures_.render(world_, time_, key, radiance_, points_, exposure_, truth);
     return radiance_;
 }
 

@@ -18,7 +18,7 @@ class StillCamera {
 
     // In this order; each gives what it fills, valid until the next call. The key chooses the light paths,
     // and the noise.
-    const RadianceImage& render(RandomKey key);
+    const RadianceImage& render(RandomKey key, FrameTruth* truth = nullptr);
     const ElectronImage& expose();
     const DnImage& digitise(RandomKey key);
     // What no light makes: dark current [e-].

@@ -1,12 +1,10 @@
 #include "io/commands_tcp.h"
 
-#include <netinet/tcp.h>
-#include <sys/socket.h>
-
 #include <memory>
 
 #include "io/allow_list.h"
 #include "io/stream_server.h"
+#include "io/tcp_peer.h"
 
 namespace hilcam {
 namespace {
@@ -18,34 +16,13 @@ class NobodysHandler : public CommandHandler {
     TimeTai now() const override { return {}; }
 };
 
-// Small packets leave at once; a peer that vanished without a word is noticed within half a minute.
-void prepare(int socket) {
-    const auto set = [&](int level, int name, int value) {
-        setsockopt(socket, level, name, &value, sizeof value);
-    };
-    set(IPPROTO_TCP, TCP_NODELAY, 1);
-    set(SOL_SOCKET, SO_KEEPALIVE, 1);
-    set(IPPROTO_TCP, TCP_KEEPIDLE, 10);
-    set(IPPROTO_TCP, TCP_KEEPINTVL, 5);
-    set(IPPROTO_TCP, TCP_KEEPCNT, 4);
-}
-
-bool admit(const AllowList& allow, int socket, std::string& peer) {
-    sockaddr_in from{};
-    socklen_t size = sizeof from;
-    if (getpeername(socket, reinterpret_cast<sockaddr*>(&from), &size) != 0) return false;
-    peer = format_ipv4(ntohl(from.sin_addr.s_addr)) + ":" + std::to_string(ntohs(from.sin_port));
-    prepare(socket);
-    return allow.allows(ntohl(from.sin_addr.s_addr));
-}
-
 StreamServerSetup setup_of(const TcpCommandConfig& c, const std::string& kind, const std::string& key) {
     StreamServerSetup setup;
     setup.name = kind + " " + c.address + ":" + std::to_string(c.port);
     setup.listen = [address = parse_ipv4(c.address, key + ".address"),
                     port = static_cast<std::uint16_t>(c.port)] { return listen_tcp(address, port); };
     setup.admit = [allow = AllowList(c.allow, c.address, key)](int socket, std::string& peer) {
-        return admit(allow, socket, peer);
+        return admit_tcp(allow, socket, peer);
     };
     setup.most_clients = static_cast<std::size_t>(c.clients);
     return setup;

@@ -35,6 +35,7 @@ struct FrameRecord {
     std::uint64_t faults =
         0;  // bits of the faults that strike it (fault.h), those of packets apart; and above
     std::uint32_t quality_level = 0;  // 0: as configured
+    bool reverse_x = false, reverse_y = false;
     std::int64_t command_arrival_monotonic_ns =
         0;  // when that command arrived; 0 when no new one came since the last frame
 };

@@ -310,12 +310,24 @@ bool Background::hides_from(Vec3d origin_m, Vec3d dir, double distance) const {
     return false;
 }
 
+Background::BodyMet Background::first_body_seen(Vec3d dir) const {
+    for (const PlacedBody& body : disks()) {
+        const Figure& figure = kFigures[index_of(body.id)];
+        const Vec3d d = body.fixed_from_world * dir;
+        const double distance = intersect_ellipsoid(figure, body.camera_m, d);
+        if (distance < 0) continue;
+        return {&body, distance,
+                transposed(body.fixed_from_world) * ellipsoid_normal(figure, body.camera_m + distance * d)};
+    }
+    return {};
+}
+
 void Background::add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const {
+    if (!meets_sun_disk(dir)) return;
     const Vec3d d = normalized(dir);
     const Vec3d across = cross(d, sun_camera_dir_);
     const double sine_squared = dot(across, across),
                  disk_sine_squared = 1 - sun_disk_cosine_ * sun_disk_cosine_;
-    if (sine_squared > disk_sine_squared || dot(d, sun_camera_dir_) < 0) return;
     const double mu = std::sqrt(std::max(0.0, 1 - sine_squared / disk_sine_squared));
     radiance += static_cast<float>(1 / (kPi * disk_sine_squared)) *
                 (weight * sun_clear_irradiance_ * disk_.relative_radiance(static_cast<float>(mu)));

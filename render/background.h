@@ -92,6 +92,18 @@ class Background {
         return hides_from(to_double(origin_m) + objects_from_camera_m_, dir, distance);
     }
     bool hides_seen(Vec3d dir, double distance) const { return hides_from({}, dir, distance); }
+    // The body that add_bodies_seen() finds along a ray of the camera, its air apart. Loop, any thread.
+    struct BodyMet {
+        const PlacedBody* body = nullptr;  // null: none
+        double distance = 0;               // in lengths of the direction
+        Vec3d normal_world_dir;            // of its ground, unit
+    };
+    BodyMet first_body_seen(Vec3d dir) const;
+    // A ray of the camera that meets nothing else meets the Sun's disk.
+    bool meets_sun_disk(Vec3d dir) const {
+        const Vec3d d = normalized(dir), across = cross(d, sun_camera_dir_);
+        return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
+    }
     // From the camera to the nearest that any body can be.
     double nearest_m() const { return nearest_m_; }
     // Light and transmittance of the air before an object at a distance; only where camera_in_air().

@@ -96,6 +96,18 @@ void copy_rays(const RayPacket& from, RTCRay16& to) {
     blank_rays(from.count, to);
 }
 
+std::uint32_t blocked_in(RTCScene scene, const RayPacket& rays) {
+    alignas(64) int valid[kPacketSize];
+    set_valid(rays.count, valid);
+    RTCRay16 query;
+    copy_rays(rays, query);
+    occluded_16(valid, scene, query);
+    // Embree marks a blocked ray by tfar = -infinity.
+    std::uint32_t blocked = 0;
+    for (int i = 0; i < rays.count; ++i) blocked |= (query.tfar[i] < 0 ? 1u : 0u) << i;
+    return blocked;
+}
+
 }  // namespace
 
 // An object whose instance has to be told its scene anew.
@@ -240,15 +252,11 @@ void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacke
 
 std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
     if (implementation_->recorded) implementation_->recorded->push_back({rays, kOcclusion, true});
-    alignas(64) int valid[kPacketSize];
-    set_valid(rays.count, valid);
-    RTCRay16 query;
-    copy_rays(rays, query);
-    occluded_16(valid, implementation_->top, query);
-    // Embree marks a blocked ray by tfar = -infinity.
-    std::uint32_t blocked = 0;
-    for (int i = 0; i < rays.count; ++i) blocked |= (query.tfar[i] < 0 ? 1u : 0u) << i;
-    return blocked;
+    return blocked_in(implementation_->top, rays);
+}
+
+std::uint32_t EmbreeScene::occluded_by(std::size_t object, const RayPacket& rays) const {
+    return blocked_in(implementation_->levels[object][implementation_->shown[object]], rays);
 }
 
 void EmbreeScene::start_recording() {

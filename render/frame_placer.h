@@ -48,6 +48,10 @@ class FramePlacer {
     const ObjectPlan& plan(std::size_t object) const { return plans_[object]; }
     bool is_point(std::size_t object) const { return frame_.is_point[object] != 0; }
     double radius_m(std::size_t object) const { return radii_m_[object]; }
+    // The last of the objects is the ground.
+    bool has_terrain() const { return terrain_ != nullptr; }
+    // Of the pixels that can meet the sphere that holds an object.
+    PixelBox box_of(std::size_t object) const;
     // Any ray of the camera through the box can meet something.
     bool can_see_anything(const PixelBox& box) const {
         return frame_.object_mask->any(box) || frame_.may_see_body(box) || box.overlaps(frame_.sun_box);
@@ -92,7 +96,6 @@ class FramePlacer {
     WorldSnapshot world_;
 
     void choose_levels();
-    PixelBox box_of(std::size_t object) const;
     void place_objects();
     void place_background();
 };

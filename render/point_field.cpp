@@ -50,16 +50,15 @@ void PointField::push(const Sighting& seen, const PointSource& point,
     }
 }
 
-void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
-                     std::vector<PointSource>& points, std::uint32_t object) const {
-    Sighting sighting;
-    if (!find(dir, distance_m, sighting)) return;
+bool PointField::look(Vec3d dir, double distance_m, const Spectrum& irradiance, Sighting& sighting,
+                      Spectrum& seen) const {
+    if (!find(dir, distance_m, sighting)) return false;
     const auto px = static_cast<int>(sighting.position_px.x + frame_.geometry.guard_px),
                py = static_cast<int>(sighting.position_px.y + frame_.geometry.guard_px);
     const PixelBox here{px, py, px + 1, py + 1};
-    Spectrum seen = irradiance;
+    seen = irradiance;
     if (frame_.may_see_body(here)) {
-        if (frame_.background->hides_seen(dir, distance_m)) return;
+        if (frame_.background->hides_seen(dir, distance_m)) return false;
         // The air between dims it; the air's own light is in the image already.
         Spectrum ignored;
         if (frame_.background->air()) frame_.background->add_bodies_seen(dir, seen, ignored);
@@ -75,9 +74,16 @@ void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
         RayPacket ray;
         ray.count = 1;
         ray.set(0, start, to_float(thing_dir), 0, static_cast<float>(until_m));
-        if (until_m > 0 && frame_.scene->occluded(ray)) return;
+        if (until_m > 0 && frame_.scene->occluded(ray)) return false;
     }
-    push(sighting, {{}, seen, object, {}}, points);
+    return true;
+}
+
+void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
+                     std::vector<PointSource>& points, std::uint32_t object) const {
+    Sighting sighting;
+    Spectrum seen;
+    if (look(dir, distance_m, irradiance, sighting, seen)) push(sighting, {{}, seen, object, {}}, points);
 }
 
 void PointField::add_stars(const std::vector<Star>& stars, std::vector<PointSource>& points) const {

@@ -27,6 +27,9 @@ class PointField {
         Sighting ignored;
         return find(dir, distance_m, ignored);
     }
+    // Where add() draws it, and with what light; false: it is outside, or hidden.
+    bool look(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um, Sighting& where,
+              Spectrum& seen_w_m2_um) const;
 
   private:
     const FrameView& frame_;

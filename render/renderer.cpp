@@ -8,6 +8,7 @@
 #include "render/object_probe.h"
 #include "render/point_field.h"
 #include "render/render_bench.h"
+#include "render/truth_probe.h"
 
 namespace hilcam {
 namespace {
@@ -127,6 +128,12 @@ void Renderer::set_drifts(const WorldSnapshot& before, const WorldSnapshot& afte
 }
 
 bool Renderer::last_shows_body() const { return implementation_->placer.shows_body(); }
+
+FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int height_px) const {
+    return hilcam::make_truth(implementation_->placer, wishes, width_px, height_px);
+}
+
+void Renderer::tell_truth(FrameTruth& truth) const { TruthProbe(implementation_->placer, truth).tell(); }
 
 std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     Implementation& my = *implementation_;

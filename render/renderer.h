@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "render/frame_truth.h"
 #include "render/image.h"
 #include "render/image_geometry.h"
 #include "render/image_motion.h"
@@ -71,6 +72,12 @@ class Renderer {
                     std::span<PointSource> points);
     // A body's disk or terrain on one may be in the last picture: how it moves depends on the bodies.
     bool last_shows_body() const;
+
+    // A record with room for what frames show, up to a size of them. Owner thread.
+    FrameTruth make_truth(const TruthWishes& wishes, int width_px, int height_px) const;
+    // What the world that was placed last, by render() or motion(), shows; truth.raster is set. Loop, as
+    // render().
+    void tell_truth(FrameTruth& truth) const;
 
     // An upper bound of the points that render() can give.
     std::size_t most_points() const;

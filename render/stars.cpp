@@ -41,7 +41,8 @@ std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, Vec3d o
     const double epoch_days = (catalogue.epoch_year - 2000.0) * 365.25;
     const JulianDate now = julian_tt(time);
     std::vector<Star> stars;
-    for (const CatalogueStar& star : catalogue.stars) {
+    for (std::size_t row = 0; row < catalogue.stars.size(); ++row) {
+        const CatalogueStar& star = catalogue.stars[row];
         if (star.magnitude_v > faintest_magnitude) continue;
         // ERFA wants dRA/dt itself; at the poles the cosine is limited so that it stays finite.
         const double ra_rate = star.pm_ra_cosdec_rad_yr / std::max(1e-9, std::cos(star.declination_rad));
@@ -54,6 +55,8 @@ std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, Vec3d o
                                   observer_velocity_m_s);
         out.irradiance_w_m2_um = star_irradiance_w_m2_um(star.magnitude_v, star.color_b_v, grid);
         out.magnitude_v = static_cast<float>(star.magnitude_v);
+        out.row = static_cast<std::uint32_t>(row);
+        out.hd = static_cast<std::uint32_t>(star.hd);
         stars.push_back(out);
     }
     return stars;

@@ -8,6 +8,7 @@
 //   temperature from B-V: Ballesteros, EPL 97 (2012) 34008, eq. 14, good to a few percent from 3,000 to
 //   30,000 K. V = 0: 3.63e-8 W m^-2 um^-1 at the V band (Bessell, Castelli & Plez, A&A 333, 1998, table A2).
 
+#include <cstdint>
 #include <vector>
 
 #include "render/spectrum.h"
@@ -21,6 +22,8 @@ struct Star {
     Vec3d world_dir;              // unit, ICRF
     Spectrum irradiance_w_m2_um;  // at the aperture, mean over each bin
     float magnitude_v = 0;
+    std::uint32_t row = 0;  // of the catalogue's stars, from 0
+    std::uint32_t hd = 0;   // Henry Draper number; 0: none
 };
 
 // Colour temperature [K] of a Johnson B-V index; B-V is limited to -0.4 .. 2.5, beyond which the formula runs

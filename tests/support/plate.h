@@ -9,6 +9,7 @@
 #include "emulator/command_dispatch.h"
 #include "emulator/emulator.h"
 #include "emulator/scene_loader.h"
+#include "emulator/truth_source.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
@@ -88,6 +89,7 @@ struct LoopRig {
     ExposureRenderer exposures;
     CommandDispatch dispatch;
     Collector collector;
+    std::unique_ptr<TruthSink> truth;  // with outputs.truth
     FrameLoop loop;
 
     LoopRig(const std::filesystem::path& file, const LoopLimits& limits,
@@ -106,15 +108,27 @@ struct LoopRig {
           poses(scenario.commands.poses, scenario.mode == CameraMode::kLockstep),
           exposures(*renderer, scenario, grid, world.placed_objects()),
           dispatch({{&world, &settings, &faults}}, clock, &poses),
-          loop(exposures, chain, scenario.camera, world, settings, faults, clock, {&collector}, 1, limits,
-               &poses) {}
-    ~LoopRig() { loop.stop(); }
+          truth(scenario.outputs.has_truth ? make_truth_sink(scenario, grid, 1, *renderer) : nullptr),
+          loop(exposures, chain, scenario.camera, world, settings, faults, clock, sinks(), 1, limits,
+               &poses) {
+        if (!truth) return;
+        truth->start();
+        loop.tell_truth_to(*truth);
+    }
+    ~LoopRig() {
+        loop.stop();
+        if (truth) truth->stop();
+    }
 
     CommandStatus send(const Command& command) {
         return dispatch.handle(command, {++sequence_, monotonic_ns()});
     }
 
   private:
+    std::vector<FrameSink*> sinks() {
+        if (truth) return {&collector, truth.get()};
+        return {&collector};
+    }
     std::uint32_t sequence_ = 0;
 };
 

@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""Truth from outside: files beside a rendered picture, and lines over TCP from a running camera.
+
+    truth_test.py HILCAM SOURCE_DIR
+"""
+import json
+import math
+import pathlib
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+HILCAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
+PORT = 15612
+
+
+def rotated(wxyz, v):
+    """v turned by a unit quaternion."""
+    w, q = wxyz[0], wxyz[1:]
+
+    def cross(a, b):
+        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+    t = [2 * c for c in cross(q, v)]
+    return [v[i] + w * t[i] + cross(q, t)[i] for i in range(3)]
+
+
+class Truth(unittest.TestCase):
+    def check(self, t):
+        """What must hold of any frame of the scenario, by its own figures."""
+        target = t["objects"][0]
+        self.assertEqual(target["name"], "target")
+        # The camera looks at the world's origin, where the target is.
+        camera = t["pose"]["position_m"]
+        self.assertAlmostEqual(target["distance_m"], math.dist(camera, target["position_m"]), places=6)
+        in_camera = [p - c for p, c in zip(target["position_m"], camera)]
+        back = rotated(t["pose"]["attitude_wxyz"], target["position_camera_m"])
+        for a, b in zip(in_camera, back):
+            self.assertAlmostEqual(a, b, places=6)
+        x, y, z = target["position_camera_m"]
+        fx, fy = t["image"]["focal_length_px"]
+        cx, cy = t["image"]["principal_point_px"]
+        self.assertAlmostEqual(target["center_px"][0], cx + fx * x / z, places=4)
+        self.assertAlmostEqual(target["center_px"][1], cy + fy * y / z, places=4)
+        # Both say the same of the Sun.
+        sun = rotated(t["pose"]["attitude_wxyz"], t["sun"]["direction_camera"])
+        for a, b in zip(sun, t["sun"]["direction"]):
+            self.assertAlmostEqual(a, b, places=9)
+        self.assertGreater(target["visible_px"], 100)
+        # Nothing is before it; where its box stays inside the frame, all of it is visible.
+        left, top, width, height = target["silhouette_box_px"]
+        inside = left >= 0 and top >= 0 and left + width <= t["image"]["width_px"] and top + height <= t["image"]["height_px"]
+        if inside:
+            self.assertEqual(target["visible_fraction"], 1)
+        else:
+            self.assertLess(target["visible_fraction"], 1)
+        self.assertEqual([b["name"] for b in t["bodies"]][0], "sun")
+
+    def test_a_picture_with_its_truth(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            subprocess.run([HILCAM, "render", SCENARIO, "--out", folder / "with.png", "--truth", folder / "truth"],
+                           check=True, timeout=120)
+            subprocess.run([HILCAM, "render", SCENARIO, "--out", folder / "without.png"], check=True, timeout=120)
+            self.assertEqual((folder / "with.png").read_bytes(), (folder / "without.png").read_bytes())
+            lines = (folder / "truth/truth.jsonl").read_text().splitlines()
+            self.assertEqual(len(lines), 1)
+            self.check(json.loads(lines[0]))
+            picture = (folder / "truth/truth_00000001.exr").read_bytes()
+            self.assertEqual(picture[:4], bytes([0x76, 0x2F, 0x31, 0x01]))  # OpenEXR's magic number
+            for channel in (b"object.ID", b"range.D", b"depth.Z", b"normal.X", b"position.Z"):
+                self.assertIn(channel + b"\0", picture[:4096])
+
+    def test_a_running_cameras_lines(self):
+        with tempfile.TemporaryDirectory() as folder:
+            report = pathlib.Path(folder) / "report.json"
+            process = subprocess.Popen([HILCAM, "run", SCENARIO, "--set", f"outputs.truth.port={PORT}", "--duration", "60",
+                                        "--report", report], stderr=subprocess.PIPE, text=True)
+            try:
+                client = self.connect(process)
+                lines = client.makefile()
+                frames = []
+                for _ in range(5):
+                    t = json.loads(lines.readline())
+                    self.check(t)
+                    frames.append(t)
+                ids = [t["frame"] for t in frames]
+                self.assertEqual(ids, sorted(set(ids)))
+                # Both clocks run alike.
+                self.assertEqual(frames[-1]["time_tai_ns"] - frames[0]["time_tai_ns"],
+                                 frames[-1]["monotonic_ns"] - frames[0]["monotonic_ns"])
+            finally:
+                process.terminate()
+                process.communicate(timeout=30)
+            outputs = {o["name"]: o for o in json.loads(report.read_text())["outputs"]}
+            self.assertGreaterEqual(outputs["truth"]["frames"], 5)
+            self.assertGreater(outputs["truth"]["truth_ms"], 0)
+
+    def connect(self, process):
+        for _ in range(600):
+            if process.poll() is not None:
+                self.fail(process.stderr.read())
+            try:
+                client = socket.create_connection(("127.0.0.1", PORT), timeout=30)
+                return client
+            except ConnectionRefusedError:
+                time.sleep(0.1)
+        self.fail("the camera does not open its port")
+        return None
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
