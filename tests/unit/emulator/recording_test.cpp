@@ -403,7 +403,8 @@ TEST_F(ReplayTest, ARecordingThatIsCutOffGivesItsFramesUpToThere) {
     limits.record = recording;
     Emulator(scenario_into("run"), limits).run([] {});
     std::filesystem::copy_file(recording, cut);
-    std::filesystem::resize_file(cut, std::filesystem::file_size(recording) * 3 / 4);
+    const std::uintmax_t header = RecordingReader(recording).offset(), size = std::filesystem::file_size(cut);
+    std::filesystem::resize_file(cut, header + (size - header) * 3 / 4);
     const Frames whole = replay(recording, "whole", 2, true), part = replay(cut, "part", 2, true);
     EXPECT_EQ(whole.size(), 60u);
     EXPECT_FALSE(outcomes_.at(0).whole);
