@@ -52,6 +52,7 @@ EventSequence::EventSequence(std::span<const EventConfig> events, const EventWor
 
 void EventSequence::saw(const SeenFrame& frame, const WorldSnapshot& world) {
     seen_ = frame;
+    if (frame.dark) return;
     for (Event& e : events_) {
         if (!e.condition) continue;
         const bool holds = e.condition->holds(world);

@@ -257,7 +257,8 @@ void FrameLoop::count_budget() {
 void FrameLoop::tell_watcher(const Slot& slot) {
     const FrameUse& use = slot.use;
     if (watcher_)
-        watcher_->seen({use.id, use.begin_ns, use.exposure_mid, use.exposure_s}, exposures_.middle_world());
+        watcher_->seen({use.id, use.begin_ns, use.exposure_mid, use.exposure_s, use.shutter_closed},
+                       exposures_.middle_world());
 }
 
 // --- stage 2

@@ -12,6 +12,7 @@ struct SeenFrame {
     std::int64_t begin_ns = 0;  // of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it
     TimeTai middle;             // of the exposure, simulated
     double exposure_s = 0;
+    bool dark = false;  // its shutter was closed: the world is that of a frame before, or none
 };
 
 class FrameWatcher {
