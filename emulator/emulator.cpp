@@ -43,7 +43,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
       clock_(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep,
              scenario.clock),
       poses_(scenario.commands.poses, scenario.mode == CameraMode::kLockstep) {
-    check_replay();
+    prepare_recording();
     const RealTime& wishes = scenario.loop.real_time;
     require_rights(wishes);
     if (!wishes.cores.empty())
@@ -74,12 +74,12 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
 }
 
 // Before minutes go into a scene.
-void Emulator::check_replay() const {
+void Emulator::prepare_recording() {
+    if (!limits_.record.empty() || !limits_.replay.empty()) recording_ = recording_header(scenario_);
     if (limits_.replay.empty()) return;
     const RecordingReader recording(limits_.replay);
-    const RecordingHeader own = recording_header(scenario_, clock_start_ns_);
     for (const std::string& warning :
-         check_recording(recording.header(), limits_.replay.string(), own, limits_.replay_force))
+         check_recording(recording.header(), limits_.replay.string(), recording_, limits_.replay_force))
         spdlog::warn("{}", warning);
 }
 
@@ -101,7 +101,8 @@ void Emulator::make_replays() {
 void Emulator::make_recorder() {
     if (limits_.record.empty()) return;
     for (const std::string& warning : recording_warnings(scenario_)) spdlog::warn("{}", warning);
-    recorder_ = std::make_unique<Recorder>(limits_.record, recording_header(scenario_, clock_start_ns_));
+    recording_.monotonic_start_ns = clock_start_ns_;
+    recorder_ = std::make_unique<Recorder>(limits_.record, recording_);
     dispatch_->record_to(*recorder_);
     for (const auto& station : stations_) station->record_to(*recorder_);
 }

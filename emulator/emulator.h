@@ -48,7 +48,7 @@ class Emulator {
     const std::vector<std::unique_ptr<Replay>>& replays() const { return replays_; }
 
   private:
-    void check_replay() const;
+    void prepare_recording();
     void make_replays();
     void make_recorder();
     void make_events();
@@ -69,6 +69,7 @@ class Emulator {
     PoseWatch poses_;
     SilenceLog silence_log_{clock_, poses_};
     std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null
+    RecordingHeader recording_;                   // with a recorder
     std::unique_ptr<Recorder> recorder_;          // outlives all that records; may be null
     std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them
     std::unique_ptr<EventDirector> events_;         // outlives the loop that it watches; may be null

@@ -24,13 +24,12 @@ std::uint32_t crc_of_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-RecordingHeader recording_header(const ScenarioConfig& scenario, std::int64_t monotonic_start_ns) {
+RecordingHeader recording_header(const ScenarioConfig& scenario) {
     RecordingHeader header;
     header.program = kProgramVersion;
     header.build = crc_of_file("/proc/self/exe");
     header.processor = machine_report()["processor"].get<std::string>();
     header.start = parse_utc(scenario.time_utc);
-    header.monotonic_start_ns = monotonic_start_ns;
     header.cameras = static_cast<std::uint16_t>(1 + scenario.more_cameras.size());
     header.lockstep = scenario.mode == CameraMode::kLockstep;
     header.scenario = scenario_listing(scenario);
