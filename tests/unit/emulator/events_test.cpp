@@ -251,12 +251,12 @@ TEST_F(EventsTest, MistakesAreNamedWithTheirPlace) {
 TEST_F(EventsTest, InLockstepTheyMakeARunOfTheirOwn) {
     const auto file = scenario("",
                                "mode: lockstep\n"
-                               "camera_pose: {velocity_m_s: [0, 0, 1]}\n"
+                               "camera_pose: {velocity_m_s: [0, 0, 0.9]}\n"
                                "events:\n"
                                "  - {at_s: 1, every_s: 1, times: 5, do: expose}\n"
                                "  - {at_s: 2.5, do: settings --exposure-ms 5}\n"
                                "  - {at_frame: 5, do: settings --gain-db 6}\n"
-                               // 4 m at the start: 1 m in the frame of 3 s
+                               // 4 m at the start: 1.3 m in the frame of 3 s
                                "  - {name: near, when: {object: plate, distance_below_m: 1.5},\n"
                                "     do: fault image_black}\n"
                                "  - {after: near, delay_s: 1.5, do: fault clear}\n"
