@@ -36,7 +36,7 @@ const std::vector<KnobRow>& knob_rows() {
         {"noise budget", "quality.noise_budget", {"0", "2", "1", "0.5", "0.3"}, Needs::kSurfaces},
         {"contribution threshold",
          "quality.contribution_threshold",
-         {"0.02", "0.001"},
+         {"0.5", "0.02", "0.001"},
          Needs::kSurfaces,
          KnobRole::kBounces},
         {"Sun's disk", "quality.sun_disk", {"false", "true"}, Needs::kSurfaces},
@@ -194,7 +194,9 @@ std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
         // here.
         "quality.max_depth=8",
         fmt::format("quality.samples_per_axis={}", (kRaysPerAxis + oversampling - 1) / oversampling),
-        "quality.noise_budget=0",
+        // One pass of scattered rays: averaged frames then have no grid in common.
+        "quality.noise_budget=0.1",
+        "quality.most_passes=1",
         "quality.contribution_threshold=0.0001",
         "quality.sun_disk=true",
         "quality.facets_behind_diffuse=0",

@@ -1,13 +1,13 @@
 #pragma once
 // Samples pixels again until their error is small against the noise of the sensor that will look at them.
 //
-// A part of a tile is traced in passes. In each, every pixel that is still wanted gets n x n rays, each at a
-// random place of its own cell of an n x n grid (stratified: Cook, ACM TOG 5(1), 1986), so that a pass alone
-// is already an unbiased mean over the pixel, and passes are independent of one another. Of the passes'
-// means, in electrons, each pixel keeps count, mean and sum of squared deviations (Welford, Technometrics
-// 4(3), 1962). A pixel of k passes is wanted while
+// A part of a tile is traced in passes. In each, every pixel that is still wanted gets the next n x n rays of
+// its sequence (place_sequence.h), so that a pass alone is already an unbiased mean over the pixel, and
+// passes fill one another's gaps. Of the passes' means, in electrons, each pixel keeps count, mean and sum of
+// squared deviations (Welford, Technometrics 4(3), 1962). A pixel of k passes is wanted while
 //     V / k > budget^2 averaged sigma^2,
-// V the variance of one pass, sigma that of the sensor (pixel_noise.h).
+// V the variance of one pass, sigma that of the sensor (pixel_noise.h). That is the error of independent
+// passes; these are better at edges, so it is on the safe side.
 //
 // V is not taken from the pixel alone. Few samples often agree by chance - two at the same side of an edge,
 // ten that all miss a glint - and who trusts them stops just where the error is largest (Dippe & Wold,

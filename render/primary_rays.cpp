@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/place_sequence.h"
+
 namespace hilcam {
 namespace {
 
@@ -52,7 +54,7 @@ class PrimaryRays {
                 for (int s = 0; s < n * n; ++s) {
                     const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
                     if (tile_.scattered)
-                        scatter(static_cast<float>(s % n), static_cast<float>(s / n), step, sample);
+                        scatter(sample);
                     else
                         center((static_cast<float>(s % n) + 0.5f) * step,
                                (static_cast<float>(s / n) + 0.5f) * step);
@@ -83,14 +85,15 @@ class PrimaryRays {
     void center(float dx, float dy) {
         for (std::size_t k = 0; k < kPacketSize; ++k) x_at_[k] = x_of_[k] + dx, y_at_[k] = y_of_[k] + dy;
     }
-    // Each at a place of its own in a cell of its pixel, `step` wide.
-    void scatter(float cell_x, float cell_y, float step, std::uint16_t sample) {
+    // Each at a place of its own, of its pixel's sequence.
+    void scatter(std::uint16_t sample) {
         for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
             const std::uint32_t pixel = tile_.frame_pixel(tile_.box.x0 + static_cast<int>(x_of_[k]),
                                                           tile_.box.y0 + static_cast<int>(y_of_[k]));
-            const auto words = random_words(frame_.key, RandomPurpose::kPixelPlace, pixel, sample);
-            x_at_[k] = x_of_[k] + (cell_x + uniform01(words[0])) * step;
-            y_at_[k] = y_of_[k] + (cell_y + uniform01(words[1])) * step;
+            const auto words = random_words(frame_.key, RandomPurpose::kPixelPlace, pixel);
+            const auto [dx, dy] = place_in_sequence(sample, words[0], words[1]);
+            x_at_[k] = x_of_[k] + dx;
+            y_at_[k] = y_of_[k] + dy;
         }
     }
 

@@ -21,7 +21,7 @@ enum class RandomPurpose : std::uint32_t {
     kTelegraph = 8,     // of a pixel; the frame counts the draws
     kCosmicRay = 9,     // pixel: number of the track
     kFault = 10,        // of a fault on demand; index: its kind
-    kPixelPlace = 11,   // of a ray in its pixel; index: sample
+    kPixelPlace = 11,   // of the sequence of rays in a pixel (place_sequence.h)
     kPointing = 32,     // of the camera's line of sight; pixel: sinusoid, index: axis
     kAttitude = 33,     // of a body's attitude; pixel: sinusoid, index: thing and axis
 };

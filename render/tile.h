@@ -32,7 +32,7 @@ struct Tile {
     std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
     TileStats& stats;
     // Of a pass over pixels that are sampled more than once (adaptive_sampler.h).
-    bool scattered = false;                // rays at random places of their cells; false: at their middles
+    bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
     std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
     const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
 
