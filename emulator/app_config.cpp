@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "emulator/event_sequence.h"
+#include "emulator/lamp_setup.h"
 #include "io/config_yaml.h"
 #include "io/plain_number.h"
 #include "render/check.h"
@@ -284,6 +285,7 @@ Fields fields(ScenarioConfig& s) {
                  s.has_leap_seconds),
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
         optional(section("terrain", s.terrain, "ground from a height map"), s.has_terrain),
+        sections("lamps", s.lamps, "light sources on things; commands number them from 1 (docs/lamps.md)"),
         section("sun", s.sun, "the Sun"),
         section("atmosphere", s.atmosphere, "the Earth's air"),
         section("stars", s.stars, "the stars"),
@@ -411,6 +413,7 @@ void validate(const ScenarioConfig& s) {
             throw InputError("events: camera: found " + std::to_string(event.camera) + "; accepted: 0 to " +
                              std::to_string(1 + s.more_cameras.size()));
     const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
+    lamp_mounts(s);
     if (s.commands.has_vizard) check_vizard(s);
     if (s.mode == CameraMode::kLockstep) require_lockstep(s.clock), require_lockstep(s.commands.poses);
 }

@@ -11,6 +11,7 @@
 #include "emulator/clock.h"
 #include "emulator/event_condition.h"
 #include "emulator/event_config.h"
+#include "emulator/lamp_config.h"
 #include "emulator/motion_config.h"
 #include "emulator/pose_watch.h"
 #include "emulator/quality_ladder.h"
@@ -214,6 +215,7 @@ struct ScenarioConfig {
     std::vector<ObjectConfig> objects;
     TerrainConfig terrain;
     bool has_terrain = false;
+    std::vector<LampConfig> lamps;
     SunConfig sun;
     std::array<BodyConfig, kBodyCount> bodies;
     AtmosphereConfig atmosphere;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emulator/lamp_setup.h"
 #include "emulator/motion_builder.h"
 #include "emulator/scene_loader.h"
 #include "emulator/status.h"
@@ -45,7 +46,7 @@ std::vector<Joint> joints_of(const ScenarioConfig& scenario) {
 
 WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time) {
     WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario), scenario.mount,
-                     load_motion_sources(scenario));
+                     load_motion_sources(scenario), lamp_mounts(scenario));
     WorldSnapshot world;
     world.objects.resize(state.placed_objects());
     ShownCommand shown;
@@ -105,7 +106,8 @@ void CameraStation::load(const SpectralGrid& grid) {
     const TimeTai start = parse_utc(scenario_.time_utc);
     world_ =
         std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
-                                     joints_of(scenario_), scenario_.mount, load_motion_sources(scenario_));
+                                     joints_of(scenario_), scenario_.mount, load_motion_sources(scenario_),
+                                     lamp_mounts(scenario_));
     renderer_->require_air(snapshot_at(scenario_, start, start));
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
     if (limits_.outputs && scenario_.outputs.has_truth) {

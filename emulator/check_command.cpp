@@ -6,6 +6,7 @@
 #include "emulator/camera_sheet.h"
 #include "emulator/emulator.h"
 #include "emulator/exposure_renderer.h"
+#include "emulator/lamp_setup.h"
 #include "emulator/motion_builder.h"
 #include "emulator/scene_loader.h"
 #include "emulator/shutter_timing.h"
@@ -17,7 +18,8 @@ namespace {
 // How the exposure of the first instant will be made, and why.
 std::string motion_line(const ScenarioConfig& s, Renderer& renderer, const SpectralGrid& grid) {
     const TimeTai start = parse_utc(s.time_utc);
-    WorldState world(initial_motions(s, start), s.origin, joints_of(s), s.mount, load_motion_sources(s));
+    WorldState world(initial_motions(s, start), s.origin, joints_of(s), s.mount, load_motion_sources(s),
+                     lamp_mounts(s));
     ExposureRenderer exposures(renderer, s, grid, world.placed_objects());
     const double exposure_s = ShutterTiming(s.camera).exposure_s(s.camera.exposure_s);
     const ExposureRenderer::Plan plan = exposures.plan(world, start, exposure_s);

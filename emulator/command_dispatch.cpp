@@ -40,11 +40,12 @@ SettingsChange change_of(const TriggerModeCommand& m) {
     return change;
 }
 
-// Poses and joints are noted before they take effect: no frame may show one that is not noted. What only asks
+// Poses, joints and lamps are noted before they take effect: no frame may show one that is not noted. What only asks
 // is not noted at all.
 bool is_noted_after(const Command& command) {
     const auto* clock = std::get_if<ClockCommand>(&command);
     return !std::holds_alternative<PoseCommand>(command) && !std::holds_alternative<JointCommand>(command) &&
+           !std::holds_alternative<LampCommand>(command) &&
            !std::holds_alternative<PingCommand>(command) &&
            !std::holds_alternative<SubscribeCommand>(command) &&
            !(clock && clock->action == ClockCommand::Action::kAsk);
@@ -73,6 +74,7 @@ std::uint64_t CommandDispatch::note(const Command& command, const CommandSource&
 CommandStatus CommandDispatch::perform(const Command& command, const CommandSource& source) {
     if (const auto* pose = std::get_if<PoseCommand>(&command)) return set_pose(*pose, source);
     if (const auto* joint = std::get_if<JointCommand>(&command)) return turn(*joint, source);
+    if (const auto* lamp = std::get_if<LampCommand>(&command)) return switch_lamp(*lamp, source);
     if (const auto* settings = std::get_if<SettingsCommand>(&command))
         return change(change_of(*settings), source, CommandStatus::kBadArgument);
     if (const auto* mode = std::get_if<TriggerModeCommand>(&command))
@@ -169,6 +171,15 @@ CommandStatus CommandDispatch::turn(const JointCommand& joint, const CommandSour
                 [&](WorldState& world, const ShownCommand& shown, bool anew) {
                     return world.set_joint(joint.object, joint.joint,
                                            {resolved.time, joint.angle_rad, joint.rate_rad_s}, shown, anew);
+                });
+}
+
+CommandStatus CommandDispatch::switch_lamp(const LampCommand& lamp, const CommandSource& source) {
+    if (!cameras_.front().world->thing_of_lamp(lamp.lamp)) return CommandStatus::kUnknownObject;
+    LampCommand resolved = lamp;
+    return move(resolved, {0, 0, lamp.lamp}, resolved.time, source, false,
+                [&](WorldState& world, const ShownCommand& shown, bool anew) {
+                    return world.set_lamp(lamp.lamp, {resolved.time, lamp.level}, shown, anew);
                 });
 }
 

@@ -50,6 +50,7 @@ class CommandDispatch : public CommandHandler {
     CommandStatus for_cameras(std::uint16_t camera, F&& act);
     CommandStatus set_pose(const PoseCommand& pose, const CommandSource& source);
     CommandStatus turn(const JointCommand& joint, const CommandSource& source);
+    CommandStatus switch_lamp(const LampCommand& lamp, const CommandSource& source);
     template <class C, class F>
     CommandStatus move(const C& command, PoseWatch::Subject subject, TimeTai& tag,
                        const CommandSource& source, bool anew, F&& set);

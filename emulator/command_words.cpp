@@ -112,6 +112,27 @@ void add_joint(CLI::App& app, const Take& take) {
     });
 }
 
+void add_lamp(CLI::App& app, const Take& take) {
+    struct Options {
+        std::string what, utc;
+        unsigned lamp = 1;
+        double level = 1;
+    };
+    CLI::App* lamp = app.add_subcommand("lamp", "switch a lamp");
+    const auto o = std::make_shared<Options>();
+    lamp->add_option("what", o->what, "on or off")->required()->check(CLI::IsMember({"on", "off"}));
+    lamp->add_option("--lamp", o->lamp, "1, 2, ...: the scenario's lamps")->check(CLI::Range(1, 65535));
+    CLI::Option* level = lamp->add_option("--level", o->level, "on: share of its intensity, 0 to 1")
+                             ->check(CLI::Range(0.0, 1.0));
+    lamp->add_option("--at-utc", o->utc, "simulated time of the switch; left out: on arrival");
+    on(lamp, take, [=] {
+        const bool off = o->what == "off";
+        if (off && level->count()) throw InputError("'off' and --level do not go together");
+        return LampCommand{static_cast<std::uint16_t>(o->lamp), o->utc.empty() ? TimeTai{} : parse_utc(o->utc),
+                           off ? 0 : o->level};
+    });
+}
+
 void add_expose(CLI::App& app, const Take& take) {
     struct Options {
         unsigned frames = 0;
@@ -240,6 +261,7 @@ void add_command_words(CLI::App& app, const Take& take, const std::function<void
     add_settings(app, take);
     add_pose(app, take);
     add_joint(app, take);
+    add_lamp(app, take);
     add_expose(app, take);
     add_mode(app, take);
     add_clock(app, take);

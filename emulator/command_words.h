@@ -10,7 +10,8 @@
 
 namespace hilcam {
 
-// Adds a subcommand for each command: ping, start, stop, settings, pose, joint, expose, mode, clock, fault.
+// Adds a subcommand for each command: ping, start, stop, settings, pose, joint, lamp, expose, mode,
+// clock, fault.
 // `take` gets the one that was chosen, when parsing ends well; `list_faults` is called for "fault list",
 // which is no command, unless it is empty.
 void add_command_words(CLI::App& app, const std::function<void(const Command&)>& take,

@@ -179,6 +179,9 @@ Command EventDirector::stamped(Command command, const EventSequence::Due& due) c
                    [&](JointCommand& joint) {
                        if (joint.time.ns == 0) joint.time = due.time;
                    },
+                   [&](LampCommand& lamp) {
+                       if (lamp.time.ns == 0) lamp.time = due.time;
+                   },
                    // A picture that a frame asks for is the next one that can be.
                    [&](ExposeCommand& expose) {
                        if (expose.time.ns == 0 && due.by_clock) expose.time = due.time;

@@ -124,7 +124,9 @@ ExposureRenderer::Plan ExposureRenderer::plan_of(const ImageMotion& motion) cons
 }
 
 void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownCommand& shown) {
+    const std::int64_t half_ns = span.length_ns / 2;
     world.sample(span.middle, middle_, shown);
+    world.average_lamps(span.middle + -half_ns, span.middle + half_ns, middle_);
     middle_.camera = jitter_.applied(middle_.camera, span.middle, span.exposure_s);
     slow_down(span.moving, middle_);
 }
@@ -209,6 +211,7 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
         sample_again(world, span, begin, true, before_);
         sample_again(world, span, end, true, after_);
         sample_again(world, span, begin + (end - begin) / 2, true, part_world_);
+        world.average_lamps(begin, end, part_world_);
         RenderStats stats;
         // Each part draws its own samples.
         const RandomKey part_key{key.seed + static_cast<std::uint64_t>(k) * 0x9E3779B97F4A7C15u, key.frame};

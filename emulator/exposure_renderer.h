@@ -13,6 +13,9 @@
 // A scanning line sees each place when it passes: for it exact is fast. What moves less than a thousandth of
 // a pixel is at rest, and its frames are those of motion off.
 //
+// A lamp that is switched meanwhile shines for its share of the time: of the exposure, with exact motion of
+// each part. Rows that are lit one after the other have the same share.
+//
 // Pointing jitter (sensor/motion.h) turns the camera before anything else: one draw per exposure.
 
 #include <cstdint>

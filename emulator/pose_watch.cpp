@@ -66,6 +66,7 @@ void PoseWatch::took(Subject subject, TimeTai tag, TimeTai arrival, Verdict verd
     TimeTai& newest = newest_tags_.try_emplace(subject, tag).first->second;
     const bool anew = verdict != Verdict::kForwards;
     newest = anew ? tag : std::max(newest, tag);
+    if (subject.lamp != 0) return;
     if (rules_.watch == WatchedPoses::kCamera && (subject.object != 0 || subject.joint != 0)) return;
     const std::int64_t at_ns = lockstep_ ? newest.ns : arrival.ns;
     newest_ns_.store(anew && lockstep_ ? at_ns : std::max(at_ns, newest_ns_.load(std::memory_order_relaxed)),

@@ -61,9 +61,10 @@ class PoseWatch {
     const PoseRules& rules() const { return rules_; }
     std::int64_t horizon_ns() const { return horizon_ns_; }
 
-    // What a pose tells of; joint 0: the thing itself.
+    // What a pose tells of; joint 0: the thing itself. Or a lamp, from 1: its time tags are judged, but it is
+    // no pose, and its coming ends no silence.
     struct Subject {
-        std::uint16_t object = 0, joint = 0;
+        std::uint16_t object = 0, joint = 0, lamp = 0;
         friend auto operator<=>(const Subject&, const Subject&) = default;
     };
     enum class Verdict : std::uint8_t {

@@ -28,12 +28,12 @@ struct RecordingHeader {
     std::string scenario;  // scenario_listing.h
 };
 
-// One that was accepted. Time tags of poses and joints are those that they were given on arrival.
+// One that was accepted. Time tags of poses, joints and lamps are those that they were given on arrival.
 struct RecordedCommand {
     std::uint64_t number = 0;  // from 1
     Command command;
     CommandSource source;
-    bool forgets = false;  // of a pose or joint: what was known of the thing before
+    bool forgets = false;  // of a pose, joint or lamp: what was known of it before
 };
 // A camera's settings have changed, by a command or by a client of the camera.
 struct RecordedChange {
@@ -48,7 +48,7 @@ struct RecordedTrigger {
     TriggerOrder order;
     TriggerResult result = TriggerResult::kTaken;
 };
-// The camera's next frame shows this command of the thing (WorldState::set) at the newest.
+// The camera's next frame shows this command of the thing (WorldState::things) at the newest.
 struct RecordedShown {
     std::uint16_t camera = 0;
     std::uint32_t thing = 0;

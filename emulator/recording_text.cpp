@@ -50,6 +50,11 @@ void add_command(json& out, const Command& command, const RecordingHeader& heade
                        out["angle_rad"] = j.angle_rad;
                        out["rate_rad_s"] = j.rate_rad_s;
                    },
+                   [&](const LampCommand& l) {
+                       out["lamp"] = l.lamp;
+                       out["at_s"] = seconds_since(l.time, header);
+                       out["level"] = l.level;
+                   },
                    [&](const SettingsCommand& s) {
                        add(out, "exposure_s", s.exposure_s);
                        add(out, "gain_db", s.gain_db);

@@ -153,6 +153,7 @@ std::optional<std::size_t> Replay::thing_of(const Command& command) const {
     if (const auto* pose = std::get_if<PoseCommand>(&command)) return camera_.world->thing_of(pose->object);
     if (const auto* joint = std::get_if<JointCommand>(&command))
         return camera_.world->thing_of(joint->object, joint->joint);
+    if (const auto* lamp = std::get_if<LampCommand>(&command)) return camera_.world->thing_of_lamp(lamp->lamp);
     return {};
 }
 
@@ -164,6 +165,8 @@ void Replay::apply(const Pending& pending) {
     if (const auto* joint = std::get_if<JointCommand>(&c.command))
         camera_.world->set_joint(joint->object, joint->joint,
                                  {joint->time, joint->angle_rad, joint->rate_rad_s}, shown, c.forgets);
+    if (const auto* lamp = std::get_if<LampCommand>(&c.command))
+        camera_.world->set_lamp(lamp->lamp, {lamp->time, lamp->level}, shown, c.forgets);
 }
 
 // Why the loop cannot be given a frame, or empty: CRCs find accidents, not files that somebody has made.

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <optional>
 
+#include "emulator/lamp_setup.h"
 #include "io/atmosphere_file.h"
 #include "io/brdf_file.h"
 #include "io/catalogue_file.h"
@@ -95,6 +96,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
             t.has_place ? std::optional(t.place.body) : std::nullopt, t.place.place,
             load_material(t.material, grid), t.edge_px, static_cast<std::size_t>(t.most_triangles), t.wait});
     }
+    scene.lamps = scene_lamps(scenario, grid);
     if (!scenario.stars.catalogue.empty())
         scene.stars =
             stars_at(load_catalogue(scenario.stars.catalogue), time,

@@ -1,6 +1,7 @@
 #include "emulator/still_camera.h"
 
 #include "emulator/camera_station.h"
+#include "emulator/lamp_setup.h"
 #include "emulator/motion_builder.h"
 #include "emulator/scene_loader.h"
 #include "emulator/shutter_timing.h"
@@ -28,7 +29,7 @@ StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
       time_(parse_utc(scenario.time_utc) + static_cast<std::int64_t>(time_offset_s * 1e9)),
       snapshot_(snapshot_at(scenario, parse_utc(scenario.time_utc), time_)),
       world_(initial_motions(scenario, parse_utc(scenario.time_utc)), scenario.origin, joints_of(scenario),
-             scenario.mount, load_motion_sources(scenario)),
+             scenario.mount, load_motion_sources(scenario), lamp_mounts(scenario)),
       exposures_(*renderer_, scenario, grid_, world_.placed_objects()),
       radiance_(exposures_.make_image()),
       exposure_(first_exposure(scenario.camera)) {

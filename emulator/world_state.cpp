@@ -69,12 +69,14 @@ Motion WorldState::History::motion_at(TimeTai time) const {
 }
 
 WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& origin,
-                       std::span<const Joint> joints, const Mount& mount, MotionSources sources)
+                       std::span<const Joint> joints, const Mount& mount, MotionSources sources,
+                       std::span<const LampMount> lamps)
     : joints_(joints.begin(), joints.end()),
       objects_(motions.size() - 1),
       origin_(origin),
       mount_(mount),
       sources_(std::move(sources)),
+      lamps_(lamps),
       now_(motions.begin(), motions.end()),
       live_(motions.size()) {
     HILCAM_CHECK(mount.thing <= objects_);
@@ -88,6 +90,7 @@ WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& orig
     for (const Joint& joint : joints)
         add({motions.front().time, {{joint.angle_rad, 0, 0}, {}}, {joint.rate_rad_s, 0, 0}, {}});
     HILCAM_CHECK(!things_.empty());
+    for (const LampMount& lamp : lamps) HILCAM_CHECK(lamp.thing <= placed_objects());
 }
 
 std::optional<std::size_t> WorldState::thing_of(std::size_t object) const {
@@ -102,6 +105,11 @@ std::optional<std::size_t> WorldState::thing_of(std::size_t object, std::size_t 
     return {};
 }
 
+std::optional<std::size_t> WorldState::thing_of_lamp(std::size_t lamp) const {
+    if (lamp < 1 || lamp > lamps_.size()) return {};
+    return things_.size() + lamp - 1;
+}
+
 bool WorldState::set(std::size_t object, const Motion& motion, ShownCommand command, bool alone) {
     const auto thing = thing_of(object);
     return thing && write(*things_[*thing], motion, command, alone);
@@ -112,6 +120,13 @@ bool WorldState::set_joint(std::size_t object, std::size_t joint, const JointMot
     const auto thing = thing_of(object, joint);
     return thing && write(*things_[*thing], {m.time, {{m.angle_rad, 0, 0}, {}}, {m.rate_rad_s, 0, 0}, {}},
                           command, alone);
+}
+
+bool WorldState::set_lamp(std::size_t lamp, const LampSwitch& order, ShownCommand command, bool alone) {
+    if (!thing_of_lamp(lamp)) return false;
+    const std::lock_guard lock(writers_);
+    lamps_.set(lamp - 1, order, command, alone);
+    return true;
 }
 
 bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command, bool alone) {
@@ -133,11 +148,13 @@ void WorldState::sample(TimeTai time, WorldSnapshot& world, ShownCommand& shown)
         if (thing->sampled->command.arrival_monotonic_ns > shown.arrival_monotonic_ns)
             shown = thing->sampled->command;
     }
+    lamps_.read(shown);
     sample_again(time, true, world);
 }
 
 void WorldState::shown_numbers(std::span<std::uint64_t> numbers) const {
     for (std::size_t i = 0; i < things_.size(); ++i) numbers[i] = things_[i]->sampled->command.number;
+    lamps_.shown_numbers(numbers.subspan(things_.size()));
 }
 
 // Where the things are that sources move, after those that are commanded or at rest: sources may follow them.
@@ -168,6 +185,7 @@ void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& wor
         const double angle_rad = things_[1 + objects_ + i]->sampled->at(time).position_world_m.x;
         world.objects[objects_ + i] = turned(world.objects[joint.object], joint, angle_rad);
     }
+    lamps_.place(time, lamps_.size() > 0 ? motion(0).pose : Pose{}, world);
 }
 
 }  // namespace hilcam

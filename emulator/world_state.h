@@ -15,19 +15,13 @@
 #include <vector>
 
 #include "emulator/motion_source.h"
+#include "emulator/shown_command.h"
+#include "emulator/world_lamps.h"
 #include "render/bodies.h"
 #include "render/latest.h"
 #include "render/scene.h"
 
 namespace hilcam {
-
-// Which command a frame shows at the newest.
-struct ShownCommand {
-    std::uint32_t sequence = 0;
-    std::int64_t arrival_monotonic_ns = 0;  // 0: none yet
-    TimeTai time{};                         // its tag; set by WorldState
-    std::uint64_t number = 0;               // in the recording, from 1; 0: in none
-};
 
 // A part of an object that turns about an axis (object's axes, unit).
 struct Joint {
@@ -49,7 +43,8 @@ class WorldState {
   public:
     // motions[0] is the camera's body, then the objects. Owner thread.
     WorldState(std::span<const Motion> motions, const OriginConfig& origin,
-               std::span<const Joint> joints = {}, const Mount& mount = {}, MotionSources sources = {});
+               std::span<const Joint> joints = {}, const Mount& mount = {}, MotionSources sources = {},
+               std::span<const LampMount> lamps = {});
 
     // Any thread but the loop. False when there is no such thing. `alone`: what was known of it is forgotten.
     bool set(std::size_t object, const Motion& motion, ShownCommand command, bool alone = false);
@@ -62,11 +57,14 @@ class WorldState {
     };
     bool set_joint(std::size_t object, std::size_t joint, const JointMotion& motion, ShownCommand command,
                    bool alone = false);
+    // A lamp, from 1, from an instant on. False when there is no such lamp.
+    bool set_lamp(std::size_t lamp, const LampSwitch& order, ShownCommand command, bool alone = false);
     // The thing that a command is about, counted as shown_numbers() does; none when there is no such one.
     std::optional<std::size_t> thing_of(std::size_t object) const;
     std::optional<std::size_t> thing_of(std::size_t object, std::size_t joint) const;
-    // The camera's body, objects and joints.
-    std::size_t things() const { return things_.size(); }
+    std::optional<std::size_t> thing_of_lamp(std::size_t lamp) const;
+    // The camera's body, objects, joints and lamps.
+    std::size_t things() const { return things_.size() + lamps_.size(); }
     // Objects and joints: what `world.objects` must have room for.
     std::size_t placed_objects() const { return things_.size() - 1; }
     // Loop, one thread. `world.objects` must have room for placed_objects(): the objects, then the joints'
@@ -75,6 +73,10 @@ class WorldState {
     // Another instant, told from what the last sample() knew: commands that came since do not count. Without
     // bodies they stay as they are in `world`.
     void sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const;
+    // Lamps as bright as on average from then until then; of what the last sample() knew. Loop.
+    void average_lamps(TimeTai from, TimeTai until, WorldSnapshot& world) const {
+        lamps_.average(from, until, world);
+    }
     // Of each of things(), the number of the newest command that the last sample() knew. Loop.
     void shown_numbers(std::span<std::uint64_t> numbers) const;
     // How often a source was asked for an instant that it does not know, and stood still. Any thread.
@@ -104,6 +106,7 @@ class WorldState {
     OriginConfig origin_;
     Mount mount_;
     MotionSources sources_;
+    WorldLamps lamps_;
     // The loop's: where all things are at the instant that is being sampled, and which are commanded.
     mutable std::vector<Motion> now_;
     mutable std::vector<std::uint8_t> live_;

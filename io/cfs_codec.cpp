@@ -68,7 +68,7 @@ Refusal read_packet(std::span<const std::uint8_t> packet, bool checksum_required
     if (checksum_required && cfs_checksum(packet) != 0)
         return {CommandStatus::kBadChecksum, "checksum does not match"};
     const std::optional<std::size_t> expected = payload_bytes(out.function);
-    if (!expected) return {CommandStatus::kUnknownFunction, "function code is not 1 to 11"};
+    if (!expected) return {CommandStatus::kUnknownFunction, "function code is not 1 to 12"};
     if (in.left() != *expected)
         return {CommandStatus::kBadLength, "payload is not as long as its function's"};
     return read_payload(in, out.function, out.command);

@@ -30,7 +30,7 @@ Refusal read_packet(std::span<const std::uint8_t> packet, DecodedCommand& out) {
     if (crc16(packet) != 0) return {CommandStatus::kBadChecksum, "CRC-16 does not match"};
     if (version != kProtocolVersion) return {CommandStatus::kBadHeader, "protocol version is not 1"};
     const std::optional<std::size_t> expected = payload_bytes(out.function);
-    if (!expected) return {CommandStatus::kUnknownFunction, "function code is not 1 to 11"};
+    if (!expected) return {CommandStatus::kUnknownFunction, "function code is not 1 to 12"};
     if (in.left() != *expected + kCrcBytes)
         return {CommandStatus::kBadLength, "payload is not as long as its function's"};
     return read_payload(in, out.function, out.command);

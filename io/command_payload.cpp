@@ -11,7 +11,7 @@ struct Layout {
     std::size_t bytes;
 };
 // By function code - 1.
-constexpr std::array<Layout, 11> kLayouts = {{
+constexpr std::array<Layout, 12> kLayouts = {{
     {"pose", 2 + 2 + 8 + 13 * 8},
     {"settings", 4 + 3 * 8},
     {"start", 0},
@@ -23,6 +23,7 @@ constexpr std::array<Layout, 11> kLayouts = {{
     {"mode", 4},
     {"subscribe", 4},
     {"clock", 4 + 3 * 8},
+    {"lamp", 2 + 2 + 8 + 8},
 }};
 static_assert(std::variant_size_v<Command> == kLayouts.size());
 static_assert(std::is_same_v<std::variant_alternative_t<6, Command>, FaultCommand>);
@@ -200,6 +201,17 @@ void write(ByteWriter& out, const ClockCommand& clock) {
     out.u8(static_cast<std::uint8_t>(clock.action)).u8(0).u16(0);
     out.u64(static_cast<std::uint64_t>(clock.sender_ns)).f64(clock.scale);
     out.u64(static_cast<std::uint64_t>(clock.step_ns));
+}
+
+Refusal read(ByteReader& in, LampCommand& lamp) {
+    lamp.lamp = in.u16();
+    in.u16();
+    lamp.time.ns = in.i64();
+    lamp.level = in.f64();
+    return lamp.level >= 0 && lamp.level <= 1 ? Refusal{} : bad("level of a lamp is not 0 to 1");
+}
+void write(ByteWriter& out, const LampCommand& lamp) {
+    out.u16(lamp.lamp).u16(0).u64(static_cast<std::uint64_t>(lamp.time.ns)).f64(lamp.level);
 }
 
 // The alternative of a function code, made and read.

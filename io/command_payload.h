@@ -17,7 +17,7 @@ struct Refusal {
     std::string_view reason{};
 };
 
-// 1 to 11, in the order of Command's alternatives.
+// 1 to 12, in the order of Command's alternatives.
 std::uint8_t function_of(const Command& command);
 // "pose", "settings", ...; empty for a function that does not exist.
 std::string_view name_of_function(std::uint8_t function);

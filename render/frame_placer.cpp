@@ -20,6 +20,7 @@ bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
 FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                          const RenderQuality& quality, const RenderModels& models, const Modules& modules)
     : embree_(ordered_meshes(with_terrain_object(scene)), quality.watertight),
+      lamps_(std::move(scene.lamps)),
       stars_(std::move(scene.stars)),
       bodies_(std::move(scene.bodies)),
       air_(std::move(scene.air)),
@@ -52,6 +53,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.is_point.resize(objects_.size());
     frame_.background = &background_;
     frame_.radiance = radiance_model_.get();
+    frame_.lamps = &lamps_;
     frame_.bands = &bands_;
     frame_.rays = rays_.get();
     frame_.geometry = geometry;
@@ -103,6 +105,7 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     const RaySpace space = choose_ray_space(world_, radii_m_, rays_->is_still());
     const double pixel_rad = 1 / frame_.geometry.focal_length_px;
     background_.place(world_, space.origin_world_m, pixel_rad);
+    lamps_.place(world_, space.origin_world_m);
     frame_.key = key;
     frame_.rays_world_m = space.origin_world_m;
     frame_.camera_m = world_.camera.position_world_m - space.origin_world_m;

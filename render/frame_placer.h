@@ -14,6 +14,7 @@
 #include "render/embree_scene.h"
 #include "render/frame_view.h"
 #include "render/image_motion.h"
+#include "render/lamp_light.h"
 #include "render/plan.h"
 #include "render/radiance_model.h"
 #include "render/render_quality.h"
@@ -68,6 +69,7 @@ class FramePlacer {
     std::size_t triangles() const { return triangles_; }
     const std::vector<Star>& stars() const { return stars_; }
     const Background& background() const { return background_; }
+    const Lamps& lamps() const { return lamps_; }
     const Atmosphere* air() const { return air_.get(); }  // may be null
     EmbreeScene& embree() { return embree_; }             // for measuring
 
@@ -80,6 +82,7 @@ class FramePlacer {
     std::vector<double> radii_m_;
     std::vector<ObjectPlan> plans_;
     std::vector<PixelBox> object_boxes_;  // pixels that can meet an object
+    Lamps lamps_;
     std::vector<Star> stars_;
     std::array<SceneBody, kBodyCount> bodies_;
     std::unique_ptr<Atmosphere> air_;

@@ -20,6 +20,7 @@
 
 namespace hilcam {
 
+class Lamps;
 class RadianceModel;
 
 // Constant while a frame's tiles are traced.
@@ -31,6 +32,7 @@ struct FrameView {
     const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
+    const Lamps* lamps = nullptr;  // lamp_light.h; null: none
     const ColorBands* bands = nullptr;
     const RayGenerator* rays = nullptr;
     ImageGeometry geometry;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "render/lamp_light.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -74,6 +75,19 @@ std::string sun_line(const FrameView& f, const WorldSnapshot& world) {
     return line.str();
 }
 
+std::string lamp_line(const FrameView& f, std::size_t i) {
+    std::ostringstream line;
+    line << "lamp " << i + 1 << " '" << f.lamps->all()[i].name << "': ";
+    for (const PlacedLamp& lamp : f.lamps->lit()) {
+        if (lamp.number != i) continue;
+        line << "lit, " << length(lamp.position_m - f.camera_m)
+             << " m from the camera: a shadow ray to it from every surface that its beam meets";
+        return line.str();
+    }
+    line << "off: costs nothing";
+    return line.str();
+}
+
 std::string air_line(const Background& background) {
     if (!background.air()) return "no atmosphere";
     return "atmosphere " + background.air()->describe() +
@@ -110,6 +124,8 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
     for (const PlacedBody& body : f.background->points())
         far.append(" ").append(kBodyNames[index_of(body.id)]);
     lines.push_back(far.empty() ? "no body is a point" : "points (smaller than a pixel):" + far);
+    for (std::size_t i = 0; i < f.lamps->all().size(); ++i) lines.push_back(lamp_line(f, i));
+    if (f.lamps->all().empty()) lines.push_back("no lamps");
     lines.push_back(air_line(*f.background));
     add(planned.stars, " stars to look through");
     add(f.has_glass ? "glass: shadow rays go through it" : "no glass: shadow rays end at the first surface");

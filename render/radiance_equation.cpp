@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/brdf_microfacet.h"
+#include "render/lamp_light.h"
 #include "render/shadow_rays.h"
 
 namespace hilcam {
@@ -140,6 +141,7 @@ class RadianceEquation final : public RadianceModel {
             for (const Vertex& at : vertices)
                 tile.pixels[at.pixel] += at.weight * at.surface.material->emission;
         add_sunlight(tile, vertices);
+        add_lamps_reflected(tile, vertices);
         if (lamps != LampLight::kNone) add_lamplight(tile, vertices, lamps);
     }
     bool emits() const override { return emission_; }

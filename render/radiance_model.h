@@ -2,7 +2,7 @@
 // The light that a surface sends towards the viewer by itself: the terms of equation (1) that need no
 // recursion. One of the program's exchangeable models; the recursion is path_model.h's.
 //
-//   reflected   Sun and bodies, reflected (the paper's equation without emission)
+//   reflected   Sun, bodies and lamps, reflected (the paper's equation without emission)
 //   emissive    the same, and eps L_T of materials that have a temperature
 
 #include <span>

@@ -46,12 +46,13 @@ struct Renderer::Implementation {
         placer.set_quality(tracer.quality(), tracer.paths_sample_lobes());
     }
 
-    // Stars, bodies and objects that are drawn as points. Gives what it took to trace.
+    // Stars, bodies, lamps and objects that are drawn as points. Gives what it took to trace.
     TileStats add_points(std::vector<PointSource>& points) {
         const PointField field(placer.frame(), placer.world());
         field.add_stars(placer.stars(), points);
         for (const PlacedBody& body : placer.background().points())
             field.add(body.world_dir, body.distance_m, placer.background().point_irradiance(body), points);
+        add_lamps_seen(placer.frame(), field, points);
         TileStats sum;
         for (std::size_t i = 0; i < placer.objects(); ++i)
             if (placer.is_point(i))
@@ -75,7 +76,8 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 std::size_t Renderer::most_points() const {
     const FramePlacer& placer = implementation_->placer;
     const std::size_t cells = ObjectProbe::kMostCells * ObjectProbe::kMostCells;
-    return placer.stars().size() + placer.objects() * cells + kBodyCount;
+    return placer.stars().size() + placer.objects() * cells + kBodyCount +
+           placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const {

@@ -13,6 +13,7 @@
 #include "render/body_light.h"
 #include "render/color_bands.h"
 #include "render/height_map.h"
+#include "render/lamp.h"
 #include "render/material.h"
 #include "render/mesh.h"
 #include "render/mesh_lod.h"
@@ -50,6 +51,7 @@ struct SceneTerrain {
 struct Scene {
     std::vector<SceneObject> objects;
     std::unique_ptr<SceneTerrain> terrain;  // null: none
+    std::vector<SceneLamp> lamps;
     std::vector<Star> stars;
     std::array<SceneBody, kBodyCount> bodies;  // by BodyId
     std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
@@ -59,13 +61,14 @@ struct Scene {
     SceneBody& body(BodyId id) { return bodies[index_of(id)]; }
 };
 
-// One instant of the world: what a frame shows. objects: a pose per Scene::objects.
+// One instant of the world: what a frame shows. objects: a pose per Scene::objects; lamps: as Scene::lamps.
 struct WorldSnapshot {
     TimeTai time;
     Pose camera;
     Vec3d camera_velocity_m_s;  // in the world; for cameras whose rows are not of one instant
     Vec3d camera_rate_rad_s;    // about the camera's axes
     std::vector<Pose> objects;
+    ShownLamps lamps;
     Bodies bodies;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rays that ask whether a lamp is seen, sixteen at a time; through glass if there is any.
+// Rays that ask whether what shines is seen, sixteen at a time; through glass if there is any.
 
 #include <array>
 #include <limits>
@@ -8,8 +8,10 @@
 
 namespace hilcam {
 
-// What sheets of glass between origin and lamp let pass; zero where something else is met. Loop, any thread.
-Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir);
+// What sheets of glass within `until_m` let pass; zero where something else is met. dir: unit. Loop, any
+// thread.
+Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir,
+                              float until_m = std::numeric_limits<float>::infinity());
 
 // Payload: what the caller needs to know of a ray again. Lit is called as lit(payload, transmittance) for
 // every ray that gets through, in order; transmittance is null where nothing is in the way.
@@ -24,9 +26,11 @@ class ShadowRays {
     ShadowRays(const ShadowRays&) = delete;
     ShadowRays& operator=(const ShadowRays&) = delete;
 
-    void add(Vec3f origin_m, Vec3f dir, const Payload& payload) {
+    // until_m: how far away that is; dir: unit.
+    void add(Vec3f origin_m, Vec3f dir, const Payload& payload,
+             float until_m = std::numeric_limits<float>::infinity()) {
         payloads_[static_cast<std::size_t>(rays_.count)] = payload;
-        rays_.set(rays_.count, origin_m, dir, 0, std::numeric_limits<float>::infinity());
+        rays_.set(rays_.count, origin_m, dir, 0, until_m);
         if (++rays_.count == kPacketSize) flush();
     }
 
@@ -48,7 +52,7 @@ class ShadowRays {
             } else if (frame_.has_glass) {
                 const Spectrum passed =
                     passed_through_glass(frame_, {rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]},
-                                         {rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]});
+                                         {rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]}, rays_.farthest[k]);
                 if (largest(passed) > 0) lit_(payloads_[k], &passed);
             }
         }

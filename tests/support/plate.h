@@ -8,6 +8,7 @@
 
 #include "emulator/command_dispatch.h"
 #include "emulator/emulator.h"
+#include "emulator/lamp_setup.h"
 #include "emulator/scene_loader.h"
 #include "emulator/truth_source.h"
 #include "tests/support/files.h"
@@ -100,7 +101,8 @@ struct LoopRig {
                                  geometry_of(scenario.camera, static_cast<int>(scenario.quality.guard_px)))),
           chain(scenario.camera, grid, sampling_of(scenario)),
           start(parse_utc(scenario.time_utc)),
-          world(initial_motions(scenario, start), scenario.origin, joints_of(scenario)),
+          world(initial_motions(scenario, start), scenario.origin, joints_of(scenario), {}, {},
+                lamp_mounts(scenario)),
           settings(scenario.camera, {.lockstep = scenario.mode == CameraMode::kLockstep,
                                      .triggered = scenario.mode == CameraMode::kTriggered}),
           faults(1),

@@ -35,6 +35,7 @@ inline MaterialConfig lambert(double albedo) {
 inline Scene copy_of(const Scene& scene) {
     Scene copy;
     copy.objects = scene.objects;
+    copy.lamps = scene.lamps;
     copy.stars = scene.stars;
     copy.bodies = scene.bodies;
     copy.sun_irradiance_1au_w_m2_um = scene.sun_irradiance_1au_w_m2_um;

@@ -61,6 +61,12 @@ typedef struct {
     double rate_rad_s;
 } hilcam_joint;
 
+typedef struct {
+    uint16_t lamp;        // from 1
+    int64_t time_tai_ns;  // from when on; 0: on arrival
+    double level;         // 0: off; 1: as its data sheet says
+} hilcam_lamp;
+
 enum { HILCAM_SET_EXPOSURE = 1, HILCAM_SET_GAIN = 2, HILCAM_SET_FRAME_RATE = 4 };
 typedef struct {
     uint32_t mask;  // which of them are set; the others are not looked at
@@ -444,6 +450,16 @@ static inline size_t hilcam_encode_clock(const hilcam_envelope* e, const hilcam_
     hilcam_put_(&w, (uint64_t)clock->sender_ns, 8);
     hilcam_put_doubles_(&w, &clock->scale, 1);
     hilcam_put_(&w, (uint64_t)clock->step_ns, 8);
+    return hilcam_end_(e, &w);
+}
+
+static inline size_t hilcam_encode_lamp(const hilcam_envelope* e, const hilcam_lamp* lamp, uint8_t* bytes,
+                                        size_t room) {
+    hilcam_writer_ w = hilcam_begin_(e, 12, bytes, room);
+    hilcam_put_(&w, lamp->lamp, 2);
+    hilcam_put_(&w, 0, 2);
+    hilcam_put_(&w, (uint64_t)lamp->time_tai_ns, 8);
+    hilcam_put_doubles_(&w, &lamp->level, 1);
     return hilcam_end_(e, &w);
 }
 

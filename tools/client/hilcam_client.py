@@ -178,7 +178,19 @@ class Clock:
         return struct.pack(">Bxxxqdq", self.action, self.sender_ns, self.scale, self.step_ns)
 
 
-COMMANDS = (Pose, Settings, Start, Stop, Ping, Joint, Fault, Expose, Mode, Subscribe, Clock)
+@dataclasses.dataclass(frozen=True)
+class Lamp:
+    """level: 0 off, 1 as its data sheet says."""
+    FUNCTION: ClassVar[int] = 12
+    lamp: int = 1
+    time_tai_ns: int = 0  # from when on; 0: on arrival
+    level: float = 1.0
+
+    def payload(self):
+        return struct.pack(">Hxxqd", self.lamp, self.time_tai_ns, self.level)
+
+
+COMMANDS = (Pose, Settings, Start, Stop, Ping, Joint, Fault, Expose, Mode, Subscribe, Clock, Lamp)
 
 
 def encode(command, sequence, camera=0, dialect=HILCAM):

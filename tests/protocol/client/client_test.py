@@ -71,6 +71,8 @@ class Values:
             # hilcam's own encoder writes a rate of 1 and no more where all faults end.
             numbers = (self.rng.choice(list(h.FAULTS.values())), self.f64(), self.f64(), self.unsigned(64), self.unsigned(64),
                        self.f64()) if self.rng.random() < 0.9 else (0, 1.0, 0.0, 0, 0, 0.0)
+        elif kind is h.Lamp:
+            numbers = (self.unsigned(16), self.i64(), self.f64())
         elif kind is h.Expose:
             numbers = (self.unsigned(16), self.i64())
         elif kind is h.Mode:
@@ -160,7 +162,8 @@ class Encoders(unittest.TestCase):
         text = (pose_stream.SOURCE / "docs/protocol.md").read_text()
         examples = {5: h.Ping(0x1122334455667788), 6: h.Settings(exposure_s=0.002),
                     7: h.Fault("packet_drop", rate=0.02, duration_s=30), 8: h.Expose(3), 9: h.Mode(True, 5),
-                    10: h.Subscribe(True, True), 11: h.Clock(h.Clock.SCALE, 1_000_000_000, scale=0.5)}
+                    10: h.Subscribe(True, True), 11: h.Clock(h.Clock.SCALE, 1_000_000_000, scale=0.5),
+                    12: h.Lamp(2, 1_500_000_000, 0.5)}
         for sequence, command in examples.items():
             self.assertIn("\n    " + h.encode(command, sequence).hex(" ").upper() + "\n", text)
         self.assertIn("\n    " + h.encode(h.Ping(0x1122334455667788), 5, dialect=h.CFS).hex(" ").upper() + "\n", text)

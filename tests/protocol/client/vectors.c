@@ -103,6 +103,13 @@ static size_t encode(const hilcam_envelope* e, unsigned function, const uint64_t
             clock.step_ns = signed_of(n[3]);
             return hilcam_encode_clock(e, &clock, bytes, room);
         }
+        case 12: {
+            hilcam_lamp lamp;
+            lamp.lamp = (uint16_t)n[0];
+            lamp.time_tai_ns = signed_of(n[1]);
+            lamp.level = number_of(n[2]);
+            return hilcam_encode_lamp(e, &lamp, bytes, room);
+        }
         default:
             return 0;
     }

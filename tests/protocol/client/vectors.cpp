@@ -107,6 +107,13 @@ Command command_of(Line& in) {
             clock.step_ns = in.i64();
             return clock;
         }
+        case 12: {
+            LampCommand lamp;
+            lamp.lamp = in.as<std::uint16_t>();
+            lamp.time.ns = in.i64();
+            lamp.level = in.f64();
+            return lamp;
+        }
         default: {
             const std::uint64_t mask = in.u64();
             return SubscribeCommand{(mask & 1) != 0, (mask & 2) != 0};

@@ -37,9 +37,11 @@ TEST(CommandScript, LinesHaveTimesAndCommands) {
         "clock --scale 0.1\n"
         "clock step --seconds 0.5\n"
         "clock pause\n"
-        "clock\n",
+        "clock\n"
+        "lamp on --lamp 2 --level 0.25 --at-utc 2026-01-01T00:00:00Z\n"
+        "lamp off\n",
         "a.txt");
-    ASSERT_EQ(lines.size(), 13u);
+    ASSERT_EQ(lines.size(), 15u);
     EXPECT_EQ(lines[0].at_s, 0);
     EXPECT_EQ(lines[0].number, 2u);
     const auto& pose = std::get<PoseCommand>(lines[1].command);
@@ -73,6 +75,13 @@ TEST(CommandScript, LinesHaveTimesAndCommands) {
     EXPECT_EQ(clock(10).step_ns, 500'000'000);
     EXPECT_EQ(clock(11).action, Action::kPause);
     EXPECT_EQ(clock(12).action, Action::kAsk);
+    const auto lamp = [&](std::size_t line) { return std::get<LampCommand>(lines[line].command); };
+    EXPECT_EQ(lamp(13).lamp, 2);
+    EXPECT_EQ(lamp(13).level, 0.25);
+    EXPECT_EQ(lamp(13).time, parse_utc("2026-01-01T00:00:00Z"));
+    EXPECT_EQ(lamp(14).lamp, 1);
+    EXPECT_EQ(lamp(14).level, 0);
+    EXPECT_EQ(lamp(14).time.ns, 0);
 }
 
 TEST(CommandScript, MistakesNameTheLine) {

@@ -6,6 +6,7 @@
 
 #include "emulator/emulator.h"
 #include "emulator/exposure_renderer.h"
+#include "emulator/lamp_setup.h"
 #include "emulator/scene_loader.h"
 #include "emulator/shutter_timing.h"
 #include "render/units.h"
@@ -28,7 +29,7 @@ Shot shoot(const std::filesystem::path& file, const std::vector<std::string>& ov
                                         geometry_of(s.camera, static_cast<int>(s.quality.guard_px),
                                                     static_cast<int>(s.quality.oversampling)));
     const TimeTai start = parse_utc(s.time_utc);
-    WorldState world(initial_motions(s, start), s.origin, joints_of(s));
+    WorldState world(initial_motions(s, start), s.origin, joints_of(s), {}, {}, lamp_mounts(s));
     ExposureRenderer exposures(*renderer, s, grid, world.placed_objects());
     Shot shot;
     shot.radiance = exposures.make_image();

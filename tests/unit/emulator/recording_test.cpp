@@ -79,7 +79,8 @@ std::vector<Record> all_kinds() {
                                 FaultCommand{{FaultKind::kImageTear, 0.5, 0.25, 1, 2, 3}, false},
                                 FaultCommand{{}, true},
                                 TriggerModeCommand{true, 4},
-                                ClockCommand{ClockCommand::Action::kScale, 5, 0.5, 6}};
+                                ClockCommand{ClockCommand::Action::kScale, 5, 0.5, 6},
+                                LampCommand{2, {7}, 0.5}};
     std::uint64_t number = 0;
     for (const Command& command : commands)
         all.push_back(RecordedCommand{++number, command, {5, 6, 1, nullptr, 2}, true});

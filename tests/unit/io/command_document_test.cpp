@@ -51,6 +51,7 @@ TEST_F(ProtocolDocument, Commands) {
     expect_there(encoded(TriggerModeCommand{true, 5}, 9));
     expect_there(encoded(SubscribeCommand{true, true}, 10));
     expect_there(encoded(ClockCommand{ClockCommand::Action::kScale, 1'000'000'000, 0.5, 0}, 11));
+    expect_there(encoded(LampCommand{2, {1'500'000'000}, 0.5}, 12));
 }
 
 TEST_F(ProtocolDocument, Acknowledgement) {

@@ -119,6 +119,17 @@ TEST(CommandCodec, ClockComesBackAndWildOnesAreRefused) {
     EXPECT_EQ(reason({static_cast<Action>(5), 0, 1, 0}), "action of the clock is not 0 to 4");
 }
 
+TEST(CommandCodec, LampComesBackAndALevelBeyondItsEndsIsRefused) {
+    const LampCommand lamp = there_and_back(LampCommand{3, {-77}, 0.25});
+    EXPECT_EQ(lamp.lamp, 3);
+    EXPECT_EQ(lamp.time.ns, -77);
+    EXPECT_EQ(lamp.level, 0.25);
+    EXPECT_EQ(there_and_back(LampCommand{1, {}, 1}).level, 1);
+    for (const double wild : {-0.01, 1.01, std::nan(""), HUGE_VAL})
+        EXPECT_EQ(decode_command(encoded(LampCommand{1, {}, wild}, 1)).reason, "level of a lamp is not 0 to 1")
+            << wild;
+}
+
 TEST(AcknowledgementCodec, CarriesAReadingOfTheClockAfterAClockCommandAlone) {
     for (const DialectConfig& dialect : {DialectConfig{}, DialectConfig{Dialect::kCfs}}) {
         Acknowledgement a{kClockFunction, CommandStatus::kAccepted, 3, 4, {5'000'000'000}, "told"};
