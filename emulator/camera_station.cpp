@@ -104,10 +104,9 @@ void CameraStation::load(const SpectralGrid& grid) {
     chain_ = std::make_unique<SensorChain>(scenario_.camera, grid, sampling_of(scenario_),
                                            load_detector_pictures(scenario_.camera));
     const TimeTai start = parse_utc(scenario_.time_utc);
-    world_ =
-        std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
-                                     joints_of(scenario_), scenario_.mount, load_motion_sources(scenario_),
-                                     lamp_mounts(scenario_));
+    world_ = std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
+                                          joints_of(scenario_), scenario_.mount,
+                                          load_motion_sources(scenario_), lamp_mounts(scenario_));
     renderer_->require_air(snapshot_at(scenario_, start, start));
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
     if (limits_.outputs && scenario_.outputs.has_truth) {

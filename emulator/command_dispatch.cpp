@@ -40,13 +40,12 @@ SettingsChange change_of(const TriggerModeCommand& m) {
     return change;
 }
 
-// Poses, joints and lamps are noted before they take effect: no frame may show one that is not noted. What only asks
-// is not noted at all.
+// Poses, joints and lamps are noted before they take effect: no frame may show one that is not noted. What
+// only asks is not noted at all.
 bool is_noted_after(const Command& command) {
     const auto* clock = std::get_if<ClockCommand>(&command);
     return !std::holds_alternative<PoseCommand>(command) && !std::holds_alternative<JointCommand>(command) &&
-           !std::holds_alternative<LampCommand>(command) &&
-           !std::holds_alternative<PingCommand>(command) &&
+           !std::holds_alternative<LampCommand>(command) && !std::holds_alternative<PingCommand>(command) &&
            !std::holds_alternative<SubscribeCommand>(command) &&
            !(clock && clock->action == ClockCommand::Action::kAsk);
 }

@@ -128,8 +128,8 @@ void add_lamp(CLI::App& app, const Take& take) {
     on(lamp, take, [=] {
         const bool off = o->what == "off";
         if (off && level->count()) throw InputError("'off' and --level do not go together");
-        return LampCommand{static_cast<std::uint16_t>(o->lamp), o->utc.empty() ? TimeTai{} : parse_utc(o->utc),
-                           off ? 0 : o->level};
+        return LampCommand{static_cast<std::uint16_t>(o->lamp),
+                           o->utc.empty() ? TimeTai{} : parse_utc(o->utc), off ? 0 : o->level};
     });
 }
 

@@ -14,8 +14,8 @@
 //                       it run in time, the event is a frame late: its log line says before which frame it
 //                       was done.
 //
-// Joints turn, lamps are switched and poses hold from the event's time on; a fault without `--from-frame` strikes from the next
-// frame on.
+// Joints turn, lamps are switched and poses hold from the event's time on; a fault without `--from-frame`
+// strikes from the next frame on.
 
 #include <atomic>
 #include <memory>

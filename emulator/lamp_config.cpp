@@ -43,8 +43,7 @@ void validate(const LampConfig& l) {
         throw InputError("'spectrum' is a number; accepted: [[wavelength_um, value], ...]");
     if (l.has_beam_angle && l.has_beam)
         throw InputError("a lamp has either 'beam_angle_deg' or 'beam'; found both");
-    if (l.has_beam && l.beam.x.front() > 0)
-        throw InputError("'beam' does not begin at 0 degrees, the axis");
+    if (l.has_beam && l.beam.x.front() > 0) throw InputError("'beam' does not begin at 0 degrees, the axis");
 }
 
 }  // namespace hilcam

@@ -15,7 +15,8 @@ namespace {
 // As WorldState places things: the camera's body, objects, then all their turning parts.
 std::size_t thing_of(const LampConfig& lamp, const ScenarioConfig& s) {
     if (lamp.on == "camera") {
-        if (lamp.joint != 0) fail(lamp, "joint: found " + std::to_string(lamp.joint) + "; the camera has none");
+        if (lamp.joint != 0)
+            fail(lamp, "joint: found " + std::to_string(lamp.joint) + "; the camera has none");
         return 0;
     }
     std::size_t joints_before = 0;
@@ -74,7 +75,8 @@ std::vector<LampMount> lamp_mounts(const ScenarioConfig& s) {
                          std::to_string(kMostLamps));
     std::vector<LampMount> mounts;
     for (const LampConfig& lamp : s.lamps)
-        mounts.push_back({thing_of(lamp, s), lamp.position_m, normalized(lamp.axis), lamp.lit ? lamp.level : 0});
+        mounts.push_back(
+            {thing_of(lamp, s), lamp.position_m, normalized(lamp.axis), lamp.lit ? lamp.level : 0});
     return mounts;
 }
 

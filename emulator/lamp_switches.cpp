@@ -30,8 +30,8 @@ void LampSwitches::begin_anew() {
 
 double LampSwitches::at(TimeTai time) const {
     const auto* const begin = switches_.data();
-    const auto* const after = std::upper_bound(
-        begin, begin + count_, time, [](TimeTai t, const LampSwitch& s) { return t < s.time; });
+    const auto* const after = std::upper_bound(begin, begin + count_, time,
+                                               [](TimeTai t, const LampSwitch& s) { return t < s.time; });
     return after == begin ? before_ : (after - 1)->level;
 }
 

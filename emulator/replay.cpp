@@ -153,7 +153,8 @@ std::optional<std::size_t> Replay::thing_of(const Command& command) const {
     if (const auto* pose = std::get_if<PoseCommand>(&command)) return camera_.world->thing_of(pose->object);
     if (const auto* joint = std::get_if<JointCommand>(&command))
         return camera_.world->thing_of(joint->object, joint->joint);
-    if (const auto* lamp = std::get_if<LampCommand>(&command)) return camera_.world->thing_of_lamp(lamp->lamp);
+    if (const auto* lamp = std::get_if<LampCommand>(&command))
+        return camera_.world->thing_of_lamp(lamp->lamp);
     return {};
 }
 

@@ -4,7 +4,8 @@
 // Poses come with time tags, in any order. For a frame at time t: between two known motions it interpolates
 // (cubic in position, slerp in attitude), else it propagates the motion before t with its velocity and rate,
 // or, when all known ones lie after t, the first of them backwards. The last 8 motions of each thing are
-// kept. A thing with a source of motion (motion_source.h) is where that says until its first command.
+// kept. A thing with a source of motion (motion_source.h) is where that says until its first command. Lamps
+// (world_lamps.h) ride on things.
 
 #include <atomic>
 #include <cstdint>

@@ -87,9 +87,9 @@ inline constexpr double kLeastClockScale = 1e-3, kMostClockScale = 1e3;
 inline constexpr std::int64_t kMostClockStep_ns = 10'000'000'000'000'000;  // 116 days
 
 // In the order of their function codes.
-using Command =
-    std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand, JointCommand,
-                 FaultCommand, ExposeCommand, TriggerModeCommand, SubscribeCommand, ClockCommand, LampCommand>;
+using Command = std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand,
+                             JointCommand, FaultCommand, ExposeCommand, TriggerModeCommand, SubscribeCommand,
+                             ClockCommand, LampCommand>;
 inline constexpr std::uint8_t kClockFunction = 11;
 
 // The other half: when a packet came and its answer went, by simulated time and by the machine's
@@ -130,7 +130,7 @@ struct CommandNotes {
 struct CommandSource {
     std::uint32_t sequence = 0;
     std::int64_t arrival_monotonic_ns = 0;
-    std::uint16_t camera = 0;       // that it is for, from 1; 0: every one. Poses, angles and lamps are for all.
+    std::uint16_t camera = 0;  // that it is for, from 1; 0: every one. Poses, angles and lamps are for all.
     CommandNotes* notes = nullptr;  // to be filled, also when it is refused; may be null
     std::uint16_t event = 0;        // of the scenario, from 1, that gave it; 0: a sender
 };

@@ -47,7 +47,7 @@ inline constexpr std::size_t kMostLamps = 16;
 // As it stands after loading.
 struct SceneLamp {
     std::string name;
-    std::size_t thing = 0;  // that carries it; 0: the camera's body; 1, 2, ...: of the scene's objects
+    std::size_t thing = 0;       // that carries it; 0: the camera's body; 1, 2, ...: of the scene's objects
     Spectrum intensity_w_sr_um;  // I_0
     LampBeam beam;
 };

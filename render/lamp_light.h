@@ -27,9 +27,9 @@ inline constexpr double kLampClearance_m = 1e-3;
 
 // What comes from a lamp to a place.
 struct LampRay {
-    Vec3d dir;             // to the lamp, unit
+    Vec3d dir;  // to the lamp, unit
     double distance_m = 0;
-    float per_m2 = 0;      // b(theta) / d^2: irradiance across the ray, over intensity on the axis
+    float per_m2 = 0;  // b(theta) / d^2: irradiance across the ray, over intensity on the axis
 };
 
 // A lamp that is lit, in one frame.

@@ -1,7 +1,7 @@
 #pragma once
 // Equation (1) of Peng et al. 2011 at one surface: L = eps L_T + E_s tau_1 cos(sigma) f + (light of the
-// bodies) + (light of lamps, lamp_light.h). Sun: a point at the middle of its disk, with highlights as wide as the disk makes them, or its
-// disk by sampling.
+// bodies) + (light of lamps, lamp_light.h). Sun: a point at the middle of its disk, with highlights as wide
+// as the disk makes them, or its disk by sampling.
 
 #include <memory>
 

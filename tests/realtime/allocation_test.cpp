@@ -229,6 +229,15 @@ TEST_F(Allocation, NorWithStarsAutomaticExposureJitterAndExactMotion) {
               0);
 }
 
+TEST_F(Allocation, NorWithLamps) {
+    for (const char* motion : {"quality.motion=fast", "quality.motion=exact"})
+        EXPECT_EQ(allocations({motion, "camera_pose.rate_deg_s=[0, 100, 0]",
+                               "lamps=[{name: flood, intensity_w_sr_um: 1000, beam_angle_deg: 40}, {name: "
+                               "beacon, on: target, position_m: [0, 0, 9], intensity_w_sr_um: 1, beam: [[0, "
+                               "1], [180, 0.5]]}]"}),
+                  0);
+}
+
 TEST_F(Allocation, NorWithANoiseBudget) { EXPECT_EQ(allocations({"quality.noise_budget=0.2"}), 0); }
 
 // Below a budget that nothing meets it goes down a ladder of fifteen levels, some frames each: it is on its

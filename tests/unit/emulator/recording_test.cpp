@@ -257,6 +257,7 @@ class ReplayTest : public PlateTest {
             "  auto_exposure: {on: true}, frame_rate_hz: 40}";
         return scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 100], exposure_range_ms: [0.1, 20]",
                         "quality: {motion: exact, samples_per_axis: 2}\n"
+                        "lamps: [{name: flash, intensity_w_sr_um: 4000, beam_angle_deg: 20, lit: false}]\n"
                         "more_cameras:\n  - {camera: " +
                             second +
                             ", outputs: {files: {folder: unused, format: raw}}}\n"
@@ -332,6 +333,7 @@ void disturb(Emulator& emulator, std::uint32_t address, std::uint16_t port, cons
             settings.gain_db = 3 + 3 * uniform(random);
             send(settings);
         }
+        if (i % 20 == 5) send(LampCommand{1, {}, 0.5 + 0.5 * uniform(random)});
         if (i % 80 == 20) send(FaultCommand{{FaultKind::kImageBitFlips, 1e-3, 0, 0, 0, 0.05}, false});
         if (i % 80 == 60) send(FaultCommand{{FaultKind::kImageTear, 0.5, 0.5, 0, 0, 0.05}, false});
         if (i % 100 == 50) {
@@ -419,6 +421,7 @@ TEST_F(ReplayTest, LockstepWithEventsComesBackOnAnyNumberOfThreads) {
     file_ = scenario("",
                      "mode: lockstep\n"
                      "camera_pose: {velocity_m_s: [0.02, 0, 0.3]}\n"
+                     "lamps: [{name: flash, intensity_w_sr_um: 4000, lit: false}]\n"
                      "more_cameras:\n  - {camera: {name: second, width_px: 32, height_px: 32, pitch_um: 10,\n"
                      "  focal_length_mm: 4, f_number: 8, transmission: 0.01, quantum_efficiency: 0.5,\n"
                      "  full_well_e: 20000, gain_dn_e: 0.2, exposure_ms: 3},\n"
@@ -427,6 +430,8 @@ TEST_F(ReplayTest, LockstepWithEventsComesBackOnAnyNumberOfThreads) {
                      "events:\n"
                      "  - {at_s: 0.5, every_s: 0.5, times: 16, do: expose --frames 2}\n"
                      "  - {when: {object: plate, distance_below_m: 3.5}, do: settings --exposure-ms 7}\n"
+                     "  - {at_s: 1.2, every_s: 2, times: 4, do: lamp on --level 0.5}\n"
+                     "  - {at_s: 2.001, every_s: 2, times: 4, do: lamp off}\n"
                      "  - {at_s: 4, do: [fault image_tear --value 0.5 --frames 3, settings --gain-db 6]}\n"
                      "  - {at_s: 20, do: end}\n");
     const auto run_on = [&](std::size_t threads, const std::string& into) {

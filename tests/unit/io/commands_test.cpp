@@ -126,7 +126,8 @@ TEST(CommandCodec, LampComesBackAndALevelBeyondItsEndsIsRefused) {
     EXPECT_EQ(lamp.level, 0.25);
     EXPECT_EQ(there_and_back(LampCommand{1, {}, 1}).level, 1);
     for (const double wild : {-0.01, 1.01, std::nan(""), HUGE_VAL})
-        EXPECT_EQ(decode_command(encoded(LampCommand{1, {}, wild}, 1)).reason, "level of a lamp is not 0 to 1")
+        EXPECT_EQ(decode_command(encoded(LampCommand{1, {}, wild}, 1)).reason,
+                  "level of a lamp is not 0 to 1")
             << wild;
 }
 
