@@ -122,12 +122,13 @@ void add_lamp(CLI::App& app, const Take& take) {
     const auto o = std::make_shared<Options>();
     lamp->add_option("what", o->what, "on or off")->required()->check(CLI::IsMember({"on", "off"}));
     lamp->add_option("--lamp", o->lamp, "1, 2, ...: the scenario's lamps")->check(CLI::Range(1, 65535));
-    CLI::Option* level = lamp->add_option("--level", o->level, "on: share of its intensity, 0 to 1")
-                             ->check(CLI::Range(0.0, 1.0));
+    CLI::Option* level = lamp->add_option("--level", o->level, "on: share of its intensity, 0 to 1");
     lamp->add_option("--at-utc", o->utc, "simulated time of the switch; left out: on arrival");
     on(lamp, take, [=] {
         const bool off = o->what == "off";
         if (off && level->count()) throw InputError("'off' and --level do not go together");
+        if (!(o->level >= 0 && o->level <= 1))
+            throw InputError("--level: found " + std::to_string(o->level) + "; accepted: 0 to 1");
         return LampCommand{static_cast<std::uint16_t>(o->lamp),
                            o->utc.empty() ? TimeTai{} : parse_utc(o->utc), off ? 0 : o->level};
     });

@@ -1,6 +1,7 @@
 #pragma once
 // `lamps` in a scenario: light sources on things, in the terms of their data sheets.
 
+#include <cstdint>
 #include <string>
 
 #include "render/config_field.h"

@@ -1,6 +1,7 @@
 #include "emulator/lamp_setup.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "render/check.h"
 #include "render/units.h"

@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string>
 
 #include "render/spectrum.h"

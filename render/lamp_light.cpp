@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/check.h"
 #include "render/shadow_rays.h"
@@ -20,6 +21,17 @@ struct LitBy {
 // Of the ray to a lamp. Single precision leaves a share of 6e-8 of the length and of the end's coordinates.
 float shadow_length_m(double distance_m) {
     return static_cast<float>(std::max(0.0, (1 - 1e-6) * distance_m - kLampClearance_m));
+}
+
+// By an object, also by one that is points itself: a PointField looks for those that are traced.
+bool is_hidden(const FrameView& frame, Vec3d dir, double distance_m) {
+    const Vec3f start_m = frame.start_of(dir);
+    const double until_m = distance_m - length(to_double(start_m) - frame.camera_m);
+    if (!(until_m > 0)) return false;
+    RayPacket ray;
+    ray.count = 1;
+    ray.set(0, start_m, to_float(dir), 0, static_cast<float>(until_m));
+    return frame.scene->occluded(ray) != 0;
 }
 
 }  // namespace
@@ -80,8 +92,10 @@ void add_lamps_seen(const FrameView& frame, const PointField& field, std::vector
     for (const PlacedLamp& lamp : frame.lamps->lit()) {
         LampRay ray;
         if (!lamp.shines_on(frame.camera_m, ray) || ray.distance_m <= kLampClearance_m) continue;
+        const double distance_m = ray.distance_m - kLampClearance_m;
+        if (!field.sees(ray.dir, distance_m) || is_hidden(frame, ray.dir, distance_m)) continue;
         const std::size_t thing = frame.lamps->all()[lamp.number].thing;
-        field.add(ray.dir, ray.distance_m - kLampClearance_m, ray.per_m2 * lamp.intensity_w_sr_um, points,
+        field.add(ray.dir, distance_m, ray.per_m2 * lamp.intensity_w_sr_um, points,
                   thing == 0 ? PointSource::kSky : static_cast<std::uint32_t>(thing - 1));
     }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -193,6 +194,19 @@ TEST(Lamps, OneThatShinesIntoTheCameraIsAPoint) {
                 kSinglePrecision);
     EXPECT_NEAR(s.points[0].position_px.x, 32 + 320 * 0.1 / 4, 1e-3);
     EXPECT_NEAR(s.points[0].position_px.y, 32, 1e-3);
+}
+
+TEST(Lamps, OneBehindAThingThatIsDrawnAsPointsIsHidden) {
+    for (const double z_m : {-1.5, 1.5}) {
+        LampStage s;
+        s.camera(64, 0.1);
+        s.add(sphere(50, lambert(kWhite), s.grid), {0, 0, 1e5});
+        s.lamp({0, 0, 1e5 + z_m});
+        s.render();
+        const auto lamps = std::count_if(s.points.begin(), s.points.end(),
+                                         [](const PointSource& p) { return p.object == PointSource::kSky; });
+        EXPECT_EQ(lamps, z_m < 0 ? 1 : 0);
+    }
 }
 
 // On the very surface: bright, but a number everywhere.
