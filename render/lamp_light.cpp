@@ -18,10 +18,9 @@ struct LitBy {
     Spectrum weight;  // the light that comes if nothing is between
 };
 
-// Of the ray to a lamp. Single precision leaves a share of 6e-8 of the length and of the end's coordinates.
-float shadow_length_m(double distance_m) {
-    return static_cast<float>(std::max(0.0, (1 - 1e-6) * distance_m - kLampClearance_m));
-}
+// How far towards a lamp something can be in the way. Single precision leaves a share of 6e-8 of the length
+// and of its ends' coordinates; a millionth keeps clear of that.
+double free_length_m(double distance_m) { return std::max(0.0, (1 - 1e-6) * distance_m - kLampClearance_m); }
 
 // By an object, also by one that is points itself: a PointField looks for those that are traced.
 bool is_hidden(const FrameView& frame, Vec3d dir, double distance_m) {
@@ -83,7 +82,8 @@ void add_lamps_reflected(Tile& tile, std::span<const Vertex> vertices) {
             const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
             const Spectrum weight =
                 (ni * ray.per_m2) * (at.weight * lamp.intensity_w_sr_um * brdf_value(at.surface, c));
-            if (largest(weight) > 0) shadow.add(start_m, dir, {&at, weight}, shadow_length_m(ray.distance_m));
+            if (largest(weight) > 0)
+                shadow.add(start_m, dir, {&at, weight}, static_cast<float>(free_length_m(ray.distance_m)));
         }
 }
 
@@ -91,9 +91,10 @@ void add_lamps_seen(const FrameView& frame, const PointField& field, std::vector
     if (!frame.lamps) return;
     for (const PlacedLamp& lamp : frame.lamps->lit()) {
         LampRay ray;
-        if (!lamp.shines_on(frame.camera_m, ray) || ray.distance_m <= kLampClearance_m) continue;
-        const double distance_m = ray.distance_m - kLampClearance_m;
-        if (!field.sees(ray.dir, distance_m) || is_hidden(frame, ray.dir, distance_m)) continue;
+        if (!lamp.shines_on(frame.camera_m, ray)) continue;
+        const double distance_m = free_length_m(ray.distance_m);
+        if (!(distance_m > 0) || !field.sees(ray.dir, distance_m) || is_hidden(frame, ray.dir, distance_m))
+            continue;
         const std::size_t thing = frame.lamps->all()[lamp.number].thing;
         field.add(ray.dir, distance_m, ray.per_m2 * lamp.intensity_w_sr_um, points,
                   thing == 0 ? PointSource::kSky : static_cast<std::uint32_t>(thing - 1));

@@ -136,7 +136,7 @@ TEST(Lamps, GlassDimsThemAsItDimsTheSun) {
 // An integrating sphere with its lamp in the middle: every place has the irradiance I / R^2, and sends
 // rho E / pi more with each bounce. Its facets lie up to 2.5e-4 of the radius inside the sphere.
 TEST(Lamps, AnIntegratingSphereIsAGeometricSeriesInAllPathModels) {
-    for (const std::string model : {"direct", "path", "hemisphere"})
+    for (const std::string& model : {std::string("direct"), std::string("path"), std::string("hemisphere")})
         for (const int depth : {1, 2, 3}) {
             LampStage s;
             s.camera(model == "hemisphere" ? 2 : 16, 0.3);

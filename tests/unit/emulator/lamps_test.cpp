@@ -260,7 +260,7 @@ TEST_F(LampsTest, ASwitchDuringTheExposureCountsForItsShareOfTheTime) {
         for (const float value : radiance.plane(0)) sum += static_cast<double>(value);
         return sum;
     };
-    for (const std::string motion : {"off", "fast"})
+    for (const std::string& motion : {std::string("off"), std::string("fast")})
         EXPECT_NEAR(light(motion, true) / light(motion, false), 0.25, 1e-6) << motion;
     // Of parts each has its own share: the quarter is seen where the plate is then. Its light is the same all
     // along the way to 1e-3, by the rays that find its edges.
