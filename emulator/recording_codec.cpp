@@ -241,7 +241,7 @@ std::vector<std::uint8_t> encode_header(const RecordingHeader& header) {
         throw InputError("a scenario of " + std::to_string(header.scenario.size()) +
                          " bytes of values cannot be recorded; accepted: at most 16 MiB");
     std::vector<std::uint8_t> bytes(kRecordPrefixBytes + most);
-    Writer writer(std::span(bytes).subspan(kRecordPrefixBytes));
+    Writer writer(std::span<std::uint8_t>{bytes}.subspan(kRecordPrefixBytes));
     writer.u8(static_cast<std::uint8_t>(Kind::kHeader));
     list(writer, header);
     bytes.resize(seal(bytes, writer.size()));
