@@ -46,7 +46,7 @@ inline std::string hex(std::span<const std::uint8_t> bytes) {
     return out;
 }
 
-class Recorder : public CommandHandler {
+class CommandRecorder : public CommandHandler {
   public:
     CommandStatus handle(const Command& command, const CommandSource& source) override {
         const std::lock_guard lock(mutex_);

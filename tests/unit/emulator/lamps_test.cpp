@@ -247,7 +247,9 @@ TEST_F(LampsTest, ASwitchDuringTheExposureCountsForItsShareOfTheTime) {
             load_renderer(s, grid, geometry_of(s.camera, static_cast<int>(s.quality.guard_px)));
         const TimeTai start = parse_utc(s.time_utc);
         WorldState world(initial_motions(s, start), s.origin, {}, {}, {}, lamp_mounts(s));
-        if (switched) EXPECT_TRUE(world.set_lamp(1, {start + 5'000'000, 1}, {1, 1}));
+        if (switched) {
+            EXPECT_TRUE(world.set_lamp(1, {start + 5'000'000, 1}, {1, 1}));
+        }
         ExposureRenderer exposures(*renderer, s, grid, world.placed_objects());
         RadianceImage radiance = exposures.make_image();
         std::vector<PointSource> points;

@@ -176,7 +176,7 @@ class StationTest : public testing::Test {
         });
         return out;
     }
-    Recorder recorder;
+    CommandRecorder recorder;
     CommandStation station{recorder, {}};
     CommandStation::Sender& sender = station.open("a");
     PacketStream stream = station.make_stream();

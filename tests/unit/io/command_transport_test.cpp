@@ -96,7 +96,7 @@ std::string error_of(const std::function<void()>& action) {
 }
 
 TEST(CommandsTcp, SeveralClientsPiecesAndGarbage) {
-    Recorder recorder;
+    CommandRecorder recorder;
     const auto receiver = make_tcp_receiver(tcp_config(15250), recorder);
     EXPECT_EQ(receiver->name(), "tcp 127.0.25.1:15250");
     receiver->start();
@@ -126,7 +126,7 @@ TEST(CommandsTcp, SeveralClientsPiecesAndGarbage) {
 
 // A client that asks and does not read is cut off; another's answers never wait for it.
 TEST(CommandsTcp, AClientThatDoesNotReadIsCutOffAndHoldsNobodyUp) {
-    Recorder recorder;
+    CommandRecorder recorder;
     const auto receiver = make_tcp_receiver(tcp_config(15251), recorder);
     receiver->start();
     const Client deaf = Client::tcp(15251);
@@ -146,7 +146,7 @@ TEST(CommandsTcp, AClientThatDoesNotReadIsCutOffAndHoldsNobodyUp) {
 }
 
 TEST(CommandsTcp, StrangersAndOneClientTooManyAreClosedUnheard) {
-    Recorder recorder;
+    CommandRecorder recorder;
     TcpCommandConfig config = tcp_config(15252);
     config.allow = {"10.0.0.0/8"};
     {
@@ -169,7 +169,7 @@ TEST(CommandsTcp, StrangersAndOneClientTooManyAreClosedUnheard) {
 }
 
 TEST(CommandsTcp, TelemetryGoesToSubscribersAndToTheReadOnlyPort) {
-    Recorder recorder;
+    CommandRecorder recorder;
     const auto commands = make_tcp_receiver(tcp_config(15253), recorder);
     const auto port = make_telemetry_port(tcp_config(15254), "telemetry");
     commands->start();
@@ -204,7 +204,7 @@ TEST(CommandsTcp, TelemetryGoesToSubscribersAndToTheReadOnlyPort) {
 
 TEST(CommandsTcp, BusyPortSaysWhichAndWhatToDo) {
     const Fd taken = listen_tcp(parse_ipv4(kAddress, ""), 15255);
-    Recorder recorder;
+    CommandRecorder recorder;
     const auto receiver = make_tcp_receiver(tcp_config(15255), recorder);
     EXPECT_THAT(error_of([&] { receiver->start(); }),
                 HasSubstr("TCP 127.0.25.1:15255 is taken by another program; stop it (ss -tlpn"));
@@ -214,7 +214,7 @@ class CommandsUnix : public testing::TestWithParam<UnixCommandConfig::Type> {
   protected:
     std::string path = "commands_test_" + std::to_string(getpid()) + ".sock";
     int type = GetParam() == UnixCommandConfig::Type::kStream ? SOCK_STREAM : SOCK_SEQPACKET;
-    Recorder recorder;
+    CommandRecorder recorder;
     std::unique_ptr<CommandReceiver> make() {
         UnixCommandConfig config;
         config.path = path;
@@ -262,7 +262,7 @@ INSTANTIATE_TEST_SUITE_P(Types, CommandsUnix,
                                          UnixCommandConfig::Type::kSeqpacket));
 
 TEST(CommandsUdp, StrangersGetNoAnswerAndAreCounted) {
-    Recorder recorder;
+    CommandRecorder recorder;
     UdpCommandConfig config;
     config.address = kAddress;
     config.port = 15256;
@@ -284,7 +284,7 @@ TEST(CommandsUdp, StrangersGetNoAnswerAndAreCounted) {
 }
 
 TEST(CommandsUdp, TelemetryGoesToASubscriber) {
-    Recorder recorder;
+    CommandRecorder recorder;
     UdpCommandConfig config;
     config.address = kAddress;
     config.port = 15257;
@@ -311,7 +311,7 @@ TEST(CommandsUdp, TelemetryGoesToASubscriber) {
 TEST(CommandSender, TalksOverEveryTransportAndDialect) {
     const std::string path = "command_sender_" + std::to_string(getpid()) + ".sock";
     for (const Dialect dialect : {Dialect::kHilcam, Dialect::kCfs}) {
-        Recorder recorder;
+        CommandRecorder recorder;
         UdpCommandConfig udp;
         udp.address = kAddress, udp.port = 15258, udp.dialect.dialect = dialect;
         TcpCommandConfig tcp = tcp_config(15258);

@@ -7,6 +7,7 @@
 #include "io/command_codec.h"
 #include "io/command_sender.h"
 #include "io/commands_udp.h"
+#include "io/monotonic.h"
 #include "tests/support/commands.h"
 
 namespace hilcam {
@@ -208,7 +209,7 @@ TEST(CommandCodec, DamagedBytesGiveFiniteCommandsOrRefusals) {
 }
 
 TEST(CommandsUdp, AnswersCountsAndSeparatesPackets) {
-    Recorder recorder;
+    CommandRecorder recorder;
     UdpCommandReceiver receiver({"127.0.0.1", 15010}, recorder);
     receiver.start();
     CommandSender sender("127.0.0.1:15010");
@@ -252,7 +253,7 @@ TEST(CommandsUdp, AnswersCountsAndSeparatesPackets) {
 }
 
 TEST(CommandsUdp, BusyPortSaysWhichAndWhatToDo) {
-    Recorder recorder;
+    CommandRecorder recorder;
     const Fd taken = open_udp(0x7F000001, 15011);
     UdpCommandReceiver receiver({"127.0.0.1", 15011}, recorder);
     try {
