@@ -108,7 +108,7 @@ RenderQuality limited(const RenderQuality& from, const RenderQuality& configured
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
     const Limits steps[] = {{2, 3, 0.005, 0.25, 2, false},
                             {1, 2, 0.5, 0.5, 4, false},
-                            {1, 2, 0.05, 1, 0, false},
+                            {1, 2, 0.5, 1, 0, false},
                             {1, 1, 1, 1, 0, false},
                             {1, 1, 1, 2, 0, true}};
     std::vector<RenderQuality> levels;

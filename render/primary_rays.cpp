@@ -51,6 +51,7 @@ class PrimaryRays {
                         ++rays_.count;
                     }
                 if (rays_.count == 0) continue;
+                if (tile_.scattered) choose_sequences();
                 for (int s = 0; s < n * n; ++s) {
                     const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
                     if (tile_.scattered)
@@ -78,20 +79,27 @@ class PrimaryRays {
     HitPacket hits_;
     std::array<float, kPacketSize> x_of_{}, y_of_{};  // of the packet's pixels, from the tile's corner
     std::array<float, kPacketSize> x_at_{}, y_at_{};  // of their samples
-    std::array<CameraRay, kPacketSize> exact_;        // where they are not linear, or objects are far away
+    std::array<std::uint32_t, kPacketSize> word_x_{}, word_y_{};  // of their sequences
+    std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
     std::size_t count_ = 0;
 
     // The packet's samples, all at the same place of their pixels.
     void center(float dx, float dy) {
         for (std::size_t k = 0; k < kPacketSize; ++k) x_at_[k] = x_of_[k] + dx, y_at_[k] = y_of_[k] + dy;
     }
-    // Each at a place of its own, of its pixel's sequence.
-    void scatter(std::uint16_t sample) {
+    // Of the packet's pixels, the same for all their samples.
+    void choose_sequences() {
         for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
             const std::uint32_t pixel = tile_.frame_pixel(tile_.box.x0 + static_cast<int>(x_of_[k]),
                                                           tile_.box.y0 + static_cast<int>(y_of_[k]));
             const auto words = random_words(frame_.key, RandomPurpose::kPixelPlace, pixel);
-            const auto [dx, dy] = place_in_sequence(sample, words[0], words[1]);
+            word_x_[k] = words[0], word_y_[k] = words[1];
+        }
+    }
+    // Each at a place of its own, of its pixel's sequence.
+    void scatter(std::uint16_t sample) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
+            const auto [dx, dy] = place_in_sequence(sample, word_x_[k], word_y_[k]);
             x_at_[k] = x_of_[k] + dx;
             y_at_[k] = y_of_[k] + dy;
         }
