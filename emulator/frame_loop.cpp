@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "emulator/image_faults.h"
+#include "io/frame_flags.h"
 #include "sensor/test_pattern.h"
 
 namespace hilcam {
@@ -160,13 +161,14 @@ void FrameLoop::place_in_time(const FrameStarter::Start& start, Slot& slot) {
     FrameUse& use = slot.use;
     const std::int64_t middle_ns = to_ns(timing_.middle_s(use.exposure_s));
     const std::int64_t length_ns = to_ns(timing_.end_s(use.exposure_s));
+    slot.middle_camera_ns = start.camera_ns + middle_ns;
     slot.end_camera_ns = start.camera_ns + length_ns;
     slot.until_end = start.until_end;
     const TimeTai begin = clock_.simulated_of_camera(start.camera_ns);
     const std::int64_t moved_ns = clock_.simulated_of_camera(slot.end_camera_ns) - begin;
     use.moving = moved_ns == length_ns ? 1 : static_cast<double>(moved_ns) / static_cast<double>(length_ns);
     use.begin_ns = start.begin_ns;
-    use.middle_ns = clock_.monotonic_of_camera(start.camera_ns + middle_ns);
+    use.middle_ns = clock_.monotonic_of_camera(slot.middle_camera_ns);
     use.end_ns = clock_.monotonic_of_camera(slot.end_camera_ns);
     use.exposure_mid = begin + (use.moving == 1 ? middle_ns : moved_ns / 2);
     use.shown_at = use.exposure_mid;
@@ -295,9 +297,9 @@ void FrameLoop::sense(Slot& slot) {
     meters_.sense.record(slot.sense_ns);
 
     wait_to_publish(slot);
+    if (!script_) know_machine_times(slot);
     if (recorder_) keep(slot);
-    const std::int64_t end_ns = script_ ? slot.use.end_ns : clock_.monotonic_of_camera(slot.end_camera_ns);
-    tell(CameraEvent::Kind::kExposureEnd, slot.record.id, end_ns);
+    tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.use.end_ns);
     const std::int64_t publish_ns = monotonic_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, slot.record);
     std::swap(frame_, before_);
@@ -311,6 +313,13 @@ void FrameLoop::sense(Slot& slot) {
     last_published_ns_ = done_ns;
     counters_.last_id.store(slot.record.id, std::memory_order_relaxed);
     if (counters_.frames.fetch_add(1, std::memory_order_relaxed) + 1 == limits_.warm_up) meters_.clear();
+}
+
+// When the exposure was, on the machine's clock: the scale of time may have changed since it began.
+void FrameLoop::know_machine_times(Slot& slot) const {
+    slot.use.middle_ns = clock_.monotonic_of_camera(slot.middle_camera_ns);
+    slot.use.end_ns = clock_.monotonic_of_camera(slot.end_camera_ns);
+    slot.record.exposure_mid_monotonic_ns = slot.use.middle_ns;
 }
 
 // What the frame shows of commands, where that has changed, then the frame.

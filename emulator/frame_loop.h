@@ -134,6 +134,7 @@ class FrameLoop {
     void stop() noexcept;
     bool finished() const { return finished_.load(); }
 
+    const SimulatedClock& clock() const { return clock_; }
     const LoopCounters& counters() const { return counters_; }
     const StageMeters& meters() const { return meters_; }
     // One thread. False: there is none that was not taken yet.
@@ -150,7 +151,7 @@ class FrameLoop {
         std::vector<std::uint64_t> shown_numbers;  // for the recorder: the newest command of each thing
         Exposure exposure;
         std::int64_t not_before_ns = 0;  // of a script's frame: may be published; 0: at any time
-        std::int64_t end_camera_ns = 0;  // of the exposure, camera's time
+        std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // of the exposure, camera's time
         bool until_end = false;          // not to be published before
         double next_exposure_s = 0;      // automatic: of the slot's next frame; 0: not measured yet
         bool automatic = false;
@@ -174,6 +175,7 @@ class FrameLoop {
     void keep(const Slot& slot);
     void finish_picture(const Slot& slot);
     void wait_to_publish(const Slot& slot) const;
+    void know_machine_times(Slot& slot) const;
     void tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const;
     void measure_exposure(Slot& slot);
 

@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "io/frame_flags.h"
 #include "io/frame_sink.h"
 
 namespace hilcam {
 namespace {
 
-// The bits beyond are those of kTimeStandsBit and its neighbours.
-static_assert(kAllFaults.size() <= 60);
+static_assert((std::uint64_t{1} << kAllFaults.size()) <= kFrameFlags[0].bit);
 
 constexpr std::array kWholeFrame = {
     FaultKind::kLeaderLost,     FaultKind::kTrailerLost,     FaultKind::kFrameDrop,

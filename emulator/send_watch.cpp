@@ -8,8 +8,7 @@
 
 #include "emulator/clock.h"
 #include "io/command_sender.h"
-#include "io/fault.h"
-#include "io/frame_sink.h"
+#include "io/frame_flags.h"
 
 namespace hilcam {
 namespace {
@@ -24,16 +23,6 @@ std::string name_of(OperatingMode mode) {
     return number < kNames.size() ? kNames[number] : "unknown mode";
 }
 
-std::vector<std::string> fault_names(std::uint64_t bits) {
-    std::vector<std::string> out;
-    for (const FaultKind kind : kAllFaults)
-        if (bits & bit_of(kind)) out.emplace_back(hilcam::name_of(kind));
-    if (bits & kTimeStandsBit) out.emplace_back("time_stands");
-    if (bits & kPosesStaleBit) out.emplace_back("poses_stale");
-    if (bits & kTagsWentBackBit) out.emplace_back("tags_went_back");
-    return out;
-}
-
 std::string text(const FrameReport& r, bool several) {
     const std::string latency =
         r.latency_ns < 0 ? "no new pose"
@@ -43,7 +32,7 @@ std::string text(const FrameReport& r, bool several) {
         several ? fmt::format("camera {} ", r.camera) : "", r.frame, format_utc(r.exposure_mid),
         r.exposure_s * 1e3, r.gain_db, r.pose_sequence, r.trigger_sequence, latency,
         r.quality_level > 0 ? fmt::format(" quality {}", r.quality_level) : "",
-        r.faults != 0 ? fmt::format(" faults {}", fmt::join(fault_names(r.faults), " ")) : "");
+        r.faults != 0 ? fmt::format(" faults {}", fmt::join(names_of_bits(r.faults), " ")) : "");
 }
 
 std::string text(const HousekeepingFigures& h) {
@@ -68,7 +57,7 @@ nlohmann::json json(const FrameReport& r) {
             {"trigger_sequence", r.trigger_sequence},
             {"latency_ns", r.latency_ns},
             {"quality_level", r.quality_level},
-            {"faults", fault_names(r.faults)}};
+            {"faults", names_of_bits(r.faults)}};
 }
 
 nlohmann::json json(const HousekeepingFigures& h) {

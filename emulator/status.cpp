@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/report.h"
+#include "io/frame_flags.h"
 #include "io/preview_request.h"
 
 namespace hilcam {
@@ -124,6 +125,18 @@ json faults_status(const FaultBoard& board) {
     return faults;
 }
 
+json clock_status(const SimulatedClock& clock) {
+    const ClockReading now = clock.read(monotonic_ns());
+    return {{"scale", now.scale}, {"stands", !clock.lockstep() && now.arrival >= now.stands_at}};
+}
+
+json flags_status() {
+    json flags = json::array();
+    for (const FrameFlag& flag : kFrameFlags)
+        flags.push_back({{"kind", flag.name}, {"bit", std::countr_zero(flag.bit)}});
+    return flags;
+}
+
 // The newest frame's level and share of pixels within the noise budget; 0 ms: the governor is off.
 json quality_status(const ScenarioConfig& scenario, const LoopCounters& counters) {
     json quality = {{"level", counters.level.load()},
@@ -148,6 +161,7 @@ std::string run_status(const StatusSources& s) {
                          {"deadline_misses", counters.deadline_misses.load()},
                          {"quality", quality_status(s.scenario, counters)},
                          {"monotonic_ns", monotonic_ns()},
+                         {"clock", clock_status(s.loop.clock())},
                          {"latency_ms",
                           {{"first_packet", histogram(s.delivery.command_to_first)},
                            {"last_packet", histogram(s.delivery.command_to_last)},
@@ -155,7 +169,8 @@ std::string run_status(const StatusSources& s) {
                          {"stages_ms", stages_report(s.loop.meters())},
                          {"commands", commands_status(s.receivers)},
                          {"outputs", outputs_status(s.sinks)},
-                         {"faults", faults_status(s.faults)}};
+                         {"faults", faults_status(s.faults)},
+                         {"frame_flags", flags_status()}};
     // Names come from files: bytes that are not UTF-8 are replaced.
     return status.dump(-1, ' ', false, json::error_handler_t::replace);
 }

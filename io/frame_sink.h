@@ -12,13 +12,6 @@
 
 namespace hilcam {
 
-// Bits of FrameRecord::faults beside those of the faults on demand, for what the run's own time and input did
-// to a frame: who trusts frames without faults alone need not know of these.
-inline constexpr std::uint64_t kTimeStandsBit = std::uint64_t{1} << 60;  // simulated time stood
-inline constexpr std::uint64_t kPosesStaleBit = std::uint64_t{1} << 61;  // no pose came (pose_watch.h)
-inline constexpr std::uint64_t kTagsWentBackBit = std::uint64_t{1}
-                                                  << 62;  // the first after time tags went back
-
 // What travels with a frame. Monotonic times are CLOCK_MONOTONIC nanoseconds; 0 means "none".
 struct FrameRecord {
     std::uint64_t id = 0;                        // 1, 2, 3, ... of this run; skipped frames leave a gap

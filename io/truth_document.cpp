@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/fault.h"
+#include "io/frame_flags.h"
 #include "sensor/published_frame.h"
 
 namespace hilcam {
@@ -35,13 +35,6 @@ std::string_view name_of_body(std::uint32_t id) {
     for (std::size_t i = 0; i < kBodyCount; ++i)
         if (truth_id(static_cast<BodyId>(i)) == id) return kBodyNames[i];
     return {};
-}
-
-Json faults_of(const FrameRecord& record) {
-    Json names = Json::array();
-    for (const FaultKind kind : kAllFaults)
-        if (record.faults & bit_of(kind)) names.push_back(std::string(name_of(kind)));
-    return names;
 }
 
 Json image_of(const FrameTruth& t, const FrameRecord& record, const CameraModel& model) {
@@ -124,7 +117,7 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
                 {"pose_sequence", record.pose_sequence},
                 {"trigger_sequence", record.trigger_sequence},
                 {"quality_level", record.quality_level},
-                {"faults", faults_of(record)},
+                {"faults", names_of_bits(record.faults)},
                 {"image", image_of(t, record, source_.model)},
                 {"pose",
                  {{"position_m", of(t.camera.position_world_m)},

@@ -52,7 +52,7 @@ function showPixel(pixel) {
   $("pixel").textContent = text;
 }
 function showFrame(f) {
-  const struck = status ? status.faults.filter(x => f.faults >> BigInt(x.bit) & 1n).map(x => x.kind).join(", ") : "";
+  const struck = status ? [...status.faults, ...status.frame_flags].filter(x => f.faults >> BigInt(x.bit) & 1n).map(x => x.kind).join(", ") : "";
   pairs($("frame"), [
     ["Frame", f.id.toString()],
     ["Exposure", ms(1e3 * f.exposure)],
@@ -151,6 +151,7 @@ function showChips() {
     ...(link ? [chip("link", link, "bad")] : []),
     ...(picture.frozen ? [chip("picture", "frozen", "warn")] : []),
     chip("mode", ...mode),
+    ...(status.clock.stands ? [chip("time", "stands", "warn")] : status.clock.scale !== 1 ? [chip("time", number(status.clock.scale) + " times", "warn")] : []),
     chip("camera", number(rate) + " frames/s"),
     chip("shown", number(picture.shownRate()) + " frames/s"),
     chip("missed", number(status.deadline_misses), status.deadline_misses ? "warn" : ""),

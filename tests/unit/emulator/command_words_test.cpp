@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "emulator/send_watch.h"
-#include "io/frame_sink.h"
+#include "io/frame_flags.h"
 #include "render/check.h"
 
 namespace hilcam {

@@ -79,7 +79,7 @@ std::vector<Record> all_kinds() {
                                 FaultCommand{{FaultKind::kImageTear, 0.5, 0.25, 1, 2, 3}, false},
                                 FaultCommand{{}, true},
                                 TriggerModeCommand{true, 4},
-                                ClockCommand{ClockCommand::Action::kScale, 5, 0.5, 6},
+                                ClockCommand{ClockCommand::Action::kScale, 5, 0.5, 0},
                                 LampCommand{2, {7}, 0.5}};
     std::uint64_t number = 0;
     for (const Command& command : commands)
@@ -424,7 +424,7 @@ TEST_F(ReplayTest, LockstepWithEventsComesBackOnAnyNumberOfThreads) {
                      "lamps: [{name: flash, intensity_w_sr_um: 4000, lit: false}]\n"
                      "more_cameras:\n  - {camera: {name: second, width_px: 32, height_px: 32, pitch_um: 10,\n"
                      "  focal_length_mm: 4, f_number: 8, transmission: 0.01, quantum_efficiency: 0.5,\n"
-                     "  full_well_e: 20000, gain_dn_e: 0.2, exposure_ms: 3},\n"
+                     "  full_well_e: 20000, gain_dn_e: 0.2, bits: 12, exposure_ms: 3},\n"
                      "  outputs: {files: {folder: unused, format: raw}}}\n"
                      "outputs: {files: {folder: unused, format: raw}}\n"
                      "events:\n"

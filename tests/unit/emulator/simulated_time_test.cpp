@@ -6,6 +6,7 @@
 #include <array>
 #include <thread>
 
+#include "io/frame_flags.h"
 #include "render/units.h"
 #include "tests/support/plate.h"
 
