@@ -84,4 +84,21 @@ std::string_view name_of(CommandStatus status) {
     return number < kNames.size() ? kNames[number] : "unknown status";
 }
 
+std::string_view meaning_of(CommandStatus status) {
+    switch (status) {
+        case CommandStatus::kUnknownObject:
+            return "the bench has no object, joint, lamp or camera of this number";
+        case CommandStatus::kTimeOutOfRange:
+            return "beyond commands.poses.horizon_s from simulated time, or in lockstep not after the last frame";
+        case CommandStatus::kBusy:
+            return "the frame before is still being exposed, or too many are waiting";
+        case CommandStatus::kNotNow:
+            return "the camera's mode, or the clock's, has no use for it";
+        case CommandStatus::kTimeBackwards:
+            return "the time tag lies before the newest of its thing";
+        default:
+            return name_of(status);
+    }
+}
+
 }  // namespace hilcam

@@ -39,5 +39,7 @@ bool read_acknowledgement_body(std::span<const std::uint8_t> body, Acknowledgeme
 
 // "accepted", "bad checksum", ...
 std::string_view name_of(CommandStatus status);
+// Why, in a line: what refusals give as their reason where the command itself is well formed.
+std::string_view meaning_of(CommandStatus status);
 
 }  // namespace hilcam

@@ -92,7 +92,7 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
     if (decoded.status == CommandStatus::kAccepted) {
         out.status = perform(decoded, packet, arrival_ns, sender, notes);
         if (out.status != CommandStatus::kAccepted || notes.tell_sender)
-            out.reason = name_of(notes.tell_sender ? CommandStatus::kTimeBackwards : out.status);
+            out.reason = notes.tell_sender ? name_of(CommandStatus::kTimeBackwards) : meaning_of(out.status);
         if (const auto* ping = std::get_if<PingCommand>(&decoded.command)) out.token = ping->token;
     }
     const std::uint64_t went_back = notes.went_back ? 1 : 0;

@@ -246,7 +246,7 @@ TEST(CommandsUdp, AnswersCountsAndSeparatesPackets) {
               (std::vector{CommandStatus::kAccepted, CommandStatus::kAccepted, CommandStatus::kBadLength}));
     EXPECT_FALSE(a.reason.empty());
     const CommandReport report = receiver.report();
-    EXPECT_EQ(report.received, 6u);
+    EXPECT_EQ(report.received, 8u);
     EXPECT_EQ(report.refused, 2u);
     EXPECT_EQ(report.lost, 4u);
     receiver.stop();
