@@ -64,10 +64,11 @@ struct TruthOut : FilesTest {
         FrameRecord record;
         record.id = id;
         record.exposure_s = 0.25;
+        record.exposure_mid = parse_utc("2026-12-21T00:00:01Z") + 5;
         record.faults = bit_of(FaultKind::kImageBlack);
         FrameTruth* const truth = sink->begin(record);
         if (truth) {
-            truth->time = parse_utc("2026-12-21T00:00:01Z") + 5;
+            truth->time = parse_utc("2026-12-21T00:00:00Z");  // the world is held
             SeenThing thing;
             thing.id = 1;
             thing.camera_from_thing = {-1, 0, 0, 0};
@@ -137,7 +138,9 @@ TEST_F(TruthOut, EveryClientGetsEachFramesLine) {
         EXPECT_EQ(one["frame"].get<int>(), 1);
         EXPECT_EQ(one["camera_name"].get<std::string>(), "small");
         EXPECT_EQ(one["time_utc"].get<std::string>(), "2026-12-21T00:00:01.000Z");
-        EXPECT_EQ(one["time_tai_ns"].get<std::int64_t>() % 1'000'000'000, 5);
+        const auto mid_ns = one["time_tai_ns"].get<std::int64_t>();
+        EXPECT_EQ(mid_ns % 1'000'000'000, 5);
+        EXPECT_EQ(mid_ns - one["shown_tai_ns"].get<std::int64_t>(), 1'000'000'005);
         EXPECT_EQ(one["faults"].dump(), "[\"image_black\"]");
         const json& object = one["objects"][0];
         EXPECT_EQ(object["name"].get<std::string>(), "target");
