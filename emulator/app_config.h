@@ -13,6 +13,7 @@
 #include "emulator/event_config.h"
 #include "emulator/lamp_config.h"
 #include "emulator/motion_config.h"
+#include "emulator/object_config.h"
 #include "emulator/pose_watch.h"
 #include "emulator/quality_ladder.h"
 #include "emulator/world_state.h"
@@ -22,7 +23,6 @@
 #include "io/commands_unix.h"
 #include "io/commands_usb.h"
 #include "io/commands_vizard.h"
-#include "io/height_map_file.h"
 #include "io/sink_files.h"
 #include "io/sink_gige.h"
 #include "io/sink_preview.h"
@@ -33,88 +33,12 @@
 #include "render/atmosphere_config.h"
 #include "render/bodies.h"
 #include "render/body_light.h"
-#include "render/material.h"
 #include "render/renderer.h"
 #include "render/sun.h"
 #include "sensor/camera_model.h"
 #include "sensor/chain.h"
 
 namespace hilcam {
-
-// Where a thing stands when the run begins, until commands say otherwise.
-struct PoseConfig {
-    enum class Attitude { kQuaternion, kLookAt, kNadir } attitude = Attitude::kQuaternion;
-    Vec3d position_m;
-    Quat world_from_body;
-    Vec3d look_at_m;
-    Vec3d up{0, 0, 1};
-    Vec3d velocity_m_s;
-    Vec3d rate_body_rad_s;
-};
-Fields fields(PoseConfig& pose);
-
-struct GeneratedMeshConfig {
-    std::string program;
-    std::int64_t triangles = 100000;
-    std::int64_t seed = 1;
-    double wing_angle_deg = 0;
-};
-Fields fields(GeneratedMeshConfig& mesh);
-
-struct MaterialSet {
-    std::vector<SurfaceConfig> surfaces;
-};
-Fields fields(MaterialSet& set);
-
-// A part of an object that turns about an axis: a solar wing, a gimbal.
-struct JointConfig {
-    std::string node;
-    Vec3d pivot_m;
-    Vec3d axis{0, 0, 1};
-    double angle_rad = 0;
-    double rate_rad_s = 0;
-};
-Fields fields(JointConfig& joint);
-void validate(const JointConfig& joint);
-
-struct ObjectConfig {
-    std::string name;
-    std::filesystem::path mesh;
-    GeneratedMeshConfig generate;
-    double scale = 1;
-    PoseConfig pose;
-    MotionConfig motion;
-    MaterialSet materials;
-    std::vector<JointConfig> joints;
-    bool has_mesh = false;
-    bool has_generate = false;
-    bool has_pose = false, has_motion = false;
-};
-Fields fields(ObjectConfig& object);
-void validate(const ObjectConfig& object);
-
-// A place on a body.
-struct PlaceConfig {
-    BodyId body = BodyId::kMoon;
-    Geodetic place;
-};
-Fields fields(PlaceConfig& place);
-
-// Ground from a height map, at rest in the world or on a body that turns.
-struct TerrainConfig {
-    std::string name = "terrain";
-    HeightMapConfig heights;
-    double radius_m = 0;
-    PoseConfig pose;
-    PlaceConfig place;
-    bool has_pose = false, has_place = false;
-    MaterialConfig material;
-    double edge_px = 2;
-    std::int64_t most_triangles = 1'000'000;
-    bool wait = false;
-};
-Fields fields(TerrainConfig& terrain);
-void validate(const TerrainConfig& terrain);
 
 struct StarsConfig {
     std::filesystem::path catalogue;  // empty: no stars
@@ -212,6 +136,7 @@ struct ScenarioConfig {
     bool has_camera_pose = false, has_camera_motion = false;
     LeapSecondsConfig leap_seconds;
     bool has_leap_seconds = false;
+    EarthOrientation earth_orientation;
     std::vector<ObjectConfig> objects;
     TerrainConfig terrain;
     bool has_terrain = false;
@@ -261,8 +186,5 @@ RenderModels models_of(const ScenarioConfig& scenario);
 
 // Reads and checks a scenario, and puts its leap seconds in place. Throws InputError.
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides);
-
-// The motion that a pose config describes at an instant. Throws InputError when look_at is not defined.
-Motion initial_motion(const PoseConfig& pose, TimeTai time, const Bodies& bodies);
 
 }  // namespace hilcam

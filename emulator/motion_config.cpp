@@ -139,6 +139,14 @@ void validate(const MotionConfig& m) {
     if (of_thing && a.of.empty()) throw InputError("attitude has no 'of': the object that it is about");
 }
 
+Fields fields(EarthOrientation& o) {
+    return {
+        number("ut1_minus_utc_s", o.ut1_minus_utc_s, 1, {-0.9, 0.9}, "of the run's day"),
+        number("pole_x_arcsec", o.pole_x_rad, kArcsecond_rad, {-2, 2}, "of the pole, towards Greenwich"),
+        number("pole_y_arcsec", o.pole_y_rad, kArcsecond_rad, {-2, 2}, "of the pole, towards 90 deg west"),
+    };
+}
+
 Fields fields(LeapSecondsConfig& l) {
     return {
         required(path("file", l.file, "the IERS's leap-seconds.list, as in /usr/share/zoneinfo")),

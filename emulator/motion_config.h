@@ -8,6 +8,7 @@
 #include "emulator/attitude_jitter.h"
 #include "io/tle_file.h"
 #include "render/config_field.h"
+#include "render/earth_orientation.h"
 
 namespace hilcam {
 
@@ -74,6 +75,8 @@ struct MotionConfig {
 };
 Fields fields(MotionConfig& motion);
 void validate(const MotionConfig& motion);
+
+Fields fields(EarthOrientation& orientation);
 
 // The scenario's leap seconds, instead of ERFA's own.
 struct LeapSecondsConfig {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/check.h"
+#include "render/earth_orientation.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -99,13 +100,24 @@ StateVector heliocentric(BodyId id, TimeTai time) {
 
 Vec3d sun_from_earth_m(TimeTai time) { return -heliocentric(BodyId::kEarth, time).position_m; }
 
-Mat3d earth_fixed_from_icrf(TimeTai time) {
+namespace {
+
+Mat3d earth_from_icrf(TimeTai time, double pole_x_rad, double pole_y_rad) {
     const JulianDate tt = julian_tt(time);
     const JulianDate ut1 = julian_ut1(time);
     double m[3][3];
-    eraC2t00b(tt.day, tt.fraction, ut1.day, ut1.fraction, 0.0, 0.0, m);
+    eraC2t00b(tt.day, tt.fraction, ut1.day, ut1.fraction, pole_x_rad, pole_y_rad, m);
     return {{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
 }
+
+}  // namespace
+
+Mat3d earth_fixed_from_icrf(TimeTai time) {
+    const EarthOrientation& measured = earth_orientation();
+    return earth_from_icrf(time, measured.pole_x_rad, measured.pole_y_rad);
+}
+
+Mat3d earth_rotated_from_icrf(TimeTai time) { return earth_from_icrf(time, 0, 0); }
 
 Mat3d body_fixed_from_icrf(BodyId id, TimeTai time) {
     if (id == BodyId::kEarth) return earth_fixed_from_icrf(time);

@@ -67,8 +67,10 @@ StateVector heliocentric(BodyId id, TimeTai time);
 // The Sun's velocity about the barycentre of the solar system, below 16 m/s, is left out of aberration.
 
 // The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
-// angle (ERFA eraC2t00b), no polar motion (below 0.5 arcsec), UT1 = UTC (below 14 arcsec).
+// angle (ERFA eraC2t00b), with the pole and UT1 that earth_orientation() has.
 Mat3d earth_fixed_from_icrf(TimeTai time);
+// Without the pole's motion: into the Earth's axes about the celestial intermediate pole.
+Mat3d earth_rotated_from_icrf(TimeTai time);
 // Into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by Archinal et al. 2018
 // (the Moon's mean-Earth frame by its series, 0.01 deg).
 Mat3d body_fixed_from_icrf(BodyId id, TimeTai time);

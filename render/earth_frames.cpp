@@ -9,7 +9,7 @@ namespace hilcam {
 Mat3d icrf_from_teme(TimeTai time) {
     const JulianDate ut1 = julian_ut1(time);
     const double angle = eraGmst82(ut1.day, ut1.fraction), c = std::cos(angle), s = std::sin(angle);
-    return transposed(earth_fixed_from_icrf(time)) * Mat3d{{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+    return transposed(earth_rotated_from_icrf(time)) * Mat3d{{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
 Mat3d icrf_from_eme2000() {

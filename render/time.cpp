@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "render/check.h"
+#include "render/earth_orientation.h"
 #include "render/time_system.h"
 
 namespace hilcam {
@@ -77,7 +78,7 @@ JulianDate julian_ut1(TimeTai time) {
     double tai1, tai2, utc1, utc2, ut11, ut12;
     eraTttai(tt.day, tt.fraction, &tai1, &tai2);
     eraTaiutc(tai1, tai2, &utc1, &utc2);
-    eraUtcut1(utc1, utc2, 0.0, &ut11, &ut12);
+    eraUtcut1(utc1, utc2, earth_orientation().ut1_minus_utc_s, &ut11, &ut12);
     return {ut11, ut12};
 }
 

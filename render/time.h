@@ -33,7 +33,7 @@ struct JulianDate {
     double fraction = 0;
 };
 JulianDate julian_tt(TimeTai time);
-// UT1 is taken equal to UTC (|UT1-UTC| < 0.9 s by definition, that is below 14 arcsec of Earth rotation).
+// UTC and earth_orientation()'s UT1 - UTC: without that 14 arcsec of Earth rotation at most.
 JulianDate julian_ut1(TimeTai time);
 
 }  // namespace hilcam

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/earth_orientation.h"
 #include "render/time_system.h"
 #include "render/units.h"
 
@@ -12,20 +13,20 @@ TimeTai at(CalendarTime calendar, TimeSystem system = TimeSystem::kUtc) {
     return from_calendar(calendar, system).value();
 }
 
-// About x, y, z: of the axes, not the vectors.
-Mat3d r1(double a) { return {{1, 0, 0}, {0, std::cos(a), std::sin(a)}, {0, -std::sin(a), std::cos(a)}}; }
-Mat3d r2(double a) { return {{std::cos(a), 0, -std::sin(a)}, {0, 1, 0}, {std::sin(a), 0, std::cos(a)}}; }
-Mat3d r3(double a) { return {{std::cos(a), std::sin(a), 0}, {-std::sin(a), std::cos(a), 0}, {0, 0, 1}}; }
+// As measured, until the end of a test.
+struct Measured {
+    explicit Measured(const EarthOrientation& orientation) { use_earth_orientation(orientation); }
+    ~Measured() { use_earth_orientation({}); }
+    Measured(const Measured&) = delete;
+    Measured& operator=(const Measured&) = delete;
+};
 
-// ERFA's own test of eraC2t00b (t_erfa_c.c) is for TT = UT1 = MJD 53736 with polar motion. The instant of
-// that TT has UTC, here UT1, 64.184 s earlier (TAI - UTC = 32 s until 2006); the rest is put on top as IERS
-// Conventions 2010, eq. 5.3 and 5.15, say. Their numbers are good to 1e-12, a UT1 that is kept to 1e-16 of a
-// day likewise.
+// ERFA's own test of eraC2t00b (t_erfa_c.c) is for TT = UT1 = MJD 53736 with polar motion; TT - UTC was
+// 64.184 s until then. Their numbers are good to 1e-12, a UT1 that is kept to 1e-16 of a day likewise.
 TEST(EarthFrames, TurnAsErfaTestsSay) {
-    const double xp = 2.55060238e-7, yp = 1.860359247e-6;
-    const Mat3d pole = r1(-yp) * r2(-xp);  // without s', as eraC2t00b is
+    const Measured orientation({64.184, 2.55060238e-7, 1.860359247e-6});
     const TimeTai time = at({2006, 1, 1, 0, 0, 0}, TimeSystem::kTt);
-    const Mat3d found = pole * (r3(64.184 * kEarthRate_rad_s) * earth_fixed_from_icrf(time));
+    const Mat3d found = earth_fixed_from_icrf(time);
     constexpr double kTolerance = 2e-12;
     EXPECT_NEAR(found.x.x, -0.1810332128439678965, kTolerance);
     EXPECT_NEAR(found.x.y, 0.9834769806913872359, kTolerance);
@@ -52,14 +53,15 @@ TEST(EarthFrames, TemeTurnsIntoIcrfAsPublished) {
     EXPECT_LT(length(velocity - Vec3d{-4743.2201610, 790.5364950, 5533.7557240}), 2e-4);
 }
 
-// The same table's pseudo-Earth-fixed state: UT1 is 0.4399619 s behind UTC.
-TEST(EarthFrames, EarthFixedVelocitiesHaveTheEarthsRotation) {
+// The same state in ITRF, with that day's orientation. TEME does not depend on it.
+TEST(EarthFrames, EarthFixedStatesTurnIntoIcrfAsPublished) {
     const TimeTai time = at({2004, 4, 6, 7, 51, 28.386009});
-    const double late_rad = 0.4399619 * kEarthRate_rad_s;
-    const Mat3d to_utc = r3(late_rad);  // axes that have turned further
-    const Vec3d position = to_utc * Vec3d{-1033475.0313, 7901305.5856, 6380344.5327};
-    const Vec3d velocity = to_utc * Vec3d{-3225.632747, -2872.442511, 5531.931288};
-    const StateVector found = icrf_from_earth_fixed(time, {position, velocity});
+    const Mat3d of_teme = icrf_from_teme(time);
+    const Measured orientation({-0.4399619, -0.140682 * kArcsecond_rad, 0.333309 * kArcsecond_rad});
+    // But for precession during UT1 - UTC, 46 arcsec a year (7e-12 rad/s).
+    EXPECT_LT(length(icrf_from_teme(time).x - of_teme.x), 4e-12);
+    const StateVector found = icrf_from_earth_fixed(
+        time, {{-1033479.3830, 7901295.2754, 6380356.5958}, {-3225.636520, -2872.451450, 5531.924446}});
     // As above, and 1 mm of printing.
     EXPECT_LT(length(found.position_m - Vec3d{5102508.95290, 6123011.39910, 6378136.93380}), 0.25);
     // The rate in the table's time has the length of day of that date, 1.6 ms: 2e-8 of omega x r, 580 m/s.

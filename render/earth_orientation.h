@@ -1,0 +1,17 @@
+#pragma once
+// How the Earth is turned beyond what theory knows: UT1 and the pole, as the IERS measures them (Bulletin A).
+
+namespace hilcam {
+
+struct EarthOrientation {
+    double ut1_minus_utc_s = 0;             // kept below 0.9 s by leap seconds: 420 m at the equator
+    double pole_x_rad = 0, pole_y_rad = 0;  // of the celestial intermediate pole in ITRF: some 10 m
+
+    friend bool operator==(const EarthOrientation&, const EarthOrientation&) = default;
+};
+
+// For the whole program and all of a run: before any other thread asks where the Earth's axes are.
+void use_earth_orientation(const EarthOrientation& orientation);
+const EarthOrientation& earth_orientation();
+
+}  // namespace hilcam
