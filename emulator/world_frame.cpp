@@ -22,10 +22,7 @@ double gravity_m3_s2(const OrbitCenter& center) {
 
 TurningAxes WorldFrame::body_fixed(BodyId body) const {
     if (body == BodyId::kEarth) {
-        if (!earth_) {
-            const Mat3d icrf_from_fixed = transposed(earth_fixed_from_icrf(time_));
-            earth_ = {icrf_from_fixed, icrf_from_fixed * Vec3d{0, 0, kEarthRate_rad_s}};
-        }
+        if (!earth_) earth_ = {transposed(earth_fixed_from_icrf(time_)), earth_rate_rad_s(time_)};
         return *earth_;
     }
     // Other bodies turn about a pole that is at rest for days: by difference over a minute, good to 1e-9 of

@@ -20,10 +20,12 @@ Mat3d icrf_from_eme2000() {
                             {bias[2][0], bias[2][1], bias[2][2]}});
 }
 
+Vec3d earth_rate_rad_s(TimeTai time) { return kEarthRate_rad_s * earth_rotated_from_icrf(time).z; }
+
 StateVector icrf_from_earth_fixed(TimeTai time, const StateVector& fixed) {
     const Mat3d icrf_from_fixed = transposed(earth_fixed_from_icrf(time));
-    const Vec3d turning = fixed.velocity_m_s + cross(Vec3d{0, 0, kEarthRate_rad_s}, fixed.position_m);
-    return {icrf_from_fixed * fixed.position_m, icrf_from_fixed * turning};
+    const Vec3d position_m = icrf_from_fixed * fixed.position_m;
+    return {position_m, icrf_from_fixed * fixed.velocity_m_s + cross(earth_rate_rad_s(time), position_m)};
 }
 
 }  // namespace hilcam
