@@ -152,8 +152,8 @@ class FrameLoop {
         Exposure exposure;
         std::int64_t not_before_ns = 0;  // of a script's frame: may be published; 0: at any time
         std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // of the exposure, camera's time
-        bool until_end = false;          // not to be published before
-        double next_exposure_s = 0;      // automatic: of the slot's next frame; 0: not measured yet
+        bool until_end = false;                                // not to be published before
+        double next_exposure_s = 0;  // automatic: of the slot's next frame; 0: not measured yet
         bool automatic = false;
         bool ends_order = false;
         std::int64_t render_ns = 0, sense_ns = 0;  // how long its last frame took; 0: there was none
