@@ -89,7 +89,8 @@ std::string_view meaning_of(CommandStatus status) {
         case CommandStatus::kUnknownObject:
             return "the bench has no object, joint, lamp or camera of this number";
         case CommandStatus::kTimeOutOfRange:
-            return "beyond commands.poses.horizon_s from simulated time, or in lockstep not after the last frame";
+            return "beyond commands.poses.horizon_s from simulated time, or in lockstep not after the last "
+                   "frame";
         case CommandStatus::kBusy:
             return "the frame before is still being exposed, or too many are waiting";
         case CommandStatus::kNotNow:
