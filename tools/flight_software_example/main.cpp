@@ -57,7 +57,7 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--frames", o.frames, "lockstep: end after so many; 0: at the approach's end");
     app.add_option("--processing-delay-s", o.processing_delay_s, "lockstep: from exposure to actuation")
-        ->check(CLI::NonNegativeNumber)
+        ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     app.add_option("--from-m", o.from_m, "x y z of the rail's far end")->expected(3)->capture_default_str();
     app.add_option("--to-m", o.to_m, "x y z of its near end")->expected(3)->capture_default_str();
