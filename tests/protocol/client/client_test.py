@@ -346,6 +346,22 @@ class Running(unittest.TestCase):
                 h.Client(endpoint)
 
 
+    def test_a_fault_of_some_frames_strikes_so_many_from_now_on(self):
+        black = 1 << list(h.FAULTS).index("image_black")
+        with pose_stream.running(HILCAM) as to, h.Client(to, timeout_s=10) as client:
+            client.send(h.Subscribe(frame_reports=True))
+            struck, seen = [], 0
+            while seen < 40:
+                report = client.receive(10)
+                self.assertIsNotNone(report)
+                if isinstance(report, h.FrameReport):
+                    seen += 1
+                    struck += [seen] if report.faults & black else []
+                    if seen == 10:
+                        client.send(h.Fault("image_black", frames=3))
+            self.assertEqual(len(struck), 3, struck)
+
+
 class Time(unittest.TestCase):
     """Simulated time of the running program, by the Python client."""
 
