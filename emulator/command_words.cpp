@@ -14,6 +14,8 @@ namespace {
 
 using Take = std::function<void(const Command&)>;
 
+constexpr double kLatest_s = 1e9;  // of a script's lines: 30 years, which 64 bits hold in nanoseconds
+
 // What cannot be made into a command is the user's error.
 template <class Make>
 void hand_over(const CLI::App* app, const Take& take, const Make& make) {
@@ -247,10 +249,11 @@ bool read_time(const std::string& word, double before_s, double& at_s) {
     } catch (const std::exception&) {
         end = 0;
     }
-    if (end + 1 != word.size() || !std::isfinite(value) || value < 0)
-        throw InputError("found '" + word +
-                         "'; accepted: @SECONDS since the start or +SECONDS since the line before");
     at_s = word[0] == '@' ? value : before_s + value;
+    if (end + 1 != word.size() || !(value >= 0) || !(at_s <= kLatest_s))
+        throw InputError(
+            "found '" + word +
+            "'; accepted: @SECONDS since the start or +SECONDS since the line before, up to 1e9");
     if (at_s < before_s) throw InputError("its time " + word + " lies before the line before");
     return true;
 }

@@ -124,6 +124,7 @@ void FrameLoop::take_settings(const FrameStarter::Start& start, Slot& slot) {
     use.reverse_x = s.reverse_x, use.reverse_y = s.reverse_y;
     use.trigger_sequence = start.trigger_sequence;
     use.quality_level = choose_level(slot, use.id);
+    faults_.begin(use.id);
     use.faults = frame_faults(faults_, use.id);
     use.image = image_faults(faults_, use.id);
     slot.use = use;

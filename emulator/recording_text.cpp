@@ -1,8 +1,10 @@
 #include "emulator/recording_text.h"
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "io/command_payload.h"
+#include "io/frame_flags.h"
 #include "render/overloaded.h"
 
 namespace hilcam {
@@ -10,6 +12,9 @@ namespace {
 
 // Keys in the order in which they are written.
 using json = nlohmann::ordered_json;
+
+// In the order of ClockCommand::Action, which a record that is read has been checked for.
+constexpr std::array kClockActions = {"ask", "scale", "pause", "resume", "step"};
 
 json list_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
@@ -78,9 +83,10 @@ void add_command(json& out, const Command& command, const RecordingHeader& heade
                        out["burst_frames"] = m.burst_frames;
                    },
                    [&](const ClockCommand& c) {
-                       out["action"] = static_cast<int>(c.action);
-                       out["scale"] = c.scale;
-                       out["step_s"] = seconds_between(0, c.step_ns);
+                       out["action"] = kClockActions.at(static_cast<std::size_t>(c.action));
+                       if (c.action == ClockCommand::Action::kScale) out["scale"] = c.scale;
+                       if (c.action == ClockCommand::Action::kStep)
+                           out["step_s"] = seconds_between(0, c.step_ns);
                    },
                    [](const auto&) {},
                },
@@ -112,6 +118,7 @@ json text_of(const RecordedFrame& f, const RecordingHeader& header) {
                 {"frame", u.id},
                 {"begin_s", seconds_since(u.begin_ns, header)},
                 {"middle_s", seconds_since(u.exposure_mid, header)},
+                {"shown_s", seconds_since(u.shown_at, header)},
                 {"exposure_s", u.exposure_s},
                 {"gain_db", u.gain_db},
                 {"black_level_dn", u.black_level_dn},
@@ -120,13 +127,11 @@ json text_of(const RecordedFrame& f, const RecordingHeader& header) {
                 {"trigger_sequence", u.trigger_sequence},
                 {"skipped", u.skipped}};
     if (u.late) out["late"] = true;
+    if (u.shutter_closed) out["shutter_closed"] = true;
     if (u.test_pattern != TestPattern::kOff) out["test_pattern"] = static_cast<int>(u.test_pattern);
     if (u.reverse_x) out["reverse_x"] = true;
     if (u.reverse_y) out["reverse_y"] = true;
-    json faults = json::array();
-    for (const FaultKind kind : kAllFaults)
-        if (u.faults & bit_of(kind)) faults.push_back(name_of(kind));
-    if (!faults.empty()) out["faults"] = faults;
+    if (u.faults != 0) out["faults"] = names_of_bits(u.faults);
     return out;
 }
 

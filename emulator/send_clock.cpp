@@ -11,8 +11,6 @@
 namespace hilcam {
 namespace {
 
-constexpr int kExchanges = static_cast<int>(ClockFilter::kSamples);
-
 std::string way_of(const ClockReading& r) {
     const double left_s = static_cast<double>(r.stands_at - r.departure) * kSecondsPerNs;
     if (left_s <= 0) return fmt::format("stands (scale {} when it goes on)", r.scale);
@@ -22,23 +20,25 @@ std::string way_of(const ClockReading& r) {
 
 }  // namespace
 
-ClockFilter measure_clock(CommandSender& sender, const ClockCommand& order, int count, int timeout_ms,
-                          Acknowledgement& first) {
-    ClockFilter filter;
-    for (int i = 0; i < count; ++i) {
-        ClockCommand command = i == 0 ? order : ClockCommand{};
-        command.sender_ns = monotonic_ns();
-        const Acknowledgement answer = sender.send(command, timeout_ms);
-        if (answer.clock) filter.take({command.sender_ns, monotonic_ns(), *answer.clock});
-        if (i == 0) first = answer;
-    }
-    return filter;
+Acknowledgement exchange_clock(CommandSender& sender, ClockCommand order, int timeout_ms,
+                               ClockFilter& filter) {
+    order.sender_ns = monotonic_ns();
+    const Acknowledgement answer = sender.send(order, timeout_ms);
+    if (answer.clock) filter.take({order.sender_ns, monotonic_ns(), *answer.clock});
+    return answer;
+}
+
+Acknowledgement measure_clock(CommandSender& sender, const ClockCommand& order, int timeout_ms,
+                              ClockFilter& filter) {
+    const Acknowledgement first = exchange_clock(sender, order, timeout_ms, filter);
+    for (std::size_t i = 1; i < ClockFilter::kSamples; ++i) exchange_clock(sender, {}, timeout_ms, filter);
+    return first;
 }
 
 int send_clock(const SendTarget& target, const ClockCommand& order) {
     CommandSender sender(target.endpoint, target.dialect);
-    Acknowledgement first;
-    const ClockFilter filter = measure_clock(sender, order, kExchanges, target.timeout_ms, first);
+    ClockFilter filter;
+    const Acknowledgement first = measure_clock(sender, order, target.timeout_ms, filter);
     const bool accepted = first.status == CommandStatus::kAccepted;
     const std::int64_t now_ns = monotonic_ns();
     const auto estimate = filter.estimate(now_ns);

@@ -7,10 +7,13 @@
 
 namespace hilcam {
 
-// Exchanges of clock readings by CLOCK_MONOTONIC of this machine, `count` of them; the first carries `order`.
-// `first`: its answer. Throws DeviceError.
-ClockFilter measure_clock(CommandSender& sender, const ClockCommand& order, int count, int timeout_ms,
-                          Acknowledgement& first);
+// An exchange of clock readings by CLOCK_MONOTONIC of this machine, which carries `order`: into the filter.
+// Gives the answer. Throws DeviceError.
+Acknowledgement exchange_clock(CommandSender& sender, ClockCommand order, int timeout_ms,
+                               ClockFilter& filter);
+// As many as the filter keeps; the first carries `order`. Gives its answer.
+Acknowledgement measure_clock(CommandSender& sender, const ClockCommand& order, int timeout_ms,
+                              ClockFilter& filter);
 
 // Carries out the order, if it is one, and prints how simulated time goes and how well it is known. Gives the
 // exit status.

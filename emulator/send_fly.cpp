@@ -13,6 +13,9 @@
 namespace hilcam {
 namespace {
 
+// Until then a change of how time goes is not known, nor what clocks of two machines have drifted apart.
+constexpr std::int64_t kAskAgain_ns = 500'000'000;
+
 Vec3d vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 CircleFlight flight_of(const FlyOptions& o) {
@@ -37,14 +40,14 @@ void add_fly_options(CLI::App& app, FlyOptions& o) {
 }
 
 // Poses with time tags, on the emulator's own simulated time, which may go at another speed than this
-// machine's: the flight goes with it.
+// machine's, or come to go at another: the flight goes with it.
 int send_flight(const SendTarget& target, const FlyOptions& o) {
     CommandSender sender(target.endpoint, target.dialect);
     const CircleFlight flight = flight_of(o);
-    Acknowledgement first;
-    const ClockFilter clock =
-        measure_clock(sender, {}, static_cast<int>(ClockFilter::kSamples), target.timeout_ms, first);
+    ClockFilter clock;
+    measure_clock(sender, {}, target.timeout_ms, clock);
     const std::int64_t start_ns = monotonic_ns();
+    std::int64_t asked_ns = start_ns;
     // Where nobody tells it: the poses are true on arrival.
     const TimeTai start = clock.simulated_at(start_ns).value_or(TimeTai{});
     std::vector<double> round_trips_ms;
@@ -54,6 +57,10 @@ int send_flight(const SendTarget& target, const FlyOptions& o) {
         const std::int64_t due_ns =
             start_ns + static_cast<std::int64_t>(static_cast<double>(i) / o.rate_hz * 1e9);
         sleep_until_monotonic_ns(due_ns);
+        if (monotonic_ns() - asked_ns >= kAskAgain_ns) {
+            exchange_clock(sender, {}, target.timeout_ms, clock);
+            asked_ns = monotonic_ns();
+        }
         const std::int64_t now_ns = monotonic_ns();
         PoseCommand pose;
         pose.object = static_cast<std::uint16_t>(o.object);

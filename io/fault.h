@@ -97,7 +97,7 @@ struct FaultOrder {
     FaultKind kind = FaultKind::kPacketDrop;
     double rate = 1;               // 0..1; 0 ends the fault
     double value = 0;              // by kind
-    std::uint64_t from_frame = 0;  // 0: at once
+    std::uint64_t from_frame = 0;  // 0: at once; with `frames` the next one that begins
     std::uint64_t frames = 0;      // 0: no end by frames
     double duration_s = 0;         // from the order's arrival; 0: no end by time
 };
@@ -109,7 +109,11 @@ class FaultBoard {
   public:
     explicit FaultBoard(std::uint64_t seed = 1) : seed_(seed) {}
 
-    // Any thread but the loop (a lock among those that order).
+    // This frame begins: so many frames "at once" are those after it. Loop.
+    void begin(std::uint64_t frame) noexcept { begun_.store(frame, std::memory_order_relaxed); }
+    // The order with its first frame, when it wants `frames` at once; any other as it is. Any thread.
+    FaultOrder from_now(FaultOrder order) const;
+    // Any thread but the loop (a lock among those that order). From now on: from_now(order).
     void order(const FaultOrder& order);
     void clear_all();
     // The present order, if one is in force or waits for its frame.
@@ -172,6 +176,7 @@ class FaultBoard {
     std::atomic<std::uint64_t> log_head_{0};
     std::uint64_t log_tail_ = 0;
     mutable std::atomic_flag writing_ = ATOMIC_FLAG_INIT;
+    std::atomic<std::uint64_t> begun_{0};
 };
 
 }  // namespace hilcam

@@ -59,9 +59,13 @@ GigeFaultRegisters::GigeFaultRegisters(GigeCore& core) : core_(core) {
 }
 
 FaultOrder GigeFaultRegisters::shown() const {
-    if (!edited_[selector_])
-        if (const auto order = core_.faults.order_of(kAllFaults[selector_])) return *order;
-    return drafts_[selector_];
+    const FaultOrder& draft = drafts_[selector_];
+    if (edited_[selector_]) return draft;
+    std::optional<FaultOrder> order = core_.faults.order_of(kAllFaults[selector_]);
+    if (!order) return draft;
+    // As it was asked for: what was "at once" is so again when it is enabled once more.
+    order->from_frame = draft.from_frame;
+    return *order;
 }
 
 // The value's range depends on the kind: FaultEnable checks the whole order.

@@ -265,10 +265,7 @@ void PreviewSink::Implementation::trigger(const httplib::Request& request, httpl
 }
 
 void PreviewSink::Implementation::order_fault(const httplib::Request& request, httplib::Response& response) {
-    FaultRequest wanted = parse_fault_request(request.body);
-    // So many frames from now on, not from the first of the run.
-    if (wanted.order.frames > 0 && wanted.order.from_frame == 0)
-        wanted.order.from_frame = slot.newest_id() + 1;
+    const FaultRequest wanted = parse_fault_request(request.body);
     if (wanted.clear_all)
         context.faults.clear_all();
     else

@@ -21,6 +21,9 @@ constexpr double kFarthest_m = 1.5e15, kFastest_m_s = 3e8;
 // 50 years: with any epoch that parse_utc() takes, the sum stays inside TimeTai.
 constexpr double kLongest_ns = 1.6e18;
 constexpr double kRotationTolerance = 1e-6;
+// Basilisk's messages have some kilobytes. Two bytes can become a spacecraft of a hundred in memory.
+constexpr std::size_t kMostBytes = 8u << 20;
+constexpr int kMostThings = 10'000, kMostCameras = 255;
 
 // A list of numbers of a message; `what` names it in a refusal.
 struct Numbers {
@@ -106,8 +109,17 @@ std::int64_t elapsed_of(double ns) {
     return std::llround(ns);
 }
 
+void check_number(const char* what, int found, int most) {
+    if (found > most)
+        throw InputError("found " + std::to_string(found) + " " + what + "; accepted: up to " +
+                         std::to_string(most));
+}
+
 VizardUpdate update_of(const hilcam_vizard::VizMessage& m) {
     VizardUpdate update;
+    check_number("spacecraft", m.spacecraft_size(), kMostThings);
+    check_number("bodies", m.celestialbodies_size(), kMostThings);
+    check_number("cameras", m.cameras_size(), kMostCameras);
     if (!m.has_currenttime()) throw InputError("currentTime is missing");
     update.frame_number = m.currenttime().framenumber();
     update.elapsed_ns = elapsed_of(m.currenttime().simtimeelapsed());
@@ -126,10 +138,12 @@ DecodedVizardUpdate decode_vizard_update(std::span<const std::uint8_t> bytes) {
     // The library would print to standard error what is told in the refusal.
     static const bool quiet = (google::protobuf::SetLogHandler(nullptr), true);
     static_cast<void>(quiet);
+    const std::string size = std::to_string(bytes.size()) + " bytes";
+    if (bytes.size() > kMostBytes)
+        return {{}, "found " + size + "; accepted: up to " + std::to_string(kMostBytes)};
     hilcam_vizard::VizMessage message;
-    constexpr std::size_t kMost = 1u << 30;
-    if (bytes.size() > kMost || !message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
-        return {{}, "is no VizMessage (" + std::to_string(bytes.size()) + " bytes)"};
+    if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+        return {{}, "is no VizMessage (" + size + ")"};
     try {
         return {update_of(message), {}};
     } catch (const InputError& error) {

@@ -44,7 +44,7 @@ struct DecodedVizardUpdate {
     std::string refusal;  // empty: all is well; else one line: what, found, accepted
 };
 
-// Any bytes. Any thread.
+// Any bytes; up to 8 MiB, 10 000 spacecraft, 10 000 bodies and 255 cameras are read. Any thread.
 DecodedVizardUpdate decode_vizard_update(std::span<const std::uint8_t> bytes);
 // The user's input since the last message, of which there is none.
 std::string encode_vizard_input(std::int64_t frame_number);

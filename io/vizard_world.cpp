@@ -15,6 +15,7 @@ namespace {
 
 // Of a run, and of all: a flood of them says no more.
 constexpr std::size_t kMostRemarks = 100, kMostRemarksInAll = 1000;
+constexpr std::size_t kMostNamed = 10;  // that are not shown: a constellation's leave room for other remarks
 constexpr std::size_t kNoCamera = SIZE_MAX;
 // Of the fields of view: pitch and focal length of data sheets are rounded.
 constexpr double kViewTolerance_ratio = 0.01;
@@ -163,7 +164,10 @@ VizardWorld::Shift VizardWorld::shift_at(TimeTai time, const Bodies& bodies) {
     return {shift.position_m - home->position_n_m, shift.velocity_m_s - home->velocity_n_m_s};
 }
 
-Motion VizardWorld::motion_of(const VizardThing& thing, const Shift& shift) const {
+Motion VizardWorld::motion_of(const VizardThing& thing, const Shift& shift) {
+    if (!thing.n_from_body)
+        remark("SIM_UPDATE has no attitude of '" + shown(thing.name) +
+               "': it stands along the axes of the simulation's frame");
     return {time(),
             {thing.position_n_m + shift.position_m, thing.n_from_body.value_or(Quat{})},
             thing.velocity_n_m_s + shift.velocity_m_s,
@@ -184,15 +188,20 @@ void VizardWorld::pose_objects(const Shift& shift, std::vector<PoseCommand>& pos
         poses.push_back(command);
         return true;
     };
-    for (const VizardThing& spacecraft : update_.spacecraft) {
-        const bool carries = std::any_of(update_.cameras.begin(), update_.cameras.end(),
-                                         [&](const VizardCamera& c) { return parent_of(c) == &spacecraft; });
-        if (!pose(spacecraft) && !carries)
-            remark("spacecraft '" + shown(spacecraft.name) + "' is not shown, as no object has its name");
-    }
+    std::size_t hidden = 0;
+    const auto hide = [&](const std::string& kind, const VizardThing& thing) {
+        if (++hidden <= kMostNamed)
+            remark(kind + " '" + shown(thing.name) + "' is not shown, as no object has its name");
+    };
+    std::set<const VizardThing*> carriers;
+    for (const VizardCamera& camera : update_.cameras) carriers.insert(parent_of(camera));
+    for (const VizardThing& spacecraft : update_.spacecraft)
+        if (!pose(spacecraft) && carriers.count(&spacecraft) == 0) hide("spacecraft", spacecraft);
     for (const VizardThing& body : update_.bodies)
-        if (!pose(body) && !body_of(body.name) && body_word(body.name) != "sun")
-            remark("body '" + shown(body.name) + "' is not shown, as no object has its name");
+        if (!pose(body) && !body_of(body.name) && body_word(body.name) != "sun") hide("body", body);
+    if (hidden > kMostNamed)
+        remark_once("hidden", std::to_string(hidden - kMostNamed) +
+                                  " more spacecraft and bodies are not shown, as no object has their names");
     for (std::size_t i = 0; i < told.size(); ++i)
         if (!told[i])
             remark("object " + std::to_string(i + 1) + " '" + bench_.objects[i] +

@@ -95,7 +95,7 @@ class VizardWorld {
     const VizardThing* parent_of(const VizardCamera& camera) const;
     TimeTai time() const { return start_ + update_.elapsed_ns; }
     Shift shift_at(TimeTai time, const Bodies& bodies);
-    Motion motion_of(const VizardThing& thing, const Shift& shift) const;
+    Motion motion_of(const VizardThing& thing, const Shift& shift);
     void pose_objects(const Shift& shift, std::vector<PoseCommand>& poses);
     void check_camera(const VizardCamera& camera, const VizardBench::Camera& own);
     void check_bodies(const Bodies& bodies, const Shift& shift, Vec3d camera_world_m);

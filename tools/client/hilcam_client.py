@@ -368,13 +368,16 @@ class ClockFilter:
         return True
 
     def estimate(self, sender_ns):
-        """(offset_ns, delay_ns, error_ns) at an instant of the sender's clock."""
+        """(offset_ns, delay_ns, error_ns) at an instant of the sender's clock. Throws NoAnswer before the first exchange."""
+        if not self._samples:
+            raise NoAnswer("no exchange of clock readings yet")
         return min(((offset, delay, delay / 2 + self.DRIFT * abs(sender_ns - at)) for offset, delay, at in self._samples),
                    key=lambda sample: sample[2])
 
     def simulated_tai_ns(self, sender_ns):
         """The simulated time then, while nobody changes how it goes; errs by the error times the scale."""
-        return self.reading.simulated_tai_ns(sender_ns + self.estimate(sender_ns)[0])
+        offset_ns = self.estimate(sender_ns)[0]
+        return self.reading.simulated_tai_ns(sender_ns + offset_ns)
 
 
 # --- the client
@@ -403,6 +406,8 @@ def _connect(to):
                 if form == socket.SOCK_SEQPACKET:
                     raise NoAnswer(f"{to}: {error}") from error
     address, _, port = (rest if kind in ("tcp", "udp") else to).rpartition(":")
+    if not (address and port.isdecimal() and 0 < int(port) < 65536):
+        raise ValueError(f"found '{to}'; accepted: ADDRESS:PORT, tcp:ADDRESS:PORT, unix:PATH")
     link = socket.socket(socket.AF_INET, socket.SOCK_STREAM if kind == "tcp" else socket.SOCK_DGRAM)
     try:
         link.connect((address, int(port)))
@@ -493,13 +498,17 @@ class Client:
         return self.send(dataclasses.replace(command, sender_ns=time.monotonic_ns())).clock
 
     def _put(self, packet):
+        until = time.monotonic() + self.timeout_s
         try:
             while packet:
                 try:
                     sent = self._socket.send(packet)
                     packet = packet[sent:] if self._is_stream else b""
                 except BlockingIOError:
-                    select.select([], [self._socket], [], 1.0)
+                    left_s = until - time.monotonic()
+                    if left_s <= 0:
+                        raise NoAnswer(f"{self.to}: took no more commands for {self.timeout_s} s") from None
+                    select.select([], [self._socket], [], left_s)
         except ConnectionRefusedError:
             pass  # UDP's note that nobody heard the datagram before: silence will tell
         except OSError as error:

@@ -6,9 +6,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
-#include <stdexcept>
 
 namespace flight {
 namespace {
@@ -26,16 +27,22 @@ std::int64_t monotonic_ns() {
 }
 
 Link::Link(const std::string& endpoint) : endpoint_(endpoint) {
-    const std::size_t colon = endpoint.rfind(':');
+    const std::size_t colon = std::min(endpoint.rfind(':'), endpoint.size());
+    const char* const end = endpoint.data() + endpoint.size();
+    std::uint16_t port = 0;
+    const auto [at, error] = std::from_chars(std::min(endpoint.data() + colon + 1, end), end, port);
     sockaddr_in to{};
     to.sin_family = AF_INET;
-    if (colon == std::string::npos ||
+    to.sin_port = htons(port);
+    if (error != std::errc{} || at != end || port == 0 ||
         inet_pton(AF_INET, endpoint.substr(0, colon).c_str(), &to.sin_addr) != 1)
-        throw std::runtime_error("'" + endpoint + "': accepted: ADDRESS:PORT");
-    to.sin_port = htons(static_cast<std::uint16_t>(std::stoul(endpoint.substr(colon + 1))));
+        throw std::runtime_error("'" + endpoint + "': accepted: an IPv4 ADDRESS:PORT");
     socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    if (socket_ < 0 || connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0)
-        throw std::runtime_error(endpoint + ": " + std::strerror(errno));
+    if (socket_ < 0 || connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0) {
+        const std::string why = std::strerror(errno);
+        if (socket_ >= 0) close(socket_);
+        throw std::runtime_error(endpoint + ": " + why);
+    }
 }
 
 Link::~Link() { close(socket_); }
@@ -60,6 +67,7 @@ void Link::post_pose(const hilcam_pose& pose) {
     ++envelope_.sequence;
     while (receive(0, answer)) {
     }
+    if (heard_ns_ != 0 && monotonic_ns() - heard_ns_ > kPatience_ns) throw silent();
 }
 
 std::int64_t Link::simulated_offset_ns() {
@@ -83,7 +91,11 @@ hilcam_acknowledgement Link::ask(std::size_t bytes) {
     hilcam_acknowledgement answer;
     while (monotonic_ns() < until_ns)
         if (receive(100, answer) && answer.sequence == sequence) return answer;
-    throw std::runtime_error(endpoint_ + " does not answer; is 'hilcam run' up and listening there?");
+    throw silent();
+}
+
+std::runtime_error Link::silent() const {
+    return std::runtime_error(endpoint_ + " does not answer; is 'hilcam run' up and listening there?");
 }
 
 // An acknowledgement; one that refuses throws.
@@ -97,6 +109,7 @@ bool Link::receive(int timeout_ms, hilcam_acknowledgement& answer) {
                         HILCAM_KIND_ACKNOWLEDGEMENT)
         return false;
     answer = packet.as.acknowledgement;
+    heard_ns_ = monotonic_ns();
     if (answer.status != HILCAM_ACCEPTED)
         throw std::runtime_error(endpoint_ + ": " + hilcam_status_name(answer.status) + ": " + answer.reason);
     return true;

@@ -2,13 +2,14 @@
 // hilcam's command protocol over UDP, with tools/client/hilcam_client.h: what a dynamics simulator sends.
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 #include "tools/client/hilcam_client.h"
 
 namespace flight {
 
-// One thread. Throws std::runtime_error: no answer within ten seconds, or a command refused.
+// One thread. Throws std::runtime_error: nothing heard for ten seconds, or a command refused.
 class Link {
   public:
     explicit Link(const std::string& endpoint);  // ADDRESS:PORT
@@ -31,9 +32,11 @@ class Link {
   private:
     hilcam_acknowledgement ask(std::size_t bytes);
     bool receive(int timeout_ms, hilcam_acknowledgement& answer);
+    std::runtime_error silent() const;
 
     std::string endpoint_;
     int socket_ = -1;
+    std::int64_t heard_ns_ = 0;   // the last answer; 0: none was asked for yet
     hilcam_envelope envelope_{};  // of the command being encoded into bytes_
     std::uint8_t bytes_[HILCAM_MOST_PACKET_BYTES] = {};
 };

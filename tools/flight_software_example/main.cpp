@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <deque>
 #include <memory>
@@ -30,7 +31,7 @@ struct Options {
     std::string log = "approach.csv";
     bool free_run = false;
     double duration_s = 100;
-    double frame_period_s = 0.2;      // lockstep
+    double frame_period_s = 0.2;      // in free-run the camera's own counts
     double processing_delay_s = 0.1;  // lockstep; in free-run it takes what it takes
     std::int64_t frames = 0;          // lockstep; 0: until the approach is over
     std::vector<double> from_m = {1879.4, -684.0, 0};
@@ -47,10 +48,16 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--log", o.log, "a line for each frame, CSV")->capture_default_str();
     app.add_flag("--free-run", o.free_run,
                  "in real time; else in lockstep, with 'hilcam run --set mode=lockstep'");
-    app.add_option("--duration-s", o.duration_s, "of the approach, simulated")->capture_default_str();
-    app.add_option("--frame-period-s", o.frame_period_s, "lockstep: between frames")->capture_default_str();
+    const CLI::Range positive(1e-3, 1e6);
+    app.add_option("--duration-s", o.duration_s, "of the approach, simulated")
+        ->check(positive)
+        ->capture_default_str();
+    app.add_option("--frame-period-s", o.frame_period_s, "lockstep: between frames; free-run: the camera's")
+        ->check(positive)
+        ->capture_default_str();
     app.add_option("--frames", o.frames, "lockstep: end after so many; 0: at the approach's end");
     app.add_option("--processing-delay-s", o.processing_delay_s, "lockstep: from exposure to actuation")
+        ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     app.add_option("--from-m", o.from_m, "x y z of the rail's far end")->expected(3)->capture_default_str();
     app.add_option("--to-m", o.to_m, "x y z of its near end")->expected(3)->capture_default_str();
@@ -59,6 +66,7 @@ void add_options(CLI::App& app, Options& o) {
         ->expected(2)
         ->capture_default_str();
     app.add_option("--focal-px", o.focal_px, "the camera's focal length, of its calibration")
+        ->check(positive)
         ->capture_default_str();
     app.add_option("--natural-frequency-rad-s", o.gains.natural_frequency_rad_s, "of the pointing loop")
         ->capture_default_str();
@@ -66,6 +74,17 @@ void add_options(CLI::App& app, Options& o) {
 }
 
 cv::Vec3d vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
+
+// Ctrl-C ends the flight where it is: the log is whole, the camera is given back. A second one kills.
+volatile std::sig_atomic_t interrupted = 0;
+
+void end_on_signals() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = 1; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
 
 // Where the vehicle was at an instant: what the log compares the frame with.
 struct Sample {
@@ -85,6 +104,7 @@ class Approach {
           attitude_(Attitude::looking(-rail_.from_m, {0, 0.5, 0.866})),
           log_(std::fopen(o.log.c_str(), "w")) {
         if (!log_) throw std::runtime_error(o.log + ": cannot be written");
+        std::setvbuf(log_.get(), nullptr, _IOLBF, BUFSIZ);  // whole lines, however the flight ends
         attitude_.offset(1e-3 * cv::Vec3d(o.off_pointing_mrad[0], o.off_pointing_mrad[1], 0));
         std::fputs("frame,time_s,x_m,y_m,z_m,qw,qx,qy,qz,found,error_x_px,error_y_px,light_dn\n", log_.get());
     }
@@ -99,15 +119,13 @@ class Approach {
         const double delay_s = std::min(options_.processing_delay_s, options_.frame_period_s);
         const std::int64_t all = 1 + std::llround(options_.duration_s / options_.frame_period_s);
         const std::int64_t frames = options_.frames > 0 ? std::min(options_.frames, all) : all;
-        for (std::int64_t k = 0; k < frames; ++k) {
+        for (std::int64_t k = 0; k < frames && !interrupted; ++k) {
             const std::int64_t tag_ns = start_tai_ns_ + at_ns(k);
             const double t_s = 1e-9 * static_cast<double>(at_ns(k));
             link_.set_pose(pose_at(t_s, tag_ns));
             link_.expose(tag_ns);
             Frame frame;
-            if (!camera_.take(std::chrono::seconds(20), frame))
-                throw std::runtime_error(
-                    "no frame came for an exposure in lockstep; is the camera in that mode?");
+            if (!await(frame)) return;
             if (frame.exposure_mid_tai_ns != tag_ns)
                 throw std::runtime_error("frame " + std::to_string(frame.id) +
                                          " is not the one that was asked for");
@@ -125,7 +143,8 @@ class Approach {
         start_tai_ns_ = monotonic_ns() + offset_ns;
         cv::Vec3d acceleration;
         std::deque<Sample> flown;
-        for (double t_s = 0; t_s < options_.duration_s;) {
+        double seen_s = 0;  // when the last frame came
+        for (double t_s = 0; t_s < options_.duration_s && !interrupted;) {
             const std::int64_t tag_ns = monotonic_ns() + offset_ns;
             const double now_s = 1e-9 * static_cast<double>(tag_ns - start_tai_ns_);
             if (now_s >= t_s + kStep_s || flown.empty()) {
@@ -135,8 +154,12 @@ class Approach {
                 flown.push_back({t_s, attitude_});
                 if (flown.size() > 500) flown.pop_front();
             }
+            // Blind, it coasts, as it does when the target is out of sight.
+            if (t_s - seen_s > kBlind_periods * options_.frame_period_s) acceleration = {};
+            if (t_s - seen_s > kGone_s) throw std::runtime_error(no_frames(kGone_s));
             Frame frame;
             if (!camera_.take(std::chrono::milliseconds(2), frame)) continue;
+            seen_s = t_s;
             const double mid_s = 1e-9 * static_cast<double>(frame.exposure_mid_tai_ns - start_tai_ns_);
             if (mid_s < flown.front().t_s) continue;  // of before the start
             acceleration = see(frame, sample_at(flown, mid_s));
@@ -150,6 +173,23 @@ class Approach {
     }
 
   private:
+    static constexpr double kBlind_periods = 3, kGone_s = 10, kLockstepPatience_s = 20;
+
+    std::string no_frames(double seconds) const {
+        return "camera " + options_.camera + ": no whole frame for " + std::to_string(std::lround(seconds)) +
+               " s; is 'hilcam run' up, and in the same mode (lockstep, free-run)?";
+    }
+
+    // The frame of an exposure in lockstep; false: Ctrl-C.
+    bool await(Frame& frame) {
+        const std::int64_t until_ns = monotonic_ns() + std::llround(kLockstepPatience_s * 1e9);
+        while (!camera_.take(std::chrono::milliseconds(100), frame)) {
+            if (interrupted) return false;
+            if (monotonic_ns() > until_ns) throw std::runtime_error(no_frames(kLockstepPatience_s));
+        }
+        return true;
+    }
+
     hilcam_pose pose_at(double t_s, std::int64_t tag_ns) const {
         hilcam_pose pose{};
         pose.time_tai_ns = tag_ns;
@@ -220,6 +260,7 @@ int main(int argc, char** argv) {
     flight::add_options(app, options);
     CLI11_PARSE(app, argc, argv);
     try {
+        flight::end_on_signals();
         flight::Approach approach(options);
         options.free_run ? approach.in_free_run() : approach.in_lockstep();
         approach.print_summary();

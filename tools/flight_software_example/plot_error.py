@@ -59,7 +59,7 @@ class Log:
 
     def figures(self, light=None, reference=None):
         figures = {"frames": len(self.frame), "not_found": int((~self.found).sum()),
-                   "first_px": float(numpy.linalg.norm(self.measured_px[0])), "settled_frames": int(self.settled.sum()),
+                   "first_px": float(numpy.linalg.norm(self.measured_px[self.found][0])), "settled_frames": int(self.settled.sum()),
                    "measured_rms_px": rms(self.measured_px[self.settled])}
         if light is not None:
             figures["light_rms_px"] = rms(light[1][light[2]])
@@ -91,7 +91,8 @@ def plot(log, light, reference, out):
     figures = log.figures(light, reference)
     first = log.time_s[log.settled][0]
     after = log.time_s >= first
-    top.semilogy(log.time_s[log.found], numpy.linalg.norm(log.measured_px[log.found], axis=1), lw=0.8, color="C0",
+    # Not found is not a number: the line has a gap there.
+    top.semilogy(log.time_s, numpy.linalg.norm(log.measured_px, axis=1), lw=0.8, color="C0",
                  label=f"measured in the frames, {figures['measured_rms_px']:.3f} px RMS")
     for axis, name in enumerate("xy"):
         middle.plot(log.time_s[after], log.measured_px[after, axis], lw=0.7, color=f"C{4 * axis}", alpha=0.7,

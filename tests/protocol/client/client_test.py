@@ -8,6 +8,7 @@ import os
 import pathlib
 import random
 import re
+import socket
 import struct
 import subprocess
 import sys
@@ -287,6 +288,8 @@ class Filters(unittest.TestCase):
     def test_what_cannot_be_is_not_taken(self):
         reading = h.ClockReading(0, 1000, 2000, 1.0, 2**63 - 1, 0)
         filter = h.ClockFilter()
+        with self.assertRaisesRegex(h.NoAnswer, "no exchange"):
+            filter.simulated_tai_ns(0)
         self.assertFalse(filter.take(500, 400, reading))
         self.assertFalse(filter.take(0, 999, reading))  # back sooner than it was answered
         self.assertTrue(filter.take(0, 1000, reading))
@@ -330,6 +333,35 @@ class Running(unittest.TestCase):
             h.Client(f"tcp:127.0.0.1:{port}")
 
 
+    def test_who_never_reads_is_not_waited_for(self):
+        with socket.create_server(("127.0.0.1", 0)) as server, \
+                h.Client(f"tcp:127.0.0.1:{server.getsockname()[1]}", timeout_s=0.2) as client:
+            with self.assertRaisesRegex(h.NoAnswer, "took no more commands for 0.2 s"):
+                for _ in range(1_000_000):  # 132 MB: more than any kernel's buffers
+                    client.post(h.Pose())
+
+    def test_what_is_no_endpoint_is_refused(self):
+        for endpoint in ("127.0.0.1", "tcp:127.0.0.1", "127.0.0.1:", "127.0.0.1:70000", ":5010", "udp:127.0.0.1:x"):
+            with self.assertRaisesRegex(ValueError, "accepted: ADDRESS:PORT"):
+                h.Client(endpoint)
+
+
+    def test_a_fault_of_some_frames_strikes_so_many_from_now_on(self):
+        black = 1 << list(h.FAULTS).index("image_black")
+        with pose_stream.running(HILCAM) as to, h.Client(to, timeout_s=10) as client:
+            client.send(h.Subscribe(frame_reports=True))
+            struck, seen = [], 0
+            while seen < 40:
+                report = client.receive(10)
+                self.assertIsNotNone(report)
+                if isinstance(report, h.FrameReport):
+                    seen += 1
+                    struck += [seen] if report.faults & black else []
+                    if seen == 10:
+                        client.send(h.Fault("image_black", frames=3))
+            self.assertEqual(len(struck), 3, struck)
+
+
 class Time(unittest.TestCase):
     """Simulated time of the running program, by the Python client."""
 
@@ -361,6 +393,20 @@ class Time(unittest.TestCase):
                 for command in (h.Clock(9), h.Clock(h.Clock.SCALE, scale=0.0), h.Clock(h.Clock.STEP, step_ns=0)):
                     with self.assertRaisesRegex(h.Refused, "is not"):
                         client.send(command)
+
+    def test_a_flight_from_the_shell_notices_a_change_of_scale(self):
+        with pose_stream.running(HILCAM) as to, h.Client(to, timeout_s=10) as client:
+            fly = subprocess.Popen([HILCAM, "send", "--to", to, "fly", "--from-m", "22", "15", "7", "--rate-hz", "20", "--duration-s",
+                                    "4"], stdout=subprocess.PIPE, text=True)
+            time.sleep(1)
+            client.scale_time(0.1)
+            self.assertIn("80 poses sent, 80 accepted", fly.communicate(timeout=60)[0])
+            client.send(h.Subscribe(frame_reports=True))
+            while not isinstance(report := client.receive(10), h.FrameReport):
+                self.assertIsNotNone(report)
+            # It asks every half second; who does not is 2.7 s ahead by now.
+            ahead_ns = report.pose_time_tai_ns - client.clock(1).reading.departure_tai_ns
+            self.assertLess(ahead_ns, 0.6e9)
 
     def test_time_tags_that_go_back_are_told(self):
         with pose_stream.running(HILCAM) as to, h.Client(to, timeout_s=10) as client:

@@ -13,9 +13,11 @@ OUT_DIR keeps log, truth and plot.
 """
 import json
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy
@@ -78,6 +80,37 @@ def fly(emulator, log, *options):
     if result.returncode != 0:
         raise AssertionError(result.stderr + emulator.log())
     return json.loads(result.stdout)
+
+
+class Flight:
+    """The example while it flies."""
+
+    def __init__(self, emulator, log, *options):
+        self.log = pathlib.Path(log)
+        self.process = subprocess.Popen([EXAMPLE_PROGRAM, "--camera", ADDRESS, "--commands", f"127.0.0.1:{emulator.port}", "--log",
+                                         str(log), *map(str, options)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.communicate()
+
+    def frames(self):
+        return max(self.log.read_text().count("\n") - 1, 0) if self.log.exists() else 0
+
+    def await_frames(self, count):
+        until = time.monotonic() + 60
+        while self.frames() < count and self.process.poll() is None and time.monotonic() < until:
+            time.sleep(0.1)
+        if self.frames() < count:
+            raise AssertionError(f"{self.frames()} frames, not {count}: {self.end()}")
+
+    def end(self):
+        """(exit status, standard output, standard error) once it is over."""
+        out, error = self.process.communicate(timeout=60)
+        return self.process.returncode, out, error
 
 
 def look_at_the_origin(emulator, log, rows):
@@ -166,6 +199,40 @@ class Approach(unittest.TestCase):
             first, second = (OUT / "approach.csv").read_text().splitlines(), again.read_text().splitlines()
             self.assertEqual(len(second), 41)
             self.assertEqual(second, first[:41])
+
+
+class Ends(unittest.TestCase):
+    def test_ctrl_c_leaves_whole_lines_and_gives_the_camera_back(self):
+        with tempfile.TemporaryDirectory() as folder, \
+                Emulator(HILCAM, ADDRESS, folder, "mode=lockstep", scenario=scenario(folder)) as emulator:
+            log = pathlib.Path(folder) / "log.csv"
+            with Flight(emulator, log) as flight:
+                flight.await_frames(3)
+                flight.process.send_signal(signal.SIGINT)
+                status, out, error = flight.end()
+            self.assertEqual(status, 0, error)
+            lines = log.read_text().splitlines()
+            self.assertEqual(json.loads(out)["frames"], len(lines) - 1)
+            self.assertEqual({line.count(",") for line in lines}, {12})
+            # At once, not when the camera's heartbeat has run out.
+            self.assertEqual(fly(emulator, log, "--frames", 2)["frames"], 2)
+
+    def test_a_camera_that_goes_away_is_named(self):
+        with tempfile.TemporaryDirectory() as folder, \
+                Emulator(HILCAM, ADDRESS, folder, scenario=scenario(folder)) as emulator, \
+                Flight(emulator, pathlib.Path(folder) / "log.csv", "--free-run") as flight:
+            flight.await_frames(3)
+            emulator.kill()
+            status, _, error = flight.end()
+            self.assertEqual(status, 1)
+            self.assertRegex(error, "is 'hilcam run' up")
+
+    def test_what_is_no_endpoint_is_refused(self):
+        for endpoint in ("127.0.0.1", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:50x", "localhost:5010", ":5010"):
+            result = subprocess.run([EXAMPLE_PROGRAM, "--commands", endpoint, "--camera", ADDRESS], capture_output=True, text=True,
+                                    timeout=60)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f"'{endpoint}': accepted: an IPv4 ADDRESS:PORT", result.stderr)
 
 
 if __name__ == "__main__":

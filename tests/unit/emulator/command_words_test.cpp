@@ -89,7 +89,9 @@ TEST(CommandScript, MistakesNameTheLine) {
                 HasSubstr("a.txt:2: fault: found 'nonsense'; accepted: clear"));
     EXPECT_THAT(error_of("fault packet_delay --value -4\n"), HasSubstr("value is outside its kind's range"));
     EXPECT_THAT(error_of("@1 ping\n@0.5 ping\n"), HasSubstr("a.txt:2: its time @0.5 lies before"));
-    EXPECT_THAT(error_of("+x ping\n"), HasSubstr("accepted: @SECONDS"));
+    for (const char* wild : {"+x", "@-1", "@nan", "@inf", "@1e10", "+1e300"})
+        EXPECT_THAT(error_of(wild + std::string(" ping\n")), HasSubstr("accepted: @SECONDS")) << wild;
+    EXPECT_THAT(error_of("@9e8 ping\n+2e8 ping\n"), HasSubstr("a.txt:2: found '+2e8'"));
     EXPECT_THAT(error_of("jump\n"), HasSubstr("a.txt:1:"));
     EXPECT_THAT(error_of("+1\n"), HasSubstr("a.txt:1:"));
     EXPECT_THAT(error_of("fault list\n"), HasSubstr("a.txt:1: fault: found 'list'"));

@@ -13,6 +13,7 @@
 #include "emulator/recording_reader.h"
 #include "emulator/recording_text.h"
 #include "emulator/scenario_listing.h"
+#include "io/frame_flags.h"
 #include "tests/support/commands.h"
 #include "tests/support/plate.h"
 
@@ -20,6 +21,7 @@ namespace hilcam {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // --- bytes
 
@@ -212,6 +214,34 @@ TEST_F(RecordingFileTest, AFileThatIsNoneIsRefused) {
     const auto newer = write("newer.rec", "hilcrec\x02");
     EXPECT_THAT(error_of([&] { RecordingReader reader(newer); }),
                 HasSubstr("of format 2; accepted: format 1"));
+}
+
+TEST_F(RecordingFileTest, AsTextAClockCommandHasItsWord) {
+    using Action = ClockCommand::Action;
+    RecordingReader reader(record({RecordedCommand{1, ClockCommand{Action::kPause}, {}, false},
+                                   RecordedCommand{2, ClockCommand{Action::kScale, 0, 0.5}, {}, false}}));
+    std::vector<std::string> lines;
+    list_recording(reader, [&](const std::string& line) { lines.push_back(line); });
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_THAT(lines[1], HasSubstr("\"command\":\"clock\",\"action\":\"pause\"}"));
+    EXPECT_THAT(lines[2], HasSubstr("\"action\":\"scale\",\"scale\":0.5}"));
+}
+
+// For people: what time and poses did to a frame is there as well as the faults on demand.
+TEST_F(RecordingFileTest, AsTextAFrameSaysWhatItShowsAndWhatStruckIt) {
+    FrameUse use = some_use();
+    use.exposure_mid = {1'000'000'005}, use.shown_at = {500'000'005};
+    use.faults = bit_of(FaultKind::kImageBlack) | kTimeStandsBit | kPosesStaleBit | kTagsWentBackBit;
+    FrameUse plain;
+    RecordingReader reader(record({RecordedFrame{1, use}, RecordedFrame{1, plain}}));
+    std::vector<std::string> lines;
+    list_recording(reader, [&](const std::string& line) { lines.push_back(line); });
+    ASSERT_EQ(lines.size(), 4u);  // with the header and the end
+    for (const char* part :
+         {"\"middle_s\":1.0,", "\"shown_s\":0.5,", "\"late\":true", "\"shutter_closed\":true",
+          "\"faults\":[\"image_black\",\"time_stands\",\"poses_stale\",\"tags_went_back\"]"})
+        EXPECT_THAT(lines[1], HasSubstr(part));
+    for (const char* key : {"late", "shutter_closed", "faults"}) EXPECT_THAT(lines[2], Not(HasSubstr(key)));
 }
 
 TEST(CheckRecording, NamesWhatIsAnother) {

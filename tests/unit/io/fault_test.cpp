@@ -84,6 +84,26 @@ TEST(Faults, SpansOfFramesAndOfTimeEndThem) {
     EXPECT_FALSE(board.would_strike(FaultKind::kFrameDrop, 11));
 }
 
+TEST(Faults, SoManyFramesAtOnceAreTheNextThatBegin) {
+    FaultBoard board;
+    const auto struck = [&] {
+        std::vector<std::uint64_t> frames;
+        for (std::uint64_t frame = 1; frame < 200; ++frame)
+            if (board.strikes(FaultKind::kImageBlack, frame)) frames.push_back(frame);
+        return frames;
+    };
+    const FaultOrder three{FaultKind::kImageBlack, 1, 0, 0, 3, 0};
+    board.order(three);  // before the first frame
+    EXPECT_EQ(struck(), (std::vector<std::uint64_t>{1, 2, 3}));
+    board.begin(100);
+    EXPECT_EQ(board.from_now(three).from_frame, 101u);
+    board.order(three);
+    EXPECT_EQ(struck(), (std::vector<std::uint64_t>{101, 102, 103}));
+    // A first frame that is named, and an order without an end, stay as they are.
+    EXPECT_EQ(board.from_now({FaultKind::kImageBlack, 1, 0, 7, 3, 0}).from_frame, 7u);
+    EXPECT_EQ(board.from_now({FaultKind::kImageBlack, 1, 0, 0, 0, 0}).from_frame, 0u);
+}
+
 TEST(Faults, WhatStrikesOnceStrikesOncePerOrder) {
     FaultBoard board;
     for (int order = 0; order < 2; ++order) {

@@ -275,5 +275,19 @@ TEST(GigeControlFaults, AreFeaturesThemselves) {
     EXPECT_FALSE(bench.faults.order_of(FaultKind::kPacketDelay));
 }
 
+TEST(GigeControlFaults, SoManyFramesAtOnceAreSoAgainWhenEnabledAgain) {
+    GigeBench bench;
+    bench.take_control();
+    bench.write(reg::kFaultSelector, 3);  // PacketDelay
+    bench.write_real(reg::kFaultRate, 1);
+    bench.write64(reg::kFaultFrames, 5);
+    for (const std::uint64_t begun : {40u, 90u}) {
+        bench.faults.begin(begun);
+        EXPECT_EQ(bench.write(reg::kFaultEnable, 1), gvcp::kSuccess);
+        EXPECT_EQ(bench.faults.order_of(FaultKind::kPacketDelay)->from_frame, begun + 1);
+        EXPECT_EQ(bench.read64(reg::kFaultFromFrame), 0u);
+    }
+}
+
 }  // namespace
 }  // namespace hilcam

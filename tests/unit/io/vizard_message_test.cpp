@@ -192,6 +192,22 @@ TEST(VizardMessage, WhatCannotBeIsRefusedByName) {
     EXPECT_THAT(refusal_of(early), HasSubstr("accepted: 0 to"));
 }
 
+// Two bytes are a whole spacecraft: what a few megabytes become must stay small, and be looked through soon.
+TEST(VizardMessage, WhatIsFarTooMuchIsRefusedByItsNumber) {
+    const auto many = [](unsigned field, int count) {
+        Message m;
+        for (int i = 0; i < count; ++i) m.text(field, "");
+        return refusal_of(m);
+    };
+    EXPECT_EQ(many(3, 10'001), "found 10001 spacecraft; accepted: up to 10000");
+    EXPECT_EQ(many(2, 10'001), "found 10001 bodies; accepted: up to 10000");
+    EXPECT_EQ(many(4, 256), "found 256 cameras; accepted: up to 255");
+    EXPECT_EQ(many(4, 255), "currentTime is missing");
+    EXPECT_EQ(refusal_of(Message().text(9, std::string((8u << 20) - 5, 'x'))), "currentTime is missing");
+    EXPECT_EQ(refusal_of(Message().text(9, std::string((8u << 20) - 4, 'x'))),
+              "found 8388609 bytes; accepted: up to 8388608");
+}
+
 TEST(VizardMessage, TheInputSaysWhichMessageItAnswers) {
     EXPECT_EQ(encode_vizard_input(300), Message().integer(1, 300).bytes());
 }

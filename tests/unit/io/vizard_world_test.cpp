@@ -195,6 +195,31 @@ TEST_F(VizardWorldTest, WhatIsMissingIsNamedOnceInARun) {
     EXPECT_EQ(remarks.size(), 4u);
 }
 
+TEST_F(VizardWorldTest, AnAttitudeThatIsMissingIsNamed) {
+    VizardUpdate u = update();
+    u.spacecraft[1].n_from_body.reset();
+    VizardWorld w = world();
+    w.take(u);
+    VizardShot shot;
+    ASSERT_TRUE(w.shot(1, shot));
+    expect_near(to_matrix(shot.poses[1].motion.pose.world_from_body) * Vec3d{1, 0, 0}, {1, 0, 0}, 0);
+    EXPECT_THAT(remarks, ElementsAre(HasSubstr("no attitude of 'target'")));
+}
+
+TEST_F(VizardWorldTest, AConstellationThatIsNotShownLeavesRoomForOtherRemarks) {
+    VizardUpdate u = update();
+    for (int i = 0; i < 500; ++i) u.spacecraft.push_back({std::to_string(i), {7e6, 0, 0}, {}, Quat{}});
+    VizardWorld w = world();
+    VizardShot shot;
+    for (int i = 0; i < 3; ++i) {
+        w.take(u);
+        ASSERT_TRUE(w.shot(1, shot));
+    }
+    ASSERT_EQ(remarks.size(), 11u);
+    EXPECT_EQ(remarks[9], "spacecraft '9' is not shown, as no object has its name");
+    EXPECT_THAT(remarks[10], HasSubstr("490 more spacecraft and bodies are not shown"));
+}
+
 TEST_F(VizardWorldTest, AFloodOfRemarksEnds) {
     VizardWorld w = world();
     for (int run = 0; run < 30; ++run) {
