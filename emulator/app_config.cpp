@@ -62,7 +62,8 @@ Fields fields(FaultConfig& f) {
                "share of packets, messages, frames or pixels that it strikes"),
         number("value", f.order.value, 1, {-1e9, 1e9}, "by kind"),
         number("at_s", f.at_s, 1, {0, 1e7}, "after the start, when it is ordered"),
-        integer("from_frame", f.from_frame, {0, 9e15}, "first frame that it strikes; 0: at once"),
+        integer("from_frame", f.from_frame, {0, 9e15},
+                "first frame that it strikes; 0: at once, and with frames the next that begins"),
         integer("frames", f.frames, {0, 9e15}, "how many frames it lasts; 0: no end"),
         number("duration_s", f.order.duration_s, 1, {0, 1e7}, "how long it lasts; 0: no end"),
     };
