@@ -39,7 +39,6 @@ class PreviewSlot {
 
     // Loop, one thread: no lock, no allocation.
     void put(const DnImage& frame, const FrameRecord& record) noexcept {
-        newest_.store(record.id, std::memory_order_relaxed);
         if (state_.load(std::memory_order_acquire) == State::kWanted) copy(frame, record);
     }
     // Waits until there is a frame with another id than `after`, then calls read(frame) with the lock held.
@@ -56,8 +55,6 @@ class PreviewSlot {
         read(static_cast<const Frame&>(shown_));
         return true;
     }
-    // Of the frame that the loop published last, copied or not.
-    std::uint64_t newest_id() const { return newest_.load(std::memory_order_relaxed); }
     std::uint64_t copies() const { return copies_.load(std::memory_order_relaxed); }
 
   private:
@@ -72,7 +69,7 @@ class PreviewSlot {
     std::atomic<State> state_{State::kIdle};
     Frame incoming_;
     std::counting_semaphore<> full_{0};
-    std::atomic<std::uint64_t> copies_{0}, newest_{0};
+    std::atomic<std::uint64_t> copies_{0};
 
     std::mutex mutex_;  // of what follows
     std::condition_variable asked_, news_;
