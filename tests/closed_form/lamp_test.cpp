@@ -247,13 +247,15 @@ TEST(LampBeam, HasHalfItsIntensityAtTheEdgeOfItsBeam) {
 TEST(Lamps, ThePlanSaysWhichCost) {
     LampStage s;
     s.add(plate(lambert(kWhite), s.grid), {0, 0, 3});
-    s.lamp({0, 0, 1}), s.lamp({0, 0, 2});
+    s.lamp({0, 0, 1}), s.lamp({0, 0, 2}), s.lamp({0, 0, 2.5});
     s.world.lamps[1].level = 0;
+    s.scene.lamps[2].intensity_w_sr_um = {};  // of other wavelengths
     s.render();
     std::string all;
     for (const std::string& line : s.renderer->explain_plan(s.world)) all += line + "\n";
     EXPECT_NE(all.find("lamp 1 'lamp': lit, 1 m from the camera"), std::string::npos) << all;
     EXPECT_NE(all.find("lamp 2 'lamp': off"), std::string::npos) << all;
+    EXPECT_NE(all.find("lamp 3 'lamp': dark, as its spectrum"), std::string::npos) << all;
 }
 
 }  // namespace
