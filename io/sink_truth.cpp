@@ -97,6 +97,7 @@ void TruthSink::run() {
             took_ms_.store(took_ms_.load(std::memory_order_relaxed) + slot.truth.took_ms,
                            std::memory_order_relaxed);
         } catch (const std::exception& error) {
+            dropped_.fetch_add(1, std::memory_order_relaxed);
             const std::lock_guard lock(mutex_);
             fault_ = error.what();
         }
@@ -117,8 +118,9 @@ void TruthSink::send_datagrams(const FrameTruth& truth, const FrameRecord& recor
     const std::string shorter = fits ? std::string() : document_.line(truth, record, false);
     const std::string& text = fits ? line : shorter;
     for (const sockaddr_in& to : destinations_)
-        sendto(udp_.get(), text.data(), text.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),
-               sizeof to);
+        if (sendto(udp_.get(), text.data(), text.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),
+                   sizeof to) < 0)
+            not_sent_.fetch_add(1, std::memory_order_relaxed);
 }
 
 // What was handed over is still delivered.
@@ -141,6 +143,8 @@ SinkReport TruthSink::report() const {
         out.figures.emplace_back("clients", static_cast<double>(server_->clients()));
         out.figures.emplace_back("cut_off", static_cast<double>(server_->cut_off()));
     }
+    if (!destinations_.empty())
+        out.figures.emplace_back("datagrams_not_sent", static_cast<double>(not_sent_.load()));
     const std::lock_guard lock(mutex_);
     out.fault = fault_;
     return out;

@@ -71,8 +71,9 @@ class TruthSink : public FrameSink {
     std::counting_semaphore<> news_{0};
     std::binary_semaphore nice_{0};
     std::atomic<bool> open_{false};
-    std::atomic<std::uint64_t> written_{0}, dropped_{0};
-    std::atomic<double> took_ms_{0};  // sum over what was written
+    std::atomic<std::uint64_t> written_{0}, dropped_{0};  // dropped: what no file had room for, too
+    std::atomic<std::uint64_t> not_sent_{0};              // datagrams that the system did not take
+    std::atomic<double> took_ms_{0};                      // sum over what was written
 
     std::unique_ptr<LineServer> server_;
     std::vector<sockaddr_in> destinations_;

@@ -5,7 +5,9 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <fcntl.h>
 
+#include <cerrno>
 #include <cstdio>
 
 #include "render/check.h"
@@ -77,6 +79,9 @@ void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
         out.setFrameBuffer(buffer);
         out.writePixels(raster.height_px);
     } catch (const std::exception& error) {
+        // A picture that ends half-way is worse than none.
+        std::error_code ignored;
+        std::filesystem::remove(file, ignored);
         throw DeviceError(file.string() + ": cannot be written: " + error.what());
     }
 }
@@ -85,18 +90,32 @@ TruthFiles::TruthFiles(const std::filesystem::path& folder) : folder_(folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw DeviceError(folder.string() + " cannot be made: " + error.message());
-    lines_.open(folder / "truth.jsonl", std::ios::binary | std::ios::trunc);
-    if (!lines_) throw DeviceError((folder / "truth.jsonl").string() + " cannot be written");
+    const std::filesystem::path file = folder / "truth.jsonl";
+    lines_ = Fd(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666));
+    if (!lines_) throw DeviceError(file.string() + " cannot be written");
+}
+
+// All of it or nothing: what is begun and does not fit is taken back.
+void TruthFiles::add_line(std::string_view line) {
+    const std::string text = std::string(line) + '\n';
+    std::size_t done = 0;
+    while (done < text.size()) {
+        const ssize_t wrote = ::write(lines_.get(), text.data() + done, text.size() - done);
+        if (wrote < 0 && errno == EINTR) continue;
+        if (wrote <= 0) break;
+        done += static_cast<std::size_t>(wrote);
+    }
+    if (done == text.size()) {
+        lines_bytes_ += static_cast<off_t>(done);
+        return;
+    }
+    [[maybe_unused]] const int cut = ftruncate(lines_.get(), lines_bytes_);
+    throw DeviceError((folder_ / "truth.jsonl").string() + " cannot be written; is the disk full?");
 }
 
 void TruthFiles::write(const FrameTruth& truth, std::uint64_t frame, std::string_view line,
                        std::span<const std::string> legend) {
-    lines_ << line << '\n';
-    lines_.flush();
-    if (!lines_) {
-        lines_.clear();
-        throw DeviceError((folder_ / "truth.jsonl").string() + " cannot be written; is the disk full?");
-    }
+    add_line(line);
     if (!truth.wishes.layers()) return;
     char name[64];
     std::snprintf(name, sizeof name, "truth_%08llu.exr", static_cast<unsigned long long>(frame));

@@ -167,8 +167,11 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
     }
     if (count == 0) return whole;
 
-    // The disk in rings of equal area and spokes, weighted by its own radiance; good to 0.3 % of the whole.
+    // The disk in rings of equal area and spokes, weighted by its own radiance. Each ring is turned by the
+    // golden section, so that no limb runs along many of its points: half a per cent of the whole, rms, 1.4 %
+    // at most, for limbs of any radius, place and direction.
     constexpr int kRings = 12, kSpokes = 24;
+    constexpr double kGolden = 0.6180339887498949;
     const double sine = std::sqrt(std::max(0.0, 1 - disk_cosine * disk_cosine));
     const Vec3d side = normalized(std::abs(sun_dir.x) < 0.9 ? cross(sun_dir, Vec3d{1, 0, 0})
                                                             : cross(sun_dir, Vec3d{0, 1, 0}));
@@ -178,7 +181,7 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
         const double r = std::sqrt((ring + 0.5) / kRings);
         const Spectrum radiance = disk_.relative_radiance(static_cast<float>(std::sqrt(1 - r * r)));
         for (int spoke = 0; spoke < kSpokes; ++spoke) {
-            const double phi = 2 * kPi * (spoke + 0.5 * (ring % 2)) / kSpokes;
+            const double phi = 2 * kPi * (spoke + kGolden * ring) / kSpokes;
             const Vec3d dir =
                 normalized(sun_dir + (r * sine * std::cos(phi)) * side + (r * sine * std::sin(phi)) * up);
             Spectrum passed = radiance;

@@ -115,6 +115,14 @@ struct ImageGeometry {
         const Vec2d center = center_px();
         return {center.x + focal_length_px * p.x, center.y + focal_length_px * p.y};
     }
+    // Whether the lens has that direction, z > 0, at the place that project_px() gives. Far beside the field
+    // a polynomial of distortion folds back, into the picture even.
+    bool shows(Vec3d dir, Vec2d place_px) const {
+        if (distortion.none()) return true;
+        constexpr double kSame_rad = 1e-6;
+        const Vec3d back = normalized(direction_camera(place_px.x, place_px.y));
+        return length(cross(normalized(dir), back)) < kSame_rad;
+    }
 };
 
 }  // namespace hilcam

@@ -22,7 +22,8 @@ struct LitBy {
 // and of its ends' coordinates; a millionth keeps clear of that.
 double free_length_m(double distance_m) { return std::max(0.0, (1 - 1e-6) * distance_m - kLampClearance_m); }
 
-// By an object, also by one that is points itself: a PointField looks for those that are traced.
+// By an object, also by one that is points itself: a PointField looks for those that are traced, and dims
+// what is behind their glass.
 bool is_hidden(const FrameView& frame, Vec3d dir, double distance_m) {
     const Vec3f start_m = frame.start_of(dir);
     const double until_m = distance_m - length(to_double(start_m) - frame.camera_m);
@@ -30,7 +31,9 @@ bool is_hidden(const FrameView& frame, Vec3d dir, double distance_m) {
     RayPacket ray;
     ray.count = 1;
     ray.set(0, start_m, to_float(dir), 0, static_cast<float>(until_m));
-    return frame.scene->occluded(ray) != 0;
+    if (frame.scene->occluded(ray) == 0) return false;
+    return !frame.has_glass ||
+           !(largest(passed_through_glass(frame, start_m, to_float(dir), ray.farthest[0])) > 0);
 }
 
 }  // namespace

@@ -84,7 +84,9 @@ std::string lamp_line(const FrameView& f, std::size_t i) {
              << " m from the camera: a shadow ray to it from every surface that its beam meets";
         return line.str();
     }
-    line << "off: costs nothing";
+    const bool shines = largest(f.lamps->all()[i].intensity_w_sr_um) > 0;
+    line << (shines ? "off" : "dark, as its spectrum has nothing in the scenario's bins")
+         << ": costs nothing";
     return line.str();
 }
 

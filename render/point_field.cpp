@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/shadow_rays.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -74,7 +75,11 @@ bool PointField::look(Vec3d dir, double distance_m, const Spectrum& irradiance, 
         RayPacket ray;
         ray.count = 1;
         ray.set(0, start, to_float(thing_dir), 0, static_cast<float>(until_m));
-        if (until_m > 0 && frame_.scene->occluded(ray)) return false;
+        if (until_m > 0 && frame_.scene->occluded(ray)) {
+            if (!frame_.has_glass) return false;
+            seen = seen * passed_through_glass(frame_, start, to_float(thing_dir), ray.farthest[0]);
+            if (!(largest(seen) > 0)) return false;
+        }
     }
     return true;
 }

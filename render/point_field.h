@@ -1,6 +1,6 @@
 #pragma once
-// Things smaller than a pixel become point sources where nothing is before them: stars, far planets, far
-// objects.
+// Things smaller than a pixel become point sources where nothing but air and glass is before them: stars, far
+// planets, far objects.
 
 #include <vector>
 
@@ -27,7 +27,8 @@ class PointField {
         Sighting ignored;
         return find(dir, distance_m, ignored);
     }
-    // Where add() draws it, and with what light; false: it is outside, or hidden.
+    // Where add() draws it, and with what light: what air and glass before it leave; false: it is outside, or
+    // hidden.
     bool look(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um, Sighting& where,
               Spectrum& seen_w_m2_um) const;
 

@@ -26,7 +26,7 @@ class PinholeRays final : public RayGenerator {
         const Vec3d d = transposed(world_from_camera_) * dir;
         if (!(d.z > 0)) return false;
         seen = {geometry_.project_px(d), {}, 1};
-        return true;
+        return geometry_.shows(d, seen.position_px);
     }
     const LinearRays* linear() const override { return geometry_.distortion.none() ? &linear_ : nullptr; }
 
@@ -83,12 +83,15 @@ class RowRays : public RayGenerator {
     // Where the sensor has a thing at that instant. False: behind it.
     bool project(Vec3d dir, double distance_m, double y_px, Sighting& seen) const {
         const RowPose at = pose_at(y_px);
-        const Vec3d to_thing = std::isinf(distance_m) ? dir : dir - at.moved_m / distance_m;
-        const Vec3d d = transposed(at.world_from_camera) * to_thing;
+        const Vec3d d = in_camera(at, dir, distance_m);
         if (!(d.z > 1e-6)) return false;
         seen.position_px = geometry_.project_px(d);
         seen.from_camera_m = at.moved_m;
         return true;
+    }
+    // Whether the lens has it where project() said. On the way to its row a thing may be where it has not.
+    bool lens_shows(Vec3d dir, double distance_m, double y_px, const Sighting& seen) const {
+        return geometry_.shows(in_camera(pose_at(y_px), dir, distance_m), seen.position_px);
     }
     // The place on the sensor of a place down the image, in its row.
     virtual double sensor_row(double y_px, double row) const = 0;
@@ -96,6 +99,12 @@ class RowRays : public RayGenerator {
     double line_time_s_;
     ImageGeometry geometry_;
     Motion camera_;
+
+  private:
+    static Vec3d in_camera(const RowPose& at, Vec3d dir, double distance_m) {
+        const Vec3d to_thing = std::isinf(distance_m) ? dir : dir - at.moved_m / distance_m;
+        return transposed(at.world_from_camera) * to_thing;
+    }
 };
 
 constexpr int kMostSteps = 32;
@@ -115,7 +124,7 @@ class RollingRays final : public RowRays {
         for (int step = 0; step < kMostSteps && is_near(next); ++step) {
             if (!project(dir, distance_m, next, seen)) return false;
             const double next_miss = seen.position_px.y - next;
-            if (std::abs(next_miss) < kFound_px) return true;
+            if (std::abs(next_miss) < kFound_px) return lens_shows(dir, distance_m, next, seen);
             if (next_miss == miss) return false;  // it moves along with the rows
             const double after = next - next_miss * (next - y) / (next_miss - miss);
             y = next, miss = next_miss, next = after;
@@ -146,8 +155,11 @@ class PushbroomRays final : public RowRays {
             double next_miss = 0;
             if (!off_line(dir, distance_m, next, seen, next_miss)) return false;
             const double speed = (next_miss - miss) / (next - y);  // rows of the sensor per row of the image
-            if (!(std::abs(speed) * 4 * geometry_.padded_height() > 1)) return stays_on_line(miss, seen);
-            if (std::abs(next_miss) < kFound_px) {
+            const bool stays = !(std::abs(speed) * 4 * geometry_.padded_height() > 1);
+            const bool found = std::abs(next_miss) < kFound_px;
+            if ((stays || found) && !lens_shows(dir, distance_m, next, seen)) return false;
+            if (stays) return stays_on_line(miss, seen);
+            if (found) {
                 seen.position_px.y = next - next_miss / speed;
                 seen.light_ratio = 1 / std::abs(speed);
                 return true;

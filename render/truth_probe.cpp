@@ -89,14 +89,6 @@ bool TruthProbe::project(Vec3d from_camera_m, Vec2d& frame_px) const {
     Sighting seen;
     if (!(distance_m > 0) || !frame_.rays->find(from_camera_m / distance_m, distance_m, seen)) return false;
     if (!std::isfinite(seen.position_px.x) || !std::isfinite(seen.position_px.y)) return false;
-    // Far beside the picture a lens's polynomial may fold back.
-    if (frame_.rays->is_still()) {
-        const Vec3d there = camera_from_world_ * (from_camera_m / distance_m);
-        const Vec3d back =
-            normalized(frame_.geometry.direction_camera(seen.position_px.x, seen.position_px.y));
-        constexpr double kSame_rad = 1e-6;
-        if (!(length(cross(there, back)) < kSame_rad)) return false;
-    }
     frame_px = truth_.raster.frame_px(seen.position_px);
     return true;
 }

@@ -196,6 +196,28 @@ TEST(Lamps, OneThatShinesIntoTheCameraIsAPoint) {
     EXPECT_NEAR(s.points[0].position_px.y, 32, 1e-3);
 }
 
+// Two panes across its light; a wall behind the one hides it.
+TEST(Lamps, OneIsSeenThroughGlass) {
+    MaterialConfig config;
+    config.model = ReflectionModel::kGlass;
+    config.transmittance = Curve::constant(0.7);
+    LampStage s;
+    s.camera(64, 0.1);
+    s.add(plate(config, s.grid), {0, 0, 5});
+    s.add(plate(config, s.grid), {0, 0, 6});
+    s.lamp({0, 0, 8}, {0, 0, -1});
+    s.render();
+    ASSERT_EQ(s.points.size(), 1u);
+    const Material glass = make_material(config, s.grid);
+    const float passed = sheet_transmittance({&glass, 0, glass.base, glass.highlight}, 1)[0];
+    EXPECT_LT(passed, 0.9);
+    EXPECT_NEAR(s.points[0].irradiance_w_m2_um[0] / (passed * passed * kIntensity_w_sr_um / 64), 1,
+                kSinglePrecision);
+    s.add(plate(lambert(kWhite), s.grid), {0, 0, 7});
+    s.render();
+    EXPECT_TRUE(s.points.empty());
+}
+
 TEST(Lamps, OneBehindAThingThatIsDrawnAsPointsIsHidden) {
     for (const double z_m : {-1.5, 1.5}) {
         LampStage s;
@@ -247,13 +269,15 @@ TEST(LampBeam, HasHalfItsIntensityAtTheEdgeOfItsBeam) {
 TEST(Lamps, ThePlanSaysWhichCost) {
     LampStage s;
     s.add(plate(lambert(kWhite), s.grid), {0, 0, 3});
-    s.lamp({0, 0, 1}), s.lamp({0, 0, 2});
+    s.lamp({0, 0, 1}), s.lamp({0, 0, 2}), s.lamp({0, 0, 2.5});
     s.world.lamps[1].level = 0;
+    s.scene.lamps[2].intensity_w_sr_um = {};  // of other wavelengths
     s.render();
     std::string all;
     for (const std::string& line : s.renderer->explain_plan(s.world)) all += line + "\n";
     EXPECT_NE(all.find("lamp 1 'lamp': lit, 1 m from the camera"), std::string::npos) << all;
     EXPECT_NE(all.find("lamp 2 'lamp': off"), std::string::npos) << all;
+    EXPECT_NE(all.find("lamp 3 'lamp': dark, as its spectrum"), std::string::npos) << all;
 }
 
 }  // namespace

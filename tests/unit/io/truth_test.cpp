@@ -6,9 +6,13 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <semaphore>
@@ -81,6 +85,12 @@ struct TruthOut : FilesTest {
         sink->publish(DnImage(), record);
         return truth != nullptr;
     }
+    // Of the report; -1: there is none of that name.
+    double figure(const std::string& wanted) const {
+        for (const auto& [name, value] : sink->report().figures)
+            if (name == wanted) return value;
+        return -1;
+    }
     void wait_for(std::uint64_t frames) const {
         for (int i = 0; i < kPatience_ms && sink->report().frames < frames; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -124,12 +134,7 @@ TEST_F(TruthOut, EveryClientGetsEachFramesLine) {
     make();
     sink->start();
     Reader first(static_cast<std::uint16_t>(config.port)), second(static_cast<std::uint16_t>(config.port));
-    const auto clients = [&] {
-        for (const auto& [name, value] : sink->report().figures)
-            if (name == "clients") return value;
-        return -1.0;
-    };
-    for (int i = 0; i < kPatience_ms && clients() < 2; ++i)
+    for (int i = 0; i < kPatience_ms && figure("clients") < 2; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_TRUE(frame(1, 1));
     EXPECT_TRUE(frame(2));
@@ -184,11 +189,6 @@ TEST_F(TruthOut, WhoDoesNotReadIsCutOffAndTheOthersGoOn) {
     make();
     sink->start();
     Reader slow(static_cast<std::uint16_t>(config.port)), quick(static_cast<std::uint16_t>(config.port));
-    const auto figure = [&](const std::string& wanted) {
-        for (const auto& [name, value] : sink->report().figures)
-            if (name == wanted) return value;
-        return -1.0;
-    };
     for (int i = 0; i < kPatience_ms && figure("clients") < 2; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     // Lines of half a megabyte: 8 MiB wait, and sockets hold some more.
@@ -271,6 +271,60 @@ TEST_F(TruthOut, AFolderThatCannotBeMadeIsToldAtTheStart) {
     config.folder = write("file", "no folder") / "truth";
     make();
     EXPECT_THROW(sink->start(), DeviceError);
+}
+
+// /dev/full takes nothing: as a full disk, what is begun does not stay.
+TEST_F(TruthOut, WhatTheDiskHasNoRoomForIsLeftOutWholeAndCounted) {
+    config.folder = folder_ / "truth";
+    std::filesystem::create_directories(config.folder);
+    std::filesystem::create_symlink("/dev/full", config.folder / "truth.jsonl");
+    make();
+    sink->start();
+    EXPECT_TRUE(frame(1));
+    for (int i = 0; i < kPatience_ms && sink->report().dropped < 1; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(sink->report().dropped, 1u);
+    EXPECT_EQ(sink->report().frames, 0u);
+    EXPECT_NE(sink->report().fault.find("truth.jsonl cannot be written; is the disk full?"),
+              std::string::npos);
+
+    const std::filesystem::path picture = folder_ / "picture.exr";
+    std::filesystem::create_symlink("/dev/full", picture);
+    EXPECT_THROW(write_truth_exr(picture, slot(config), {}), DeviceError);
+    EXPECT_FALSE(std::filesystem::is_symlink(picture));
+}
+
+// A file grows to a limit, then may grow again.
+TEST_F(TruthOut, LinesStayWholeWhenTheDiskIsFullForAWhile) {
+    TruthFiles files(folder_ / "truth");
+    const FrameTruth truth = slot(config);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto old = std::signal(SIGXFSZ, SIG_IGN);
+    files.write(truth, 1, "first", {});
+    const rlimit little{10, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
+    EXPECT_THROW(files.write(truth, 2, "second", {}), DeviceError);
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, old);
+    files.write(truth, 3, "third", {});
+    std::ifstream in(folder_ / "truth" / "truth.jsonl");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "first\nthird\n");
+}
+
+TEST_F(TruthOut, DatagramsThatTheSystemDoesNotTakeAreCounted) {
+    config.udp_to = {"127.83.9.1:17299"};
+    make();
+    sink->start();
+    FrameRecord record;
+    record.id = 1;
+    FrameTruth* const truth = sink->begin(record);
+    ASSERT_NE(truth, nullptr);
+    // A thing is some hundred bytes of text.
+    truth->things.assign(1000, SeenThing{});
+    sink->publish(DnImage(), record);
+    sink->stop();
+    EXPECT_EQ(figure("datagrams_not_sent"), 1);
 }
 
 // The loop's two threads and the writer's: also under TSan.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "tests/support/truth_stage.h"
 
@@ -47,6 +48,31 @@ TEST(Truth, WhatTheLensFoldsBackHasNoPlace) {
     s.renderer->tell_truth(t);
     ASSERT_TRUE(t.things[0].has_center);
     EXPECT_NEAR(t.things[0].center_px.x, 64 + 256 * 0.2 * (1 - 0.04), 1e-9);
+}
+
+// The same of what is drawn as points: a cube of less than a pixel, a lamp. Nothing of them
+// is in the picture, whichever way rows are read.
+TEST(Truth, WhatTheLensFoldsBackLeavesNoGhost) {
+    for (const std::string& rays :
+         {std::string("pinhole"), std::string("rolling"), std::string("pushbroom")}) {
+        TruthStage s;
+        s.camera(128, 0.25);
+        s.models.rays.model = rays;
+        s.models.rays.line_time_s = 1e-3;
+        s.world.camera_rate_rad_s = {rays == "pushbroom" ? 1.0 / 256 / 1e-3 : 1e-3, 0, 0};
+        s.geometry.distortion.k1 = -1;
+        const auto points_at = [&](double tangent) {
+            s.world.objects = {{{1e3 * tangent, 0, 1e3}, {}}};
+            s.scene.lamps = {{"lamp", 0, s.scene.sun_irradiance_1au_w_m2_um, {}}};
+            s.world.lamps.resize(1);
+            s.world.lamps[0] = {{50 * tangent, 1, 50}, {0, 0, 1}, 1};
+            s.render();
+            return s.points.size();
+        };
+        s.add(cube(lambert(0.5), s.grid), {}, {});
+        EXPECT_GE(points_at(0.2), 2u) << rays;
+        EXPECT_EQ(points_at(0.9), 0u) << rays;
+    }
 }
 
 // Two by two px are one, and columns run backwards. The front face, 2.5 m away, reaches from 64 to 115.2 px
