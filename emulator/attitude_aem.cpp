@@ -13,7 +13,7 @@ class AemLaw final : public AttitudeLaw {
         : segments_(std::move(segments)), center_(center), name_(name), eme2000_{icrf_from_eme2000(), {}} {}
 
     MotionValidity validity(TimeTai time) const override { return validity_of(segments_, time); }
-    AttitudeState at(const MotionContext& context, const StateVector& self) const override {
+    AttitudeState at(const MotionContext& context, const OwnMotion& self) const override {
         const AemSegment& segment = segment_of(segments_, context.frame.time());
         const ReferenceAttitude a = interpolate_attitude(segment, context.frame.time());
         return world_attitude(reference_axes(segment.reference, context, self),
@@ -28,8 +28,12 @@ class AemLaw final : public AttitudeLaw {
     TurningAxes eme2000_;
 
     TurningAxes reference_axes(CcsdsFrame reference, const MotionContext& context,
-                               const StateVector& self) const {
-        const auto lvlh = [&] { return lvlh_axes(about_center(context, self, center_)); };
+                               const OwnMotion& self) const {
+        const auto lvlh = [&] {
+            TurningAxes axes = lvlh_axes(about_center(context, self.state, center_));
+            if (self.stands) axes.rate_rad_s = {};
+            return axes;
+        };
         switch (reference) {
             case CcsdsFrame::kEme2000:
                 return eme2000_;

@@ -32,13 +32,16 @@ bool nearly_parallel(Vec3d a, Vec3d b) {
     return !(length(cross(a, b)) > 1e-9 * length(a) * length(b));
 }
 
-Moving aim_at(const Aim& aim, const MotionContext& context, const StateVector& self) {
+Moving aim_at(const Aim& aim, const MotionContext& context, const OwnMotion& self) {
     const auto towards = [&](const StateVector& s) {
-        return Moving{s.position_m - self.position_m, s.velocity_m_s - self.velocity_m_s};
+        return Moving{s.position_m - self.state.position_m,
+                      s.velocity_m_s - (self.stands ? Vec3d{} : self.state.velocity_m_s)};
     };
-    const auto own = [&] { return about_center(context, self, aim.center); };
-    // Of the unperturbed orbit: J2 turns the velocity by a thousandth of this.
+    const auto own = [&] { return about_center(context, self.state, aim.center); };
+    // In free fall that of the unperturbed orbit: J2 turns the velocity by a thousandth of this.
     const auto acceleration = [&](const StateVector& s) {
+        if (self.stands) return Vec3d{};
+        if (self.acceleration_m_s2) return *self.acceleration_m_s2;
         const double r = length(s.position_m);
         return (-gravity_m3_s2(aim.center) / (r * r * r)) * s.position_m;
     };
@@ -54,12 +57,15 @@ Moving aim_at(const Aim& aim, const MotionContext& context, const StateVector& s
         case Aim::Kind::kVelocity:
             return {own().velocity_m_s, acceleration(own())};
         case Aim::Kind::kOrbitNormal:
-            return {cross(own().position_m, own().velocity_m_s), {}};
+            // r x v changes by r x a alone: not at all in free fall.
+            return {cross(own().position_m, own().velocity_m_s),
+                    cross(own().position_m, acceleration(own()))};
         case Aim::Kind::kThing:
             break;
     }
     const Motion& thing = context.things[aim.thing];
-    return towards({thing.pose.position_world_m, thing.velocity_world_m_s});
+    return towards(
+        {thing.pose.position_world_m, context.stands(aim.thing) ? Vec3d{} : thing.velocity_world_m_s});
 }
 
 class PointingLaw final : public AttitudeLaw {
@@ -71,7 +77,7 @@ class PointingLaw final : public AttitudeLaw {
         body_ = triad(p.axis, p.second_axis);
     }
 
-    AttitudeState at(const MotionContext& context, const StateVector& self) const override {
+    AttitudeState at(const MotionContext& context, const OwnMotion& self) const override {
         Moving first = aim_at(pointing_.aim, context, self);
         Moving second = aim_at(pointing_.second_aim, context, self);
         if (!(length(first.v) > 0)) first = {{0, 0, 1}, {}};  // it is where it looks

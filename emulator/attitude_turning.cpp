@@ -10,7 +10,7 @@ class Turning final : public AttitudeLaw {
     Turning(const PlacedFrame& frame, const AttitudeState& at_start, TimeTai start)
         : frame_(frame), at_start_(at_start), start_(start) {}
 
-    AttitudeState at(const MotionContext& context, const StateVector&) const override {
+    AttitudeState at(const MotionContext& context, const OwnMotion&) const override {
         const double dt_s = static_cast<double>(context.frame.time() - start_) * kSecondsPerNs;
         const Quat turn = from_rotation_vector(dt_s * at_start_.rate_body_rad_s);
         return world_attitude(axes_of(frame_, context).axes,
@@ -30,7 +30,7 @@ class Keyframed final : public AttitudeLaw {
     Keyframed(const PlacedFrame& frame, Keyframes keyframes)
         : frame_(frame), keyframes_(std::move(keyframes)) {}
 
-    AttitudeState at(const MotionContext& context, const StateVector&) const override {
+    AttitudeState at(const MotionContext& context, const OwnMotion&) const override {
         return world_attitude(axes_of(frame_, context).axes, keyframes_.attitude_at(context.frame.time()));
     }
     std::vector<MotionNeed> needs() const override { return frame_.needs(); }

@@ -223,6 +223,7 @@ CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, con
     const std::int64_t frames = order.frames > 0 ? order.frames : burst;
     for (std::int64_t i = 0; i < frames; ++i) {
         events_->before_frame(frame);
+        if (events_->asks_to_end()) return CommandStatus::kNotNow;
         const CommandStatus status = run_order(frame, source);
         if (status != CommandStatus::kAccepted) return status;
         frame.at_simulated = {};  // a period on

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "emulator/frame_loop.h"
 #include "io/acknowledgement.h"
 #include "render/overloaded.h"
 
@@ -81,15 +82,20 @@ TimeTai EventDirector::begin_of(const TriggerOrder& order) const {
     return frame_.middle + (to_ns(bench_.timing.period_s(s.frame_rate_hz, s.exposure_s)) - to_middle_ns);
 }
 
-// Nobody else orders frames: picture after picture, then what no frame follows any more (the run's end).
+// Nobody else orders frames: picture after picture, then what no frame follows any more, and the run is over.
 void EventDirector::drive() {
     for (bool more = true; more && !picture_refused_;) {
         look();
         std::optional<TimeTai> until = sequence_.next_time(true);
-        if (!until) until = sequence_.next_time();
+        if (!until && sequence_.comes_to_something()) until = sequence_.next_time();
         more = happen_until(until.value_or(bench_.clock.start()));
     }
-    if (picture_refused_) spdlog::warn("the camera takes no pictures any more: events have ended");
+    if (asks_to_end() || stopping_.load()) return;
+    if (picture_refused_)
+        spdlog::warn("the camera takes no pictures any more: events have ended, and the run");
+    else
+        spdlog::info("no event is left that takes a picture: the run ends");
+    asks_to_end_.store(true);
 }
 
 // --- free-run, triggered
@@ -157,20 +163,38 @@ void EventDirector::happen(const EventSequence::Due& due) {
         config.name.empty() ? fmt::format("event {}", due.event) : fmt::format("event '{}'", config.name);
     const std::string words = fmt::format("{}", fmt::join(config.actions, "; "));
     spdlog::info("{} at {:.6f} s, after frame {}: {}", name, at_s, frame_.id, words);
+    CommandSource source;
+    source.camera = static_cast<std::uint16_t>(config.camera);
+    source.event = static_cast<std::uint16_t>(std::min<std::size_t>(due.event + 1, 65535));
     for (const Command& command : actions.commands) {
-        CommandSource source;
-        source.arrival_monotonic_ns = monotonic_ns();
-        source.camera = static_cast<std::uint16_t>(config.camera);
-        source.event = static_cast<std::uint16_t>(std::min<std::size_t>(due.event + 1, 65535));
-        const CommandStatus status = bench_.commands.handle(stamped(command, due), source);
-        if (status == CommandStatus::kAccepted) continue;
+        const CommandStatus status = perform(stamped(command, due), source);
+        if (status == CommandStatus::kAccepted || asks_to_end()) continue;
         spdlog::warn("{}: refused: {}", name, name_of(status));
         if (std::holds_alternative<ExposeCommand>(command)) picture_refused_ = true;
     }
     if (actions.ends_run) asks_to_end_.store(true);
 }
 
-// Times and frames that an event's words left open.
+// A fault that names no frame is for each camera's next one: cameras count their own.
+CommandStatus EventDirector::perform(const Command& command, CommandSource source) {
+    source.arrival_monotonic_ns = monotonic_ns();
+    const auto* fault = std::get_if<FaultCommand>(&command);
+    if (!fault || fault->clear_all || fault->order.from_frame != 0)
+        return bench_.commands.handle(command, source);
+    CommandStatus status = CommandStatus::kAccepted;
+    const std::uint16_t meant = source.camera;
+    for (std::size_t i = 0; i < bench_.loops.size(); ++i) {
+        if (meant != 0 && meant != i + 1) continue;
+        FaultCommand own = *fault;
+        own.order.from_frame = bench_.loops[i]->begun_id.load() + 1;
+        source.camera = static_cast<std::uint16_t>(i + 1);
+        const CommandStatus one = bench_.commands.handle(own, source);
+        if (status == CommandStatus::kAccepted) status = one;
+    }
+    return status;
+}
+
+// Times that an event's words left open.
 Command EventDirector::stamped(Command command, const EventSequence::Due& due) const {
     std::visit(Overloaded{
                    [&](PoseCommand& pose) {
@@ -185,11 +209,6 @@ Command EventDirector::stamped(Command command, const EventSequence::Due& due) c
                    // A picture that a frame asks for is the next one that can be.
                    [&](ExposeCommand& expose) {
                        if (expose.time.ns == 0 && due.by_clock) expose.time = due.time;
-                   },
-                   // A frame that is being made is not struck.
-                   [&](FaultCommand& fault) {
-                       if (!fault.clear_all && fault.order.from_frame == 0)
-                           fault.order.from_frame = frame_.id + 1;
                    },
                    [](auto&) {},
                },

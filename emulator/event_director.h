@@ -8,7 +8,8 @@
 //   lockstep            the command dispatch asks before every frame that it orders: the same frames, the
 //                       same events, on any machine. A picture that an event takes at a time comes before a
 //                       frame that is ordered for a later time. Without a way for commands to come in, the
-//                       director itself lets the events' pictures be taken, one after the other.
+//                       director itself lets the events' pictures be taken, one after the other, and ends
+//                       the run when there are no more. After `end` no frame is taken.
 //   free-run,           a thread of the director's own is woken by every frame and at the events' times; what
 //   triggered           is due when a frame begins is done 0.9 ms before that. When the machine does not let
 //                       it run in time, the event is a frame late: its log line says before which frame it
@@ -34,6 +35,8 @@
 
 namespace hilcam {
 
+struct LoopCounters;
+
 class EventDirector : public FrameWatcher {
   public:
     // What it works on outlives it. placed_objects: of the world (WorldState).
@@ -43,7 +46,8 @@ class EventDirector : public FrameWatcher {
         const SimulatedClock& clock;
         ShutterTiming timing;
         std::size_t placed_objects = 0;
-        bool self_driven = false;  // lockstep: no commands can come in
+        bool self_driven = false;                // lockstep: no commands can come in
+        std::vector<const LoopCounters*> loops;  // by camera
     };
     EventDirector(EventSequence sequence, const Bench& bench);
     ~EventDirector() override { stop(); }
@@ -53,7 +57,7 @@ class EventDirector : public FrameWatcher {
     // No further event; to be called before the loops stop, which answer what waits for a frame.
     void ask_to_stop() noexcept { stopping_.store(true); }
     void stop() noexcept;
-    // An event has ended the run.
+    // An event has ended the run, or it was made of events and there are no more.
     bool asks_to_end() const { return asks_to_end_.load(); }
 
     void seen(const SeenFrame& frame, const WorldSnapshot& world) noexcept override;
@@ -80,6 +84,7 @@ class EventDirector : public FrameWatcher {
     TimeTai horizon() const;
     bool happen_until(TimeTai until);
     void happen(const EventSequence::Due& due);
+    CommandStatus perform(const Command& command, CommandSource source);
     Command stamped(Command command, const EventSequence::Due& due) const;
 
     EventSequence sequence_;

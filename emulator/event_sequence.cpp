@@ -44,8 +44,8 @@ EventSequence::EventSequence(std::span<const EventConfig> events, const EventWor
             if (*event.after == i)
                 throw InputError(place_of(i, config) + "after: itself, so it would never happen");
         }
-        if (config.has_at_s) event.due = start + to_ns(config.at_s);
-        if (config.has_at_utc) event.due = parse_utc(config.at_utc);
+        if (config.has_at_s) event.due = {start + to_ns(config.at_s)};
+        if (config.has_at_utc) event.due = {parse_utc(config.at_utc)};
         events_.push_back(std::move(event));
     }
 }
@@ -59,21 +59,21 @@ void EventSequence::saw(const SeenFrame& frame, const WorldSnapshot& world) {
         const bool became = holds && !e.held;
         e.held = holds;
         const bool too_soon = e.done > 0 && frame.middle - e.last < to_ns(e.config.again_after_s);
-        if (became && !e.spent() && !too_soon) e.due = frame.middle;
+        if (became && !e.spent() && !too_soon) e.due = {frame.middle};
     }
 }
 
 std::optional<EventSequence::Due> EventSequence::take(TimeTai until) {
     for (Event& e : events_) {
         const bool before = static_cast<std::int64_t>(seen_.id) + 1 >= e.config.at_frame;
-        if (e.config.has_at_frame && e.done == 0 && before) e.due = seen_.id == 0 ? start_ : seen_.middle;
+        if (e.config.has_at_frame && e.done == 0 && before) e.due = {seen_.id == 0 ? start_ : seen_.middle};
     }
     std::optional<Due> first;
     for (std::size_t i = 0; i < events_.size(); ++i) {
         const Event& e = events_[i];
         // What a frame has made happen does not wait for the middle of that frame.
-        if (!e.due || (e.by_clock() && until < *e.due)) continue;
-        if (!first || *e.due < first->time) first = Due{i, *e.due, e.by_clock()};
+        if (e.due.empty() || (e.by_clock() && until < e.due.front())) continue;
+        if (!first || e.due.front() < first->time) first = Due{i, e.due.front(), e.by_clock()};
     }
     if (first) finish(first->event, first->time, until);
     return first;
@@ -82,24 +82,35 @@ std::optional<EventSequence::Due> EventSequence::take(TimeTai until) {
 // What follows from an event's having happened.
 void EventSequence::finish(std::size_t index, TimeTai time, TimeTai until) {
     Event& event = events_[index];
+    event.due.erase(event.due.begin());
     event.done += 1;
     event.last = time;
-    event.due.reset();
     if (const std::int64_t period_ns = to_ns(event.config.every_s); period_ns > 0 && !event.spent()) {
         const std::int64_t passed = std::max<std::int64_t>(0, until - time) / period_ns;
-        event.due = time + (passed + 1) * period_ns;
+        event.due = {time + (passed + 1) * period_ns};
     }
-    for (Event& other : events_)
-        if (other.after == index && !other.spent()) other.due = time + to_ns(other.config.delay_s);
+    for (Event& other : events_) {
+        if (other.after != index || other.spent()) continue;
+        const TimeTai due = time + to_ns(other.config.delay_s);
+        other.due.insert(std::upper_bound(other.due.begin(), other.due.end(), due), due);
+    }
 }
 
 std::optional<TimeTai> EventSequence::next_time(bool pictures_only) const {
     std::optional<TimeTai> first;
     for (const Event& e : events_) {
-        if (!e.due || !e.by_clock() || (pictures_only && !e.actions.takes_picture())) continue;
-        if (!first || *e.due < *first) first = e.due;
+        if (e.due.empty() || !e.by_clock() || (pictures_only && !e.actions.takes_picture())) continue;
+        if (!first || e.due.front() < *first) first = e.due.front();
     }
     return first;
+}
+
+bool EventSequence::comes_to_something() const {
+    return std::any_of(events_.begin(), events_.end(), [](const Event& e) {
+        const bool repeats = e.endless() && e.done > 0;
+        return !e.due.empty() && e.by_clock() &&
+               (!repeats || e.actions.takes_picture() || e.actions.ends_run);
+    });
 }
 
 }  // namespace hilcam

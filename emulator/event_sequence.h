@@ -6,7 +6,7 @@
 //
 //   at_s, at_utc   due at that time, then every `every_s`; what was passed over meanwhile is left out
 //   at_frame N     due once the frame before N has been seen: it is there for N, or for the first after it
-//   after          due delay_s after the other event's time
+//   after          due delay_s after each time of the other event, also while it still waits for one before
 //   when           due when its condition has become true from one seen frame to the next, or is true of the
 //                  first; not within again_after_s of its time before: a change that comes sooner is passed
 //                  over
@@ -44,6 +44,9 @@ class EventSequence {
     std::optional<Due> take(TimeTai until);
     // When the earliest is due that waits for its time; of those that take pictures only, if wanted.
     std::optional<TimeTai> next_time(bool pictures_only = false) const;
+    // Of what waits for its time something takes a picture, ends the run or has never happened or an end of
+    // its own: not all of it is what repeats for ever and changes no picture.
+    bool comes_to_something() const;
 
     std::size_t size() const { return events_.size(); }
     const EventActions& actions(std::size_t event) const { return events_[event].actions; }
@@ -56,13 +59,17 @@ class EventSequence {
         EventActions actions;
         std::optional<EventCondition> condition;
         std::optional<std::size_t> after;  // that event
-        std::optional<TimeTai> due;
+        std::vector<TimeTai> due;          // earliest first; several only of `after`
         std::uint64_t done = 0;
         TimeTai last;  // time it was done; when done > 0
         bool held = false;
 
         bool by_clock() const { return config.has_at_s || config.has_at_utc || config.has_after; }
-        bool spent() const { return config.times > 0 && done >= static_cast<std::uint64_t>(config.times); }
+        // What is due already counts.
+        bool spent() const {
+            return config.times > 0 && done + due.size() >= static_cast<std::uint64_t>(config.times);
+        }
+        bool endless() const { return config.times == 0; }
     };
     void finish(std::size_t index, TimeTai time, TimeTai until);
 

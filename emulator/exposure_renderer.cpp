@@ -75,6 +75,8 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ScenarioConfig& s, 
       motion_(s.quality.motion),
       motion_error_px_(s.quality.motion_error_px),
       shutter_(s.camera.shutter),
+      rows_pass_object_(!s.has_terrain && (s.camera.shutter.kind == ShutterKind::kRolling ||
+                                           s.camera.shutter.kind == ShutterKind::kLineScan)),
       focal_length_px_(s.camera.focal_length_m / s.camera.pitch_m),
       oversampling_(static_cast<double>(s.quality.oversampling)),
       jitter_(s.camera.jitter, static_cast<std::uint64_t>(s.seed), parse_utc(s.time_utc)),
@@ -104,7 +106,14 @@ void ExposureRenderer::sample_again(const WorldState& world, const Span& span, T
     if (!with_bodies) out.bodies = middle_.bodies;
     world.sample_again(time, with_bodies, out);
     out.camera = jitter_.applied(out.camera, span.middle, span.exposure_s);
+    out.camera_velocity_m_s = out.camera_velocity_m_s - seen_velocity_m_s(world, out);
     slow_down(span.moving, out);
+}
+
+// Rows that are lit one after the other move against the object that is nearest, or the ground, which is at
+// rest in the world: two that fly together hardly move, whatever the speed of both.
+Vec3d ExposureRenderer::seen_velocity_m_s(const WorldState& world, const WorldSnapshot& now) const {
+    return rows_pass_object_ ? world.nearest_velocity_m_s(now) : Vec3d{};
 }
 
 void ExposureRenderer::sample_ends(const WorldState& world, const Span& span, bool with_bodies) {
@@ -128,7 +137,16 @@ void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownC
     world.sample(span.middle, middle_, shown);
     world.average_lamps(span.middle + -half_ns, span.middle + half_ns, middle_);
     middle_.camera = jitter_.applied(middle_.camera, span.middle, span.exposure_s);
+    const Vec3d seen_m_s = seen_velocity_m_s(world, middle_);
+    middle_.camera_velocity_m_s = middle_.camera_velocity_m_s - seen_m_s;
     slow_down(span.moving, middle_);
+    told_velocity_m_s_ = span.moving * seen_m_s;
+}
+
+// The camera's velocity in the world.
+void ExposureRenderer::tell_truth(FrameTruth& truth) {
+    renderer_.tell_truth(truth);
+    truth.camera_velocity_m_s = truth.camera_velocity_m_s + told_velocity_m_s_;
 }
 
 void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSource>& points,
@@ -167,7 +185,7 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
         sample_ends(world, span, true);
         // The middle is placed now, and parts will not be it.
         const ImageMotion motion = renderer_.motion(middle_, before_, after_);
-        if (truth) renderer_.tell_truth(*truth);
+        if (truth) tell_truth(*truth);
         const Plan plan = plan_of(motion);
         result.parts = plan.parts;
         result.parts_limited = plan.parts_limited;
@@ -180,7 +198,7 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     }
     tell_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
-    if (truth && motion_ != MotionQuality::kExact) renderer_.tell_truth(*truth);
+    if (truth && motion_ != MotionQuality::kExact) tell_truth(*truth);
     if (motion_ == MotionQuality::kOff) return result;
     if (motion_ == MotionQuality::kFast) {
         sample_ends(world, span, renderer_.last_shows_body());

@@ -82,11 +82,13 @@ class ExposureRenderer {
     MotionQuality motion_;
     double motion_error_px_;
     ShutterConfig shutter_;
+    bool rows_pass_object_;  // are of several instants, and it is not the ground that they see
     double focal_length_px_, oversampling_;
     PointingJitter jitter_;
     ExpectedNoise noise_;
-    WorldSnapshot middle_, before_, after_, part_world_;
-    RadianceImage part_;  // of exact motion
+    WorldSnapshot middle_, before_, after_, part_world_;  // the camera's velocity: as rows see it
+    Vec3d told_velocity_m_s_;                             // of what they see
+    RadianceImage part_;                                  // of exact motion
     std::vector<PointSource> part_points_;
     std::size_t bins_;
 
@@ -97,6 +99,8 @@ class ExposureRenderer {
         double moving = 1;
     };
     void sample_middle(WorldState& world, const Span& span, ShownCommand& shown);
+    Vec3d seen_velocity_m_s(const WorldState& world, const WorldSnapshot& now) const;
+    void tell_truth(FrameTruth& truth);
     Plan plan_of(const ImageMotion& motion) const;
     void sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
                       WorldSnapshot& out) const;

@@ -101,6 +101,7 @@ bool FrameLoop::begin(Slot& slot) {
     }
     use_level(slot.use.quality_level);
     last_id_ = slot.use.id;
+    counters_.begun_id.store(last_id_, std::memory_order_relaxed);
     counters_.deadline_misses.fetch_add(slot.use.skipped + (slot.use.late ? 1 : 0),
                                         std::memory_order_relaxed);
     return true;
@@ -346,7 +347,7 @@ void FrameLoop::finish_picture(const Slot& slot) {
 }
 
 // Not before the exposure is over; in lockstep and in a replay not before every output has room, as no frame
-// may be lost.
+// may be lost, the last ones of a run as little as the others.
 void FrameLoop::wait_to_publish(const Slot& slot) const {
     const auto go_on = [&] { return !stopping_.load(std::memory_order_relaxed); };
     while (monotonic_ns() < slot.not_before_ns && go_on())
@@ -358,7 +359,7 @@ void FrameLoop::wait_to_publish(const Slot& slot) const {
     constexpr std::int64_t kPoll_ns = 200'000, kPatience_ns = 10'000'000'000;
     const std::int64_t until_ns = monotonic_ns() + kPatience_ns;
     const auto room = [](const FrameSink* sink) { return sink->has_room(); };
-    while (!std::all_of(sinks_.begin(), sinks_.end(), room) && monotonic_ns() < until_ns && go_on())
+    while (!std::all_of(sinks_.begin(), sinks_.end(), room) && monotonic_ns() < until_ns)
         sleep_until_monotonic_ns(monotonic_ns() + kPoll_ns);
 }
 

@@ -11,6 +11,14 @@ constexpr std::int64_t kLastStretch_ns = 1'000'000;   // before a begin nothing 
 
 std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
 
+// When an exposure of that begin in the camera's time begins on the machine's clock: kNever_ns where the
+// camera waits, be it at that very instant. What is then told of the world before time goes on counts for it.
+std::int64_t when_begins(const SimulatedClock& clock, std::int64_t camera_ns) {
+    if (camera_ns == SimulatedClock::kNever_ns) return camera_ns;
+    const bool passes = clock.when_due(camera_ns + 1) != SimulatedClock::kNever_ns;
+    return passes ? clock.when_due(camera_ns) : SimulatedClock::kNever_ns;
+}
+
 }  // namespace
 
 FrameStarter::FrameStarter(const CameraModel& camera, LiveSettings& settings, SimulatedClock& clock,
@@ -71,7 +79,7 @@ bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& star
         const FrameSchedule before = schedule_;
         std::int64_t period_ns = period_now_ns();
         FrameSchedule::Slot due = schedule_.take(arrived_ns, period_ns);
-        while (settings_.wait_for_news_until(clock_.when_due(due.start_ns) - kLastStretch_ns)) {
+        while (settings_.wait_for_news_until(when_begins(clock_, due.start_ns) - kLastStretch_ns)) {
             start.settings = settings_.read_in_loop();
             if (stopping.load(std::memory_order_relaxed) || !start.settings.running ||
                 start.settings.triggered || waits_for_poses())
@@ -112,6 +120,7 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     if (lockstep_) {
         last_mid_ = clock_.simulated_of_camera(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));
         clock_.step_to(last_mid_);
+        settings_.tell_middle(last_mid_);
     } else {
         start.late = camera_now() > next_ns_ + period_ns;
     }
@@ -148,7 +157,7 @@ std::int64_t FrameStarter::begin_of_order() const {
 bool FrameStarter::wait_for_order(const std::atomic<bool>& stopping) {
     if (!order_begun_) next_ns_ = begin_of_order();
     const std::int64_t not_before_ns = order_begun_ ? 0 : order_.at_monotonic_ns;
-    const std::int64_t due_ns = std::max(clock_.when_due(next_ns_), not_before_ns);
+    const std::int64_t due_ns = std::max(when_begins(clock_, next_ns_), not_before_ns);
     if (settings_.wait_for_news_until(due_ns - kLastStretch_ns)) return false;
     if (!sleep_until(next_ns_, stopping)) return false;
     order_begun_ = true;
@@ -163,13 +172,12 @@ void FrameStarter::forget_orders() {
 
 // False when it is to stop, or the camera does not get there as the clock goes now.
 bool FrameStarter::sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const {
-    for (std::int64_t now_ns = monotonic_ns(); clock_.camera_at(now_ns) < camera_ns;
-         now_ns = monotonic_ns()) {
-        const std::int64_t due_ns = clock_.when_due(camera_ns);
-        if (stopping.load(std::memory_order_relaxed) || due_ns == SimulatedClock::kNever_ns) return false;
+    for (;;) {
+        const std::int64_t now_ns = monotonic_ns(), due_ns = when_begins(clock_, camera_ns);
+        if (due_ns == SimulatedClock::kNever_ns || stopping.load(std::memory_order_relaxed)) return false;
+        if (clock_.camera_at(now_ns) >= camera_ns) return true;
         sleep_until_monotonic_ns(std::min(std::max(due_ns, now_ns + 1'000), now_ns + kLongestSleep_ns));
     }
-    return true;
 }
 
 }  // namespace hilcam

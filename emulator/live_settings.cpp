@@ -163,8 +163,9 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     if (order.frames == 0) order.frames = settings_.burst_frames;
     const std::uint64_t in = triggers_in_.load(std::memory_order_relaxed);
     if (limits_.lockstep && order.at_simulated.ns != 0) {
-        if (!order.at_any_time && !(newest_simulated_ < order.at_simulated)) return TriggerResult::kTooEarly;
-        newest_simulated_ = order.at_simulated;
+        const std::int64_t newest_ns = newest_middle_ns_.load(std::memory_order_relaxed);
+        if (!order.at_any_time && newest_ns != 0 && order.at_simulated.ns <= newest_ns)
+            return TriggerResult::kTooEarly;
     }
     bool missed = in - triggers_out_.load(std::memory_order_acquire) == kMostWaiting;
     if (!limits_.lockstep) {

@@ -82,6 +82,9 @@ class LiveSettings : public CameraControl {
         own_gain_db_.store(gain_db, std::memory_order_relaxed);
     }
 
+    // Lockstep: the middle of the newest frame; none is ordered for an instant that is not after it.
+    void tell_middle(TimeTai middle) { newest_middle_ns_.store(middle.ns, std::memory_order_relaxed); }
+
     static constexpr std::size_t kMostWaiting = 64;
 
   private:
@@ -104,7 +107,7 @@ class LiveSettings : public CameraControl {
     std::counting_semaphore<> news_{0}, done_{0};
     std::atomic<bool> closed_{false};
     bool ordered_ = false;
-    TimeTai newest_simulated_;  // that was ordered
+    std::atomic<std::int64_t> newest_middle_ns_{0};  // 0: no frame yet
     std::function<void(std::int64_t)> missed_;
     std::function<void(const SettingsChange&)> changed_;
     std::function<void(const TriggerOrder&, TriggerResult)> triggered_;

@@ -24,7 +24,7 @@ template <class F>
 auto at_valid(const MotionContext& context, const MotionValidity& validity, F&& evaluate) {
     if (validity.status == MotionStatus::kOk) return evaluate(context);
     const WorldFrame frame = context.frame.at(validity.nearest);
-    return evaluate(MotionContext{frame, context.things});
+    return evaluate(MotionContext{frame, context.things, context.standing});
 }
 
 }  // namespace
@@ -35,17 +35,20 @@ MotionStatus MotionSource::place(const MotionContext& context, Motion& out) cons
         at_valid(context, where, [&](const MotionContext& c) { return trajectory_->at(c); });
     out.time = context.frame.time();
     out.pose.position_world_m = state.position_m;
-    out.velocity_world_m_s = where.status == MotionStatus::kOk ? state.velocity_m_s : Vec3d{};
+    out.velocity_world_m_s = state.velocity_m_s;
     return where.status;
 }
 
 MotionStatus MotionSource::turn(const MotionContext& context, Motion& out) const {
-    const StateVector self{out.pose.position_world_m, out.velocity_world_m_s};
-    const MotionValidity how = attitude_->validity(context.frame.time());
+    const TimeTai time = context.frame.time();
+    const bool stands = trajectory_->validity(time).status != MotionStatus::kOk;
+    const OwnMotion self({out.pose.position_world_m, out.velocity_world_m_s}, stands,
+                         stands ? std::nullopt : trajectory_->acceleration(context));
+    const MotionValidity how = attitude_->validity(time);
     AttitudeState attitude =
         at_valid(context, how, [&](const MotionContext& c) { return attitude_->at(c, self); });
     if (how.status != MotionStatus::kOk) attitude.rate_body_rad_s = {};
-    attitude = jitter_.applied(attitude.world_from_body, attitude.rate_body_rad_s, context.frame.time());
+    attitude = jitter_.applied(attitude.world_from_body, attitude.rate_body_rad_s, time);
     out.pose.world_from_body = attitude.world_from_body;
     out.rate_body_rad_s = attitude.rate_body_rad_s;
     return how.status;
@@ -96,16 +99,21 @@ MotionSources::MotionSources(std::vector<std::unique_ptr<MotionSource>> sources,
 }
 
 std::uint64_t MotionSources::evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,
-                                      std::span<Motion> motions) const {
+                                      std::span<Motion> motions, std::span<std::uint8_t> standing) const {
     std::uint64_t held = 0;
+    std::fill(standing.begin(), standing.end(), std::uint8_t{0});
     for (const MotionNeed& part : order_) {
         if (live[part.thing]) continue;
         const MotionSource& source = *sources_[part.thing];
         Motion& out = motions[part.thing];
-        const MotionContext context{frame, motions};
-        if ((part.attitude ? source.turn(context, out) : source.place(context, out)) != MotionStatus::kOk)
-            ++held;
+        const MotionContext context{frame, motions, standing};
+        if ((part.attitude ? source.turn(context, out) : source.place(context, out)) == MotionStatus::kOk)
+            continue;
+        ++held;
+        if (!part.attitude) standing[part.thing] = 1;
     }
+    for (std::size_t i = 0; i < motions.size(); ++i)
+        if (standing[i] != 0) motions[i].velocity_world_m_s = {};
     return held;
 }
 

@@ -3,10 +3,11 @@
 // attitude law and jitter, each a pure function of the instant and of the things that it follows.
 //
 // Outside the instants that a part knows (an ephemeris's end, a gap in it) it stands still as it was at the
-// nearest one that it knows, and says so.
+// nearest one that it knows, and says so. Axes of its orbit stand with it.
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,21 @@ MotionValidity validity_of(TimeTai time, TimeTai first, TimeTai last);
 struct MotionContext {
     const WorldFrame& frame;
     std::span<const Motion> things;  // the camera's body, then the objects; what needs() names is right
+    // Of each, whether it stands still where its source does not know it. Its velocity is that of its way, so
+    // that its orbit has axes; it does not move with it. Empty: none.
+    std::span<const std::uint8_t> standing = {};
+
+    bool stands(std::size_t thing) const { return thing < standing.size() && standing[thing] != 0; }
+};
+
+// The thing whose attitude is asked for: its own state in the world, as above.
+struct OwnMotion {
+    OwnMotion(const StateVector& s, bool still = false, std::optional<Vec3d> change = {})
+        : state(s), stands(still), acceleration_m_s2(change) {}
+
+    StateVector state;
+    bool stands;
+    std::optional<Vec3d> acceleration_m_s2;  // none: it falls freely
 };
 
 // Another thing's part that must be known first.
@@ -45,6 +61,8 @@ class Trajectory {
     virtual MotionValidity validity(TimeTai time) const { return {MotionStatus::kOk, time}; }
     // In the world; only called for valid instants. Loop: no allocation, no lock.
     virtual StateVector at(const MotionContext& context) const = 0;
+    // Of what does not fall freely about a body's centre, as far as it is known. Loop.
+    virtual std::optional<Vec3d> acceleration(const MotionContext&) const { return {}; }
     virtual std::vector<MotionNeed> needs() const { return {}; }
     // Where from, for messages.
     virtual std::string name() const = 0;
@@ -59,8 +77,8 @@ class AttitudeLaw {
   public:
     virtual ~AttitudeLaw() = default;
     virtual MotionValidity validity(TimeTai time) const { return {MotionStatus::kOk, time}; }
-    // `self`: the thing's own state in the world. Loop.
-    virtual AttitudeState at(const MotionContext& context, const StateVector& self) const = 0;
+    // Loop.
+    virtual AttitudeState at(const MotionContext& context, const OwnMotion& self) const = 0;
     virtual std::vector<MotionNeed> needs() const { return {}; }
     virtual std::string name() const = 0;
 };
@@ -71,7 +89,8 @@ class MotionSource {
     MotionSource(std::unique_ptr<Trajectory> trajectory, std::unique_ptr<AttitudeLaw> attitude,
                  AttitudeJitter jitter = {});
 
-    // Position and velocity of `out`; then, from them, attitude and rate. Loop.
+    // Position and velocity of `out`, the latter also where it stands; then, from them, attitude and rate.
+    // Loop.
     MotionStatus place(const MotionContext& context, Motion& out) const;
     MotionStatus turn(const MotionContext& context, Motion& out) const;
     std::vector<MotionNeed> place_needs() const { return trajectory_->needs(); }
@@ -97,9 +116,9 @@ class MotionSources {
     bool empty() const { return order_.empty(); }
     bool has(std::size_t thing) const { return thing < sources_.size() && sources_[thing]; }
     // Fills the motions of all things with a source for which live[thing] is 0. motions: those of the others
-    // are right. Gives how many parts stood still. Loop.
+    // are right. standing: room for a flag of each thing. Gives how many parts stood still. Loop.
     std::uint64_t evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,
-                           std::span<Motion> motions) const;
+                           std::span<Motion> motions, std::span<std::uint8_t> standing) const;
 
   private:
     std::vector<std::unique_ptr<MotionSource>> sources_;

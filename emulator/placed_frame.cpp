@@ -21,9 +21,14 @@ PlacedAxes axes_of(const PlacedFrame& frame, const MotionContext& context) {
         return {context.frame.center(frame.center), context.frame.body_fixed(*frame.center.body)};
     }
     const Motion& thing = context.things[frame.thing];
-    const StateVector origin{thing.pose.position_world_m, thing.velocity_world_m_s};
-    if (frame.kind == PlacedFrame::Kind::kLvlh)
-        return {origin, lvlh_axes(about_center(context, origin, frame.center))};
+    const bool stands = context.stands(frame.thing);
+    StateVector origin{thing.pose.position_world_m, thing.velocity_world_m_s};
+    if (frame.kind == PlacedFrame::Kind::kLvlh) {
+        TurningAxes axes = lvlh_axes(about_center(context, origin, frame.center));
+        return stands ? PlacedAxes{{origin.position_m, {}}, {axes.icrf_from_axes, {}}}
+                      : PlacedAxes{origin, axes};
+    }
+    if (stands) origin.velocity_m_s = {};
     const Mat3d axes = to_matrix(thing.pose.world_from_body);
     return {origin, {axes, axes * thing.rate_body_rad_s}};
 }

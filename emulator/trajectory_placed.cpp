@@ -20,6 +20,21 @@ class Placed final : public Trajectory {
     StateVector at(const MotionContext& context) const override {
         return world_state(axes_of(frame_, context), in_frame_(context.frame.time()));
     }
+    // What follows a thing on its orbit falls nearly as that does.
+    std::optional<Vec3d> acceleration(const MotionContext& context) const override {
+        if (frame_.follows_thing()) return {};
+        // Cubics at the most: central differences of their velocities have no remainder.
+        constexpr std::int64_t kHalf_ns = 10'000;
+        const TimeTai time = context.frame.time();
+        const StateVector s = in_frame_(time);
+        const Vec3d change =
+            (in_frame_(time + kHalf_ns).velocity_m_s - in_frame_(time + -kHalf_ns).velocity_m_s) /
+            (2 * kHalf_ns * kSecondsPerNs);
+        const TurningAxes axes = axes_of(frame_, context).axes;
+        const Vec3d w = axes.rate_rad_s;
+        return axes.icrf_from_axes * change + 2.0 * cross(w, axes.icrf_from_axes * s.velocity_m_s) +
+               cross(w, cross(w, axes.icrf_from_axes * s.position_m));
+    }
     std::vector<MotionNeed> needs() const override { return frame_.needs(); }
     std::string name() const override { return name_; }
 

@@ -78,7 +78,8 @@ WorldState::WorldState(std::span<const Motion> motions, const OriginConfig& orig
       sources_(std::move(sources)),
       lamps_(lamps),
       now_(motions.begin(), motions.end()),
-      live_(motions.size()) {
+      live_(motions.size()),
+      standing_(motions.size()) {
     HILCAM_CHECK(mount.thing <= objects_);
     const auto add = [&](const Motion& motion) {
         auto thing = std::make_unique<Thing>();
@@ -164,7 +165,7 @@ void WorldState::evaluate_sources(TimeTai time) const {
         live_[i] = things_[i]->sampled->command.arrival_monotonic_ns != 0;
         if (!follows_source(i)) now_[i] = things_[i]->sampled->motion_at(time);
     }
-    held_.fetch_add(sources_.evaluate({time, origin_}, live_, now_), std::memory_order_relaxed);
+    held_.fetch_add(sources_.evaluate({time, origin_}, live_, now_, standing_), std::memory_order_relaxed);
 }
 
 void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const {
@@ -186,6 +187,21 @@ void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& wor
         world.objects[objects_ + i] = turned(world.objects[joint.object], joint, angle_rad);
     }
     lamps_.place(time, lamps_.size() > 0 ? motion(0).pose : Pose{}, world);
+}
+
+// The nearest by its origin, but for what carries the camera.
+Vec3d WorldState::nearest_velocity_m_s(const WorldSnapshot& world) const {
+    std::size_t nearest = objects_;
+    double least_m = 0;
+    for (std::size_t i = 0; i < objects_; ++i) {
+        if (1 + i == mount_.thing) continue;
+        const double away_m = length(world.objects[i].position_world_m - world.camera.position_world_m);
+        if (nearest == objects_ || away_m < least_m) nearest = i, least_m = away_m;
+    }
+    if (nearest == objects_) return {};
+    const std::size_t thing = 1 + nearest;
+    return follows_source(thing) ? now_[thing].velocity_world_m_s
+                                 : things_[thing]->sampled->motion_at(world.time).velocity_world_m_s;
 }
 
 }  // namespace hilcam

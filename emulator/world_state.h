@@ -78,6 +78,9 @@ class WorldState {
     void average_lamps(TimeTai from, TimeTai until, WorldSnapshot& world) const {
         lamps_.average(from, until, world);
     }
+    // How the object that is nearest to the camera moves in the world; none: not at all. world: as it was
+    // sampled last. Loop.
+    Vec3d nearest_velocity_m_s(const WorldSnapshot& world) const;
     // Of each of things(), the number of the newest command that the last sample() knew. Loop.
     void shown_numbers(std::span<std::uint64_t> numbers) const;
     // How often a source was asked for an instant that it does not know, and stood still. Any thread.
@@ -108,9 +111,10 @@ class WorldState {
     Mount mount_;
     MotionSources sources_;
     WorldLamps lamps_;
-    // The loop's: where all things are at the instant that is being sampled, and which are commanded.
+    // The loop's: where all things are at the instant that is being sampled, which are commanded, and which
+    // stand because their source does not know the instant.
     mutable std::vector<Motion> now_;
-    mutable std::vector<std::uint8_t> live_;
+    mutable std::vector<std::uint8_t> live_, standing_;
     mutable std::atomic<std::uint64_t> held_{0};
 
     void evaluate_sources(TimeTai time) const;

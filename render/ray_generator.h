@@ -36,7 +36,7 @@ class RayGenerator {
   public:
     virtual ~RayGenerator() = default;
 
-    // Once per frame. Owner thread.
+    // Once per frame; the camera's velocity is that against what it sees. Owner thread.
     virtual void place(const ImageGeometry& geometry, const Motion& camera) = 0;
     // The rays through points of the padded image [px]. Loop, any thread.
     virtual void generate(std::span<const Vec2d> points_px, std::span<CameraRay> rays) const = 0;

@@ -65,8 +65,9 @@ struct Scene {
 struct WorldSnapshot {
     TimeTai time;
     Pose camera;
-    Vec3d camera_velocity_m_s;  // in the world; for cameras whose rows are not of one instant
-    Vec3d camera_rate_rad_s;    // about the camera's axes
+    // In the world; of an exposure against what its rows see. For cameras whose rows are not of one instant.
+    Vec3d camera_velocity_m_s;
+    Vec3d camera_rate_rad_s;  // about the camera's axes
     std::vector<Pose> objects;
     ShownLamps lamps;
     Bodies bodies;

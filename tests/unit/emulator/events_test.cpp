@@ -120,6 +120,42 @@ TEST(EventSequence, OneFollowsAnotherEachTime) {
     EXPECT_FALSE(sequence.take(at_s(100)));
 }
 
+// The next time of the other one comes while the first is still waited for.
+TEST(EventSequence, ADelayLongerThanTheOthersPeriodLosesNone) {
+    EventConfig events[] = {timed(1, "first"), event("each"), event("twice")};
+    events[0].every_s = 1, events[0].times = 4;
+    for (EventConfig* e : {&events[1], &events[2]}) e->has_after = true, e->after = "first";
+    events[1].delay_s = 2.5, events[1].times = 0;
+    events[2].delay_s = 10, events[2].times = 2;
+    EventSequence sequence(events, kWorld, kStart);
+    std::vector<std::pair<std::size_t, double>> found;
+    for (int half_s = 0; half_s < 60; ++half_s)
+        while (const auto due = sequence.take(at_s(0.5 * half_s)))
+            found.emplace_back(due->event, static_cast<double>(due->time - kStart) * 1e-9);
+    const std::vector<std::pair<std::size_t, double>> expected = {
+        {0, 1}, {0, 2}, {0, 3}, {1, 3.5}, {0, 4}, {1, 4.5}, {1, 5.5}, {1, 6.5}, {2, 11}, {2, 12}};
+    EXPECT_EQ(found, expected);
+}
+
+TEST(EventSequence, WhatRepeatsForEverComesToNothingByItself) {
+    EventConfig events[] = {timed(1), timed(5)};
+    events[0].every_s = 1, events[0].times = 0;
+    EventSequence sequence(events, kWorld, kStart);
+    EXPECT_TRUE(sequence.comes_to_something());
+    while (sequence.take(at_s(4))) {
+    }
+    EXPECT_TRUE(sequence.comes_to_something());  // the one of 5 s
+    while (sequence.take(at_s(5))) {
+    }
+    EXPECT_FALSE(sequence.comes_to_something());
+    EXPECT_TRUE(sequence.next_time());
+    events[0].actions = {"expose"};
+    EventSequence pictures(events, kWorld, kStart);
+    while (pictures.take(at_s(5))) {
+    }
+    EXPECT_TRUE(pictures.comes_to_something());
+}
+
 TEST(EventSequence, AFrameNumberIsMetByTheFirstFrameThatReachesIt) {
     EventConfig events[] = {event(), event()};
     events[0].has_at_frame = true, events[0].at_frame = 1;
@@ -273,6 +309,51 @@ TEST_F(EventsTest, InLockstepTheyMakeARunOfTheirOwn) {
         EXPECT_EQ(frames[i].gain_db, gain_db[i]) << i;
         EXPECT_EQ(frames[i].image.black, black[i]) << i;
     }
+}
+
+// Of a burst, too, no frame is taken after the end: that of frame 10 comes before it.
+TEST_F(EventsTest, InLockstepTheEndIsExact) {
+    const auto file = scenario("",
+                               "mode: lockstep\n"
+                               "events:\n"
+                               "  - {at_s: 1, do: expose --frames 1000}\n"
+                               "  - {at_frame: 10, do: end}\n");
+    EXPECT_EQ(frames_of(file).size(), 9u);
+}
+
+// Nothing is left that could take a picture: neither the end of the list nor what goes on for ever.
+TEST_F(EventsTest, InLockstepARunOfEventsEndsWithThem) {
+    const auto file = scenario("",
+                               "mode: lockstep\n"
+                               "events:\n"
+                               "  - {at_s: 1, every_s: 1, times: 3, do: expose}\n"
+                               "  - {at_s: 0.5, every_s: 0.5, times: 0, do: settings --gain-db 3}\n");
+    const std::vector<FrameUse> frames = frames_of(file);
+    ASSERT_EQ(frames.size(), 3u);
+    for (const FrameUse& f : frames) EXPECT_EQ(f.gain_db, 3) << f.id;
+}
+
+// Cameras count their own frames: the second takes the first of its own.
+TEST_F(EventsTest, AFaultIsForTheNextFrameOfItsCamera) {
+    const auto file =
+        scenario("",
+                 "mode: lockstep\n"
+                 "more_cameras:\n"
+                 "  - {camera: {name: second, width_px: 16, height_px: 16, pitch_um: 5, "
+                 "focal_length_mm: 50, f_number: 8, quantum_efficiency: 0.5, full_well_e: 10000, "
+                 "read_noise_e: 5, gain_dn_e: 0.3, bits: 12, exposure_ms: 1}}\n"
+                 "events:\n"
+                 "  - {at_s: 1, every_s: 1, times: 20, camera: 1, do: expose}\n"
+                 "  - {at_s: 20.5, do: fault image_black --frames 1}\n"
+                 "  - {at_s: 21, camera: 2, do: expose --frames 2}\n"
+                 "  - {at_s: 30, camera: 1, do: expose --frames 2}\n"
+                 "  - {at_s: 40, do: end}\n");
+    std::vector<std::uint64_t> black;
+    const std::vector<FrameUse> frames = frames_of(file);
+    ASSERT_EQ(frames.size(), 24u);
+    for (const FrameUse& f : frames)
+        if (f.image.black) black.push_back(f.id);
+    EXPECT_EQ(black, (std::vector<std::uint64_t>{1, 21}));
 }
 
 // Never before its time; how late it may be is the machine's business.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <thread>
 
@@ -78,6 +79,82 @@ TEST_F(PlateTest, LockstepGoesOnByTheFramePeriodAndNeverBack) {
     EXPECT_EQ(rig.send(TriggerModeCommand{false, 0}), CommandStatus::kNotNow);
     rig.loop.stop();
     EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // nobody would answer
+}
+
+// Frames that name no time go on from the one before; a time that these have passed is over.
+TEST_F(PlateTest, LockstepNeverGoesBackBehindFramesWithoutATime) {
+    LoopRig rig(scenario(", frame_rate_hz: 10", "mode: lockstep\n"), {});
+    rig.loop.start();
+    const auto at_ms = [&](std::int64_t ms) { return rig.start + ms * 1'000'000; };
+    EXPECT_EQ(rig.send(ExposeCommand{at_ms(1000), 1}), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(ExposeCommand{{}, 5}), CommandStatus::kAccepted);  // up to 1500 ms
+    EXPECT_EQ(rig.send(ExposeCommand{at_ms(1200), 1}), CommandStatus::kTimeOutOfRange);
+    EXPECT_EQ(rig.send(ExposeCommand{at_ms(1500), 1}), CommandStatus::kTimeOutOfRange);
+    EXPECT_EQ(rig.send(ExposeCommand{at_ms(1501), 1}), CommandStatus::kAccepted);
+    ASSERT_TRUE(rig.collector.wait_for(7));
+    rig.loop.stop();
+    for (std::size_t i = 1; i < rig.collector.frames.size(); ++i)
+        EXPECT_LT(rig.collector.frames[i - 1].record.exposure_mid,
+                  rig.collector.frames[i].record.exposure_mid);
+}
+
+// An output that has no room yet gets the last frames, too, when the loop is stopped or has taken all that it
+// was to take.
+TEST_F(PlateTest, LockstepWaitsForOutputsAtTheEndAsWell) {
+    class Slow : public Collector {
+      public:
+        bool has_room() const noexcept override { return monotonic_ns() >= room_ns_; }
+        void publish(const DnImage& frame, const FrameRecord& record) noexcept override {
+            if (!has_room()) lost_ += 1;
+            room_ns_ = monotonic_ns() + 100'000'000;
+            Collector::publish(frame, record);
+        }
+        int lost() const { return lost_; }
+
+      private:
+        std::atomic<std::int64_t> room_ns_{0};
+        std::atomic<int> lost_{0};
+    };
+    for (const std::uint64_t limit : {0u, 4u}) {
+        LoopRig rig(scenario(), {}, {"mode=lockstep"});
+        Slow slow;
+        FrameLoop loop(rig.exposures, rig.chain, rig.scenario.camera, rig.world, rig.settings, rig.faults,
+                       rig.clock, {&slow}, 1, {limit, 0, false}, &rig.poses);
+        loop.start();
+        EXPECT_EQ(rig.send(expose({}, 4)), CommandStatus::kAccepted);
+        loop.stop();
+        EXPECT_EQ(slow.count(), 4u);
+        EXPECT_EQ(slow.lost(), 0) << limit;
+    }
+}
+
+// A rolling shutter sees two that fly together as it sees two at rest, at a satellite's speed, too: to the
+// rounding of single precision, and to numbers that noise rounds the other way.
+TEST_F(PlateTest, RowsMoveAgainstWhatIsSeen) {
+    const auto file =
+        scenario(", frame_rate_hz: 10, shutter: {kind: rolling, line_time_us: 100}", "mode: lockstep\n");
+    const auto picture = [&](double speed_m_s) {
+        LoopRig rig(file, {1});
+        PoseCommand pose;
+        pose.motion.time = rig.start;
+        pose.motion.velocity_world_m_s = {0, speed_m_s, 0};
+        EXPECT_EQ(rig.send(pose), CommandStatus::kAccepted);
+        pose.object = 1, pose.motion.pose.position_world_m = {0, 0, 4};
+        EXPECT_EQ(rig.send(pose), CommandStatus::kAccepted);
+        rig.loop.start();
+        EXPECT_EQ(rig.send(ExposeCommand{rig.start + 1'000'000'000, 1}), CommandStatus::kAccepted);
+        EXPECT_TRUE(rig.collector.wait_for(1));
+        rig.loop.stop();
+        return std::move(rig.collector.frames.at(0).dn);
+    };
+    const std::vector<std::uint16_t> at_rest = picture(0), in_orbit = picture(7600);
+    std::size_t different = 0, lit = 0;
+    for (std::size_t i = 0; i < at_rest.size(); ++i) {
+        if (at_rest[i] > 500) ++lit;
+        if (std::abs(at_rest[i] - in_orbit[i]) > 2) ++different;
+    }
+    EXPECT_GT(lit, 150u);  // 16 x 16 px
+    EXPECT_LT(different, 5u);
 }
 
 // For simulators that tell the whole world for each frame, and start anew.
@@ -257,7 +334,7 @@ TEST_F(PlateTest, WhatDoesNotFitChangesNothing) {
 // --- faults of the picture
 
 TEST_F(PlateTest, FaultsStrikeTheFramesTheyAreOrderedFor) {
-    LoopRig rig(scenario(), {8, false});
+    LoopRig rig(scenario(), {8, 0, false});
     const auto order = [&](FaultKind kind, std::uint64_t frame, double rate = 1, double value = 0) {
         EXPECT_EQ(rig.send(FaultCommand{{kind, rate, value, frame, 1, 0}, false}), CommandStatus::kAccepted);
     };
@@ -269,7 +346,7 @@ TEST_F(PlateTest, FaultsStrikeTheFramesTheyAreOrderedFor) {
     rig.loop.start();
     ASSERT_TRUE(rig.collector.wait_for(8));
     rig.loop.stop();
-    LoopRig whole(scenario(), {8, false});
+    LoopRig whole(scenario(), {8, 0, false});
     // The same instants, so that the pictures compare: nothing moves, and noise is keyed by the frame.
     whole.loop.start();
     ASSERT_TRUE(whole.collector.wait_for(8));

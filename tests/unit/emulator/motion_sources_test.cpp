@@ -203,7 +203,7 @@ TEST(Pointing, IsDefinedOverThePole) {
     Pointing p;
     p.aim.kind = Aim::Kind::kNadir;
     const WorldFrame frame(parse_utc("2026-03-20T06:00:00Z"), {});
-    const AttitudeState a = make_pointing(p)->at({frame, {}}, {{0, 0, 7e6}, {7500, 0, 0}});
+    const AttitudeState a = make_pointing(p)->at({frame, {}}, StateVector{{0, 0, 7e6}, {7500, 0, 0}});
     EXPECT_LT(length(to_matrix(a.world_from_body) * Vec3d{0, 0, 1} - Vec3d{0, 0, -1}), 1e-12);
     EXPECT_TRUE(is_finite(a.rate_body_rad_s));
 }
@@ -412,6 +412,85 @@ TEST_F(MotionScenario, OutsideItStandsStillAndSaysSo) {
     EXPECT_EQ(now.camera.position_world_m, later.camera.position_world_m);
     EXPECT_EQ(length(now.camera_velocity_m_s), 0);
     EXPECT_EQ(world.state.held(), 2u);
+}
+
+// What it was turned by its orbit stays as it was, and so does what follows it there; none of it moves.
+TEST_F(MotionScenario, WhatStandsKeepsItsAxesAndItsFollowers) {
+    const std::string iss =
+        "objects:\n  - {name: iss, mesh: iss.obj, motion: {kind: tle, tle: {file: iss.tle, valid_days: 3}, "
+        "outside: hold, attitude: {law: nadir, second: velocity, second_axis: [1, 0, 0]}}}\n";
+    World world(
+        scenario("camera_motion: {kind: cw, of: iss, position_m: [-200, 0, 0], attitude: {law: held, "
+                 "frame: lvlh, of: iss}}\n" +
+                 iss));
+    const double end_s =
+        static_cast<double>(read_tles(kIss, "iss.tle").at(0).epoch - world.start) * 1e-9 + 3 * 86400;
+    const WorldSnapshot before = world.at(end_s - 1e-4), after = world.at(end_s + 1e-4),
+                        later = world.at(end_s + 1000);
+    // In 0.2 ms it flies 1.5 m and turns by 2e-7 rad.
+    const auto turned = [](const Pose& a, const Pose& b) {
+        return length(turn_between(a.world_from_body, b.world_from_body));
+    };
+    EXPECT_LT(turned(before.objects[0], after.objects[0]), 1e-6);
+    EXPECT_LT(turned(before.camera, after.camera), 1e-6);
+    EXPECT_LT(length(before.camera.position_world_m - after.camera.position_world_m), 2);
+    EXPECT_LT(turned(after.objects[0], later.objects[0]), 1e-12);
+    EXPECT_LT(turned(after.camera, later.camera), 1e-12);
+    EXPECT_EQ(after.camera.position_world_m, later.camera.position_world_m);
+    EXPECT_EQ(length(after.camera_velocity_m_s), 0);
+    EXPECT_EQ(length(after.camera_rate_rad_s), 0);
+}
+
+// Velocity and rate are those of the poses, whatever moves the camera and turns it: by central differences
+// over 20 ms, whose remainder is (w h)^2 / 6 of a rate, with keyframes' cubics and slerps none. Positions of
+// 7e6 m are rounded to 1e-9 m.
+TEST_F(MotionScenario, RatesAreThoseOfThePosesForEverySource) {
+    const std::string places[] = {
+        "kind: fixed, position_m: [1.0e7, 0, 0], velocity_m_s: [0.3, 1, 0.2]",
+        "kind: fixed, frame: body_fixed, position_m: [4.0e6, 3.0e6, 4.0e6], velocity_m_s: [0, 50, 3]",
+        "kind: keyframes, keyframes: [{at_s: -100, position_m: [7.0e6, 0, 0]}, {at_s: 50, position_m: "
+        "[7.0e6, "
+        "900, 0]}, "
+        "{at_s: 100, position_m: [7.0e6, 900, 700], attitude_wxyz: [0, 1, 0, 0]}]",
+        "kind: kepler, kepler: {semi_major_axis_km: 7000, eccentricity: 0.1, inclination_deg: 50, "
+        "true_anomaly_deg: 40}",
+        "kind: tle, tle: {file: iss.tle}",
+        "kind: fixed, frame: lvlh, of: iss, position_m: [-100, 20, 30], velocity_m_s: [0.1, 0.2, 0.3]",
+        "kind: fixed, frame: object, of: iss, position_m: [-100, 20, 30]",
+        "kind: cw, of: iss, position_m: [-100, 20, 30], velocity_m_s: [0.1, 0.2, 0.3]"};
+    const std::string turns[] = {
+        "law: held, rate_deg_s: [1, 2, 3]",
+        "law: held, frame: lvlh, rate_deg_s: [1, 2, 3]",
+        "law: held, frame: body_fixed",
+        "law: held, frame: object, of: iss",
+        "law: nadir, second: velocity",
+        "law: velocity, second: nadir",
+        "law: velocity, second: sun",
+        "law: nadir, second: orbit_normal",
+        "law: sun",
+        "law: object, of: iss",
+        "law: held, rate_deg_s: [1, 2, 3], jitter: {rms_arcsec: [10, 20, 30], least_hz: 0.01, most_hz: 0.1}"};
+    for (const std::string& place : places)
+        for (const std::string& turn : turns) {
+            // The plane of what is no orbit turns: lvlh_axes() takes it to be at rest.
+            const bool no_orbit = place.find("kepler") == std::string::npos &&
+                                  place.find("tle") == std::string::npos &&
+                                  place.find("iss") == std::string::npos;
+            if (no_orbit && turn.find("lvlh") != std::string::npos) continue;
+            World world(
+                scenario("camera_motion: {" + place + ", attitude: {" + turn +
+                         "}}\nobjects:\n  - {name: iss, mesh: iss.obj, motion: {kind: tle, tle: {file: "
+                         "iss.tle}, attitude: {law: nadir, second: velocity, second_axis: [1, 0, 0]}}}\n"));
+            constexpr double t = 20, h = 0.01;
+            const WorldSnapshot before = world.at(t - h), now = world.at(t), after = world.at(t + h);
+            const Vec3d velocity = (after.camera.position_world_m - before.camera.position_world_m) / (2 * h);
+            const Vec3d rate =
+                turn_between(before.camera.world_from_body, after.camera.world_from_body) / (2 * h);
+            // SGP4's velocity is its positions' derivative but for (1.5 J2)^2 of it, and J2 bends the orbit
+            // by a thousandth.
+            EXPECT_LT(length(velocity - now.camera_velocity_m_s), 2.7e-6 * 8000) << place << "\n" << turn;
+            EXPECT_LT(length(rate - now.camera_rate_rad_s), 5e-6) << place << "\n" << turn;
+        }
 }
 
 TEST_F(MotionScenario, LeapSecondsExpire) {

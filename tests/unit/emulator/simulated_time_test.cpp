@@ -137,7 +137,7 @@ TEST_F(PlateTest, ACameraThatWaitsTakesTheFramesOfAStepAndNoMore) {
                 {"clock.paused=true", "clock.camera_in_pause=waits", "clock.scale=0.1"});
     rig.loop.start();
     sleep_ms(300);
-    EXPECT_EQ(rig.collector.count(), 0u);  // one has begun, and its exposure does not end
+    EXPECT_EQ(rig.collector.count(), 0u);
     ASSERT_EQ(rig.send(step(60 * kMs_ns)), CommandStatus::kAccepted);
     ASSERT_EQ(rig.send(step(40 * kMs_ns)), CommandStatus::kAccepted);
     ASSERT_TRUE(rig.collector.wait_for(5));
@@ -148,6 +148,28 @@ TEST_F(PlateTest, ACameraThatWaitsTakesTheFramesOfAStepAndNoMore) {
         const FrameRecord& r = rig.collector.frames[i].record;
         EXPECT_EQ(r.exposure_mid - rig.start, (10 + 20 * static_cast<std::int64_t>(i)) * kMs_ns) << i;
         EXPECT_EQ(r.faults, 0u);
+    }
+}
+
+// A simulator that tells a pose, lets time go on by a frame's period, and again: each frame shows the pose
+// that came before its step, and the one at a step's end the pose of the next.
+TEST_F(PlateTest, WhatIsToldWhileTheCameraWaitsCountsForTheFrameThatTimeGoesOnWith) {
+    LoopRig rig(scenario(", frame_rate_hz: 50"), {0, true},
+                {"clock.paused=true", "clock.camera_in_pause=waits"});
+    rig.loop.start();
+    for (std::size_t i = 1; i <= 4; ++i) {
+        sleep_ms(100);
+        ASSERT_EQ(rig.send(pose_at({}, 0.01 * static_cast<double>(i))), CommandStatus::kAccepted);
+        ASSERT_EQ(rig.send(step(20 * kMs_ns)), CommandStatus::kAccepted);
+        ASSERT_TRUE(rig.collector.wait_for(i));
+    }
+    sleep_ms(100);
+    rig.loop.stop();
+    ASSERT_EQ(rig.collector.count(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(rig.collector.frames[i].record.exposure_mid - rig.start,
+                  (10 + 20 * static_cast<std::int64_t>(i)) * kMs_ns);
+        EXPECT_EQ(rig.collector.frames[i].record.pose_sequence, 2 * i + 1) << i;
     }
 }
 
