@@ -50,15 +50,16 @@ bool is_noted_after(const Command& command) {
            !(clock && clock->action == ClockCommand::Action::kAsk);
 }
 
-bool is_from_now(const FaultCommand& f) {
-    return !f.clear_all && f.order.frames != 0 && f.order.from_frame == 0;
+// So many frames, or what an event starts: a frame that is being made is not struck.
+bool is_from_next_frame(const FaultCommand& f, const CommandSource& source) {
+    return !f.clear_all && f.order.from_frame == 0 && (f.order.frames != 0 || source.event != 0);
 }
 
 }  // namespace
 
 CommandStatus CommandDispatch::handle(const Command& command, const CommandSource& source) {
-    if (const auto* fault = std::get_if<FaultCommand>(&command); fault && is_from_now(*fault))
-        return order_from_now(*fault, source);
+    if (const auto* fault = std::get_if<FaultCommand>(&command); fault && is_from_next_frame(*fault, source))
+        return order_from_next_frame(*fault, source);
     const CommandStatus status = perform(command, source);
     if (recorder_ && status == CommandStatus::kAccepted && is_noted_after(command)) {
         const std::lock_guard one(recording_);
@@ -243,12 +244,13 @@ CommandStatus CommandDispatch::run_order(const TriggerOrder& order, const Comman
     return status == CommandStatus::kAccepted ? done : status;
 }
 
-// So many frames from now on are others on each camera, and a recording must name them: an order for each.
-CommandStatus CommandDispatch::order_from_now(const FaultCommand& f, const CommandSource& source) {
+// The next frame is another one on each camera, and a recording must name it: an order for each.
+CommandStatus CommandDispatch::order_from_next_frame(FaultCommand f, const CommandSource& source) {
     return for_cameras(source.camera, [&](const CommandedCamera& c) {
         CommandSource own = source;
         own.camera = static_cast<std::uint16_t>(&c - cameras_.data() + 1);
-        return handle(FaultCommand{c.faults->from_now(f.order), false}, own);
+        f.order.from_frame = c.faults->next_frame();
+        return handle(f, own);
     });
 }
 

@@ -63,7 +63,7 @@ class CommandDispatch : public CommandHandler {
     CommandStatus run_order(const TriggerOrder& order, const CommandSource& source);
     std::uint64_t note(const Command& command, const CommandSource& source, bool forgets);
     CommandStatus order(const FaultCommand& fault, const CommandSource& source);
-    CommandStatus order_from_now(const FaultCommand& fault, const CommandSource& source);
+    CommandStatus order_from_next_frame(FaultCommand fault, const CommandSource& source);
 
     std::vector<CommandedCamera> cameras_;
     SimulatedClock& clock_;

@@ -110,15 +110,12 @@ void Emulator::make_recorder() {
 // A replay has what they did in its recording.
 void Emulator::make_events() {
     if (scenario_.events.empty() || !limits_.replay.empty()) return;
-    std::vector<const LoopCounters*> loops;
-    for (const auto& station : stations_) loops.push_back(&station->loop().counters());
     const EventDirector::Bench bench{*dispatch_,
                                      first().settings(),
                                      clock_,
                                      ShutterTiming(first().scenario().camera),
                                      world().placed_objects(),
-                                     receivers_.empty(),
-                                     loops};
+                                     receivers_.empty()};
     events_ = std::make_unique<EventDirector>(
         EventSequence(scenario_.events, event_world(scenario_), clock_.start()), bench);
     loop().tell(*events_);

@@ -167,31 +167,13 @@ void EventDirector::happen(const EventSequence::Due& due) {
     source.camera = static_cast<std::uint16_t>(config.camera);
     source.event = static_cast<std::uint16_t>(std::min<std::size_t>(due.event + 1, 65535));
     for (const Command& command : actions.commands) {
-        const CommandStatus status = perform(stamped(command, due), source);
+        source.arrival_monotonic_ns = monotonic_ns();
+        const CommandStatus status = bench_.commands.handle(stamped(command, due), source);
         if (status == CommandStatus::kAccepted || asks_to_end()) continue;
         spdlog::warn("{}: refused: {}", name, name_of(status));
         if (std::holds_alternative<ExposeCommand>(command)) picture_refused_ = true;
     }
     if (actions.ends_run) asks_to_end_.store(true);
-}
-
-// A fault that names no frame is for each camera's next one: cameras count their own.
-CommandStatus EventDirector::perform(const Command& command, CommandSource source) {
-    source.arrival_monotonic_ns = monotonic_ns();
-    const auto* fault = std::get_if<FaultCommand>(&command);
-    if (!fault || fault->clear_all || fault->order.from_frame != 0)
-        return bench_.commands.handle(command, source);
-    CommandStatus status = CommandStatus::kAccepted;
-    const std::uint16_t meant = source.camera;
-    for (std::size_t i = 0; i < bench_.loops.size(); ++i) {
-        if (meant != 0 && meant != i + 1) continue;
-        FaultCommand own = *fault;
-        own.order.from_frame = bench_.loops[i]->begun_id.load() + 1;
-        source.camera = static_cast<std::uint16_t>(i + 1);
-        const CommandStatus one = bench_.commands.handle(own, source);
-        if (status == CommandStatus::kAccepted) status = one;
-    }
-    return status;
 }
 
 // Times that an event's words left open.

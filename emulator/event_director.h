@@ -35,8 +35,6 @@
 
 namespace hilcam {
 
-struct LoopCounters;
-
 class EventDirector : public FrameWatcher {
   public:
     // What it works on outlives it. placed_objects: of the world (WorldState).
@@ -46,8 +44,7 @@ class EventDirector : public FrameWatcher {
         const SimulatedClock& clock;
         ShutterTiming timing;
         std::size_t placed_objects = 0;
-        bool self_driven = false;                // lockstep: no commands can come in
-        std::vector<const LoopCounters*> loops;  // by camera
+        bool self_driven = false;  // lockstep: no commands can come in
     };
     EventDirector(EventSequence sequence, const Bench& bench);
     ~EventDirector() override { stop(); }
@@ -84,7 +81,6 @@ class EventDirector : public FrameWatcher {
     TimeTai horizon() const;
     bool happen_until(TimeTai until);
     void happen(const EventSequence::Due& due);
-    CommandStatus perform(const Command& command, CommandSource source);
     Command stamped(Command command, const EventSequence::Due& due) const;
 
     EventSequence sequence_;

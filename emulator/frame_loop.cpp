@@ -101,7 +101,6 @@ bool FrameLoop::begin(Slot& slot) {
     }
     use_level(slot.use.quality_level);
     last_id_ = slot.use.id;
-    counters_.begun_id.store(last_id_, std::memory_order_relaxed);
     counters_.deadline_misses.fetch_add(slot.use.skipped + (slot.use.late ? 1 : 0),
                                         std::memory_order_relaxed);
     return true;

@@ -88,9 +88,9 @@ struct LoopCounters {
     std::atomic<std::uint64_t> frames{0};
     // Exposures skipped, or of a trigger begun a period late, because the one before took too long.
     std::atomic<std::uint64_t> deadline_misses{0};
-    std::atomic<std::uint64_t> begun_id{0}, last_id{0};  // of the newest frame begun, and handed over
-    std::atomic<std::uint64_t> motion_limited{0};        // frames with more motion than exact motion divides
-    std::atomic<std::uint64_t> standing{0}, stale{0};    // frames while time stood; while no poses came
+    std::atomic<std::uint64_t> last_id{0};
+    std::atomic<std::uint64_t> motion_limited{0};      // frames with more motion than exact motion divides
+    std::atomic<std::uint64_t> standing{0}, stale{0};  // frames while time stood; while no poses came
     // Quality levels: that of the newest frame, how often it changed, how many frames each has had.
     std::atomic<std::uint32_t> level{0}, level_changes{0};
     std::array<std::atomic<std::uint64_t>, kMostLevels> frames_at_level{};

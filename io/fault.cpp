@@ -122,15 +122,10 @@ std::size_t FaultBoard::place_of(FaultKind kind) {
     return k ? static_cast<std::size_t>(k - kKinds.data()) : kAllFaults.size();
 }
 
-FaultOrder FaultBoard::from_now(FaultOrder o) const {
-    if (o.frames != 0 && o.from_frame == 0) o.from_frame = begun_.load(std::memory_order_relaxed) + 1;
-    return o;
-}
-
-void FaultBoard::order(const FaultOrder& wanted) {
-    const std::size_t place = place_of(wanted.kind);
-    if (place == kAllFaults.size() || !refusal_of(wanted).empty()) return;
-    const FaultOrder o = from_now(wanted);
+void FaultBoard::order(FaultOrder o) {
+    const std::size_t place = place_of(o.kind);
+    if (place == kAllFaults.size() || !refusal_of(o).empty()) return;
+    if (o.frames != 0 && o.from_frame == 0) o.from_frame = next_frame();
     while (writing_.test_and_set(std::memory_order_acquire)) {
     }
     Cell& c = cells_[place];

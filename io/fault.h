@@ -109,12 +109,12 @@ class FaultBoard {
   public:
     explicit FaultBoard(std::uint64_t seed = 1) : seed_(seed) {}
 
-    // This frame begins: so many frames "at once" are those after it. Loop.
+    // This frame begins. Loop.
     void begin(std::uint64_t frame) noexcept { begun_.store(frame, std::memory_order_relaxed); }
-    // The order with its first frame, when it wants `frames` at once; any other as it is. Any thread.
-    FaultOrder from_now(FaultOrder order) const;
-    // Any thread but the loop (a lock among those that order). From now on: from_now(order).
-    void order(const FaultOrder& order);
+    // That would begin next, if none were skipped. Any thread.
+    std::uint64_t next_frame() const { return begun_.load(std::memory_order_relaxed) + 1; }
+    // Any thread but the loop (a lock among those that order).
+    void order(FaultOrder order);
     void clear_all();
     // The present order, if one is in force or waits for its frame.
     std::optional<FaultOrder> order_of(FaultKind kind) const;

@@ -96,12 +96,14 @@ TEST(Faults, SoManyFramesAtOnceAreTheNextThatBegin) {
     board.order(three);  // before the first frame
     EXPECT_EQ(struck(), (std::vector<std::uint64_t>{1, 2, 3}));
     board.begin(100);
-    EXPECT_EQ(board.from_now(three).from_frame, 101u);
+    EXPECT_EQ(board.next_frame(), 101u);
     board.order(three);
     EXPECT_EQ(struck(), (std::vector<std::uint64_t>{101, 102, 103}));
     // A first frame that is named, and an order without an end, stay as they are.
-    EXPECT_EQ(board.from_now({FaultKind::kImageBlack, 1, 0, 7, 3, 0}).from_frame, 7u);
-    EXPECT_EQ(board.from_now({FaultKind::kImageBlack, 1, 0, 0, 0, 0}).from_frame, 0u);
+    board.order({FaultKind::kImageBlack, 1, 0, 7, 3, 0});
+    EXPECT_EQ(board.order_of(FaultKind::kImageBlack)->from_frame, 7u);
+    board.order({FaultKind::kImageBlack, 1, 0, 0, 0, 0});
+    EXPECT_EQ(board.order_of(FaultKind::kImageBlack)->from_frame, 0u);
 }
 
 TEST(Faults, WhatStrikesOnceStrikesOncePerOrder) {
