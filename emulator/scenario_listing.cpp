@@ -127,11 +127,13 @@ std::map<std::string, std::string> parsed(const std::string& listing) {
 
 }  // namespace
 
-std::string scenario_listing(ScenarioConfig scenario) {
+std::string section_listing(const SectionField& section) {
     std::string out;
-    list(section_of(scenario), "", out);
+    list(section, "", out);
     return out;
 }
+
+std::string scenario_listing(ScenarioConfig scenario) { return section_listing(section_of(scenario)); }
 
 std::string listing_difference(const std::string& there, const std::string& here) {
     const std::map<std::string, std::string> a = parsed(there), b = parsed(here);

@@ -13,6 +13,8 @@
 namespace hilcam {
 
 std::string scenario_listing(ScenarioConfig scenario);
+// The same of a part of it.
+std::string section_listing(const SectionField& section);
 
 // Where two listings differ, for people: "camera.exposure_ms: 2 there, 5 here (and 3 more)". Empty: nowhere.
 std::string listing_difference(const std::string& there, const std::string& here);

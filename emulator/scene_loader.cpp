@@ -1,10 +1,13 @@
 #include "emulator/scene_loader.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
-#include <iterator>
+#include <map>
 #include <optional>
 
 #include "emulator/lamp_setup.h"
+#include "emulator/scenario_listing.h"
 #include "io/atmosphere_file.h"
 #include "io/brdf_file.h"
 #include "io/catalogue_file.h"
@@ -58,10 +61,9 @@ bool wants_levels_of_detail(const ScenarioConfig& scenario) {
            std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
 }
 
-SceneObject make_object(const ObjectConfig& config, Mesh mesh, const ScenarioConfig& scenario,
+SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
                         const SpectralGrid& grid) {
     SceneObject object;
-    object.name = config.name;
     object.mesh = std::move(mesh);
     const auto scale = static_cast<float>(config.scale);
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
@@ -70,23 +72,50 @@ SceneObject make_object(const ObjectConfig& config, Mesh mesh, const ScenarioCon
     return object;
 }
 
+// Objects of one make have the same meshes and the same looks, wherever they are and however they turn.
+std::string make_of(const ObjectConfig& config, const std::filesystem::path& mesh) {
+    std::string make = fmt::format("{}\n{}\n", mesh.string(), config.scale);
+    for (const JointConfig& joint : config.joints) make += joint.node + "\n";
+    MaterialSet materials = config.materials;
+    return make + section_listing(section_of(materials));
+}
+
+// The objects in their order, then all their turning parts: as WorldState places them. The first of a make is
+// loaded, the others are like it.
+std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const SpectralGrid& grid) {
+    std::vector<SceneObject> objects(scenario.objects.size());
+    struct Loaded {
+        std::size_t object, first_part;
+    };
+    std::map<std::string, Loaded> loaded;
+    for (std::size_t i = 0; i < scenario.objects.size(); ++i) {
+        const ObjectConfig& config = scenario.objects[i];
+        const std::filesystem::path file = mesh_path(config);
+        const auto [make, is_new] = loaded.try_emplace(make_of(config, file), Loaded{i, objects.size()});
+        std::vector<std::string> nodes;
+        for (const JointConfig& joint : config.joints) nodes.push_back(joint.node);
+        if (is_new) {
+            std::vector<Mesh> meshes = load_mesh_parts(file, nodes);
+            objects[i] = make_object(std::move(meshes.front()), config, scenario, grid);
+            for (std::size_t k = 1; k < meshes.size(); ++k)
+                objects.push_back(make_object(std::move(meshes[k]), config, scenario, grid));
+        } else {
+            objects[i].like = make->second.object;
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                objects.emplace_back().like = make->second.first_part + k;
+        }
+        objects[i].name = config.name;
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+            objects[objects.size() - nodes.size() + k].name = config.name + "/" + nodes[k];
+    }
+    return objects;
+}
+
 }  // namespace
 
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules) {
     Scene scene;
-    // The objects in their order, then all their turning parts: as WorldState places them.
-    std::vector<SceneObject> parts;
-    for (const ObjectConfig& config : scenario.objects) {
-        std::vector<std::string> nodes;
-        for (const JointConfig& joint : config.joints) nodes.push_back(joint.node);
-        std::vector<Mesh> meshes = load_mesh_parts(mesh_path(config), nodes);
-        for (std::size_t k = 0; k < meshes.size(); ++k) {
-            SceneObject object = make_object(config, std::move(meshes[k]), scenario, grid);
-            if (k > 0) object.name.append("/").append(nodes[k - 1]);
-            (k == 0 ? scene.objects : parts).push_back(std::move(object));
-        }
-    }
-    std::move(parts.begin(), parts.end(), std::back_inserter(scene.objects));
+    scene.objects = load_objects(scenario, grid);
     const TimeTai time = parse_utc(scenario.time_utc);
     if (scenario.has_terrain) {
         const TerrainConfig& t = scenario.terrain;

@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -178,9 +179,17 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool
     rtcSetSceneFlags(my.top,
                      watertight ? RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(my.top, RTC_BUILD_QUALITY_LOW);
+    std::map<const Mesh*, RTCScene> built;
     for (const std::vector<const Mesh*>& meshes : objects) {
         std::vector<RTCScene>& scenes = my.levels.emplace_back();
-        for (const Mesh* mesh : meshes) scenes.push_back(my.build(*mesh));
+        for (const Mesh* mesh : meshes) {
+            RTCScene& scene = built[mesh];
+            if (scene)
+                rtcRetainScene(scene);
+            else
+                scene = my.build(*mesh);
+            scenes.push_back(scene);
+        }
         my.shown.push_back(0);
         RTCGeometry instance = rtcNewGeometry(my.device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(instance, scenes.front());

@@ -63,8 +63,9 @@ class PreparedMesh {
 class EmbreeScene {
   public:
     // One instance per object, each with its levels of detail, the mesh itself first; builds their trees on
-    // all of oneTBB's threads. Vertices and triangles are copied. Throws InputError when memory runs out.
-    // watertight: a ray along an edge that two triangles share meets one of them, always; costs a sixth.
+    // all of oneTBB's threads, of a mesh that several have one. Vertices and triangles are copied. Throws
+    // InputError when memory runs out. watertight: a ray along an edge that two triangles share meets one of
+    // them, always; costs a sixth.
     EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool watertight);
     ~EmbreeScene();
 

@@ -41,9 +41,9 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     plans_.resize(objects_.size());
     object_boxes_.resize(objects_.size());
     for (const ShownObject& object : objects_) {
-        triangles_ += object.levels.front().triangles.size();
+        triangles_ += object.levels.front()->triangles.size();
         radii_m_.push_back(object.radius_m());
-        shown_.push_back(&object.levels.front());
+        shown_.push_back(object.levels.front().get());
     }
     full_mask_.fill();
 
@@ -83,7 +83,7 @@ void FramePlacer::choose_levels() {
         std::size_t level = 0;
         while (level + 1 < objects_[i].levels.size() && objects_[i].error_m[level + 1] <= error_m) ++level;
         levels_[i] = level;
-        shown_[i] = &objects_[i].levels[level];
+        shown_[i] = objects_[i].levels[level].get();
     }
 }
 

@@ -23,6 +23,8 @@ namespace hilcam {
 
 struct SceneObject {
     std::string name;
+    // An earlier object whose mesh, materials and levels it has, too: the fields below are then empty.
+    std::optional<std::size_t> like{};
     Mesh mesh;                        // body axes, metres
     std::vector<Material> materials;  // one per surface of the mesh
     std::vector<MeshLevel> levels;    // coarser ones, from fine to coarse; may be empty

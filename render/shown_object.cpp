@@ -21,6 +21,10 @@ std::vector<Material> widened(std::vector<Material> materials, const std::vector
 std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene) {
     std::vector<std::vector<const Mesh*>> objects;
     for (SceneObject& object : scene.objects) {
+        if (object.like) {
+            objects.push_back(objects[*object.like]);
+            continue;
+        }
         std::vector<const Mesh*>& meshes = objects.emplace_back();
         order_triangles(object.mesh);
         meshes.push_back(&object.mesh);
@@ -35,15 +39,21 @@ std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene) {
 std::vector<ShownObject> shown_objects(Scene& scene) {
     std::vector<ShownObject> objects;
     for (SceneObject& object : scene.objects) {
+        if (object.like) {
+            objects.push_back(objects[*object.like]);
+            objects.back().name = object.name;
+            continue;
+        }
         ShownObject& out = objects.emplace_back();
         out.name = object.name;
         std::vector<MipTexture> pictures;
         for (Texture& texture : object.mesh.textures) pictures.emplace_back(std::move(texture));
         const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));
-        out.levels.emplace_back(object.mesh, object.materials, textures);
+        out.levels.push_back(std::make_shared<const ObjectSurfaces>(object.mesh, object.materials, textures));
         out.error_m.push_back(0);
         for (const MeshLevel& level : object.levels) {
-            out.levels.emplace_back(level.mesh, widened(object.materials, level.flattened_alpha), textures);
+            out.levels.push_back(std::make_shared<const ObjectSurfaces>(
+                level.mesh, widened(object.materials, level.flattened_alpha), textures));
             out.error_m.push_back(level.error_m);
         }
     }

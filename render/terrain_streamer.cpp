@@ -21,7 +21,8 @@ std::unique_ptr<PreparedTerrain> TerrainStreamer::make(const TerrainView& view) 
     TerrainMesh terrain = terrain_mesh(map_, radius_m_, view);
     order_triangles(terrain.mesh);
     return std::make_unique<PreparedTerrain>(
-        PreparedTerrain{embree_.prepare(terrain.mesh), ObjectSurfaces(terrain.mesh, {material_}, nullptr),
+        PreparedTerrain{embree_.prepare(terrain.mesh),
+                        std::make_shared<const ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr),
                         terrain.anchor_m, view.camera_m});
 }
 

@@ -16,7 +16,7 @@ namespace hilcam {
 // Ready for rays: tree, surfaces, and where its anchor is.
 struct PreparedTerrain {
     PreparedMesh tree;
-    ObjectSurfaces surfaces;
+    std::shared_ptr<const ObjectSurfaces> surfaces;
     Vec3d anchor_m;
     Vec3d camera_m;  // that it was made for
 };

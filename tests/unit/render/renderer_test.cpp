@@ -213,6 +213,27 @@ TEST(Renderer, StarsFallWhereTheyShouldAndObjectsHideThem) {
     EXPECT_NEAR(s.points[0].position_px.y, 16 - 4, 1e-4);
 }
 
+// Whether an object has a mesh of its own or another's, the picture is the same, at every level of detail.
+TEST(Renderer, AnObjectLikeAnotherLooksAsOneWithItsOwnMesh) {
+    for (const double lod_error_px : {0.0, 1.0}) {
+        Stage s;
+        s.quality.lod_error_px = lod_error_px;
+        SceneObject detailed = cube(lambert(0.5), s.grid);
+        detailed.levels = {{sphere(8, lambert(0.5), s.grid).mesh, 0.05, {0}}};
+        s.add(plate(lambert(0.2), s.grid), {0, 0, 9});
+        s.add(detailed, {-1, 0, 6}, {0.3, 0.4, 0});
+        s.add(detailed, {1, 0.5, 5}, {1, 0, 2});
+        s.render();
+        const std::vector<float> own(s.radiance.all().begin(), s.radiance.all().end());
+        s.scene.objects[2] = {"second", 1, {}, {}, {}};
+        s.render();
+        EXPECT_TRUE(std::equal(own.begin(), own.end(), s.radiance.all().begin())) << lod_error_px;
+        s.world.objects[2].position_world_m.x += 0.1;
+        s.render_again();
+        EXPECT_FALSE(std::equal(own.begin(), own.end(), s.radiance.all().begin()));
+    }
+}
+
 TEST(Renderer, CameraInsideAMeshAndNeedleTrianglesStayFinite) {
     Stage s;
     SceneObject object = plate(lambert(0.5), s.grid);
