@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 
 #include "emulator/event_sequence.h"
 #include "emulator/lamp_setup.h"
@@ -248,6 +248,22 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
 }
 
 // A picture that is asked for is one frame of a world that waits for it, seen from where the message says.
+// Files of two cameras have the same names.
+void check_folders(const ScenarioConfig& s) {
+    std::set<std::string> taken;
+    const auto take = [&](const std::string& key, const std::filesystem::path& folder) {
+        if (!folder.empty() && !taken.insert(key + folder.lexically_normal().string()).second)
+            throw InputError(key + ": found '" + folder.string() +
+                             "' for two cameras; accepted: a folder for each");
+    };
+    const auto take_all = [&](const OutputsConfig& o) {
+        if (o.has_files) take("outputs.files.folder", o.files.folder);
+        if (o.has_truth) take("outputs.truth.folder", o.truth.folder);
+    };
+    take_all(s.outputs);
+    for (const CameraConfig& c : s.more_cameras) take_all(c.outputs);
+}
+
 void check_vizard(const ScenarioConfig& s) {
     if (s.mode != CameraMode::kLockstep)
         throw InputError(
@@ -318,6 +334,7 @@ void validate(const ScenarioConfig& s) {
                              std::to_string(1 + s.more_cameras.size()));
     const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
     lamp_mounts(s);
+    check_folders(s);
     if (s.commands.has_vizard) check_vizard(s);
     if (s.mode == CameraMode::kLockstep) require_lockstep(s.clock), require_lockstep(s.commands.poses);
 }

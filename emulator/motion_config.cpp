@@ -66,7 +66,7 @@ Fields fields(TleConfig& t) {
         required(path("file", t.file, "of two-line element sets")),
         text("satellite", t.satellite, "its number, or its name in the file; of several sets the newest"),
         choice("checksum", t.checksum, {"verify", "ignore"}, "of each line"),
-        number("valid_days", t.valid_s, 86400, {0.01, 3650}, "before and after the set's epoch"),
+        number("valid_days", t.valid_s, 86400, {0.01, 400}, "before and after the set's epoch"),
     };
 }
 

@@ -22,10 +22,4 @@ Mat3d icrf_from_eme2000() {
 
 Vec3d earth_rate_rad_s(TimeTai time) { return kEarthRate_rad_s * earth_rotated_from_icrf(time).z; }
 
-StateVector icrf_from_earth_fixed(TimeTai time, const StateVector& fixed) {
-    const Mat3d icrf_from_fixed = transposed(earth_fixed_from_icrf(time));
-    const Vec3d position_m = icrf_from_fixed * fixed.position_m;
-    return {position_m, icrf_from_fixed * fixed.velocity_m_s + cross(earth_rate_rad_s(time), position_m)};
-}
-
 }  // namespace hilcam

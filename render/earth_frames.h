@@ -19,7 +19,5 @@ Mat3d icrf_from_eme2000();
 
 // The Earth's rotation in ICRF axes: about the celestial intermediate pole, which is not quite ITRF's z.
 Vec3d earth_rate_rad_s(TimeTai time);
-// A state in axes that turn with the Earth, in ICRF axes: v + omega x r.
-StateVector icrf_from_earth_fixed(TimeTai time, const StateVector& fixed);
 
 }  // namespace hilcam

@@ -3,9 +3,12 @@
 #include "emulator/attitude_laws.h"
 #include "emulator/camera_station.h"
 #include "emulator/motion_builder.h"
+#include "emulator/placed_frame.h"
 #include "emulator/trajectories.h"
 #include "io/config_yaml.h"
 #include "render/earth_frames.h"
+#include "render/earth_orientation.h"
+#include "render/time_system.h"
 #include "render/units.h"
 #include "tests/support/files.h"
 
@@ -72,6 +75,21 @@ TEST(TleTrajectory, EndsWhereTheTheoryEnds) {
 
 // The same motion written in four frames is the same in the world: to the rounding of a double, and for
 // velocities that of the sample's frame.
+// Vallado 2013, example 3-15 (see tests/unit/render/earth_frames_test.cpp): a state in ITRF with that day's
+// orientation of the Earth, and in GCRF.
+TEST(WorldFrame, EarthFixedStatesAreThePublishedOnes) {
+    const TimeTai time = from_calendar({2004, 4, 6, 7, 51, 28.386009}, TimeSystem::kUtc).value();
+    use_earth_orientation({-0.4399619, -0.140682 * kArcsecond_rad, 0.333309 * kArcsecond_rad});
+    const TurningAxes earth = WorldFrame(time, {}).body_fixed(BodyId::kEarth);
+    use_earth_orientation({});
+    const StateVector found = world_state({{}, earth}, {{-1033479.3830, 7901295.2754, 6380356.5958},
+                                                        {-3225.636520, -2872.451450, 5531.924446}});
+    // Nutation of 2000B and printing.
+    EXPECT_LT(length(found.position_m - Vec3d{5102508.95290, 6123011.39910, 6378136.93380}), 0.25);
+    // The rate in the table's time has the length of day of that date, 1.6 ms: 2e-8 of omega x r, 580 m/s.
+    EXPECT_LT(length(found.velocity_m_s - Vec3d{-4743.2201610, 790.5364950, 5533.7557240}), 2.5e-4);
+}
+
 TEST(OemTrajectory, TurnsEveryFrameIntoTheWorlds) {
     const TimeTai start = parse_utc("2026-03-20T06:00:00Z");
     const KeplerOrbit orbit({7e6, 0.01, 1, 2, 3, 0}, 3.986e14);

@@ -13,7 +13,8 @@ struct SceneLoader : FilesTest {
               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl skin\no body\nf 1 2 3\no wing\nf 1 2 4\n");
         const auto file = write(
             "scenario.yaml",
-            "camera: {width_px: 8, height_px: 8, pitch_um: 10, focal_length_mm: 10, f_number: 8,\n"
+            "time_utc: 2026-01-01T00:00:00Z\ncamera: {width_px: 8, height_px: 8, pitch_um: 10, "
+            "focal_length_mm: 10, f_number: 8,\n"
             "  transmission: 1, quantum_efficiency: 0.5, full_well_e: 20000, gain_dn_e: 0.2, bits: 12,\n"
             "  exposure_ms: 1}\n"
             "earth: {visible: false}\nspectrum_edges_um: [0.5, 0.7]\nobjects:\n" +
@@ -26,7 +27,7 @@ struct SceneLoader : FilesTest {
 // Names and poses do not make a mesh; size, looks and what turns do.
 TEST_F(SceneLoader, ObjectsOfOneMakeAreLoadedOnce) {
     const std::string mesh = "mesh: plate.obj", wing = ", joints: [{node: wing}]",
-                      paint = ", materials: {surfaces: [{name: skin, reflectance: 0.9}]}";
+                      paint = ", materials: {surfaces: [{name: skin, material: {reflectance: 0.9}}]}";
     const Scene scene = load("  - {name: a, " + mesh + wing + "}\n" +  //
                              "  - {name: b, " + mesh + "}\n" +         //
                              "  - {name: c, " + mesh +

@@ -196,5 +196,19 @@ TEST_F(TruthTest, WhatGoesNowhereAndWhatIsNoLayerIsRefused) {
               std::string::npos);
 }
 
+TEST_F(TruthTest, CamerasDoNotWriteOverEachOthersFiles) {
+    const auto file = scenario(
+        "",
+        "more_cameras:\n  - {camera: {name: second, width_px: 8, height_px: 8, pitch_um: 10, f_number: 8,\n"
+        "    focal_length_mm: 4, quantum_efficiency: 0.5, full_well_e: 20000, gain_dn_e: 0.2, bits: 12,\n"
+        "    exposure_ms: 3}, outputs: {truth: {folder: a/../x}}}\n");
+    const auto error_with = [&](const std::string& folder) {
+        return error_of(
+            [&] { load_scenario(file, std::vector{"outputs.truth.folder=" + (folder_ / folder).string()}); });
+    };
+    EXPECT_NE(error_with("x").find("outputs.truth.folder: found '"), std::string::npos);
+    EXPECT_EQ(error_with("y"), "no error");
+}
+
 }  // namespace
 }  // namespace hilcam
