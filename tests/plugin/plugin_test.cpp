@@ -37,7 +37,8 @@ TEST(Plugin, AModelFromALibraryIsChosenByItsName) {
 
 TEST(Plugin, WhatDoesNotFitIsRefusedWithItsReason) {
     EXPECT_THAT(error_of(HILCAM_PLUGIN_OTHER_VERSION),
-                HasSubstr("is for plug-in interface 4; this program has 3"));
+                HasSubstr("is for plug-in interface " + std::to_string(kPluginInterface + 1) +
+                          "; this program has " + std::to_string(kPluginInterface)));
     EXPECT_THAT(error_of("no_such_plugin.so"), HasSubstr("no_such_plugin.so: there is no such file"));
     EXPECT_THAT(error_of(HILCAM_NO_PLUGIN), HasSubstr("is no hilcam plug-in"));
     EXPECT_THAT(error_of(__FILE__), HasSubstr("cannot be loaded"));
