@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "emulator/frame_loop.h"
 #include "io/acknowledgement.h"
 #include "render/overloaded.h"
 

@@ -452,6 +452,23 @@ class PageInBrowser(unittest.TestCase):
         self.assertTrue(all(needle.strip() in c for c in complaints), complaints)
         self.browser.events.clear()
 
+    def test_how_time_goes_is_seen(self):
+        page = self.page
+        send = lambda *words: subprocess.run([HILCAM, "send", "--to", f"127.0.0.1:{PORT + 1}", "clock", *words], timeout=10,
+                                             check=True, stdout=subprocess.DEVNULL)
+        chips, frame = (f"document.getElementById('{name}').textContent" for name in ("chips", "frame"))
+        self.assertNotIn("time", page.run(chips))
+        try:
+            send("pause")
+            page.wait(f"{chips}.includes('time stands') && {frame}.includes('time_stands')")
+            send("--scale", "0.5")
+            send("resume")
+            page.wait(f"{chips}.includes('time 0.5 times') && !{frame}.includes('time_stands')")
+        finally:
+            send("--scale", "1")
+            send("resume")
+        page.wait(f"!{chips}.includes('time')")
+
     def test_a_fault_button_strikes(self):
         page = self.page
         self.browser.events.clear()
