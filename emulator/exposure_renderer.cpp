@@ -52,7 +52,7 @@ void accumulate(const RenderStats& part, float share, RenderStats& sum) {
 
 // The rows of a rolling or scanning camera are lit one after the other, while the world moves less.
 void slow_down(double moving, WorldSnapshot& world) {
-    world.camera_velocity_m_s = moving * world.camera_velocity_m_s;
+    world.rows_velocity_m_s = moving * world.rows_velocity_m_s;
     world.camera_rate_rad_s = moving * world.camera_rate_rad_s;
 }
 
@@ -106,7 +106,7 @@ void ExposureRenderer::sample_again(const WorldState& world, const Span& span, T
     if (!with_bodies) out.bodies = middle_.bodies;
     world.sample_again(time, with_bodies, out);
     out.camera = jitter_.applied(out.camera, span.middle, span.exposure_s);
-    out.camera_velocity_m_s = out.camera_velocity_m_s - seen_velocity_m_s(world, out);
+    out.rows_velocity_m_s = out.camera_velocity_m_s - seen_velocity_m_s(world, out);
     slow_down(span.moving, out);
 }
 
@@ -137,16 +137,15 @@ void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownC
     world.sample(span.middle, middle_, shown);
     world.average_lamps(span.middle + -half_ns, span.middle + half_ns, middle_);
     middle_.camera = jitter_.applied(middle_.camera, span.middle, span.exposure_s);
-    const Vec3d seen_m_s = seen_velocity_m_s(world, middle_);
-    middle_.camera_velocity_m_s = middle_.camera_velocity_m_s - seen_m_s;
+    middle_.rows_velocity_m_s = middle_.camera_velocity_m_s - seen_velocity_m_s(world, middle_);
     slow_down(span.moving, middle_);
-    told_velocity_m_s_ = span.moving * seen_m_s;
+    told_moving_ = span.moving;
 }
 
-// The camera's velocity in the world.
+// Velocity and rate are both in the camera's time.
 void ExposureRenderer::tell_truth(FrameTruth& truth) {
     renderer_.tell_truth(truth);
-    truth.camera_velocity_m_s = truth.camera_velocity_m_s + told_velocity_m_s_;
+    truth.camera_velocity_m_s = told_moving_ * truth.camera_velocity_m_s;
 }
 
 void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSource>& points,

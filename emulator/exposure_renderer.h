@@ -86,9 +86,9 @@ class ExposureRenderer {
     double focal_length_px_, oversampling_;
     PointingJitter jitter_;
     ExpectedNoise noise_;
-    WorldSnapshot middle_, before_, after_, part_world_;  // the camera's velocity: as rows see it
-    Vec3d told_velocity_m_s_;                             // of what they see
-    RadianceImage part_;                                  // of exact motion
+    WorldSnapshot middle_, before_, after_, part_world_;
+    double told_moving_ = 1;  // how fast the world moves in the camera's time
+    RadianceImage part_;      // of exact motion
     std::vector<PointSource> part_points_;
     std::size_t bins_;
 

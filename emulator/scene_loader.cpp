@@ -126,10 +126,10 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
             load_material(t.material, grid), t.edge_px, static_cast<std::size_t>(t.most_triangles), t.wait});
     }
     scene.lamps = scene_lamps(scenario, grid);
+    scene.stars_time = time;
     if (!scenario.stars.catalogue.empty())
         scene.stars =
-            stars_at(load_catalogue(scenario.stars.catalogue), time,
-                     origin_velocity_m_s(time, scenario.origin), scenario.stars.faintest_magnitude, grid);
+            stars_at(load_catalogue(scenario.stars.catalogue), time, scenario.stars.faintest_magnitude, grid);
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         const BodyConfig& config = scenario.bodies[i];
         SceneBody& body = scene.bodies[i];

@@ -177,7 +177,7 @@ void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& wor
     };
     const Motion camera = mounted(motion(mount_.thing), mount_);
     world.camera = camera.pose;
-    world.camera_velocity_m_s = camera.velocity_world_m_s;
+    world.camera_velocity_m_s = world.rows_velocity_m_s = camera.velocity_world_m_s;
     world.camera_rate_rad_s = camera.rate_body_rad_s;
     for (std::size_t i = 0; i < objects_; ++i)
         world.objects[i] = follows_source(1 + i) ? now_[1 + i].pose : things_[1 + i]->sampled->at(time);

@@ -150,6 +150,7 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
                 const Vec2d detector_px{per_px * star.image_px.x, per_px * star.image_px.y};
                 stars.push_back(
                     {{"row", star.row},
+                     {"hip", star.hip},
                      {"hd", star.hd},
                      {"position_px", of(star.position_px)},
                      {"magnitude_v", tidy(star.magnitude_v)},

@@ -59,16 +59,38 @@ Background::Background(const std::array<SceneBody, kBodyCount>& bodies, const At
     }
 }
 
-PlacedBody Background::placed(BodyId id, const WorldSnapshot& world) const {
+namespace {
+
+// The body's middle from the camera as one in motion sees it: its limb exactly. The ground below the camera
+// is nearer than the limb and seen later by less, which turning the body makes up for.
+Vec3d place_seen(BodyId id, const WorldSnapshot& world, Mat3d& fixed_from_world) {
+    const BodyState& state = world.bodies[id];
+    const double radius_m = kFigures[index_of(id)].equatorial_radius_m;
+    const Vec3d to_body_m = state.world_m - world.camera.position_world_m;
+    const double distance_m = length(to_body_m);
+    if (distance_m <= radius_m) return to_body_m;
+    const Vec3d velocity_m_s = world.shifting_velocity_m_s() - state.velocity_m_s;
+    const double height_m = distance_m - radius_m;
+    const double tangent_m = std::sqrt(height_m * (distance_m + radius_m));
+    const Vec3d turn_rad = ((tangent_m - height_m) / (kSpeedOfLight_m_s * radius_m * distance_m)) *
+                           cross(to_body_m, velocity_m_s);
+    fixed_from_world = fixed_from_world * transposed(to_matrix(from_rotation_vector(turn_rad)));
+    return seen_in_motion(to_body_m, radius_m, velocity_m_s);
+}
+
+}  // namespace
+
+PlacedBody Background::placed(BodyId id, const WorldSnapshot& world, bool stays) const {
     const BodyState& state = world.bodies[id];
     const Figure& figure = kFigures[index_of(id)];
     PlacedBody out;
     out.id = id;
     out.fixed_from_world = state.fixed_from_world;
-    const Vec3d camera_m = world.camera.position_world_m - state.world_m;
-    out.camera_m = out.fixed_from_world * camera_m;
-    out.distance_m = length(camera_m);
-    out.world_dir = out.distance_m > 0 ? -camera_m / out.distance_m : Vec3d{0, 0, 1};
+    const Vec3d from_camera_m =
+        stays ? state.world_m - world.camera.position_world_m : place_seen(id, world, out.fixed_from_world);
+    out.camera_m = out.fixed_from_world * -from_camera_m;
+    out.distance_m = length(from_camera_m);
+    out.world_dir = out.distance_m > 0 ? from_camera_m / out.distance_m : Vec3d{0, 0, 1};
     out.disk_cosine = cone_cosine_of(figure.equatorial_radius_m, out.distance_m);
     out.cone_cosine = has_air(id) ? cone_cosine_of(figure.equatorial_radius_m + air_->top_m(), out.distance_m)
                                   : out.disk_cosine;
@@ -91,14 +113,18 @@ PlacedBody Background::placed(BodyId id, const WorldSnapshot& world) const {
     return out;
 }
 
-void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad) {
+void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad,
+                       std::optional<BodyId> ground) {
     bodies_ = world.bodies;
     pixel_rad_ = pixel_rad;
     objects_from_camera_m_ = objects_world_m - world.camera.position_world_m;
     const Vec3d to_sun_m = world.bodies.sun_world_m - objects_world_m;
     const double sun_distance_m = length(to_sun_m);
-    sun_world_dir_ = to_sun_m / sun_distance_m;
-    sun_camera_dir_ = normalized(world.bodies.sun_world_m - world.camera.position_world_m);
+    // The objects are taken to fly with the camera.
+    const Vec3d velocity_m_s = world.shifting_velocity_m_s();
+    sun_world_dir_ = normalized(seen_in_motion(to_sun_m, kSunRadius_m, velocity_m_s));
+    sun_camera_dir_ = normalized(
+        seen_in_motion(world.bodies.sun_world_m - world.camera.position_world_m, kSunRadius_m, velocity_m_s));
     sun_disk_cosine_ = cone_cosine_of(kSunRadius_m, sun_distance_m);
 
     disk_count_ = point_count_ = lamp_count_ = 0;
@@ -106,7 +132,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
     camera_in_air_ = false;
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         if (!scene_[i].visible) continue;
-        const PlacedBody body = placed(static_cast<BodyId>(i), world);
+        const PlacedBody body = placed(static_cast<BodyId>(i), world, static_cast<BodyId>(i) == ground);
         const double radius_m = kFigures[i].equatorial_radius_m;
         if (2 * radius_m < pixel_rad * body.distance_m) {
             points_[point_count_++] = body;

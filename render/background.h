@@ -4,6 +4,7 @@
 // bodies.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "render/color_bands.h"
@@ -24,7 +25,7 @@ struct BodyLamp {
 // A body for one frame. Body axes: its own; "from" the body's centre.
 struct PlacedBody {
     BodyId id{};
-    Vec3d world_dir;         // from the camera to its centre
+    Vec3d world_dir;         // from the camera to its centre, as seen
     double distance_m = 0;   // of the centre from the camera
     double cone_cosine = 1;  // of the cone that holds it and its air; half a space inside it
     double disk_cosine = 1;  // of the body without air
@@ -42,8 +43,10 @@ class Background {
                const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening, const SpectralGrid& grid);
 
     // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h).
-    // pixel_rad: bodies smaller than this are points, not here.
-    void place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad);
+    // pixel_rad: bodies smaller than this are points, not here. Bodies are where a camera in motion sees
+    // them, but for the one whose ground is among the objects, which stays with it.
+    void place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad,
+               std::optional<BodyId> ground = {});
 
     // The Sun as the objects have it: direction, and irradiance with eclipses and air [W m^-2 um^-1].
     Vec3d sun_world_dir() const { return sun_world_dir_; }
@@ -146,7 +149,7 @@ class Background {
     double pixel_rad_ = 0;
     bool camera_in_air_ = false;
 
-    PlacedBody placed(BodyId id, const WorldSnapshot& world) const;
+    PlacedBody placed(BodyId id, const WorldSnapshot& world, bool stays) const;
     bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance) const;
     bool hides_from(Vec3d origin_m, Vec3d dir, double distance) const;
     bool has_air(BodyId id) const { return air_ && id == BodyId::kEarth; }

@@ -162,16 +162,31 @@ Fields fields(OriginConfig& c) {
     };
 }
 
-Vec3d origin_velocity_m_s(TimeTai time, const OriginConfig& origin) {
-    Vec3d velocity = heliocentric(origin.center(), time).velocity_m_s;
-    if (!origin.turns()) return velocity;
-    // The place's own motion, by difference over a minute: good to mm/s, aberration needs m/s.
-    constexpr std::int64_t kStep_ns = 30'000'000'000;
-    const Vec3d place = body_fixed_position_m(origin.center(), origin.place);
-    const Vec3d before = transposed(body_fixed_from_icrf(origin.center(), time + -kStep_ns)) * place;
-    const Vec3d after = transposed(body_fixed_from_icrf(origin.center(), time + kStep_ns)) * place;
-    return velocity + (after - before) / (2 * kStep_ns * kSecondsPerNs);
+StateVector sun_from_barycenter(TimeTai time) {
+    const JulianDate tt = julian_tt(time);
+    double heliocentric[2][3], barycentric[2][3];
+    eraEpv00(tt.day, tt.fraction, heliocentric, barycentric);
+    const auto difference = [&](int row, double unit) {
+        return Vec3d{unit * (barycentric[row][0] - heliocentric[row][0]),
+                     unit * (barycentric[row][1] - heliocentric[row][1]),
+                     unit * (barycentric[row][2] - heliocentric[row][2])};
+    };
+    return {difference(0, kAstronomicalUnit_m), difference(1, kAstronomicalUnit_m / kDay_s)};
 }
+
+namespace {
+
+// Of a place that turns with a body, about its centre: by difference over a minute, good to mm/s; aberration
+// needs m/s.
+StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
+    if (!origin.turns()) return {};
+    constexpr std::int64_t kStep_ns = 30'000'000'000;
+    const Vec3d fixed_m = body_fixed_position_m(origin.center(), origin.place);
+    const auto at = [&](TimeTai t) { return transposed(body_fixed_from_icrf(origin.center(), t)) * fixed_m; };
+    return {at(time), (at(time + kStep_ns) - at(time + -kStep_ns)) / (2 * kStep_ns * kSecondsPerNs)};
+}
+
+}  // namespace
 
 Vec3d aberrated(Vec3d dir, Vec3d velocity_m_s) {
     double natural[3] = {dir.x, dir.y, dir.z};
@@ -186,38 +201,44 @@ Vec3d aberrated(Vec3d dir, Vec3d velocity_m_s) {
 
 Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
     const BodyId center = origin.center();
-    const StateVector home = heliocentric(center, time);
-    const Mat3d home_fixed_from_world = body_fixed_from_icrf(center, time);
-    Vec3d origin_from_home_m;
-    if (origin.turns())
-        origin_from_home_m = transposed(home_fixed_from_world) * body_fixed_position_m(center, origin.place);
-    const Vec3d velocity = origin_velocity_m_s(time, origin);
+    const StateVector home = heliocentric(center, time), sun = sun_from_barycenter(time);
+    const StateVector place = place_from_center(time, origin);
+    Bodies out;
+    out.origin_from_barycenter = {sun.position_m + home.position_m + place.position_m,
+                                  sun.velocity_m_s + home.velocity_m_s + place.velocity_m_s};
 
     // As the home body's centre sees it, then from the origin.
     const auto apparent = [&](Vec3d from_home_m) {
         const double distance_m = length(from_home_m);
-        return distance_m * aberrated(from_home_m / distance_m, velocity) - origin_from_home_m;
+        return distance_m * aberrated(from_home_m / distance_m, out.origin_from_barycenter.velocity_m_s) -
+               place.position_m;
     };
-    Bodies out;
-    out.sun_world_m = apparent(-home.position_m);
+    const double sun_light_s = length(home.position_m) / kSpeedOfLight_m_s;
+    out.sun_world_m = apparent(-home.position_m - sun_light_s * sun.velocity_m_s);
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         const auto id = static_cast<BodyId>(i);
-        const bool companion = (center == BodyId::kEarth && id == BodyId::kMoon) ||
-                               (center == BodyId::kMoon && id == BodyId::kEarth);
-        TimeTai then = time;
-        StateVector there = id == center ? home : heliocentric(id, time);
-        if (id != center && !companion) {
-            // One step of light time: the planet moves less than 1e-4 of the way meanwhile.
-            const double light_s = length(there.position_m - home.position_m) / kSpeedOfLight_m_s;
-            there.position_m = there.position_m - light_s * there.velocity_m_s;
-            then = time + -static_cast<std::int64_t>(light_s * 1e9);
-            out.body[i].world_m = apparent(there.position_m - home.position_m);
-        } else {
-            out.body[i].world_m = there.position_m - home.position_m - origin_from_home_m;
+        if (id == center) {
+            out.body[i] = {-place.position_m, body_fixed_from_icrf(id, time), -place.velocity_m_s};
+            continue;
         }
-        out.body[i].fixed_from_world = id == center ? home_fixed_from_world : body_fixed_from_icrf(id, then);
+        // One step of light time: the planet moves less than 1e-4 of the way meanwhile. Its velocity is that
+        // about the barycentre, as the observer's is.
+        StateVector there = heliocentric(id, time);
+        const double light_s = length(there.position_m - home.position_m) / kSpeedOfLight_m_s;
+        there.position_m = there.position_m - light_s * (there.velocity_m_s + sun.velocity_m_s);
+        const TimeTai then = time + -static_cast<std::int64_t>(light_s * 1e9);
+        out.body[i] = {apparent(there.position_m - home.position_m), body_fixed_from_icrf(id, then), {}};
     }
     return out;
+}
+
+Vec3d seen_in_motion(Vec3d to_body_m, double radius_m, Vec3d velocity_m_s) {
+    const Vec3d beta = velocity_m_s / kSpeedOfLight_m_s;
+    const double beta2 = dot(beta, beta);
+    if (!(beta2 > 0)) return to_body_m;
+    const double gamma = 1 / std::sqrt(1 - beta2);
+    const double to_limb_m = std::sqrt(std::max(0.0, dot(to_body_m, to_body_m) - radius_m * radius_m));
+    return to_body_m + ((gamma - 1) * dot(to_body_m, beta) / beta2 + gamma * to_limb_m) * beta;
 }
 
 }  // namespace hilcam

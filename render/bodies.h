@@ -1,9 +1,9 @@
 #pragma once
 // The Sun, the Moon and the planets: where they are, how they are turned, how large they are.
 //
-// Positions are apparent: light time and stellar aberration for an observer who moves with the scenario's
-// central body are in them, except for that body itself and for the Moon seen from the Earth or back (0.7
-// arcsec).
+// Positions in the world are those that an observer at rest at its origin sees: light time and stellar
+// aberration by the origin's own velocity are in them, except for the body that the origin belongs to. A
+// camera that moves in the world sees them shifted once more (seen_in_motion).
 
 #include <array>
 #include <cmath>
@@ -64,7 +64,8 @@ struct StateVector {
     Vec3d position_m, velocity_m_s;
 };
 StateVector heliocentric(BodyId id, TimeTai time);
-// The Sun's velocity about the barycentre of the solar system, below 16 m/s, is left out of aberration.
+// The Sun about the barycentre of the Solar System: place and velocity, ICRF axes (eraEpv00).
+StateVector sun_from_barycenter(TimeTai time);
 
 // The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
 // angle (ERFA eraC2t00b), with the pole and UT1 that earth_orientation() has.
@@ -100,9 +101,12 @@ Fields fields(OriginConfig& config);
 struct BodyState {
     Vec3d world_m;
     Mat3d fixed_from_world;
+    // Its motion in the world that world_m does not show yet as light time: where the origin turns with it.
+    Vec3d velocity_m_s;
 };
 struct Bodies {
     Vec3d sun_world_m;
+    StateVector origin_from_barycenter;  // ICRF axes
     std::array<BodyState, kBodyCount> body;
 
     BodyState& operator[](BodyId id) { return body[index_of(id)]; }
@@ -112,11 +116,14 @@ struct Bodies {
 // Loop: some hundred microseconds, no allocation.
 Bodies bodies_at(TimeTai time, const OriginConfig& origin);
 
-// The velocity of the scenario's origin against the Sun [m/s], ICRF axes.
-Vec3d origin_velocity_m_s(TimeTai time, const OriginConfig& origin);
 // A direction as an observer with this velocity sees it (ERFA eraAb, relativistic, the Sun's own light
 // bending left out).
 Vec3d aberrated(Vec3d dir, Vec3d observer_velocity_m_s);
+// Where an observer sees the middle of a body's disk from whom it is at `to_body_m`, when he moves by it: the
+// outline of a sphere in motion is a circle (Penrose, Proc. Camb. Phil. Soc. 55, 1959, 137), and this sphere
+// of the same radius has that very outline. Exact: the cone of the limb's directions is the 4-vector of the
+// length of its tangent and the place of its middle, and is boosted as such. A radius of 0 is aberration.
+Vec3d seen_in_motion(Vec3d to_body_m, double radius_m, Vec3d observer_velocity_m_s);
 
 // The nearer intersection of a ray from outside with an ellipsoid. Origin and direction in its axes, metres
 // from its centre. Closed form in double. Distance in lengths of the direction, or a negative value: no hit.

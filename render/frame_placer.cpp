@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/check.h"
+#include "render/point_field.h"
 #include "render/screen_bounds.h"
 
 namespace hilcam {
@@ -21,7 +22,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
                          const RenderQuality& quality, const RenderModels& models, const Modules& modules)
     : embree_(ordered_meshes(with_terrain_object(scene)), quality.watertight),
       lamps_(std::move(scene.lamps)),
-      stars_(std::move(scene.stars)),
+      stars_(std::move(scene.stars), scene.stars_time),
       bodies_(std::move(scene.bodies)),
       air_(std::move(scene.air)),
       bands_(grid),
@@ -46,6 +47,11 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
         shown_.push_back(object.levels.front().get());
     }
     full_mask_.fill();
+    // Rows of different instants sweep over more than a field, and draw a star several times that they are
+    // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
+    most_stars_ = rays_->is_still()
+                      ? std::min(stars_.size(), stars_.most_within(2 * half_field_rad(geometry)))
+                      : stars_.size();
 
     frame_.scene = &embree_;
     frame_.objects = &shown_;
@@ -104,7 +110,7 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     }
     const RaySpace space = choose_ray_space(world_, radii_m_, rays_->is_still());
     const double pixel_rad = 1 / frame_.geometry.focal_length_px;
-    background_.place(world_, space.origin_world_m, pixel_rad);
+    background_.place(world_, space.origin_world_m, pixel_rad, terrain_ ? terrain_->body() : std::nullopt);
     lamps_.place(world_, space.origin_world_m);
     frame_.key = key;
     frame_.rays_world_m = space.origin_world_m;
@@ -113,7 +119,7 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     choose_levels();
     embree_.place(world_.objects, levels_, space.origin_world_m);
     rays_->place(frame_.geometry,
-                 {world_.time, world_.camera, world_.camera_velocity_m_s, world_.camera_rate_rad_s});
+                 {world_.time, world_.camera, world_.rows_velocity_m_s, world_.camera_rate_rad_s});
     place_objects();
     place_background();
 }

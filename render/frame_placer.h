@@ -22,6 +22,7 @@
 #include "render/screen_mask.h"
 #include "render/shown_object.h"
 #include "render/shown_terrain.h"
+#include "render/star_sky.h"
 
 namespace hilcam {
 
@@ -67,7 +68,8 @@ class FramePlacer {
 
     std::size_t objects() const { return objects_.size(); }
     std::size_t triangles() const { return triangles_; }
-    const std::vector<Star>& stars() const { return stars_; }
+    const StarSky& stars() const { return stars_; }
+    std::size_t most_stars() const { return most_stars_; }  // of those that a frame can show
     const Background& background() const { return background_; }
     const Lamps& lamps() const { return lamps_; }
     const Atmosphere* air() const { return air_.get(); }  // may be null
@@ -83,7 +85,8 @@ class FramePlacer {
     std::vector<ObjectPlan> plans_;
     std::vector<PixelBox> object_boxes_;  // pixels that can meet an object
     Lamps lamps_;
-    std::vector<Star> stars_;
+    StarSky stars_;
+    std::size_t most_stars_;
     std::array<SceneBody, kBodyCount> bodies_;
     std::unique_ptr<Atmosphere> air_;
     ColorBands bands_;

@@ -24,6 +24,8 @@
 
 namespace hilcam {
 
+struct Star;
+
 // What is asked for.
 struct TruthWishes {
     bool visibility = true;  // pixels, boxes and shares of each thing: a ray through every pixel
@@ -92,6 +94,7 @@ struct SeenPart {
 
 struct SeenStar {
     std::uint32_t row = 0;  // of the catalogue's stars, from 0
+    std::uint32_t hip = 0;  // Hipparcos number; 0: none
     std::uint32_t hd = 0;   // Henry Draper number; 0: none
     Vec2d position_px;      // in the frame
     Vec2d image_px;         // in the radiance image, without its guard band
@@ -134,7 +137,13 @@ struct FrameTruth {
     TruthLayers layers;
     double took_ms = 0;
 
-    std::vector<PixelBox> point_boxes;  // scratch: where objects that are drawn as points can be met
+    // Scratch: where objects that are drawn as points can be met, and the stars of the field.
+    std::vector<PixelBox> point_boxes;
+    struct StarInField {
+        const Star* star;
+        Vec3d dir;
+    };
+    std::vector<StarInField> star_field;
 };
 
 }  // namespace hilcam

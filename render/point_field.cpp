@@ -10,15 +10,30 @@
 namespace hilcam {
 
 PointField::PointField(const FrameView& frame, const WorldSnapshot& world)
-    : frame_(frame), boresight_dir_(to_matrix(world.camera.world_from_body) * Vec3d{0, 0, 1}) {
-    // The farthest corner of the field; distortion may push any of the four out.
-    double least = 1;
-    const ImageGeometry& g = frame.geometry;
+    : frame_(frame),
+      world_(world),
+      boresight_dir_(to_matrix(world.camera.world_from_body) * Vec3d{0, 0, 1}),
+      field_rad_(std::min(kPi, half_field_rad(frame.geometry) + frame.rays->sweep_rad())),
+      least_cosine_(std::cos(field_rad_)) {}
+
+double half_field_rad(const ImageGeometry& g) {
+    // Distortion may push any of the four corners out.
+    double farthest_rad = 0;
     for (const int x : {-g.guard_px, g.width_px + g.guard_px})
-        for (const int y : {-g.guard_px, g.height_px + g.guard_px})
-            least = std::min(least, normalized(g.direction_camera(x, y)).z);
-    const double sweep_rad = frame.rays->sweep_rad();
-    least_cosine_ = sweep_rad > 0 ? std::cos(std::min(kPi, std::acos(least) + sweep_rad)) : least;
+        for (const int y : {-g.guard_px, g.height_px + g.guard_px}) {
+            const Vec3d d = g.direction_camera(x, y);
+            farthest_rad = std::max(farthest_rad, std::atan2(std::hypot(d.x, d.y), d.z));
+        }
+    // A rounding more: what lies on the corner is in the image.
+    return farthest_rad + 1e-9;
+}
+
+StarObserver PointField::observer_of(TimeTai star_time) const {
+    constexpr double kJulianYear_s = 365.25 * 86400;
+    const StateVector& origin = world_.bodies.origin_from_barycenter;
+    return {static_cast<double>(world_.time - star_time) * kSecondsPerNs / kJulianYear_s,
+            origin.position_m + world_.camera.position_world_m,
+            origin.velocity_m_s + world_.shifting_velocity_m_s()};
 }
 
 bool PointField::find(Vec3d dir, double distance_m, Sighting& seen) const {
@@ -91,10 +106,10 @@ void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
     if (look(dir, distance_m, irradiance, sighting, seen)) push(sighting, {{}, seen, object, {}}, points);
 }
 
-void PointField::add_stars(const std::vector<Star>& stars, std::vector<PointSource>& points) const {
-    for (const Star& star : stars)
-        if (dot(star.world_dir, boresight_dir_) >= least_cosine_)
-            add(star.world_dir, std::numeric_limits<double>::infinity(), star.irradiance_w_m2_um, points);
+void PointField::add_stars(const StarSky& stars, std::vector<PointSource>& points) const {
+    each_star(stars, [&](const Star& star, Vec3d dir) {
+        add(dir, std::numeric_limits<double>::infinity(), star.irradiance_w_m2_um, points);
+    });
 }
 
 }  // namespace hilcam

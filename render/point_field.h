@@ -7,8 +7,12 @@
 #include "render/frame_view.h"
 #include "render/point_source.h"
 #include "render/scene.h"
+#include "render/star_sky.h"
 
 namespace hilcam {
+
+// Half the angle of the cone about the boresight that holds the padded image of an instant.
+double half_field_rad(const ImageGeometry& geometry);
 
 // For one frame. With rows of different instants each point is where the row is that sees it; a scanning
 // line that is slow over a star draws it as a column of points, one per row, while the vector has room. Loop;
@@ -17,7 +21,12 @@ class PointField {
   public:
     PointField(const FrameView& frame, const WorldSnapshot& world);
 
-    void add_stars(const std::vector<Star>& stars, std::vector<PointSource>& points) const;
+    void add_stars(const StarSky& stars, std::vector<PointSource>& points) const;
+    // Calls use(star, apparent direction) for each star that can be in the image.
+    template <class Use>
+    void each_star(const StarSky& stars, const Use& use) const {
+        stars.each_within(observer_of(stars.time()), boresight_dir_, field_rad_, use);
+    }
     // A thing at a distance [m] in a direction (unit, world) with this irradiance at the camera; part of an
     // object, or of the sky.
     void add(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
@@ -34,9 +43,12 @@ class PointField {
 
   private:
     const FrameView& frame_;
+    const WorldSnapshot& world_;
     Vec3d boresight_dir_;
-    double least_cosine_;  // to the boresight at the frame's time, of what can be in the image
+    double field_rad_;     // from the boresight at the frame's time, of what can be in the image
+    double least_cosine_;  // of that angle
 
+    StarObserver observer_of(TimeTai star_time) const;
     bool find(Vec3d dir, double distance_m, Sighting& seen) const;
     void push(const Sighting& seen, const PointSource& point, std::vector<PointSource>& points) const;
 };

@@ -76,7 +76,7 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 std::size_t Renderer::most_points() const {
     const FramePlacer& placer = implementation_->placer;
     const std::size_t cells = ObjectProbe::kMostCells * ObjectProbe::kMostCells;
-    return placer.stars().size() + placer.objects() * cells + kBodyCount + placer.lamps().all().size();
+    return placer.most_stars() + placer.objects() * cells + kBodyCount + placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const {

@@ -55,6 +55,7 @@ struct Scene {
     std::unique_ptr<SceneTerrain> terrain;  // null: none
     std::vector<SceneLamp> lamps;
     std::vector<Star> stars;
+    TimeTai stars_time;                        // of their places
     std::array<SceneBody, kBodyCount> bodies;  // by BodyId
     std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
     Spectrum sun_irradiance_1au_w_m2_um;
@@ -67,12 +68,20 @@ struct Scene {
 struct WorldSnapshot {
     TimeTai time;
     Pose camera;
-    // In the world; of an exposure against what its rows see. For cameras whose rows are not of one instant.
-    Vec3d camera_velocity_m_s;
+    Vec3d camera_velocity_m_s;  // in the world
+    // Against what its rows see, in its own time. For cameras whose rows are not of one instant.
+    Vec3d rows_velocity_m_s;
     Vec3d camera_rate_rad_s;  // about the camera's axes
     std::vector<Pose> objects;
     ShownLamps lamps;
     Bodies bodies;
+
+    // By which the sky is shifted. No camera is as fast as the limit (Parker Solar Probe: 192 km/s): what
+    // seems to be is a jump between two poses.
+    Vec3d shifting_velocity_m_s() const {
+        constexpr double kFastest_m_s = 1e6;
+        return length(camera_velocity_m_s) < kFastest_m_s ? camera_velocity_m_s : Vec3d{};
+    }
 };
 
 }  // namespace hilcam

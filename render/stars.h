@@ -1,10 +1,11 @@
 #pragma once
-// The stars of a run: where they stand at the scenario's date and how much light they send.
+// The stars of a run: where they stand and how much light they send.
 //
-// Position: catalogue place plus proper motion (ERFA eraPmsafe with zero parallax and radial velocity).
-// Stellar aberration (up to 20.5 arcsec) for an observer of the scenario's velocity at its start: a day later
-// it has turned by a degree (0.35 arcsec). Not modelled: parallax (below 0.8 arcsec), variability,
-// companions. Light: a black body of the star's colour temperature, scaled to its V magnitude at 0.55 um.
+// Place: the catalogue's with its proper motion, from its epoch to the run's start by ERFA's eraPmsafe
+// without a radial velocity, and from there on along the same straight line. Each frame sees it from where
+// the camera is (annual parallax) and as fast as the camera moves (stellar aberration). Not modelled: the
+// Sun's bending of light (4 mas at 90 degrees, 0.05 arcsec at 9), variability, orbits of double stars. Light:
+// a black body of the star's colour temperature, scaled to its V magnitude at 0.55 um.
 //   temperature from B-V: Ballesteros, EPL 97 (2012) 34008, eq. 14, good to a few percent from 3,000 to
 //   30,000 K. V = 0: 3.63e-8 W m^-2 um^-1 at the V band (Bessell, Castelli & Plez, A&A 333, 1998, table A2).
 
@@ -19,11 +20,21 @@
 namespace hilcam {
 
 struct Star {
-    Vec3d world_dir;              // unit, ICRF
+    Vec3d world_dir;              // unit, ICRF, from the barycentre at the run's start
+    Vec3f motion_rad_yr;          // of world_dir, along the tangent
+    float parallax_rad = 0;       // annual
     Spectrum irradiance_w_m2_um;  // at the aperture, mean over each bin
     float magnitude_v = 0;
     std::uint32_t row = 0;  // of the catalogue's stars, from 0
+    std::uint32_t hip = 0;  // Hipparcos number; 0: none
     std::uint32_t hd = 0;   // Henry Draper number; 0: none
+};
+
+// From where and how fast the stars are looked at: about the barycentre of the Solar System, ICRF axes.
+struct StarObserver {
+    double years = 0;  // Julian, since the instant of the stars' places
+    Vec3d position_m;
+    Vec3d velocity_m_s;
 };
 
 // Colour temperature [K] of a Johnson B-V index; B-V is limited to -0.4 .. 2.5, beyond which the formula runs
@@ -31,8 +42,10 @@ struct Star {
 double color_temperature_k(double color_b_v);
 // Bin means of a star's spectral irradiance [W m^-2 um^-1].
 Spectrum star_irradiance_w_m2_um(double magnitude_v, double color_b_v, const SpectralGrid& grid);
-// Stars not fainter than `faintest_magnitude`, brightest first as the catalogue has them.
-std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, Vec3d observer_velocity_m_s,
-                           double faintest_magnitude, const SpectralGrid& grid);
+// Stars not fainter than `faintest_magnitude`, in the catalogue's order, with their places at an instant.
+std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double faintest_magnitude,
+                           const SpectralGrid& grid);
+// The direction in which an observer sees a star: unit, ICRF. Loop, any thread.
+Vec3d apparent_dir(const Star& star, const StarObserver& observer);
 
 }  // namespace hilcam

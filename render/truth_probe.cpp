@@ -42,7 +42,10 @@ FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int 
     truth.things.reserve(objects + 1 + kBodyCount);
     truth.parts.reserve(objects);
     truth.point_boxes.reserve(objects);
-    if (wishes.stars) truth.stars.reserve(std::min(placer.stars().size(), kMostTruthStars));
+    if (wishes.stars) {
+        truth.stars.reserve(std::min(placer.most_stars(), kMostTruthStars));
+        truth.star_field.reserve(placer.most_stars());
+    }
     if (wishes.rays()) truth.layers.object = IdImage(width_px, height_px);
     if (wishes.range) truth.layers.range_m = LengthImage(width_px, height_px);
     if (wishes.depth) truth.layers.depth_m = LengthImage(width_px, height_px);
@@ -94,7 +97,11 @@ bool TruthProbe::project(Vec3d from_camera_m, Vec2d& frame_px) const {
 }
 
 SeenThing TruthProbe::described(std::uint32_t id, const Pose& world) const {
-    const Vec3d from_camera_m = world.position_world_m - world_.camera.position_world_m;
+    return described(id, world, world.position_world_m - world_.camera.position_world_m);
+}
+
+// from_camera_m: as it is seen there.
+SeenThing TruthProbe::described(std::uint32_t id, const Pose& world, Vec3d from_camera_m) const {
     SeenThing thing;
     thing.id = id;
     thing.world = world;
@@ -135,9 +142,10 @@ void TruthProbe::tell_objects() {
 void TruthProbe::tell_sun_and_bodies() {
     const Vec3d to_sun_m = world_.bodies.sun_world_m - world_.camera.position_world_m;
     truth_.sun_distance_m = length(to_sun_m);
-    truth_.sun_world_dir = to_sun_m / truth_.sun_distance_m;
+    truth_.sun_world_dir = frame_.background->sun_camera_dir();
     truth_.sun_camera_dir = camera_from_world_ * truth_.sun_world_dir;
-    SeenThing sun = described(kSunId, {world_.bodies.sun_world_m, {}});
+    SeenThing sun =
+        described(kSunId, {world_.bodies.sun_world_m, {}}, truth_.sun_distance_m * truth_.sun_world_dir);
     sun.is_body = true;
     sun.phase_rad = 0;
     sun.radius_m = sun.polar_radius_m = kSunRadius_m;
@@ -145,7 +153,8 @@ void TruthProbe::tell_sun_and_bodies() {
     const auto add = [&](const PlacedBody& body) {
         const BodyState& state = world_.bodies[body.id];
         SeenThing thing =
-            described(truth_id(body.id), {state.world_m, to_quat(transposed(state.fixed_from_world))});
+            described(truth_id(body.id), {state.world_m, to_quat(transposed(state.fixed_from_world))},
+                      body.distance_m * body.world_dir);
         thing.is_body = true;
         thing.radius_m = kFigures[index_of(body.id)].equatorial_radius_m;
         thing.polar_radius_m = kFigures[index_of(body.id)].polar_radius_m;
@@ -160,12 +169,19 @@ void TruthProbe::tell_stars() {
     truth_.stars_left_out = 0;
     const PointField field(frame_, world_);
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    for (const Star& star : placer_.stars()) {
-        if (static_cast<double>(star.magnitude_v) > truth_.wishes.faintest_magnitude) continue;
+    // In the catalogue's order: where there is no room for all, the fainter ones are left out.
+    truth_.star_field.clear();
+    field.each_star(placer_.stars(), [&](const Star& star, Vec3d dir) {
+        if (static_cast<double>(star.magnitude_v) <= truth_.wishes.faintest_magnitude)
+            truth_.star_field.push_back({&star, dir});
+    });
+    std::sort(truth_.star_field.begin(), truth_.star_field.end(),
+              [](const auto& a, const auto& b) { return a.star->row < b.star->row; });
+    for (const auto& [in_field, dir] : truth_.star_field) {
+        const Star& star = *in_field;
         Sighting where;
         SeenStar seen;
-        if (!field.look(star.world_dir, kFar, star.irradiance_w_m2_um, where, seen.irradiance_w_m2_um))
-            continue;
+        if (!field.look(dir, kFar, star.irradiance_w_m2_um, where, seen.irradiance_w_m2_um)) continue;
         const Vec2d at_px = truth_.raster.frame_px(where.position_px);
         if (!on_image(where.position_px) || !(at_px.x >= 0 && at_px.x < truth_.raster.width_px) ||
             !(at_px.y >= 0 && at_px.y < truth_.raster.height_px))
@@ -174,7 +190,7 @@ void TruthProbe::tell_stars() {
             ++truth_.stars_left_out;
             continue;
         }
-        seen.row = star.row, seen.hd = star.hd;
+        seen.row = star.row, seen.hip = star.hip, seen.hd = star.hd;
         seen.position_px = at_px, seen.image_px = where.position_px;
         seen.magnitude_v = star.magnitude_v;
         seen.irradiance_w_m2_um = static_cast<float>(where.light_ratio) * seen.irradiance_w_m2_um;

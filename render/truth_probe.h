@@ -30,6 +30,7 @@ class TruthProbe {
     void tell_objects();
     void tell_stars();
     SeenThing described(std::uint32_t id, const Pose& world) const;
+    SeenThing described(std::uint32_t id, const Pose& world, Vec3d from_camera_m) const;
     bool project(Vec3d from_camera_m, Vec2d& frame_px) const;
 
     void size_layers();

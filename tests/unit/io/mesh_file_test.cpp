@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "io/catalogue_file.h"
 #include "io/gltf_webp.h"
 #include "io/image_file.h"
 #include "render/check.h"
@@ -89,24 +88,6 @@ TEST_F(Files, IssLoadsWithItsTextures) {
     EXPECT_GT(m.triangles.size(), 200000u);
     EXPECT_GE(m.textures.size(), 10u);
     EXPECT_EQ(m.uvs.size(), m.vertices_m.size());
-}
-
-TEST_F(Files, CatalogueHasSiriusFirstAndRefusesRubbish) {
-    const StarCatalogue c = load_catalogue(HILCAM_SOURCE_DIR "/configs/stars/hipparcos.csv");
-    EXPECT_GT(c.stars.size(), 40000u);
-    EXPECT_EQ(c.stars[0].hd, 48915);
-    // Vega at J1991.25 (Hipparcos main catalogue, HIP 91262): 279.23410832 +38.78299311, 201.02 287.46
-    // mas/yr.
-    const auto vega =
-        std::find_if(c.stars.begin(), c.stars.end(), [](const CatalogueStar& s) { return s.hd == 172167; });
-    ASSERT_NE(vega, c.stars.end());
-    EXPECT_NEAR(vega->right_ascension_rad / kDegree_rad, 279.23410832, 2e-5);
-    EXPECT_NEAR(vega->declination_rad / kDegree_rad, 38.78299311, 2e-5);
-    EXPECT_NEAR(vega->pm_dec_rad_yr / kArcsecond_rad, 0.28746, 2e-4);
-    EXPECT_THAT(error_of([&] { load_catalogue(write("c.csv", "hd,ra_deg\n1,2,3\n")); }),
-                HasSubstr("c.csv:1: found 'hd,ra_deg'"));
-    EXPECT_THAT(error_of([&] { load_catalogue(write("d.csv", "# only\n")); }), HasSubstr("holds no star"));
-    EXPECT_THAT(error_of([&] { load_catalogue(write("e.csv", "1,400,0,0,0,1,1\n")); }), HasSubstr("e.csv:1"));
 }
 
 TEST_F(Files, FramesKeepTheirBitsOnDisk) {

@@ -7,7 +7,6 @@
 #include "render/body_light.h"
 #include "render/check.h"
 #include "render/earth_rays.h"
-#include "render/stars.h"
 #include "render/sun.h"
 #include "render/units.h"
 
@@ -123,38 +122,6 @@ TEST(Spectrum, RefusesBadEdges) {
     EXPECT_THROW(SpectralGrid({0.1, 0.4}), InputError);
 }
 
-TEST(Stars, VegaHasTheFluxOfMagnitudeZero) {
-    const SpectralGrid grid({0.545, 0.555});
-    // 3.63e-8 W m^-2 um^-1 at 0.55 um for V = 0 (Bessell et al. 1998); 100 times less five magnitudes on.
-    EXPECT_NEAR(star_irradiance_w_m2_um(0, 0, grid)[0] / 3.63e-8, 1, 1e-3);
-    EXPECT_NEAR(star_irradiance_w_m2_um(5, 0, grid)[0] / 3.63e-10, 1, 1e-3);
-}
-
-TEST(Stars, ColourTemperatureOfTheSun) {
-    // B-V = 0.656 (Gray 1992) gives 5772 K within 2 % by Ballesteros' formula.
-    EXPECT_NEAR(color_temperature_k(0.656) / 5772, 1, 0.02);
-}
-
-TEST(Stars, ProperMotionMovesSirius) {
-    // Sirius: -546.01, -1223.07 mas/yr (Hipparcos); J1991.25 place to J2000.0 (SIMBAD: 101.287155
-    // -16.716116).
-    StarCatalogue catalogue;
-    catalogue.stars.push_back({48915, 101.28854 * kDegree_rad, -16.71314 * kDegree_rad,
-                               -546.01e-3 * kArcsecond_rad, -1223.07e-3 * kArcsecond_rad, -1.44, 0});
-    const SpectralGrid grid({0.5, 0.6});
-    const Vec3d d = stars_at(catalogue, parse_utc("2000-01-01T11:58:56Z"), {}, 8, grid)[0].world_dir;
-    EXPECT_NEAR(std::atan2(d.y, d.x) / kDegree_rad, 101.287155, 2e-5);
-    EXPECT_NEAR(std::asin(d.z) / kDegree_rad, -16.716116, 2e-5);
-    EXPECT_TRUE(stars_at(catalogue, parse_utc("2000-01-01T12:00:00Z"), {}, -2, grid).empty());
-}
-
-// A star at right angles to a motion of 30 km/s stands 20.6 arcsec forward (v/c).
-TEST(Stars, AberrationTurnsThemForward) {
-    const Vec3d seen = aberrated({1, 0, 0}, {0, 30e3, 0});
-    EXPECT_NEAR(std::atan2(seen.y, seen.x) / kArcsecond_rad, 30e3 / kSpeedOfLight_m_s / kArcsecond_rad, 1e-3);
-    EXPECT_NEAR(length(aberrated({0, 1, 0}, {0, 30e3, 0})), 1, 1e-12);
-}
-
 // The Moon's near side: the Earth stays within 8.2 deg of its prime meridian and 6.9 deg of its equator
 // (librations).
 TEST(Bodies, TheMoonTurnsItsNearSideToTheEarth) {
@@ -200,6 +167,33 @@ TEST(Bodies, TheSunStandsTwentyArcsecondsBack) {
     const Vec3d geometric = normalized(sun_from_earth_m(time));
     const Vec3d apparent = normalized(bodies_at(time, {}).sun_world_m);
     EXPECT_NEAR(length(apparent - geometric) / kArcsecond_rad, 20.5, 0.4);
+}
+
+// The limb of a body that is seen in motion is its limb at rest, each direction of it aberrated (ERFA eraAb).
+TEST(Bodies, InMotionTheLimbIsWhereAberrationPutsIt) {
+    constexpr double kRadius_m = 6378137;
+    for (const double distance_m : {6.4e6, 6.8e6, 4.2e7, 3.8e8})
+        for (const Vec3d velocity_m_s : {Vec3d{7600, 0, 0}, Vec3d{0, 0, 7600}, Vec3d{3e5, -4e5, 2e5}}) {
+            const Vec3d seen_m = seen_in_motion({0, 0, distance_m}, kRadius_m, velocity_m_s);
+            const double sine = kRadius_m / distance_m, cosine = std::sqrt(1 - sine * sine);
+            const double seen_cosine = std::sqrt(1 - kRadius_m * kRadius_m / dot(seen_m, seen_m));
+            for (int i = 0; i < 12; ++i) {
+                const double around = i * kPi / 6;
+                const Vec3d limb{sine * std::cos(around), sine * std::sin(around), cosine};
+                const Vec3d seen = aberrated(limb, velocity_m_s);
+                // 1e-11 rad are 2 microarcseconds.
+                const double angle = std::atan2(length(cross(seen, seen_m)), dot(seen, seen_m));
+                EXPECT_NEAR(angle, std::acos(seen_cosine), 1e-11) << distance_m;
+            }
+        }
+}
+
+// A point is aberrated as a star; who rests sees what is there.
+TEST(Bodies, APointInMotionIsAberrated) {
+    const Vec3d to{1e9, 2e9, -5e8}, velocity{1000, -25000, 12000};
+    EXPECT_LT(length(normalized(seen_in_motion(to, 0, velocity)) - aberrated(normalized(to), velocity)),
+              1e-15);
+    EXPECT_EQ(length(seen_in_motion(to, 1e6, {}) - to), 0);
 }
 
 // Point and disk of a body have the same light, whatever the law: the sum of its radiance over the disk
