@@ -68,9 +68,8 @@ StarSky::Cone StarSky::cone_of(std::size_t begin, std::size_t end) const {
 // sin(seen) = sin(w) / (gamma (1 + beta cos w)), which is asin(beta) from w at most (Rindler, Relativity,
 // 2006, 4.3).
 double StarSky::farthest_shift_rad(const StarObserver& observer) const {
-    const double beta = std::min(1.0, length(observer.velocity_m_s) / kSpeedOfLight_m_s);
-    return std::abs(observer.years) * fastest_rad_yr_ +
-           length(observer.position_m) / kAstronomicalUnit_m * most_parallax_rad_ + std::asin(beta);
+    return std::abs(observer.years()) * fastest_rad_yr_ +
+           length(observer.position_au()) * most_parallax_rad_ + std::asin(length(observer.beta()));
 }
 
 // A grid of axes over the sky: any other axis is within half a diagonal of its cell's.

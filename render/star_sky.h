@@ -34,7 +34,7 @@ class StarSky {
         for (const Cell& cell : cells_) {
             if (!field.touches(cell.cone)) continue;
             for (std::size_t i = cell.begin; i < cell.end; ++i)
-                if (field.holds(stars_[i].world_dir)) use(stars_[i], apparent_dir(stars_[i], observer));
+                if (field.holds(stars_[i].world_dir)) use(stars_[i], observer.apparent_dir(stars_[i]));
         }
     }
 

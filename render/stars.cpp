@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/bodies.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -68,11 +67,10 @@ std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double 
     return stars;
 }
 
-Vec3d apparent_dir(const Star& star, const StarObserver& observer) {
-    const double parallax = static_cast<double>(star.parallax_rad) / kAstronomicalUnit_m;
-    const Vec3d from_here =
-        star.world_dir + observer.years * to_double(star.motion_rad_yr) - parallax * observer.position_m;
-    return aberrated(normalized(from_here), observer.velocity_m_s);
-}
+StarObserver::StarObserver(double years, Vec3d position_m, Vec3d velocity_m_s)
+    : years_(years),
+      position_au_(position_m / kAstronomicalUnit_m),
+      beta_(velocity_m_s / kSpeedOfLight_m_s),
+      inverse_lorentz_(std::sqrt(1 - dot(beta_, beta_))) {}
 
 }  // namespace hilcam

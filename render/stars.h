@@ -31,10 +31,28 @@ struct Star {
 };
 
 // From where and how fast the stars are looked at: about the barycentre of the Solar System, ICRF axes.
-struct StarObserver {
-    double years = 0;  // Julian, since the instant of the stars' places
-    Vec3d position_m;
-    Vec3d velocity_m_s;
+class StarObserver {
+  public:
+    StarObserver() = default;
+    // years: Julian, since the instant of the stars' places.
+    StarObserver(double years, Vec3d position_m, Vec3d velocity_m_s);
+
+    // Unit, ICRF. Stellar aberration is that of aberrated(), ERFA's eraAb, without the call: a hundred
+    // thousand stars may be looked at in a frame. Loop, any thread.
+    Vec3d apparent_dir(const Star& star) const {
+        const Vec3d from_here = normalized(star.world_dir + years_ * to_double(star.motion_rad_yr) -
+                                           static_cast<double>(star.parallax_rad) * position_au_);
+        const double along = dot(from_here, beta_);
+        return normalized(inverse_lorentz_ * from_here + (1 + along / (1 + inverse_lorentz_)) * beta_);
+    }
+    double years() const { return years_; }
+    Vec3d position_au() const { return position_au_; }
+    Vec3d beta() const { return beta_; }  // velocity over that of light
+
+  private:
+    double years_ = 0;
+    Vec3d position_au_, beta_;
+    double inverse_lorentz_ = 1;
 };
 
 // Colour temperature [K] of a Johnson B-V index; B-V is limited to -0.4 .. 2.5, beyond which the formula runs
@@ -45,7 +63,4 @@ Spectrum star_irradiance_w_m2_um(double magnitude_v, double color_b_v, const Spe
 // Stars not fainter than `faintest_magnitude`, in the catalogue's order, with their places at an instant.
 std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double faintest_magnitude,
                            const SpectralGrid& grid);
-// The direction in which an observer sees a star: unit, ICRF. Loop, any thread.
-Vec3d apparent_dir(const Star& star, const StarObserver& observer);
-
 }  // namespace hilcam

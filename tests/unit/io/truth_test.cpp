@@ -80,7 +80,7 @@ struct TruthOut : FilesTest {
             thing.visible_px = 3, thing.visible_box_px = {1, 2, 4, 3};
             truth->things = {thing};
             truth->parts = {{1, 1, {1, 2, 3}, {}}};
-            truth->stars.assign(stars, SeenStar{7, 48915, {1.25, 2}, {1.25, 2}, -1.46f, {}});
+            truth->stars.assign(stars, SeenStar{7, 32349, 48915, {1.25, 2}, {1.25, 2}, -1.46f, {}});
         }
         sink->publish(DnImage(), record);
         return truth != nullptr;
@@ -157,6 +157,7 @@ TEST_F(TruthOut, EveryClientGetsEachFramesLine) {
         EXPECT_EQ(object["camera_from_body_wxyz"][0].get<double>(), 1);
         EXPECT_EQ(one["parts"][0]["name"].get<std::string>(), "target/wing");
         EXPECT_EQ(one["stars"][0]["hd"].get<int>(), 48915);
+        EXPECT_EQ(one["stars"][0]["hip"].get<int>(), 32349);
         EXPECT_EQ(one["stars"][0]["magnitude_v"].get<double>(), -1.46);
         EXPECT_EQ(json::parse(reader->line())["frame"].get<int>(), 2);
     }
