@@ -169,7 +169,7 @@ def lights_of_number(hip, hd, stars, v_mag, b_v, types):
         brightest = rows[int(numpy.argmax(flux))]
         known = not stars.b_v_is_zero[brightest]
         lights.append(Light(0, 0, stellarium.unit(numpy.sum(stars.direction[rows] * flux[:, None], axis=0)), tuple(stars.motion_mas_yr[brightest]),
-                            stars.parallax_mas[brightest], combined_magnitude(stars.v_mag[rows]), stars.b_v[brightest] if known else None,
+                            max(0.0, stars.parallax_mas[brightest]), combined_magnitude(stars.v_mag[rows]), stars.b_v[brightest] if known else None,
                             types[stars.spectrum[brightest]]))
     lights.sort(key=lambda light: light.v_mag)
     first = lights[0]
@@ -278,11 +278,14 @@ def catalogue(stellarium_folder, kstars_folder, celestial_file, faintest):
     take_motions(stars, rows_of, stellarium.proper_motions(stellarium_folder), known)
     counts = {"places brought to J2000": put_stale_places_right(stars, rows_of, known[0])}
     numbered = numbered_lights(stars, rows_of, magnitudes, stellarium.henry_draper(stellarium_folder), stellarium.spectral_types(stellarium_folder))
-    # One magnitude more than asked for: a light there may be as bright in the other catalogue's magnitude.
+    # A little more than asked for: with KStars' magnitude a star may be brighter.
     rest = stars.of((stars.hip == 0) & (stars.v_mag < faintest + 0.2))
     others, counts["left out: in Stellarium alone"] = unnumbered_lights(rest, kstars.tycho(kstars_folder), stars.direction[stars.hip > 0])
-    lights = [light for light in numbered + others if round(light.v_mag, 2) <= faintest]
+    lights = numbered + others
+    for light in lights:
+        light.v_mag = round(float(light.v_mag), 2)
+    lights = [light for light in lights if light.v_mag <= faintest]
     assume_colours(lights)
     for reason, number in collections.Counter(light.colour_assumed for light in lights if light.colour_assumed).items():
         counts[f"B-V assumed: {reason}"] = number
-    return sorted(lights, key=lambda light: (round(light.v_mag, 2), light.hip)), counts
+    return sorted(lights, key=lambda light: (light.v_mag, light.hip)), counts
