@@ -2,10 +2,10 @@
 """Makes configs/stars/hipparcos.csv, the stars to V 8, or a deeper catalogue of the same columns.
 
     tools/make_star_catalogue.py                                  the shipped catalogue, anew
-    tools/make_star_catalogue.py --faintest 10.5 --out deep.csv   520,000 stars
+    tools/make_star_catalogue.py --faintest 10.5 --out deep.csv   580,000 stars
 
-Needs Debian 12 (apt-get download of stellarium-data 0.22 and kstars-data), npm, python3-numpy and python3-scipy. The packages, 330 MB, are
-downloaded to a temporary folder, or kept in --packages and used from there. docs/stars.md says what the catalogue is and how good.
+Needs Debian 12 (apt-get download of stellarium-data 0.22, kstars-data and, below V 8, astrometry-data-tycho2-07), npm, python3-numpy and python3-scipy. The
+packages, 330 or 420 MB, are downloaded to a temporary folder, or kept in --packages and used from there. docs/stars.md says what the catalogue is and how good.
 """
 import argparse
 import pathlib
@@ -59,7 +59,11 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.packages.resolve() if options.packages else pathlib.Path(temporary)
         *sources, versions = packages.obtain(folder)
-        lights, counts = merge.catalogue(*sources, options.faintest)
+        index = None
+        if options.faintest > FAINTEST_SHIPPED:
+            index, version = packages.obtain_tycho_index(folder)
+            versions.append(version)
+        lights, counts = merge.catalogue(*sources, index, options.faintest)
     with open(options.out, "w", encoding="ascii") as file:
         write(lights, counts, versions, options.faintest, file)
 

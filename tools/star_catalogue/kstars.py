@@ -9,6 +9,8 @@ import struct
 
 import numpy
 
+PLACE_STEPS_ARCSEC = (0.15, 0.1)  # right ascension on the equator, declination
+HIPPARCOS_FAINTEST_V = 8.9  # stars.dat is complete to this.
 PREAMBLE_BYTES = 124
 BYTE_ORDER_MARK = 0x4B53
 INTEGER_OF_SIZE = {1: "i1", 2: "<i2", 4: "<i4"}

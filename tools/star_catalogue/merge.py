@@ -9,10 +9,13 @@ import dataclasses
 import numpy
 from scipy.spatial import cKDTree
 
-from . import celestial, kstars, stellarium
+from . import celestial, kstars, stellarium, tycho_index
 
 ARCSEC = numpy.pi / 180 / 3600
 EPOCH_YEAR = 2000.0
+
+# By falling brightness; the last, from V 9 on, has no Hipparcos stars.
+STELLARIUM_FILES = ("stars_0_0v0_8.cat", "stars_1_0v0_8.cat", "stars_2_0v0_8.cat", "stars_3_1v0_4.cat")
 
 # Components of one Hipparcos number nearer than this are one line.
 ONE_LIGHT_ARCSEC = 2.0
@@ -27,11 +30,12 @@ SAME_LIGHT_MAG = 0.3
 LOST_STAR_ARCSEC = 10.0
 # Tycho's observed places are of this time before J2000 [yr], with this spread: the median of the stars of more than 1"/yr.
 OBSERVED_BEFORE_YEARS, OBSERVED_SPREAD_YEARS = 8.34, 0.08
-# Rounding of KStars' places: 0.15" in right ascension on the equator and 0.1" in declination, as standard deviations.
-KSTARS_ROUNDING_ARCSEC = numpy.array([0.15, 0.1]) / 12**0.5
-LEAST_SHIFT_ARCSEC = 0.12
+# A place that is off is told from one that is right by other places if the shift is this many times their rounding's standard deviation.
+LEAST_SHIFT_SIGMA = 3.0
 # KStars has the stars of Tycho-2 to this V_T.
 KSTARS_FAINTEST_V_T = 8.0
+# A star of the Tycho-2 index is a star here that is nearer than this and of a V_T as near as this.
+INDEX_REACH_ARCSEC, INDEX_REACH_MAG = 2.0, 0.3
 # Johnson's from Tycho's magnitudes: ESA SP-1200, vol. 1, eq. 1.3.20.
 V_PER_TYCHO_COLOUR, COLOUR_PER_TYCHO_COLOUR = -0.090, 0.850
 
@@ -98,15 +102,18 @@ def centre_of_light(stars, rows):
     return stellarium.unit(numpy.sum(stars.direction[rows] * 10 ** (-0.4 * stars.v_mag[rows])[:, None], axis=0))
 
 
-def put_stale_places_right(stars, rows_of, known):
+def put_stale_places_right(stars, numbers, known, steps_arcsec):
     """Brings places to J2000 that Stellarium left at the time of Tycho's observation; returns their number.
 
-    About 4 % of the Hipparcos numbers have Tycho-2's observed places (of 1991.5 to 1991.8) where J2000 is stated: without motion. A number is one of them if
-    KStars' star is not where Stellarium says, but where 8.34 years of motion lead. Its new place is the mean of that place and KStars', by their weights.
-    Of a number with components, KStars' place is one component's or that of the centre of light; the components keep their places to each other.
+    About 2 % of the Hipparcos numbers have Tycho-2's observed places (of 1991.5 to 1991.8) where J2000 is stated: without motion. A number is one of them if
+    another catalogue's star (known, rounded to steps of right ascension and declination) is not where Stellarium says, but where 8.34 years of motion lead.
+    Its new place is the mean of that place and the known one, by their weights. Of a number with components, the known place is one component's or that of
+    the centre of light; the components keep their places to each other.
     """
     tree = cKDTree(known)
-    numbers = [rows for rows in rows_of.values() if numpy.linalg.norm(stars.motion_mas_yr[rows[0]]) / 1000 * OBSERVED_BEFORE_YEARS > LEAST_SHIFT_ARCSEC]
+    sigma_arcsec = numpy.array(steps_arcsec) / 12**0.5
+    numbers = [rows for rows in numbers
+               if numpy.linalg.norm(stars.motion_mas_yr[rows[0]]) / 1000 * OBSERVED_BEFORE_YEARS > LEAST_SHIFT_SIGMA * sigma_arcsec[0]]
     points = [(rows, point) for rows in numbers
               for point in [*stars.direction[rows], centre_of_light(stars, rows)][:1 if len(rows) == 1 else None]]
     direction = numpy.array([point for _, point in points])
@@ -115,14 +122,14 @@ def put_stale_places_right(stars, rows_of, known):
     later = moved(direction, motion, OBSERVED_BEFORE_YEARS)
     before_arcsec, _ = nearest(tree, direction)
     after_arcsec, there = nearest(tree, later)
-    reach_arcsec = 0.15 + 2 * OBSERVED_SPREAD_YEARS * speed
+    reach_arcsec = numpy.linalg.norm(steps_arcsec) + 2 * OBSERVED_SPREAD_YEARS * speed
     # A few of KStars' places are off by up to 1": they still tell which hypothesis holds, but not where the star is.
     exact = after_arcsec < reach_arcsec
-    near = (exact | (after_arcsec < 0.4 * before_arcsec)) & (before_arcsec < 1.5 * OBSERVED_BEFORE_YEARS * speed + 0.3)
+    near = (exact | (after_arcsec < 0.4 * before_arcsec)) & (before_arcsec < 1.5 * OBSERVED_BEFORE_YEARS * speed + 2 * numpy.linalg.norm(steps_arcsec))
     east, north = east_north(later)
     offset = known[there] - later
     offset_arcsec = numpy.stack([stellarium.dot(offset, east), stellarium.dot(offset, north)], axis=1) / ARCSEC
-    rounding = KSTARS_ROUNDING_ARCSEC * numpy.stack([numpy.hypot(later[:, 0], later[:, 1]), numpy.ones(len(later))], axis=1)
+    rounding = sigma_arcsec * numpy.stack([numpy.hypot(later[:, 0], later[:, 1]), numpy.ones(len(later))], axis=1)
     spread = OBSERVED_SPREAD_YEARS * speed[:, None]
     step = exact[:, None] * offset_arcsec * ARCSEC * spread**2 / (spread**2 + rounding**2)
     target = later + step[:, :1] * east + step[:, 1:] * north
@@ -194,13 +201,13 @@ def lights_of_number(hip, hd, stars, v_mag, b_v, types):
 def numbered_lights(stars, rows_of, magnitudes, hd, types):
     lights = []
     for hip, rows in rows_of.items():
-        v_mag, b_v = magnitudes.get(hip) or (combined_magnitude(stars.v_mag[rows]), None)
+        v_mag, b_v, *_ = magnitudes.get(hip) or (combined_magnitude(stars.v_mag[rows]), None)
         lights += lights_of_number(hip, hd.get(hip, 0), stars.of(rows), v_mag, b_v, types)
     return lights
 
 
-def unnumbered_lights(stars, tycho, numbered):
-    """Returns the Lights of the stars without a Hipparcos number, and how many were left out because KStars lacks them.
+def unnumbered_lights(stars, tycho, index, numbered):
+    """Returns the Lights of the stars without a Hipparcos number, and how many were left out because nobody else has them.
 
     Stellarium's stars without a number are of Tycho-2 and NOMAD. NOMAD's bright ones are no stars: knots of galaxies and globular clusters, images of bright
     stars. Down to its faintest magnitude KStars has all of Tycho-2, so that a star that it lacks there is not one.
@@ -216,10 +223,14 @@ def unnumbered_lights(stars, tycho, numbered):
     found &= first_of_each(row, arcsec)
     beside_confirmed = numpy.zeros(len(row), bool)
     beside_confirmed[~found] = nearest(cKDTree(stars.direction[found]), stars.direction[~found])[0] < HIPPARCOS_APERTURE_ARCSEC
-    doubtful = ~found & ((~beside_confirmed & (tycho_v < KSTARS_FAINTEST_V_T - 0.05)) | stars.b_v_is_zero)
+    if index:
+        index_arcsec, there = nearest(cKDTree(index[0]), stars.direction)
+        doubtful = ~found & ~((index_arcsec < INDEX_REACH_ARCSEC) & (abs(index[1][there] - tycho_v) < INDEX_REACH_MAG))
+    else:
+        doubtful = ~found & ((~beside_confirmed & (tycho_v < KSTARS_FAINTEST_V_T - 0.05)) | stars.b_v_is_zero)
     lights = []
     for k in numpy.flatnonzero(~doubtful):
-        light = Light(0, 0, stars.direction[k], tuple(stars.motion_mas_yr[k]), 0.0, stars.v_mag[k], None if stars.b_v_is_zero[k] else stars.b_v[k])
+        light = Light(0, 0, stars.direction[k], tuple(stars.motion_mas_yr[k]), 0.0, stars.v_mag[k], stars.b_v[k] if index or not stars.b_v_is_zero[k] else None)
         if found[k]:
             t = row[k]
             light.hd, light.motion_mas_yr = int(value["HD"][t]), (value["dRA"][t], value["dDec"][t])
@@ -267,20 +278,24 @@ def assume_colours(lights):
             light.colour_assumed = "the median of all" if of_class == "all" else "the median of its spectral class"
 
 
-def catalogue(stellarium_folder, kstars_folder, celestial_file, faintest):
-    """Returns the Lights to a faintest V, brightest first, and a dict of counts of what was done."""
-    magnitudes = celestial.magnitudes(celestial_file)
-    deepest = 3 if faintest > 8.5 else 2
-    stars = stellarium.joined([stellarium.read(stellarium_folder / name)
-                               for name in ("stars_0_0v0_8.cat", "stars_1_0v0_8.cat", "stars_2_0v0_8.cat", "stars_3_1v0_4.cat")[:deepest + 1]])
+def catalogue(stellarium_folder, kstars_folder, celestial_file, tycho_index_file, faintest):
+    """Returns the Lights to a faintest V, brightest first, and a dict of counts of what was done. The index of Tycho-2 may be None."""
+    hipparcos = celestial.stars(celestial_file)
+    stars = stellarium.joined([stellarium.read(stellarium_folder / name) for name in STELLARIUM_FILES if tycho_index_file or name != STELLARIUM_FILES[-1]])
     rows_of = rows_by_number(stars)
     known = kstars.hipparcos(kstars_folder)
     take_motions(stars, rows_of, stellarium.proper_motions(stellarium_folder), known)
-    counts = {"places brought to J2000": put_stale_places_right(stars, rows_of, known[0])}
-    numbered = numbered_lights(stars, rows_of, magnitudes, stellarium.henry_draper(stellarium_folder), stellarium.spectral_types(stellarium_folder))
+    bright = [rows for rows in rows_of.values() if stars.v_mag[rows[0]] < kstars.HIPPARCOS_FAINTEST_V]
+    faint = [rows for rows in rows_of.values() if stars.v_mag[rows[0]] >= kstars.HIPPARCOS_FAINTEST_V]
+    counts = {"places brought to J2000": put_stale_places_right(stars, bright, known[0], kstars.PLACE_STEPS_ARCSEC)}
+    if tycho_index_file:
+        places = kstars.directions(*numpy.array([star[2:] for star in hipparcos.values()]).T)
+        counts["places brought to J2000"] += put_stale_places_right(stars, faint, places, [celestial.PLACE_STEP_ARCSEC] * 2)
+    numbered = numbered_lights(stars, rows_of, hipparcos, stellarium.henry_draper(stellarium_folder), stellarium.spectral_types(stellarium_folder))
     # A little more than asked for: with KStars' magnitude a star may be brighter.
     rest = stars.of((stars.hip == 0) & (stars.v_mag < faintest + 0.2))
-    others, counts["left out: in Stellarium alone"] = unnumbered_lights(rest, kstars.tycho(kstars_folder), stars.direction[stars.hip > 0])
+    index = tycho_index.read(tycho_index_file) if tycho_index_file else None
+    others, counts["left out: in Stellarium alone"] = unnumbered_lights(rest, kstars.tycho(kstars_folder), index, stars.direction[stars.hip > 0])
     lights = numbered + others
     for light in lights:
         light.v_mag = round(float(light.v_mag), 2)
