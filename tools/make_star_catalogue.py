@@ -1,69 +1,71 @@
 #!/usr/bin/python3
-"""Makes configs/stars/hipparcos.csv from the star files of Debian's package kstars-data.
+"""Makes configs/stars/hipparcos.csv, the stars to V 8, or a deeper catalogue of the same columns.
 
-    tools/make_star_catalogue.py [--folder /usr/share/kstars] [--faintest 8.0] > configs/stars/hipparcos.csv
+    tools/make_star_catalogue.py                                  the shipped catalogue, anew
+    tools/make_star_catalogue.py --faintest 10.5 --out deep.csv   580,000 stars
 
-The files describe their own records: a preamble of 124 bytes, a byte order mark, a version, the number of fields and per field its
-name, size, type and the divisor of its integers; then an index of sky cells and the records. The stars in them are
-those of the Hipparcos and Tycho-2 catalogues (ESA SP-1200, 1997; Hog et al., A&A 355, L27, 2000).
+Needs Debian 12 (apt-get download of stellarium-data 0.22, kstars-data and, below V 8, astrometry-data-tycho2-07), npm, python3-numpy and python3-scipy. The
+packages, 330 or 420 MB, are downloaded to a temporary folder, or kept in --packages and used from there. docs/stars.md says what the catalogue is and how good.
 """
 import argparse
 import pathlib
-import struct
 import sys
+import tempfile
 
-PREAMBLE_BYTES = 124
-BYTE_ORDER_MARK = 0x4B53
-INTEGER_OF_SIZE = {1: "b", 2: "h", 4: "i"}
+import numpy
+
+from star_catalogue import merge, packages
+
+SHIPPED = pathlib.Path(__file__).resolve().parents[1] / "configs/stars/hipparcos.csv"
+FAINTEST_SHIPPED = 8.0
+FAINTEST_POSSIBLE = 10.5
+COLUMNS = "hip,hd,ra_deg,dec_deg,epoch_year,pm_ra_mas_yr,pm_dec_mas_yr,parallax_mas,v_mag,b_v"
 
 
-def stars_of(path):
-    """Yields a dict of field values per star."""
-    data = path.read_bytes()
-    mark, _, field_count = struct.unpack_from("<HBH", data, PREAMBLE_BYTES)
-    if mark != BYTE_ORDER_MARK:
-        sys.exit(f"{path}: not a little-endian KStars star file")
-    at = PREAMBLE_BYTES + 5
-    names, divisors, layout = [], [], "<"
-    for _ in range(field_count):
-        name, size, kind, divisor = struct.unpack_from("<10sbBi", data, at)
-        at += 16
-        name = name.split(b"\0")[0].decode()
-        text = name == "spec_type"
-        layout += f"{size}s" if text else INTEGER_OF_SIZE[size]
-        names.append(name)
-        divisors.append(None if text else max(1, divisor))
-    (cells,) = struct.unpack_from("<I", data, at)
-    record = struct.Struct(layout)
-    for cell in range(cells):
-        _, offset, count = struct.unpack_from("<III", data, at + 4 + 12 * cell)
-        for i in range(count):
-            values = record.unpack_from(data, offset + i * record.size)
-            yield {n: v if d is None else v / d for n, v, d in zip(names, values, divisors)}
+def number(value, digits):
+    """Returns the text of a rounded number, zero without a sign."""
+    return f"{round(float(value), digits) + 0.0:.{digits}f}"
+
+
+def line(light):
+    x, y, z = light.direction
+    ra_deg, dec_deg = numpy.degrees(numpy.arctan2(y, x)) % 360, numpy.degrees(numpy.arcsin(z))
+    pm_ra, pm_dec = light.motion_mas_yr
+    return ",".join([str(light.hip), str(light.hd), number(ra_deg, 6), number(dec_deg, 6), number(merge.EPOCH_YEAR, 1), number(pm_ra, 1),
+                     number(pm_dec, 1), number(light.parallax_mas, 1), number(light.v_mag, 2), number(light.b_v, 2)])
+
+
+def write(lights, counts, versions, faintest, file):
+    print(f"# {len(lights)} stars to V {faintest:g} of the Hipparcos and Tycho-2 catalogues (ESA SP-1200, 1997; Hog et al., A&A 355, L27, 2000).", file=file)
+    print(f"# Places: ICRS at epoch_year; pm_ra has the factor cos(dec); V and B-V: Johnson. hip, hd and parallax are 0 where there is none.", file=file)
+    print(f"# Made by tools/make_star_catalogue.py from {', '.join(versions)}; terms: NOTICE.", file=file)
+    for what, count in counts.items():
+        print(f"# {what}: {count}", file=file)
+    print(COLUMNS, file=file)
+    for light in lights:
+        print(line(light), file=file)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--folder", default="/usr/share/kstars", type=pathlib.Path)
-    parser.add_argument("--faintest", default=8.0, type=float, help="V magnitude of the faintest star kept")
+    parser.add_argument("--faintest", default=FAINTEST_SHIPPED, type=float, help=f"V magnitude of the faintest star kept, at most {FAINTEST_POSSIBLE}")
+    parser.add_argument("--out", default=SHIPPED, type=pathlib.Path, help="file to write; default: the shipped catalogue")
+    parser.add_argument("--packages", type=pathlib.Path, help="folder where packages are kept; default: a temporary one")
     options = parser.parse_args()
-    files = [options.folder / name for name in ("namedstars.dat", "unnamedstars.dat")]
-    for file in files:
-        if not file.exists():
-            sys.exit(f"{file}: missing; install kstars-data or name its folder")
-    stars = []
-    for file in files:
-        for star in stars_of(file):
-            if star["mag"] <= options.faintest:
-                # Right ascension is in hours there; HD is stored undivided.
-                stars.append((star["mag"], round(star["HD"] * 10), star["RA"] * 15, star["Dec"], star["dRA"],
-                              star["dDec"], star["bv_index"]))
-    stars.sort()
-    print("# Stars to V", options.faintest, "from the Hipparcos and Tycho-2 catalogues (ESA SP-1200, 1997; Hog et al. 2000).")
-    print("# Places: ICRS at epoch J1991.25. A B-V that the source lacks is 0. Made by tools/make_star_catalogue.py from Debian's kstars-data 3.6.2.")
-    print("hd,ra_deg,dec_deg,pm_ra_mas_yr,pm_dec_mas_yr,v_mag,b_v")
-    for v, hd, ra, dec, pm_ra, pm_dec, b_v in stars:
-        print(f"{hd},{ra:.5f},{dec:.5f},{pm_ra:.1f},{pm_dec:.1f},{v:.2f},{b_v:.2f}")
+    if options.faintest > FAINTEST_POSSIBLE:
+        sys.exit(f"--faintest {options.faintest:g}: the sources end at V {FAINTEST_POSSIBLE}")
+    if options.faintest > FAINTEST_SHIPPED and options.out == SHIPPED:
+        sys.exit(f"--faintest {options.faintest:g}: name a file with --out; the shipped catalogue ends at V {FAINTEST_SHIPPED:g}")
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = options.packages.resolve() if options.packages else pathlib.Path(temporary)
+        *sources, versions = packages.obtain(folder)
+        index = None
+        if options.faintest > FAINTEST_SHIPPED:
+            index, version = packages.obtain_tycho_index(folder)
+            versions.append(version)
+        lights, counts = merge.catalogue(*sources, index, options.faintest)
+    with open(options.out, "w", encoding="ascii") as file:
+        write(lights, counts, versions, options.faintest, file)
 
 
 if __name__ == "__main__":
