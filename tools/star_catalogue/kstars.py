@@ -22,19 +22,14 @@ def directions(ra_deg, dec_deg):
 
 
 def hipparcos(folder):
-    """Returns unit vectors, motions (right ascension times cos(declination), declination) [mas/yr] and Johnson V of stars.dat."""
-    ra, dec, motion, v = [], [], [], []
+    """Returns the unit vectors of stars.dat."""
+    ra, dec = [], []
     for line in (folder / "stars.dat").read_text().splitlines():
         if line.startswith("#"):
             continue
-        try:
-            ra.append(15 * (int(line[0:2]) + int(line[2:4]) / 60 + float(line[4:9]) / 3600))
-            dec.append((-1 if line[10] == "-" else 1) * (int(line[11:13]) + int(line[13:15]) / 60 + float(line[15:19]) / 3600))
-            motion.append((float(line[20:29]), float(line[29:38])))
-            v.append(float(line[46:51]))
-        except ValueError:
-            break
-    return directions(numpy.array(ra), numpy.array(dec)), numpy.array(motion), numpy.array(v)
+        ra.append(15 * (int(line[0:2]) + int(line[2:4]) / 60 + float(line[4:9]) / 3600))
+        dec.append((-1 if line[10] == "-" else 1) * (int(line[11:13]) + int(line[13:15]) / 60 + float(line[15:19]) / 3600))
+    return directions(numpy.array(ra), numpy.array(dec))
 
 
 def tycho(folder):

@@ -26,8 +26,6 @@ HIPPARCOS_APERTURE_ARCSEC = 10.0
 SAME_STAR_MAG = 0.5
 SAME_COMPONENT_MAG = 0.1
 SAME_LIGHT_MAG = 0.3
-# KStars' star of a number is looked for within this, of the same magnitude.
-LOST_STAR_ARCSEC = 10.0
 # Tycho's observed places are of this time before J2000 [yr], with this spread: the median of the stars of more than 1"/yr.
 OBSERVED_BEFORE_YEARS, OBSERVED_SPREAD_YEARS = 8.34, 0.08
 # A place that is off is told from one that is right by other places if the shift is this many times their rounding's standard deviation.
@@ -81,21 +79,6 @@ def rows_by_number(stars):
         if stars.hip[row]:
             rows_of[int(stars.hip[row])].append(int(row))
     return rows_of
-
-
-def take_motions(stars, rows_of, motions, known):
-    """Sets the motions of numbered stars: Stellarium's table's, or KStars' for the few that it lacks."""
-    places, known_motions, known_v = known
-    tree = cKDTree(places)
-    for hip, rows in rows_of.items():
-        if hip in motions:
-            stars.motion_mas_yr[rows] = motions[hip]
-            continue
-        near = tree.query_ball_point(stars.direction[rows[0]], LOST_STAR_ARCSEC * ARCSEC)
-        near = [k for k in near if abs(known_v[k] - combined_magnitude(stars.v_mag[rows])) < SAME_LIGHT_MAG]
-        if near:
-            nearest_one = min(near, key=lambda k: numpy.linalg.norm(places[k] - stars.direction[rows[0]]))
-            stars.motion_mas_yr[rows] = known_motions[nearest_one]
 
 
 def centre_of_light(stars, rows):
@@ -283,11 +266,12 @@ def catalogue(stellarium_folder, kstars_folder, celestial_file, tycho_index_file
     hipparcos = celestial.stars(celestial_file)
     stars = stellarium.joined([stellarium.read(stellarium_folder / name) for name in STELLARIUM_FILES if tycho_index_file or name != STELLARIUM_FILES[-1]])
     rows_of = rows_by_number(stars)
+    for hip, motion in stellarium.proper_motions(stellarium_folder).items():
+        stars.motion_mas_yr[rows_of.get(hip, [])] = motion
     known = kstars.hipparcos(kstars_folder)
-    take_motions(stars, rows_of, stellarium.proper_motions(stellarium_folder), known)
     bright = [rows for rows in rows_of.values() if stars.v_mag[rows[0]] < kstars.HIPPARCOS_FAINTEST_V]
     faint = [rows for rows in rows_of.values() if stars.v_mag[rows[0]] >= kstars.HIPPARCOS_FAINTEST_V]
-    counts = {"places brought to J2000": put_stale_places_right(stars, bright, known[0], kstars.PLACE_STEPS_ARCSEC)}
+    counts = {"places brought to J2000": put_stale_places_right(stars, bright, known, kstars.PLACE_STEPS_ARCSEC)}
     if tycho_index_file:
         places = kstars.directions(*numpy.array([star[2:] for star in hipparcos.values()]).T)
         counts["places brought to J2000"] += put_stale_places_right(stars, faint, places, [celestial.PLACE_STEP_ARCSEC] * 2)

@@ -1,7 +1,8 @@
 """Reads the stars of astrometry.net's index of Tycho-2 (Debian's package astrometry-data-tycho2-07-littleendian): 1.9 million places and V_T.
 
-The file is FITS, binary tables one after the other. A place is a unit vector (ICRS at J2000) of three unsigned integers: lower corner + integer / scale, which stand with the
-upper corner in a table of their own. For each small square of the sky the index has a number of its brightest stars, so that it is complete to V_T 11 but for the densest fields.
+The file is FITS, binary tables one after the other. A place is a unit vector (ICRS at J2000) of three unsigned integers: lower corner + integer / scale,
+which stand with the upper corner in a table of their own. For each small square of the sky the index has a number of its brightest stars, so that it is
+complete to V_T 11 but for the densest fields.
 """
 import numpy
 

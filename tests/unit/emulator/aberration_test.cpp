@@ -11,6 +11,7 @@
 #include "emulator/still_camera.h"
 #include "emulator/truth_source.h"
 #include "render/units.h"
+#include "sensor/published_frame.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
