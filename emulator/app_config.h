@@ -128,6 +128,7 @@ struct ScenarioConfig {
     std::string time_utc = "2026-01-01T00:00:00Z";
     ClockConfig clock;
     std::int64_t seed = 1;
+    bool has_seed = false;  // stated, or settled by settle_seed()
     std::int64_t threads = 0;
     OriginConfig origin;
     CameraModel camera;

@@ -49,6 +49,11 @@ std::string truth_line(const ScenarioConfig& s) {
     return "  " + out + "\n";
 }
 
+std::string seed_line(const ScenarioConfig& s) {
+    if (!s.has_seed) return "seed: none, so each run draws its own noise, and says its seed\n";
+    return fmt::format("seed: {}, so every run has the same noise in the same frame\n", s.seed);
+}
+
 std::string loop_line(const ScenarioConfig& s) {
     const RealTime& w = s.loop.real_time;
     std::string out = s.loop.prefer == LoopPreference::kLatency
@@ -102,7 +107,7 @@ std::string check_scenario(const ScenarioConfig& s) {
                           "sunlight\nplan\n",
                           s.name, format_utc(time), 100 * share_in_bins(s.camera, grid));
     for (const std::string& line : renderer->explain_plan(world)) out += "  " + line + "\n";
-    return out + "  " + motion_line(s, *renderer, grid) + "\n" + truth_line(s) + loop_line(s) +
+    return out + "  " + motion_line(s, *renderer, grid) + "\n" + truth_line(s) + seed_line(s) + loop_line(s) +
            governor_lines(s);
 }
 

@@ -19,6 +19,7 @@
 #include "emulator/recording_text.h"
 #include "emulator/render_command.h"
 #include "emulator/report.h"
+#include "emulator/run_seed.h"
 #include "emulator/scene_loader.h"
 #include "emulator/send_command.h"
 #include "emulator/sensor_bench.h"
@@ -53,14 +54,19 @@ std::optional<tbb::global_control> limit_threads(const ScenarioConfig& scenario)
     return limit;
 }
 
+void tell_seed(const std::string& line) {
+    if (!line.empty()) spdlog::info("{}", line);
+}
+
 int run(const Options& o) {
     std::vector<std::string> overrides = o.overrides;
     if (o.preview_port > 0) overrides.push_back(fmt::format("outputs.preview.port={}", o.preview_port));
-    const ScenarioConfig scenario = load_scenario(o.config, overrides);
+    ScenarioConfig scenario = load_scenario(o.config, overrides);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.run;
     limits.seconds = o.duration_s;
     limits.frames = o.frames;
+    tell_seed(settle_seed(scenario, limits.replay));
     spdlog::info("loading {}", scenario.name);
     Emulator emulator(scenario, limits);
     emulator.run([&] {
@@ -88,8 +94,9 @@ int list_of_recording(const Options& o) {
 }
 
 int render(const Options& o) {
-    const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
+    ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     const auto threads = limit_threads(scenario);
+    tell_seed(settle_seed(scenario));
     render_to_file(scenario, o.stage, o.time_offset_s, o.out, o.truth);
     return 0;
 }

@@ -137,6 +137,7 @@ json run_report(const Emulator& emulator) {
     json report = camera_report(emulator.first(), emulator.seconds());
     const CommandReport commands = emulator.command_report();
     report["scenario"] = emulator.first().scenario().name;
+    report["seed"] = emulator.first().scenario().seed;
     report["seconds"] = rounded(emulator.seconds());
     report["commands"] = {
         {"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}};

@@ -133,7 +133,16 @@ std::string section_listing(const SectionField& section) {
     return out;
 }
 
-std::string scenario_listing(ScenarioConfig scenario) { return section_listing(section_of(scenario)); }
+std::string scenario_listing(ScenarioConfig scenario) {
+    scenario.has_seed = true;  // frames have one, stated or not
+    return section_listing(section_of(scenario));
+}
+
+std::string listed_value(const std::string& listing, const std::string& key) {
+    const std::map<std::string, std::string> values = parsed(listing);
+    const auto found = values.find(key);
+    return found == values.end() ? std::string() : found->second;
+}
 
 std::string listing_difference(const std::string& there, const std::string& here) {
     const std::map<std::string, std::string> a = parsed(there), b = parsed(here);

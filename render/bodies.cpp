@@ -7,6 +7,7 @@
 
 #include "render/check.h"
 #include "render/earth_orientation.h"
+#include "render/planet_series.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -69,6 +70,25 @@ double tdb_days(TimeTai time) {
     return (tt.day - ERFA_DJ00) + tt.fraction;
 }
 
+Planet planet_of(BodyId id) {
+    switch (id) {
+        case BodyId::kMercury:
+            return Planet::kMercury;
+        case BodyId::kVenus:
+            return Planet::kVenus;
+        case BodyId::kMars:
+            return Planet::kMars;
+        case BodyId::kJupiter:
+            return Planet::kJupiter;
+        case BodyId::kSaturn:
+            return Planet::kSaturn;
+        case BodyId::kUranus:
+            return Planet::kUranus;
+        default:
+            return Planet::kNeptune;
+    }
+}
+
 }  // namespace
 
 StateVector heliocentric(BodyId id, TimeTai time) {
@@ -92,10 +112,8 @@ StateVector heliocentric(BodyId id, TimeTai time) {
         }
         return out;
     }
-    // ERFA's numbers: 1 Mercury, 2 Venus, 3 Earth-Moon barycentre, 4 Mars ... 8 Neptune.
-    const int number = id < BodyId::kEarth ? static_cast<int>(id) + 1 : static_cast<int>(id);
-    HILCAM_CHECK(eraPlan94(tt.day, tt.fraction, number, pv) >= 0);
-    return state(pv);
+    const PlanetState planet = planet_by_series(planet_of(id), tdb_days(time));
+    return {au * planet.position_au, per_day * planet.velocity_au_d};
 }
 
 Vec3d sun_from_earth_m(TimeTai time) { return -heliocentric(BodyId::kEarth, time).position_m; }

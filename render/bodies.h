@@ -58,8 +58,7 @@ inline constexpr std::array<Figure, kBodyCount> kFigures = {{
 // (VSOP2000 fit, good to 14 km from 1900 to 2100).
 Vec3d sun_from_earth_m(TimeTai time);
 // Heliocentric geometric position and velocity [m, m/s], ICRF axes. Earth: eraEpv00. Moon: that plus
-// eraMoon98 (Meeus' series; 10 arcsec, 50 km). Planets: eraPlan94 (Simon et al. 1994; below 20 arcsec for the
-// inner ones, 100 for Jupiter and Saturn from 1800 to 2050).
+// eraMoon98 (Meeus' series; 10 arcsec, 50 km). Planets: planet_by_series() (planet_series.h).
 struct StateVector {
     Vec3d position_m, velocity_m_s;
 };

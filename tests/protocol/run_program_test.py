@@ -6,6 +6,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -98,6 +99,25 @@ class Pictures(unittest.TestCase):
                 self.assertEqual(hilcam("render", SCENARIO, "--out", file, "--set", f"threads={threads}").returncode, 0)
                 frames.append(file.read_bytes())
             self.assertEqual(frames[0], frames[1])
+
+    def test_a_picture_without_a_seed_has_noise_of_its_own_and_says_how_to_get_it_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = pathlib.Path(folder) / "no_seed.yaml"
+            scenario.write_text(SCENARIO.read_text().replace("\nseed: 3\n", "\n").replace("../../configs", f"{SOURCE}/configs"))
+            self.assertIn("each run draws its own noise", hilcam("check", scenario).stdout)
+
+            def picture(*more):
+                file = pathlib.Path(folder) / "frame.png"
+                result = hilcam("render", scenario, "--out", file, *more)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                return file.read_bytes(), result.stderr
+
+            one, log = picture()
+            self.assertNotEqual(picture()[0], one)
+            seed = re.search(r"drawn for this run; with --set (seed=\d+) its noise", log).group(1)
+            again, log = picture("--set", seed)
+            self.assertEqual(again, one)
+            self.assertEqual(log, "")
 
     def test_every_stage_writes_its_file(self):
         with tempfile.TemporaryDirectory() as folder:

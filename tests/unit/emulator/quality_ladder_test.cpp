@@ -50,6 +50,13 @@ TEST_F(LadderTest, WhatCannotChangeBetweenFramesIsRefused) {
     EXPECT_THROW(loop(many + "]\n"), InputError);
 }
 
+// Levels of detail bound a shape, not its brightness: a quarter of a pixel dimmed foil by 1 %
+// (docs/performance.md).
+TEST(QualityLadder, NoShippedQualityDrawsCoarserMeshes) {
+    for (const std::string name : {"reference.yaml", "balanced.yaml", "realtime.yaml"})
+        EXPECT_EQ(shipped(name).lod_error_px, 0) << name;
+}
+
 // Every step is a real one, none is better than the one before in anything, and the last is the least there
 // is.
 TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
