@@ -35,7 +35,8 @@ std::uint32_t first_packet_bytes(const GigeConfig& config, const NetInterface& n
 
 Fields fields(GigeConfig& c) {
     return {
-        text("interface", c.interface, "IPv4 address or name of the interface to be a camera on"),
+        text("interface", c.interface,
+             "IPv4 address or name of the interface to be a camera on; what comes in by others is not heard"),
         text("model", c.model, "DeviceModelName; the camera's name when left as hilcam"),
         text("serial", c.serial, "DeviceSerialNumber; unlike any other camera's on the network"),
         text("user_name", c.user_name, "DeviceUserID at the start"),
@@ -75,6 +76,7 @@ struct GigeSink::Implementation {
     std::atomic<bool> controlled{false};
     std::atomic<std::uint32_t> address;  // for reports; net is the control thread's
     std::atomic<std::uint32_t> acquisitions{0};
+    std::atomic<std::uint64_t> strange_datagrams{0};  // that came in by another interface
 
     Implementation(const GigeConfig& c, const SinkContext& context, const CameraLimits& limits,
                    std::size_t payload_bytes)
@@ -211,7 +213,7 @@ void GigeSink::Implementation::serve_control() {
     };
     while (!stopping.load()) {
         sockets->wait(wakeup, device->wake_ns() - monotonic_ns());
-        sockets->take(answer);
+        strange_datagrams.fetch_add(sockets->take(answer), std::memory_order_relaxed);
         tell_device(monotonic_ns());
         if (next_sockets) move_to_next_sockets();
     }
@@ -314,6 +316,7 @@ SinkReport GigeSink::report() const {
                         {"packets_resent", n(c.packets_resent)},
                         {"packets_refused", n(c.packets_refused)},
                         {"test_packets", n(c.test_packets)},
+                        {"commands_from_other_interfaces", n(my.strange_datagrams)},
                         {"frames_of_other_size", n(my.writer.of_other_size())},
                         {"events_dropped", n(my.events_dropped)}}};
 }
