@@ -71,7 +71,7 @@ GigeSockets::GigeSockets(const NetInterface& net)
       message_(open_udp(net.address, 0)) {
     broadcast_[0] = open_broadcast(INADDR_BROADCAST);
     if (net.mask != 0xFFFFFFFF) broadcast_[1] = open_broadcast(net.address | ~net.mask);
-    for (const Fd* socket : {&control_, &broadcast_[0], &broadcast_[1]}) tell_interfaces(*socket);
+    for (const Fd* socket : {&control_, &message_, &broadcast_[0], &broadcast_[1]}) tell_interfaces(*socket);
     const int on = 1;  // an answer may be for everybody
     setsockopt(control_.get(), SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
     sockaddr_in own{};
@@ -85,7 +85,8 @@ void GigeSockets::wait(const Fd& wakeup, std::int64_t timeout_ns) {
     watched_ = {{{wakeup.get(), POLLIN, 0},
                  {control_.get(), POLLIN, 0},
                  {broadcast_[0].get(), POLLIN, 0},
-                 {broadcast_[1].get(), POLLIN, 0}}};
+                 {broadcast_[1].get(), POLLIN, 0},
+                 {message_.get(), POLLIN, 0}}};
     const std::int64_t ns = std::max<std::int64_t>(0, timeout_ns);
     const timespec timeout{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
     ppoll(watched_.data(), watched_.size(), &timeout, nullptr);
@@ -100,8 +101,11 @@ std::uint64_t GigeSockets::take(const Receive& receive) {
     Datagram d;
     for (std::size_t i = 1; i < watched_.size(); ++i) {
         if (!watched_[i].revents) continue;
-        const bool broadcast = i > 1;
+        const bool broadcast = watched_[i].fd == broadcast_[0].get() || watched_[i].fd == broadcast_[1].get();
+        const bool message = watched_[i].fd == message_.get();
         for (int n = 0; n < kAtOnce && receive_from(watched_[i].fd, d); ++n) {
+            // Clients acknowledge an event where it came from, and command elsewhere.
+            if (message && d.size > 0 && d.bytes[0] == gvcp::Header::kKey) continue;
             if (is_heard(d.interface, broadcast))
                 receive({d.bytes.data(), d.size}, {ntohl(d.sender.sin_addr.s_addr), ntohs(d.sender.sin_port)},
                         broadcast);

@@ -48,7 +48,7 @@ class GigeSockets {
     Fd control_, message_;
     std::array<Fd, 2> broadcast_;  // to everybody, to the subnet
     std::uint16_t message_port_ = 0;
-    std::array<pollfd, 4> watched_{};
+    std::array<pollfd, 5> watched_{};  // wakeup, control, broadcasts, message
 };
 
 }  // namespace hilcam
