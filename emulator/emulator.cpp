@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 
 #include "emulator/recording_header.h"
@@ -14,24 +15,25 @@ namespace {
 volatile std::sig_atomic_t signalled = 0;
 void on_signal(int) { signalled = 1; }
 
-// Stops on SIGINT and SIGTERM while it lives.
+// Stops on SIGINT and SIGTERM while it lives, and on SIGHUP (the terminal closes) unless that is ignored, as
+// nohup does.
 class SignalGuard {
   public:
     SignalGuard() {
         signalled = 0;
         struct sigaction action {};
         action.sa_handler = on_signal;
-        sigaction(SIGINT, &action, &old_int_);
-        sigaction(SIGTERM, &action, &old_term_);
+        for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &before_[i]);
+        if (before_[kHangUp].sa_handler == SIG_IGN) sigaction(SIGHUP, &before_[kHangUp], nullptr);
     }
     ~SignalGuard() {
-        sigaction(SIGINT, &old_int_, nullptr);
-        sigaction(SIGTERM, &old_term_, nullptr);
+        for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
     }
 
   private:
-    struct sigaction old_int_ {
-    }, old_term_{};
+    static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+    static constexpr std::size_t kHangUp = 2;
+    std::array<struct sigaction, kSignals.size()> before_{};
 };
 
 }  // namespace

@@ -26,8 +26,8 @@ class Emulator {
     Emulator(const ScenarioConfig& scenario, const RunLimits& limits);
     ~Emulator();
 
-    // Opens sockets and devices, then runs until a limit is reached or SIGINT or SIGTERM comes. Throws
-    // DeviceError while starting. `on_ready` is called once the camera can be used.
+    // Opens sockets and devices, then runs until a limit is reached or SIGINT, SIGTERM or SIGHUP comes.
+    // Throws DeviceError while starting. `on_ready` is called once the camera can be used.
     void run(const std::function<void()>& on_ready);
 
     // Cameras in the scenario's order; there is at least one.

@@ -14,6 +14,9 @@ using gvcp::Status;
 
 namespace {
 
+// What fits into a datagram of 576 bytes with its IP and UDP headers, in the registers' own bytes: 135 read
+// or 67 written.
+constexpr std::size_t kMostPayloadBytes = gvcp::kMostDatagramBytes - 28 - gvcp::kHeaderBytes;
 constexpr std::uint32_t kEverybody = 0xFFFFFFFF;  // 255.255.255.255
 
 bool changes_something(std::uint16_t command) {
@@ -145,7 +148,7 @@ GigeDevice::Answer GigeDevice::answer(const Header& header, std::span<const std:
 GigeDevice::Answer GigeDevice::read_registers(std::span<const std::uint8_t> payload,
                                               std::span<std::uint8_t> out) {
     const GigeCore& core = parts_->core;
-    if (payload.empty() || payload.size() % 4 != 0 || payload.size() > out.size())
+    if (payload.empty() || payload.size() % 4 != 0 || payload.size() > kMostPayloadBytes)
         return {Status::kInvalidParameter};
     ByteReader in(payload);
     for (std::size_t at = 0; at < payload.size(); at += 4) {
@@ -172,7 +175,8 @@ GigeDevice::Answer GigeDevice::read_memory(std::span<const std::uint8_t> payload
 GigeDevice::Answer GigeDevice::write_registers(std::span<const std::uint8_t> payload,
                                                std::span<std::uint8_t> out) {
     GigeCore& core = parts_->core;
-    Status status = payload.empty() || payload.size() % 8 != 0 ? Status::kInvalidParameter : Status::kSuccess;
+    const bool fits = !payload.empty() && payload.size() % 8 == 0 && payload.size() <= kMostPayloadBytes;
+    Status status = fits ? Status::kSuccess : Status::kInvalidParameter;
     std::uint16_t done = 0;
     for (std::size_t at = 0; status == Status::kSuccess && at < payload.size(); at += 8) {
         const std::uint32_t address = ByteReader(payload.subspan(at)).u32();
@@ -193,7 +197,8 @@ GigeDevice::Answer GigeDevice::write_memory(std::span<const std::uint8_t> payloa
     ByteReader in(payload);
     const std::uint32_t address = in.u32();
     const auto data = in.rest();
-    Status status = data.empty() ? Status::kInvalidParameter : Status::kSuccess;
+    const bool fits = !data.empty() && payload.size() <= kMostPayloadBytes;
+    Status status = fits ? Status::kSuccess : Status::kInvalidParameter;
     std::size_t done = 0;
     if (status == Status::kSuccess)
         status = parts_->access.may_write(core.from, address)

@@ -1,6 +1,7 @@
 #include "io/gige_fault_registers.h"
 
 #include <cctype>
+#include <cmath>
 
 #include "io/gige_registers.h"
 
@@ -28,13 +29,15 @@ GigeFaultRegisters::GigeFaultRegisters(GigeCore& core) : core_(core) {
         [this](double v) { return set(&FaultOrder::rate, v); });
     r.real(
         reg::kFaultValue, [this] { return shown().value; },
-        [this](double v) { return set(&FaultOrder::value, v); });
+        [this](double v) {
+            return std::abs(v) <= kMostValue ? set(&FaultOrder::value, v) : Status::kInvalidParameter;
+        });
     r.number64(
         reg::kFaultFromFrame, [this] { return shown().from_frame; },
-        [this](std::uint64_t v) { return set(&FaultOrder::from_frame, v); });
+        [this](std::uint64_t v) { return set_frames(&FaultOrder::from_frame, v); });
     r.number64(
         reg::kFaultFrames, [this] { return shown().frames; },
-        [this](std::uint64_t v) { return set(&FaultOrder::frames, v); });
+        [this](std::uint64_t v) { return set_frames(&FaultOrder::frames, v); });
     r.real(
         reg::kFaultDuration_s, [this] { return shown().duration_s; },
         [this](double v) { return set(&FaultOrder::duration_s, v); });
@@ -66,6 +69,10 @@ FaultOrder GigeFaultRegisters::shown() const {
     // As it was asked for: what was "at once" is so again when it is enabled once more.
     order->from_frame = draft.from_frame;
     return *order;
+}
+
+Status GigeFaultRegisters::set_frames(std::uint64_t FaultOrder::*member, std::uint64_t value) {
+    return value <= kMostFrames ? set(member, value) : Status::kInvalidParameter;
 }
 
 // The value's range depends on the kind: FaultEnable checks the whole order.

@@ -12,6 +12,10 @@ std::string fault_feature_name(FaultKind kind);
 
 class GigeFaultRegisters {
   public:
+    // Bounds of FaultValue, and of FaultFromFrame and FaultFrames.
+    static constexpr double kMostValue = 1e9;
+    static constexpr std::uint64_t kMostFrames = 9'200'000'000'000'000'000u;
+
     explicit GigeFaultRegisters(GigeCore& core);
 
   private:
@@ -19,6 +23,7 @@ class GigeFaultRegisters {
     FaultOrder shown() const;
     template <class T>
     gvcp::Status set(T FaultOrder::*member, T value);
+    gvcp::Status set_frames(std::uint64_t FaultOrder::*member, std::uint64_t value);
 
     GigeCore& core_;
     std::uint32_t selector_ = 0;  // place in kAllFaults

@@ -88,9 +88,12 @@ void add_fault_features(FeatureTable& t) {
                   .selects({"FaultRate", "FaultValue", "FaultFromFrame", "FaultFrames", "FaultDuration",
                             "FaultCount", "FaultActive", "FaultEnable", "FaultClear"}),
               real("FaultRate", r::kFaultRate, "Share of what it strikes").between(0, 1),
-              real("FaultValue", r::kFaultValue, "By kind: ms, bytes, MB/s, ...").between(-1e9, 1e9),
-              integer64("FaultFromFrame", r::kFaultFromFrame, "First frame; 0: at once").between(0, kMost64),
-              integer64("FaultFrames", r::kFaultFrames, "Frames; 0: no end by frames").between(0, kMost64),
+              real("FaultValue", r::kFaultValue, "By kind: ms, bytes, MB/s, ...")
+                  .between(-GigeFaultRegisters::kMostValue, GigeFaultRegisters::kMostValue),
+              integer64("FaultFromFrame", r::kFaultFromFrame, "First frame; 0: at once")
+                  .between(0, GigeFaultRegisters::kMostFrames),
+              integer64("FaultFrames", r::kFaultFrames, "Frames; 0: no end by frames")
+                  .between(0, GigeFaultRegisters::kMostFrames),
               real("FaultDuration", r::kFaultDuration_s, "From FaultEnable; 0: no end by time")
                   .between(0, 1e7)
                   .unit("s"),

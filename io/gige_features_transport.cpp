@@ -108,6 +108,7 @@ void add_gvcp(FeatureTable& t) {
             ip("GevPrimaryApplicationIPAddress", b::kPrimaryIp, "The controller's address").read_only(),
             integer("GevPrimaryApplicationSwitchoverKey", b::kSwitchoverKey, "Of who may take over")
                 .between(0, 65535)
+                .bits(15, 0)
                 .write_only(),
             integer("GevHeartbeatTimeout", b::kHeartbeat, "Silence that ends a client's control")
                 .between(500, 600000)
@@ -171,7 +172,10 @@ void add_channels(FeatureTable& t) {
                 .unit("B")
                 .bits(15, 0)
                 .locked(),
-            command("GevSCPSFireTestPacket", b::kPacketSize, "Sends a packet of that size").bit(31),
+            // Read and written as the features beside it, or clients send the size as 0 with it.
+            command("GevSCPSFireTestPacket", b::kPacketSize, "Sends a packet of that size")
+                .bit(31)
+                .writable(),
             boolean("GevSCPSDoNotFragment", b::kPacketSize, "Packets are not divided on their way").bit(30),
             boolean("GevSCPSBigEndian", b::kPacketSize, "Order of pixels' bytes").bit(29).read_only(),
             integer("GevSCPD", b::kPacketDelay, "Between packets").between(0, 1e9).unit("ns"),

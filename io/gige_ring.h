@@ -23,7 +23,8 @@ class GigeSlot {
     GigeFrame frame;  // its payload lies in `bytes`
     FrameRecord record;
     std::uint64_t acquisition = 0;
-    bool last = false;  // of a counted acquisition
+    bool last = false;         // of a counted acquisition
+    std::uint64_t resent = 0;  // packets of it that the sender was asked for again, since it was sent
     std::vector<std::uint8_t> bytes;
 
   private:

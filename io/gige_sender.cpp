@@ -19,6 +19,11 @@ constexpr std::size_t kBatchRoom = 70'000;
 // A frame that has time is spread, but a cable of gigabit Ethernet would not have made it slower than this.
 constexpr double kGigabit_bytes_s = 125e6;
 constexpr std::int64_t kCatchUpSeen_ns = 50'000'000;
+// Of the stream's rate, for packets sent again while a frame is on its way. A stream that loses a share p asks
+// for p / (1 - p) of its packets: a quarter of them at 20 %. Twice that, for who waits too long asks again.
+constexpr double kResendShare = 0.5;
+// Refusals: a thousand a second, a hundred at once. Whoever asks for more has had the answer.
+constexpr Pace kRefusalPace{.delay_ns = 1'000'000, .catch_up_ns = 100'000'000};
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 sockaddr_in address_of(const Endpoint& e) { return socket_address(e.ip, e.port); }
@@ -34,6 +39,7 @@ GigeSender::GigeSender(GigeRing& ring, FaultBoard& faults, DeliveryListener* lis
       finished_(std::move(finished)),
       wakeup_(open_wakeup()) {
     delayed_.reserve(kMostDelayed);
+    refusal_pacer_.begin(kRefusalPace, 0);
 }
 
 void GigeSender::open(std::uint32_t address) {
@@ -70,6 +76,7 @@ void GigeSender::close() noexcept {
 
 bool GigeSender::order(const GigeOrder& order) noexcept {
     const bool taken = orders_.push(order);
+    if (!taken) counts_.requests_unanswered.fetch_add(1, std::memory_order_relaxed);
     wake(wakeup_);
     return taken;
 }
@@ -102,6 +109,7 @@ void GigeSender::send_frame(GigeSlot& slot) {
     if (history_of_ != slot.acquisition) history_.restart(s.long_ids()), history_of_ = slot.acquisition;
     history_.sent(slot.frame.block);
     set_do_not_fragment(s.do_not_fragment);
+    slot.resent = 0;
     current_ = &slot;
     std::int64_t first_ns = 0, last_ns = 0;
     pacer_.begin(pace_of(slot), monotonic_ns());
@@ -114,7 +122,7 @@ void GigeSender::send_frame(GigeSlot& slot) {
         fill_batch(slot, order);
         if (first_ns == 0) first_ns = monotonic_ns();
         counts_.packets.fetch_add(batch_.count(), std::memory_order_relaxed);
-        transmit(s.packet_bytes);
+        transmit(s.packet_bytes, pacer_);
         last_ns = monotonic_ns();
         if (!order.done()) pause_until(pacer_.ready_ns());
     }
@@ -148,13 +156,15 @@ void GigeSender::fill_batch(const GigeSlot& slot, PacketOrder& order) {
     }
 }
 
-void GigeSender::transmit(std::uint32_t packet_bytes) {
+void GigeSender::transmit(std::uint32_t packet_bytes, Pacer& pacer, bool wait) {
     if (batch_.count() > 0) {
-        room_.wait(address_, batch_.to(), batch_.count() * ReceiverRoom::bytes_of(packet_bytes), stopping_);
+        if (wait)
+            room_.wait(address_, batch_.to(), batch_.count() * ReceiverRoom::bytes_of(packet_bytes),
+                       stopping_);
         counts_.packets_failed.fetch_add(batch_.send(socket_.get()), std::memory_order_relaxed);
         counts_.bytes.fetch_add(batch_.bytes(), std::memory_order_relaxed);
     }
-    pacer_.sent(batch_.count(), batch_.bytes(), monotonic_ns());
+    pacer.sent(batch_.count(), batch_.bytes(), monotonic_ns());
 }
 
 void GigeSender::set_do_not_fragment(bool on) {
@@ -186,7 +196,8 @@ Pace GigeSender::pace_of(const GigeSlot& slot) {
 // --------------------------------------------------------------------------------------------
 
 bool GigeSender::serve_orders() {
-    serve_delayed(monotonic_ns());
+    const std::int64_t now_ns = monotonic_ns();
+    serve_delayed(now_ns);
     if (!resend_) {
         GigeOrder order;
         if (!orders_.pop(order)) return false;
@@ -197,6 +208,7 @@ bool GigeSender::serve_orders() {
         counts_.resend_requests.fetch_add(1, std::memory_order_relaxed);
         resend_ = order;
     }
+    if (resend_pacer_.ready_ns() - now_ns >= Pacer::kShortestSleep_ns) return false;
     serve_resend();
     return true;
 }
@@ -208,41 +220,64 @@ void GigeSender::serve_resend() {
     GigeSlot* const slot = borrow(r.acquisition, r.block, oldest);
     batch_.begin(address_of(r.to));
     if (!slot)
-        return refuse(history_of_ == r.acquisition ? history_.why_missing(r.block, oldest)
-                                                   : gvsp::kUnavailable);
+        return refuse(
+            history_of_ == r.acquisition ? history_.why_missing(r.block, oldest) : gvsp::kUnavailable,
+            r.last);
     const std::uint32_t trailer = trailer_id(slot->frame.stream);
-    const std::size_t most = kBatchRoom / ReceiverRoom::bytes_of(r.packet_bytes);
+    const std::uint32_t end = std::min(r.last, trailer);
+    const std::uint64_t most_resent = kMostResent * (std::uint64_t{trailer} + 1);
+    const bool past_the_end = r.next > end, too_often = slot->resent >= most_resent;
+    if (!past_the_end && !too_often) resend_batch(*slot, end, most_resent);
+    give_back(slot);
+    if (past_the_end) return refuse(gvsp::kUnavailable, r.last);
+    if (too_often) {
+        counts_.packets_over_limit.fetch_add(end - r.next + 1, std::memory_order_relaxed);
+        return refuse(gvsp::kUnavailable, end);
+    }
+    if (r.next > end) resend_.reset();
+}
+
+void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t most_resent) {
+    GigeOrder& r = *resend_;
+    Pace pace = pacer_.pace();
+    if (current_) {
+        pace.bytes_s *= kResendShare;
+        pace.delay_ns = static_cast<std::int64_t>(static_cast<double>(pace.delay_ns) / kResendShare);
+    }
+    resend_pacer_.begin(pace, monotonic_ns());
+    const std::size_t most_bytes = std::min(
+        resend_pacer_.batch_bytes(), kBatchRoom / ReceiverRoom::bytes_of(r.packet_bytes) * r.packet_bytes);
     std::uint64_t resent = 0, refused = 0;
-    while (r.next <= std::min(r.last, trailer) &&
-           batch_.count() < std::min(most, PacketBatch::kMostPackets)) {
+    do {
         const std::uint32_t id = r.next++;
-        const PacketFate fate = fate_of_resend(faults_, slot->record.id, id);
+        const PacketFate fate = fate_of_resend(faults_, slot.record.id, id);
         if (fate.lost)
             batch_.add(refusal_of(r.extended_ids, r.block, id, gvsp::kUnavailable), {}, r.extended_ids);
         else if (fate.delay_ns)
-            delay(*slot, id, gvsp::kResent, fate, batch_.to());
+            delay(slot, id, gvsp::kResent, fate, batch_.to());
         else
-            batch_.add(packet_of(slot->frame, id, gvsp::kResent), fate, r.extended_ids);
+            batch_.add(packet_of(slot.frame, id, gvsp::kResent), fate, r.extended_ids);
         ++(fate.lost ? refused : resent);
-    }
+        ++slot.resent;
+    } while (r.next <= end && slot.resent < most_resent && !batch_.full() &&
+             batch_.bytes() + r.packet_bytes <= most_bytes);
     counts_.packets_resent.fetch_add(resent, std::memory_order_relaxed);
     counts_.packets_refused.fetch_add(refused, std::memory_order_relaxed);
-    if (batch_.count() == 0 && r.next > trailer && resent == 0) {
-        give_back(slot);
-        return refuse(gvsp::kUnavailable);  // past the block's end
-    }
-    transmit(r.packet_bytes);
-    give_back(slot);
-    if (r.next > std::min(r.last, trailer)) resend_.reset();
+    // The stream waits for its own receiver alone: another one's buffer is that one's to read.
+    transmit(r.packet_bytes, resend_pacer_, r.to == slot.frame.stream.destination);
 }
 
-// All that resend_ asks for; said of its first packets, for clients give up the block then.
-void GigeSender::refuse(gvsp::Status reason) {
+// What resend_ asks for, up to `last`; said of its first packets, for clients give up the block then.
+void GigeSender::refuse(gvsp::Status reason, std::uint32_t last) {
     const GigeOrder& r = *resend_;
-    for (std::uint32_t id = r.next; id <= r.last && id - r.next < 8; ++id)
-        batch_.add(refusal_of(r.extended_ids, r.block, id, reason), {}, r.extended_ids);
-    counts_.packets_refused.fetch_add(std::uint64_t{r.last} - r.next + 1, std::memory_order_relaxed);
-    transmit(r.packet_bytes);
+    counts_.packets_refused.fetch_add(std::uint64_t{last} - r.next + 1, std::memory_order_relaxed);
+    if (refusal_pacer_.ready_ns() <= monotonic_ns()) {
+        for (std::uint32_t id = r.next; id <= last && id - r.next < 8; ++id)
+            batch_.add(refusal_of(r.extended_ids, r.block, id, reason), {}, r.extended_ids);
+        transmit(r.packet_bytes, refusal_pacer_, false);
+    } else {
+        counts_.requests_unanswered.fetch_add(1, std::memory_order_relaxed);
+    }
     resend_.reset();
 }
 
@@ -281,7 +316,7 @@ void GigeSender::delay(const GigeSlot& slot, std::uint32_t id, gvsp::Status stat
 }
 
 std::int64_t GigeSender::next_due_ns() const {
-    std::int64_t due_ns = kNever;
+    std::int64_t due_ns = resend_ ? resend_pacer_.ready_ns() : kNever;
     for (const Delayed& d : delayed_) due_ns = std::min(due_ns, d.due_ns);
     return due_ns;
 }
@@ -305,8 +340,9 @@ void GigeSender::serve_delayed(std::int64_t now_ns) {
         const GigeStreamState& s = slot->frame.stream;
         batch_.begin(d.to);
         batch_.add(packet_of(slot->frame, d.id, d.status), fate, s.long_ids());
-        if (d.status == gvsp::kFresh) counts_.packets.fetch_add(1, std::memory_order_relaxed);
-        transmit(s.packet_bytes);
+        const bool fresh = d.status == gvsp::kFresh;
+        if (fresh) counts_.packets.fetch_add(1, std::memory_order_relaxed);
+        transmit(s.packet_bytes, fresh ? pacer_ : resend_pacer_);
         give_back(slot);
     }
 }
@@ -316,8 +352,8 @@ void GigeSender::serve_delayed(std::int64_t now_ns) {
 
 void GigeSender::pause_until(std::int64_t due_ns) {
     while (!stopping_.load(std::memory_order_relaxed)) {
-        if (serve_orders()) continue;
         if (due_ns - monotonic_ns() < Pacer::kShortestSleep_ns) return;
+        if (serve_orders()) continue;
         sleep_until(std::min(due_ns, next_due_ns()));
     }
 }

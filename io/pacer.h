@@ -26,6 +26,7 @@ class Pacer {
                     static_cast<std::int64_t>(packets) * pace_.delay_ns;
     }
     std::int64_t ready_ns() const { return ready_ns_; }
+    const Pace& pace() const { return pace_; }
     // Bytes worth sending at once: sleeps shorter than what they pay for would cost more than they pace.
     std::size_t batch_bytes() const {
         if (pace_.delay_ns > kShortestSleep_ns) return 1;

@@ -1,16 +1,17 @@
 #include "io/preview_guard.h"
 
+#include <arpa/inet.h>
 #include <dirent.h>
 #include <linux/tcp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstring>
-#include <map>
 #include <memory>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace hilcam {
@@ -20,7 +21,7 @@ constexpr std::chrono::milliseconds kInterval{50};
 
 struct Connection {
     int fd;
-    std::uint32_t peer_address;
+    std::uint32_t peer_address;  // host order, as the port
     std::uint16_t peer_port;
     std::uint64_t received_bytes;
 };
@@ -37,8 +38,16 @@ bool find_connection(int fd, std::uint16_t port, Connection& found) {
     tcp_info info{};
     length = sizeof info;
     if (getsockopt(fd, IPPROTO_TCP, TCP_INFO, &info, &length) != 0) return false;
-    found = {fd, there.sin_addr.s_addr, there.sin_port, info.tcpi_bytes_received};
+    found = {fd, ntohl(there.sin_addr.s_addr), ntohs(there.sin_port), info.tcpi_bytes_received};
     return true;
+}
+
+// Who sent all of a request, as far as headers go, and waits for a worker does not dawdle.
+bool has_request_unread(int fd) {
+    std::array<char, 8192> bytes;
+    const ssize_t size = recv(fd, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
+    return size > 0 && std::string_view(bytes.data(), static_cast<std::size_t>(size)).find("\r\n\r\n") !=
+                           std::string_view::npos;
 }
 
 std::vector<Connection> connections_of(std::uint16_t port) {
@@ -61,6 +70,8 @@ std::vector<Connection> connections_of(std::uint16_t port) {
 void ConnectionGuard::start(std::uint16_t port, const Limits& limits) {
     port_ = port, limits_ = limits;
     stopping_ = ending_ = false;
+    first_seen_.clear();
+    heard_.clear();
     thread_ = std::thread([this] { run(); });
 }
 
@@ -79,26 +90,43 @@ void ConnectionGuard::stop() noexcept {
     if (thread_.joinable()) thread_.join();
 }
 
+void ConnectionGuard::heard(const std::string& address, int port) {
+    in_addr parsed{};
+    if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) return;
+    const std::lock_guard lock(mutex_);
+    heard_.emplace(ntohl(parsed.s_addr), static_cast<std::uint16_t>(port));
+}
+
 void ConnectionGuard::run() {
-    using Clock = std::chrono::steady_clock;
-    using Peer = std::pair<std::uint32_t, std::uint16_t>;
-    std::map<Peer, Clock::time_point> first_seen;
     std::unique_lock lock(mutex_);
     while (!stopping_) {
-        const auto now = Clock::now();
-        std::map<Peer, Clock::time_point> still_there;
-        for (const Connection& c : connections_of(port_)) {
-            const Peer peer{c.peer_address, c.peer_port};
-            const auto known = first_seen.find(peer);
-            const auto since = known == first_seen.end() ? now : known->second;
-            still_there.emplace(peer, since);
-            // The library sees the end of the connection and closes it.
-            if (ending_ || now - since > limits_.age || c.received_bytes > limits_.received_bytes)
-                shutdown(c.fd, SHUT_RDWR);
-        }
-        first_seen = std::move(still_there);
+        look();
         changed_.wait_for(lock, kInterval, [&] { return stopping_; });
     }
+}
+
+void ConnectionGuard::look() {
+    const auto now = Clock::now();
+    const std::vector<Connection> connections = connections_of(port_);
+    const auto patience =
+        connections.size() > limits_.crowd ? limits_.request_age_in_crowd : limits_.request_age;
+    std::map<Peer, Clock::time_point> still_there;
+    std::set<Peer> still_heard;
+    for (const Connection& c : connections) {
+        const Peer peer{c.peer_address, c.peer_port};
+        const auto known = first_seen_.find(peer);
+        const auto since = known == first_seen_.end() ? now : known->second;
+        still_there.emplace(peer, since);
+        const bool heard = heard_.contains(peer);
+        if (heard) still_heard.insert(peer);
+        const bool dawdles = !heard && now - since > patience && !has_request_unread(c.fd);
+        // The library sees the end of the connection and closes it.
+        if (ending_ || dawdles || now - since > limits_.age || c.received_bytes > limits_.received_bytes ||
+            !limits_.allows(c.peer_address))
+            shutdown(c.fd, SHUT_RDWR);
+    }
+    first_seen_ = std::move(still_there);
+    heard_ = std::move(still_heard);
 }
 
 }  // namespace hilcam

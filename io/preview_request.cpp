@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -60,6 +61,12 @@ Enum parse_word(std::string_view key, std::string_view text, const std::array<st
         accepted += (i ? ", " : "") + std::string(words[i]);
     }
     refuse(key, text, accepted);
+}
+
+// ":8080"
+bool is_port(std::string_view text) {
+    return text.size() >= 2 && text.size() <= 6 && text[0] == ':' &&
+           std::all_of(text.begin() + 1, text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 [[noreturn]] void refuse_key(std::string_view key, const char* accepted) {
@@ -206,9 +213,11 @@ std::string_view name_of(TestPattern pattern) { return kPatterns[static_cast<std
 bool is_own_host(std::string_view host, std::string_view machine_name) {
     // "[::1]:8080", "127.0.0.1:8080", "localhost"
     const bool bracketed = host.starts_with('[');
-    const std::size_t colon = bracketed ? host.find(']') : host.find(':');
-    if (bracketed && colon == std::string_view::npos) return false;
-    const std::string name(bracketed ? host.substr(1, colon - 1) : host.substr(0, colon));
+    const std::size_t name_end = bracketed ? host.find(']') : std::min(host.find(':'), host.size());
+    if (name_end == std::string_view::npos) return false;
+    const std::string_view rest = host.substr(name_end + (bracketed ? 1 : 0));
+    if (!rest.empty() && !is_port(rest)) return false;
+    const std::string name(bracketed ? host.substr(1, name_end - 1) : host.substr(0, name_end));
     if (name.find('\0') != std::string::npos) return false;
     in6_addr address{};
     if (bracketed) return inet_pton(AF_INET6, name.c_str(), &address) == 1;

@@ -35,13 +35,15 @@ std::uint32_t first_packet_bytes(const GigeConfig& config, const NetInterface& n
 
 Fields fields(GigeConfig& c) {
     return {
-        text("interface", c.interface, "IPv4 address or name of the interface to be a camera on"),
+        text("interface", c.interface,
+             "IPv4 address or name of the interface to be a camera on; what comes in by others is not heard"),
         text("model", c.model, "DeviceModelName; the camera's name when left as hilcam"),
         text("serial", c.serial, "DeviceSerialNumber; unlike any other camera's on the network"),
         text("user_name", c.user_name, "DeviceUserID at the start"),
         integer("packet_bytes", c.packet_bytes, {576, 16384},
                 "of a stream packet until a client sets another; the interface's MTU at most"),
-        number("rate_limit_mb_s", c.rate_bytes_s, 1e6, {1, 100000}, "upper limit of the stream"),
+        number("rate_limit_mb_s", c.rate_bytes_s, 1e6, {1, 100000},
+               "upper limit of the stream; packets asked for again may take half as much on top"),
         flag("multipart", c.multipart, "announce multipart frames; they bring 64-bit block ids with them"),
         number("spread", c.spread_fraction, 1, {0, 1},
                "share of the frame period that a frame's packets are spread over; 0: at the rate limit"),
@@ -75,6 +77,7 @@ struct GigeSink::Implementation {
     std::atomic<bool> controlled{false};
     std::atomic<std::uint32_t> address;  // for reports; net is the control thread's
     std::atomic<std::uint32_t> acquisitions{0};
+    std::atomic<std::uint64_t> strange_datagrams{0};  // that came in by another interface
 
     Implementation(const GigeConfig& c, const SinkContext& context, const CameraLimits& limits,
                    std::size_t payload_bytes)
@@ -211,7 +214,7 @@ void GigeSink::Implementation::serve_control() {
     };
     while (!stopping.load()) {
         sockets->wait(wakeup, device->wake_ns() - monotonic_ns());
-        sockets->take(answer);
+        strange_datagrams.fetch_add(sockets->take(answer), std::memory_order_relaxed);
         tell_device(monotonic_ns());
         if (next_sockets) move_to_next_sockets();
     }
@@ -313,7 +316,10 @@ SinkReport GigeSink::report() const {
                         {"resend_requests", n(c.resend_requests)},
                         {"packets_resent", n(c.packets_resent)},
                         {"packets_refused", n(c.packets_refused)},
+                        {"packets_over_resend_limit", n(c.packets_over_limit)},
+                        {"resend_requests_unanswered", n(c.requests_unanswered)},
                         {"test_packets", n(c.test_packets)},
+                        {"commands_from_other_interfaces", n(my.strange_datagrams)},
                         {"frames_of_other_size", n(my.writer.of_other_size())},
                         {"events_dropped", n(my.events_dropped)}}};
 }

@@ -5,31 +5,28 @@
 
 #include <charconv>
 #include <deque>
-#include <map>
 
+#include "io/allow_list.h"
 #include "io/fd.h"
 #include "io/preview_guard.h"
 #include "io/preview_picture.h"
 #include "io/preview_request.h"
 #include "io/preview_slot.h"
+#include "io/preview_viewers.h"
 #include "render/check.h"
 
 namespace hilcam {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
 
-constexpr auto kPictureInterval = 66ms;  // 15 pictures/s
 constexpr auto kLongestPoll = 2s;
-constexpr auto kViewerForgotten = 5s;
-constexpr std::size_t kMostViewers = 16;
 // A viewer has a poll for pictures and one for figures under way, and now and then an order.
 constexpr std::size_t kWorkers = 24;
-constexpr std::size_t kMostWaiting = 24;
+// Those who dawdle with their requests are ended together, however many: so many do not keep others out.
+constexpr std::size_t kMostWaiting = 232;
+constexpr int kBacklog = 128;  // in the kernel, behind those
 constexpr std::size_t kMostBody_bytes = 4096;
-// Browsers send less than 2 KB; a picture over a slow line takes its time.
-constexpr ConnectionGuard::Limits kConnectionLimits{.age = 30s, .received_bytes = 128 * 1024};
 
 // The page's files, as string literals made by CMake.
 constexpr std::string_view kPageHtml =
@@ -56,6 +53,16 @@ constexpr Asset kAssets[] = {
     {"/page.js", kPageJs, "text/javascript; charset=utf-8"},
     {"/picture.js", kPictureJs, "text/javascript; charset=utf-8"},
 };
+
+// Browsers send less than 2 KB, at once; a picture over a slow line takes its time.
+ConnectionGuard::Limits connection_limits(const AllowList& allow) {
+    return {.age = 30s,
+            .received_bytes = 128 * 1024,
+            .request_age = 3s,
+            .request_age_in_crowd = 500ms,
+            .crowd = kWorkers,
+            .allows = [&allow](std::uint32_t address) { return allow.allows(address); }};
+}
 
 // The library's pool takes any number of connections; this one lets the accepting thread wait, and the
 // kernel's backlog refuses the rest.
@@ -106,39 +113,6 @@ class BoundedPool : public httplib::TaskQueue {
     std::vector<std::thread> threads_;
 };
 
-// Who looks: page's own numbers, forgotten after a while.
-class Viewers {
-  public:
-    // Waits so that a viewer gets no more than 15 answers a second. False when there are too many
-    // viewers or requests.
-    bool admit(std::uint64_t viewer) {
-        Clock::time_point turn;
-        {
-            const std::lock_guard lock(mutex_);
-            const auto now = Clock::now();
-            std::erase_if(turns_, [&](const auto& v) { return now - v.second > kViewerForgotten; });
-            const auto known = turns_.find(viewer);
-            if (known == turns_.end() && turns_.size() == kMostViewers) return false;
-            turn = known == turns_.end() ? now : std::max(now, known->second + kPictureInterval);
-            // Many requests of one viewer at once: they may not queue up.
-            if (turn - now > 2 * kPictureInterval) return false;
-            turns_[viewer] = turn;
-        }
-        std::this_thread::sleep_until(turn);
-        return true;
-    }
-    std::size_t count() const {
-        const std::lock_guard lock(mutex_);
-        const auto now = Clock::now();
-        return static_cast<std::size_t>(std::count_if(
-            turns_.begin(), turns_.end(), [&](const auto& v) { return now - v.second <= kViewerForgotten; }));
-    }
-
-  private:
-    mutable std::mutex mutex_;
-    std::map<std::uint64_t, Clock::time_point> turns_;
-};
-
 std::string machine_name() {
     char name[256] = {};
     gethostname(name, sizeof name - 1);
@@ -169,24 +143,29 @@ Fields fields(PreviewConfig& c) {
     return {
         text("address", c.address, "IPv4 address of this machine to serve the page at; no passwords"),
         integer("port", c.port, {1, 65535}, "TCP port; open http://ADDRESS:PORT/ in a browser"),
+        allow_field(c.allow),
     };
 }
+
+void validate(const PreviewConfig& c) { AllowList(c.allow, c.address, "outputs.preview"); }
 
 struct PreviewSink::Implementation {
     Implementation(const PreviewConfig& c, const SinkContext& sink_context, std::function<std::string()> s)
         : config(c),
+          allow(c.allow, c.address, "outputs.preview"),
           context(sink_context),
           status(std::move(s)),
           color_pattern(sink_context.camera.limits().color_pattern),
-          slot(most_samples(sink_context.camera.limits()), kPictureInterval) {}
+          slot(most_samples(sink_context.camera.limits()), PreviewViewers::kInterval) {}
 
     PreviewConfig config;
+    AllowList allow;
     SinkContext context;
     std::function<std::string()> status;
     std::string color_pattern;
     std::string machine = machine_name();
     PreviewSlot slot;
-    Viewers viewers;
+    PreviewViewers viewers;
     ConnectionGuard guard;
     httplib::Server server;
     std::thread thread;
@@ -204,7 +183,12 @@ struct PreviewSink::Implementation {
 bool PreviewSink::Implementation::refuse_stranger(const httplib::Request& request,
                                                   httplib::Response& response) {
     const std::string host = request.get_header_value("Host");
-    if (!is_own_host(host, machine)) {
+    in_addr peer{};
+    if (inet_pton(AF_INET, request.remote_addr.c_str(), &peer) != 1 || !allow.allows(ntohl(peer.s_addr))) {
+        refuse(response, 403, request.remote_addr + " is not among outputs.preview.allow");
+    } else if (request.get_header_value_count("Host") != 1 || request.get_header_value_count("Origin") > 1) {
+        refuse(response, 400, "accepted: one header Host, and at most one Origin");
+    } else if (!is_own_host(host, machine)) {
         refuse(response, 403, "this host name is not known here; use the numeric address");
     } else if (request.method != "GET" && request.method != "POST") {
         refuse(response, 405, "accepted: GET, POST");
@@ -227,7 +211,7 @@ void PreviewSink::Implementation::send_picture(const httplib::Request& request, 
                                       : std::string_view(request.target).substr(question + 1));
     if (!viewers.admit(wanted.viewer))
         return refuse(response, 429,
-                      "accepted: " + std::to_string(kMostViewers) + " viewers, 15 requests/s each");
+                      "accepted: " + std::to_string(PreviewViewers::kMost) + " viewers, 15 requests/s each");
     std::string picture;
     const bool there = slot.wait_for(wanted.after, kLongestPoll, [&](const PreviewSlot::Frame& f) {
         const PictureSource source{f.samples, f.width, f.height, f.record};
@@ -287,6 +271,8 @@ void PreviewSink::Implementation::add_routes() {
     server.Post("/fault", [this](const Request& q, Response& a) { order_fault(q, a); });
 
     server.set_pre_routing_handler([this](const Request& q, Response& a) {
+        // A POST's body, which nothing here needs long for, is still to come.
+        if (q.method == "GET") guard.heard(q.remote_addr, q.remote_port);
         return refuse_stranger(q, a) ? httplib::Server::HandlerResponse::Handled
                                      : httplib::Server::HandlerResponse::Unhandled;
     });
@@ -334,7 +320,9 @@ void PreviewSink::start() {
     i.server.set_payload_max_length(kMostBody_bytes);
     i.server.set_tcp_nodelay(true);
     // The library's own options let two programs share the port.
-    i.server.set_socket_options([](int socket) {
+    int listening = -1;
+    i.server.set_socket_options([&listening](int socket) {
+        listening = socket;
         const int yes = 1;
         setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
@@ -343,8 +331,9 @@ void PreviewSink::start() {
         throw DeviceError("outputs.preview: " + i.config.address + ":" + std::to_string(port) +
                           " cannot be had: " + std::strerror(errno) +
                           "; does another program use the port? (ss -ltnp)");
+    listen(listening, kBacklog);  // once more: the library's own backlog is 5
     i.slot.start();
-    i.guard.start(port, kConnectionLimits);
+    i.guard.start(port, connection_limits(i.allow));
     i.thread = std::thread([&server = i.server] {
         setpriority(PRIO_PROCESS, 0, kPreviewNiceness);
         server.listen_after_bind();

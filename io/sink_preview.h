@@ -9,11 +9,12 @@
 // What a client can do is bounded: kWorkers connections are served at a time and as many wait, one request
 // each; preview_guard.h ends those that last or send too long. Requests that name another host than this
 // machine are refused (DNS rebinding), and those that change something unless they come from the page
-// itself. There are no passwords: bind to loopback, or to a network of the bench alone.
+// itself. There are no passwords: beyond loopback a list says who may come.
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "io/camera_control.h"
 #include "io/frame_sink.h"
@@ -24,8 +25,10 @@ namespace hilcam {
 struct PreviewConfig {
     std::string address = "127.0.0.1";
     std::int64_t port = 8080;
+    std::vector<std::string> allow;
 };
 Fields fields(PreviewConfig& config);
+void validate(const PreviewConfig& config);
 
 class PreviewSink : public FrameSink {
   public:

@@ -175,6 +175,28 @@ class Requests(unittest.TestCase):
                 self.assertIn(needle, text)
                 self.assertEqual(text.count("\n"), 1)
 
+    def test_two_hosts_or_one_that_hides_another_are_refused(self):
+        def raw(*headers):
+            with socket.create_connection(("127.0.0.1", PORT), timeout=10) as s:
+                s.sendall("\r\n".join(["GET /status HTTP/1.1", *headers, "Connection: close", "", ""]).encode())
+                return s.recv(4096).split(b"\r\n")[0]
+        own = f"Host: 127.0.0.1:{PORT}"
+        self.assertIn(b" 200 ", raw(own))
+        self.assertIn(b" 400 ", raw(own, "Host: evil.example"))
+        self.assertIn(b" 400 ", raw())
+        self.assertIn(b" 403 ", raw(own + "@evil.example"))
+
+    def test_beyond_loopback_somebody_has_to_be_named(self):
+        def run(*sets):
+            return subprocess.run([HILCAM, "run", str(SCENARIO), "--preview", str(PORT + 4), "--frames", "1", *sets],
+                                  capture_output=True, text=True, timeout=60)
+        open_to_all = ("--set", "outputs.preview.address=0.0.0.0")
+        refused = run(*open_to_all)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("outputs.preview.address: found '0.0.0.0', which others can reach; give 'outputs.preview.allow' too",
+                      refused.stderr)
+        self.assertEqual(run(*open_to_all, "--set", "outputs.preview.allow=[10.0.0.0/8]").returncode, 0)
+
     def test_nothing_is_copied_while_nobody_looks(self):
         def copies():
             return next(o for o in status()["outputs"] if o["name"].startswith("preview"))["figures"]["copies"]
@@ -286,6 +308,44 @@ class Abuse(unittest.TestCase):
             drip.close()
             print(f"\n  {report['deadline_misses']} of {report['frames']} exposures missed, memory grew by {growth:.0f} MB",
                   end=" ", file=sys.stderr)
+
+    def test_who_is_not_named_gets_no_answer_but_that(self):
+        with Running("--set", "outputs.preview.allow=[127.0.0.1]", files=False):
+            self.assertGreater(status()["frames"], 0)
+            with socket.socket() as stranger:
+                stranger.bind(("127.0.22.10", 0))
+                stranger.settimeout(10)
+                stranger.connect(("127.0.0.1", PORT))
+                try:
+                    stranger.sendall(b"GET /status HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n" % PORT)
+                    answer = b"".join(iter(lambda: stranger.recv(4096), b""))
+                except ConnectionError:
+                    answer = b""  # hung up on before the request was read
+            if answer:
+                self.assertIn(b" 403 ", answer)
+                self.assertIn(b"127.0.22.10 is not among outputs.preview.allow", answer)
+
+    def test_a_viewer_does_not_wait_for_those_who_dawdle(self):
+        with Running(files=False):
+            dawdlers = []
+            for _ in range(500):
+                s = socket.socket()
+                s.setblocking(False)
+                s.connect_ex(("127.0.0.1", PORT))
+                dawdlers.append(s)
+            time.sleep(0.2)
+            for s in dawdlers:
+                try:
+                    s.send(b"GET /status HTTP/1.1\r\nX-Slow: ")
+                except OSError:
+                    pass
+            begun = time.monotonic()
+            with urllib.request.urlopen(f"{URL}/frame?viewer=7", timeout=60) as answer:
+                answer.read()
+            # It was half a minute, the longest that a connection may last.
+            self.assertLess(time.monotonic() - begun, 12)
+            for s in dawdlers:
+                s.close()
 
     @staticmethod
     def answers():

@@ -90,6 +90,43 @@ class ExitCodes(unittest.TestCase):
         self.assertIn("0.1.0", hilcam("--version").stdout)
 
 
+class Signals(unittest.TestCase):
+    def run_and_hang_up(self, *, ignored):
+        with tempfile.TemporaryDirectory() as folder:
+            report, recording, path = (pathlib.Path(folder) / name for name in ("report.json", "run.hcr", "commands"))
+            process = subprocess.Popen(
+                [HILCAM, "run", str(SCENARIO), "--set", "commands.udp.port=15028", "--set", f"commands.unix.path={path}",
+                 "--set", "outputs.gige.interface=127.0.22.9", "--report", str(report), "--record", str(recording)],
+                stderr=subprocess.PIPE, text=True,
+                preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL))
+            try:
+                ping = ("send", "--to", "127.0.0.1:15028", "--timeout-ms", 300, "ping")
+                for _ in range(200):
+                    if hilcam(*ping).returncode == 0:
+                        break
+                    time.sleep(0.05)
+                self.assertTrue(path.exists())
+                process.send_signal(signal.SIGHUP)
+                if ignored:
+                    time.sleep(0.3)
+                    self.assertEqual(hilcam(*ping).returncode, 0)
+                    process.send_signal(signal.SIGTERM)
+                log = process.communicate(timeout=30)[1]
+            finally:
+                process.kill()
+                process.communicate()
+            self.assertEqual(process.returncode, 0, log)
+            self.assertGreater(json.loads(report.read_text())["frames"], 0)
+            self.assertTrue(json.loads(hilcam("recording", recording).stdout.splitlines()[-1])["whole"])
+            self.assertFalse(path.exists())
+
+    def test_a_terminal_that_closes_ends_a_run_in_order(self):
+        self.run_and_hang_up(ignored=False)
+
+    def test_nohup_is_heeded(self):
+        self.run_and_hang_up(ignored=True)
+
+
 class Pictures(unittest.TestCase):
     def test_frames_do_not_depend_on_threads(self):
         with tempfile.TemporaryDirectory() as folder:

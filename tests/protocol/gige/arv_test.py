@@ -229,10 +229,29 @@ class Tool(CameraTest):
 class GStreamer(CameraTest):
     sets = ("outputs.files.folder={folder}/frames", "camera.frame_rate_hz=15")
 
-    def test_frames_are_byte_for_byte_the_files(self):
-        """aravissrc's 16-bit and 8-bit pictures against the files output of the same run."""
+    def setUp(self):
         if subprocess.run(["gst-inspect-1.0", "aravissrc"], capture_output=True).returncode != 0:
             self.skipTest("GStreamer or its aravissrc is missing (gstreamer1.0-tools, libaravis-0.8-0)")
+        super().setUp()
+
+    def test_a_mode_that_another_client_left_is_set_back(self):
+        """The lines of docs/interoperability.md."""
+        def three_frames(*properties):
+            return subprocess.run(["gst-launch-1.0", "-q", "aravissrc", f"camera-name={self.address}", *properties, "num-buffers=3",
+                                   "!", "fakesink"], capture_output=True, text=True, timeout=60)
+        def control(*words):
+            run("arv-tool", "-a", self.address, "control", *words)
+        for set_back, properties in ((("UserSetSelector=Default", "UserSetLoad"), ()), (("AcquisitionMode=Continuous",), ()),
+                                     ((), ("features=AcquisitionMode=Continuous",))):
+            control("AcquisitionMode=SingleFrame")
+            self.assertNotEqual(three_frames().returncode, 0)
+            if set_back:
+                control(*set_back)
+            result = three_frames(*properties)
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_frames_are_byte_for_byte_the_files(self):
+        """aravissrc's 16-bit and 8-bit pictures against the files output of the same run."""
         files = FrameFiles(self.folder.name + "/frames")
         for caps, name in (("video/x-raw,format=GRAY8", "Mono8"), ("video/x-raw,format=GRAY16_LE", "Mono16")):
             with tempfile.TemporaryDirectory() as folder:

@@ -67,7 +67,8 @@ class Registers(CameraTest):
         self.assertEqual(values, [client.read_register(a) for a in
                                   (g.VERSION, g.DEVICE_MODE, g.STREAM_CHANNELS, g.CAPABILITY)])
         self.assertEqual(values[2], 1)
-        self.assertEqual(len(client.read_registers(*[g.VERSION] * 128)), 128)
+        self.assertEqual(len(client.read_registers(*[g.VERSION] * 135)), 135)
+        self.refused(g.INVALID_PARAMETER, client.read_registers, *[g.VERSION] * 136)
 
     def test_reading_what_cannot_be_read(self):
         client = self.client()

@@ -103,6 +103,10 @@ class Settings(CameraTest):
                 self.assertEqual(stream.test_packets, [size - 28])
                 # The fire bit does not stay.
                 self.assertEqual(client.read_register(g.SCPS) & 0x8000FFFF, size)
+            stream.test_packets.clear()
+            Features(client).execute("GevSCPSFireTestPacket")
+            self.eventually("a packet of the size that is set", lambda: stream.test_packets)
+            self.assertEqual(stream.test_packets, [size - 28])
             self.refused(g.INVALID_PARAMETER, client.write_register, g.SCPS, 20)
             self.refused(g.INVALID_PARAMETER, client.write_register, g.SCPS, 65535)
             client.write_register(g.SCPS, 8192)

@@ -5,6 +5,7 @@
 
 Needs root (network namespaces, nftables); skips with a message otherwise.
 """
+import pathlib
 import re
 import subprocess
 import sys
@@ -13,7 +14,7 @@ import time
 import unittest
 
 from bench import PATIENT, Emulator, camera_test_figures, judge_acquisition, tool
-from wire import CAMERA, NotHere, Wire
+from wire import CAMERA, CLIENT, NotHere, Wire
 
 HILCAM = sys.argv[1]
 
@@ -93,6 +94,72 @@ class TwoMachines(unittest.TestCase):
         self.assertGreater(camera_test_figures(text)["n_completed_buffers"], 0, text)
         self.assertTrue(self.emulator.alive(), self.emulator.log())
         self.whole(*self.camera_test("--no-packet-socket", seconds=2), 10)
+
+
+OTHER = "10.25.0.1"
+# Run at one end of the wire: FORCEIP to everybody, from this end's address.
+FORCE_IP = """
+import gvcp_client as g
+g.to_everyone("{source}", g.FORCEIP, g.force_ip_payload(bytes.fromhex("{mac}"), "{ip}"), wait_s=0.3)
+"""
+# Who answers a discovery, and whether a camera answers when it is asked by name.
+FOUND = """
+import gvcp_client as g
+print(sorted(found.ip for found in g.discover("{source}")))
+"""
+ANSWERS = """
+import gvcp_client as g
+try:
+    print(g.GvcpClient("{camera}", timeout_s=0.3, tries=2).read_register(g.VERSION) != 0)
+except g.NoAnswer:
+    print(False)
+"""
+
+
+class OtherNetworks(unittest.TestCase):
+    """A camera on the loopback interface and one on a network that the wire does not lead to, though it could carry to both."""
+
+    @classmethod
+    def setUpClass(cls):
+        try:
+            cls.wire = Wire().open()
+            cls.addClassCleanup(cls.wire.close)
+            cls.wire.must("ip", "-n", cls.wire.here, "link", "add", "hother0", "type", "veth", "peer", "name", "hother1")
+            cls.wire.must("ip", "-n", cls.wire.here, "addr", "add", OTHER + "/24", "brd", "+", "dev", "hother0")
+            for end in ("hother0", "hother1"):
+                cls.wire.must("ip", "-n", cls.wire.here, "link", "set", end, "up")
+            cls.wire.must("ip", "-n", cls.wire.there, "route", "add", OTHER, "via", CAMERA)
+        except NotHere as error:
+            raise unittest.SkipTest(str(error))
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        for interface in ("127.0.0.1", "hother0"):
+            emulator = Emulator(HILCAM, interface, cls.folder.name, namespace=cls.wire.here)
+            cls.addClassCleanup(emulator.kill)
+
+    @staticmethod
+    def run_at(end, code, **values):
+        result = end(sys.executable, "-c", code.format(**values), cwd=pathlib.Path(__file__).parent)
+        if result.returncode != 0:
+            raise RuntimeError(result.stderr)
+        return result.stdout.strip()
+
+    def test_a_broadcast_from_the_wire_orders_no_loopback_camera_about(self):
+        # The MAC address of a loopback camera is known beforehand: it is made from the IP address.
+        for end, source, address in ((self.wire.at_client, CLIENT, "127.0.0.1"), (self.wire.at_camera, "127.0.0.1", "127.0.0.9")):
+            self.run_at(end, FORCE_IP, source=source, mac="02007f000001", ip="127.0.0.9")
+            self.assertIn(address, self.run_at(self.wire.at_camera, FOUND, source="127.0.0.1"))
+        # Back, with the MAC address that it has kept.
+        self.run_at(self.wire.at_camera, FORCE_IP, source="127.0.0.1", mac="02007f000001", ip="127.0.0.1")
+        self.assertEqual(self.run_at(self.wire.at_camera, FOUND, source="127.0.0.1"), "['127.0.0.1']")
+
+    def test_a_camera_is_found_on_its_own_network_alone(self):
+        self.assertEqual(self.run_at(self.wire.at_camera, FOUND, source=OTHER), str([OTHER]))
+        self.assertEqual(self.run_at(self.wire.at_client, FOUND, source=CLIENT), "[]")
+
+    def test_a_datagram_that_is_routed_in_from_another_network_is_not_answered(self):
+        self.assertEqual(self.run_at(self.wire.at_client, ANSWERS, camera=OTHER), "False")
+        self.assertEqual(self.run_at(self.wire.at_camera, ANSWERS, camera=OTHER), "True")
 
 
 if __name__ == "__main__":

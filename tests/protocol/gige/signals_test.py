@@ -100,6 +100,21 @@ class Events(CameraTest):
         self.off(features, "ExposureStart")
         client.write_registers((g.MCTT, 0), (g.MCRC, 0))
 
+    def test_an_event_with_an_answer_is_sent_once(self):
+        client = self.controller()
+        client.write_registers((g.MCTT, 1000), (g.MCRC, 2))
+        features, messages = self.listen(client, "ExposureStart")
+        with messages:
+            seen = collections.Counter()
+            until = time.monotonic() + 20
+            while len(seen) < 40:  # more than one a second, which is what comes when each waits for its retries
+                self.assertLess(time.monotonic(), until, f"{len(seen)} events")
+                seen.update(event.request_id for event in messages.receive(5))
+            messages.close()
+        self.off(features, "ExposureStart")
+        client.write_registers((g.MCTT, 0), (g.MCRC, 0))
+        self.assertLess(sum(seen.values()), 60, "hardly any twice")
+
     def test_no_channel_no_events(self):
         client = self.controller()
         features, messages = self.listen(client, "ExposureStart")

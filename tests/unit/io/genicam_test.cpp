@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <regex>
@@ -136,6 +138,85 @@ TEST_P(GenicamOf, RegistersAreWhatTheFeaturesSay) {
         EXPECT_TRUE(!f.least.feature.empty() || value >= f.least.number) << value;
         EXPECT_TRUE(!f.most.feature.empty() || value <= f.most.number) << value;
     }
+}
+
+// As clients write a part of a register: what is beside it as it is read, or zeros where it cannot be.
+std::uint32_t with_part(GigeBench& b, const Feature& f, std::uint32_t value) {
+    const std::uint32_t mask = f.high_bit < 0 ? 0xFFFFFFFF : (2u << (f.high_bit - f.low_bit)) - 1u;
+    const int shift = std::max(0, f.low_bit);
+    const std::uint32_t beside = f.access == Feature::Access::kWrite ? 0 : b.read(f.address);
+    return (beside & ~(mask << shift)) | (value & mask) << shift;
+}
+
+TEST_P(GenicamOf, EveryCommandCanBeExecutedAsClientsDo) {
+    const CameraLimits l = limits();
+    int commands = 0;
+    for (const Feature& f : gige_features(l, true).features) {
+        if (f.kind != Feature::Kind::kCommand) continue;
+        SCOPED_TRACE(f.name);
+        GigeBench b(&l);
+        b.take_control();
+        b.open_stream();
+        if (f.name == "UserSetSave")
+            b.write(feature_register::kUserSetSelector, 1);  // the default is read only
+        EXPECT_EQ(b.write(f.address, with_part(b, f, 1)), gvcp::kSuccess);
+        // "Done" is when the command's own value is not there any more.
+        EXPECT_NE(b.read(f.address) >> std::max(0, f.low_bit) & 1, 1u);
+        if (f.name == "GevSCPSFireTestPacket") {
+            EXPECT_THAT(b.tests, testing::SizeIs(1));
+        }
+        ++commands;
+    }
+    EXPECT_GT(commands, 10);
+}
+
+TEST_P(GenicamOf, PartsOfARegisterCanBeWrittenAlone) {
+    const CameraLimits l = limits();
+    const FeatureTable table = gige_features(l, true);
+    for (const Feature& f : table.features) {
+        if (f.high_bit < 0 || f.access == Feature::Access::kRead || f.kind == Feature::Kind::kCommand ||
+            f.is_constant || f.port != "Device")
+            continue;
+        SCOPED_TRACE(f.name);
+        GigeBench b(&l);
+        b.take_control();
+        std::vector<std::uint32_t> values = {0, 1};
+        if (f.kind == Feature::Kind::kInteger)
+            values = {static_cast<std::uint32_t>(f.least.number), static_cast<std::uint32_t>(f.most.number)};
+        for (const std::uint32_t value : values)
+            EXPECT_EQ(b.write(f.address, with_part(b, f, value)), gvcp::kSuccess) << value;
+    }
+}
+
+TEST_P(GenicamOf, NumbersOutsideTheirBoundsAreRefused) {
+    const CameraLimits l = limits();
+    int bounds = 0;
+    for (const Feature& f : gige_features(l, true).features) {
+        if (!f.limited || f.access == Feature::Access::kRead || f.is_constant || f.high_bit >= 0 ||
+            f.port != "Device")
+            continue;
+        SCOPED_TRACE(f.name);
+        GigeBench b(&l);
+        b.take_control();
+        const auto write = [&](double value) {
+            return f.kind == Feature::Kind::kFloat ? b.write_real(f.address, value)
+                   : f.bytes == 8                  ? b.write64(f.address, static_cast<std::uint64_t>(value))
+                                                   : b.write(f.address, static_cast<std::uint32_t>(value));
+        };
+        const bool real = f.kind == Feature::Kind::kFloat;
+        const double room = real ? 1e300 : f.bytes == 8 ? 1.8e19 : 4294967295.0;
+        const double beyond = f.most.number * (1 + 1e-9) + (real ? 1e-9 : 1);
+        if (f.most.feature.empty() && beyond <= room) {
+            EXPECT_NE(write(std::max(beyond, f.bytes == 8 && !real ? 9.3e18 : 0)), gvcp::kSuccess);
+            ++bounds;
+        }
+        if (f.least.feature.empty() && (real || f.least.number >= 1)) {
+            EXPECT_NE(write(f.least.number - (real ? 1e-9 + 1e-9 * std::abs(f.least.number) : 1)),
+                      gvcp::kSuccess);
+            ++bounds;
+        }
+    }
+    EXPECT_GT(bounds, 20);
 }
 
 TEST_P(GenicamOf, EnumerationsAcceptTheirEntriesAndNothingElse) {

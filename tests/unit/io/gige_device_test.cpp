@@ -184,6 +184,24 @@ TEST(GigeDevice, UnknownCommandsGetAnHonestAnswer) {
     EXPECT_EQ(b.send(gvcp::kReadRegister, {1, 2, 3}).status, gvcp::kInvalidParameter);
 }
 
+// 576 bytes with 28 of IP and UDP and 8 of GVCP.
+TEST(GigeDevice, AMessageHasAsMuchAsADatagramHolds) {
+    GigeBench b;
+    b.take_control();
+    const auto status = [&](std::uint16_t command, std::size_t registers, std::size_t words_each) {
+        std::vector<std::uint8_t> payload(4 * words_each * registers);
+        for (std::size_t i = 0; i < registers; ++i)
+            ByteWriter(std::span(payload).subspan(4 * words_each * i)).u32(bootstrap::kHeartbeat);
+        for (std::size_t i = 0; i < registers && words_each == 2; ++i)
+            ByteWriter(std::span(payload).subspan(8 * i + 4)).u32(3000u);
+        return b.send(command, payload).status;
+    };
+    EXPECT_EQ(status(gvcp::kReadRegister, 135, 1), gvcp::kSuccess);
+    EXPECT_EQ(status(gvcp::kReadRegister, 136, 1), gvcp::kInvalidParameter);
+    EXPECT_EQ(status(gvcp::kWriteRegister, 67, 2), gvcp::kSuccess);
+    EXPECT_EQ(status(gvcp::kWriteRegister, 68, 2), gvcp::kInvalidParameter);
+}
+
 TEST(GigeDevice, DamagedDatagramsNeverBreakIt) {
     Bench b;
     b.take_control();

@@ -206,6 +206,31 @@ TEST_P(Sender, WhatCannotBeHadIsRefusedWithTheReason) {
     EXPECT_GE(sender_.counts().packets_refused, 5u);
 }
 
+TEST_P(Sender, ABlockIsSentAgainSoOftenAndThenRefused) {
+    send_frame();
+    const std::uint64_t packets = trailer() + 1;
+    for (std::uint64_t i = 0; i < GigeSender::kMostResent; ++i) {
+        EXPECT_EQ(ask(1, 0, 0xFFFFFF).status, gvsp::kResent);
+        take(100);
+    }
+    EXPECT_EQ(ask(1, 0, 0xFFFFFF).status, gvsp::kUnavailable);
+    EXPECT_EQ(ask(1, 3, 3).status, gvsp::kUnavailable);
+    take(100);
+    EXPECT_EQ(sender_.counts().packets_resent, GigeSender::kMostResent * packets);
+    EXPECT_EQ(sender_.counts().packets_over_limit, packets + 1);
+    // Another block has a share of its own, and refusals end.
+    send_frame();
+    EXPECT_EQ(ask(2, 1, 1).status, gvsp::kResent);
+    constexpr int kRequests = 1000;
+    for (int i = 0; i < kRequests; ++i) {
+        GigeOrder order{.to = now_.state.destination, .acquisition = 1, .block = 1, .next = 1, .last = 1};
+        order.extended_ids = GetParam(), order.packet_bytes = now_.state.packet_bytes;
+        sender_.order(order);
+    }
+    take(100);
+    EXPECT_GT(sender_.counts().requests_unanswered, 0u);
+}
+
 TEST_P(Sender, TestPacketsHaveTheSizeAskedFor) {
     const auto test = [&](std::uint32_t bytes) {
         GigeOrder order;
@@ -222,6 +247,34 @@ TEST_P(Sender, TestPacketsHaveTheSizeAskedFor) {
     EXPECT_EQ(sender_.counts().test_packets, 3u);
     faults_.order({.kind = FaultKind::kLinkDown, .rate = 1});
     EXPECT_EQ(test(4004), 0u);
+}
+
+// 6 kB a frame at 200 kB/s, 30 ms: there is time enough in a frame for requests to keep it from its end.
+TEST_P(Sender, FreshPacketsComeBeforeThoseAskedForAgain) {
+    now_.state.throughput_limit_bytes_s = 200e3;
+    ++now_.acquisition;
+    sender_.set_stream(now_);
+    constexpr std::uint64_t kFrames = 5;
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatience_ms);
+    for (std::uint64_t written = 0;
+         sender_.counts().frames < kFrames && std::chrono::steady_clock::now() < until;) {
+        if (written < kFrames && ring_.has_room()) {
+            ++record_.id;
+            written += write().written;
+            sender_.frame_ready();
+        }
+        for (std::uint64_t block = 1; block <= written; ++block)
+            sender_.order({.to = now_.state.destination,
+                           .acquisition = now_.acquisition,
+                           .block = block,
+                           .last = trailer(),
+                           .extended_ids = now_.state.extended_ids,
+                           .packet_bytes = now_.state.packet_bytes});
+        take(0);
+    }
+    EXPECT_EQ(sender_.counts().frames, kFrames);
+    EXPECT_EQ(sender_.counts().packets, kFrames * (trailer() + 1));
+    EXPECT_LE(sender_.counts().packets_resent, GigeSender::kMostResent * kFrames * (trailer() + 1));
 }
 
 TEST_P(Sender, ACountedAcquisitionTellsItsEnd) {

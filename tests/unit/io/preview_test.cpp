@@ -74,8 +74,10 @@ TEST(PreviewRequest, SettingsAndFaultsAreWhatWasAsked) {
 TEST(PreviewRequest, HostsThatAWebSiteCouldNameAreStrangers) {
     for (const char* own : {"127.0.0.1:8080", "192.168.1.7", "localhost:8080", "[::1]:8080", "bench"})
         EXPECT_TRUE(is_own_host(own, "bench")) << own;
-    for (const char* strange : {"", "evil.example:8080", "127.0.0.1.evil.example", "localhost.evil.example",
-                                "[::1", "[evil]", "127.1:80"})
+    for (const char* strange :
+         {"", "evil.example:8080", "127.0.0.1.evil.example", "localhost.evil.example", "[::1", "[evil]",
+          "127.1:80", "127.0.0.1:8080@evil.example", "127.0.0.1:", "127.0.0.1:http", "127.0.0.1:808080",
+          "[::1]evil.example", "[::1]@evil", "bench:80,evil"})
         EXPECT_FALSE(is_own_host(strange, "bench")) << strange;
     EXPECT_FALSE(is_own_host("", ""));
     EXPECT_TRUE(is_own_origin("http://127.0.0.1:8080", "127.0.0.1:8080"));
