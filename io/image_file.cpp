@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
@@ -75,8 +74,6 @@ void write_file(const std::filesystem::path& file, std::span<const std::uint8_t>
 }
 
 cv::Mat decode(const std::filesystem::path& file, int flags) {
-    // Its own lines name its source files; those of the libraries below it say what is wrong.
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::Mat picture;
     std::string why;
     {

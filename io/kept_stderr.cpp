@@ -5,13 +5,17 @@
 #include <unistd.h>
 
 #include <array>
+#include <opencv2/core/utils/logger.hpp>
 
 #include "render/quoted.h"
 
 namespace hilcam {
 
-KeptStderr::KeptStderr() : kept_(memfd_create("hilcam_stderr", MFD_CLOEXEC)), terminal_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)) {
+KeptStderr::KeptStderr()
+    : kept_(memfd_create("hilcam_stderr", MFD_CLOEXEC)), terminal_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)) {
     if (kept_ && terminal_) dup2(kept_.get(), STDERR_FILENO);
+    // OpenCV's own lines name its source files; those of the libraries below it say what is wrong.
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 }
 
 KeptStderr::~KeptStderr() {

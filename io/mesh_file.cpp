@@ -19,6 +19,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/gltf_webp.h"
+#include "io/kept_stderr.h"
 #include "render/check.h"
 #include "render/quoted.h"
 
@@ -113,6 +114,7 @@ class Loader {
     }
 
     cv::Mat decode(const std::string& path, const std::string& material) const {
+        const KeptStderr printed;
         cv::Mat picture;
         const std::string of = "texture " + in_quotes(path) + " of material " + in_quotes(material);
         try {
@@ -139,7 +141,10 @@ class Loader {
         } catch (const cv::Exception&) {
             picture.release();
         }
-        if (picture.empty()) refuse(file_, of + " does not decode; accepted: PNG, JPEG, TIFF, BMP, WebP");
+        const std::string why = printed.first_line();
+        if (picture.empty())
+            refuse(file_, of + " does not decode" + (why.empty() ? "" : " (" + why + ")") +
+                              "; accepted: PNG, JPEG, TIFF, BMP, WebP");
         return picture;
     }
 
