@@ -12,8 +12,7 @@ namespace {
 // The message, for the pattern's '%*'.
 class HarmlessMessage final : public spdlog::custom_flag_formatter {
   public:
-    void format(const spdlog::details::log_msg& message, const std::tm&,
-                spdlog::memory_buf_t& out) override {
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
         const std::string text = harmless({message.payload.data(), message.payload.size()});
         out.append(text.data(), text.data() + text.size());
     }

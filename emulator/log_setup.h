@@ -3,9 +3,9 @@
 
 namespace hilcam {
 
-// Makes it what spdlog writes to. Messages quote files, command lines and the wire: what each of them holds is
-// made harmless here once more (render/quoted.h), so that none is forgotten. Call it once, before the first
-// message.
+// Makes it what spdlog writes to. Messages quote files, command lines and the wire: what each of them holds
+// is made harmless here once more (render/quoted.h), so that none is forgotten. Call it once, before the
+// first message.
 void set_up_log();
 
 }  // namespace hilcam
