@@ -11,6 +11,7 @@
 #include "io/config_yaml.h"
 #include "io/plain_number.h"
 #include "render/check.h"
+#include "render/quoted.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -117,7 +118,7 @@ Fields fields(CameraConfig& c) {
                 "what it is fixed to; 0: the body of the first camera, or an object"),
         vector3("position_m", c.mount.position_m, 1, {-1e6, 1e6}, "in that body's axes"),
         quaternion("attitude", c.mount.thing_from_camera, "turns the camera's axes into that body's"),
-        section("outputs", c.outputs, "where its frames go"),
+        beside_frames(section("outputs", c.outputs, "where its frames go")),
     };
 }
 
@@ -170,13 +171,13 @@ ScenarioConfig::ScenarioConfig() {
 
 Fields fields(ScenarioConfig& s) {
     Fields list = {
-        text("name", s.name, "for reports"),
+        beside_frames(text("name", s.name, "for reports")),
         required(text("time_utc", s.time_utc, "simulated time at the start")),
-        section("clock", s.clock, "how fast simulated time goes"),
+        beside_frames(section("clock", s.clock, "how fast simulated time goes")),
         optional(integer("seed", s.seed, {0, 9e15},
                          "of a run's random numbers; where none is given, run and render draw their own"),
                  s.has_seed),
-        integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core"),
+        beside_frames(integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core")),
         section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
         required(section("camera", s.camera, "the camera's data sheet")),
         optional(
@@ -208,12 +209,14 @@ Fields fields(ScenarioConfig& s) {
             "mode", s.mode, {"free_run", "triggered", "lockstep"},
             "what makes the camera take frames: its rate, triggers, or each `expose` one in simulated time"),
         sections("more_cameras", s.more_cameras, "beside the first, in the same world"),
-        sections("faults", s.faults, "what goes wrong by itself"),
-        sections("events", s.events, "what happens by itself, at a time or when something becomes true"),
-        section("commands", s.commands, "where commands come from"),
-        optional(section("telemetry", s.telemetry, "who gets frame reports and housekeeping unasked"),
-                 s.has_telemetry),
-        section("outputs", s.outputs, "where frames go"),
+        beside_frames(sections("faults", s.faults, "what goes wrong by itself")),
+        beside_frames(
+            sections("events", s.events, "what happens by itself, at a time or when something becomes true")),
+        beside_frames(section("commands", s.commands, "where commands come from")),
+        beside_frames(
+            optional(section("telemetry", s.telemetry, "who gets frame reports and housekeeping unasked"),
+                     s.has_telemetry)),
+        beside_frames(section("outputs", s.outputs, "where frames go")),
     };
     for (std::size_t i = 0; i < kBodyCount; ++i)
         list.push_back(section(std::string(kBodyNames[i]), s.bodies[i], "the body of that name"));
@@ -242,7 +245,7 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
     const bool own = rays.model == "pinhole" || rays.model == "rolling" || rays.model == "pushbroom";
     if (!own) return;
     if (rays.model != expected)
-        throw InputError("rays.model: found '" + rays.model + "'; the camera's shutter asks for '" +
+        throw InputError("rays.model: found " + in_quotes(rays.model) + "; the camera's shutter asks for '" +
                          expected + "' (leave 'rays' out, or change camera.shutter.kind)");
     if (expected != "pinhole" && std::abs(rays.line_time_s - shutter.line_time_s) > 1e-12)
         throw InputError("rays.line_time_us: found " + plain(rays.line_time_s * 1e6) +

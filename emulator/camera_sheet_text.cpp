@@ -4,6 +4,7 @@
 
 #include "emulator/camera_sheet.h"
 #include "emulator/shutter_timing.h"
+#include "render/quoted.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -120,7 +121,8 @@ void add_noise(const CameraSheet& s, std::string& out) {
 }  // namespace
 
 std::string to_text(const CameraSheet& s) {
-    std::string out = fmt::format("camera {}\n", s.camera.name.empty() ? "without a name" : s.camera.name);
+    std::string out =
+        fmt::format("camera {}\n", s.camera.name.empty() ? "without a name" : harmless(s.camera.name));
     add_geometry(s, out);
     add_lens(s, out);
     add_shutter(s, out);

@@ -4,13 +4,14 @@
 #include <spdlog/fmt/ranges.h>
 
 #include "emulator/camera_sheet.h"
-#include "emulator/emulator.h"
+#include "emulator/camera_station.h"
 #include "emulator/exposure_renderer.h"
 #include "emulator/lamp_setup.h"
 #include "emulator/motion_builder.h"
 #include "emulator/scene_loader.h"
 #include "emulator/shutter_timing.h"
 #include "io/config_yaml.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -83,6 +84,18 @@ std::string governor_lines(const ScenarioConfig& s) {
     return out;
 }
 
+// Makes of a camera what a run makes before it opens ports and devices, and as a run makes it: what is wrong
+// with any of it is said. GigE Vision's interface is the machine's, not the scenario's: `hilcam doctor` and
+// the run look for it.
+std::unique_ptr<CameraStation> make_station(const ScenarioConfig& s, std::size_t index,
+                                            const SpectralGrid& grid) {
+    ScenarioConfig own = scenario_of_camera(s, index);
+    own.outputs.has_gige = false;
+    auto station = std::make_unique<CameraStation>(own, index + 1, RunLimits{});
+    station->load(grid);
+    return station;
+}
+
 }  // namespace
 
 bool is_camera_file(const std::filesystem::path& file) { return has_top_level_key(file, "pitch_um"); }
@@ -90,24 +103,25 @@ bool is_camera_file(const std::filesystem::path& file) { return has_top_level_ke
 std::string check_camera(const std::filesystem::path& file, std::span<const std::string> overrides) {
     CameraModel camera;
     read_config(file, section_of(camera), overrides);
+    draw_fixed_pattern(camera, load_detector_pictures(camera));  // throws when a map does not fit
     return to_text(camera_sheet(camera));
 }
 
 std::string check_scenario(const ScenarioConfig& s) {
     const SpectralGrid grid(s.spectrum_edges_um);
     const TimeTai time = parse_utc(s.time_utc);
-    const ImageGeometry geometry =
-        geometry_of(s.camera, static_cast<int>(s.quality.guard_px), static_cast<int>(s.quality.oversampling));
-    const std::unique_ptr<Renderer> renderer = load_renderer(s, grid, geometry);
+    // One after the other: the scene of each is large.
+    for (std::size_t i = s.more_cameras.size(); i > 0; --i) make_station(s, i, grid);
+    const std::unique_ptr<CameraStation> first = make_station(s, 0, grid);
+    Renderer& renderer = first->renderer();
     const WorldSnapshot world = snapshot_at(s, time, time);
-    renderer->require_air(world);
     std::string out = to_text(camera_sheet(s.camera)) +
                       fmt::format(
                           "scenario {} at {}\n  its bins have {:.1f} % of the camera's photo-electrons of "
                           "sunlight\nplan\n",
-                          s.name, format_utc(time), 100 * share_in_bins(s.camera, grid));
-    for (const std::string& line : renderer->explain_plan(world)) out += "  " + line + "\n";
-    return out + "  " + motion_line(s, *renderer, grid) + "\n" + truth_line(s) + seed_line(s) + loop_line(s) +
+                          harmless(s.name), format_utc(time), 100 * share_in_bins(s.camera, grid));
+    for (const std::string& line : renderer.explain_plan(world)) out += "  " + harmless(line) + "\n";
+    return out + "  " + motion_line(s, renderer, grid) + "\n" + truth_line(s) + seed_line(s) + loop_line(s) +
            governor_lines(s);
 }
 

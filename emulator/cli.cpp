@@ -1,13 +1,13 @@
 #include "emulator/cli.h"
 
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
 #include "emulator/bench.h"
 #include "emulator/characterise_report.h"
@@ -15,6 +15,7 @@
 #include "emulator/doctor.h"
 #include "emulator/doctor_facts.h"
 #include "emulator/emulator.h"
+#include "emulator/log_setup.h"
 #include "emulator/program_version.h"
 #include "emulator/recording_text.h"
 #include "emulator/render_command.h"
@@ -27,6 +28,7 @@
 #include "emulator/tradeoff_report.h"
 #include "io/config_manual.h"
 #include "io/config_yaml.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -58,6 +60,25 @@ void tell_seed(const std::string& line) {
     if (!line.empty()) spdlog::info("{}", line);
 }
 
+// What a command does with a scenario; when memory does not suffice, who needs most of it is said.
+template <class Action>
+auto in_memory(const ScenarioConfig& s, const Action& action) {
+    try {
+        return action();
+    } catch (const std::bad_alloc&) {
+        const auto oversampling = static_cast<int>(s.quality.oversampling);
+        const ImageGeometry image = geometry_of(s.camera, static_cast<int>(s.quality.guard_px), oversampling);
+        const std::size_t bins = s.spectrum_edges_um.size() - 1;
+        const double bytes = 4.0 * image.padded_width() * image.padded_height() * static_cast<double>(bins);
+        throw DeviceError(fmt::format(
+            "there is not enough memory for the scenario: its camera of {} x {} px has radiance images of {} "
+            "x {} px in {} bins, {:.3g} GB each (camera.width_px, height_px, quality.oversampling, guard_px, "
+            "spectrum_edges_um)",
+            s.camera.width_px, s.camera.height_px, image.padded_width(), image.padded_height(), bins,
+            bytes * 1e-9));
+    }
+}
+
 int run(const Options& o) {
     std::vector<std::string> overrides = o.overrides;
     if (o.preview_port > 0) overrides.push_back(fmt::format("outputs.preview.port={}", o.preview_port));
@@ -68,7 +89,8 @@ int run(const Options& o) {
     limits.frames = o.frames;
     tell_seed(settle_seed(scenario, limits.replay));
     spdlog::info("loading {}", scenario.name);
-    Emulator emulator(scenario, limits);
+    const auto whole = in_memory(scenario, [&] { return std::make_unique<Emulator>(scenario, limits); });
+    Emulator& emulator = *whole;
     emulator.run([&] {
         const PreviewConfig& preview = scenario.outputs.preview;
         if (scenario.outputs.has_preview)
@@ -97,8 +119,10 @@ int render(const Options& o) {
     ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     const auto threads = limit_threads(scenario);
     tell_seed(settle_seed(scenario));
-    render_to_file(scenario, o.stage, o.time_offset_s, o.out, o.truth);
-    return 0;
+    return in_memory(scenario, [&] {
+        render_to_file(scenario, o.stage, o.time_offset_s, o.out, o.truth);
+        return 0;
+    });
 }
 
 int check(const Options& o) {
@@ -107,7 +131,7 @@ int check(const Options& o) {
         return 0;
     }
     const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
-    fmt::print("{}", check_scenario(scenario));
+    fmt::print("{}", in_memory(scenario, [&] { return check_scenario(scenario); }));
     return 0;
 }
 
@@ -208,8 +232,7 @@ void add_config(CLI::App* command, Options& o) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-    spdlog::set_default_logger(spdlog::stderr_color_mt("hilcam"));
-    spdlog::set_pattern("hilcam: %^%v%$");
+    set_up_log();
     Options o;
     std::function<int()> action;
     CLI::App app{"hilcam: a spacecraft's camera for the test bench"};
@@ -357,7 +380,13 @@ int run_command_line(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        // What the library says quotes the command line.
+        std::ostringstream help, problem;
+        const int status = app.exit(error, help, problem);
+        fmt::print("{}", help.str());
+        std::istringstream lines(problem.str());
+        for (std::string line; std::getline(lines, line);) fmt::print(stderr, "{}\n", harmless(line));
+        return status == 0 ? 0 : 2;
     }
     try {
         return action();

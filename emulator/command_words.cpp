@@ -7,6 +7,7 @@
 
 #include "io/fault.h"
 #include "render/check.h"
+#include "render/quoted.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -226,8 +227,8 @@ void add_fault(CLI::App& app, const Take& take, const std::function<void()>& lis
         if (command.clear_all) return command;
         const std::optional<FaultKind> kind = fault_named(o->name);
         if (!kind)
-            throw InputError("found '" + o->name +
-                             "'; accepted: clear, or a fault's name ('hilcam send fault list')");
+            throw InputError("found " + in_quotes(o->name) +
+                             "; accepted: clear, or a fault's name ('hilcam send fault list')");
         command.order.kind = *kind;
         const std::string_view refusal = refusal_of(command.order);
         if (!refusal.empty()) throw InputError(o->name + ": " + std::string(refusal));
@@ -251,9 +252,8 @@ bool read_time(const std::string& word, double before_s, double& at_s) {
     }
     at_s = word[0] == '@' ? value : before_s + value;
     if (end + 1 != word.size() || !(value >= 0) || !(at_s <= kLatest_s))
-        throw InputError(
-            "found '" + word +
-            "'; accepted: @SECONDS since the start or +SECONDS since the line before, up to 1e9");
+        throw InputError("found " + in_quotes(word) +
+                         "; accepted: @SECONDS since the start or +SECONDS since the line before, up to 1e9");
     if (at_s < before_s) throw InputError("its time " + word + " lies before the line before");
     return true;
 }

@@ -1,4 +1,5 @@
 #include "emulator/doctor.h"
+#include "render/quoted.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -136,7 +137,7 @@ void look_at_loopback_device(const BenchNeeds::V4l2& need, const MachineFacts& m
                  "a slow reader sees frames change under its eyes: load the module with max_buffers=4 "
                  "(before 0.14 a "
                  "reader that asked for fewer keeps them so until the module is reloaded)");
-    out.good("v4l2 device", need.device + " '" + device->label + "'");
+    out.good("v4l2 device", need.device + " " + in_quotes(device->label));
 }
 
 void look_at_v4l2(const BenchNeeds& n, const MachineFacts& m, Findings& out) {

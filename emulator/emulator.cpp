@@ -210,6 +210,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         print_level_changes();
         print_held_motion();
         silence_log_.look();
+        print_output_faults(now_ns);
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
             print_line();
             next_line_ns += 1'000'000'000;
@@ -264,6 +265,18 @@ void Emulator::print_held_motion() {
     spdlog::warn(
         "a source of motion does not know the simulated time any more, {}: what it moves stands still",
         format_utc(clock_.now()));
+}
+
+// What an output begins to be unable to do: once, not for each frame. The report at the end has it whole.
+void Emulator::print_output_faults(std::int64_t now_ns) {
+    constexpr std::int64_t kBetweenLooks_ns = 250'000'000;
+    if (now_ns < next_fault_look_ns_) return;
+    next_fault_look_ns_ = now_ns + kBetweenLooks_ns;
+    for (const auto& station : stations_)
+        for (const FrameSink* sink : station->sinks()) {
+            const SinkReport report = sink->report();
+            if (!report.fault.empty() && told_faults_.insert(sink).second) spdlog::error("{}", report.fault);
+        }
 }
 
 // Of the first camera.

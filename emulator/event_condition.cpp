@@ -5,6 +5,7 @@
 
 #include "render/bodies.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -30,7 +31,7 @@ EventCondition::Target EventCondition::target_named(const std::string& name, con
     if (name.empty()) return {};
     const auto count = std::count(world.objects.begin(), world.objects.end(), name);
     if (count > 1)
-        throw InputError("object: " + quoted(name) + " is the name of " + std::to_string(count) +
+        throw InputError("object: " + in_quotes(name) + " is the name of " + std::to_string(count) +
                          " objects; accepted: a name that one has alone");
     const auto object = std::find(world.objects.begin(), world.objects.end(), name);
     if (object != world.objects.end())
@@ -40,8 +41,8 @@ EventCondition::Target EventCondition::target_named(const std::string& name, con
     if (body != kBodyNames.end())
         return {Target::Kind::kBody, 0, static_cast<BodyId>(body - kBodyNames.begin())};
     std::string accepted;
-    for (const std::string& o : world.objects) accepted += quoted(o) + ", ";
-    throw InputError("object: found " + quoted(name) + "; accepted: " + accepted +
+    for (const std::string& o : world.objects) accepted += in_quotes(o) + ", ";
+    throw InputError("object: found " + in_quotes(name) + "; accepted: " + accepted +
                      "sun, earth, moon, a planet");
 }
 

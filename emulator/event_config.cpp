@@ -5,6 +5,7 @@
 
 #include "emulator/command_words.h"
 #include "render/check.h"
+#include "render/quoted.h"
 #include "render/time.h"
 #include "render/units.h"
 
@@ -95,12 +96,6 @@ void validate(const EventConfig& e) {
     actions_of(e);
 }
 
-std::string quoted(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    return "'" + (text.size() <= 60 ? text : text.substr(0, 57) + "...") + "'";
-}
-
 bool EventActions::takes_picture() const {
     return std::any_of(commands.begin(), commands.end(),
                        [](const Command& c) { return std::holds_alternative<ExposeCommand>(c); });
@@ -118,13 +113,13 @@ EventActions actions_of(const EventConfig& e) {
         try {
             command = command_of_words(words);
         } catch (const std::exception& error) {
-            throw InputError("do: " + quoted(words) + ": " + quoted(error.what()));
+            throw InputError("do: " + in_quotes(words) + ": " + in_quotes(error.what()));
         }
         if (const auto* s = std::get_if<SettingsCommand>(&command);
             s && !s->exposure_s && !s->gain_db && !s->frame_rate_hz)
-            throw InputError("do: " + quoted(words) + ": names no setting");
+            throw InputError("do: " + in_quotes(words) + ": names no setting");
         if (std::holds_alternative<PingCommand>(command) || std::holds_alternative<SubscribeCommand>(command))
-            throw InputError("do: " + quoted(words) + ": does nothing to a camera");
+            throw InputError("do: " + in_quotes(words) + ": does nothing to a camera");
         out.commands.push_back(command);
     }
     return out;

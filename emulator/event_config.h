@@ -55,9 +55,6 @@ struct EventConfig {
 Fields fields(EventConfig& event);
 void validate(const EventConfig& event);
 
-// What a scenario says, in quotes, as a message can show it: one line, not too long.
-std::string quoted(std::string text);
-
 // An event's actions as commands.
 struct EventActions {
     std::vector<Command> commands;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
 std::string place_of(std::size_t index, const EventConfig& config) {
-    return "events." + std::to_string(index) + (config.name.empty() ? "" : " " + quoted(config.name)) + ": ";
+    return "events." + std::to_string(index) + (config.name.empty() ? "" : " " + in_quotes(config.name)) +
+           ": ";
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ EventSequence::EventSequence(std::span<const EventConfig> events, const EventWor
         if (config.has_after) {
             const auto other = named(config.after);
             if (config.after.empty() || other == events.end())
-                throw InputError(place_of(i, config) + "after: there is no event " + quoted(config.after));
+                throw InputError(place_of(i, config) + "after: there is no event " + in_quotes(config.after));
             event.after = static_cast<std::size_t>(other - events.begin());
             if (*event.after == i)
                 throw InputError(place_of(i, config) + "after: itself, so it would never happen");

@@ -4,13 +4,14 @@
 #include <utility>
 
 #include "render/check.h"
+#include "render/quoted.h"
 #include "render/units.h"
 
 namespace hilcam {
 namespace {
 
 [[noreturn]] void fail(const LampConfig& lamp, const std::string& what) {
-    throw InputError("lamp '" + lamp.name + "': " + what);
+    throw InputError("lamp " + in_quotes(lamp.name) + ": " + what);
 }
 
 // As WorldState places things: the camera's body, objects, then all their turning parts.
@@ -27,14 +28,14 @@ std::size_t thing_of(const LampConfig& lamp, const ScenarioConfig& s) {
         const auto joint = static_cast<std::size_t>(lamp.joint);
         if (object.name == lamp.on) {
             if (joint > object.joints.size())
-                fail(lamp, "joint: found " + std::to_string(joint) + "; '" + object.name + "' has " +
+                fail(lamp, "joint: found " + std::to_string(joint) + "; " + in_quotes(object.name) + " has " +
                                std::to_string(object.joints.size()));
             return joint == 0 ? 1 + i : s.objects.size() + joints_before + joint;
         }
         joints_before += object.joints.size();
         all += ", " + object.name;
     }
-    fail(lamp, "on: found '" + lamp.on + "'; accepted: " + all);
+    fail(lamp, "on: found " + in_quotes(lamp.on) + "; accepted: " + all);
 }
 
 // The mean over each bin of a curve that is dark beyond its ends: a data sheet shows all that there is. One

@@ -8,6 +8,7 @@
 #include "emulator/relative_motion.h"
 #include "emulator/trajectories.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -35,7 +36,7 @@ class Builder {
             try {
                 sources[thing] = source_of(*motion, thing);
             } catch (const InputError& error) {
-                throw InputError("motion of '" + names_[thing] + "': " + error.what());
+                throw InputError("motion of " + in_quotes(names_[thing]) + ": " + error.what());
             }
         }
         return {std::move(sources), names_};
@@ -58,7 +59,7 @@ class Builder {
         if (at != names_.end()) return static_cast<std::size_t>(at - names_.begin());
         std::string all;
         for (const std::string& n : names_) all += (all.empty() ? "" : ", ") + n;
-        throw InputError("of: found '" + name + "'; accepted: " + all);
+        throw InputError("of: found " + in_quotes(name) + "; accepted: " + all);
     }
 
     PlacedFrame frame_of(MotionFrame kind, const std::string& of, const MotionConfig& m,

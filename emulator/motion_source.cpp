@@ -4,6 +4,7 @@
 #include <array>
 
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 
@@ -94,8 +95,8 @@ MotionSources::MotionSources(std::vector<std::unique_ptr<MotionSource>> sources,
     for (std::size_t i = 0; i < sources_.size(); ++i)
         if (!done[0][i] || !done[1][i])
             throw InputError(
-                "motion of '" + names[i] +
-                "': follows a thing that follows it; accepted: things that do not go round in a circle");
+                "motion of " + in_quotes(names[i]) +
+                ": follows a thing that follows it; accepted: things that do not go round in a circle");
 }
 
 std::uint64_t MotionSources::evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,

@@ -27,10 +27,10 @@ Fields fields(QualityLevelConfig& l) {
 
 Fields fields(LoopConfig& l) {
     Fields list = {
-        choice(
+        beside_frames(choice(
             "prefer", l.prefer, {"throughput", "latency"},
             "throughput: a frame is rendered while the one before is sensed; latency: one after the other, "
-            "each with all threads"),
+            "each with all threads")),
         number(
             "frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
             "a frame may take so long (with throughput: the longer of its two stages); the governor lowers "
@@ -40,7 +40,7 @@ Fields fields(LoopConfig& l) {
             "what it may choose, best first: mappings of what is different from `quality` (or files with "
             "them); none: the program's own"),
     };
-    for (Field& field : fields(l.real_time)) list.push_back(std::move(field));
+    for (Field& field : fields(l.real_time)) list.push_back(beside_frames(std::move(field)));
     return list;
 }
 

@@ -21,6 +21,14 @@ FrameRecord record_of(const ScenarioConfig& s, const Exposure& exposure) {
     return record;
 }
 
+// Where the frame, neither binned nor mirrored, lies in the radiance image [px of that].
+PixelRectangle frame_in_radiance(const CameraModel& camera, const ImageGeometry& image, int oversampling) {
+    const auto [width, height] = array_size(camera);
+    return {image.guard_px - static_cast<int>(camera.black_columns) * oversampling,
+            image.guard_px - static_cast<int>(camera.black_rows) * oversampling, width * oversampling,
+            height * oversampling};
+}
+
 FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer) {
     TruthWishes wishes = truth_wishes(s);
     if (!s.outputs.has_truth)
@@ -53,7 +61,10 @@ void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double ti
     const RadianceImage& radiance = camera.render(key, truth ? &*truth : nullptr);
     if (truth)
         write_truth(truth_folder, scenario, camera.grid(), *truth, record_of(scenario, camera.exposure()));
-    if (stage == RenderStage::kRadiance) return write_radiance_exr(out, radiance, camera.grid());
+    if (stage == RenderStage::kRadiance)
+        return write_radiance_exr(out, radiance, camera.grid(),
+                                  frame_in_radiance(scenario.camera, camera.renderer().geometry(),
+                                                    static_cast<int>(scenario.quality.oversampling)));
     const ElectronImage& electrons = camera.expose();
     if (stage == RenderStage::kElectrons) return write_electrons_exr(out, electrons);
     const DnImage& frame = camera.digitise(key);

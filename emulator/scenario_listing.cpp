@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
 #include "emulator/recording_codec.h"
@@ -14,20 +13,6 @@
 
 namespace hilcam {
 namespace {
-
-// Of keys that frames do not depend on.
-constexpr std::array<std::string_view, 10> kLeftOut = {"name",           "clock",  "threads", "loop.prefer",
-                                                       "loop.real_time", "events", "faults",  "commands",
-                                                       "telemetry",      "outputs"};
-
-bool left_out(std::string_view key) {
-    const auto is = [&](std::string_view word) {
-        return key == word || (key.starts_with(word) && key[word.size()] == '.');
-    };
-    // Other cameras have outputs of their own.
-    if (key.starts_with("more_cameras.") && key.ends_with(".outputs")) return true;
-    return std::any_of(kLeftOut.begin(), kLeftOut.end(), is);
-}
 
 // With as many digits as it takes to read the same number back.
 std::string exact(double value) {
@@ -98,8 +83,8 @@ std::string value_of(const Field& field) {
 
 void list(const SectionField& section, const std::string& prefix, std::string& out) {
     for (const Field& field : section.fields) {
+        if (!field.changes_frames) continue;
         const std::string key = prefix + field.key;
-        if (left_out(key)) continue;
         if (field.present && !*field.present && !field.required) {
             out += key + " = (not given)\n";
         } else if (const auto* nested = std::get_if<SectionField>(&field.target)) {

@@ -2,9 +2,9 @@
 // A scenario as lines "key = value": all that its frames depend on, so that two can be compared.
 //
 // Every key of the configuration, given or not, in the order of the manual; of a file that a key names, its
-// name, length and CRC-32. Not in it: what frames do not depend on (outputs, commands, telemetry, threads,
-// real time, names), and events and faults, which a recording holds as what they did. Files that those files
-// name in turn (a glTF file's textures) are not looked at.
+// name, length and CRC-32. Not in it: keys whose definition says that frames do not depend on them
+// (Field::changes_frames: outputs, commands, threads, ...); events and faults are among those, as a recording
+// holds what they did. Files that those files name in turn (a glTF file's textures) are not looked at.
 
 #include <string>
 

@@ -43,8 +43,7 @@ int send_clock(const SendTarget& target, const ClockCommand& order) {
     const std::int64_t now_ns = monotonic_ns();
     const auto estimate = filter.estimate(now_ns);
     if (!accepted || !first.clock || !estimate) {
-        fmt::print("{}{}{} simulated time {}\n", name_of(first.status), first.reason.empty() ? "" : ": ",
-                   first.reason, format_utc(first.simulated_time));
+        fmt::print("{} simulated time {}\n", text_of(first), format_utc(first.simulated_time));
         return accepted ? 0 : 1;
     }
     fmt::print("accepted simulated time {}, {}\n",

@@ -13,6 +13,7 @@
 #include "emulator/send_watch.h"
 #include "io/command_sender.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -27,8 +28,7 @@ struct SendOptions {
 
 int print(const Acknowledgement& a) {
     const bool good = a.status == CommandStatus::kAccepted;
-    fmt::print("{}{}{} simulated time {}\n", name_of(a.status), a.reason.empty() ? "" : ": ", a.reason,
-               format_utc(a.simulated_time));
+    fmt::print("{} simulated time {}\n", text_of(a), format_utc(a.simulated_time));
     return good ? 0 : 1;
 }
 
@@ -59,8 +59,7 @@ int play_script(const SendOptions& o) {
         const Acknowledgement a = sender.send(line.command, o.target.timeout_ms);
         if (a.status == CommandStatus::kAccepted) continue;
         ++refused;
-        fmt::print("{}:{}: {}{}{}\n", o.script.string(), line.number, name_of(a.status),
-                   a.reason.empty() ? "" : ": ", a.reason);
+        fmt::print("{}:{}: {}\n", harmless(o.script.string()), line.number, text_of(a));
     }
     fmt::print("{} commands sent, {} refused\n", lines.size(), refused);
     return refused == 0 ? 0 : 1;

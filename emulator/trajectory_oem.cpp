@@ -6,6 +6,7 @@
 #include "emulator/trajectories.h"
 #include "render/check.h"
 #include "render/earth_frames.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -25,14 +26,15 @@ OrbitCenter center_named(const OemSegment& segment, const std::string& file) {
     const auto at = std::find(kBodyNames.begin(), kBodyNames.end(), name);
     if (at == kBodyNames.end())
         throw InputError(
-            file + ":" + std::to_string(segment.line) + ": CENTER_NAME: found '" + segment.center_name +
-            "'; accepted: SUN, MERCURY, VENUS, EARTH, MOON, MARS, JUPITER, SATURN, URANUS, NEPTUNE "
+            file + ":" + std::to_string(segment.line) + ": CENTER_NAME: found " +
+            in_quotes(segment.center_name) +
+            "; accepted: SUN, MERCURY, VENUS, EARTH, MOON, MARS, JUPITER, SATURN, URANUS, NEPTUNE "
             "(of barycentres those of MERCURY, VENUS, MARS)");
     const OrbitCenter center{static_cast<BodyId>(at - kBodyNames.begin())};
     const bool earth_only = segment.frame == CcsdsFrame::kEarthFixed || segment.frame == CcsdsFrame::kTeme;
     if (earth_only && center != OrbitCenter{})
-        throw InputError(file + ":" + std::to_string(segment.line) + ": CENTER_NAME: found '" +
-                         segment.center_name + "'; accepted: EARTH, by its REF_FRAME");
+        throw InputError(file + ":" + std::to_string(segment.line) + ": CENTER_NAME: found " +
+                         in_quotes(segment.center_name) + "; accepted: EARTH, by its REF_FRAME");
     return center;
 }
 

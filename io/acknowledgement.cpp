@@ -4,6 +4,7 @@
 #include <array>
 
 #include "io/ccsds.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -82,6 +83,11 @@ std::string_view name_of(CommandStatus status) {
         "not now",          "time went back"};
     const auto number = static_cast<std::size_t>(status);
     return number < kNames.size() ? kNames[number] : "unknown status";
+}
+
+std::string text_of(const Acknowledgement& a) {
+    const std::string name(name_of(a.status));
+    return a.reason.empty() ? name : name + ": " + harmless(a.reason.substr(0, kMostReasonBytes));
 }
 
 std::string_view meaning_of(CommandStatus status) {

@@ -39,6 +39,9 @@ bool read_acknowledgement_body(std::span<const std::uint8_t> body, Acknowledgeme
 
 // "accepted", "bad checksum", ...
 std::string_view name_of(CommandStatus status);
+// Returns the name of its status and, behind a colon, its reason as a terminal can show it: whoever answers
+// writes that.
+std::string text_of(const Acknowledgement& a);
 // Why, in a line: what refusals give as their reason where the command itself is well formed.
 std::string_view meaning_of(CommandStatus status);
 

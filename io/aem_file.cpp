@@ -243,8 +243,8 @@ void keep(const KvnLines& lines, std::vector<AemSegment>& kept, AemSegment&& seg
           const std::string& object) {
     if (!object.empty() && segment.object_name != object && segment.object_id != object) return;
     if (!kept.empty() && object.empty() && kept.back().object_id != segment.object_id)
-        lines.fail("has objects " + kept.back().object_id + " and " + segment.object_id +
-                       "; accepted: one of them by 'object'",
+        lines.fail("has objects " + in_quotes(kept.back().object_id) + " and " +
+                       in_quotes(segment.object_id) + "; accepted: one of them by 'object'",
                    segment.line);
     if (!kept.empty() && segment.usable_start < kept.back().usable_stop)
         lines.fail("the segment that begins here is usable from " + format_utc(segment.usable_start) +

@@ -5,11 +5,12 @@
 
 #include "io/fd.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
 
-constexpr const char* kAccepted = "'; accepted: an IPv4 address, a network as 10.0.0.0/8, or any";
+constexpr const char* kAccepted = "; accepted: an IPv4 address, a network as 10.0.0.0/8, or any";
 
 }  // namespace
 
@@ -28,24 +29,24 @@ AllowList::AllowList(const std::vector<std::string>& entries, const std::string&
             const char* const last = entry.data() + entry.size();
             const auto [end, error] = std::from_chars(entry.data() + slash + 1, last, bits);
             if (error != std::errc{} || end != last || bits > 32)
-                throw InputError(key + ".allow: found '" + entry + kAccepted);
+                throw InputError(key + ".allow: found " + in_quotes(entry) + kAccepted);
         }
         Network network;
         try {
             network.address = parse_ipv4(entry.substr(0, slash), key);
         } catch (const InputError&) {
-            throw InputError(key + ".allow: found '" + entry + kAccepted);
+            throw InputError(key + ".allow: found " + in_quotes(entry) + kAccepted);
         }
         network.mask = bits == 0 ? 0 : ~std::uint32_t{0} << (32 - bits);
         if ((network.address & ~network.mask) != 0)
-            throw InputError(key + ".allow: found '" + entry + "'; its network is " +
+            throw InputError(key + ".allow: found " + in_quotes(entry) + "; its network is " +
                              format_ipv4(network.address & network.mask) + "/" + std::to_string(bits));
         networks_.push_back(network);
     }
     if (!entries.empty()) return;
     if (!is_loopback(parse_ipv4(address, key + ".address")))
-        throw InputError(key + ".address: found '" + address + "', which others can reach; give '" + key +
-                         ".allow' too: addresses and networks that may send, or [any]");
+        throw InputError(key + ".address: found " + in_quotes(address) + ", which others can reach; give '" +
+                         key + ".allow' too: addresses and networks that may send, or [any]");
     any_ = true;
 }
 

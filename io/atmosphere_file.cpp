@@ -12,6 +12,7 @@
 
 #include "io/plain_number.h"
 #include "render/check.h"
+#include "render/quoted.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -59,8 +60,8 @@ Geometry read_geometry(const std::string& where, const std::vector<std::string>&
     Geometry out{};
     for (std::size_t k = 0; k < kAxes; ++k)
         if (!to_number(cells[k], out[k]) || out[k] < 0 || out[k] > kAxisMost[k])
-            refuse(where, std::string(kAxisNames[k]) + ": found '" + cells[k] +
-                              "'; accepted: a number from 0 to " + plain(kAxisMost[k]));
+            refuse(where, std::string(kAxisNames[k]) + ": found " + in_quotes(cells[k]) +
+                              "; accepted: a number from 0 to " + plain(kAxisMost[k]));
     return out;
 }
 
@@ -154,8 +155,7 @@ Samples read_rows(const std::filesystem::path& file) {
         if (line.empty() || line.starts_with('#')) continue;
         if (columns == 0) {
             if (line != values && line != runs)
-                refuse(where,
-                       "found '" + line.substr(0, 60) + "'; accepted: '" + values + "' or '" + runs + "'");
+                refuse(where, "found " + in_quotes(line) + "; accepted: '" + values + "' or '" + runs + "'");
             columns = line == values ? kAxes + 5 : kAxes + 1;
             continue;
         }
@@ -172,7 +172,7 @@ Samples read_rows(const std::filesystem::path& file) {
         std::array<double, 5> v{};
         for (std::size_t k = 0; k < v.size(); ++k)
             if (!to_number(cells[kAxes + k], v[k]))
-                refuse(where, "found '" + cells[kAxes + k] + "'; accepted: a number");
+                refuse(where, "found " + in_quotes(cells[kAxes + k]) + "; accepted: a number");
         const Sample sample{v[0], v[1], v[2], v[3], v[4]};
         if (!(sample.wavelength_um >= 0.1 && sample.wavelength_um <= 100))
             refuse(where, "wavelength_um: accepted: 0.1 to 100");

@@ -14,6 +14,7 @@
 #include "io/plain_number.h"
 #include "render/check.h"
 #include "render/color_bands.h"
+#include "render/quoted.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -72,14 +73,14 @@ Sheet read_sheet(const std::filesystem::path& file) {
         if (line.empty() || line == "\r" || line.starts_with('#')) continue;
         if (!headed) {
             if (!line.starts_with(kHeader))
-                throw InputError(at() + "found '" + line.substr(0, 60) + "'; accepted: the header " +
+                throw InputError(at() + "found " + in_quotes(line) + "; accepted: the header " +
                                  std::string(kHeader));
             headed = true;
             continue;
         }
         Row row;
         if (!parse_row(line, row))
-            throw InputError(at() + "found '" + line.substr(0, 60) + "'; accepted: " + std::string(kHeader) +
+            throw InputError(at() + "found " + in_quotes(line) + "; accepted: " + std::string(kHeader) +
                              " with angles of 0 to 90 (phi to 180) and a value from 0");
         if (sheet.rows.size() >= kMostValues) throw InputError(at() + "more than 50 million values");
         sheet.rows.push_back(row);

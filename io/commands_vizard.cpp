@@ -1,5 +1,6 @@
 #include "io/commands_vizard.h"
 
+#include <unistd.h>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -11,12 +12,16 @@
 #include "io/monotonic.h"
 #include "io/vizard_conversation.h"
 #include "io/wire_format.h"
+#include "io/zmq_guard.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kMostMessageBytes = 64 << 20;
+// Twice what is read of a SIM_UPDATE (vizard_message.h), so that one too large is answered.
+constexpr std::int64_t kMostMessageBytes = 16 << 20;
+constexpr std::size_t kMostConnections = 8, kMostMessageParts = 1000;
 constexpr std::size_t kMostParts = 16;  // of a request; further ones are left out
 // From the frame rendered (the command's answer) to the frame published: the sensor's part.
 constexpr std::chrono::seconds kPatience{60};
@@ -42,6 +47,7 @@ class VizardReceiver : public CommandReceiver {
         : config_(config),
           cameras_(std::move(cameras)),
           handler_(handler),
+          remark_(remark),
           world_({config.time, config.tolerance_rad, config.cameras}, std::move(bench), std::move(remark)),
           conversation_(world_, [this](const VizardShot& shot) { return photograph(shot); }) {}
     ~VizardReceiver() override { stop(); }
@@ -57,6 +63,7 @@ class VizardReceiver : public CommandReceiver {
   private:
     using Picture = VizardConversation::Picture;
 
+    void listen_behind_guard();
     void run();
     void serve();
     VizardParts receive();
@@ -68,32 +75,61 @@ class VizardReceiver : public CommandReceiver {
     VizardConfig config_;
     std::vector<VizardCameraPart> cameras_;
     CommandHandler& handler_;
+    VizardWorld::Remark remark_;
     VizardWorld world_;
     VizardConversation conversation_;
     zmq::context_t context_{1};
     zmq::socket_t socket_;
+    std::unique_ptr<ZmqGuard> guard_;  // of connections by TCP
     Fd wakeup_ = open_wakeup();
     std::atomic<bool> stopping_{false}, over_{false};
     std::thread thread_;
     std::uint32_t sequence_ = 0;
-    std::atomic<std::uint64_t> received_{0}, refused_{0};
+    std::atomic<std::uint64_t> received_{0}, refused_{0}, ended_{0};
 };
 
 void VizardReceiver::start() {
+    const auto fail = [this](const std::exception& error) {
+        throw DeviceError("commands.vizard.address: " + config_.address +
+                          " cannot be listened at: " + error.what());
+    };
     try {
         socket_ = zmq::socket_t(context_, zmq::socket_type::rep);
         socket_.set(zmq::sockopt::linger, 0);
         socket_.set(zmq::sockopt::maxmsgsize, kMostMessageBytes);
-        socket_.bind(config_.address);
+        socket_.set(zmq::sockopt::rcvhwm, 1);  // a simulator waits for its answer
+        config_.address.starts_with("tcp://") ? listen_behind_guard() : socket_.bind(config_.address);
     } catch (const zmq::error_t& error) {
-        throw DeviceError("commands.vizard.address: " + config_.address +
-                          " cannot be listened at: " + error.what());
+        fail(error);
+    } catch (const DeviceError& error) {
+        fail(error);
+    } catch (const InputError& error) {
+        throw InputError(std::string("commands.vizard.address: ") + error.what());
     }
     stopping_ = false;
     thread_ = std::thread([this] { run(); });
 }
 
+// Who may connect to a Unix socket's file is the file system's to say; by TCP comes whoever reaches the port.
+void VizardReceiver::listen_behind_guard() {
+    const pid_t own = getpid();
+    ZmqGuardSetup setup{config_.address,
+                        "hilcam-vizard-" + std::to_string(own) + "-" + std::to_string(monotonic_ns()),
+                        kMostConnections,
+                        {kMostMessageBytes, kMostMessageParts},
+                        [this](const std::string& why) {
+                            // Once: whoever does it may go on and on.
+                            if (ended_.fetch_add(1) == 0) remark_("a connection was ended: " + why);
+                        }};
+    // The C function: the wrapper does not know the option. Others would pass the guard by.
+    zmq_setsockopt(socket_.handle(), ZMQ_IPC_FILTER_PID, &own, sizeof own);
+    socket_.bind("ipc://@" + setup.inner);
+    guard_ = std::make_unique<ZmqGuard>(std::move(setup));
+    guard_->start();
+}
+
 void VizardReceiver::stop() noexcept {
+    guard_.reset();
     if (thread_.joinable()) {
         stopping_ = true;
         wake(wakeup_);
@@ -187,6 +223,7 @@ CommandReport VizardReceiver::report() const {
     CommandReport report;
     report.received = received_.load();
     report.refused = refused_.load();
+    report.strangers = ended_.load();
     return report;
 }
 
@@ -210,7 +247,8 @@ Fields fields(VizardConfig& c) {
 
 void validate(const VizardConfig& c) {
     if (!c.address.starts_with("tcp://") && !c.address.starts_with("ipc://"))
-        throw InputError("address: found '" + c.address + "'; accepted: tcp://ADDRESS:PORT, ipc://PATH");
+        throw InputError("address: found " + in_quotes(c.address) +
+                         "; accepted: tcp://ADDRESS:PORT, ipc://PATH");
     for (std::size_t i = 0; i < c.cameras.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (c.cameras[i].id == c.cameras[j].id)

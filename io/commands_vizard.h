@@ -2,9 +2,9 @@
 // Pictures for Basilisk's vizInterface in Vizard's place: the simulator tells the world and asks for images
 // (ZeroMQ, REQ there, REP here); each image is one `expose` in lockstep. docs/vizard.md.
 //
-// Nothing is authenticated: bind to loopback, or to a network of the bench alone. Messages above 64 MiB end
-// their connection. Several simulators may be connected; each request is answered in its turn, and all speak
-// of the same world.
+// Nothing is authenticated: bind to loopback, or to a network of the bench alone. By TCP there are 8
+// connections at most, and a message above 16 MiB or 1000 parts ends its own (zmq_guard.h). Several
+// simulators may be connected; each request is answered in its turn, and all speak of the same world.
 
 #include <memory>
 #include <vector>

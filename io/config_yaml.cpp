@@ -14,6 +14,7 @@
 #include "io/plain_number.h"
 #include "render/check.h"
 #include "render/overloaded.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -28,15 +29,9 @@ struct Place {
     bool command_line = false;
 };
 
-std::string shorten(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
-}
-
 std::string show(const YAML::Node& node) {
     if (!node.IsDefined() || node.IsNull()) return "nothing";
-    if (node.IsScalar()) return "'" + shorten(node.Scalar()) + "'";
+    if (node.IsScalar()) return in_quotes(node.Scalar());
     return node.IsMap() ? "a mapping" : "a list of " + std::to_string(node.size());
 }
 
@@ -90,7 +85,7 @@ class Reader {
             node = YAML::Load(std::string(text));
         } catch (const YAML::Exception& error) {
             throw InputError(place.name + ":" + std::to_string(error.mark.line + 1) + ":" +
-                             std::to_string(error.mark.column + 1) + ": not YAML: " + shorten(error.msg));
+                             std::to_string(error.mark.column + 1) + ": not YAML: " + shortened(error.msg));
         }
         if (!node.IsMap()) fail(place, node, path, "found " + show(node) + "; accepted: a mapping of keys");
         read_section(node, place, section, path, depth);
@@ -98,7 +93,8 @@ class Reader {
 
     void require_all_overrides_used(const SectionField& root) const {
         for (const Override& o : overrides_)
-            if (!o.used) throw InputError("--set " + o.path + ": " + why_unused(o.path, root.fields));
+            if (!o.used)
+                throw InputError("--set " + shortened(o.path) + ": " + why_unused(o.path, root.fields));
     }
 
   private:
@@ -134,11 +130,13 @@ class Reader {
     void add_override(const std::string& text) {
         const auto equals = text.find('=');
         if (equals == std::string::npos || equals == 0)
-            throw InputError("--set " + text + ": accepted: KEY=VALUE, as --set camera.exposure_ms=2");
+            throw InputError("--set " + shortened(text) +
+                             ": accepted: KEY=VALUE, as --set camera.exposure_ms=2");
         try {
             overrides_.push_back({text.substr(0, equals), YAML::Load(text.substr(equals + 1))});
         } catch (const YAML::Exception& error) {
-            throw InputError("--set " + text.substr(0, equals) + ": not YAML: " + shorten(error.msg));
+            throw InputError("--set " + shortened(text.substr(0, equals)) +
+                             ": not YAML: " + shortened(error.msg));
         }
     }
 
@@ -199,9 +197,9 @@ class Reader {
             const std::string key =
                 entry.first.IsScalar() ? entry.first.Scalar() : std::string("(not a word)");
             if (std::none_of(known.begin(), known.end(), [&](const Field& f) { return f.key == key; }))
-                fail(place, entry.first, join(path, shorten(key)), "unknown key" + advice_for(key, known));
+                fail(place, entry.first, join(path, shortened(key)), "unknown key" + advice_for(key, known));
             if (std::find(seen.begin(), seen.end(), key) != seen.end())
-                fail(place, entry.first, join(path, key), "the key is given twice");
+                fail(place, entry.first, join(path, shortened(key)), "the key is given twice");
             seen.push_back(key);
         }
     }

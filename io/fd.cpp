@@ -9,14 +9,15 @@
 #include <cstring>
 
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 
 std::uint32_t parse_ipv4(const std::string& text, const std::string& key) {
     in_addr address{};
     if (inet_pton(AF_INET, text.c_str(), &address) != 1)
-        throw InputError(key + ": found '" + text +
-                         "'; accepted: an IPv4 address of this machine, as 127.0.0.1");
+        throw InputError(key + ": found " + in_quotes(text) +
+                         "; accepted: an IPv4 address of this machine, as 127.0.0.1");
     return ntohl(address.s_addr);
 }
 
@@ -42,7 +43,7 @@ sockaddr_in parse_endpoint(const std::string& text) {
     const auto [end, error] = std::from_chars(begin, text.data() + text.size(), port);
     if (colon == std::string::npos || error != std::errc{} || end != text.data() + text.size() || port == 0 ||
         port > 65535)
-        throw InputError("'" + text + "': accepted: ADDRESS:PORT, as 127.0.0.1:5010");
+        throw InputError(in_quotes(text) + ": accepted: ADDRESS:PORT, as 127.0.0.1:5010");
     return socket_address(parse_ipv4(text.substr(0, colon), text), static_cast<std::uint16_t>(port));
 }
 
@@ -92,7 +93,7 @@ sockaddr_un unix_address(const std::string& path) {
     sockaddr_un out{};
     out.sun_family = AF_UNIX;
     if (path.empty() || path.size() >= sizeof out.sun_path)
-        throw InputError("'" + path + "': accepted: the path of a Unix socket, 1 to " +
+        throw InputError(in_quotes(path) + ": accepted: the path of a Unix socket, 1 to " +
                          std::to_string(sizeof out.sun_path - 1) + " bytes long");
     std::memcpy(out.sun_path, path.data(), path.size());
     return out;

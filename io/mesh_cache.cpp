@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "render/check.h"
+#include "render/quoted.h"
 
 extern char** environ;
 
@@ -44,8 +45,8 @@ std::filesystem::path generated_mesh(const std::string& program, const std::vect
         return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
     };
     if (program.empty() || !std::all_of(program.begin(), program.end(), plain))
-        throw InputError("mesh generator '" + program +
-                         "': accepted: the name of a program beside hilcam, as " + "hilcam-make-spacecraft");
+        throw InputError("mesh generator " + in_quotes(program) +
+                         ": accepted: the name of a program beside hilcam, as " + "hilcam-make-spacecraft");
     std::string name = program;
     for (const std::string& argument : arguments) {
         const std::string word = argument.substr(std::min(argument.find_first_not_of('-'), argument.size()));

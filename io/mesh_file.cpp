@@ -19,7 +19,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/gltf_webp.h"
+#include "io/kept_stderr.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -112,8 +114,9 @@ class Loader {
     }
 
     cv::Mat decode(const std::string& path, const std::string& material) const {
+        const KeptStderr printed;
         cv::Mat picture;
-        const std::string of = "texture '" + path + "' of material '" + material + "'";
+        const std::string of = "texture " + in_quotes(path) + " of material " + in_quotes(material);
         try {
             if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str())) {
                 if (embedded->mHeight == 0) {  // compressed: mWidth is the number of bytes
@@ -138,7 +141,10 @@ class Loader {
         } catch (const cv::Exception&) {
             picture.release();
         }
-        if (picture.empty()) refuse(file_, of + " does not decode; accepted: PNG, JPEG, TIFF, BMP, WebP");
+        const std::string why = printed.first_line();
+        if (picture.empty())
+            refuse(file_, of + " does not decode" + (why.empty() ? "" : " (" + why + ")") +
+                              "; accepted: PNG, JPEG, TIFF, BMP, WebP");
         return picture;
     }
 
@@ -170,8 +176,8 @@ class Loader {
                                          : "holds no triangle besides its parts");
         std::string names;
         list_names(*scene_.mRootNode, names);
-        refuse(file_, "no triangle under a node '" + nodes_[static_cast<std::size_t>(part_)] +
-                          "'; its nodes:" + names);
+        refuse(file_, "no triangle under a node " + in_quotes(nodes_[static_cast<std::size_t>(part_)]) +
+                          "; its nodes:" + names);
     }
     static void list_names(const aiNode& node, std::string& names) {
         if (names.size() < 400) names.append(" ").append(node.mName.C_Str());
@@ -188,8 +194,8 @@ class Loader {
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
             const aiVector3D p = body_from_part * part.mVertices[i];
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                refuse(file_, "part '" + std::string(part.mName.C_Str()) +
-                                  "' is not finite once its node places it");
+                refuse(file_,
+                       "part " + in_quotes(part.mName.C_Str()) + " is not finite once its node places it");
             mesh_.vertices_m.push_back({p.x, p.y, p.z});
             if (any_uvs_) {
                 const bool has = part.HasTextureCoords(0);
@@ -211,8 +217,8 @@ class Loader {
             if (face.mNumIndices != 3) continue;
             std::array<std::uint32_t, 3> t = {face.mIndices[0], face.mIndices[1], face.mIndices[2]};
             if (std::max({t[0], t[1], t[2]}) >= part.mNumVertices)
-                refuse(file_, "triangle " + std::to_string(i) + " of part '" + part.mName.C_Str() +
-                                  "' names a vertex that does not exist");
+                refuse(file_, "triangle " + std::to_string(i) + " of part " + in_quotes(part.mName.C_Str()) +
+                                  " names a vertex that does not exist");
             // By place: some of assimp's loaders give each corner a vertex of its own.
             const auto at = [&](std::size_t corner) { return mesh_.vertices_m[base + t[corner]]; };
             if (at(0) == at(1) || at(1) == at(2) || at(0) == at(2)) continue;
@@ -233,8 +239,8 @@ class Loader {
         }
         if (bad > 0)
             refuse(file_, std::to_string(bad) + " of " + std::to_string(part.mNumVertices) +
-                              " vertices of part '" + part.mName.C_Str() +
-                              "' are not finite, the first is number " + std::to_string(first));
+                              " vertices of part " + in_quotes(part.mName.C_Str()) +
+                              " are not finite, the first is number " + std::to_string(first));
     }
 };
 
@@ -303,7 +309,7 @@ std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<c
     const std::array<std::string, 5> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply"};
     if (!std::filesystem::is_regular_file(file)) refuse(file, "no such mesh file");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-        refuse(file, "found a file of kind '" + kind + "'; accepted: .glb .gltf .obj .stl .ply");
+        refuse(file, "found a file of kind " + in_quotes(kind) + "; accepted: .glb .gltf .obj .stl .ply");
     if (kind == ".ply") require_ply_header(file);
     std::optional<std::vector<std::uint8_t>> changed;
     if (kind == ".glb") changed = with_plain_webp_sources(read_bytes(file));

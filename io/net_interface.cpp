@@ -12,6 +12,7 @@
 
 #include "io/fd.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -61,7 +62,7 @@ NetInterface find_interface(const std::string& wanted) {
         if (found.mac == 0) found.mac = 0x020000000000ull | found.address;
         return found;
     }
-    throw InputError("interface '" + wanted + "' does not exist; accepted: " + known);
+    throw InputError("interface " + in_quotes(wanted) + " does not exist; accepted: " + known);
 }
 
 }  // namespace hilcam

@@ -107,7 +107,7 @@ void keep(const KvnLines& lines, std::vector<OemSegment>& kept, OemSegment&& seg
     if (!kept.empty()) {
         const OemSegment& before = kept.back();
         if (object.empty() && before.object_id != segment.object_id)
-            lines.fail("has objects " + before.object_id + " and " + segment.object_id +
+            lines.fail("has objects " + in_quotes(before.object_id) + " and " + in_quotes(segment.object_id) +
                            "; accepted: one of them by 'object'",
                        segment.line);
         if (segment.usable_start < before.usable_stop)

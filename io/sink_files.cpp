@@ -53,7 +53,7 @@ void FilesSink::run() {
             written_.fetch_add(1);
         } catch (const std::exception& error) {
             const std::lock_guard lock(mutex_);
-            fault_ = error.what();
+            if (failed_++ == 0) first_failure_ = error.what();
         }
         mailbox_.done();
     }
@@ -67,7 +67,12 @@ void FilesSink::stop() noexcept {
 
 SinkReport FilesSink::report() const {
     const std::lock_guard lock(mutex_);
-    return {"files " + config_.folder.string(), written_.load(), mailbox_.dropped(), fault_};
+    SinkReport out{"files " + config_.folder.string(), written_.load(), mailbox_.dropped() + failed_, {}};
+    if (failed_ > 0)
+        out.fault =
+            first_failure_ + (failed_ == 1 ? " (1 frame lost)"
+                                           : " (the first of " + std::to_string(failed_) + " frames lost)");
+    return out;
 }
 
 }  // namespace hilcam

@@ -1,6 +1,7 @@
 #pragma once
 // Frames as files in a folder, "frame_00000001.png", 16 bits right-aligned; or ".raw", the bytes of the
-// camera's memory.
+// camera's memory. A frame that cannot be written leaves no file; the next is tried all the same, as a disk
+// may be emptied.
 
 #include <cstdint>
 #include <filesystem>
@@ -41,7 +42,8 @@ class FilesSink : public FrameSink {
     std::uint64_t offered_ = 0;
     std::atomic<std::uint64_t> written_{0};
     mutable std::mutex mutex_;
-    std::string fault_;
+    std::uint64_t failed_ = 0;  // frames that could not be written
+    std::string first_failure_;
 };
 
 }  // namespace hilcam

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 
@@ -19,16 +20,6 @@ inline std::string_view trimmed(std::string_view text) {
     while (!text.empty() && blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && blank(text.back())) text.remove_suffix(1);
     return text;
-}
-
-// As messages quote it: at most 60 characters, none that a terminal obeys.
-inline std::string in_quotes(std::string_view text) {
-    std::string out = "'";
-    out += text.substr(0, 60);
-    out += text.size() > 60 ? "...'" : "'";
-    for (char& c : out)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-    return out;
 }
 
 // The whole of a text as a finite number; nothing else.

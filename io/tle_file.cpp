@@ -159,8 +159,8 @@ const Tle& choose_tle(const std::vector<Tle>& sets, const std::string& satellite
     const Tle* chosen = nullptr;
     for (const Tle& tle : sets) {
         if (satellite.empty() && tle.satellite != sets.front().satellite)
-            throw InputError(file + ": has sets of several satellites, " + sets.front().satellite + " and " +
-                             tle.satellite + "; accepted: one of them by 'satellite'");
+            throw InputError(file + ": has sets of several satellites, " + in_quotes(sets.front().satellite) +
+                             " and " + in_quotes(tle.satellite) + "; accepted: one of them by 'satellite'");
         if (!satellite.empty() && tle.satellite != satellite && tle.name != satellite) continue;
         const bool past = tle.epoch <= time;
         if (!chosen || (past && (chosen->epoch > time || tle.epoch > chosen->epoch)) ||
@@ -169,8 +169,8 @@ const Tle& choose_tle(const std::vector<Tle>& sets, const std::string& satellite
     }
     if (!chosen)
         throw InputError(file + ": has no satellite " + in_quotes(satellite) +
-                         "; accepted: a number or name as " + sets.front().satellite +
-                         (sets.front().name.empty() ? "" : " or " + sets.front().name));
+                         "; accepted: a number or name as " + shortened(sets.front().satellite) +
+                         (sets.front().name.empty() ? "" : " or " + shortened(sets.front().name)));
     return *chosen;
 }
 

@@ -7,6 +7,7 @@
 #include "io/allow_list.h"
 #include "io/fd.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -54,8 +55,8 @@ void validate(const TruthConfig& c) {
     for (const std::string& to : c.udp_to) parse_endpoint(to);
     for (const std::string& word : c.layers)
         if (!layer_named(word))
-            throw InputError("layers: found '" + word +
-                             "'; accepted: object, range, depth, normal, position");
+            throw InputError("layers: found " + in_quotes(word) +
+                             "; accepted: object, range, depth, normal, position");
     if (!c.layers.empty() && c.folder.empty())
         throw InputError("'layers' are written as pictures: they need 'folder'");
 }

@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -78,8 +79,8 @@ UsbDevice open_device(libusb_device* device, const libusb_device_descriptor& d, 
 
 UsbId parse_usb_id(const std::string& text) {
     const auto fail = [&]() -> InputError {
-        return InputError("'" + text +
-                          "': accepted: VENDOR:PRODUCT or VENDOR:PRODUCT:SERIAL, hexadecimal as "
+        return InputError(in_quotes(text) +
+                          ": accepted: VENDOR:PRODUCT or VENDOR:PRODUCT:SERIAL, hexadecimal as "
                           "lsusb prints them, as 1209:0001");
     };
     UsbId id;

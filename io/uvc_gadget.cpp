@@ -9,6 +9,7 @@
 
 #include "io/fd.h"
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -150,7 +151,7 @@ void UvcGadget::make() {
     if (std::find(controllers.begin(), controllers.end(), udc_) == controllers.end()) {
         std::string list;
         for (const std::string& name : controllers) list.append(list.empty() ? "" : ", ").append(name);
-        throw DeviceError("outputs.uvc.udc: found '" + udc_ + "'; this machine has: " + list);
+        throw DeviceError("outputs.uvc.udc: found " + in_quotes(udc_) + "; this machine has: " + list);
     }
     std::error_code error;
     if (!fs::is_directory(root(), error))

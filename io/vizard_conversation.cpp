@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/bytes.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -32,8 +33,8 @@ VizardConversation::Answer VizardConversation::answer(const VizardParts& asked) 
     if (word == "SIM_UPDATE") return take_update(asked);
     if (word == "REQUEST_INPUT") return {{"VIZARD_INPUT", encode_vizard_input(world_.frame_number())}};
     if (word.starts_with(kImageRequest)) return take_picture(word.substr(kImageRequest.size()));
-    return refuse("a request '" + shown(word) +
-                  "'; accepted: PING, SIM_UPDATE, REQUEST_IMAGE_<cameraID>, REQUEST_INPUT");
+    return refuse("a request " + in_quotes(word) +
+                  "; accepted: PING, SIM_UPDATE, REQUEST_IMAGE_<cameraID>, REQUEST_INPUT");
 }
 
 VizardConversation::Answer VizardConversation::refuse(const std::string& reason) {
@@ -58,7 +59,7 @@ VizardConversation::Answer VizardConversation::take_picture(const std::string& i
     const auto [at, error] = std::from_chars(id_text.data(), end, id);
     Answer without{picture_parts({}), true};
     if (error != std::errc{} || at != end) {
-        world_.remark("no picture for '" + shown(id_text) + "': accepted: the number of a camera");
+        world_.remark("no picture for " + in_quotes(id_text) + ": accepted: the number of a camera");
         return without;
     }
     VizardShot shot;

@@ -1,5 +1,6 @@
 #include "io/vizard_message.h"
 
+#include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/stubs/logging.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "io/plain_number.h"
 #include "io/vizard_geometry.h"
 #include "render/check.h"
+#include "render/quoted.h"
 #include "render/units.h"
 #include "vizard.pb.h"
 
@@ -21,9 +23,9 @@ constexpr double kFarthest_m = 1.5e15, kFastest_m_s = 3e8;
 // 50 years: with any epoch that parse_utc() takes, the sum stays inside TimeTai.
 constexpr double kLongest_ns = 1.6e18;
 constexpr double kRotationTolerance = 1e-6;
-// Basilisk's messages have some kilobytes. Two bytes can become a spacecraft of a hundred in memory.
+// Basilisk's messages have some kilobytes.
 constexpr std::size_t kMostBytes = 8u << 20;
-constexpr int kMostThings = 10'000, kMostCameras = 255;
+constexpr std::size_t kMostThings = 10'000, kMostCameras = 255, kMostResolutions = 1000;
 
 // A list of numbers of a message; `what` names it in a refusal.
 struct Numbers {
@@ -64,7 +66,7 @@ struct Numbers {
 
 template <class Message>
 VizardThing thing_of(const std::string& kind, const std::string& name, const Message& m) {
-    const std::string what = kind + " '" + shown(name) + "': ";
+    const std::string what = kind + " " + in_quotes(name) + ": ";
     VizardThing thing;
     thing.name = name;
     thing.position_n_m = Numbers{m.position(), what + "position"}.vector(kFarthest_m);
@@ -109,17 +111,79 @@ std::int64_t elapsed_of(double ns) {
     return std::llround(ns);
 }
 
-void check_number(const char* what, int found, int most) {
+// --- before anything is built of a message
+
+// Calls see(field, bytes) for each field of a message; a number has no bytes. False: these bytes are none.
+// (Protobuf's groups, wire types 3 and 4, are not in proto3.)
+template <class See>
+bool walk(std::span<const std::uint8_t> message, const See& see) {
+    google::protobuf::io::CodedInputStream in(message.data(), static_cast<int>(message.size()));
+    while (const std::uint32_t tag = in.ReadTag()) {
+        std::span<const std::uint8_t> bytes;
+        std::uint64_t number = 0;
+        std::uint32_t length = 0;
+        bool good = false;
+        switch (tag & 7) {
+            case 0:
+                good = in.ReadVarint64(&number);
+                break;
+            case 1:
+                good = in.Skip(8);
+                break;
+            case 2:
+                good = in.ReadVarint32(&length) && length <= message.size();
+                if (good) {
+                    const auto begin = static_cast<std::size_t>(in.CurrentPosition());
+                    good = in.Skip(static_cast<int>(length));
+                    if (good) bytes = message.subspan(begin, length);
+                }
+                break;
+            case 5:
+                good = in.Skip(4);
+                break;
+            default:
+                break;
+        }
+        if (!good) return false;
+        see(tag >> 3, bytes);
+    }
+    return in.ConsumedEntireMessage();
+}
+
+void check_number(const char* what, std::size_t found, std::size_t most) {
     if (found > most)
         throw InputError("found " + std::to_string(found) + " " + what + "; accepted: up to " +
                          std::to_string(most));
 }
 
+// Two bytes of a message can become a spacecraft of a hundred in memory, one byte a camera's resolution of
+// eight: both are counted before there is any. False: the bytes are no message. Throws InputError.
+bool numbers_fit(std::span<const std::uint8_t> message) {
+    using hilcam_vizard::CameraConfig, hilcam_vizard::VizMessage;
+    std::size_t spacecraft = 0, bodies = 0, cameras = 0, resolutions = 0;
+    const auto in_camera = [&](std::uint32_t field, std::span<const std::uint8_t> bytes) {
+        if (field == CameraConfig::kResolutionFieldNumber)
+            resolutions += std::max<std::size_t>(1, bytes.size());
+    };
+    const bool good = walk(message, [&](std::uint32_t field, std::span<const std::uint8_t> bytes) {
+        spacecraft += field == VizMessage::kSpacecraftFieldNumber;
+        bodies += field == VizMessage::kCelestialBodiesFieldNumber;
+        cameras += field == VizMessage::kCamerasFieldNumber;
+        // One that is broken is left to the parser.
+        if (field == VizMessage::kCamerasFieldNumber) walk(bytes, in_camera);
+    });
+    if (!good) return false;
+    check_number("spacecraft", spacecraft, kMostThings);
+    check_number("bodies", bodies, kMostThings);
+    check_number("cameras", cameras, kMostCameras);
+    check_number("bytes of resolutions", resolutions, kMostResolutions);
+    return true;
+}
+
+// --- what it says
+
 VizardUpdate update_of(const hilcam_vizard::VizMessage& m) {
     VizardUpdate update;
-    check_number("spacecraft", m.spacecraft_size(), kMostThings);
-    check_number("bodies", m.celestialbodies_size(), kMostThings);
-    check_number("cameras", m.cameras_size(), kMostCameras);
     if (!m.has_currenttime()) throw InputError("currentTime is missing");
     update.frame_number = m.currenttime().framenumber();
     update.elapsed_ns = elapsed_of(m.currenttime().simtimeelapsed());
@@ -141,10 +205,10 @@ DecodedVizardUpdate decode_vizard_update(std::span<const std::uint8_t> bytes) {
     const std::string size = std::to_string(bytes.size()) + " bytes";
     if (bytes.size() > kMostBytes)
         return {{}, "found " + size + "; accepted: up to " + std::to_string(kMostBytes)};
-    hilcam_vizard::VizMessage message;
-    if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
-        return {{}, "is no VizMessage (" + size + ")"};
     try {
+        hilcam_vizard::VizMessage message;
+        if (!numbers_fit(bytes) || !message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+            return {{}, "is no VizMessage (" + size + ")"};
         return {update_of(message), {}};
     } catch (const InputError& error) {
         return {{}, error.what()};
@@ -155,14 +219,6 @@ std::string encode_vizard_input(std::int64_t frame_number) {
     hilcam_vizard::VizInput input;
     input.set_framenumber(frame_number);
     return input.SerializeAsString();
-}
-
-std::string shown(const std::string& text) {
-    constexpr std::size_t kMost = 60;
-    std::string out = text.substr(0, kMost);
-    for (char& c : out)
-        if (c < ' ' || c > '~') c = '.';
-    return out;
 }
 
 }  // namespace hilcam

@@ -48,7 +48,5 @@ struct DecodedVizardUpdate {
 DecodedVizardUpdate decode_vizard_update(std::span<const std::uint8_t> bytes);
 // The user's input since the last message, of which there is none.
 std::string encode_vizard_input(std::int64_t frame_number);
-// Text from outside as a log line can show it: at most 60 characters, others than printable ASCII as dots.
-std::string shown(const std::string& text);
 
 }  // namespace hilcam

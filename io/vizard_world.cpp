@@ -8,6 +8,7 @@
 
 #include "io/plain_number.h"
 #include "io/vizard_geometry.h"
+#include "render/quoted.h"
 #include "render/units.h"
 
 namespace hilcam {
@@ -101,8 +102,8 @@ bool VizardWorld::shot(std::int64_t id, VizardShot& shot) {
         return refuse("camera " + std::to_string(id) + ": no picture, as it asks for depth (renderMode 1)");
     const VizardThing* const parent = parent_of(*camera);
     if (!parent)
-        return refuse("camera " + std::to_string(id) + ": no picture, as SIM_UPDATE has no spacecraft '" +
-                      shown(camera->parent) + "'");
+        return refuse("camera " + std::to_string(id) + ": no picture, as SIM_UPDATE has no spacecraft " +
+                      in_quotes(camera->parent));
     check_camera(*camera, bench_.cameras[own]);
 
     const Bodies bodies = bodies_at(time(), bench_.origin);
@@ -166,8 +167,8 @@ VizardWorld::Shift VizardWorld::shift_at(TimeTai time, const Bodies& bodies) {
 
 Motion VizardWorld::motion_of(const VizardThing& thing, const Shift& shift) {
     if (!thing.n_from_body)
-        remark("SIM_UPDATE has no attitude of '" + shown(thing.name) +
-               "': it stands along the axes of the simulation's frame");
+        remark("SIM_UPDATE has no attitude of " + in_quotes(thing.name) +
+               ": it stands along the axes of the simulation's frame");
     return {time(),
             {thing.position_n_m + shift.position_m, thing.n_from_body.value_or(Quat{})},
             thing.velocity_n_m_s + shift.velocity_m_s,
@@ -191,7 +192,7 @@ void VizardWorld::pose_objects(const Shift& shift, std::vector<PoseCommand>& pos
     std::size_t hidden = 0;
     const auto hide = [&](const std::string& kind, const VizardThing& thing) {
         if (++hidden <= kMostNamed)
-            remark(kind + " '" + shown(thing.name) + "' is not shown, as no object has its name");
+            remark(kind + " " + in_quotes(thing.name) + " is not shown, as no object has its name");
     };
     std::set<const VizardThing*> carriers;
     for (const VizardCamera& camera : update_.cameras) carriers.insert(parent_of(camera));
@@ -204,8 +205,8 @@ void VizardWorld::pose_objects(const Shift& shift, std::vector<PoseCommand>& pos
                                   " more spacecraft and bodies are not shown, as no object has their names");
     for (std::size_t i = 0; i < told.size(); ++i)
         if (!told[i])
-            remark("object " + std::to_string(i + 1) + " '" + bench_.objects[i] +
-                   "' stays where it is, as SIM_UPDATE does not name it");
+            remark("object " + std::to_string(i + 1) + " " + in_quotes(bench_.objects[i]) +
+                   " stays where it is, as SIM_UPDATE does not name it");
 }
 
 void VizardWorld::check_camera(const VizardCamera& c, const VizardBench::Camera& own) {
@@ -228,7 +229,7 @@ void VizardWorld::check_bodies(const Bodies& bodies, const Shift& shift, Vec3d c
         const Vec3d own_world_m = is_sun ? bodies.sun_world_m : bodies[*id].world_m;
         const double aside_rad = angle_between(body.position_n_m + shift.position_m - camera_world_m,
                                                own_world_m - camera_world_m);
-        const std::string who = "body '" + shown(body.name) + "': the simulation ";
+        const std::string who = "body " + in_quotes(body.name) + ": the simulation ";
         if (!(aside_rad <= rules_.tolerance_rad))
             remark_once(who + "place", who + "has it " + degrees(aside_rad) +
                                            " from where the picture shows it (the scenario's ephemerides)");

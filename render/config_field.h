@@ -113,7 +113,8 @@ struct Field {
                  NumbersField, Vec3Field, QuatField, CurveField, TableField, SectionField, SectionsField>
         target;
     bool required = false;
-    bool* present = nullptr;  // set when the key is given
+    bool* present = nullptr;     // set when the key is given
+    bool changes_frames = true;  // false: frames do not depend on it, so that a replay may have another value
 };
 
 // --- makers, so that a list reads as a table ---
@@ -185,6 +186,11 @@ inline Field required(Field field, bool* present = nullptr) {
 }
 inline Field optional(Field field, bool& present) {
     field.present = &present;
+    return field;
+}
+// A key, with all below it, that a replay may have otherwise than the recording (docs/recording.md).
+inline Field beside_frames(Field field) {
+    field.changes_frames = false;
     return field;
 }
 

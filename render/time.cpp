@@ -9,6 +9,7 @@
 
 #include "render/check.h"
 #include "render/earth_orientation.h"
+#include "render/quoted.h"
 #include "render/time_system.h"
 
 namespace hilcam {
@@ -39,7 +40,7 @@ bool scan(std::string_view text, CalendarTime& t) {
 
 TimeTai parse_utc(std::string_view text) {
     const auto refuse = [&](const char* why) {
-        throw InputError("time '" + std::string(text) + "' " + why +
+        throw InputError("time " + in_quotes(text) + " " + why +
                          "; accepted: UTC as 2026-03-20T06:00:00.000Z, years 1950 to 2200");
     };
     CalendarTime t;

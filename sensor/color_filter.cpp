@@ -1,6 +1,7 @@
 #include "sensor/color_filter.h"
 
 #include "render/check.h"
+#include "render/quoted.h"
 
 namespace hilcam {
 
@@ -24,7 +25,8 @@ void validate(const ColorFilterArrayConfig& c) {
                          "; accepted: at most 8");
     for (const ColorFilterConfig& filter : c.filters)
         if (filter.name.size() != 1 || filter.name == " ")
-            throw InputError("color_filter.filters: name '" + filter.name + "'; accepted: one letter");
+            throw InputError("color_filter.filters: name " + in_quotes(filter.name) +
+                             "; accepted: one letter");
     std::size_t row = 0, width = 0;
     for (std::size_t i = 0; i <= c.pattern.size(); ++i) {
         if (i < c.pattern.size() && c.pattern[i] != ' ') {
@@ -38,7 +40,8 @@ void validate(const ColorFilterArrayConfig& c) {
         }
         if (c.pattern.empty()) return;
         if (width != 0 && row != width)
-            throw InputError("color_filter.pattern '" + c.pattern + "'; accepted: rows of one length");
+            throw InputError("color_filter.pattern " + in_quotes(c.pattern) +
+                             "; accepted: rows of one length");
         width = row;
         row = 0;
     }

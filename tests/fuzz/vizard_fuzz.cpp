@@ -1,9 +1,10 @@
 // Any bytes are a simulator's message or a refusal in one line; what follows from them are finite poses, and
-// every request is answered.
+// every request is answered. As bytes of a connection they are followed the same in pieces as at once.
 
 #include <cmath>
 
 #include "io/vizard_conversation.h"
+#include "io/zmtp_meter.h"
 #include "render/check.h"
 
 namespace {
@@ -31,9 +32,21 @@ VizardConversation::Picture look(const VizardShot& shot) {
     return {"picture", {}};
 }
 
+// After a greeting as it should be; byte by byte it finds what it finds at once.
+void check_meter(std::span<const std::uint8_t> frames) {
+    std::vector<std::uint8_t> greeting(64);
+    greeting[0] = 0xFF, greeting[9] = 0x7F, greeting[10] = 3;
+    ZmtpMeter at_once({100, 4}), by_bytes({100, 4});
+    HILCAM_CHECK(at_once.take(greeting) && by_bytes.take(greeting));
+    bool good = true;
+    for (std::size_t i = 0; i < frames.size(); ++i) good = by_bytes.take(frames.subspan(i, 1));
+    HILCAM_CHECK(at_once.take(frames) == good);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    check_meter({data, size});
     const DecodedVizardUpdate decoded = decode_vizard_update({data, size});
     check_one_line(decoded.refusal);
     VizardWorld world({VizardTime::kMessage, 1e-3, {}}, bench(), check_one_line);

@@ -74,6 +74,33 @@ class ExitCodes(unittest.TestCase):
         self.refused("accepted: .exr", "render", SCENARIO, "--out", "x.png", "--stage", "radiance")
         self.assertEqual(hilcam("fly").returncode, 2)
 
+    def test_no_message_commands_the_terminal(self):
+        for arguments in (("--set", "camera.\x1b[31mname=3"), ("--set", "time_utc=\x1b]0;title\x07"), ("--\x1b[31m",)):
+            result = hilcam("check", SCENARIO, *arguments)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertNotRegex(result.stderr, "[\x00-\x09\x0b-\x1f\x7f-\x9f]")
+        result = hilcam("check", "configs/\x1b[31m.yaml")
+        self.assertIn("configs/ [31m.yaml: cannot be read", result.stderr)
+
+    def test_check_loads_what_a_run_loads(self):
+        second = "{width_px: 8, height_px: 8, pitch_um: 5, focal_length_mm: 25, f_number: 4, quantum_efficiency: 0.5," \
+                 " full_well_e: 1e4, gain_dn_e: 0.2, bits: 12, fixed_pattern: {dark_map: /none/map.tiff}}"
+        for key in ("prnu_map", "offset_map", "dark_map"):
+            self.refused("/none/map.tiff: is missing", "check", SCENARIO, "--set", f"camera.fixed_pattern.{key}=/none/map.tiff")
+        self.refused("/none/map.tiff: is missing", "check", SCENARIO, "--set", f"more_cameras=[{{camera: {second}}}]")
+        self.refused("/none/map.tiff: is missing", "check", SOURCE / "configs/cameras/inspector_1k.yaml", "--set",
+                     "fixed_pattern.prnu_map=/none/map.tiff")
+        self.refused("found a Bayer format, but the camera has no colour filters", "check", SCENARIO, "--set",
+                     "outputs.v4l2.format=BAYER8")
+
+    def test_a_sensor_without_enough_memory_is_named(self):
+        large = ("--set", "camera.width_px=16384", "--set", "camera.height_px=16384", "--set", "quality.oversampling=8")
+        for command in ("check", "run"):
+            result = subprocess.run(["prlimit", "--as=4000000000", HILCAM, command, str(SCENARIO), *large],
+                                    capture_output=True, text=True, timeout=120)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn("not enough memory for the scenario: its camera of 16384 x 16384 px", result.stderr)
+
     def test_device_faults_are_status_1_and_say_what_to_do(self):
         result = hilcam("run", SCENARIO, "--set", "outputs.v4l2.device=/dev/video-none")
         self.assertEqual(result.returncode, 1)
@@ -163,6 +190,29 @@ class Pictures(unittest.TestCase):
                 result = hilcam("render", SCENARIO, "--stage", stage, "--out", file)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(file.read_bytes()[:4], b"\x76\x2f\x31\x01")  # OpenEXR's magic number
+
+
+class FullDisk(unittest.TestCase):
+    def test_it_is_said_at_once_and_once_and_leaves_nothing_broken(self):
+        with tempfile.TemporaryDirectory() as folder:
+            frames = pathlib.Path(folder) / "frames"
+            frames.mkdir()
+            for number in range(3, 400):  # as if the disk were full from the third on
+                (frames / f"frame_{number:08}.png").symlink_to("/dev/full")
+            result = hilcam("run", SCENARIO, "--duration", 2, "--set", f"outputs.files={{folder: {frames}}}")
+            self.assertEqual(result.returncode, 1, result.stderr)
+            names = {f.name: f.is_symlink() for f in frames.iterdir()}
+            self.assertLessEqual({name for name, full in names.items() if not full},
+                                 {"frame_00000001.png", "frame_00000002.png"})
+            # What was tried there is gone; a busy machine leaves out some exposures.
+            first = next(name for name in (f"frame_{number:08}.png" for number in range(3, 400)) if name not in names)
+            lines = result.stderr.splitlines()
+            told = [i for i, line in enumerate(lines) if f"{first}: cannot be written: No space left" in line]
+            self.assertEqual(len(told), 2, result.stderr)
+            end = next(i for i, line in enumerate(lines) if "exposures missed" in line)
+            self.assertLess(told[0], end)
+            self.assertRegex(lines[told[1]], r"the first of \d\d+ frames lost")
+            self.assertNotIn("libpng", result.stderr)
 
 
 class Characterise(unittest.TestCase):

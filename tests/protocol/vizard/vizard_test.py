@@ -131,6 +131,10 @@ class Vizard:
         assert client.reset() == b"PONG"
         return client
 
+    def peak_mb(self):
+        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(status.split("VmHWM:")[1].split()[0]) / 1000
+
     def remarks(self):
         return [line.split("vizard: ", 1)[1] for line in self.log_file.read_text().splitlines() if "vizard: " in line]
 
@@ -328,12 +332,47 @@ class BadInput(unittest.TestCase):
             for needle in ("camera 9: no picture, as SIM_UPDATE has no such camera", "no spacecraft 'nobody'",
                            "object 1 'target' stays where it is", "SIM_UPDATE: is no VizMessage (3 bytes)",
                            "spacecraft 'target': rotation: found a number that is not finite", "no picture before a SIM_UPDATE",
-                           "SIM_UPDATE of 1 parts; accepted: 4", "a request 'HELLO.'; accepted: PING", "no picture for 'one'",
+                           "SIM_UPDATE of 1 parts; accepted: 4", "a request 'HELLO '; accepted: PING", "no picture for 'one'",
                            "a request 'x'", "the simulation's picture is 512 x 96 px, the scenario's camera gives 128 x 96",
                            "body 'sun': the simulation has it 0.3"):
                 self.assertEqual(told.count(needle), 1, f"{needle}\n{told}")
             self.assertEqual(len(vizard.remarks()), 12, told)
             self.assertEqual(report["commands"]["refused"], 12)  # a camera, three times nobody, eight asked here
+
+    def test_messages_without_end_take_no_memory(self):
+        greeting = (b"\xff" + bytes(8) + b"\x7f\x03\x00NULL").ljust(64, b"\0")
+        ready = b"\x05READY\x0bSocket-Type\x00\x00\x00\x03REQ"
+        part = b"\x03" + (1 << 20).to_bytes(8, "big") + bytes(1 << 20)  # long, and more to come
+
+        def passed_on(port):
+            """MiB of a message of 140 parts that are taken."""
+            with socket.create_connection(("127.0.0.1", port)) as peer:
+                peer.sendall(greeting + b"\x04" + bytes([len(ready)]) + ready)
+                answer = b""
+                while b"READY" not in answer:
+                    answer += peer.recv(1000)
+                peer.sendall(b"\x01\x00")
+                for sent in range(140):
+                    try:
+                        peer.sendall(part)
+                    except OSError:
+                        return sent
+            return 140
+
+        with tempfile.TemporaryDirectory() as folder, Vizard(folder) as vizard:
+            client = vizard.connect()
+            self.assertNotEqual(client.step(update(1, 60, 20, looking_at_target()), [1])[1], b"")
+            before = vizard.peak_mb()
+            for _ in range(8):
+                self.assertLess(passed_on(vizard.port), 40)  # 16, and what is in the sockets
+            crowd = [socket.create_connection(("127.0.0.1", vizard.port)) for _ in range(20)]
+            self.assertNotEqual(client.step(update(2, 61, 20, looking_at_target()), [1])[1], b"")
+            for peer in crowd:
+                peer.close()
+            self.assertLess(vizard.peak_mb() - before, 300)
+            client.close()
+            vizard.stop()
+            self.assertEqual([line for line in vizard.remarks() if "a connection was ended" in line][1:], [])
 
     def test_what_the_scenario_cannot_do_is_said_at_once(self):
         def refused(needle, *sets):
@@ -358,7 +397,7 @@ class BadInput(unittest.TestCase):
                 [HILCAM, "run", str(SCENARIO), "--set", f"commands.vizard.address=tcp://127.0.0.1:{port}"], cwd=folder,
                 capture_output=True, text=True, timeout=120)
             self.assertEqual(result.returncode, 1)
-            self.assertIn(f"tcp://127.0.0.1:{port} cannot be listened at: Address already in use", result.stderr)
+            self.assertIn(f"tcp://127.0.0.1:{port} cannot be listened at: TCP 127.0.0.1:{port} is taken", result.stderr)
 
 
 if __name__ == "__main__":

@@ -239,6 +239,48 @@ TEST_F(RecordingFileTest, AsTextAFrameSaysWhatItShowsAndWhatStruckIt) {
     for (const char* key : {"late", "shutter_closed", "faults"}) EXPECT_THAT(lines[2], Not(HasSubstr(key)));
 }
 
+// --- what a replay may have otherwise
+
+void add_keys_beside_frames(const SectionField& section, const std::string& prefix,
+                            std::vector<std::string>& keys) {
+    for (const Field& field : section.fields) {
+        if (!field.changes_frames)
+            keys.push_back(prefix + field.key);
+        else if (const auto* nested = std::get_if<SectionField>(&field.target))
+            add_keys_beside_frames(*nested, prefix + field.key + ".", keys);
+        else if (const auto* many = std::get_if<SectionsField>(&field.target))
+            add_keys_beside_frames(many->append(), prefix + field.key + ".N.", keys);
+    }
+}
+
+TEST(ScenarioListing, TheManualNamesTheKeysThatAReplayMayHaveOtherwise) {
+    ScenarioConfig scenario;
+    std::vector<std::string> keys;
+    add_keys_beside_frames(section_of(scenario), "", keys);
+    ASSERT_THAT(keys, testing::IsSupersetOf({"threads", "loop.priority", "more_cameras.N.outputs"}));
+    std::string list;
+    for (const std::string& key : keys) list += (list.empty() ? "`" : ", `") + key + "`";
+    std::ifstream in(HILCAM_SOURCE_DIR "/docs/recording.md");
+    const std::string manual{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_THAT(manual, HasSubstr("differ: " + list + "."));
+}
+
+TEST(ScenarioListing, HasNothingOfHowTheMachineIsUsed) {
+    ScenarioConfig here;
+    here.more_cameras.resize(1);
+    ScenarioConfig there = here;
+    there.name = "another", there.threads = 3, there.clock.paused = true;
+    there.loop.prefer = LoopPreference::kLatency;
+    there.loop.real_time = {50, {0, 1}, true};
+    there.outputs.has_files = there.more_cameras[0].outputs.has_files = true;
+    there.commands.has_udp = there.has_telemetry = true;
+    there.faults.resize(1), there.events.resize(1);
+    EXPECT_EQ(listing_difference(scenario_listing(there), scenario_listing(here)), "");
+    there.loop.frame_budget_s = 0.01;
+    EXPECT_THAT(listing_difference(scenario_listing(there), scenario_listing(here)),
+                HasSubstr("loop.frame_budget_ms: '10' there"));
+}
+
 TEST(CheckRecording, NamesWhatIsAnother) {
     const RecordingHeader own = small_header();
     EXPECT_TRUE(check_recording(own, "a.rec", own, false).empty());

@@ -242,6 +242,7 @@ TEST_F(ReplayTest, AnotherScenarioIsRefusedAndAnotherOutputIsNot) {
     file_ = bench();
     EXPECT_EQ(refusal("threads=1"), "no error");
     EXPECT_EQ(refusal("name=another"), "no error");
+    EXPECT_EQ(refusal("loop.cores=[0]"), "no error");
 }
 
 }  // namespace

@@ -18,6 +18,16 @@ TEST(Crc16, IsCcittFalse) {
     EXPECT_EQ(crc16({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), 0x29B1);
 }
 
+TEST(Acknowledgement, AReasonCommandsNoTerminal) {
+    Acknowledgement a;
+    a.status = CommandStatus::kBusy;
+    EXPECT_EQ(text_of(a), "busy");
+    a.reason = "\x1b]0;x\x07\nhilcam: accepted";
+    EXPECT_EQ(text_of(a), "busy:  ]0;x  hilcam: accepted");
+    a.reason = std::string(60'000, 'x');
+    EXPECT_LT(text_of(a).size(), 200u);
+}
+
 TEST(CommandCodec, PoseComesBackAsItWent) {
     const DecodedCommand d = decode_command(encoded(some_pose(), 77));
     ASSERT_EQ(d.status, CommandStatus::kAccepted) << d.reason;

@@ -73,6 +73,22 @@ TEST_F(Files, BadMeshesSayWhatIsWrong) {
     EXPECT_THAT(mesh_error(folder_ / "t.obj"), HasSubstr("does not decode"));
 }
 
+TEST_F(Files, ATexturesNameAndItsDecoderPrintNothing) {
+    write("t.mtl", "newmtl a\nKd 1 1 1\nmap_Kd \x1b[31m.png\n");
+    const auto mesh =
+        write("t.obj", "mtllib t.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    EXPECT_THAT(mesh_error(mesh), HasSubstr("texture ' [31m.png' of material 'a' is missing"));
+    write_frame(folder_ / "whole.png", DnImage(64, 64));
+    std::ifstream in(folder_ / "whole.png", std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    bytes[bytes.find("IDAT") + 20] ^= 0x55;
+    write("\x1b[31m.png", bytes);
+    testing::internal::CaptureStderr();
+    const std::string error = mesh_error(mesh);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_THAT(error, HasSubstr("does not decode (libpng"));
+}
+
 TEST_F(Files, WebpExtensionIsMovedAndBrokenLengthsAreLeftAlone) {
     EXPECT_FALSE(with_plain_webp_sources({}));
     std::vector<std::uint8_t> bytes(20, 0xFF);

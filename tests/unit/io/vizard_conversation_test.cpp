@@ -76,7 +76,7 @@ TEST_F(VizardConversationTest, WhatCannotBeReadIsAnErrorAndNoPictureIsOfAnOldWor
     EXPECT_THAT(conversation.answer({"SIM_UPDATE", update().bytes()}).parts, ElementsAre("ERROR"));
     EXPECT_THAT(conversation.answer({}).parts, ElementsAre("ERROR"));
     EXPECT_THAT(conversation.answer({"HELLO\n"}).parts, ElementsAre("ERROR"));
-    EXPECT_THAT(remarks.back(), HasSubstr("a request 'HELLO.'; accepted: PING"));
+    EXPECT_THAT(remarks.back(), HasSubstr("a request 'HELLO '; accepted: PING"));
     tell(update().bytes());
     EXPECT_THAT(conversation.answer({"REQUEST_IMAGE_1"}).parts[1], picture.bytes);
 }

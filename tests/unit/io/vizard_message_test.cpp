@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <limits>
@@ -172,7 +173,7 @@ TEST(VizardMessage, WhatCannotBeIsRefusedByName) {
     EXPECT_THAT(with(3, spacecraft("a", {1e16, 0, 0}, {}, {})), HasSubstr("above 1.5e+15"));
     EXPECT_THAT(with(3, spacecraft("a", {1, 2, 3}, {4e8, 0, 0}, {})), HasSubstr("velocity"));
     EXPECT_EQ(with(3, spacecraft("a\n", {1, 2, 3}, {}, {1, 2})),
-              "spacecraft 'a.': rotation: found 2 numbers; accepted: 3 (MRPs) or 9 (a matrix)");
+              "spacecraft 'a ': rotation: found 2 numbers; accepted: 3 (MRPs) or 9 (a matrix)");
     EXPECT_THAT(with(3, spacecraft("a", {1, 2, 3}, {}, {1, 0, 0, 0, 1, 0, 0, 0, 2})),
                 HasSubstr("no rotation"));
     EXPECT_THAT(with(3, spacecraft("a", {1, 2, 3}, {}, {-1, 0, 0, 0, 1, 0, 0, 0, 1})),
@@ -206,6 +207,25 @@ TEST(VizardMessage, WhatIsFarTooMuchIsRefusedByItsNumber) {
     EXPECT_EQ(refusal_of(Message().text(9, std::string((8u << 20) - 5, 'x'))), "currentTime is missing");
     EXPECT_EQ(refusal_of(Message().text(9, std::string((8u << 20) - 4, 'x'))),
               "found 8388609 bytes; accepted: up to 8388608");
+}
+
+// Two bytes each, or one, would become a hundred, or eight.
+TEST(VizardMessage, WhatIsFarTooMuchTakesNoMemory) {
+    const auto peak_kib = [] {
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        return usage.ru_maxrss;
+    };
+    std::string crowd;
+    for (int i = 0; i < 4'000'000; ++i) crowd.append("\x1a\0", 2);  // field 3, empty
+    const Message pixels =
+        Message().message(4, Message().text(4, std::string((8u << 20) - 100, '\1')));  // packed varints
+    const long before_kib = peak_kib();
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(crowd.data());
+    EXPECT_EQ(decode_vizard_update({bytes, crowd.size()}).refusal,
+              "found 4000000 spacecraft; accepted: up to 10000");
+    EXPECT_EQ(refusal_of(pixels), "found 8388508 bytes of resolutions; accepted: up to 1000");
+    EXPECT_LT(peak_kib() - before_kib, 50'000);  // 433 000 and 65 000 if both were built
 }
 
 TEST(VizardMessage, TheInputSaysWhichMessageItAnswers) {

@@ -1,0 +1,41 @@
+#pragma once
+// How large a ZeroMQ message is while it comes: follows the bytes that a peer sends (ZMTP 3.0 and 3.1,
+// rfc.zeromq.org/spec/23 and /37) without keeping any. A message is one or more parts (frames with MORE, then
+// one without); commands, as the handshake's, are frames of their own. Not followed: security mechanisms
+// that encrypt frames, and versions before 3 (libzmq before 4.0, 2013), which are refused.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hilcam {
+
+class ZmtpMeter {
+  public:
+    struct Limits {
+        std::uint64_t bytes;  // of all parts of a message together
+        std::size_t parts;
+    };
+    explicit ZmtpMeter(const Limits& limits) : limits_(limits) {}
+
+    // The next bytes, cut anywhere. False, from then on: they are of no ZMTP 3 peer, or of a message above
+    // the limits, which is known before its last part comes.
+    bool take(std::span<const std::uint8_t> bytes);
+
+  private:
+    enum class At { kGreeting, kFlags, kLength, kBody };
+
+    bool take_greeting(std::uint8_t byte);
+    bool begin_body();
+
+    Limits limits_;
+    At at_ = At::kGreeting;
+    std::size_t place_ = 0;  // in the greeting, or in a length
+    std::uint8_t flags_ = 0;
+    std::uint64_t length_ = 0;  // of the frame; what is left of its body
+    std::uint64_t bytes_ = 0;   // of the message so far
+    std::size_t parts_ = 0;
+    bool good_ = true;
+};
+
+}  // namespace hilcam
