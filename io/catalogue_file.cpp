@@ -3,10 +3,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <string_view>
 
+#include "io/input_file.h"
 #include "render/check.h"
 #include "render/units.h"
 
@@ -14,6 +14,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::string_view kHeader = "hd,ra_deg,dec_deg,pm_ra_mas_yr,pm_dec_mas_yr,v_mag,b_v";
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30;  // ten times Tycho-2's stars
 constexpr std::size_t kColumns = 7;
 
 // Least and most of each column.
@@ -36,8 +37,7 @@ bool parse_row(std::string_view line, std::array<double, kColumns>& values) {
 }  // namespace
 
 StarCatalogue load_catalogue(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) throw InputError(file.string() + ": cannot be read; accepted: a star catalogue in CSV");
+    InputStream in(file, {kMostBytes, "a star catalogue in CSV"});
     constexpr double kMas_rad = kArcsecond_rad * 1e-3;
     StarCatalogue catalogue;
     std::string line;
