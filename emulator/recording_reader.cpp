@@ -13,7 +13,8 @@ namespace hilcam {
 namespace {
 
 // A recording is read record by record, however long a run was.
-const InputKind kRecordingFile{std::numeric_limits<std::int64_t>::max(), "a recording of hilcam run --record"};
+const InputKind kRecordingFile{std::numeric_limits<std::int64_t>::max(),
+                               "a recording of hilcam run --record"};
 
 }  // namespace
 

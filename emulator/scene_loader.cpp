@@ -11,7 +11,7 @@
 #include "io/atmosphere_file.h"
 #include "io/brdf_file.h"
 #include "io/catalogue_file.h"
-#include "io/image_file.h"
+#include "io/picture_file.h"
 #include "io/mesh_cache.h"
 #include "io/mesh_file.h"
 #include "io/mesh_level_cache.h"

@@ -148,7 +148,8 @@ BrdfTable read_merl(const std::filesystem::path& file, const SpectralGrid& grid)
     constexpr std::size_t kBytes = 3 * sizeof(std::int32_t) + 3 * kCells * sizeof(double);
     InputStream in(file, {kMostBytes, "a BRDF in MERL's binary format"});
     if (in.bytes() != kBytes)
-        refuse(file, "has " + std::to_string(in.bytes()) + " bytes; a MERL BRDF has " + std::to_string(kBytes));
+        refuse(file,
+               "has " + std::to_string(in.bytes()) + " bytes; a MERL BRDF has " + std::to_string(kBytes));
     std::array<std::int32_t, 3> counts{};
     in.read(reinterpret_cast<char*>(counts.data()), sizeof counts);
     if (counts != std::array<std::int32_t, 3>{90, 90, 180})

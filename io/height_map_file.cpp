@@ -28,9 +28,9 @@ class MappedHeights final : public HeightMap {
         const InputFile in = open_input_file(c.file, {kMostBytes, "a raw file of heights"});
         size_ = static_cast<std::size_t>(c.columns) * static_cast<std::size_t>(c.rows) * bytes_each();
         if (in.bytes != size_)
-            refuse("has " + std::to_string(in.bytes) + " bytes; " + std::to_string(c.columns) + " columns of " +
-                   std::to_string(c.rows) + " rows of " + std::to_string(bytes_each()) + " bytes make " +
-                   std::to_string(size_));
+            refuse("has " + std::to_string(in.bytes) + " bytes; " + std::to_string(c.columns) +
+                   " columns of " + std::to_string(c.rows) + " rows of " + std::to_string(bytes_each()) +
+                   " bytes make " + std::to_string(size_));
         void* const mapped = mmap(nullptr, size_, PROT_READ, MAP_SHARED, in.fd.get(), 0);
         if (mapped == MAP_FAILED) refuse("cannot be mapped into memory");
         bytes_ = static_cast<const unsigned char*>(mapped);

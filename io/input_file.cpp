@@ -83,8 +83,8 @@ class InputStream::Buffer final : public std::streambuf {
     std::vector<char> piece_ = std::vector<char>(std::size_t{1} << 18);
 
     int_type underflow() override {
-        const auto size = static_cast<std::size_t>(
-            std::min<std::uintmax_t>(piece_.size(), in_.bytes - read_));
+        const auto size =
+            static_cast<std::size_t>(std::min<std::uintmax_t>(piece_.size(), in_.bytes - read_));
         if (size == 0) return traits_type::eof();
         read_piece(in_, file_, read_, piece_.data(), size);
         read_ += size;
