@@ -156,7 +156,8 @@ class Reader {
     // Through an alias a list of thousands may stand in thousands of places. 4 MiB of pairs as people write
     // them are half a million numbers.
     void count_number(const Place& place, const YAML::Node& node, const std::string& path) {
-        if (++numbers_ > 1000000) fail(place, node, path, "the configuration has more than 1000000 numbers in its lists");
+        if (++numbers_ > 1000000)
+            fail(place, node, path, "the configuration has more than 1000000 numbers in its lists");
     }
 
     void read_section(const YAML::Node& map, const Place& place, const SectionField& section,
