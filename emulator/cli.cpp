@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -393,6 +394,12 @@ int run_command_line(int argc, char** argv) {
     } catch (const InputError& error) {
         spdlog::error("{}", error.what());
         return 2;
+    } catch (const std::bad_alloc&) {
+        spdlog::error(
+            "not enough memory: sensor, spectral bins, meshes or maps ask for more than the machine has, or "
+            "than "
+            "'ulimit -v' allows");
+        return 1;
     } catch (const std::exception& error) {
         spdlog::error("{}", error.what());
         return 1;

@@ -2,27 +2,24 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <limits>
 
 #include "emulator/recording_codec.h"
 #include "io/bytes.h"
+#include "io/input_file.h"
 #include "render/check.h"
 
 namespace hilcam {
 namespace {
 
-std::unique_ptr<std::istream> open_file(const std::filesystem::path& file) {
-    std::error_code error;
-    auto in = std::make_unique<std::ifstream>(file, std::ios::binary);
-    if (!*in || std::filesystem::is_directory(file, error))
-        throw InputError(file.string() + ": cannot be read; accepted: a recording of hilcam run --record");
-    return in;
-}
+// A recording is read record by record, however long a run was.
+const InputKind kRecordingFile{std::numeric_limits<std::int64_t>::max(),
+                               "a recording of hilcam run --record"};
 
 }  // namespace
 
 RecordingReader::RecordingReader(const std::filesystem::path& file)
-    : RecordingReader(open_file(file), file.string()) {}
+    : RecordingReader(std::make_unique<InputStream>(file, kRecordingFile), file.string()) {}
 
 RecordingReader::RecordingReader(std::unique_ptr<std::istream> in, std::string name)
     : in_(std::move(in)), name_(std::move(name)) {

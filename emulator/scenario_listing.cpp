@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <vector>
 
 #include "emulator/recording_codec.h"
+#include "io/input_file.h"
 #include "render/overloaded.h"
 
 namespace hilcam {
@@ -39,7 +40,8 @@ std::string file_text(const std::filesystem::path& file) {
     std::error_code error;
     std::string out = file.filename().string();
     if (file.empty() || !std::filesystem::is_regular_file(file, error)) return out;
-    std::ifstream in(file, std::ios::binary);
+    // It was read for the scene, whose readers know how large it may be.
+    InputStream in(file, {std::numeric_limits<std::int64_t>::max(), "a file"});
     std::vector<std::uint8_t> piece(1u << 20);
     std::uint32_t crc = 0;
     std::uint64_t size = 0;

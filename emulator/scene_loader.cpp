@@ -1,6 +1,7 @@
 #include "emulator/scene_loader.h"
 
 #include <spdlog/fmt/fmt.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <map>
@@ -11,10 +12,10 @@
 #include "io/atmosphere_file.h"
 #include "io/brdf_file.h"
 #include "io/catalogue_file.h"
-#include "io/image_file.h"
 #include "io/mesh_cache.h"
 #include "io/mesh_file.h"
 #include "io/mesh_level_cache.h"
+#include "io/picture_file.h"
 #include "render/brdf_table.h"
 #include "render/check.h"
 #include "render/plugin.h"
@@ -111,6 +112,21 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
     return objects;
 }
 
+// A frame's radiance is the largest of all images: where it alone does not fit, nothing is begun.
+void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
+    constexpr double kGigabyte = 1e9;
+    const double frame_gb =
+        1.0 * g.padded_width() * g.padded_height() * grid.size() * sizeof(float) / kGigabyte;
+    const double machine_gb = 1.0 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                              static_cast<double>(sysconf(_SC_PAGESIZE)) / kGigabyte;
+    if (frame_gb > machine_gb)
+        throw InputError(
+            fmt::format("camera.width_px, height_px: a frame of {} x {} pixels (guard_px and oversampling "
+                        "included) in {} "
+                        "spectral bins takes {:.1f} GB; accepted: less than this machine's memory, {:.1f} GB",
+                        g.padded_width(), g.padded_height(), grid.size(), frame_gb, machine_gb));
+}
+
 }  // namespace
 
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules) {
@@ -154,6 +170,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
 
 std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
                                         const ImageGeometry& geometry) {
+    require_room(grid, geometry);
     Modules modules;
     std::vector<std::filesystem::path> plugins;
     for (const PluginConfig& plugin : scenario.plugins) plugins.push_back(plugin.file);

@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "emulator/clock.h"
@@ -12,6 +10,7 @@
 #include "emulator/send_fly.h"
 #include "emulator/send_watch.h"
 #include "io/command_sender.h"
+#include "io/input_file.h"
 #include "render/check.h"
 #include "render/quoted.h"
 
@@ -46,9 +45,7 @@ int list_faults() {
 
 // Each line at its time; a line that comes late is sent at once.
 int play_script(const SendOptions& o) {
-    std::ifstream in(o.script, std::ios::binary);
-    if (!in) throw InputError(o.script.string() + ": cannot be read; accepted: a text file of commands");
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = read_input_file(o.script, {64u << 20, "a text file of commands"});
     const std::vector<ScriptLine> lines = parse_script(text, o.script.string());
     CommandSender sender(o.target.endpoint, o.target.dialect);
     sender.address(o.target.camera);

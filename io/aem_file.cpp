@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "io/input_file.h"
 #include "io/plain_number.h"
 #include "render/units.h"
 
@@ -289,7 +290,7 @@ std::vector<AemSegment> read_aem(std::string_view text, const std::string& name,
 }
 
 std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object) {
-    return read_aem(read_text_file(file, kMostBytes, "an attitude ephemeris message (CCSDS AEM)"),
+    return read_aem(read_input_file(file, {kMostBytes, "an attitude ephemeris message (CCSDS AEM)"}),
                     file.string(), object);
 }
 

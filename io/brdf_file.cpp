@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/input_file.h"
 #include "io/plain_number.h"
 #include "render/check.h"
 #include "render/color_bands.h"
@@ -26,6 +26,7 @@ constexpr std::array<std::array<double, 2>, kColumns> kRanges = {
     {{0, 90}, {0, 180}, {0, 90}, {0.1, 100}, {0, 1e6}}};
 constexpr std::array<const char*, 4> kAxes = {"theta_i_deg", "phi_deg", "theta_o_deg", "wavelength_um"};
 constexpr std::size_t kMostValues = 50'000'000;
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // 80 a value
 
 using Row = std::array<double, kColumns>;
 
@@ -62,8 +63,7 @@ struct Sheet {
 };
 
 Sheet read_sheet(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) refuse(file, "cannot be read; accepted: a BRDF in CSV");
+    InputStream in(file, {kMostBytes, "a BRDF in CSV"});
     Sheet sheet;
     std::string line;
     bool headed = false;
@@ -147,21 +147,18 @@ BrdfTable read_csv(const std::filesystem::path& file, const SpectralGrid& grid) 
 BrdfTable read_merl(const std::filesystem::path& file, const SpectralGrid& grid) {
     constexpr std::size_t kThetaH = 90, kThetaD = 90, kPhiD = 180, kCells = kThetaH * kThetaD * kPhiD;
     constexpr std::size_t kBytes = 3 * sizeof(std::int32_t) + 3 * kCells * sizeof(double);
-    std::ifstream in(file, std::ios::binary | std::ios::ate);
-    if (!in) refuse(file, "cannot be read; accepted: a BRDF in MERL's binary format");
-    const auto size = static_cast<std::uint64_t>(in.tellg());
-    if (size != kBytes)
-        refuse(file, "has " + std::to_string(size) + " bytes; a MERL BRDF has " + std::to_string(kBytes));
-    in.seekg(0);
+    InputStream in(file, {kMostBytes, "a BRDF in MERL's binary format"});
+    if (in.bytes() != kBytes)
+        refuse(file,
+               "has " + std::to_string(in.bytes()) + " bytes; a MERL BRDF has " + std::to_string(kBytes));
     std::array<std::int32_t, 3> counts{};
     in.read(reinterpret_cast<char*>(counts.data()), sizeof counts);
     if (counts != std::array<std::int32_t, 3>{90, 90, 180})
         refuse(file, "begins with " + std::to_string(counts[0]) + " " + std::to_string(counts[1]) + " " +
                          std::to_string(counts[2]) + "; a MERL BRDF begins with 90 90 180");
     std::vector<double> values(3 * kCells);
-    if (!in.read(reinterpret_cast<char*>(values.data()),
-                 static_cast<std::streamsize>(values.size() * sizeof(double))))
-        refuse(file, "cannot be read to its end");
+    in.read(reinterpret_cast<char*>(values.data()),
+            static_cast<std::streamsize>(values.size() * sizeof(double)));
 
     // Scales of the database's own reader (Matusik et al. 2003).
     constexpr std::array<double, 3> kScale = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500};

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/input_file.h"
 #include "render/check.h"
+#include "render/quoted.h"
 #include "render/units.h"
 
 namespace hilcam {
 namespace {
 
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30;  // ten times Tycho-2's stars
 constexpr double kMas_rad = kArcsecond_rad * 1e-3;
 
 struct Column {
@@ -97,8 +99,7 @@ bool parse_row(std::string_view line, const std::vector<const Column*>& columns,
 }  // namespace
 
 StarCatalogue load_catalogue(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) throw InputError(file.string() + ": cannot be read; accepted: a star catalogue in CSV");
+    InputStream in(file, {kMostBytes, "a star catalogue in CSV"});
     StarCatalogue catalogue;
     std::vector<const Column*> columns;
     std::string text;
@@ -106,8 +107,8 @@ StarCatalogue load_catalogue(const std::filesystem::path& file) {
         const std::string_view line = without_line_end(text);
         if (line.empty() || line.starts_with('#')) continue;
         const auto refuse = [&](const std::string& accepted) {
-            throw InputError(file.string() + ":" + std::to_string(number) + ": found '" + text.substr(0, 60) +
-                             "'; accepted: " + accepted);
+            throw InputError(file.string() + ":" + std::to_string(number) + ": found " + in_quotes(line) +
+                             "; accepted: " + accepted);
         };
         if (columns.empty()) {
             columns = parse_header(line);

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "io/config_advice.h"
 #include "io/config_manual.h"
+#include "io/input_file.h"
 #include "io/plain_number.h"
 #include "render/check.h"
 #include "render/overloaded.h"
@@ -19,7 +18,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 4u << 20;
+const InputKind kYamlFile{4u << 20, "a YAML file"};
 constexpr int kDeepest = 16;
 
 // Where a value stands: in a file, or on the command line.
@@ -63,15 +62,7 @@ class Reader {
         const auto canonical = std::filesystem::weakly_canonical(file, error);
         if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end())
             throw InputError(file.string() + ": the file includes itself");
-        if (std::filesystem::is_directory(file, error))
-            throw InputError(file.string() + ": found a folder; accepted: a YAML file");
-        std::ifstream in(file, std::ios::binary);
-        if (!in) throw InputError(file.string() + ": cannot be read; accepted: a YAML file");
-        const std::uintmax_t size = std::filesystem::file_size(file, error);
-        if (!error && size > kMostBytes)
-            throw InputError(file.string() + ": has " + std::to_string(size) +
-                             " bytes; accepted: at most 4 MiB");
-        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        const std::string text = read_input_file(file, kYamlFile);
         open_files_.push_back(canonical);
         read_text(text, {file.string(), file.parent_path()}, section, path, depth);
         open_files_.pop_back();
@@ -101,6 +92,7 @@ class Reader {
     std::vector<Override> overrides_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t nodes_ = 0;
+    std::size_t numbers_ = 0;
 
     // file:line:column
     static std::string where(const Place& place, const YAML::Node& node) {
@@ -159,6 +151,13 @@ class Reader {
             fail(place, node, path, "nested deeper than " + std::to_string(kDeepest) + " levels");
     }
 
+    // Through an alias a list of thousands may stand in thousands of places. 4 MiB of pairs as people write
+    // them are half a million numbers.
+    void count_number(const Place& place, const YAML::Node& node, const std::string& path) {
+        if (++numbers_ > 1000000)
+            fail(place, node, path, "the configuration has more than 1000000 numbers in its lists");
+    }
+
     void read_section(const YAML::Node& map, const Place& place, const SectionField& section,
                       const std::string& path, int depth) {
         count_node(place, map, path, depth);
@@ -212,6 +211,7 @@ class Reader {
                  "found " + show(at) + "; accepted: " + accepted + " (" + field.meaning + ")");
         };
         const auto number = [&](const YAML::Node& at, const Range& range) {
+            count_number(place, at, path);
             const std::optional<double> value = to_number(at);
             if (!value || *value < range.least || *value > range.most)
                 refuse(at, "a number, " + accepted(range));
@@ -242,6 +242,7 @@ class Reader {
                     std::vector<std::string> list_of_texts;
                     if (node.IsScalar()) list_of_texts.push_back(node.Scalar());
                     for (const auto& item : node) {
+                        count_number(place, item, path);
                         if (!item.IsScalar()) refuse(item, "a text");
                         list_of_texts.push_back(item.Scalar());
                     }
@@ -363,13 +364,12 @@ void read_config_text(std::string_view text, const std::string& name, const std:
 }
 
 bool has_top_level_key(const std::filesystem::path& file, const std::string& key) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (error || size > kMostBytes) return false;
     try {
-        const YAML::Node node = YAML::LoadFile(file.string());
+        const YAML::Node node = YAML::Load(read_input_file(file, kYamlFile));
         return node.IsMap() && node[key].IsDefined();
     } catch (const YAML::Exception&) {
+        return false;
+    } catch (const InputError&) {
         return false;
     }
 }

@@ -1,17 +1,19 @@
 #include "io/height_map_file.h"
 
-#include <fcntl.h>
 #include <sys/mman.h>
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
-#include "io/fd.h"
+#include "io/input_file.h"
 #include "render/check.h"
 
 namespace hilcam {
 namespace {
+
+// The most that columns and rows can ask for: a map is not read whole.
+constexpr std::uintmax_t kMostBytes = 4'000'000'000'000;
 
 class MappedHeights final : public HeightMap {
   public:
@@ -23,17 +25,13 @@ class MappedHeights final : public HeightMap {
           scale_(static_cast<float>(c.scale)),
           offset_m_(static_cast<float>(c.offset_m)) {
         const auto refuse = [&](const std::string& what) { throw InputError(c.file.string() + ": " + what); };
-        std::error_code error;
-        const std::uintmax_t found = std::filesystem::file_size(c.file, error);
-        if (error) refuse("cannot be read; accepted: a raw file of heights");
+        const InputFile in = open_input_file(c.file, {kMostBytes, "a raw file of heights"});
         size_ = static_cast<std::size_t>(c.columns) * static_cast<std::size_t>(c.rows) * bytes_each();
-        if (found != size_)
-            refuse("has " + std::to_string(found) + " bytes; " + std::to_string(c.columns) + " columns of " +
-                   std::to_string(c.rows) + " rows of " + std::to_string(bytes_each()) + " bytes make " +
-                   std::to_string(size_));
-        const Fd fd(open(c.file.c_str(), O_RDONLY | O_CLOEXEC));
-        if (fd.get() < 0) refuse("cannot be read");
-        void* const mapped = mmap(nullptr, size_, PROT_READ, MAP_SHARED, fd.get(), 0);
+        if (in.bytes != size_)
+            refuse("has " + std::to_string(in.bytes) + " bytes; " + std::to_string(c.columns) +
+                   " columns of " + std::to_string(c.rows) + " rows of " + std::to_string(bytes_each()) +
+                   " bytes make " + std::to_string(size_));
+        void* const mapped = mmap(nullptr, size_, PROT_READ, MAP_SHARED, in.fd.get(), 0);
         if (mapped == MAP_FAILED) refuse("cannot be mapped into memory");
         bytes_ = static_cast<const unsigned char*>(mapped);
     }

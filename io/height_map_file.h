@@ -1,7 +1,8 @@
 #pragma once
 // Heights from a raw file: rows from north to south, columns from west to east, little-endian, nothing else
 // in it (GDAL's ENVI format without its header, SRTM and LOLA rasters after gdal_translate -of ENVI). The
-// file is mapped, so one larger than memory is read where it is looked at.
+// file is mapped, so one larger than memory is read where it is looked at; it must not be cut short while the
+// program runs, which would end it.
 
 #include <filesystem>
 #include <memory>

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -17,7 +16,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/kept_stderr.h"
 #include "render/check.h"
 #include "render/quoted.h"
 
@@ -71,23 +69,6 @@ void write_file(const std::filesystem::path& file, std::span<const std::uint8_t>
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     out.close();
     if (!out) give_up(file, std::strerror(errno));
-}
-
-cv::Mat decode(const std::filesystem::path& file, int flags) {
-    cv::Mat picture;
-    std::string why;
-    {
-        const KeptStderr printed;
-        try {
-            picture = cv::imread(file.string(), flags);
-        } catch (const cv::Exception&) {
-        }
-        why = printed.first_line();
-    }
-    if (picture.empty())
-        throw InputError(file.string() + ": is missing or does not decode" +
-                         (why.empty() ? "" : " (" + why + ")") + "; accepted: PNG, JPEG, TIFF");
-    return picture;
 }
 
 }  // namespace
@@ -148,38 +129,6 @@ void write_radiance_exr(const std::filesystem::path& file, const RadianceImage& 
 void write_electrons_exr(const std::filesystem::path& file, const ElectronImage& electrons) {
     write_exr(file, electrons, {0, 0, electrons.width(), electrons.height()},
               {{"electrons", electrons.plane(0)}}, "e-");
-}
-
-Texture read_picture(const std::filesystem::path& file) {
-    const cv::Mat picture = decode(file, cv::IMREAD_COLOR);
-    Texture texture{file.string(), picture.cols, picture.rows, {}};
-    for (int y = 0; y < picture.rows; ++y)
-        for (int x = 0; x < picture.cols; ++x) {
-            const cv::Vec3b bgr = picture.at<cv::Vec3b>(y, x);
-            texture.texels.push_back({bgr[2], bgr[1], bgr[0]});
-        }
-    return texture;
-}
-
-PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign) {
-    const cv::Mat picture = decode(file, cv::IMREAD_UNCHANGED);
-    if (picture.channels() != 1)
-        throw InputError(file.string() + ": has " + std::to_string(picture.channels()) +
-                         " channels; accepted: one");
-    cv::Mat numbers;
-    picture.convertTo(numbers, CV_32F);
-    PixelMap map(numbers.cols, numbers.rows);
-    for (int y = 0; y < numbers.rows; ++y) {
-        std::copy_n(numbers.ptr<float>(y), numbers.cols, map.row(y).begin());
-        for (std::size_t x = 0; x < map.row(y).size(); ++x) {
-            const float value = map.row(y)[x];
-            if (std::isfinite(value) && (any_sign || value >= 0)) continue;
-            throw InputError(file.string() + ": pixel (" + std::to_string(x) + ", " + std::to_string(y) +
-                             ") is " + std::to_string(value) + "; accepted: finite" +
-                             (any_sign ? "" : ", not negative"));
-        }
-    }
-    return map;
 }
 
 }  // namespace hilcam

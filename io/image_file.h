@@ -1,5 +1,5 @@
 #pragma once
-// Pictures on disk: frames as 16-bit PNG or TIFF, radiance as OpenEXR.
+// Pictures written to disk: frames as 16-bit PNG or TIFF, radiance as OpenEXR.
 
 #include <cstdint>
 #include <filesystem>
@@ -7,10 +7,8 @@
 #include <string>
 
 #include "render/image.h"
-#include "render/mesh.h"
 #include "render/spectrum.h"
 #include "sensor/camera_model.h"
-#include "sensor/fixed_pattern.h"
 #include "sensor/packing.h"
 
 namespace hilcam {
@@ -31,11 +29,5 @@ void write_raw(const std::filesystem::path& file, const DnImage& frame, const Pi
 void write_radiance_exr(const std::filesystem::path& file, const RadianceImage& radiance,
                         const SpectralGrid& grid, const PixelRectangle& frame);
 void write_electrons_exr(const std::filesystem::path& file, const ElectronImage& electrons);
-// An 8-bit colour picture as a texture. InputError when it does not decode.
-Texture read_picture(const std::filesystem::path& file);
-// A number for each pixel: TIFF or PNG of one channel, 8 or 16 bits or 32-bit float. InputError when it is
-// missing, does not decode, has several channels or a value that is negative (unless any_sign) or not a
-// number.
-PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign);
 
 }  // namespace hilcam

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdint>
 
+#include "io/input_file.h"
 #include "io/text_lines.h"
 
 namespace hilcam {
@@ -72,7 +73,8 @@ LeapSecondsFile read_leap_seconds(std::string_view text, const std::string& name
 }
 
 LeapSecondsFile load_leap_seconds(const std::filesystem::path& file) {
-    return read_leap_seconds(read_text_file(file, kMostBytes, "the IERS's leap-seconds.list"), file.string());
+    return read_leap_seconds(read_input_file(file, {kMostBytes, "the IERS's leap-seconds.list"}),
+                             file.string());
 }
 
 }  // namespace hilcam

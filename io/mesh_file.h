@@ -1,5 +1,6 @@
 #pragma once
-// Mesh files through assimp: glTF and GLB, OBJ, STL, PLY. The only unit that knows assimp.
+// Mesh files: glTF and GLB, OBJ, STL, PLY. They are read in a child process with limits (confined.h), so that
+// a file can cost no more than it may be worth, and cannot end the program.
 //
 // The node tree is flattened with its transforms; polygons become triangles; points and lines are left out;
 // exactly degenerate triangles (a repeated corner) are dropped. Coordinates are taken as metres, axes as the
@@ -18,7 +19,8 @@ namespace hilcam {
 
 // Throws InputError, one line that names the file, for: a file that is absent, of an unknown kind or does not
 // parse; no triangle; a vertex that is not finite; a texture that is missing or does not decode; more than
-// 65,535 surfaces.
+// 10,000 surfaces, 200,000 nodes, 100 million triangles, or 10,000 corners of a polygon; a texture of too
+// many pixels (picture_file.h); more memory or time than a file of its size may take.
 Mesh load_mesh(const std::filesystem::path& file);
 // The same, taken apart: first what none of the names takes, then for each name the nodes of that name ("*"
 // at the end matches any ending) with all below them. All in the file's axes. InputError also for a name that

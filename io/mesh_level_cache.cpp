@@ -109,6 +109,8 @@ bool read_level(Reader& in, const Mesh& mesh, MeshLevel& level) {
 
 bool read_levels(const std::filesystem::path& file, std::uint64_t hash, const Mesh& mesh,
                  std::vector<MeshLevel>& levels) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false;
     Reader in(file);
     Header header;
     Header expected;

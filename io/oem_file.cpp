@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/input_file.h"
+
 namespace hilcam {
 namespace {
 
@@ -139,8 +141,8 @@ std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
 }
 
 std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object) {
-    return read_oem(read_text_file(file, kMostBytes, "an orbit ephemeris message (CCSDS OEM)"), file.string(),
-                    object);
+    return read_oem(read_input_file(file, {kMostBytes, "an orbit ephemeris message (CCSDS OEM)"}),
+                    file.string(), object);
 }
 
 }  // namespace hilcam

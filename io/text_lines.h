@@ -3,9 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,20 +32,6 @@ inline std::optional<int> integer_of(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) return {};
     return value;
-}
-
-// Reads a file of at most `most_bytes`. Throws InputError naming it and what is accepted.
-inline std::string read_text_file(const std::filesystem::path& file, std::uintmax_t most_bytes,
-                                  const std::string& accepted) {
-    std::error_code error;
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file, error))
-        throw InputError(file.string() + ": cannot be read; accepted: " + accepted);
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (!error && size > most_bytes)
-        throw InputError(file.string() + ": has " + std::to_string(size) + " bytes; accepted: at most " +
-                         std::to_string(most_bytes >> 20) + " MiB");
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 class TextLines {

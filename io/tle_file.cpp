@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/input_file.h"
 #include "io/text_lines.h"
 #include "render/time_system.h"
 #include "render/units.h"
@@ -150,7 +151,7 @@ std::vector<Tle> read_tles(std::string_view text, const std::string& name, TleCh
 }
 
 std::vector<Tle> load_tles(const std::filesystem::path& file, TleChecksum checksum) {
-    return read_tles(read_text_file(file, kMostBytes, "a file of two-line element sets"), file.string(),
+    return read_tles(read_input_file(file, {kMostBytes, "a file of two-line element sets"}), file.string(),
                      checksum);
 }
 

@@ -404,6 +404,8 @@ class PrecomputedAtmosphere final : public Atmosphere {
 
     // The whole key stands at the head of the file: a hash that collides, or a file cut short, is no hit.
     bool read(const std::filesystem::path& file, const std::vector<char>& key) {
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(file, error)) return false;
         std::ifstream in(file, std::ios::binary);
         std::vector<char> head(key.size());
         if (!in.read(head.data(), static_cast<std::streamsize>(head.size())) || head != key) return false;

@@ -13,7 +13,8 @@ void load_plugin(const std::filesystem::path& file, Modules& modules) {
     const auto refuse = [&](const std::string& why) {
         throw InputError("plug-in " + file.string() + ": " + why);
     };
-    if (!std::filesystem::exists(file)) refuse("there is no such file");
+    // dlopen() would wait for a pipe.
+    if (!std::filesystem::is_regular_file(file)) refuse("there is no such file");
     // Never closed: models made by it may live as long as the program.
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) refuse(std::string("cannot be loaded: ") + dlerror());

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <sstream>
@@ -204,6 +205,8 @@ TEST_F(RecordingFileTest, AFileThatIsNoneIsRefused) {
     const auto none = folder_ / "none.rec";
     EXPECT_THAT(error_of([&] { RecordingReader reader(none); }), HasSubstr("cannot be read"));
     EXPECT_THAT(error_of([&] { RecordingReader reader(folder_); }), HasSubstr("cannot be read"));
+    ASSERT_EQ(mkfifo((folder_ / "pipe.rec").c_str(), 0600), 0);
+    EXPECT_THAT(error_of([&] { RecordingReader reader(folder_ / "pipe.rec"); }), HasSubstr("it is a pipe"));
     const auto text = write("text.rec", "time_utc: 2026-12-21T00:00:00Z\n");
     EXPECT_THAT(error_of([&] { RecordingReader reader(text); }), HasSubstr("is no recording"));
     const auto newer = write("newer.rec", "hilcrec\x02");

@@ -1,6 +1,6 @@
 #include "emulator/scene_loader.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/support/files.h"
 
@@ -49,6 +49,17 @@ TEST_F(SceneLoader, ObjectsOfOneMakeAreLoadedOnce) {
         EXPECT_EQ(object.mesh.triangles.empty(), object.like.has_value()) << object.name;
     }
     EXPECT_EQ(scene.objects[1].mesh.triangles.size(), 2u);  // the wing does not turn
+}
+
+TEST_F(SceneLoader, AFrameLargerThanTheMachineIsRefused) {
+    ImageGeometry geometry;
+    geometry.width_px = geometry.height_px = 5'000'000;
+    EXPECT_THAT(
+        error_of([&] {
+            load_renderer({}, SpectralGrid({0.5, 0.7}), geometry);
+        }),
+        testing::HasSubstr("a frame of 5000000 x 5000000 pixels (guard_px and oversampling included) in 1 "
+                           "spectral bins takes 100000.0 GB; accepted: less than"));
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <iostream>
 
 #include "render/check.h"
+#include "tests/support/limits.h"
 
 namespace hilcam {
 namespace {
@@ -61,6 +63,21 @@ std::string error_of(const std::string& text, std::vector<std::string> overrides
         return error.what();
     }
     return "no error";
+}
+
+TEST(ConfigYaml, NumbersOfListsCountInEachPlaceThatAnAliasGivesThem) {
+    std::string text = "name: x\ninner: {qe: &c [";
+    for (int i = 0; i < 20000; ++i) text.append("[").append(std::to_string(0.1 + 1e-4 * i)).append(", 0.5],");
+    text += "]}\nlist:\n";
+    for (int i = 0; i < 1000; ++i) text += "- {qe: *c}\n";
+    EXPECT_EXIT(
+        {
+            limit_this_process(256u << 20, 60);
+            std::cerr << error_of(text);
+            _exit(0);
+        },
+        testing::ExitedWithCode(0),
+        "list.24.qe: the configuration has more than 1000000 numbers in its lists");
 }
 
 TEST(ConfigYaml, ReadsEveryKindAndConvertsUnits) {

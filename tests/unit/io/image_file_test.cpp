@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "io/image_file.h"
+#include "io/picture_file.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
@@ -27,7 +28,7 @@ TEST_F(PixelMapTest, NumbersComeAsTheyAre) {
 
 TEST_F(PixelMapTest, WhatIsNoMapIsRefusedByName) {
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "none.tiff", false); }),
-                HasSubstr("none.tiff: is missing"));
+                HasSubstr("none.tiff: cannot be read: No such file"));
     write("text.tiff", "not a picture");
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "text.tiff", false); }),
                 HasSubstr("does not decode"));

@@ -1,0 +1,48 @@
+#pragma once
+// Cheap looks at a mesh file before a library reads it: at what makes the library compute for minutes, or
+// allocate what no file of that size can need. Throws InputError with one line that begins with `name`.
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hilcam {
+
+// More than any exporter makes, and few enough for readers that search them one by one.
+inline constexpr std::size_t kMostMaterials = 10'000;
+// assimp triangulates a polygon in a time that grows with the square of its corners: here about a second.
+inline constexpr std::size_t kMostCorners = 10'000;
+// A node is more than a kilobyte in memory.
+inline constexpr std::uint64_t kMostNodes = 200'000;
+// 120 bytes each in memory, before the tree of the ray tracer.
+inline constexpr std::uint64_t kMostTriangles = 100'000'000;
+
+// What is in a binary glTF: its parts lie in the file, or it is refused. `binary` is empty without that
+// chunk.
+struct GlbChunks {
+    std::string_view json, binary;
+    bool has_binary = false;
+};
+GlbChunks require_glb_chunks(std::string_view glb, const std::string& name);
+
+// The nodes of the scene, each as often as it is a child of another.
+void require_few_nodes(std::string_view gltf_json, const std::string& name);
+// A header without an end keeps readers busy.
+void require_ply_header(std::string_view ply, const std::string& name);
+
+// Materials of an OBJ file and of those that it names, together.
+class ObjMaterials {
+  public:
+    // `text`: of an OBJ or MTL file.
+    void add(std::string_view text, const std::string& name);
+
+  private:
+    std::set<std::string, std::less<>> names_;
+};
+
+[[noreturn]] void refuse_materials(std::size_t found, const std::string& name);
+
+}  // namespace hilcam
