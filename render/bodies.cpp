@@ -91,29 +91,47 @@ Planet planet_of(BodyId id) {
 
 }  // namespace
 
-StateVector heliocentric(BodyId id, TimeTai time) {
-    const JulianDate tt = julian_tt(time);
+namespace {
+
+StateVector state_of(const double pv[2][3]) {
     constexpr double au = kAstronomicalUnit_m, per_day = kAstronomicalUnit_m / kDay_s;
-    const auto state = [&](const double pv[2][3]) {
-        return StateVector{{au * pv[0][0], au * pv[0][1], au * pv[0][2]},
-                           {per_day * pv[1][0], per_day * pv[1][1], per_day * pv[1][2]}};
-    };
-    double pv[2][3];
-    if (id == BodyId::kEarth || id == BodyId::kMoon) {
-        double barycentric[2][3];
-        eraEpv00(tt.day, tt.fraction, pv, barycentric);
-        StateVector out = state(pv);
-        if (id == BodyId::kMoon) {
-            double moon[2][3];
-            eraMoon98(tt.day, tt.fraction, moon);
-            const StateVector from_earth = state(moon);
-            out.position_m = out.position_m + from_earth.position_m;
-            out.velocity_m_s = out.velocity_m_s + from_earth.velocity_m_s;
-        }
-        return out;
+    return {{au * pv[0][0], au * pv[0][1], au * pv[0][2]},
+            {per_day * pv[1][0], per_day * pv[1][1], per_day * pv[1][2]}};
+}
+
+StateVector operator+(const StateVector& a, const StateVector& b) {
+    return {a.position_m + b.position_m, a.velocity_m_s + b.velocity_m_s};
+}
+
+// One series gives both.
+struct EarthAndSun {
+    StateVector earth_from_sun, sun_from_barycenter;
+};
+EarthAndSun earth_and_sun(TimeTai time) {
+    const JulianDate tt = julian_tt(time);
+    double from_sun[2][3], from_barycenter[2][3];
+    eraEpv00(tt.day, tt.fraction, from_sun, from_barycenter);
+    const StateVector earth = state_of(from_sun), whole = state_of(from_barycenter);
+    return {earth, {whole.position_m - earth.position_m, whole.velocity_m_s - earth.velocity_m_s}};
+}
+
+// earth: its state at that time.
+StateVector heliocentric(BodyId id, TimeTai time, const StateVector& earth) {
+    if (id == BodyId::kEarth) return earth;
+    if (id == BodyId::kMoon) {
+        const JulianDate tt = julian_tt(time);
+        double moon[2][3];
+        eraMoon98(tt.day, tt.fraction, moon);
+        return earth + state_of(moon);
     }
     const PlanetState planet = planet_by_series(planet_of(id), tdb_days(time));
-    return {au * planet.position_au, per_day * planet.velocity_au_d};
+    return {kAstronomicalUnit_m * planet.position_au, kAstronomicalUnit_m / kDay_s * planet.velocity_au_d};
+}
+
+}  // namespace
+
+StateVector heliocentric(BodyId id, TimeTai time) {
+    return heliocentric(id, time, earth_and_sun(time).earth_from_sun);
 }
 
 Vec3d sun_from_earth_m(TimeTai time) { return -heliocentric(BodyId::kEarth, time).position_m; }
@@ -180,18 +198,6 @@ Fields fields(OriginConfig& c) {
     };
 }
 
-StateVector sun_from_barycenter(TimeTai time) {
-    const JulianDate tt = julian_tt(time);
-    double heliocentric[2][3], barycentric[2][3];
-    eraEpv00(tt.day, tt.fraction, heliocentric, barycentric);
-    const auto difference = [&](int row, double unit) {
-        return Vec3d{unit * (barycentric[row][0] - heliocentric[row][0]),
-                     unit * (barycentric[row][1] - heliocentric[row][1]),
-                     unit * (barycentric[row][2] - heliocentric[row][2])};
-    };
-    return {difference(0, kAstronomicalUnit_m), difference(1, kAstronomicalUnit_m / kDay_s)};
-}
-
 namespace {
 
 // Of a place that turns with a body, about its centre: by difference over a minute, good to mm/s; aberration
@@ -219,11 +225,11 @@ Vec3d aberrated(Vec3d dir, Vec3d velocity_m_s) {
 
 Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
     const BodyId center = origin.center();
-    const StateVector home = heliocentric(center, time), sun = sun_from_barycenter(time);
+    const auto [earth, sun] = earth_and_sun(time);
+    const StateVector home = heliocentric(center, time, earth);
     const StateVector place = place_from_center(time, origin);
     Bodies out;
-    out.origin_from_barycenter = {sun.position_m + home.position_m + place.position_m,
-                                  sun.velocity_m_s + home.velocity_m_s + place.velocity_m_s};
+    out.origin_from_barycenter = sun + home + place;
 
     // As the home body's centre sees it, then from the origin.
     const auto apparent = [&](Vec3d from_home_m) {
@@ -241,7 +247,7 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
         }
         // One step of light time: the planet moves less than 1e-4 of the way meanwhile. Its velocity is that
         // about the barycentre, as the observer's is.
-        StateVector there = heliocentric(id, time);
+        StateVector there = heliocentric(id, time, earth);
         const double light_s = length(there.position_m - home.position_m) / kSpeedOfLight_m_s;
         there.position_m = there.position_m - light_s * (there.velocity_m_s + sun.velocity_m_s);
         const TimeTai then = time + -static_cast<std::int64_t>(light_s * 1e9);

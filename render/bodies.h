@@ -63,8 +63,6 @@ struct StateVector {
     Vec3d position_m, velocity_m_s;
 };
 StateVector heliocentric(BodyId id, TimeTai time);
-// The Sun about the barycentre of the Solar System: place and velocity, ICRF axes (eraEpv00).
-StateVector sun_from_barycenter(TimeTai time);
 
 // The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
 // angle (ERFA eraC2t00b), with the pole and UT1 that earth_orientation() has.

@@ -29,7 +29,7 @@ ElectronImage disk(double radius_px, double disk_e, double sky_e) {
 }
 
 std::vector<LimbPlace> sphere_places(double radius_m, double distance_m) {
-    return limb_places({{0, 0, distance_m}, kUnturned}, {radius_m, radius_m}, {}, geometry_200());
+    return limb_places({{0, 0, distance_m}, kUnturned, {}}, {radius_m, radius_m}, {}, geometry_200());
 }
 
 TEST(LimbPlaces, OfASphereAreACircleOfTheTangentCone) {
@@ -50,7 +50,7 @@ TEST(LimbPlaces, OfASphereAreACircleOfTheTangentCone) {
 }
 
 TEST(LimbPlaces, OfAnEllipsoidPartRaysThatHitFromRaysThatMiss) {
-    const BodyState body{{3e5, -2e5, 2e7}, {{0.6, 0, 0.8}, {0, 1, 0}, {-0.8, 0, 0.6}}};
+    const BodyState body{{3e5, -2e5, 2e7}, {{0.6, 0, 0.8}, {0, 1, 0}, {-0.8, 0, 0.6}}, {}};
     const Figure figure{1e6, 0.8e6};
     const ImageGeometry g = geometry_200();
     const auto places = limb_places(body, figure, {}, g);
