@@ -1,5 +1,7 @@
 #include "sensor/point_light.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +15,12 @@ namespace {
 // Points of a trail. Their row has its first harmonic at this frequency, where a full pixel's own transfer
 // function is zero along both axes.
 constexpr double kPerPixel = 2;
+
+// Drawn together, in so many bands of rows: enough for the threads of a bench machine, and bands that are
+// much higher than the images that lie across two of them.
+constexpr std::size_t kMostSpots = 4096;
+constexpr int kBands = 16;
+constexpr std::size_t kFewSpots = 64;  // not worth waking threads for
 
 constexpr int kReach = PointSpread::kMostRadius_px;
 constexpr int kAcross = 2 * kReach + 1;
@@ -47,6 +55,7 @@ PointLight::PointLight(const DetectorView& view, std::vector<LightChannel>& chan
       bins_(bins),
       glare_e_(channels.size()),
       patch_(std::size_t{kAcross} * kAcross) {
+    spots_.reserve(kMostSpots);
     for (const FarWings& w : wings) near_wings_.push_back(near_wings(w));
 }
 
@@ -76,7 +85,8 @@ void PointLight::add(const PointSource& point, ElectronImage& light_e) {
             if (std::abs(at_px.x) > 1e6 || std::abs(at_px.y) > 1e6) return;
             const double electrons = all * part * view_.lens.of_point(at_px.x, at_px.y);
             scatter(at_px, [&](Vec2d px, double share) {
-                draw_point(static_cast<int>(c), px, electrons * share, light_e);
+                spots_.push_back(spot_of(static_cast<int>(c), px, electrons * share));
+                if (spots_.size() == kMostSpots) draw_spots(light_e);
             });
         });
     }
@@ -89,7 +99,8 @@ void PointLight::add(const BrightPixel& pixel, ElectronImage& light_e) {
     along_trail(pixel.position_px, way_px, {}, [&](Vec2d at_px, double part) {
         scatter(at_px, [&](Vec2d px, double share) {
             // Its electrons count the fill factor already.
-            draw_point(pixel.channel, px, pixel.electrons * part * share / view_.camera.fill_factor, light_e);
+            draw(spot_of(pixel.channel, px, pixel.electrons * part * share / view_.camera.fill_factor),
+                 all_rows(), light_e);
             take_off_wings(px, pixel.channel, pixel.electrons * part * share, light_e);
         });
     });
@@ -130,18 +141,45 @@ void PointLight::scatter(Vec2d at_px, const Draw& draw) const {
                      weights[static_cast<std::size_t>(j + kSteps)] / (sum * sum));
 }
 
-void PointLight::draw_point(int c, Vec2d at_px, double electrons, ElectronImage& light_e) {
-    LightChannel& channel = channels_[static_cast<std::size_t>(c)];
+// Of its electrons those that glare takes are counted.
+PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) {
     const StrayLightConfig& stray = view_.camera.stray_light;
     if (stray.glare_radius_px <= 0) {
         glare_e_[static_cast<std::size_t>(c)] +=
             electrons * view_.camera.fill_factor * stray.veiling_glare_fraction;
         electrons *= 1 - stray.veiling_glare_fraction;
     }
+    int radius_px = 0;
+    for (const PointSpread& spread : channels_[static_cast<std::size_t>(c)].spreads)
+        radius_px = std::max(radius_px, spread.radius_for(electrons));
+    return {at_px, electrons, c, radius_px};
+}
+
+void PointLight::draw_spots(ElectronImage& light_e) {
+    const int bands = spots_.size() < kFewSpots ? 1 : kBands;
+    const int height = view_.detector.height_px;
+    tbb::parallel_for(0, bands, [&](int band) {
+        const Rows rows{height * band / bands, height * (band + 1) / bands};
+        for (const Spot& spot : spots_) {
+            // Charge may cross over to the row before and after.
+            const double reach = spot.radius_px + 2;
+            if (spot.at_px.y + reach >= rows.begin && spot.at_px.y - reach <= rows.end)
+                draw(spot, rows, light_e);
+        }
+    });
+    spots_.clear();
+}
+
+void PointLight::draw(const Spot& spot, Rows rows, ElectronImage& light_e) const {
+    PointSpread::Room room;
+    const Vec2d at_px = spot.at_px;
     const double field = view_.lens.field_fraction(at_px.x, at_px.y);
+    const LightChannel& channel = channels_[static_cast<std::size_t>(spot.channel)];
     for (std::size_t z = 0; z < channel.spreads.size(); ++z) {
         const double weight = zone_weight(view_.camera.field_zones, z, field);
-        if (weight > 0) add_patch(channel.spreads[z].at(at_px.x, at_px.y, electrons * weight), c, light_e);
+        if (weight > 0)
+            add_patch(channel.spreads[z].at(at_px.x, at_px.y, spot.electrons * weight, room), spot.channel,
+                      rows, light_e);
     }
 }
 
@@ -151,22 +189,23 @@ void PointLight::take_off_wings(Vec2d at_px, int c, double electrons, ElectronIm
                    [&](double share) { return static_cast<float>(-electrons * share); });
     add_patch({static_cast<int>(std::floor(at_px.x)) - kReach, static_cast<int>(std::floor(at_px.y)) - kReach,
                kAcross, patch_.data()},
-              c, light_e);
+              c, all_rows(), light_e);
 }
 
 // Of a mosaic's channel only its own pixels have the light; some of their charge crosses over to the
 // neighbours.
-void PointLight::add_patch(const PointPatch& patch, int c, ElectronImage& light_e) const {
-    const int width = view_.detector.width_px, height = view_.detector.height_px;
+void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronImage& light_e) const {
+    const int width = view_.detector.width_px;
     const auto left = static_cast<int>(view_.camera.black_columns),
                top = static_cast<int>(view_.camera.black_rows);
     const auto crosstalk = static_cast<float>(view_.mosaic.one_color() ? 0 : view_.camera.crosstalk_fraction);
     const auto add = [&](int x, int y, float electrons) {
-        if (x < 0 || y < 0 || x >= width || y >= height) return;
+        if (x < 0 || y < rows.begin || x >= width || y >= rows.end) return;
         light_e.row(y + top)[static_cast<std::size_t>(x + left)] += electrons;
     };
-    // One pixel beyond the window can still cross over.
-    for (int j = std::max(0, -patch.top - 1); j < std::min(patch.size, height + 1 - patch.top); ++j)
+    // One pixel beyond the rows, or the window, can still cross over.
+    for (int j = std::max(0, rows.begin - 1 - patch.top); j < std::min(patch.size, rows.end + 1 - patch.top);
+         ++j)
         for (int i = std::max(0, -patch.left - 1); i < std::min(patch.size, width + 1 - patch.left); ++i) {
             const int x = patch.left + i, y = patch.top + j;
             if (view_.mosaic.channel(x, y) != c) continue;
@@ -176,6 +215,11 @@ void PointLight::add_patch(const PointPatch& patch, int c, ElectronImage& light_
             add(x - 1, y, crosstalk * electrons), add(x + 1, y, crosstalk * electrons);
             add(x, y - 1, crosstalk * electrons), add(x, y + 1, crosstalk * electrons);
         }
+}
+
+void PointLight::finish(ElectronImage& light_e) {
+    draw_spots(light_e);
+    add_glare(light_e);
 }
 
 void PointLight::add_glare(ElectronImage& light_e) const {

@@ -70,7 +70,6 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
                 inside += static_cast<double>(centred[(y + kField_px / 2) * kField_px + x + kField_px / 2]);
         outside_[static_cast<std::size_t>(r)] = std::max(0.0, 1 - inside / total);
     }
-    kernel_.resize(std::size_t{2 * kMostRadius_px + 3} * (2 * kMostRadius_px + 3));
 }
 
 const float* PointSpread::phase(int px, int py) const {
@@ -83,7 +82,7 @@ int PointSpread::radius_for(double electrons) const {
     return kMostRadius_px;
 }
 
-PointPatch PointSpread::at(double x_px, double y_px, double electrons) {
+PointPatch PointSpread::at(double x_px, double y_px, double electrons, Room& room) const {
     const int radius = radius_for(electrons);
     // The pixel that holds the point, and how far that pixel's centre lies from the point, in sixteenths.
     const double cx = std::floor(x_px);
@@ -98,7 +97,7 @@ PointPatch PointSpread::at(double x_px, double y_px, double electrons) {
 
     // All pixels share one sub-pixel phase: the kernel is a sum of sixteen shifted tables.
     const int size = 2 * radius + 1;
-    std::fill_n(kernel_.begin(), size * size, 0.0f);
+    std::fill_n(room.begin(), size * size, 0.0f);
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
             const int fx = ix + i - 1;
@@ -115,15 +114,15 @@ PointPatch PointSpread::at(double x_px, double y_px, double electrons) {
             const float* table = phase(px, py);
             for (int y = 0; y < size; ++y) {
                 const float* in = table + (y + shift_y) * kField_px + shift_x;
-                float* out = kernel_.data() + y * size;
+                float* out = room.data() + y * size;
                 for (int x = 0; x < size; ++x) out[x] += weight * in[x];
             }
         }
-    const std::span<float> used = std::span(kernel_).first(static_cast<std::size_t>(size * size));
+    const std::span<float> used = std::span(room).first(static_cast<std::size_t>(size * size));
     const double inside = std::accumulate(used.begin(), used.end(), 0.0);
     const auto scale = static_cast<float>(inside > 0 ? whole / inside : 0);
     for (float& value : used) value *= scale;
-    return {static_cast<int>(cx) - radius, static_cast<int>(cy) - radius, size, kernel_.data()};
+    return {static_cast<int>(cx) - radius, static_cast<int>(cy) - radius, size, room.data()};
 }
 
 }  // namespace hilcam

@@ -10,6 +10,7 @@
 // pixels is then 1 within 1e-6 wherever the point falls; with gaps between pixels it varies as on a real
 // detector, about the fill factor.
 
+#include <array>
 #include <complex>
 #include <functional>
 #include <span>
@@ -28,25 +29,26 @@ class PointSpread {
     // transfer: of cycles/px. Owner thread.
     PointSpread(const std::function<std::complex<double>(double u, double v)>& transfer, double fill_factor);
 
-    // The image of `electrons` (on a full-fill detector) at a position [px; centre of pixel (0, 0) at (0.5,
-    // 0.5)]: as large as it takes to leave out less than 0.05 e-. Valid until the next call. Loop; one
-    // thread.
-    PointPatch at(double x_px, double y_px, double electrons);
-
     static constexpr int kField_px = 64;  // farther light comes back from the other side
     static constexpr int kMostRadius_px = 30;
+    static constexpr int kMostAcross_px = 2 * kMostRadius_px + 1;
+    using Room = std::array<float, std::size_t{kMostAcross_px} * kMostAcross_px>;
+
+    // The image of `electrons` (on a full-fill detector) at a position [px; centre of pixel (0, 0) at (0.5,
+    // 0.5)]: as large as it takes to leave out less than 0.05 e-. It lies in `room`. Loop; any thread.
+    PointPatch at(double x_px, double y_px, double electrons, Room& room) const;
+    // Pixels from the middle one of that image to its edge.
+    int radius_for(double electrons) const;
 
   private:
     static constexpr int kOversampling = 16;
 
     // Samples of one phase lie together: phases_[py][px][y][x].
     const float* phase(int px, int py) const;
-    int radius_for(double electrons) const;
 
     std::vector<float> phases_;
     std::vector<double> phase_sums_;
     std::vector<double> outside_;  // share of the light outside a square of half width r
-    std::vector<float> kernel_;
 };
 
 }  // namespace hilcam

@@ -242,7 +242,9 @@ class Acknowledgement:
 
     def __str__(self):
         name = STATUS_NAMES[self.status] if self.status < len(STATUS_NAMES) else f"status {self.status}"
-        return name + (f": {self.reason}" if self.reason else "")
+        # Who answers chooses the words: none of them is to command the terminal.
+        words = "".join(c if c.isprintable() else " " for c in self.reason)
+        return name + (f": {words}" if words else "")
 
 
 @dataclasses.dataclass(frozen=True)
