@@ -151,6 +151,13 @@ std::vector<FrameSink*> CameraStation::sinks() const {
     return out;
 }
 
+std::vector<std::string> CameraStation::new_faults() {
+    std::vector<std::string> out;
+    for (const auto& sink : sinks_)
+        if (sink->has_fault() && told_faults_.insert(sink.get()).second) out.push_back(sink->report().fault);
+    return out;
+}
+
 void CameraStation::serve_faults(double seconds) {
     for (; next_fault_ < timed_faults_.size() && timed_faults_[next_fault_].at_s <= seconds; ++next_fault_)
         faults_.order(order_of(timed_faults_[next_fault_]));

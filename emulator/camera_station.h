@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,9 @@ class CameraStation {
     const std::deque<FaultBoard::Entry>& fault_log() const { return fault_log_; }
     const DeliveryMeter& delivery() const { return delivery_; }
     std::vector<FrameSink*> sinks() const;
+    // Why outputs cannot deliver, of each of them once. Allocates nothing while there is nothing to tell.
+    // Owner thread.
+    std::vector<std::string> new_faults();
     // An output that others feed too (telemetry); before start_outputs().
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
     SinkContext sink_context() { return {settings_, faults_, &delivery_}; }
@@ -87,6 +91,7 @@ class CameraStation {
     DeliveryMeter delivery_;
     const std::vector<std::unique_ptr<CommandReceiver>>* receivers_ = nullptr;  // the bench's
     std::vector<std::unique_ptr<FrameSink>> sinks_;
+    std::set<const FrameSink*> told_faults_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;

@@ -273,10 +273,7 @@ void Emulator::print_output_faults(std::int64_t now_ns) {
     if (now_ns < next_fault_look_ns_) return;
     next_fault_look_ns_ = now_ns + kBetweenLooks_ns;
     for (const auto& station : stations_)
-        for (const FrameSink* sink : station->sinks()) {
-            const SinkReport report = sink->report();
-            if (!report.fault.empty() && told_faults_.insert(sink).second) spdlog::error("{}", report.fault);
-        }
+        for (const std::string& fault : station->new_faults()) spdlog::error("{}", fault);
 }
 
 // Of the first camera.

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -81,7 +80,6 @@ class Emulator {
     double seconds_ = 0;
     std::uint64_t frames_printed_ = 0;
     bool told_held_motion_ = false;
-    std::set<const FrameSink*> told_faults_;  // outputs whose faults were printed
     std::int64_t next_fault_look_ns_ = 0;
     std::atomic<std::int64_t> begun_ns_{0};
     HousekeepingFigures housekeeping_before_;  // telemetry's thread

@@ -68,6 +68,8 @@ class FrameSink {
     virtual void stop() noexcept = 0;
     // Any thread.
     virtual SinkReport report() const = 0;
+    // True when report() names a fault; for who asks often, and may not allocate. Any thread.
+    virtual bool has_fault() const noexcept { return false; }
 };
 
 // Told by sinks when the first and the last byte of a frame have left; times are CLOCK_MONOTONIC ns. Called

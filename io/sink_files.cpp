@@ -65,6 +65,11 @@ void FilesSink::stop() noexcept {
     thread_.join();
 }
 
+bool FilesSink::has_fault() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return failed_ > 0;
+}
+
 SinkReport FilesSink::report() const {
     const std::lock_guard lock(mutex_);
     SinkReport out{"files " + config_.folder.string(), written_.load(), mailbox_.dropped() + failed_, {}};

@@ -31,6 +31,7 @@ class FilesSink : public FrameSink {
     bool has_room() const noexcept override { return mailbox_.has_room(); }
     void stop() noexcept override;
     SinkReport report() const override;
+    bool has_fault() const noexcept override;
 
   private:
     void run();

@@ -133,6 +133,11 @@ void TruthSink::stop() noexcept {
     udp_.reset();
 }
 
+bool TruthSink::has_fault() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return !fault_.empty();
+}
+
 SinkReport TruthSink::report() const {
     SinkReport out;
     out.name = "truth";

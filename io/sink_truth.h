@@ -48,6 +48,7 @@ class TruthSink : public FrameSink {
     bool has_room() const noexcept override;
     void stop() noexcept override;
     SinkReport report() const override;
+    bool has_fault() const noexcept override;
 
   private:
     struct Slot {

@@ -253,6 +253,11 @@ void UvcSink::stop() noexcept {
     gadget_.remove();
 }
 
+bool UvcSink::has_fault() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return !fault_.empty();
+}
+
 SinkReport UvcSink::report() const {
     SinkReport report;
     report.name = "uvc " + gadget_.udc();

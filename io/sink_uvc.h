@@ -32,6 +32,7 @@ class UvcSink : public FrameSink {
     bool has_room() const noexcept override { return mailbox_.has_room(); }
     void stop() noexcept override;
     SinkReport report() const override;
+    bool has_fault() const noexcept override;
 
   private:
     bool open_video();

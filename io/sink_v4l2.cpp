@@ -196,6 +196,11 @@ void V4l2Sink::stop() noexcept {
     device_.close();
 }
 
+bool V4l2Sink::has_fault() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return !fault_.empty();
+}
+
 SinkReport V4l2Sink::report() const {
     SinkReport report;
     report.name = "v4l2 " + config_.device;

@@ -44,6 +44,7 @@ class V4l2Sink : public FrameSink {
     bool has_room() const noexcept override { return mailbox_.has_room(); }
     void stop() noexcept override;
     SinkReport report() const override;
+    bool has_fault() const noexcept override;
 
   private:
     struct Counters {

@@ -233,9 +233,7 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
 
     // As the home body's centre sees it, then from the origin.
     const auto apparent = [&](Vec3d from_home_m) {
-        const double distance_m = length(from_home_m);
-        return distance_m * aberrated(from_home_m / distance_m, out.origin_from_barycenter.velocity_m_s) -
-               place.position_m;
+        return seen_in_motion(from_home_m, 0, out.origin_from_barycenter.velocity_m_s) - place.position_m;
     };
     const double sun_light_s = length(home.position_m) / kSpeedOfLight_m_s;
     out.sun_world_m = apparent(-home.position_m - sun_light_s * sun.velocity_m_s);

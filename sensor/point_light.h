@@ -42,6 +42,18 @@ class PointLight {
     double jitter_px() const { return jitter_px_; }
 
   private:
+    // An image of a point that is still to be drawn.
+    struct Spot {
+        Vec2d at_px;
+        double electrons = 0;
+        int channel = 0;
+        int radius_px = 0;
+    };
+    // Rows of the window that a thread draws on.
+    struct Rows {
+        int begin, end;
+    };
+
     template <class Draw>
     void along_trail(Vec2d middle_px, Vec2d drift_px, const Vec3d& turn_rad, const Draw& draw) const;
     template <class Draw>
@@ -60,18 +72,7 @@ class PointLight {
     Exposure exposure_;
     double jitter_px_ = 0;
     std::vector<double> glare_e_;  // by channel
-    // An image of a point that is still to be drawn.
-    struct Spot {
-        Vec2d at_px;
-        double electrons = 0;
-        int channel = 0;
-        int radius_px = 0;
-    };
-    std::vector<Spot> spots_;  // with room for kMostSpots
-    // Rows of the window that a thread draws on.
-    struct Rows {
-        int begin, end;
-    };
+    std::vector<Spot> spots_;      // with room for kMostSpots
     // Of each channel: what the wings give near a point, and what the table has folded in of them.
     std::vector<std::vector<double>> near_wings_;
     std::vector<float> patch_;

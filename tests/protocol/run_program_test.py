@@ -86,20 +86,24 @@ class ExitCodes(unittest.TestCase):
         second = "{width_px: 8, height_px: 8, pitch_um: 5, focal_length_mm: 25, f_number: 4, quantum_efficiency: 0.5," \
                  " full_well_e: 1e4, gain_dn_e: 0.2, bits: 12, fixed_pattern: {dark_map: /none/map.tiff}}"
         for key in ("prnu_map", "offset_map", "dark_map"):
-            self.refused("/none/map.tiff: is missing", "check", SCENARIO, "--set", f"camera.fixed_pattern.{key}=/none/map.tiff")
-        self.refused("/none/map.tiff: is missing", "check", SCENARIO, "--set", f"more_cameras=[{{camera: {second}}}]")
-        self.refused("/none/map.tiff: is missing", "check", SOURCE / "configs/cameras/inspector_1k.yaml", "--set",
+            self.refused("/none/map.tiff: cannot be read: No such file", "check", SCENARIO, "--set", f"camera.fixed_pattern.{key}=/none/map.tiff")
+        self.refused("/none/map.tiff: cannot be read: No such file", "check", SCENARIO, "--set", f"more_cameras=[{{camera: {second}}}]")
+        self.refused("/none/map.tiff: cannot be read: No such file", "check", SOURCE / "configs/cameras/inspector_1k.yaml", "--set",
                      "fixed_pattern.prnu_map=/none/map.tiff")
         self.refused("found a Bayer format, but the camera has no colour filters", "check", SCENARIO, "--set",
                      "outputs.v4l2.format=BAYER8")
 
     def test_a_sensor_without_enough_memory_is_named(self):
-        large = ("--set", "camera.width_px=16384", "--set", "camera.height_px=16384", "--set", "quality.oversampling=8")
-        for command in ("check", "run"):
-            result = subprocess.run(["prlimit", "--as=4000000000", HILCAM, command, str(SCENARIO), *large],
-                                    capture_output=True, text=True, timeout=120)
-            self.assertEqual(result.returncode, 1, result.stderr)
-            self.assertIn("not enough memory for the scenario: its camera of 16384 x 16384 px", result.stderr)
+        """4 GB of radiance, where a limit allows 3; and 138 GB, which no such machine has."""
+        def refused(pixels, status, words):
+            large = ("--set", f"camera.width_px={pixels}", "--set", f"camera.height_px={pixels}", "--set", "quality.oversampling=8")
+            for command in ("check", "run"):
+                result = subprocess.run(["prlimit", "--as=3000000000", HILCAM, command, str(SCENARIO), *large],
+                                        capture_output=True, text=True, timeout=120)
+                self.assertEqual(result.returncode, status, result.stderr)
+                self.assertIn(words, result.stderr)
+        refused(2750, 1, "not enough memory for the scenario: its camera of 2750 x 2750 px")
+        refused(16384, 2, "a frame of 131328 x 131328 pixels (guard_px and oversampling included)")
 
     def test_device_faults_are_status_1_and_say_what_to_do(self):
         result = hilcam("run", SCENARIO, "--set", "outputs.v4l2.device=/dev/video-none")

@@ -52,7 +52,7 @@ TEST_F(StarLight, FiftyBrightStarsHaveTheElectronsOfTheirMagnitudeAndColour) {
             "star.yaml",
             "time_utc: 2026-06-21T00:00:00Z\nspectrum_edges_um: [0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75]\n"
             "camera: {name: telescope, width_px: 96, height_px: 96, pitch_um: 10, focal_length_mm: 640,\n"
-            "  f_number: 4, transmission: 1, quantum_efficiency: 1, full_well_e: 1e9, gain_dn_e: 0.01, bits: "
+            "  f_number: 4, transmission: 1, quantum_efficiency: 1, full_well_e: 1e8, gain_dn_e: 0.01, bits: "
             "12,\n"
             "  exposure_ms: 0.01}\n"
             "camera_pose: {attitude: look_at, up: [0.1, 0.2, 0.9], look_at_m: [" +
