@@ -97,6 +97,18 @@ std::size_t triangles_for_shading(const Mesh& mesh, std::span<const std::uint32_
     return static_cast<std::size_t>(count);
 }
 
+// meshoptimizer asks each triangle at a vertex about each other one there: a fan of 100,000 takes it a
+// minute. What has so many stays as it is.
+bool is_crowded(std::span<const unsigned> indices, std::span<const Vec3f> positions) {
+    constexpr std::uint32_t kMostAtAPlace = 4096;
+    std::vector<unsigned> places(indices.size());
+    meshopt_generateShadowIndexBuffer(places.data(), indices.data(), indices.size(), positions.data(),
+                                      positions.size(), sizeof(Vec3f), sizeof(Vec3f));
+    std::vector<std::uint32_t> triangles(positions.size());
+    return std::any_of(places.begin(), places.end(),
+                       [&](unsigned place) { return ++triangles[place] > kMostAtAPlace; });
+}
+
 Mesh simplified(const Mesh& mesh, float error_m) {
     std::vector<std::vector<std::uint32_t>> by_surface(mesh.surfaces.size());
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
@@ -113,14 +125,15 @@ Mesh simplified(const Mesh& mesh, float error_m) {
         const std::size_t fewest =
             std::min(part.indices.size() / 3, triangles_for_shading(mesh, by_surface[s], error_m));
         const float scale = meshopt_simplifyScale(&positions[0].x, positions.size(), sizeof(Vec3f));
-        std::vector<unsigned> kept(part.indices.size());
+        std::vector<unsigned> kept = part.indices;
         // Down to nothing if the error allows it: what is smaller than the error does not matter.
-        const std::size_t count =
-            scale > 0
-                ? meshopt_simplify(kept.data(), part.indices.data(), part.indices.size(), &positions[0].x,
-                                   positions.size(), sizeof(Vec3f), std::max<std::size_t>(3, 3 * fewest),
-                                   error_m / scale, meshopt_SimplifyLockBorder)
-                : 0;
+        std::size_t count = kept.size();
+        if (!is_crowded(part.indices, positions))
+            count = scale > 0 ? meshopt_simplify(kept.data(), part.indices.data(), part.indices.size(),
+                                                 &positions[0].x, positions.size(), sizeof(Vec3f),
+                                                 std::max<std::size_t>(3, 3 * fewest), error_m / scale,
+                                                 meshopt_SimplifyLockBorder)
+                              : 0;
         std::vector<std::uint32_t> place(part.vertices.size(), std::numeric_limits<std::uint32_t>::max());
         for (std::size_t i = 0; i + 2 < count; i += 3) {
             std::array<std::uint32_t, 3> triangle{};
