@@ -19,8 +19,8 @@ constexpr std::size_t kBatchRoom = 70'000;
 // A frame that has time is spread, but a cable of gigabit Ethernet would not have made it slower than this.
 constexpr double kGigabit_bytes_s = 125e6;
 constexpr std::int64_t kCatchUpSeen_ns = 50'000'000;
-// Of the stream's rate, for packets sent again while a frame is on its way. A stream that loses a share p
-// asks for p / (1 - p) of its packets: a quarter of them at 20 %. Twice that, for who waits too long asks
+// The share of the stream's rate that packets sent again get while a frame is on its way. A stream that loses
+// p asks for p / (1 - p) of its packets: a quarter of them at 20 %. Twice that, for who waits too long asks
 // again.
 constexpr double kResendShare = 0.5;
 // Refusals: a thousand a second, a hundred at once. Whoever asks for more has had the answer.

@@ -24,7 +24,7 @@
 namespace hilcam {
 namespace {
 
-// Of all textures of a file: 3 GB of colours.
+// All textures of a file together have at most so many: 3 GB of colours.
 constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
 // Vertices, normals, places on textures, corners, and the same once more as assimp has them.
 constexpr std::uint64_t kBytesPerTriangle = 250;
@@ -296,7 +296,7 @@ std::uint64_t placed_triangles(const aiNode& node, const std::vector<std::uint64
     return sum;
 }
 
-// Before anything is computed of it.
+// Called before anything is computed of it.
 void require_few(const aiScene& scene, const std::filesystem::path& file) {
     if (scene.mNumMaterials > kMostMaterials) refuse_materials(scene.mNumMaterials, file.string());
     std::vector<std::uint64_t> of_mesh(scene.mNumMeshes);

@@ -19,8 +19,8 @@ inline constexpr double kMeshCpu_s_byte = 3e-6;
 // A line of an OBJ becomes objects some tens of times its size.
 inline constexpr std::uint64_t kMeshMemoryPerByte = 64;
 
-// As load_mesh_parts() of mesh_file.h. `kind`: the ending, in small letters. std::bad_alloc when memory is
-// limited and runs out.
+// Does what load_mesh_parts() of mesh_file.h does. `kind`: the ending, in small letters. std::bad_alloc when
+// memory is limited and runs out.
 std::vector<Mesh> import_mesh_parts(const std::filesystem::path& file, const std::string& kind,
                                     std::span<const std::string> nodes);
 

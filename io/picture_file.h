@@ -15,7 +15,7 @@
 
 namespace hilcam {
 
-// As many as 16384 x 16384 has, and more than a map of 21600 x 10800: 0.8 GB of colours.
+// A picture of 16384 x 16384 has so many, a map of 21600 x 10800 fewer: 0.8 GB of colours.
 inline constexpr std::uint64_t kMostPicturePixels = std::uint64_t{1} << 28;
 
 // What picture files are opened as.

@@ -17,7 +17,7 @@
 namespace hilcam {
 namespace {
 
-// As ZeroMQ takes it: an address, an interface's name, or all of them.
+// Reads an address as ZeroMQ takes it: an address, an interface's name, or all of them.
 std::uint32_t address_named(const std::string& host) {
     in_addr numeric{};
     if (host == "*") return INADDR_ANY;

@@ -69,15 +69,15 @@ struct WorldSnapshot {
     TimeTai time;
     Pose camera;
     Vec3d camera_velocity_m_s;  // in the world
-    // Against what its rows see, in its own time. For cameras whose rows are not of one instant.
+    // The camera's velocity against what its rows see, in its own time: for rows that are not of one instant.
     Vec3d rows_velocity_m_s;
     Vec3d camera_rate_rad_s;  // about the camera's axes
     std::vector<Pose> objects;
     ShownLamps lamps;
     Bodies bodies;
 
-    // By which the sky is shifted. No camera is as fast as the limit (Parker Solar Probe: 192 km/s): what
-    // seems to be is a jump between two poses.
+    // Returns the velocity that shifts the sky. No camera is as fast as the limit (Parker Solar Probe: 192
+    // km/s): what seems to be is a jump between two poses, and shifts nothing.
     Vec3d shifting_velocity_m_s() const {
         constexpr double kFastest_m_s = 1e6;
         return length(camera_velocity_m_s) < kFastest_m_s ? camera_velocity_m_s : Vec3d{};
