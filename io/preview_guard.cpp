@@ -117,9 +117,10 @@ void ConnectionGuard::look() {
         const auto known = first_seen_.find(peer);
         const auto since = known == first_seen_.end() ? now : known->second;
         still_there.emplace(peer, since);
-        const bool heard = heard_.contains(peer);
+        // A worker that has read a request may be kept from telling so: what was seen unread once has come.
+        const bool heard = heard_.contains(peer) || has_request_unread(c.fd);
         if (heard) still_heard.insert(peer);
-        const bool dawdles = !heard && now - since > patience && !has_request_unread(c.fd);
+        const bool dawdles = !heard && now - since > patience;
         // The library sees the end of the connection and closes it.
         if (ending_ || dawdles || now - since > limits_.age || c.received_bytes > limits_.received_bytes ||
             !limits_.allows(c.peer_address))

@@ -321,9 +321,11 @@ class Abuse(unittest.TestCase):
                     answer = b"".join(iter(lambda: stranger.recv(4096), b""))
                 except ConnectionError:
                     answer = b""  # hung up on before the request was read
-            if answer:
-                self.assertIn(b" 403 ", answer)
-                self.assertIn(b"127.0.22.10 is not among outputs.preview.allow", answer)
+            # Or in the midst of the answer: there is nothing else in it.
+            head, _, body = answer.partition(b"\r\n\r\n")
+            if head:
+                self.assertIn(b" 403 ", head)
+            self.assertTrue(b"127.0.22.10 is not among outputs.preview.allow".startswith(body.strip()), body)
 
     def test_a_viewer_does_not_wait_for_those_who_dawdle(self):
         with Running(files=False):
