@@ -200,8 +200,8 @@ Fields fields(OriginConfig& c) {
 
 namespace {
 
-// Of a place that turns with a body, about its centre: by difference over a minute, good to mm/s; aberration
-// needs m/s.
+// Returns the state of a place that turns with a body, about its centre: by difference over a minute, good to
+// mm/s; aberration needs m/s.
 StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
     if (!origin.turns()) return {};
     constexpr std::int64_t kStep_ns = 30'000'000'000;

@@ -8,8 +8,8 @@ namespace hilcam {
 namespace {
 
 constexpr double kStarsPerCell = 100;
-constexpr int kMostCellsAcross =
-    64;  // of a face: more would cost a frame more to look through than they save
+// A face has at most so many by as many: more would cost a frame more to look through than they save.
+constexpr int kMostCellsAcross = 64;
 
 // On the face of the cube that the direction meets, in cells that are about equally wide as seen from the
 // middle.
@@ -68,8 +68,10 @@ StarSky::Cone StarSky::cone_of(std::size_t begin, std::size_t end) const {
 // sin(seen) = sin(w) / (gamma (1 + beta cos w)), which is asin(beta) from w at most (Rindler, Relativity,
 // 2006, 4.3).
 double StarSky::farthest_shift_rad(const StarObserver& observer) const {
-    return std::abs(observer.years()) * fastest_rad_yr_ +
-           length(observer.position_au()) * most_parallax_rad_ + std::asin(length(observer.beta()));
+    // A unit vector that is displaced by less than its length turns by the arc sine of that at most.
+    const double displaced =
+        std::abs(observer.years()) * fastest_rad_yr_ + length(observer.position_au()) * most_parallax_rad_;
+    return (displaced < 1 ? std::asin(displaced) : kPi) + std::asin(length(observer.beta()));
 }
 
 // A grid of axes over the sky: any other axis is within half a diagonal of its cell's.

@@ -141,7 +141,7 @@ void PointLight::scatter(Vec2d at_px, const Draw& draw) const {
                      weights[static_cast<std::size_t>(j + kSteps)] / (sum * sum));
 }
 
-// Of its electrons those that glare takes are counted.
+// Counts those of its electrons that glare takes.
 PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) {
     const StrayLightConfig& stray = view_.camera.stray_light;
     if (stray.glare_radius_px <= 0) {

@@ -17,7 +17,7 @@ struct Picture {
     Imath::Box2i display, data;
     std::vector<float> values;
 
-    // Of the pixels above half of the brightest one, in the file's own coordinates [px].
+    // The mean place of the pixels above half of the brightest one, in the file's own coordinates [px].
     Vec2d centre() const {
         const float most = *std::max_element(values.begin(), values.end());
         const int width = data.max.x - data.min.x + 1;

@@ -33,7 +33,7 @@ class RunSeedTest : public PlateTest {
         overrides.insert(overrides.end(), more.begin(), more.end());
         return load_scenario(file, overrides);
     }
-    // As `hilcam run` does it.
+    // Runs the bench with its seed settled as `hilcam run` settles it.
     Frames run(const std::string& folder, const std::vector<std::string>& more, RunLimits limits = {}) {
         ScenarioConfig scenario = bench(folder, more);
         settle_seed(scenario, limits.replay);

@@ -140,7 +140,7 @@ TEST_P(GenicamOf, RegistersAreWhatTheFeaturesSay) {
     }
 }
 
-// As clients write a part of a register: what is beside it as it is read, or zeros where it cannot be.
+// Writes a part of a register as clients do: what is beside it as it is read, or zeros where it cannot be.
 std::uint32_t with_part(GigeBench& b, const Feature& f, std::uint32_t value) {
     const std::uint32_t mask = f.high_bit < 0 ? 0xFFFFFFFF : (2u << (f.high_bit - f.low_bit)) - 1u;
     const int shift = std::max(0, f.low_bit);
