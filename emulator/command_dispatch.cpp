@@ -4,6 +4,7 @@
 
 #include "emulator/event_director.h"
 #include "emulator/recorder.h"
+#include "render/overloaded.h"
 
 namespace hilcam {
 namespace {
@@ -40,14 +41,18 @@ SettingsChange change_of(const TriggerModeCommand& m) {
     return change;
 }
 
-// Poses, joints and lamps are noted before they take effect: no frame may show one that is not noted. What
-// only asks is not noted at all.
+// True for what goes into a recording once it was accepted. Poses, joints and lamps are noted before they
+// take effect: no frame may show one that is not noted. What only asks is not noted at all.
 bool is_noted_after(const Command& command) {
-    const auto* clock = std::get_if<ClockCommand>(&command);
-    return !std::holds_alternative<PoseCommand>(command) && !std::holds_alternative<JointCommand>(command) &&
-           !std::holds_alternative<LampCommand>(command) && !std::holds_alternative<PingCommand>(command) &&
-           !std::holds_alternative<SubscribeCommand>(command) &&
-           !(clock && clock->action == ClockCommand::Action::kAsk);
+    return std::visit(
+        Overloaded{
+            [](const OneOf<PoseCommand, JointCommand, LampCommand> auto&) { return false; },
+            [](const OneOf<PingCommand, SubscribeCommand> auto&) { return false; },
+            [](const ClockCommand& clock) { return clock.action != ClockCommand::Action::kAsk; },
+            [](const OneOf<SettingsCommand, StartCommand, StopCommand, FaultCommand, ExposeCommand,
+                           TriggerModeCommand> auto&) { return true; },
+        },
+        command);
 }
 
 // So many frames, or what an event starts: a frame that is being made is not struck.
@@ -77,22 +82,28 @@ std::uint64_t CommandDispatch::note(const Command& command, const CommandSource&
     return number;
 }
 
+// There is no default: a command that is added later does not compile until somebody handles it.
 CommandStatus CommandDispatch::perform(const Command& command, const CommandSource& source) {
-    if (const auto* pose = std::get_if<PoseCommand>(&command)) return set_pose(*pose, source);
-    if (const auto* joint = std::get_if<JointCommand>(&command)) return turn(*joint, source);
-    if (const auto* lamp = std::get_if<LampCommand>(&command)) return switch_lamp(*lamp, source);
-    if (const auto* settings = std::get_if<SettingsCommand>(&command))
-        return change(change_of(*settings), source, CommandStatus::kBadArgument);
-    if (const auto* mode = std::get_if<TriggerModeCommand>(&command))
-        return change(change_of(*mode), source, CommandStatus::kNotNow);
-    if (const auto* e = std::get_if<ExposeCommand>(&command)) return expose(*e, source);
-    if (const auto* fault = std::get_if<FaultCommand>(&command)) return order(*fault, source);
-    if (const auto* clock = std::get_if<ClockCommand>(&command)) return order(*clock);
-    if (std::holds_alternative<StartCommand>(command))
-        return change({.running = true}, source, CommandStatus::kNotNow);
-    if (std::holds_alternative<StopCommand>(command))
-        return change({.running = false}, source, CommandStatus::kNotNow);
-    return CommandStatus::kAccepted;
+    return std::visit(
+        Overloaded{
+            [&](const PoseCommand& pose) { return set_pose(pose, source); },
+            [&](const JointCommand& joint) { return turn(joint, source); },
+            [&](const LampCommand& lamp) { return switch_lamp(lamp, source); },
+            [&](const SettingsCommand& settings) {
+                return change(change_of(settings), source, CommandStatus::kBadArgument);
+            },
+            [&](const TriggerModeCommand& mode) {
+                return change(change_of(mode), source, CommandStatus::kNotNow);
+            },
+            [&](const ExposeCommand& exposure) { return expose(exposure, source); },
+            [&](const FaultCommand& fault) { return order(fault, source); },
+            [&](const ClockCommand& clock) { return order(clock); },
+            [&](const StartCommand&) { return change({.running = true}, source, CommandStatus::kNotNow); },
+            [&](const StopCommand&) { return change({.running = false}, source, CommandStatus::kNotNow); },
+            // The command station answers these itself (io/command_station.cpp); the cameras are not asked.
+            [](const OneOf<PingCommand, SubscribeCommand> auto&) { return CommandStatus::kAccepted; },
+        },
+        command);
 }
 
 // Of several cameras, the first refusal is the answer.

@@ -5,6 +5,7 @@
 
 #include "emulator/command_words.h"
 #include "render/check.h"
+#include "render/overloaded.h"
 #include "render/quoted.h"
 #include "render/time.h"
 #include "render/units.h"
@@ -101,6 +102,25 @@ bool EventActions::takes_picture() const {
                        [](const Command& c) { return std::holds_alternative<ExposeCommand>(c); });
 }
 
+namespace {
+
+// Why an event cannot give this command, or empty.
+std::string_view refusal_of(const Command& command) {
+    using namespace std::string_view_literals;
+    return std::visit(
+        Overloaded{
+            [](const SettingsCommand& s) {
+                return s.exposure_s || s.gain_db || s.frame_rate_hz ? ""sv : "names no setting"sv;
+            },
+            [](const OneOf<PingCommand, SubscribeCommand> auto&) { return "does nothing to a camera"sv; },
+            [](const OneOf<PoseCommand, StartCommand, StopCommand, JointCommand, FaultCommand, ExposeCommand,
+                           TriggerModeCommand, ClockCommand, LampCommand> auto&) { return ""sv; },
+        },
+        command);
+}
+
+}  // namespace
+
 EventActions actions_of(const EventConfig& e) {
     EventActions out;
     if (e.actions.empty()) throw InputError("'do' is empty");
@@ -115,11 +135,8 @@ EventActions actions_of(const EventConfig& e) {
         } catch (const std::exception& error) {
             throw InputError("do: " + in_quotes(words) + ": " + in_quotes(error.what()));
         }
-        if (const auto* s = std::get_if<SettingsCommand>(&command);
-            s && !s->exposure_s && !s->gain_db && !s->frame_rate_hz)
-            throw InputError("do: " + in_quotes(words) + ": names no setting");
-        if (std::holds_alternative<PingCommand>(command) || std::holds_alternative<SubscribeCommand>(command))
-            throw InputError("do: " + in_quotes(words) + ": does nothing to a camera");
+        if (const std::string_view reason = refusal_of(command); !reason.empty())
+            throw InputError("do: " + in_quotes(words) + ": " + std::string(reason));
         out.commands.push_back(command);
     }
     return out;

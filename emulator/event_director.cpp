@@ -191,7 +191,8 @@ Command EventDirector::stamped(Command command, const EventSequence::Due& due) c
                    [&](ExposeCommand& expose) {
                        if (expose.time.ns == 0 && due.by_clock) expose.time = due.time;
                    },
-                   [](auto&) {},
+                   [](OneOf<SettingsCommand, StartCommand, StopCommand, PingCommand, FaultCommand,
+                            TriggerModeCommand, SubscribeCommand, ClockCommand> auto&) {},
                },
                command);
     return command;

@@ -7,6 +7,7 @@
 
 #include "io/bytes.h"
 #include "io/command_payload.h"
+#include "render/overloaded.h"
 
 namespace hilcam {
 namespace {
@@ -129,13 +130,28 @@ template <class A, class R>
 void expose(A& a, R& e) {
     a(e.time.ns), a(e.frames), a(e.at_any_time);
 }
+// True for a command that has fields of its own here; false for one of which the wire's form says all.
 template <class A, class C>
 bool own_fields(A& a, C& command) {
-    if (auto* p = std::get_if<PoseCommand>(&command)) return pose(a, *p), true;
-    if (auto* j = std::get_if<JointCommand>(&command)) return joint(a, *j), true;
-    if (auto* s = std::get_if<SettingsCommand>(&command)) return settings(a, *s), true;
-    if (auto* e = std::get_if<ExposeCommand>(&command)) return expose(a, *e), true;
-    return false;
+    return std::visit(
+        [&]<class T>(T& c) {
+            using Kind = std::remove_const_t<T>;
+            constexpr bool as_on_the_wire =
+                OneOf<Kind, StartCommand, StopCommand, PingCommand, FaultCommand, TriggerModeCommand,
+                      SubscribeCommand, ClockCommand, LampCommand>;
+            if constexpr (std::is_same_v<Kind, PoseCommand>)
+                pose(a, c);
+            else if constexpr (std::is_same_v<Kind, JointCommand>)
+                joint(a, c);
+            else if constexpr (std::is_same_v<Kind, SettingsCommand>)
+                settings(a, c);
+            else if constexpr (std::is_same_v<Kind, ExposeCommand>)
+                expose(a, c);
+            else
+                static_assert(as_on_the_wire, "say here how a recording keeps the new command");
+            return !as_on_the_wire;
+        },
+        command);
 }
 
 void command(Writer& a, const Command& c) {

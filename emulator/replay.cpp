@@ -8,6 +8,7 @@
 #include "emulator/clock.h"
 #include "emulator/scenario_listing.h"
 #include "render/check.h"
+#include "render/overloaded.h"
 
 namespace hilcam {
 namespace {
@@ -18,6 +19,10 @@ constexpr std::int64_t kLongestSleep_ns = 50'000'000;
 bool binning_fits(std::int64_t binning, std::int64_t at_power_up, std::int64_t most) {
     return binning == at_power_up || (binning >= 1 && binning <= most && (binning & (binning - 1)) == 0);
 }
+
+template <class C>
+concept MovesNothing = OneOf<C, SettingsCommand, StartCommand, StopCommand, PingCommand, FaultCommand,
+                             ExposeCommand, TriggerModeCommand, SubscribeCommand, ClockCommand>;
 
 bool is_fraction(const std::optional<double>& value) { return !value || (*value >= 0 && *value <= 1); }
 
@@ -149,25 +154,37 @@ void Replay::apply_commands() {
     pending_ = std::move(later);
 }
 
+// The thing that a command moves. Faults are ordered at once (apply_commands); what the other commands did is
+// in the frames' own use, with which they are made again.
 std::optional<std::size_t> Replay::thing_of(const Command& command) const {
-    if (const auto* pose = std::get_if<PoseCommand>(&command)) return camera_.world->thing_of(pose->object);
-    if (const auto* joint = std::get_if<JointCommand>(&command))
-        return camera_.world->thing_of(joint->object, joint->joint);
-    if (const auto* lamp = std::get_if<LampCommand>(&command))
-        return camera_.world->thing_of_lamp(lamp->lamp);
-    return {};
+    using Thing = std::optional<std::size_t>;
+    const WorldState& world = *camera_.world;
+    return std::visit(
+        Overloaded{
+            [&](const PoseCommand& pose) { return Thing(world.thing_of(pose.object)); },
+            [&](const JointCommand& joint) { return Thing(world.thing_of(joint.object, joint.joint)); },
+            [&](const LampCommand& lamp) { return Thing(world.thing_of_lamp(lamp.lamp)); },
+            [](const MovesNothing auto&) { return Thing(); },
+        },
+        command);
 }
 
 void Replay::apply(const Pending& pending) {
     const RecordedCommand& c = pending.command;
     const ShownCommand shown{c.source.sequence, c.source.arrival_monotonic_ns, {}, c.number};
-    if (const auto* pose = std::get_if<PoseCommand>(&c.command))
-        camera_.world->set(pose->object, pose->motion, shown, c.forgets);
-    if (const auto* joint = std::get_if<JointCommand>(&c.command))
-        camera_.world->set_joint(joint->object, joint->joint,
-                                 {joint->time, joint->angle_rad, joint->rate_rad_s}, shown, c.forgets);
-    if (const auto* lamp = std::get_if<LampCommand>(&c.command))
-        camera_.world->set_lamp(lamp->lamp, {lamp->time, lamp->level}, shown, c.forgets);
+    WorldState& world = *camera_.world;
+    std::visit(Overloaded{
+                   [&](const PoseCommand& pose) { world.set(pose.object, pose.motion, shown, c.forgets); },
+                   [&](const JointCommand& joint) {
+                       world.set_joint(joint.object, joint.joint,
+                                       {joint.time, joint.angle_rad, joint.rate_rad_s}, shown, c.forgets);
+                   },
+                   [&](const LampCommand& lamp) {
+                       world.set_lamp(lamp.lamp, {lamp.time, lamp.level}, shown, c.forgets);
+                   },
+                   [](const MovesNothing auto&) {},
+               },
+               c.command);
 }
 
 // Why the loop cannot be given a frame, or empty: CRCs find accidents, not files that somebody has made.

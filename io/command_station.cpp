@@ -3,11 +3,24 @@
 #include <algorithm>
 
 #include "io/command_payload.h"
+#include "render/overloaded.h"
 
 namespace hilcam {
 namespace {
 
 constexpr std::int64_t kRetryTime_ns = 1'000'000'000;
+
+// True for a command that does more when it is done twice: frames, strikes and steps of the clock add up.
+bool adds_up(const Command& command) {
+    return std::visit(
+        Overloaded{
+            [](const OneOf<ExposeCommand, FaultCommand> auto&) { return true; },
+            [](const ClockCommand& clock) { return clock.action == ClockCommand::Action::kStep; },
+            [](const OneOf<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand, JointCommand,
+                           TriggerModeCommand, SubscribeCommand, LampCommand> auto&) { return false; },
+        },
+        command);
+}
 
 }  // namespace
 
@@ -120,11 +133,7 @@ CommandStatus CommandStation::perform(const DecodedCommand& decoded, std::span<c
         sender.report.subscription = *subscription;
     const CommandStatus status =
         handler_.handle(decoded.command, {decoded.sequence, arrival_ns, decoded.camera, &notes});
-    const auto* clock = std::get_if<ClockCommand>(&decoded.command);
-    if (std::holds_alternative<ExposeCommand>(decoded.command) ||
-        std::holds_alternative<FaultCommand>(decoded.command) ||
-        (clock && clock->action == ClockCommand::Action::kStep))
-        sender.remember(packet, arrival_ns, status);
+    if (adds_up(decoded.command)) sender.remember(packet, arrival_ns, status);
     return status;
 }
 
