@@ -88,7 +88,8 @@ void add_command(json& out, const Command& command, const RecordingHeader& heade
                        if (c.action == ClockCommand::Action::kStep)
                            out["step_s"] = seconds_between(0, c.step_ns);
                    },
-                   [](const auto&) {},
+                   // Their name says all.
+                   [](const OneOf<StartCommand, StopCommand, PingCommand, SubscribeCommand> auto&) {},
                },
                command);
 }

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct Line {
     }
 };
 
+// The functions that are written out here are all that there are.
+static_assert(std::variant_size_v<Command> == 12);
 Command command_of(Line& in) {
     switch (in.u64()) {
         case 1: {
@@ -114,10 +117,12 @@ Command command_of(Line& in) {
             lamp.level = in.f64();
             return lamp;
         }
-        default: {
+        case 10: {
             const std::uint64_t mask = in.u64();
             return SubscribeCommand{(mask & 1) != 0, (mask & 2) != 0};
         }
+        default:
+            throw std::invalid_argument("no such function");
     }
 }
 
