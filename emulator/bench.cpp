@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/emulator.h"
+#include "emulator/machine_report.h"
 #include "emulator/pilot.h"
 #include "emulator/report.h"
 #include "render/render_bench.h"

@@ -16,6 +16,8 @@
 
 namespace hilcam {
 
+class Recorder;
+
 struct RunLimits {
     double seconds = 0;         // 0: until a signal
     std::uint64_t frames = 0;   // of each camera; 0: no limit
@@ -102,12 +104,5 @@ class CameraStation {
     std::size_t next_fault_ = 0;
     std::deque<FaultBoard::Entry> fault_log_;
 };
-
-// The motions of camera and objects as the scenario begins them.
-std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time);
-// All objects' turning parts, object by object.
-std::vector<Joint> joints_of(const ScenarioConfig& scenario);
-// What the scenario says of an instant, if no command comes.
-WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time);
 
 }  // namespace hilcam

@@ -6,6 +6,7 @@
 #include "emulator/camera_sheet.h"
 #include "emulator/camera_station.h"
 #include "emulator/exposure_renderer.h"
+#include "emulator/initial_world.h"
 #include "emulator/lamp_setup.h"
 #include "emulator/motion_builder.h"
 #include "emulator/scene_loader.h"

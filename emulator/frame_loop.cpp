@@ -49,7 +49,7 @@ FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const Came
     if (settings.limits().has_automatic_exposure) histogram_ = FrameHistogram(camera.frame_bits());
 }
 
-void FrameLoop::record_to(Recorder& recorder, std::uint16_t camera) {
+void FrameLoop::record_to(FrameRecorder& recorder, std::uint16_t camera) {
     recorder_ = &recorder;
     recorded_camera_ = camera;
     recorded_shown_.resize(world_.things());
@@ -329,9 +329,9 @@ void FrameLoop::keep(const Slot& slot) {
         const std::uint64_t number = slot.shown_numbers[i];
         if (number == recorded_shown_[i]) continue;
         recorded_shown_[i] = number;
-        recorder_->put(RecordedShown{recorded_camera_, static_cast<std::uint32_t>(i), number});
+        recorder_->keep_shown(recorded_camera_, static_cast<std::uint32_t>(i), number);
     }
-    recorder_->put(RecordedFrame{recorded_camera_, slot.use});
+    recorder_->keep_frame(recorded_camera_, slot.use);
 }
 
 // What a camera does with its numbers on their way out.

@@ -57,7 +57,7 @@
 #include "emulator/live_settings.h"
 #include "emulator/pose_watch.h"
 #include "emulator/quality_ladder.h"
-#include "emulator/recorder.h"
+#include "emulator/frame_recorder.h"
 #include "emulator/shutter_timing.h"
 #include "emulator/world_state.h"
 #include "io/bounded_queue.h"
@@ -124,7 +124,7 @@ class FrameLoop {
     ~FrameLoop() { stop(); }
 
     // Before start(); they outlive the loop. Cameras count from 1.
-    void record_to(Recorder& recorder, std::uint16_t camera);
+    void record_to(FrameRecorder& recorder, std::uint16_t camera);
     void follow(FrameScript& script) { script_ = &script; }
     void tell(FrameWatcher& watcher) { watcher_ = &watcher; }
     // One of the sinks, which is told what frames show while they are rendered. Before start().
@@ -198,7 +198,7 @@ class FrameLoop {
     BoundedQueue<LevelChange, 64> level_changes_;
     FrameScript* script_ = nullptr;  // may be null, as the next two
     FrameWatcher* watcher_ = nullptr;
-    Recorder* recorder_ = nullptr;
+    FrameRecorder* recorder_ = nullptr;
     std::uint16_t recorded_camera_ = 0;
     std::vector<std::uint64_t> recorded_shown_;  // the sensing thread's
     std::uint64_t last_id_ = 0;                  // the rendering thread's, as the next

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "emulator/attitude_laws.h"
-#include "emulator/camera_station.h"
 #include "emulator/ephemeris.h"
+#include "emulator/initial_world.h"
 #include "emulator/relative_motion.h"
 #include "emulator/trajectories.h"
 #include "render/check.h"

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "emulator/initial_world.h"
+
 namespace hilcam {
 
 CircleFlight flight_around_target(const ScenarioConfig& scenario) {

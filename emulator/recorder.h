@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "emulator/frame_recorder.h"
 #include "emulator/recording.h"
 #include "io/bounded_queue.h"
 #include "io/fd.h"
@@ -28,11 +29,11 @@ struct RecorderReport {
     std::string fault;       // empty, or why the recording is not complete
 };
 
-class Recorder {
+class Recorder : public FrameRecorder {
   public:
     // Makes the file, with its header. Throws DeviceError, or InputError for a scenario that is too long.
     Recorder(const std::filesystem::path& file, const RecordingHeader& header);
-    ~Recorder() { stop(); }
+    ~Recorder() override { stop(); }
 
     void start();
     // Writes what is left; idempotent.
@@ -41,6 +42,12 @@ class Recorder {
     // Any thread; loop.
     void put(const Record& record) noexcept {
         if (!queue_->push(record)) lost_.fetch_add(1, std::memory_order_release);
+    }
+    void keep_shown(std::uint16_t camera, std::uint32_t thing, std::uint64_t number) noexcept override {
+        put(RecordedShown{camera, thing, number});
+    }
+    void keep_frame(std::uint16_t camera, const FrameUse& use) noexcept override {
+        put(RecordedFrame{camera, use});
     }
     // The number of the next command: by whoever puts commands in, one at a time.
     std::uint64_t next_number() noexcept { return ++numbers_; }

@@ -1,12 +1,11 @@
 #include "emulator/recording_codec.h"
 
-#include <zlib.h>
-
 #include <cmath>
 #include <type_traits>
 
 #include "io/bytes.h"
 #include "io/command_payload.h"
+#include "io/crc32.h"
 #include "render/overloaded.h"
 
 namespace hilcam {
@@ -135,17 +134,17 @@ template <class A, class C>
 bool own_fields(A& a, C& command) {
     return std::visit(
         [&]<class T>(T& c) {
-            using Kind = std::remove_const_t<T>;
+            using Alternative = std::remove_const_t<T>;
             constexpr bool as_on_the_wire =
-                OneOf<Kind, StartCommand, StopCommand, PingCommand, FaultCommand, TriggerModeCommand,
+                OneOf<Alternative, StartCommand, StopCommand, PingCommand, FaultCommand, TriggerModeCommand,
                       SubscribeCommand, ClockCommand, LampCommand>;
-            if constexpr (std::is_same_v<Kind, PoseCommand>)
+            if constexpr (std::is_same_v<Alternative, PoseCommand>)
                 pose(a, c);
-            else if constexpr (std::is_same_v<Kind, JointCommand>)
+            else if constexpr (std::is_same_v<Alternative, JointCommand>)
                 joint(a, c);
-            else if constexpr (std::is_same_v<Kind, SettingsCommand>)
+            else if constexpr (std::is_same_v<Alternative, SettingsCommand>)
                 settings(a, c);
-            else if constexpr (std::is_same_v<Kind, ExposeCommand>)
+            else if constexpr (std::is_same_v<Alternative, ExposeCommand>)
                 expose(a, c);
             else
                 static_assert(as_on_the_wire, "say here how a recording keeps the new command");
@@ -245,10 +244,6 @@ std::size_t seal(std::span<std::uint8_t> bytes, std::size_t body_bytes) {
 }
 
 }  // namespace
-
-std::uint32_t crc32_of(std::span<const std::uint8_t> bytes, std::uint32_t before) {
-    return static_cast<std::uint32_t>(::crc32_z(before, bytes.data(), bytes.size()));
-}
 
 std::vector<std::uint8_t> encode_header(const RecordingHeader& header) {
     constexpr std::size_t kRest = 64;  // kind, lengths and numbers

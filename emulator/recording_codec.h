@@ -31,7 +31,4 @@ std::size_t encode_record(const Record& record, std::span<std::uint8_t> bytes);
 std::optional<RecordingHeader> decode_header(std::span<const std::uint8_t> body);
 std::optional<Record> decode_record(std::span<const std::uint8_t> body);
 
-// CRC-32 (ISO 3309, as in zlib), of bytes that follow those which gave `before`.
-std::uint32_t crc32_of(std::span<const std::uint8_t> bytes, std::uint32_t before = 0);
-
 }  // namespace hilcam

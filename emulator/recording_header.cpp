@@ -1,12 +1,11 @@
 #include "emulator/recording_header.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "emulator/machine_report.h"
 #include "emulator/program_version.h"
-#include "emulator/recording_codec.h"
-#include "emulator/report.h"
 #include "emulator/scenario_listing.h"
+#include "io/crc32.h"
 
 namespace hilcam {
 namespace {
@@ -28,7 +27,7 @@ RecordingHeader recording_header(const ScenarioConfig& scenario) {
     RecordingHeader header;
     header.program = kProgramVersion;
     header.build = crc_of_file("/proc/self/exe");
-    header.processor = machine_report()["processor"].get<std::string>();
+    header.processor = processor_name();
     header.start = parse_utc(scenario.time_utc);
     header.cameras = static_cast<std::uint16_t>(1 + scenario.more_cameras.size());
     header.lockstep = scenario.mode == CameraMode::kLockstep;

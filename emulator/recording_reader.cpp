@@ -6,6 +6,7 @@
 
 #include "emulator/recording_codec.h"
 #include "io/bytes.h"
+#include "io/crc32.h"
 #include "io/input_file.h"
 #include "render/check.h"
 

@@ -2,8 +2,8 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "emulator/machine_report.h"
 #include "render/check.h"
 
 namespace hilcam {
@@ -13,13 +13,6 @@ using nlohmann::json;
 
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-std::string processor_name() {
-    std::ifstream in("/proc/cpuinfo");
-    for (std::string line; std::getline(in, line);)
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    return "unknown";
-}
-
 }  // namespace
 
 json percentiles_report(const DurationHistogram& h) {
@@ -27,18 +20,6 @@ json percentiles_report(const DurationHistogram& h) {
             {"p99", rounded(h.quantile_ms(0.99))},
             {"p99.9", rounded(h.quantile_ms(0.999))},
             {"max", rounded(h.quantile_ms(1))}};
-}
-
-json machine_report() {
-    return {{"processor", processor_name()},
-            {"cores", std::thread::hardware_concurrency()},
-            {"compiler", std::string("gcc ") + __VERSION__},
-#ifdef NDEBUG
-            {"build", "optimised"}
-#else
-            {"build", "debug"}
-#endif
-    };
 }
 
 json stages_report(const StageMeters& m) {

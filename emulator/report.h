@@ -8,8 +8,6 @@
 
 namespace hilcam {
 
-// Processor, cores, compiler and build, so that a figure can be judged.
-nlohmann::json machine_report();
 // p50, p99, p99.9 and max [ms].
 nlohmann::json percentiles_report(const DurationHistogram& histogram);
 // The same of every stage.

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "emulator/recording_codec.h"
+#include "io/crc32.h"
 #include "io/input_file.h"
 #include "render/overloaded.h"
 

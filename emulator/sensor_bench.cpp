@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/clock.h"
+#include "emulator/machine_report.h"
 #include "emulator/report.h"
 #include "render/units.h"
 

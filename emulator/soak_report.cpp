@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "emulator/machine_report.h"
 #include "emulator/page_maker.h"
 #include "emulator/report.h"
 

@@ -1,6 +1,6 @@
 #include "emulator/still_camera.h"
 
-#include "emulator/camera_station.h"
+#include "emulator/initial_world.h"
 #include "emulator/lamp_setup.h"
 #include "emulator/motion_builder.h"
 #include "emulator/scene_loader.h"

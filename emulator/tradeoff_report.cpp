@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "emulator/machine_report.h"
 #include "emulator/page_maker.h"
 #include "emulator/report.h"
 #include "emulator/tradeoff_ladder.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/command.h"
-#include "io/telemetry_codec.h"
+#include "io/telemetry_records.h"
 
 namespace hilcam {
 

@@ -42,4 +42,14 @@ class Atmosphere {
     virtual std::string describe() const = 0;
 };
 
+struct AtmosphereConfig;  // atmosphere_config.h
+struct AtmosphereTable;   // atmosphere_table.h
+
+// What an atmosphere is made from.
+struct AtmosphereRequest {
+    const AtmosphereConfig& config;
+    const SpectralGrid& grid;
+    const AtmosphereTable* table = nullptr;  // what config.table holds
+};
+
 }  // namespace hilcam

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "render/atmosphere.h"
-#include "render/modules.h"
 
 namespace hilcam {
 

@@ -19,15 +19,6 @@ struct RayConfig {
 };
 Fields fields(RayConfig& config);
 
-struct AtmosphereConfig;  // atmosphere_config.h
-struct AtmosphereTable;   // atmosphere_table.h
-
-struct AtmosphereRequest {
-    const AtmosphereConfig& config;
-    const SpectralGrid& grid;
-    const AtmosphereTable* table = nullptr;  // what config.table holds
-};
-
 struct Modules {
     Registry<RayGenerator, const RayConfig&> rays{"rays.model"};
     Registry<PathModel> paths{"quality.path_model"};

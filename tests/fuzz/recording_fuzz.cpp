@@ -11,6 +11,7 @@
 #include "emulator/recording_reader.h"
 #include "emulator/recording_text.h"
 #include "io/bytes.h"
+#include "io/crc32.h"
 #include "render/check.h"
 
 using namespace hilcam;

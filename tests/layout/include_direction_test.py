@@ -24,9 +24,9 @@ ONLY_IN = {
 def main():
     faults, files = [], 0
     for folder in ORDER:
-        for path in sorted((TOP / folder).glob("*.[hc]*")):
+        for path in sorted(p for p in (TOP / folder).rglob("*") if p.suffix in (".h", ".cpp")):
             files += 1
-            name = f"{folder}/{path.name}"
+            name = path.relative_to(TOP).as_posix()
             for line in path.read_text().splitlines():
                 match = re.match(r'#include ["<]([^">]+)[">]', line)
                 if not match:

@@ -8,6 +8,7 @@
 
 #include "emulator/command_dispatch.h"
 #include "emulator/emulator.h"
+#include "emulator/initial_world.h"
 #include "emulator/lamp_setup.h"
 #include "emulator/scene_loader.h"
 #include "emulator/truth_source.h"

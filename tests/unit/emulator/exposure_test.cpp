@@ -6,6 +6,7 @@
 
 #include "emulator/emulator.h"
 #include "emulator/exposure_renderer.h"
+#include "emulator/initial_world.h"
 #include "emulator/lamp_setup.h"
 #include "emulator/scene_loader.h"
 #include "emulator/shutter_timing.h"

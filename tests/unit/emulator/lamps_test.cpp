@@ -11,6 +11,7 @@
 
 #include "emulator/event_director.h"
 #include "emulator/exposure_renderer.h"
+#include "emulator/initial_world.h"
 #include "emulator/lamp_setup.h"
 #include "render/units.h"
 #include "tests/support/plate.h"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "emulator/camera_station.h"
+#include "emulator/initial_world.h"
 #include "emulator/motion_builder.h"
 #include "io/config_yaml.h"
 #include "render/time_system.h"
