@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/config_field.h"
-#include "render/image.h"
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/image.h"
 
 namespace hilcam {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/check.h"
+#include "render/vocabulary/check.h"
 
 namespace hilcam {
 

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <string>
 
-#include "render/config_field.h"
-#include "render/image_geometry.h"
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/image_geometry.h"
 #include "sensor/auto_exposure.h"
 #include "sensor/ccd.h"
 #include "sensor/color_filter.h"

@@ -9,8 +9,8 @@
 #include <array>
 #include <vector>
 
-#include "render/config_field.h"
-#include "render/image.h"
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/image.h"
 
 namespace hilcam {
 

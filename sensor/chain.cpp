@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "render/check.h"
-#include "render/clones.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/clones.h"
 #include "sensor/array_places.h"
 #include "sensor/focal_plane.h"
 #include "sensor/noise.h"

@@ -8,9 +8,9 @@
 #include <memory>
 #include <span>
 
-#include "render/image.h"
-#include "render/point_source.h"
-#include "render/random.h"
+#include "render/vocabulary/image.h"
+#include "render/vocabulary/point_source.h"
+#include "render/vocabulary/random.h"
 #include "sensor/camera_model.h"
 #include "sensor/exposure.h"
 #include "sensor/fixed_pattern.h"

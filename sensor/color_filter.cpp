@@ -1,7 +1,7 @@
 #include "sensor/color_filter.h"
 
-#include "render/check.h"
-#include "render/quoted.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 

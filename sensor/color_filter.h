@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/config_field.h"
+#include "render/vocabulary/config_field.h"
 
 namespace hilcam {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "render/clones.h"
-#include "render/units.h"
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {

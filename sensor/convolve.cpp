@@ -11,9 +11,9 @@
 #include <new>
 #include <vector>
 
-#include "render/check.h"
-#include "render/clones.h"
-#include "render/units.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {

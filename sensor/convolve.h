@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "render/vec.h"
+#include "render/vocabulary/vec.h"
 
 namespace hilcam {
 

@@ -5,9 +5,9 @@
 // A minimum ionising particle leaves about 80 e-/um in silicon (Particle Data Group, Review of Particle
 // Physics, 2022, section 34); protons of 10-100 MeV some hundreds.
 
-#include "render/config_field.h"
-#include "render/image.h"
-#include "render/random.h"
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/image.h"
+#include "render/vocabulary/random.h"
 
 namespace hilcam {
 

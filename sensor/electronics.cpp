@@ -4,9 +4,9 @@
 #include <cmath>
 #include <complex>
 
-#include "render/clones.h"
-#include "render/random.h"
-#include "render/units.h"
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/random.h"
+#include "render/vocabulary/units.h"
 #include "sensor/noise.h"
 
 namespace hilcam {

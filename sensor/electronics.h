@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "render/config_field.h"
+#include "render/vocabulary/config_field.h"
 
 namespace hilcam {
 

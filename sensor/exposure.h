@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "render/vec.h"
+#include "render/vocabulary/vec.h"
 
 namespace hilcam {
 

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "render/image_geometry.h"
+#include "render/vocabulary/image_geometry.h"
 #include "sensor/stray_light.h"
 
 namespace hilcam {

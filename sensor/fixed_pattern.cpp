@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/check.h"
-#include "render/random.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/random.h"
 #include "sensor/array_places.h"
 #include "sensor/noise.h"
 

@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "render/config_field.h"
-#include "render/image.h"
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/image.h"
 
 namespace hilcam {
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
-#include "render/check.h"
-#include "render/clones.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/clones.h"
 #include "sensor/far_wings.h"
 #include "sensor/mtf.h"
 #include "sensor/point_light.h"

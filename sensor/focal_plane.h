@@ -10,8 +10,8 @@
 #include <memory>
 #include <span>
 
-#include "render/image.h"
-#include "render/point_source.h"
+#include "render/vocabulary/image.h"
+#include "render/vocabulary/point_source.h"
 #include "sensor/camera_model.h"
 #include "sensor/convolve.h"
 #include "sensor/exposure.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "sensor/mtf.h"
 
 namespace hilcam {

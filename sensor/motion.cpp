@@ -3,9 +3,9 @@
 #include <cmath>
 #include <complex>
 
-#include "render/check.h"
-#include "render/random.h"
-#include "render/units.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/random.h"
+#include "render/vocabulary/units.h"
 #include "sensor/mtf.h"
 
 namespace hilcam {

@@ -15,9 +15,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/config_field.h"
-#include "render/pose.h"
-#include "render/table.h"
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/pose.h"
+#include "render/vocabulary/table.h"
 
 namespace hilcam {
 

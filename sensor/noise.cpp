@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "render/clones.h"
+#include "render/vocabulary/clones.h"
 
 namespace hilcam {
 namespace {
@@ -71,8 +71,8 @@ constexpr int kMostInverted_e = 92;
     return 1.41421356f * (w < 5.0f ? middle : tail) * x;
 }
 
-// Philox words of consecutive pairs of pixels (render/random.h, laid out for vector code): a pair's first
-// pixel has words 0 and 1, its second 2 and 3.
+// Philox words of consecutive pairs of pixels (render/vocabulary/random.h, laid out for vector code): a
+// pair's first pixel has words 0 and 1, its second 2 and 3.
 HILCAM_CLONES void fill_uniforms(RandomKey key, std::uint32_t first_pair, float* shot, float* read) {
     for (std::size_t i = 0; i < kBlock / 2; ++i) {
         const auto words =

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "render/random.h"
+#include "render/vocabulary/random.h"
 
 namespace hilcam {
 

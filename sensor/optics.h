@@ -13,7 +13,7 @@
 // R the relative illumination and Omega the solid angle of a pixel at its place (Omega_0 on the axis), so
 // that a dense field of points and a uniform field agree through any lens.
 
-#include "render/spectrum.h"
+#include "render/vocabulary/spectrum.h"
 #include "sensor/camera_model.h"
 
 namespace hilcam {

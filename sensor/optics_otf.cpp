@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "render/sun.h"
+#include "render/sky/sun.h"
 #include "sensor/mtf.h"
 #include "sensor/zernike.h"
 

@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "render/spectrum.h"
+#include "render/vocabulary/spectrum.h"
 #include "sensor/camera_model.h"
 
 namespace hilcam {

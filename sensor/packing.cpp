@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/check.h"
+#include "render/vocabulary/check.h"
 
 namespace hilcam {
 namespace {

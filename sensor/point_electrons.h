@@ -3,8 +3,8 @@
 // draws it: mean over where it falls in a pixel and in a colour filter array's pattern. Not in it: what falls
 // outside the frame, saturation, and what glare spreads evenly.
 
-#include "render/image_geometry.h"
-#include "render/spectrum.h"
+#include "render/vocabulary/image_geometry.h"
+#include "render/vocabulary/spectrum.h"
 #include "sensor/camera_model.h"
 #include "sensor/optics.h"
 

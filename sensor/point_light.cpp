@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "render/pose.h"
-#include "render/units.h"
+#include "render/vocabulary/pose.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "render/image.h"
-#include "render/point_source.h"
+#include "render/vocabulary/image.h"
+#include "render/vocabulary/point_source.h"
 #include "sensor/far_wings.h"
 #include "sensor/light_channel.h"
 

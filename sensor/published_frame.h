@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "render/frame_raster.h"
+#include "render/frame/frame_raster.h"
 #include "sensor/camera_model.h"
 
 namespace hilcam {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/clones.h"
+#include "render/vocabulary/clones.h"
 #include "sensor/noise.h"
 
 namespace hilcam {

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "render/random.h"
+#include "render/vocabulary/random.h"
 #include "sensor/camera_model.h"
 #include "sensor/electronics.h"
 #include "sensor/fixed_pattern.h"

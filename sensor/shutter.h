@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "render/config_field.h"
+#include "render/vocabulary/config_field.h"
 
 namespace hilcam {
 

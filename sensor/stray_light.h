@@ -9,9 +9,9 @@
 
 #include <vector>
 
-#include "render/config_field.h"
-#include "render/image.h"
-#include "render/image_geometry.h"
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/image.h"
+#include "render/vocabulary/image_geometry.h"
 #include "sensor/convolve.h"
 
 namespace hilcam {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "render/image.h"
+#include "render/vocabulary/image.h"
 
 namespace hilcam {
 

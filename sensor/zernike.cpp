@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {

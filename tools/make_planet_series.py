@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Makes render/planet_series_terms.inc from the tables of VSOP87 in libnova's source (Debian's source package libnova).
+"""Makes render/sky/planet_series_terms.inc from the tables of VSOP87 in libnova's source (Debian's source package libnova).
 
-    apt-get source libnova && tools/make_planet_series.py libnova-0.16/src > render/planet_series_terms.inc
+    apt-get source libnova && tools/make_planet_series.py libnova-0.16/src > render/sky/planet_series_terms.inc
 
 libnova holds version B of VSOP87 (Bretagnon & Francou, A&A 202, 309, 1988; CDS catalogue VI/81) whole: longitude, latitude and radius
 as sums of t^k A cos(B + C t). Terms of one planet, k and C become one row, whose sine and cosine serve all three coordinates. Rows stay

@@ -8,10 +8,10 @@
 #include <limits>
 #include <random>
 
-#include "render/atmosphere_config.h"
-#include "render/atmosphere_models.h"
-#include "render/atmosphere_physics.h"
-#include "render/units.h"
+#include "render/sky/atmosphere_config.h"
+#include "render/sky/atmosphere_models.h"
+#include "render/sky/atmosphere_physics.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {

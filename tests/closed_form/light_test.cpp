@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
-#include "render/path_models.h"
-#include "render/sun.h"
+#include "render/light/path_models.h"
+#include "render/sky/sun.h"
 #include "tests/support/furnace.h"
 #include "tests/support/stage.h"
 

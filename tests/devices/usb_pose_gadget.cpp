@@ -21,9 +21,9 @@
 #include <thread>
 #include <vector>
 
-#include "io/command_dialect.h"
-#include "io/fd.h"
-#include "io/functionfs_descriptors.h"
+#include "io/commands/command_dialect.h"
+#include "io/commands/functionfs_descriptors.h"
+#include "io/system/fd.h"
 
 namespace hilcam {
 namespace {

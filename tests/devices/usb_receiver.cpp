@@ -1,4 +1,4 @@
-// The receiver of commands over USB (io/commands_usb.h) with a handler that checks their order.
+// The receiver of commands over USB (io/commands/commands_usb.h) with a handler that checks their order.
 //
 //   usb_receiver VENDOR:PRODUCT COUNT SECONDS
 //
@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "io/commands_usb.h"
+#include "io/commands/commands_usb.h"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include <filesystem>
 #include <thread>
 
-#include "io/fault.h"
-#include "io/sink_v4l2.h"
-#include "io/v4l2_metadata_row.h"
+#include "io/contract/fault.h"
+#include "io/v4l2/sink_v4l2.h"
+#include "io/v4l2/v4l2_metadata_row.h"
 #include "tests/support/quiet_camera.h"
 
 namespace hilcam {

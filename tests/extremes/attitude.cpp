@@ -4,9 +4,9 @@
 #include <array>
 #include <limits>
 
-#include "io/command_codec.h"
-#include "render/check.h"
-#include "render/units.h"
+#include "io/commands/command_codec.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
 #include "tests/extremes/groups.h"
 
 namespace hilcam::extremes {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/plan.h"
+#include "render/frame/plan.h"
 
 namespace hilcam::extremes {
 

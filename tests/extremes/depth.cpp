@@ -1,6 +1,6 @@
 // How deep light paths are followed.
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "tests/extremes/groups.h"
 #include "tests/support/furnace.h"
 

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "render/embree_scene.h"
-#include "render/plan.h"
+#include "render/frame/plan.h"
+#include "render/scene/embree_scene.h"
 #include "tests/extremes/convex_truth.h"
 #include "tests/extremes/groups.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Electrons in closed form, of a camera whose transmission and efficiency are the same at all wavelengths.
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "tests/support/cameras.h"
 
 namespace hilcam::extremes {

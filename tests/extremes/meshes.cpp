@@ -6,8 +6,8 @@
 #include <fstream>
 #include <limits>
 
-#include "io/mesh_file.h"
-#include "render/check.h"
+#include "io/files/mesh_file.h"
+#include "render/vocabulary/check.h"
 #include "tests/extremes/convex_truth.h"
 #include "tests/extremes/groups.h"
 

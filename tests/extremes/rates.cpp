@@ -1,7 +1,7 @@
 // How fast the camera turns: up to 30 degrees a second.
 
-#include "render/pose.h"
-#include "render/ray_generators.h"
+#include "render/light/ray_generators.h"
+#include "render/vocabulary/pose.h"
 #include "tests/extremes/groups.h"
 #include "tests/extremes/light_truth.h"
 

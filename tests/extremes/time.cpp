@@ -2,8 +2,8 @@
 
 #include <chrono>
 
-#include "render/bodies.h"
-#include "render/units.h"
+#include "render/sky/bodies.h"
+#include "render/vocabulary/units.h"
 #include "tests/extremes/groups.h"
 
 namespace hilcam::extremes {

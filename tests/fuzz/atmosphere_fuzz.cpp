@@ -9,8 +9,8 @@
 #include <fstream>
 #include <string_view>
 
-#include "io/atmosphere_file.h"
-#include "render/check.h"
+#include "io/files/atmosphere_file.h"
+#include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::filesystem::path folder =

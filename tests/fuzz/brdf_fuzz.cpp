@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "io/brdf_file.h"
-#include "render/check.h"
+#include "io/files/brdf_file.h"
+#include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::filesystem::path file =

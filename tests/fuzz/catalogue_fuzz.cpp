@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "io/catalogue_file.h"
-#include "render/check.h"
+#include "io/files/catalogue_file.h"
+#include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hilcam;

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "io/cfs_codec.h"
-#include "io/command_dialect.h"
-#include "render/check.h"
+#include "io/commands/cfs_codec.h"
+#include "io/commands/command_dialect.h"
+#include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hilcam;

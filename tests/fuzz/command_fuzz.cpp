@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/command_codec.h"
-#include "render/check.h"
+#include "io/commands/command_codec.h"
+#include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hilcam;

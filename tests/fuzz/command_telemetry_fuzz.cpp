@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "io/command_dialect.h"
-#include "render/check.h"
+#include "io/commands/command_dialect.h"
+#include "render/vocabulary/check.h"
 
 using namespace hilcam;
 

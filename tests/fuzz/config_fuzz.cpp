@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "emulator/app_config.h"
-#include "io/config_yaml.h"
-#include "render/check.h"
+#include "emulator/scenario/app_config.h"
+#include "io/config/config_yaml.h"
+#include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hilcam;

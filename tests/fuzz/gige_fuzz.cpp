@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
-#include "io/bytes.h"
-#include "io/gige_device.h"
-#include "io/gige_transport.h"
-#include "render/check.h"
+#include "io/gige/device/gige_device.h"
+#include "io/gige/device/gige_transport.h"
+#include "io/system/bytes.h"
+#include "render/vocabulary/check.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "io/mesh_file.h"
-#include "io/mesh_import.h"
-#include "render/check.h"
+#include "io/files/mesh_file.h"
+#include "io/files/mesh_import.h"
+#include "render/vocabulary/check.h"
 
 namespace {
 const char* kind_of(std::string_view text) {

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "emulator/ephemeris.h"
-#include "render/check.h"
+#include "emulator/motion/ephemeris.h"
+#include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hilcam;

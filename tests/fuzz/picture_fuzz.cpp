@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "io/picture_size.h"
-#include "render/check.h"
+#include "io/files/picture_size.h"
+#include "render/vocabulary/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto found = hilcam::picture_size({data, size});

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "io/preview_picture.h"
-#include "io/preview_request.h"
-#include "render/check.h"
+#include "io/preview/preview_picture.h"
+#include "io/preview/preview_request.h"
+#include "render/vocabulary/check.h"
 
 namespace {
 

@@ -7,12 +7,12 @@
 #include <sstream>
 #include <string>
 
-#include "emulator/recording_codec.h"
-#include "emulator/recording_reader.h"
-#include "emulator/recording_text.h"
-#include "io/bytes.h"
-#include "io/crc32.h"
-#include "render/check.h"
+#include "emulator/recording/recording_codec.h"
+#include "emulator/recording/recording_reader.h"
+#include "emulator/recording/recording_text.h"
+#include "io/system/bytes.h"
+#include "io/system/crc32.h"
+#include "render/vocabulary/check.h"
 
 using namespace hilcam;
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "io/vizard_conversation.h"
-#include "io/zmtp_meter.h"
-#include "render/check.h"
+#include "io/vizard/vizard_conversation.h"
+#include "io/vizard/zmtp_meter.h"
+#include "render/vocabulary/check.h"
 
 namespace {
 

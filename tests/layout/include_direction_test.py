@@ -7,17 +7,17 @@ import sys
 TOP = pathlib.Path(__file__).resolve().parents[2]
 ORDER = ["render", "sensor", "io", "emulator"]
 ONLY_IN = {
-    "embree": {"render/embree_scene.cpp"},
-    "yaml-cpp": {"io/config_yaml.cpp"},
-    "assimp": {"io/mesh_import.cpp"},
+    "embree": {"render/scene/embree_scene.cpp"},
+    "yaml-cpp": {"io/config/config_yaml.cpp"},
+    "assimp": {"io/files/mesh_import.cpp"},
     "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
-    "opencv2": {"io/image_file.cpp", "io/kept_stderr.cpp", "io/picture_file.cpp", "emulator/structural_similarity.cpp"},
-    "httplib": {"io/sink_preview.cpp"},
-    "google": {"io/vizard_message.cpp"},
-    "vizard.pb": {"io/vizard_message.cpp"},
-    "zmq": {"io/commands_vizard.cpp"},
-    "libusb": {"io/command_link_usb.cpp", "io/commands_usb.cpp", "io/usb_device.cpp"},
-    "erfa": {"render/bodies.cpp", "render/earth_frames.cpp", "render/stars.cpp", "render/time.cpp", "render/time_system.cpp"},
+    "opencv2": {"io/files/image_file.cpp", "io/files/kept_stderr.cpp", "io/files/picture_file.cpp", "emulator/tradeoff/structural_similarity.cpp"},
+    "httplib": {"io/preview/sink_preview.cpp"},
+    "google": {"io/vizard/vizard_message.cpp"},
+    "vizard.pb": {"io/vizard/vizard_message.cpp"},
+    "zmq": {"io/vizard/commands_vizard.cpp"},
+    "libusb": {"io/commands/command_link_usb.cpp", "io/commands/commands_usb.cpp", "io/commands/usb_device.cpp"},
+    "erfa": {"render/sky/bodies.cpp", "render/sky/earth_frames.cpp", "render/sky/stars.cpp", "render/vocabulary/time.cpp", "render/vocabulary/time_system.cpp"},
 }
 
 

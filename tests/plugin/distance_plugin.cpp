@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "render/plugin.h"
-#include "render/primary_rays.h"
+#include "render/frame/plugin.h"
+#include "render/light/primary_rays.h"
 
 namespace {
 

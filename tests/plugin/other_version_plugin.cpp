@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "render/plugin.h"
+#include "render/frame/plugin.h"
 
 extern "C" const hilcam::PluginInfo* hilcam_plugin() {
     static const hilcam::PluginInfo info{hilcam::kPluginInterface + 1, hilcam::kPluginSizes, __VERSION__,

@@ -1,8 +1,8 @@
-#include "render/plugin.h"
+#include "render/frame/plugin.h"
 
 #include <gmock/gmock.h>
 
-#include "render/check.h"
+#include "render/vocabulary/check.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {

@@ -21,13 +21,13 @@
 #include <optional>
 #include <thread>
 
-#include "emulator/attitude_laws.h"
-#include "emulator/emulator.h"
-#include "emulator/trajectories.h"
-#include "io/bytes.h"
-#include "io/fd.h"
-#include "io/gige_features.h"
-#include "io/gvcp.h"
+#include "emulator/motion/attitude_laws.h"
+#include "emulator/motion/trajectories.h"
+#include "emulator/run/emulator.h"
+#include "io/gige/device/gige_features.h"
+#include "io/gige/device/gvcp.h"
+#include "io/system/bytes.h"
+#include "io/system/fd.h"
 
 namespace {
 

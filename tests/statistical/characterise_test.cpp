@@ -1,6 +1,6 @@
 // A camera is measured end to end from its own frames, and what it was made with comes back.
 
-#include "emulator/characterise.h"
+#include "emulator/characterise/characterise.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "emulator/characterise_report.h"
+#include "emulator/characterise/characterise_report.h"
 
 namespace hilcam {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Cameras for tests of the sensor.
 
-#include "render/stars.h"
+#include "render/sky/stars.h"
 #include "sensor/chain.h"
 #include "sensor/optics.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/command_dialect.h"
+#include "io/commands/command_dialect.h"
 
 namespace hilcam {
 

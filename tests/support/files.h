@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "render/check.h"
+#include "render/vocabulary/check.h"
 
 namespace hilcam {
 

@@ -7,9 +7,9 @@
 
 #include <vector>
 
-#include "io/bytes.h"
-#include "io/fd.h"
-#include "io/gige_stream.h"
+#include "io/gige/stream/gige_stream.h"
+#include "io/system/bytes.h"
+#include "io/system/fd.h"
 
 namespace hilcam {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/pose.h"
+#include "render/vocabulary/pose.h"
 
 namespace hilcam {
 

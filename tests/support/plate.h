@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "emulator/command_dispatch.h"
-#include "emulator/emulator.h"
-#include "emulator/initial_world.h"
-#include "emulator/lamp_setup.h"
-#include "emulator/scene_loader.h"
-#include "emulator/truth_source.h"
+#include "emulator/run/command_dispatch.h"
+#include "emulator/run/emulator.h"
+#include "emulator/run/truth_source.h"
+#include "emulator/scenario/initial_world.h"
+#include "emulator/scenario/lamp_setup.h"
+#include "emulator/scenario/scene_loader.h"
 #include "tests/support/files.h"
 
 namespace hilcam {

@@ -1,7 +1,7 @@
 #pragma once
 // A camera that does nothing but hold settings: for tests of what drives one.
 
-#include "io/camera_control.h"
+#include "io/contract/camera_control.h"
 
 namespace hilcam {
 

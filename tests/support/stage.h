@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "render/body_light.h"
-#include "render/renderer.h"
-#include "render/units.h"
+#include "render/frame/renderer.h"
+#include "render/sky/body_light.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 

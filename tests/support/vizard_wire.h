@@ -1,7 +1,7 @@
 #pragma once
 // Messages of Basilisk's Vizard protocol as bytes, written by hand: field numbers from
 // AVSLab/basilisk, src/utilities/vizProtobuffer/vizMessage.proto, bytes from protobuf's encoding document.
-// Neither io/vizard.proto nor the protobuf library is asked.
+// Neither io/vizard/vizard.proto nor the protobuf library is asked.
 
 #include <bit>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "tools/make_spacecraft/design.h"
 #include "tools/make_spacecraft/glb.h"
 

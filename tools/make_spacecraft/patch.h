@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/vec.h"
+#include "render/vocabulary/vec.h"
 
 namespace spacecraft {
 

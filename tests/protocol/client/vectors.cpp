@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "io/clock_filter.h"
-#include "io/command_dialect.h"
+#include "io/commands/clock_filter.h"
+#include "io/commands/command_dialect.h"
 
 namespace {
 

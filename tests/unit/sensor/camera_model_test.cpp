@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "render/check.h"
+#include "render/vocabulary/check.h"
 #include "tests/support/cameras.h"
 
 namespace hilcam {

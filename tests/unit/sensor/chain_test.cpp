@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-#include "render/check.h"
+#include "render/vocabulary/check.h"
 #include "tests/support/cameras.h"
 #include "tests/support/statistics.h"
 

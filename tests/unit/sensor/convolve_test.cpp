@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "sensor/compact_kernel.h"
 #include "sensor/mtf.h"
 #include "tests/support/cameras.h"

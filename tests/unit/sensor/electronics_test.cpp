@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "sensor/read_out.h"
 #include "tests/support/cameras.h"
 #include "tests/support/statistics.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "render/check.h"
+#include "render/vocabulary/check.h"
 #include "tests/support/cameras.h"
 #include "tests/support/statistics.h"
 

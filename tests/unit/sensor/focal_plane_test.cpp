@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "render/stars.h"
-#include "render/units.h"
+#include "render/sky/stars.h"
+#include "render/vocabulary/units.h"
 #include "sensor/optics.h"
 #include "tests/support/cameras.h"
 #include "tests/support/statistics.h"

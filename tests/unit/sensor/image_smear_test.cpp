@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "sensor/focal_plane.h"
 #include "tests/support/cameras.h"
 #include "tests/support/statistics.h"

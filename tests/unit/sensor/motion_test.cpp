@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "render/check.h"
-#include "render/units.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "sensor/optics.h"
 #include "sensor/system_mtf.h"
 #include "sensor/zernike.h"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "sensor/point_electrons.h"
 #include "tests/support/cameras.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "render/units.h"
+#include "render/vocabulary/units.h"
 #include "sensor/focal_plane.h"
 #include "sensor/optics.h"
 #include "tests/support/cameras.h"

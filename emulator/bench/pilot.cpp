@@ -1,0 +1,41 @@
+#include "emulator/bench/pilot.h"
+
+#include <cmath>
+
+#include "emulator/scenario/initial_world.h"
+
+namespace hilcam {
+
+CircleFlight flight_around_target(const ScenarioConfig& scenario) {
+    const std::vector<Motion> motions = initial_motions(scenario, parse_utc(scenario.time_utc));
+    CircleFlight flight;
+    if (motions.size() > 1) flight.center_m = motions[1].pose.position_world_m;
+    flight.start_m = motions[0].pose.position_world_m;
+    flight.axis = flight.up = scenario.camera_pose.up;
+    flight.period_s = 120;
+    return flight;
+}
+
+Pilot::Pilot(Emulator& emulator, const CircleFlight& flight, std::function<double(std::int64_t)> flown_s)
+    : emulator_(emulator), flight_(flight), flown_s_(std::move(flown_s)) {
+    thread_ = std::thread([this] { fly(); });
+}
+
+Pilot::~Pilot() {
+    stop_.store(true);
+    thread_.join();
+}
+
+void Pilot::fly() {
+    constexpr double kMean_ns = 10e6;
+    // Multiples of the golden ratio's fraction fill the unit interval evenly (Weyl; Knuth, TAOCP 3, 6.4).
+    constexpr double kGolden = 0.6180339887498949;
+    for (std::uint32_t i = 1; !stop_.load(std::memory_order_relaxed); ++i) {
+        const std::int64_t now_ns = monotonic_ns();
+        emulator_.world().set(0, flight_.at(flown_s_(now_ns), emulator_.clock().at(now_ns)), {i, now_ns});
+        const double share = std::fmod(i * kGolden, 1.0);
+        sleep_until_monotonic_ns(now_ns + static_cast<std::int64_t>(kMean_ns * (0.5 + share)));
+    }
+}
+
+}  // namespace hilcam

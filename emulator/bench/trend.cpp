@@ -1,0 +1,51 @@
+#include "emulator/bench/trend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hilcam {
+namespace {
+
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2 == 1) return *middle;
+    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+double terms(double n) { return n * (n - 1) * (2 * n + 5) / 18; }
+
+// Of the sum of signs, without a trend.
+double variance(std::vector<double> values) {
+    double out = terms(static_cast<double>(values.size()));
+    std::sort(values.begin(), values.end());
+    for (auto from = values.begin(); from != values.end();) {
+        const auto to = std::upper_bound(from, values.end(), *from);
+        out -= terms(static_cast<double>(to - from));
+        from = to;
+    }
+    return out;
+}
+
+}  // namespace
+
+Trend trend_of(std::span<const double> values) {
+    if (values.size() < 2) return {};
+    std::vector<double> slopes;
+    slopes.reserve(values.size() * (values.size() - 1) / 2);
+    double signs = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (std::size_t j = i + 1; j < values.size(); ++j) {
+            slopes.push_back((values[j] - values[i]) / static_cast<double>(j - i));
+            signs += slopes.back() > 0 ? 1 : slopes.back() < 0 ? -1 : 0;
+        }
+    Trend trend{median(slopes), 0};
+    // One less towards zero: the sum takes steps of two (Kendall's correction for continuity).
+    if (signs != 0)
+        trend.sigma =
+            (signs - std::copysign(1.0, signs)) / std::sqrt(variance({values.begin(), values.end()}));
+    return trend;
+}
+
+}  // namespace hilcam

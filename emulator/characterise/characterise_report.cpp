@@ -1,0 +1,276 @@
+#include "emulator/characterise/characterise_report.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "emulator/run/page_maker.h"
+#include "emulator/run/report.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+using nlohmann::json;
+
+json figure(std::optional<double> configured, const Measured& measured) {
+    return {{"configured", configured ? json(*configured) : json(nullptr)},
+            {"measured", measured.value},
+            {"uncertainty", measured.uncertainty}};
+}
+
+json parts(const Nonuniformity& n) {
+    const auto part = [](const Measured& m) {
+        return json{{"measured", m.value}, {"uncertainty", m.uncertainty}};
+    };
+    return {
+        {"total", part(n.total)}, {"row", part(n.row)}, {"column", part(n.column)}, {"pixel", part(n.pixel)}};
+}
+
+// Of a picture over the window, in whose pixels it adds to what is drawn.
+struct MapStatistics {
+    double mean = 0, deviation = 0;
+};
+MapStatistics statistics_of(const PixelMap& map, const CameraModel& c) {
+    if (map.width() == 0) return {};
+    const PixelRectangle w = window_of(c);
+    double sum = 0, square = 0;
+    for (int y = w.top; y < w.top + w.height; ++y)
+        for (int x = w.left; x < w.left + w.width; ++x) {
+            const double value = static_cast<double>(map.row(y)[static_cast<std::size_t>(x)]);
+            sum += value, square += value * value;
+        }
+    const double n = static_cast<double>(w.width) * w.height;
+    return {sum / n, std::sqrt(std::max(0.0, square / n - sum / n * (sum / n)))};
+}
+
+// 101 cells over the range of what counts.
+json histogram(const std::vector<double>& image, double scale) {
+    constexpr std::size_t kCells = 101;
+    if (image.empty() || !(scale > 0)) return nullptr;
+    std::vector<int> count(kCells, 0);
+    constexpr double kReach = 6;
+    for (const double value : image) {
+        const double cell = (value / scale / kReach + 1) / 2 * kCells;
+        if (cell >= 0 && cell < kCells) ++count[static_cast<std::size_t>(cell)];
+    }
+    json out = json::array();
+    for (std::size_t i = 0; i < kCells; ++i)
+        out.push_back({{"deviation", (2 * (static_cast<double>(i) + 0.5) / kCells - 1) * kReach * scale},
+                       {"pixels", count[i]}});
+    return out;
+}
+
+json light_json(const Characterisation& r) {
+    json out = json::array();
+    for (const LightLevel& level : r.light) {
+        const LightPoint& p = level.point;
+        out.push_back({{"exposure_s", level.exposure_s},
+                       {"filter", level.filter},
+                       {"photons", p.photons},
+                       {"mean_dn", p.light.mean_dn.value},
+                       {"variance_dn2", p.light.variance_dn2.value},
+                       {"dark_mean_dn", p.dark.mean_dn.value},
+                       {"dark_variance_dn2", p.dark.variance_dn2.value},
+                       {"signal_dn", p.signal_dn()},
+                       {"shot_variance_dn2", p.shot_dn2()},
+                       {"snr", p.signal_dn() / std::sqrt(p.light.variance_dn2.value)}});
+    }
+    return out;
+}
+
+json linearity_json(const Characterisation& r) {
+    json out = json::array();
+    for (const LinearityPoint& p : r.linearity.points)
+        out.push_back({{"photons", p.photons},
+                       {"signal_dn", p.signal_dn},
+                       {"fit_dn", p.fit_dn},
+                       {"deviation_fraction", p.deviation_fraction}});
+    return out;
+}
+
+json dark_json(const Characterisation& r) {
+    json out = json::array();
+    for (const DarkPoint& p : r.dark)
+        out.push_back({{"exposure_s", p.exposure_s},
+                       {"mean_dn", p.dark.mean_dn.value},
+                       {"mean_uncertainty_dn", p.dark.mean_dn.uncertainty},
+                       {"variance_dn2", p.dark.variance_dn2.value},
+                       {"row_variance_dn2", p.dark.row_dn2}});
+    return out;
+}
+
+json mtf_json(const MtfCurve& m) {
+    json points = json::array();
+    for (std::size_t i = 0; i < m.measured.size(); ++i)
+        points.push_back({{"frequency_cy_px", m.frequency_cy_px[i]},
+                          {"configured", m.configured[i]},
+                          {"measured", m.measured[i]},
+                          {"uncertainty", m.uncertainty[i]}});
+    return {{"normal_deg", m.normal_rad / kDegree_rad}, {"points", points}};
+}
+
+json settings_json(const Characterisation& r) {
+    const BenchSetup& s = r.setup;
+    return {{"window_px", s.camera.window_px},
+            {"wavelength_um", s.wavelength_um},
+            {"color_filter", s.filter ? json(std::string(1, s.filter)) : json(nullptr)},
+            {"gain_db", s.gain_db},
+            {"dark_gain_db", s.dark_gain_db},
+            {"offset_dn", s.camera.offset_dn},
+            {"exposure_s", s.exposure_s},
+            {"levels_by", s.by_light ? "light" : "exposure time"},
+            {"dark_exposure_s", {s.shortest_s, s.longest_s}},
+            {"shot_noise_bandwidth", r.shot_bandwidth},
+            {"read_noise_bandwidth", r.read_bandwidth},
+            {"pixels", r.pixels},
+            {"frames", r.frames},
+            {"remarks", s.remarks}};
+}
+
+}  // namespace
+
+json characterisation_json(const Characterisation& r, const DetectorPictures& pictures) {
+    const CameraModel& c = r.setup.camera;
+    const double gain = c.system_gain_dn_e(r.setup.gain_db);
+    const double saturation_e = configured_saturation_e(c, r.setup.gain_db);
+    const double noise_e = c.dark_noise_e();
+    const double dark_e_s =
+        pictures.dark_e_s.width() > 0 ? statistics_of(pictures.dark_e_s, c).mean : c.dark_current_now_e_s();
+    // The lines of a line camera are all of one row of pixels: what differs from pixel to pixel are columns.
+    const bool lines = c.shutter.kind == ShutterKind::kLineScan;
+    const Measured& prnu = lines ? r.prnu_fraction.column : r.prnu_fraction.pixel;
+    const Measured& dsnu = lines ? r.dsnu_e.column : r.dsnu_e.pixel;
+    const Measured threshold = absolute_threshold_e(r.dark_noise_e, r.gain_dn_e);
+    const Measured threshold_configured = absolute_threshold_e({noise_e, 0}, {gain, 0});
+    const std::size_t nyquist = r.horizontal.nyquist();
+    const auto mtf_at = [&](const MtfCurve& m) {
+        return figure(m.configured[nyquist], {m.measured[nyquist], m.uncertainty[nyquist]});
+    };
+    return {
+        {"camera", c.name},
+        {"gain_dn_e", figure(gain, r.gain_dn_e)},
+        {"qe_peak", figure(configured_quantum_efficiency(r.setup), r.quantum_efficiency)},
+        {"read_noise_e", figure(noise_e, r.dark_noise_e)},
+        {"dark_current_e_s", figure(dark_e_s, r.dark_current.from_mean_e_s)},
+        {"full_well_e", figure(saturation_e, r.full_well_e)},
+        {"prnu_fraction",
+         figure(std::hypot(c.prnu_fraction, statistics_of(pictures.prnu, c).deviation), prnu)},
+        {"dsnu_e", figure(std::hypot(c.dsnu_e, statistics_of(pictures.offset_e, c).deviation), dsnu)},
+        {"linearity_error", figure(r.configured_linearity.error_fraction.value, r.linearity.error_fraction)},
+        {"mtf_nyquist", mtf_at(r.horizontal)},
+        {"mtf_nyquist_vertical", mtf_at(r.vertical)},
+        {"snr_max_db", figure(snr_max_db({saturation_e, 0}).value, snr_max_db(r.saturation_capacity_e))},
+        {"dynamic_range_db", figure(dynamic_range_db({saturation_e, 0}, threshold_configured).value,
+                                    dynamic_range_db(r.saturation_capacity_e, threshold))},
+        {"saturation_capacity_e", figure(saturation_e, r.saturation_capacity_e)},
+        {"absolute_threshold_e", figure(threshold_configured.value, threshold)},
+        {"gain_standard_dn_e", figure(gain, r.standard_gain_dn_e)},
+        {"dark_current_from_variance_e_s", figure(dark_e_s, r.dark_current.from_variance_e_s)},
+        {"linearity_extremes_fraction", {r.linearity.least_fraction, r.linearity.most_fraction}},
+        {"prnu", parts(r.prnu_fraction)},
+        {"dsnu", parts(r.dsnu_e)},
+        {"defects", r.defects},
+        {"photon_transfer", light_json(r)},
+        {"linearity", linearity_json(r)},
+        {"dark", dark_json(r)},
+        {"prnu_histogram", histogram(r.prnu_fraction.image, r.prnu_fraction.total.value)},
+        {"dsnu_histogram", histogram(r.dsnu_e.image, r.dsnu_e.total.value)},
+        {"mtf", {{"horizontal", mtf_json(r.horizontal)}, {"vertical", mtf_json(r.vertical)}}},
+        {"settings", settings_json(r)},
+    };
+}
+
+// --- a table
+// ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+struct TableRow {
+    const char* key;
+    const char* label;
+    const char* unit;
+    double factor;
+};
+constexpr TableRow kRows[] = {
+    {"gain_dn_e", "System gain K", "DN/e-", 1},
+    {"qe_peak", "Quantum efficiency", "%", 100},
+    {"read_noise_e", "Temporal dark noise", "e-", 1},
+    {"dark_current_e_s", "Dark current", "e-/s", 1},
+    {"full_well_e", "Full well", "e-", 1},
+    {"saturation_capacity_e", "Saturation capacity", "e-", 1},
+    {"snr_max_db", "SNR max", "dB", 1},
+    {"absolute_threshold_e", "Absolute threshold", "e-", 1},
+    {"dynamic_range_db", "Dynamic range", "dB", 1},
+    {"prnu_fraction", "PRNU", "%", 100},
+    {"dsnu_e", "DSNU", "e-", 1},
+    {"linearity_error", "Linearity error", "%", 100},
+    {"mtf_nyquist", "MTF at Nyquist, rows", "", 1},
+    {"mtf_nyquist_vertical", "MTF at Nyquist, columns", "", 1},
+};
+
+}  // namespace
+
+std::string characterisation_table(const json& report) {
+    std::string out =
+        fmt::format("{}\n\n{:<26}{:>6}{:>14}{:>14}{:>14}{:>12}\n", report["camera"].get<std::string>(), "",
+                    "", "measured", "configured", "uncertainty", "deviation");
+    for (const TableRow& row : kRows) {
+        const json& f = report[row.key];
+        const double measured = f["measured"].get<double>(), configured = f["configured"].get<double>();
+        const std::string deviation =
+            std::abs(configured) > 1e-9 ? fmt::format("{:+.2f} %", 100 * (measured / configured - 1)) : "-";
+        out += fmt::format("{:<26}{:>6}{:>14.5g}{:>14.5g}{:>14.2g}{:>12}\n", row.label, row.unit,
+                           row.factor * measured, row.factor * configured,
+                           row.factor * f["uncertainty"].get<double>(), deviation);
+    }
+    const json& s = report["settings"];
+    out +=
+        fmt::format("\n{} pixels, {} defects left out; light of {:.0f} nm\n", s["pixels"].get<std::size_t>(),
+                    report["defects"].get<std::size_t>(), 1000 * s["wavelength_um"].get<double>());
+    for (const json& remark : s["remarks"]) out += remark.get<std::string>() + "\n";
+    return out;
+}
+
+// --- a folder
+// --------------------------------------------------------------------------------------------------------
+
+namespace {
+
+void write_csv(const std::filesystem::path& file, const json& points) {
+    if (!points.is_array() || points.empty()) return;
+    std::ofstream out(file);
+    const auto write_line = [&](const json& point, const auto& cell) {
+        const char* separator = "";
+        for (const auto& [key, value] : point.items()) out << separator << cell(key, value), separator = ",";
+        out << "\n";
+    };
+    write_line(points.front(), [](const std::string& key, const json&) { return key; });
+    for (const json& point : points)
+        write_line(point, [](const std::string&, const json& value) { return value.dump(); });
+    out.close();
+    if (!out) throw DeviceError(file.string() + ": cannot be written");
+}
+
+}  // namespace
+
+void write_characterisation(const json& report, const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw DeviceError(folder.string() + ": cannot be made: " + error.message());
+    write_json(folder / "characterise.json", report);
+    write_csv(folder / "photon_transfer.csv", report["photon_transfer"]);
+    write_csv(folder / "linearity.csv", report["linearity"]);
+    write_csv(folder / "dark.csv", report["dark"]);
+    write_csv(folder / "mtf_horizontal.csv", report["mtf"]["horizontal"]["points"]);
+    write_csv(folder / "mtf_vertical.csv", report["mtf"]["vertical"]["points"]);
+    run_page_maker("hilcam-plot-characterise",
+                   {(folder / "characterise.json").string(), (folder / "index.html").string()});
+}
+
+}  // namespace hilcam

@@ -1,0 +1,145 @@
+#include "emulator/events/event_config.h"
+
+#include <algorithm>
+#include <array>
+
+#include "emulator/send/command_words.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/overloaded.h"
+#include "render/vocabulary/quoted.h"
+#include "render/vocabulary/time.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::string_view kEnd = "end";
+constexpr Range kDistance_m{0, 1e16}, kAngle_deg{0, 180};
+
+void add_limits(Fields& list, const std::string& word, const std::string& unit, EventLimitsConfig& limits,
+                double si_per_unit, Range range, const std::string& meaning) {
+    list.push_back(optional(
+        number(word + "_below_" + unit, limits.below, si_per_unit, range, meaning + ": smaller than this"),
+        limits.has_below));
+    list.push_back(optional(
+        number(word + "_above_" + unit, limits.above, si_per_unit, range, meaning + ": larger than this"),
+        limits.has_above));
+}
+
+void check_limits(const EventLimitsConfig& limits, const std::string& word) {
+    if (limits.has_below && limits.has_above && !(limits.above < limits.below))
+        throw InputError("'" + word + "': nothing is above the one limit and below the other");
+}
+
+}  // namespace
+
+Fields fields(EventConditionConfig& c) {
+    Fields list = {text("object", c.object, "what it is about: an object's name, a body's, or sun")};
+    add_limits(list, "distance", "m", c.distance_m, 1, kDistance_m, "from the camera to its origin");
+    add_limits(list, "off_boresight", "deg", c.off_boresight_rad, kDegree_rad, kAngle_deg,
+               "angle between the camera's +z and the way to it");
+    add_limits(list, "phase", "deg", c.phase_rad, kDegree_rad, kAngle_deg,
+               "angle at it between Sun and camera");
+    add_limits(list, "sun_off_boresight", "deg", c.sun_off_boresight_rad, kDegree_rad, kAngle_deg,
+               "angle between the camera's +z and the Sun");
+    list.push_back(
+        choice("light", c.light, {"any", "lit", "eclipsed"},
+               "whether a body hides the Sun's middle from it; without an object, from the camera"));
+    list.push_back(number("margin_m", c.margin_m, 1, kDistance_m,
+                          "a distance that held ends to hold when it is past its limit by this"));
+    list.push_back(number("margin_deg", c.margin_rad, kDegree_rad, kAngle_deg, "the same of angles"));
+    return list;
+}
+
+void validate(const EventConditionConfig& c) {
+    if (!c.given())
+        throw InputError(
+            "a condition names no quantity; accepted: distance_below_m, off_boresight_below_deg, "
+            "phase_below_deg, sun_off_boresight_below_deg, the same with _above_, light");
+    if (c.needs_object() && c.object.empty())
+        throw InputError("a condition on distance, off_boresight or phase needs 'object'");
+    check_limits(c.distance_m, "distance");
+    check_limits(c.off_boresight_rad, "off_boresight");
+    check_limits(c.phase_rad, "phase");
+    check_limits(c.sun_off_boresight_rad, "sun_off_boresight");
+}
+
+Fields fields(EventConfig& e) {
+    return {
+        text("name", e.name, "for 'after' and the log"),
+        optional(number("at_s", e.at_s, 1, {0, 1e9}, "simulated time, from the start"), e.has_at_s),
+        optional(text("at_utc", e.at_utc, "simulated time"), e.has_at_utc),
+        optional(integer("at_frame", e.at_frame, {1, 9e15}, "for this frame of the first camera"),
+                 e.has_at_frame),
+        optional(text("after", e.after, "another event's name: each time that has happened"), e.has_after),
+        number("delay_s", e.delay_s, 1, {0, 1e9}, "of 'after'"),
+        optional(section("when", e.when, "once this has become true of a frame of the first camera"),
+                 e.has_when),
+        number("every_s", e.every_s, 1, {0, 1e9}, "of 'at_s' and 'at_utc': again and again"),
+        integer("times", e.times, {0, 9e15}, "how often it may happen; 0: without end"),
+        number("again_after_s", e.again_after_s, 1, {0, 1e9}, "of 'when': not sooner after the time before"),
+        integer("camera", e.camera, {0, 65535}, "that settings, faults and triggers are for; 0: every one"),
+        required(texts("do", e.actions, "commands in the words of 'hilcam send', or end: ends the run")),
+    };
+}
+
+void validate(const EventConfig& e) {
+    const std::array given = {e.has_at_s, e.has_at_utc, e.has_at_frame, e.has_after, e.has_when};
+    const auto count = std::count(given.begin(), given.end(), true);
+    if (count != 1)
+        throw InputError("an event has one of 'at_s', 'at_utc', 'at_frame', 'after' and 'when'; found " +
+                         std::to_string(count));
+    if (e.has_at_utc) parse_utc(e.at_utc);
+    if (e.every_s > 0 && !e.has_at_s && !e.has_at_utc)
+        throw InputError("'every_s' goes with 'at_s' or 'at_utc'");
+    if (e.delay_s > 0 && !e.has_after) throw InputError("'delay_s' goes with 'after'");
+    if (e.again_after_s > 0 && !e.has_when) throw InputError("'again_after_s' goes with 'when'");
+    actions_of(e);
+}
+
+bool EventActions::takes_picture() const {
+    return std::any_of(commands.begin(), commands.end(),
+                       [](const Command& c) { return std::holds_alternative<ExposeCommand>(c); });
+}
+
+namespace {
+
+// Why an event cannot give this command, or empty.
+std::string_view refusal_of(const Command& command) {
+    using namespace std::string_view_literals;
+    return std::visit(
+        Overloaded{
+            [](const SettingsCommand& s) {
+                return s.exposure_s || s.gain_db || s.frame_rate_hz ? ""sv : "names no setting"sv;
+            },
+            [](const OneOf<PingCommand, SubscribeCommand> auto&) { return "does nothing to a camera"sv; },
+            [](const OneOf<PoseCommand, StartCommand, StopCommand, JointCommand, FaultCommand, ExposeCommand,
+                           TriggerModeCommand, ClockCommand, LampCommand> auto&) { return ""sv; },
+        },
+        command);
+}
+
+}  // namespace
+
+EventActions actions_of(const EventConfig& e) {
+    EventActions out;
+    if (e.actions.empty()) throw InputError("'do' is empty");
+    for (const std::string& words : e.actions) {
+        if (words == kEnd) {
+            out.ends_run = true;
+            continue;
+        }
+        Command command;
+        try {
+            command = command_of_words(words);
+        } catch (const std::exception& error) {
+            throw InputError("do: " + in_quotes(words) + ": " + in_quotes(error.what()));
+        }
+        if (const std::string_view reason = refusal_of(command); !reason.empty())
+            throw InputError("do: " + in_quotes(words) + ": " + std::string(reason));
+        out.commands.push_back(command);
+    }
+    return out;
+}
+
+}  // namespace hilcam

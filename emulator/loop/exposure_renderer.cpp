@@ -1,0 +1,271 @@
+#include "emulator/loop/exposure_renderer.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hilcam {
+namespace {
+
+constexpr double kStill_px = 1e-3;  // over the exposure
+
+// Runs work(row, plane) over all rows of an image on the thread pool.
+template <class Work>
+void for_each_row(const RadianceImage& image, const Work& work) {
+    const int height = image.height();
+    tbb::parallel_for(tbb::blocked_range<int>(0, height * image.planes(), 32),
+                      [&](const tbb::blocked_range<int>& range) {
+                          for (int i = range.begin(); i < range.end(); ++i) work(i % height, i / height);
+                      });
+}
+
+void add(const RadianceImage& part, RadianceImage& sum) {
+    for (int y = 0; y < sum.height(); y += RadianceImage::kBlock_px)
+        for (int x = 0; x < sum.width(); x += RadianceImage::kBlock_px)
+            if (!part.dark(x, y)) sum.mark_dark(x, y, false);
+    for_each_row(sum, [&](int y, int plane) {
+        const std::span<const float> in = part.row(y, plane);
+        const std::span<float> out = sum.row(y, plane);
+        for (std::size_t x = 0; x < in.size(); ++x) out[x] += in[x];
+    });
+}
+
+void scale(float factor, RadianceImage& image) {
+    for_each_row(image, [&](int y, int plane) {
+        for (float& value : image.row(y, plane)) value *= factor;
+    });
+}
+
+void accumulate(const RenderStats& part, float share, RenderStats& sum) {
+    sum.primary_rays += part.primary_rays;
+    sum.shadow_rays += part.shadow_rays;
+    sum.secondary_rays += part.secondary_rays;
+    sum.coverage += static_cast<double>(share) * part.coverage;
+    sum.setup_ms += part.setup_ms;
+    sum.trace_ms += part.trace_ms;
+    sum.points_ms += part.points_ms;
+    sum.lit_px += part.lit_px;
+    sum.within_budget_px += part.within_budget_px;
+}
+
+// The rows of a rolling or scanning camera are lit one after the other, while the world moves less.
+void slow_down(double moving, WorldSnapshot& world) {
+    world.rows_velocity_m_s = moving * world.rows_velocity_m_s;
+    world.camera_rate_rad_s = moving * world.camera_rate_rad_s;
+}
+
+// About the camera's axes, from one attitude to another.
+Vec3d mean_rate(Quat from, Quat to, double seconds) {
+    const Quat turn = conjugate(from) * to;
+    const Vec3d axis{turn.x, turn.y, turn.z};
+    const double sine = length(axis);
+    if (!(sine > 0)) return {};
+    // The shorter way round.
+    const double angle_rad = 2 * std::atan2(turn.w < 0 ? -sine : sine, std::abs(turn.w));
+    return (angle_rad / (sine * seconds)) * axis;
+}
+
+}  // namespace
+
+ExposureRenderer::ExposureRenderer(Renderer& renderer, const ScenarioConfig& s, const SpectralGrid& grid,
+                                   std::size_t placed_objects)
+    : renderer_(renderer),
+      motion_(s.quality.motion),
+      motion_error_px_(s.quality.motion_error_px),
+      shutter_(s.camera.shutter),
+      rows_pass_object_(!s.has_terrain && (s.camera.shutter.kind == ShutterKind::kRolling ||
+                                           s.camera.shutter.kind == ShutterKind::kLineScan)),
+      focal_length_px_(s.camera.focal_length_m / s.camera.pitch_m),
+      oversampling_(static_cast<double>(s.quality.oversampling)),
+      jitter_(s.camera.jitter, static_cast<std::uint64_t>(s.seed), parse_utc(s.time_utc)),
+      noise_(s.camera, grid, sampling_of(s.quality)),
+      bins_(static_cast<std::size_t>(grid.size())) {
+    if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
+        motion_ = MotionQuality::kFast;
+    for (WorldSnapshot* world : {&middle_, &before_, &after_, &part_world_})
+        world->objects.resize(placed_objects);
+    if (motion_ != MotionQuality::kExact) return;
+    part_ = make_image();
+    part_points_.reserve(renderer.most_points());
+}
+
+RadianceImage ExposureRenderer::make_image() const {
+    const ImageGeometry& g = renderer_.geometry();
+    return {g.padded_width(), g.padded_height(), static_cast<int>(bins_)};
+}
+
+std::size_t ExposureRenderer::most_points() const {
+    return renderer_.most_points() * (motion_ == MotionQuality::kExact ? kMostParts : 1);
+}
+
+// The jitter of the whole exposure is that of its middle: what is faster is blur.
+void ExposureRenderer::sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
+                                    WorldSnapshot& out) const {
+    if (!with_bodies) out.bodies = middle_.bodies;
+    world.sample_again(time, with_bodies, out);
+    out.camera = jitter_.applied(out.camera, span.middle, span.exposure_s);
+    out.rows_velocity_m_s = out.camera_velocity_m_s - seen_velocity_m_s(world, out);
+    slow_down(span.moving, out);
+}
+
+// Rows that are lit one after the other move against the object that is nearest, or the ground, which is at
+// rest in the world: two that fly together hardly move, whatever the speed of both.
+Vec3d ExposureRenderer::seen_velocity_m_s(const WorldState& world, const WorldSnapshot& now) const {
+    return rows_pass_object_ ? world.nearest_velocity_m_s(now) : Vec3d{};
+}
+
+void ExposureRenderer::sample_ends(const WorldState& world, const Span& span, bool with_bodies) {
+    const std::int64_t half_ns = span.length_ns / 2;
+    sample_again(world, span, span.middle + -half_ns, with_bodies, before_);
+    sample_again(world, span, span.middle + half_ns, with_bodies, after_);
+}
+
+ExposureRenderer::Plan ExposureRenderer::plan_of(const ImageMotion& motion) const {
+    Plan plan;
+    plan.picture_px = std::hypot(motion.displacement_px.x, motion.displacement_px.y) / oversampling_;
+    plan.largest_px = motion.largest_px / oversampling_;
+    const double asked = std::ceil(plan.largest_px / motion_error_px_);
+    plan.parts = static_cast<int>(std::clamp(asked, 1.0, static_cast<double>(kMostParts)));
+    plan.parts_limited = asked > kMostParts;
+    return plan;
+}
+
+void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownCommand& shown) {
+    const std::int64_t half_ns = span.length_ns / 2;
+    world.sample(span.middle, middle_, shown);
+    world.average_lamps(span.middle + -half_ns, span.middle + half_ns, middle_);
+    middle_.camera = jitter_.applied(middle_.camera, span.middle, span.exposure_s);
+    middle_.rows_velocity_m_s = middle_.camera_velocity_m_s - seen_velocity_m_s(world, middle_);
+    slow_down(span.moving, middle_);
+    told_moving_ = span.moving;
+}
+
+// Velocity and rate are both in the camera's time.
+void ExposureRenderer::tell_truth(FrameTruth& truth) {
+    renderer_.tell_truth(truth);
+    truth.camera_velocity_m_s = told_moving_ * truth.camera_velocity_m_s;
+}
+
+void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSource>& points,
+                                 Exposure& exposure) const {
+    for_each_row(radiance, [&](int y, int plane) {
+        const std::span<float> row = radiance.row(y, plane);
+        std::fill(row.begin(), row.end(), 0.0f);
+    });
+    for (int y = 0; y < radiance.height(); y += RadianceImage::kBlock_px)
+        for (int x = 0; x < radiance.width(); x += RadianceImage::kBlock_px) radiance.mark_dark(x, y, true);
+    points.clear();
+    exposure.image_rate_px_s = {};
+    exposure.camera_rate_rad_s = {};
+    exposure.ray_grid = ray_grid_of(renderer_.quality());
+}
+
+ExposureRenderer::Plan ExposureRenderer::plan(WorldState& world, TimeTai middle, double exposure_s) {
+    const Span span{middle, std::llround(exposure_s * 1e9), exposure_s};
+    ShownCommand ignored;
+    sample_middle(world, span, ignored);
+    sample_ends(world, span, true);
+    return plan_of(renderer_.motion(middle_, before_, after_));
+}
+
+ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const ShownWorld& shown, RandomKey key,
+                                                  RadianceImage& radiance, std::vector<PointSource>& points,
+                                                  Exposure& exposure, FrameTruth* truth) {
+    const Span span{shown.middle, std::llround(shown.moving * exposure.exposure_s * 1e9), exposure.exposure_s,
+                    shown.moving};
+    Result result;
+    sample_middle(world, span, result.shown);
+    exposure.image_rate_px_s = {};
+    exposure.camera_rate_rad_s = {};
+    exposure.ray_grid = ray_grid_of(renderer_.quality());
+    if (motion_ == MotionQuality::kExact) {
+        sample_ends(world, span, true);
+        // The middle is placed now, and parts will not be it.
+        const ImageMotion motion = renderer_.motion(middle_, before_, after_);
+        if (truth) tell_truth(*truth);
+        const Plan plan = plan_of(motion);
+        result.parts = plan.parts;
+        result.parts_limited = plan.parts_limited;
+        set_rates(motion, result.parts, exposure);
+        if (result.parts > 1) {
+            tell_noise(exposure, result.parts);
+            render_parts(world, span, key, radiance, points, result);
+            return result;
+        }
+    }
+    tell_noise(exposure, 1);
+    renderer_.render(middle_, key, radiance, points, result.stats);
+    if (truth && motion_ != MotionQuality::kExact) tell_truth(*truth);
+    if (motion_ == MotionQuality::kOff) return result;
+    if (motion_ == MotionQuality::kFast) {
+        sample_ends(world, span, renderer_.last_shows_body());
+        set_rates(renderer_.motion_of_last(before_, after_), 1, exposure);
+    }
+    renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
+    return result;
+}
+
+// The mean of parts may come from worse ones: each draws its own samples.
+void ExposureRenderer::tell_noise(const Exposure& exposure, int parts) {
+    PixelNoise noise = noise_.of(exposure);
+    noise.averaged *= static_cast<float>(parts);
+    renderer_.set_pixel_noise(noise);
+}
+
+void ExposureRenderer::render_parts(const WorldState& world, const Span& span, RandomKey key,
+                                    RadianceImage& radiance, std::vector<PointSource>& points,
+                                    Result& result) {
+    const int n = result.parts;
+    const float share = 1 / static_cast<float>(n);
+    // A point's own way in one part, as a rate over the whole exposure.
+    const double per_s = 1 / span.exposure_s;
+    points.clear();
+    for (int k = 0; k < n; ++k) {
+        const auto edge_ns = [&](int i) { return span.length_ns * i / n - span.length_ns / 2; };
+        const TimeTai begin = span.middle + edge_ns(k), end = span.middle + edge_ns(k + 1);
+        sample_again(world, span, begin, true, before_);
+        sample_again(world, span, end, true, after_);
+        sample_again(world, span, begin + (end - begin) / 2, true, part_world_);
+        world.average_lamps(begin, end, part_world_);
+        RenderStats stats;
+        // Each part draws its own samples.
+        const RandomKey part_key{key.seed + static_cast<std::uint64_t>(k) * 0x9E3779B97F4A7C15u, key.frame};
+        renderer_.render(part_world_, part_key, k == 0 ? radiance : part_, part_points_, stats);
+        renderer_.set_drifts(before_, after_, per_s, part_points_);
+        if (k > 0) add(part_, radiance);
+        for (const PointSource& point : part_points_) {
+            points.push_back(point);
+            points.back().irradiance_w_m2_um = share * point.irradiance_w_m2_um;
+        }
+        accumulate(stats, share, result.stats);
+    }
+    scale(share, radiance);
+}
+
+// What the sensor does not expect of the picture along its columns. The line time goes with one pixel: the
+// charge of several stages follows at that rate and only the difference blurs; one stage alone blurs by that
+// pixel, which MTF_sys has (system_mtf.h), and here by what is more.
+double ExposureRenderer::unexpected_px_s(double rate_px_s) const {
+    if (shutter_.kind != ShutterKind::kLineScan) return rate_px_s;
+    const double expected_px_s = 1 / shutter_.line_time_s;
+    const double more_px_s = std::abs(rate_px_s) - expected_px_s;
+    return std::copysign(1.0, rate_px_s) * (shutter_.tdi_stages > 1 ? more_px_s : std::max(0.0, more_px_s));
+}
+
+void ExposureRenderer::set_rates(const ImageMotion& motion, int parts, Exposure& exposure) const {
+    const bool still = motion.largest_px / oversampling_ < kStill_px;
+    if (still && shutter_.kind != ShutterKind::kLineScan) return;
+    const double per_s = 1 / (exposure.exposure_s * oversampling_);
+    const Vec2d rate_px_s{motion.displacement_px.x * per_s,
+                          unexpected_px_s(motion.displacement_px.y * per_s)};
+    Vec3d camera_rad_s =
+        mean_rate(before_.camera.world_from_body, after_.camera.world_from_body, exposure.exposure_s);
+    // Turning about x moves the picture along y, by the focal length per radian.
+    camera_rad_s.x = unexpected_px_s(camera_rad_s.x * focal_length_px_) / focal_length_px_;
+    exposure.image_rate_px_s = {rate_px_s.x / parts, rate_px_s.y / parts};
+    exposure.camera_rate_rad_s = camera_rad_s / static_cast<double>(parts);
+}
+
+}  // namespace hilcam

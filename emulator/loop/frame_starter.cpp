@@ -1,0 +1,183 @@
+#include "emulator/loop/frame_starter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hilcam {
+namespace {
+
+constexpr std::int64_t kLongestSleep_ns = 5'000'000;  // how long a stop, or a change of the clock, may wait
+constexpr std::int64_t kLastStretch_ns = 1'000'000;   // before a begin nothing else is listened to
+
+std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
+
+// When an exposure of that begin in the camera's time begins on the machine's clock: kNever_ns where the
+// camera waits, be it at that very instant. What is then told of the world before time goes on counts for it.
+std::int64_t when_begins(const SimulatedClock& clock, std::int64_t camera_ns) {
+    if (camera_ns == SimulatedClock::kNever_ns) return camera_ns;
+    const bool passes = clock.when_due(camera_ns + 1) != SimulatedClock::kNever_ns;
+    return passes ? clock.when_due(camera_ns) : SimulatedClock::kNever_ns;
+}
+
+}  // namespace
+
+FrameStarter::FrameStarter(const CameraModel& camera, LiveSettings& settings, SimulatedClock& clock,
+                           bool paced, const PoseWatch* poses)
+    : settings_(settings),
+      clock_(clock),
+      poses_(poses),
+      timing_(camera),
+      lockstep_(settings.limits().lockstep),
+      paced_(paced),
+      schedule_(0) {
+    for (const SettingsStep& step : camera.sequence)
+        longest_step_s_ = std::max(longest_step_s_, step.exposure_s);
+    settings.follow(clock, lockstep_ ? nullptr : poses);
+}
+
+double FrameStarter::period_s(const CameraSettings& s, double exposure_s) const {
+    return timing_.period_s(s.frame_rate_hz, std::max(exposure_s, longest_step_s_));
+}
+
+bool FrameStarter::next(double own_exposure_s, const std::atomic<bool>& stopping, Start& start) {
+    own_exposure_s_ = own_exposure_s;
+    while (!stopping.load(std::memory_order_relaxed)) {
+        const CameraSettings& now = settings_.read_in_loop();
+        const bool takes_none = !now.running || waits_for_poses();
+        if (takes_none || !now.triggered) forget_orders();
+        if (takes_none) {
+            idle_ = true;
+            settings_.wait_for_news();
+            continue;
+        }
+        start = {};
+        start.settings = now;
+        const bool begun = now.triggered ? begin_ordered(stopping, start) : begin_free_run(stopping, start);
+        if (!begun) continue;
+        start.until_end = paced_ && !lockstep_;
+        start.begin_ns = clock_.monotonic_of_camera(start.camera_ns);
+        if (poses_) start.silence = poses_->at(clock_.simulated_of_camera(start.camera_ns));
+        // It has come while the last stretch was slept through.
+        if (start.silence.stale && !lockstep_ && poses_->rules().when_stale == WhenStale::kStop) continue;
+        return true;
+    }
+    settings_.close();
+    forget_orders();
+    return false;
+}
+
+double FrameStarter::exposure_of(const CameraSettings& s) const {
+    return s.automatic_exposure && own_exposure_s_ > 0 ? own_exposure_s_ : s.exposure_s;
+}
+
+bool FrameStarter::begin_free_run(const std::atomic<bool>& stopping, Start& start) {
+    const std::int64_t arrived_ns = camera_now();
+    if (idle_) schedule_.restart(arrived_ns);
+    idle_ = false;
+    const auto period_now_ns = [&] { return to_ns(period_s(start.settings, exposure_of(start.settings))); };
+    if (paced_) {
+        const FrameSchedule before = schedule_;
+        std::int64_t period_ns = period_now_ns();
+        FrameSchedule::Slot due = schedule_.take(arrived_ns, period_ns);
+        while (settings_.wait_for_news_until(when_begins(clock_, due.start_ns) - kLastStretch_ns)) {
+            start.settings = settings_.read_in_loop();
+            if (stopping.load(std::memory_order_relaxed) || !start.settings.running ||
+                start.settings.triggered || waits_for_poses())
+                return false;
+            if (period_now_ns() == period_ns) continue;
+            // A new period counts from the last frame on: what waits for its begin begins at another time.
+            period_ns = period_now_ns();
+            schedule_ = before;
+            const std::int64_t now_ns = camera_now();
+            if (due.skipped == 0 && schedule_.next_ns(period_ns) < now_ns) schedule_.restart(now_ns);
+            due = schedule_.take(arrived_ns, period_ns);
+        }
+        if (!sleep_until(due.start_ns, stopping)) {
+            schedule_ = before;
+            return false;
+        }
+        start.camera_ns = due.start_ns;
+        start.skipped = due.skipped;
+        start.settings = settings_.read_in_loop();
+    } else {
+        start.camera_ns = arrived_ns;
+    }
+    start.exposure_s = exposure_of(start.settings);
+    return true;
+}
+
+bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start) {
+    idle_ = true;  // free-run, when it comes back, begins a raster anew
+    if (left_ == 0 && !take_order(start.settings, exposure_of(start.settings))) {
+        settings_.wait_for_news();
+        return false;
+    }
+    if (!lockstep_ && !wait_for_order(stopping)) return false;
+    start.settings = settings_.read_in_loop();
+    start.exposure_s = exposure_of(start.settings);
+    start.camera_ns = next_ns_;
+    const std::int64_t period_ns = to_ns(period_s(start.settings, start.exposure_s));
+    if (lockstep_) {
+        last_mid_ = clock_.simulated_of_camera(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));
+        clock_.step_to(last_mid_);
+        settings_.tell_middle(last_mid_);
+    } else {
+        start.late = camera_now() > next_ns_ + period_ns;
+    }
+    next_ns_ += period_ns;
+    start.trigger_sequence = order_.sequence;
+    start.ends_order = --left_ == 0;
+    return true;
+}
+
+// In lockstep the camera's time is the simulated one.
+bool FrameStarter::take_order(const CameraSettings& settings, double exposure_s) {
+    if (!settings_.take_trigger(order_)) return false;
+    left_ = order_.frames;
+    order_begun_ = false;
+    if (!lockstep_) return true;
+    const std::int64_t to_middle_ns = to_ns(timing_.middle_s(exposure_s));
+    if (order_.at_simulated.ns != 0)
+        next_ns_ = order_.at_simulated.ns - to_middle_ns;
+    else if (last_mid_.ns != 0)
+        next_ns_ = last_mid_.ns + to_ns(period_s(settings, exposure_s)) - to_middle_ns;
+    else
+        next_ns_ = clock_.start().ns;
+    return true;
+}
+
+// As the clock goes now: it may change while the order waits.
+std::int64_t FrameStarter::begin_of_order() const {
+    if (order_.at_simulated.ns == 0) return clock_.camera_at(order_.at_monotonic_ns) + order_.delay_ns;
+    const std::int64_t due_ns = clock_.camera_of(order_.at_simulated);
+    return due_ns == SimulatedClock::kNever_ns ? due_ns : due_ns + order_.delay_ns;
+}
+
+// False when something else came first: the order goes on waiting, if it is not dropped for that.
+bool FrameStarter::wait_for_order(const std::atomic<bool>& stopping) {
+    if (!order_begun_) next_ns_ = begin_of_order();
+    const std::int64_t not_before_ns = order_begun_ ? 0 : order_.at_monotonic_ns;
+    const std::int64_t due_ns = std::max(when_begins(clock_, next_ns_), not_before_ns);
+    if (settings_.wait_for_news_until(due_ns - kLastStretch_ns)) return false;
+    if (!sleep_until(next_ns_, stopping)) return false;
+    order_begun_ = true;
+    return true;
+}
+
+void FrameStarter::forget_orders() {
+    if (left_ > 0) settings_.order_done();
+    left_ = 0;
+    while (settings_.take_trigger(order_)) settings_.order_done();
+}
+
+// False when it is to stop, or the camera does not get there as the clock goes now.
+bool FrameStarter::sleep_until(std::int64_t camera_ns, const std::atomic<bool>& stopping) const {
+    for (;;) {
+        const std::int64_t now_ns = monotonic_ns(), due_ns = when_begins(clock_, camera_ns);
+        if (due_ns == SimulatedClock::kNever_ns || stopping.load(std::memory_order_relaxed)) return false;
+        if (clock_.camera_at(now_ns) >= camera_ns) return true;
+        sleep_until_monotonic_ns(std::min(std::max(due_ns, now_ns + 1'000), now_ns + kLongestSleep_ns));
+    }
+}
+
+}  // namespace hilcam

@@ -1,0 +1,231 @@
+#include "emulator/loop/live_settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hilcam {
+
+namespace {
+
+constexpr std::int64_t kMostBinning = 8;
+constexpr std::int64_t kLongestWait_ns = 50'000'000;
+
+// Whose three times are one.
+const SimulatedClock& machine_clock() {
+    static const SimulatedClock clock({0}, 0);
+    return clock;
+}
+
+// The first two letters of the pattern's first two rows, if that is all of it: what clients call Bayer.
+std::string bayer_of(const ColorFilterArrayConfig& filters) {
+    const std::string& p = filters.pattern;  // "RG GB"
+    if (p.size() != 5 || p[2] != ' ') return {};
+    const std::string pattern = p.substr(0, 2) + p.substr(3, 2);
+    for (const char* known : {"RGGB", "GRBG", "GBRG", "BGGR"})
+        if (pattern == known) return pattern;
+    return {};
+}
+
+CameraLimits limits_of(const CameraModel& c, const LiveSettings::Mode& mode) {
+    const auto [width, height] = array_size(c);
+    CameraLimits limits;
+    limits.width = width, limits.height = height;
+    limits.bits = c.frame_bits();
+    limits.color_pattern = bayer_of(c.color_filter);
+    limits.least_exposure_s = c.exposure_range_s[0], limits.most_exposure_s = c.exposure_range_s[1];
+    limits.least_gain_db = c.gain_range_db[0], limits.most_gain_db = c.gain_range_db[1];
+    limits.least_frame_rate_hz = c.frame_rate_range_hz[0];
+    limits.most_frame_rate_hz = c.frame_rate_range_hz[1];
+    limits.most_black_level_dn = std::exp2(static_cast<double>(c.bits)) / 4;
+    limits.temperature_c = c.temperature_c;
+    limits.lockstep = mode.lockstep;
+    // Mirrored or binned, a mosaic is another one.
+    limits.reversible = c.color_filter.pattern.empty();
+    if (c.color_filter.pattern.empty() && !mode.fixed_size)
+        while (limits.most_binning < kMostBinning &&
+               2 * limits.most_binning * 4 <= std::min(limits.width, limits.height))
+            limits.most_binning *= 2;
+    const ShutterTiming timing(c);
+    limits.exposure_is_own = timing.is_fixed() || !c.sequence.empty();
+    limits.gain_is_own = !c.sequence.empty();
+    limits.frame_rate_is_own = timing.is_fixed();
+    limits.has_automatic_exposure = !limits.exposure_is_own;
+    if (timing.is_fixed()) {
+        limits.least_exposure_s = limits.most_exposure_s = timing.exposure_s(c.exposure_s);
+        limits.least_frame_rate_hz = limits.most_frame_rate_hz = 1 / timing.period_s(0, 0);
+    }
+    return limits;
+}
+
+CameraSettings at_power_up(const CameraModel& c, const LiveSettings::Mode& mode) {
+    const ShutterTiming timing(c);
+    CameraSettings s;
+    s.exposure_s = timing.exposure_s(c.exposure_s);
+    s.gain_db = c.gain_db;
+    s.black_level_dn = c.offset_dn;
+    s.frame_rate_hz = timing.is_fixed() ? 1 / timing.period_s(0, 0) : c.frame_rate_hz;
+    s.automatic_exposure = c.auto_exposure.on;
+    s.triggered = mode.triggered || mode.lockstep;
+    if (s.triggered) s.trigger_source = TriggerSource::kLine0;
+    s.binning_x = c.binning_x, s.binning_y = c.binning_y;
+    return s;
+}
+
+template <class T>
+void take(const std::optional<T>& from, T& to) {
+    if (from) to = *from;
+}
+
+bool inside(double value, double least, double most) { return value >= least && value <= most; }
+
+}  // namespace
+
+LiveSettings::LiveSettings(const CameraModel& c, const Mode& mode)
+    : limits_(limits_of(c, mode)),
+      timing_(c),
+      clock_(&machine_clock()),
+      settings_(at_power_up(c, mode)),
+      latest_(settings_),
+      own_exposure_s_(settings_.exposure_s),
+      own_gain_db_(settings_.gain_db) {}
+
+CameraSettings LiveSettings::settings() const {
+    const std::lock_guard lock(mutex_);
+    CameraSettings now = settings_;
+    if (limits_.exposure_is_own || now.automatic_exposure)
+        now.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
+    if (limits_.gain_is_own) now.gain_db = own_gain_db_.load(std::memory_order_relaxed);
+    return now;
+}
+
+bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const {
+    const CameraLimits& l = limits_;
+    if (c.exposure_s && (l.exposure_is_own || w.automatic_exposure)) return false;
+    if (c.gain_db && l.gain_is_own) return false;
+    if (c.frame_rate_hz && l.frame_rate_is_own) return false;
+    if (w.automatic_exposure && !l.has_automatic_exposure) return false;
+    if ((w.reverse_x || w.reverse_y) && !l.reversible) return false;
+    if (l.lockstep && !w.triggered) return false;
+    const auto binning_fits = [&](const std::optional<std::int64_t>& b) {
+        return !b || (*b >= 1 && *b <= l.most_binning && (*b & (*b - 1)) == 0);
+    };
+    return inside(w.exposure_s, l.least_exposure_s, l.most_exposure_s) &&
+           inside(w.gain_db, l.least_gain_db, l.most_gain_db) &&
+           (!c.black_level_dn || inside(w.black_level_dn, 0, l.most_black_level_dn)) &&
+           inside(w.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz) &&
+           inside(w.trigger_delay_s, 0, l.most_trigger_delay_s) && w.burst_frames >= 1 &&
+           w.burst_frames <= l.most_burst_frames && binning_fits(c.binning_x) && binning_fits(c.binning_y);
+}
+
+bool LiveSettings::change(const SettingsChange& c) {
+    const std::lock_guard lock(mutex_);
+    CameraSettings wanted = settings_;
+    take(c.exposure_s, wanted.exposure_s);
+    take(c.gain_db, wanted.gain_db);
+    take(c.black_level_dn, wanted.black_level_dn);
+    take(c.frame_rate_hz, wanted.frame_rate_hz);
+    take(c.running, wanted.running);
+    take(c.automatic_exposure, wanted.automatic_exposure);
+    take(c.triggered, wanted.triggered);
+    take(c.trigger_source, wanted.trigger_source);
+    take(c.trigger_delay_s, wanted.trigger_delay_s);
+    take(c.burst_frames, wanted.burst_frames);
+    take(c.test_pattern, wanted.test_pattern);
+    take(c.reverse_x, wanted.reverse_x);
+    take(c.reverse_y, wanted.reverse_y);
+    take(c.binning_x, wanted.binning_x);
+    take(c.binning_y, wanted.binning_y);
+    if (!fits(wanted, c)) return false;
+    // Switched off, automatic exposure leaves the camera with what it had found.
+    if (settings_.automatic_exposure && !wanted.automatic_exposure && !c.exposure_s)
+        wanted.exposure_s = own_exposure_s_.load(std::memory_order_relaxed);
+    settings_ = wanted;
+    latest_.write(settings_);
+    if (changed_) changed_(c);
+    wake();
+    return true;
+}
+
+TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
+    const std::lock_guard lock(mutex_);
+    const TriggerResult result = take_order(asked);
+    if (triggered_) triggered_(asked, result);
+    return result;
+}
+
+// Under the lock.
+TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
+    if (closed_.load() || !settings_.running || !settings_.triggered) return TriggerResult::kNotArmed;
+    if (asked.source != (limits_.lockstep ? TriggerSource::kLine0 : settings_.trigger_source))
+        return TriggerResult::kNotArmed;
+    if (poses_ && poses_->stops(clock_->now())) return TriggerResult::kNotArmed;
+    WaitingOrder order{asked};
+    if (order.frames == 0) order.frames = settings_.burst_frames;
+    const std::uint64_t in = triggers_in_.load(std::memory_order_relaxed);
+    if (limits_.lockstep && order.at_simulated.ns != 0) {
+        const std::int64_t newest_ns = newest_middle_ns_.load(std::memory_order_relaxed);
+        if (!order.at_any_time && newest_ns != 0 && order.at_simulated.ns <= newest_ns)
+            return TriggerResult::kTooEarly;
+    }
+    bool missed = in - triggers_out_.load(std::memory_order_acquire) == kMostWaiting;
+    if (!limits_.lockstep) {
+        const std::int64_t now_ns = monotonic_ns();
+        if (order.at_monotonic_ns == 0) order.at_monotonic_ns = now_ns;
+        order.delay_ns = static_cast<std::int64_t>(settings_.trigger_delay_s * 1e9);
+        const std::int64_t due_ns = camera_time_of(order, now_ns) + order.delay_ns;
+        missed = missed || due_ns < ready_ns_;
+        if (missed) {
+            if (missed_) missed_(now_ns);
+        } else {
+            const double rate_hz = order.frames > 1 ? settings_.frame_rate_hz : limits_.most_frame_rate_hz;
+            const double busy_s =
+                static_cast<double>(order.frames) * timing_.period_s(rate_hz, settings_.exposure_s);
+            ready_ns_ = due_ns + static_cast<std::int64_t>(busy_s * 1e9);
+        }
+    }
+    if (missed) return TriggerResult::kMissed;
+    triggers_[in % kMostWaiting] = order;
+    triggers_in_.store(in + 1, std::memory_order_release);
+    wake();
+    return TriggerResult::kTaken;
+}
+
+TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
+    while (done_.try_acquire()) {  // of orders that were given up
+    }
+    const TriggerResult result = trigger(order);
+    ordered_ = result == TriggerResult::kTaken;
+    return result;
+}
+
+bool LiveSettings::wait_for_order(double patience_s) {
+    if (!ordered_) return true;
+    ordered_ = false;
+    const auto patience = std::chrono::duration<double>(patience_s);
+    return done_.try_acquire_for(std::chrono::duration_cast<std::chrono::nanoseconds>(patience));
+}
+
+// If time goes on as it does now, and does not stand.
+std::int64_t LiveSettings::camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const {
+    if (order.at_simulated.ns == 0) return clock_->camera_at(order.at_monotonic_ns);
+    return clock_->camera_at(now_ns) + (order.at_simulated - clock_->at(now_ns));
+}
+
+bool LiveSettings::take_trigger(WaitingOrder& order) {
+    const std::uint64_t out = triggers_out_.load(std::memory_order_relaxed);
+    if (out == triggers_in_.load(std::memory_order_acquire)) return false;
+    order = triggers_[out % kMostWaiting];
+    triggers_out_.store(out + 1, std::memory_order_release);
+    return true;
+}
+
+bool LiveSettings::wait_for_news_until(std::int64_t until_ns) {
+    const std::int64_t left_ns = until_ns - monotonic_ns();
+    if (left_ns <= 0) return false;
+    static_cast<void>(news_.try_acquire_for(std::chrono::nanoseconds(std::min(left_ns, kLongestWait_ns))));
+    while (news_.try_acquire()) {
+    }
+    return monotonic_ns() < until_ns;
+}
+
+}  // namespace hilcam

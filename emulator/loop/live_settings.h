@@ -1,0 +1,116 @@
+#pragma once
+// The camera's settings while it runs, and its trigger input: changed by commands and camera interfaces, read
+// by the loop without a lock.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <semaphore>
+
+#include "emulator/loop/shutter_timing.h"
+#include "emulator/world/clock.h"
+#include "emulator/world/pose_watch.h"
+#include "io/contract/camera_control.h"
+#include "render/vocabulary/latest.h"
+#include "sensor/camera_model.h"
+
+namespace hilcam {
+
+class LiveSettings : public CameraControl {
+  public:
+    struct Mode {
+        bool lockstep = false;
+        bool triggered = false;   // at power-up
+        bool fixed_size = false;  // an output cannot follow a change of binning
+    };
+    explicit LiveSettings(const CameraModel& camera) : LiveSettings(camera, Mode{}) {}
+    LiveSettings(const CameraModel& camera, const Mode& mode);
+    // Whose time frames and triggers go by, and who says that there shall be none; without it, the machine's
+    // and nobody. Both outlive the settings. Before the threads start.
+    void follow(const SimulatedClock& clock, const PoseWatch* poses) { clock_ = &clock, poses_ = poses; }
+
+    CameraSettings settings() const override;
+    CameraLimits limits() const override { return limits_; }
+    bool change(const SettingsChange& change) override;
+    // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
+    // highest frame rate, as the camera's time goes now (clock.h); or, in lockstep, when kMostWaiting are
+    // waiting. Not armed: also where frames wait for poses (pose_watch.h).
+    TriggerResult trigger(const TriggerOrder& order) override;
+    // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
+    void on_missed_trigger(std::function<void(std::int64_t monotonic_ns)> tell) { missed_ = std::move(tell); }
+
+    // Called with a lock held for every change that is made, and for every trigger with what became of it;
+    // must not call back. Before the threads start.
+    void on_change(std::function<void(const SettingsChange&)> tell) { changed_ = std::move(tell); }
+    void on_trigger(std::function<void(const TriggerOrder&, TriggerResult)> tell) {
+        triggered_ = std::move(tell);
+    }
+
+    // Lockstep, one caller at a time: trigger(), to be followed by wait_for_order(), which returns when the
+    // loop has seen the world for the order's last frame, or at once when it was not taken. False when that
+    // takes longer than `patience_s`.
+    TriggerResult order_in_lockstep(const TriggerOrder& order);
+    bool wait_for_order(double patience_s);
+
+    // --- Loop, one thread. No lock.
+    const CameraSettings& read_in_loop() { return latest_.read(); }
+    // The next trigger in its order of arrival; false when there is none.
+    struct WaitingOrder : TriggerOrder {
+        std::int64_t delay_ns = 0;  // after its time, of the camera's time
+    };
+    bool take_trigger(WaitingOrder& order);
+    // Returns after a change or a trigger, or after 50 ms.
+    void wait_for_news() {
+        static_cast<void>(news_.try_acquire_for(std::chrono::milliseconds(50)));
+        while (news_.try_acquire()) {
+        }
+    }
+    // Any thread: the loop shall look anew at what it waits for.
+    void wake() { news_.release(); }
+    // No order will be looked at any more.
+    void close() { closed_.store(true); }
+    // All frames of an order are rendered, or the order is dropped.
+    void order_done() { done_.release(); }
+    // True at once when there is a change or a trigger, or after 50 ms; false when the instant has come.
+    bool wait_for_news_until(std::int64_t until_ns);
+    // What a camera that sets them itself has set; settings() tells it.
+    void tell_own(double exposure_s, double gain_db) {
+        own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
+        own_gain_db_.store(gain_db, std::memory_order_relaxed);
+    }
+
+    // Lockstep: the middle of the newest frame; none is ordered for an instant that is not after it.
+    void tell_middle(TimeTai middle) { newest_middle_ns_.store(middle.ns, std::memory_order_relaxed); }
+
+    static constexpr std::size_t kMostWaiting = 64;
+
+  private:
+    bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
+    TriggerResult take_order(const TriggerOrder& asked);
+    std::int64_t camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const;
+
+    CameraLimits limits_;
+    ShutterTiming timing_;
+    const SimulatedClock* clock_;
+    const PoseWatch* poses_ = nullptr;
+    mutable std::mutex mutex_;
+    CameraSettings settings_;
+    Latest<CameraSettings> latest_;
+    std::atomic<double> own_exposure_s_, own_gain_db_;
+    // Writers under the mutex, one reader.
+    std::array<WaitingOrder, kMostWaiting> triggers_;
+    std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
+    std::int64_t ready_ns_ = std::numeric_limits<std::int64_t>::min();  // for the next trigger; camera's time
+    std::counting_semaphore<> news_{0}, done_{0};
+    std::atomic<bool> closed_{false};
+    bool ordered_ = false;
+    std::atomic<std::int64_t> newest_middle_ns_{0};  // 0: no frame yet
+    std::function<void(std::int64_t)> missed_;
+    std::function<void(const SettingsChange&)> changed_;
+    std::function<void(const TriggerOrder&, TriggerResult)> triggered_;
+};
+
+}  // namespace hilcam

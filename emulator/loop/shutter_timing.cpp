@@ -1,0 +1,34 @@
+#include "emulator/loop/shutter_timing.h"
+
+#include <algorithm>
+
+namespace hilcam {
+
+ShutterTiming::ShutterTiming(const CameraModel& camera)
+    : kind_(camera.shutter.kind),
+      rows_(window_of(camera).height),
+      line_time_s_(camera.shutter.line_time_s),
+      stages_(static_cast<double>(camera.shutter.tdi_stages)) {}
+
+double ShutterTiming::end_s(double exposure_s) const {
+    switch (kind_) {
+        case ShutterKind::kRolling:
+            return exposure_s + (rows_ - 1) * line_time_s_;
+        case ShutterKind::kLineScan:
+            return rows_ * line_time_s_;
+        case ShutterKind::kGlobal:
+        case ShutterKind::kFrameTransfer:
+            break;
+    }
+    return exposure_s;
+}
+
+double ShutterTiming::middle_s(double exposure_s) const { return 0.5 * end_s(exposure_s); }
+
+double ShutterTiming::period_s(double frame_rate_hz, double exposure_s) const {
+    if (is_fixed()) return rows_ * line_time_s_;
+    const double rows_s = kind_ == ShutterKind::kRolling ? rows_ * line_time_s_ : 0;
+    return std::max({1 / frame_rate_hz, exposure_s, rows_s});
+}
+
+}  // namespace hilcam

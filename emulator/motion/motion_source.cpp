@@ -1,0 +1,121 @@
+#include "emulator/motion/motion_source.h"
+
+#include <algorithm>
+#include <array>
+
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+
+MotionValidity validity_of(TimeTai time, TimeTai first, TimeTai last) {
+    if (time < first) return {MotionStatus::kBefore, first};
+    if (last < time) return {MotionStatus::kAfter, last};
+    return {MotionStatus::kOk, time};
+}
+
+MotionSource::MotionSource(std::unique_ptr<Trajectory> trajectory, std::unique_ptr<AttitudeLaw> attitude,
+                           AttitudeJitter jitter)
+    : trajectory_(std::move(trajectory)), attitude_(std::move(attitude)), jitter_(std::move(jitter)) {}
+
+namespace {
+
+// A part at an instant that it knows: the context's, or the nearest.
+template <class F>
+auto at_valid(const MotionContext& context, const MotionValidity& validity, F&& evaluate) {
+    if (validity.status == MotionStatus::kOk) return evaluate(context);
+    const WorldFrame frame = context.frame.at(validity.nearest);
+    return evaluate(MotionContext{frame, context.things, context.standing});
+}
+
+}  // namespace
+
+MotionStatus MotionSource::place(const MotionContext& context, Motion& out) const {
+    const MotionValidity where = trajectory_->validity(context.frame.time());
+    const StateVector state =
+        at_valid(context, where, [&](const MotionContext& c) { return trajectory_->at(c); });
+    out.time = context.frame.time();
+    out.pose.position_world_m = state.position_m;
+    out.velocity_world_m_s = state.velocity_m_s;
+    return where.status;
+}
+
+MotionStatus MotionSource::turn(const MotionContext& context, Motion& out) const {
+    const TimeTai time = context.frame.time();
+    const bool stands = trajectory_->validity(time).status != MotionStatus::kOk;
+    const OwnMotion self({out.pose.position_world_m, out.velocity_world_m_s}, stands,
+                         stands ? std::nullopt : trajectory_->acceleration(context));
+    const MotionValidity how = attitude_->validity(time);
+    AttitudeState attitude =
+        at_valid(context, how, [&](const MotionContext& c) { return attitude_->at(c, self); });
+    if (how.status != MotionStatus::kOk) attitude.rate_body_rad_s = {};
+    attitude = jitter_.applied(attitude.world_from_body, attitude.rate_body_rad_s, time);
+    out.pose.world_from_body = attitude.world_from_body;
+    out.rate_body_rad_s = attitude.rate_body_rad_s;
+    return how.status;
+}
+
+void MotionSource::require(TimeTai time) const {
+    const auto check = [&](const auto& part) {
+        const MotionValidity v = part.validity(time);
+        if (v.status == MotionStatus::kOk) return;
+        const char* why = v.status == MotionStatus::kBefore  ? "begins at "
+                          : v.status == MotionStatus::kAfter ? "ends at "
+                                                             : "has a gap there; the nearest it knows is ";
+        throw InputError(part.name() + ": found the instant " + format_utc(time) + "; it " + why +
+                         format_utc(v.nearest) + " (or outside: hold)");
+    };
+    check(*trajectory_);
+    check(*attitude_);
+}
+
+MotionSources::MotionSources(std::vector<std::unique_ptr<MotionSource>> sources,
+                             std::span<const std::string> names)
+    : sources_(std::move(sources)) {
+    // done[0]: positions, done[1]: attitudes.
+    std::array<std::vector<std::uint8_t>, 2> done;
+    for (auto& part : done)
+        for (const auto& source : sources_) part.push_back(!source);
+    const auto known = [&](const std::vector<MotionNeed>& needs) {
+        return std::all_of(needs.begin(), needs.end(),
+                           [&](const MotionNeed& n) { return done[n.attitude].at(n.thing) != 0; });
+    };
+    // Each round takes the parts all of whose needs are done; a round that takes none has met a circle.
+    for (bool progress = true; progress;) {
+        progress = false;
+        for (std::size_t i = 0; i < sources_.size(); ++i)
+            for (const bool attitude : {false, true}) {
+                if (done[attitude][i] || (attitude && !done[0][i])) continue;
+                if (!known(attitude ? sources_[i]->turn_needs() : sources_[i]->place_needs())) continue;
+                order_.push_back({i, attitude});
+                done[attitude][i] = 1;
+                progress = true;
+            }
+    }
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+        if (!done[0][i] || !done[1][i])
+            throw InputError(
+                "motion of " + in_quotes(names[i]) +
+                ": follows a thing that follows it; accepted: things that do not go round in a circle");
+}
+
+std::uint64_t MotionSources::evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,
+                                      std::span<Motion> motions, std::span<std::uint8_t> standing) const {
+    std::uint64_t held = 0;
+    std::fill(standing.begin(), standing.end(), std::uint8_t{0});
+    for (const MotionNeed& part : order_) {
+        if (live[part.thing]) continue;
+        const MotionSource& source = *sources_[part.thing];
+        Motion& out = motions[part.thing];
+        const MotionContext context{frame, motions, standing};
+        if ((part.attitude ? source.turn(context, out) : source.place(context, out)) == MotionStatus::kOk)
+            continue;
+        ++held;
+        if (!part.attitude) standing[part.thing] = 1;
+    }
+    for (std::size_t i = 0; i < motions.size(); ++i)
+        if (standing[i] != 0) motions[i].velocity_world_m_s = {};
+    return held;
+}
+
+}  // namespace hilcam

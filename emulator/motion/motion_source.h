@@ -1,0 +1,128 @@
+#pragma once
+// Where a thing is and how it is turned at any instant, from what the scenario says of it: a trajectory, an
+// attitude law and jitter, each a pure function of the instant and of the things that it follows.
+//
+// Outside the instants that a part knows (an ephemeris's end, a gap in it) it stands still as it was at the
+// nearest one that it knows, and says so. Axes of its orbit stand with it.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/motion/attitude_jitter.h"
+#include "emulator/motion/world_frame.h"
+
+namespace hilcam {
+
+enum class MotionStatus : std::uint8_t { kOk, kBefore, kAfter, kGap };
+
+// Whether a part knows an instant, and the nearest that it knows.
+struct MotionValidity {
+    MotionStatus status = MotionStatus::kOk;
+    TimeTai nearest;
+};
+// Of a span whose ends count.
+MotionValidity validity_of(TimeTai time, TimeTai first, TimeTai last);
+
+// What a part may look at: one instant of the world.
+struct MotionContext {
+    const WorldFrame& frame;
+    std::span<const Motion> things;  // the camera's body, then the objects; what needs() names is right
+    // Of each, whether it stands still where its source does not know it. Its velocity is that of its way, so
+    // that its orbit has axes; it does not move with it. Empty: none.
+    std::span<const std::uint8_t> standing = {};
+
+    bool stands(std::size_t thing) const { return thing < standing.size() && standing[thing] != 0; }
+};
+
+// The thing whose attitude is asked for: its own state in the world, as above.
+struct OwnMotion {
+    OwnMotion(const StateVector& s, bool still = false, std::optional<Vec3d> change = {})
+        : state(s), stands(still), acceleration_m_s2(change) {}
+
+    StateVector state;
+    bool stands;
+    std::optional<Vec3d> acceleration_m_s2;  // none: it falls freely
+};
+
+// Another thing's part that must be known first.
+struct MotionNeed {
+    std::size_t thing = 0;
+    bool attitude = false;  // else its position
+};
+
+class Trajectory {
+  public:
+    virtual ~Trajectory() = default;
+    // Everywhere, unless it says otherwise. Loop.
+    virtual MotionValidity validity(TimeTai time) const { return {MotionStatus::kOk, time}; }
+    // In the world; only called for valid instants. Loop: no allocation, no lock.
+    virtual StateVector at(const MotionContext& context) const = 0;
+    // Of what does not fall freely about a body's centre, as far as it is known. Loop.
+    virtual std::optional<Vec3d> acceleration(const MotionContext&) const { return {}; }
+    virtual std::vector<MotionNeed> needs() const { return {}; }
+    // Where from, for messages.
+    virtual std::string name() const = 0;
+};
+
+struct AttitudeState {
+    Quat world_from_body;
+    Vec3d rate_body_rad_s;
+};
+
+class AttitudeLaw {
+  public:
+    virtual ~AttitudeLaw() = default;
+    virtual MotionValidity validity(TimeTai time) const { return {MotionStatus::kOk, time}; }
+    // Loop.
+    virtual AttitudeState at(const MotionContext& context, const OwnMotion& self) const = 0;
+    virtual std::vector<MotionNeed> needs() const { return {}; }
+    virtual std::string name() const = 0;
+};
+
+// The whole of a thing.
+class MotionSource {
+  public:
+    MotionSource(std::unique_ptr<Trajectory> trajectory, std::unique_ptr<AttitudeLaw> attitude,
+                 AttitudeJitter jitter = {});
+
+    // Position and velocity of `out`, the latter also where it stands; then, from them, attitude and rate.
+    // Loop.
+    MotionStatus place(const MotionContext& context, Motion& out) const;
+    MotionStatus turn(const MotionContext& context, Motion& out) const;
+    std::vector<MotionNeed> place_needs() const { return trajectory_->needs(); }
+    std::vector<MotionNeed> turn_needs() const { return attitude_->needs(); }
+    // Throws InputError when a part does not know the instant: what, where, accepted.
+    void require(TimeTai time) const;
+
+  private:
+    std::unique_ptr<Trajectory> trajectory_;
+    std::unique_ptr<AttitudeLaw> attitude_;
+    AttitudeJitter jitter_;
+};
+
+// The sources of a scenario's things, in an order in which each part comes after what it needs. Two things
+// may look at each other; what cannot be is a position by way of itself.
+class MotionSources {
+  public:
+    MotionSources() = default;
+    // One per thing: the camera's body, then the objects; null: none. Throws InputError when parts need each
+    // other in a circle; `names` are for that message.
+    MotionSources(std::vector<std::unique_ptr<MotionSource>> sources, std::span<const std::string> names);
+
+    bool empty() const { return order_.empty(); }
+    bool has(std::size_t thing) const { return thing < sources_.size() && sources_[thing]; }
+    // Fills the motions of all things with a source for which live[thing] is 0. motions: those of the others
+    // are right. standing: room for a flag of each thing. Gives how many parts stood still. Loop.
+    std::uint64_t evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,
+                           std::span<Motion> motions, std::span<std::uint8_t> standing) const;
+
+  private:
+    std::vector<std::unique_ptr<MotionSource>> sources_;
+    std::vector<MotionNeed> order_;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,72 @@
+// A satellite by its element set.
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/motion/sgp4.h"
+#include "emulator/motion/trajectories.h"
+#include "render/sky/earth_frames.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+constexpr double kMinute_ns = 60e9;
+
+class TleTrajectory final : public Trajectory {
+  public:
+    TleTrajectory(const Tle& tle, double valid_s, const std::string& name)
+        : sgp4_({tle.epoch_days_1950, tle.inclination_rad, tle.node_rad, tle.eccentricity, tle.perigee_rad,
+                 tle.mean_anomaly_rad, tle.mean_motion_rad_min, tle.bstar_per_er}),
+          epoch_(tle.epoch),
+          name_(name + ":" + std::to_string(tle.line)) {
+        if (!works(0))
+            throw InputError(name_ + ": the elements of satellite " + tle.satellite +
+                             " are no orbit above the ground at their epoch");
+        first_ = epoch_ + -std::llround(limit(-1, valid_s / 60) * kMinute_ns);
+        last_ = epoch_ + std::llround(limit(1, valid_s / 60) * kMinute_ns);
+    }
+
+    MotionValidity validity(TimeTai time) const override { return validity_of(time, first_, last_); }
+    StateVector at(const MotionContext& context) const override {
+        StateVector teme;
+        const double minutes = static_cast<double>(context.frame.time() - epoch_) / kMinute_ns;
+        if (sgp4_.at(minutes, teme) != Sgp4Status::kOk) sgp4_.at(0, teme);  // limit() found none such
+        const Mat3d icrf = icrf_from_teme(context.frame.time());
+        const StateVector earth = context.frame.center({});
+        return {earth.position_m + icrf * teme.position_m, earth.velocity_m_s + icrf * teme.velocity_m_s};
+    }
+    std::string name() const override { return name_; }
+
+  private:
+    Sgp4 sgp4_;
+    TimeTai epoch_, first_, last_;
+    std::string name_;
+
+    bool works(double minutes) const {
+        StateVector state;
+        return sgp4_.at(minutes, state) == Sgp4Status::kOk;
+    }
+    // How far from epoch the theory works, in minutes: tried every five, then by halves.
+    double limit(int direction, double most) const {
+        constexpr double kStep = 5;
+        double good = 0, bad = 0;
+        while (good < most && bad == 0) {
+            const double next = std::min(good + kStep, most);
+            (works(direction * next) ? good : bad) = next;
+        }
+        while (bad - good > 1e-6) {
+            const double middle = 0.5 * (good + bad);
+            (works(direction * middle) ? good : bad) = middle;
+        }
+        return good;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Trajectory> make_tle(const Tle& tle, double valid_s, const std::string& name) {
+    return std::make_unique<TleTrajectory>(tle, valid_s, name);
+}
+
+}  // namespace hilcam

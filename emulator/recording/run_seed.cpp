@@ -1,0 +1,51 @@
+#include "emulator/recording/run_seed.h"
+
+#include <sys/random.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <optional>
+
+#include "emulator/recording/recording_reader.h"
+#include "emulator/scenario/scenario_listing.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+// Below 2^52, so that the seed is in the key's range and a whole number to whoever reads the report (JSON).
+std::int64_t drawn_seed() {
+    std::uint64_t bits = 0;
+    if (getentropy(&bits, sizeof bits) != 0)
+        throw DeviceError(std::string("no random numbers from the kernel: ") + std::strerror(errno) +
+                          "; 'seed' in the scenario does without");
+    return static_cast<std::int64_t>(bits >> 12);
+}
+
+std::optional<std::int64_t> recorded_seed(const std::filesystem::path& recording) {
+    const std::string text = listed_value(RecordingReader(recording).header().scenario, "seed");
+    std::int64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error != std::errc() || end != text.data() + text.size() || seed < 0) return {};
+    return seed;
+}
+
+}  // namespace
+
+std::string settle_seed(ScenarioConfig& scenario, const std::filesystem::path& replayed) {
+    if (scenario.has_seed) return {};
+    scenario.has_seed = true;
+    if (!replayed.empty()) {
+        if (const auto seed = recorded_seed(replayed)) {
+            scenario.seed = *seed;
+            return "seed " + std::to_string(*seed) + ", the recording's";
+        }
+    }
+    scenario.seed = drawn_seed();
+    return "seed " + std::to_string(scenario.seed) +
+           ", drawn for this run; with --set seed=" + std::to_string(scenario.seed) +
+           " its noise comes again";
+}
+
+}  // namespace hilcam

@@ -1,0 +1,147 @@
+#include "emulator/run/camera_station.h"
+
+#include <algorithm>
+
+#include "emulator/recording/recorder.h"
+#include "emulator/run/status.h"
+#include "emulator/run/truth_source.h"
+#include "emulator/scenario/initial_world.h"
+#include "emulator/scenario/lamp_setup.h"
+#include "emulator/scenario/motion_builder.h"
+#include "emulator/scenario/scene_loader.h"
+
+namespace hilcam {
+namespace {
+
+LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
+    return {.lockstep = scenario.mode == CameraMode::kLockstep,
+            .triggered = scenario.mode == CameraMode::kTriggered,
+            .fixed_size = scenario.outputs.has_v4l2 || scenario.outputs.has_uvc};
+}
+
+GovernorSettings governor_of(const ScenarioConfig& scenario) {
+    return {scenario.loop.frame_budget_s * 1e3, 1 + lower_levels(scenario).size()};
+}
+
+// Cameras of one bench draw different noise.
+std::uint64_t seed_of(const ScenarioConfig& scenario, std::size_t number) {
+    return static_cast<std::uint64_t>(scenario.seed) + (number - 1) * 0x9E3779B97F4A7C15u;
+}
+
+}  // namespace
+
+CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number, const RunLimits& limits)
+    : scenario_(scenario),
+      number_(number),
+      limits_(limits),
+      settings_(scenario_.camera, mode_of(scenario_)),
+      faults_(seed_of(scenario_, number)),
+      timed_faults_(scenario_.faults) {
+    settings_.on_missed_trigger([this](std::int64_t monotonic_ns) {
+        for (const auto& sink : sinks_) sink->happened({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
+    });
+    std::stable_sort(timed_faults_.begin(), timed_faults_.end(),
+                     [](const FaultConfig& a, const FaultConfig& b) { return a.at_s < b.at_s; });
+    if (limits.outputs) make_sinks();
+}
+
+CameraStation::~CameraStation() = default;
+
+void CameraStation::make_sinks() {
+    const OutputsConfig& o = scenario_.outputs;
+    const auto [width, height] = array_size(scenario_.camera);  // frames are no larger
+    const SinkContext context = sink_context();
+    if (o.has_gige) {
+        GigeConfig gige = o.gige;
+        if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;
+        sinks_.push_back(std::make_unique<GigeSink>(gige, context));
+    }
+    // These two cannot change size while they run: fixed_size above.
+    const auto [fixed_width, fixed_height] = frame_size(scenario_.camera);
+    if (o.has_uvc) sinks_.push_back(std::make_unique<UvcSink>(o.uvc, fixed_width, fixed_height, context));
+    if (o.has_v4l2)
+        sinks_.push_back(std::make_unique<V4l2Sink>(o.v4l2, fixed_width, fixed_height,
+                                                    settings_.settings().frame_rate_hz, context));
+    if (o.has_files)
+        sinks_.push_back(
+            std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));
+    if (o.has_preview)
+        sinks_.push_back(std::make_unique<PreviewSink>(o.preview, context, [this] { return status(); }));
+}
+
+std::string CameraStation::status() const {
+    return run_status({scenario_, *loop_, delivery_, receivers_, sinks(), settings_, faults_});
+}
+
+void CameraStation::load(const SpectralGrid& grid) {
+    const ImageGeometry geometry = geometry_of(scenario_.camera, static_cast<int>(scenario_.quality.guard_px),
+                                               static_cast<int>(scenario_.quality.oversampling));
+    renderer_ = load_renderer(scenario_, grid, geometry);
+    chain_ = std::make_unique<SensorChain>(scenario_.camera, grid, sampling_of(scenario_),
+                                           load_detector_pictures(scenario_.camera));
+    const TimeTai start = parse_utc(scenario_.time_utc);
+    world_ = std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
+                                          joints_of(scenario_), scenario_.mount,
+                                          load_motion_sources(scenario_), lamp_mounts(scenario_));
+    renderer_->require_air(snapshot_at(scenario_, start, start));
+    exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
+    if (limits_.outputs && scenario_.outputs.has_truth) {
+        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_);
+        truth_ = truth.get();
+        sinks_.push_back(std::move(truth));
+    }
+}
+
+void CameraStation::prepare(SimulatedClock& clock, const PoseWatch& poses) {
+    serve_faults(0);
+    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario_.camera, *world_, settings_, faults_,
+                                        clock, sinks(), seed_of(scenario_, number_),
+                                        LoopLimits{limits_.frames, limits_.warm_up, limits_.paced,
+                                                   governor_of(scenario_), scenario_.loop.prefer},
+                                        &poses);
+    if (truth_) loop_->tell_truth_to(*truth_);
+}
+
+void CameraStation::record_to(Recorder& recorder) {
+    const auto camera = static_cast<std::uint16_t>(number_);
+    loop_->record_to(recorder, camera);
+    settings_.on_change([&recorder, camera](const SettingsChange& change) {
+        recorder.put(RecordedChange{camera, monotonic_ns(), change});
+    });
+    settings_.on_trigger([&recorder, camera](const TriggerOrder& order, TriggerResult result) {
+        recorder.put(RecordedTrigger{camera, monotonic_ns(), order, result});
+    });
+}
+
+void CameraStation::start_outputs() {
+    for (const auto& sink : sinks_) sink->start();
+}
+
+void CameraStation::stop_outputs() noexcept {
+    for (const auto& sink : sinks_) sink->stop();
+}
+
+std::vector<FrameSink*> CameraStation::sinks() const {
+    std::vector<FrameSink*> out;
+    for (const auto& sink : sinks_) out.push_back(sink.get());
+    return out;
+}
+
+std::vector<std::string> CameraStation::new_faults() {
+    std::vector<std::string> out;
+    for (const auto& sink : sinks_)
+        if (sink->has_fault() && told_faults_.insert(sink.get()).second) out.push_back(sink->report().fault);
+    return out;
+}
+
+void CameraStation::serve_faults(double seconds) {
+    for (; next_fault_ < timed_faults_.size() && timed_faults_[next_fault_].at_s <= seconds; ++next_fault_)
+        faults_.order(order_of(timed_faults_[next_fault_]));
+    FaultBoard::Entry entry;
+    while (faults_.take_entry(entry)) {
+        fault_log_.push_back(entry);
+        if (fault_log_.size() > kMostLogged) fault_log_.pop_front();
+    }
+}
+
+}  // namespace hilcam

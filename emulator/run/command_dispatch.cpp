@@ -1,0 +1,277 @@
+#include "emulator/run/command_dispatch.h"
+
+#include <cmath>
+
+#include "emulator/recording/recorder.h"
+#include "emulator/run/event_director.h"
+#include "render/vocabulary/overloaded.h"
+
+namespace hilcam {
+namespace {
+
+constexpr double kPatience_s = 600;  // for the frames of one order in lockstep
+
+CommandStatus status_of(TriggerResult result) {
+    switch (result) {
+        case TriggerResult::kTaken:
+            return CommandStatus::kAccepted;
+        case TriggerResult::kMissed:
+            return CommandStatus::kBusy;
+        case TriggerResult::kTooEarly:
+            return CommandStatus::kTimeOutOfRange;
+        case TriggerResult::kNotArmed:
+            break;
+    }
+    return CommandStatus::kNotNow;
+}
+
+SettingsChange change_of(const SettingsCommand& s) {
+    SettingsChange change;
+    change.exposure_s = s.exposure_s;
+    change.gain_db = s.gain_db;
+    change.frame_rate_hz = s.frame_rate_hz;
+    return change;
+}
+
+SettingsChange change_of(const TriggerModeCommand& m) {
+    SettingsChange change;
+    change.triggered = m.triggered;
+    if (m.triggered) change.trigger_source = TriggerSource::kLine0;
+    if (m.burst_frames > 0) change.burst_frames = m.burst_frames;
+    return change;
+}
+
+// True for what goes into a recording once it was accepted. Poses, joints and lamps are noted before they
+// take effect: no frame may show one that is not noted. What only asks is not noted at all.
+bool is_noted_after(const Command& command) {
+    return std::visit(
+        Overloaded{
+            [](const OneOf<PoseCommand, JointCommand, LampCommand> auto&) { return false; },
+            [](const OneOf<PingCommand, SubscribeCommand> auto&) { return false; },
+            [](const ClockCommand& clock) { return clock.action != ClockCommand::Action::kAsk; },
+            [](const OneOf<SettingsCommand, StartCommand, StopCommand, FaultCommand, ExposeCommand,
+                           TriggerModeCommand> auto&) { return true; },
+        },
+        command);
+}
+
+// So many frames, or what an event starts: a frame that is being made is not struck.
+bool is_from_next_frame(const FaultCommand& f, const CommandSource& source) {
+    return !f.clear_all && f.order.from_frame == 0 && (f.order.frames != 0 || source.event != 0);
+}
+
+}  // namespace
+
+CommandStatus CommandDispatch::handle(const Command& command, const CommandSource& source) {
+    if (const auto* fault = std::get_if<FaultCommand>(&command); fault && is_from_next_frame(*fault, source))
+        return order_from_next_frame(*fault, source);
+    const CommandStatus status = perform(command, source);
+    if (recorder_ && status == CommandStatus::kAccepted && is_noted_after(command)) {
+        const std::lock_guard one(recording_);
+        note(command, source, false);
+    }
+    return status;
+}
+
+// Gives the command's number.
+std::uint64_t CommandDispatch::note(const Command& command, const CommandSource& source, bool forgets) {
+    const std::uint64_t number = recorder_->next_number();
+    RecordedCommand record{number, command, source, forgets};
+    record.source.notes = nullptr;  // the sender's, for now
+    recorder_->put(record);
+    return number;
+}
+
+// There is no default: a command that is added later does not compile until somebody handles it.
+CommandStatus CommandDispatch::perform(const Command& command, const CommandSource& source) {
+    return std::visit(
+        Overloaded{
+            [&](const PoseCommand& pose) { return set_pose(pose, source); },
+            [&](const JointCommand& joint) { return turn(joint, source); },
+            [&](const LampCommand& lamp) { return switch_lamp(lamp, source); },
+            [&](const SettingsCommand& settings) {
+                return change(change_of(settings), source, CommandStatus::kBadArgument);
+            },
+            [&](const TriggerModeCommand& mode) {
+                return change(change_of(mode), source, CommandStatus::kNotNow);
+            },
+            [&](const ExposeCommand& exposure) { return expose(exposure, source); },
+            [&](const FaultCommand& fault) { return order(fault, source); },
+            [&](const ClockCommand& clock) { return order(clock); },
+            [&](const StartCommand&) { return change({.running = true}, source, CommandStatus::kNotNow); },
+            [&](const StopCommand&) { return change({.running = false}, source, CommandStatus::kNotNow); },
+            // The command station answers these itself (io/commands/command_station.cpp); the cameras are not
+            // asked.
+            [](const OneOf<PingCommand, SubscribeCommand> auto&) { return CommandStatus::kAccepted; },
+        },
+        command);
+}
+
+// Of several cameras, the first refusal is the answer.
+template <class F>
+CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act) {
+    if (camera > cameras_.size()) return CommandStatus::kUnknownObject;
+    CommandStatus status = CommandStatus::kAccepted;
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        if (camera != 0 && camera != i + 1) continue;
+        const CommandStatus own = act(cameras_[i]);
+        if (status == CommandStatus::kAccepted) status = own;
+    }
+    return status;
+}
+
+void CommandDispatch::wake_cameras() {
+    for (const CommandedCamera& c : cameras_) c.settings->wake();
+}
+
+CommandStatus CommandDispatch::order(const ClockCommand& clock) {
+    const CommandStatus status = clock_.order(clock);
+    if (clock.action != ClockCommand::Action::kAsk) wake_cameras();
+    return status;
+}
+
+// A tag of 0 is the arrival; false for one too far from it. In lockstep time goes where it is told to.
+bool CommandDispatch::resolve(TimeTai& tag, const CommandSource& source) const {
+    const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
+    if (tag.ns == 0) tag = arrival;
+    // Compared without subtracting: a hostile tag must not overflow.
+    const std::int64_t horizon_ns = poses_.horizon_ns();
+    return clock_.lockstep() || !(tag < arrival + -horizon_ns || arrival + horizon_ns < tag);
+}
+
+// `set` moves a thing of one camera's world; its last argument: what was known of it is forgotten. `anew`:
+// the sender says so. `tag`: the command's own, which is resolved.
+template <class C, class F>
+CommandStatus CommandDispatch::move(const C& command, PoseWatch::Subject subject, TimeTai& tag,
+                                    const CommandSource& source, bool anew, F&& set) {
+    using Verdict = PoseWatch::Verdict;
+    const bool tagged = tag.ns != 0 && !anew;
+    if (!resolve(tag, source)) return CommandStatus::kTimeOutOfRange;
+    const Verdict verdict = tagged ? poses_.judge(subject, tag) : Verdict::kForwards;
+    if (source.notes) source.notes->went_back = verdict != Verdict::kForwards;
+    const TimeTai arrival = clock_.of_arrival(source.arrival_monotonic_ns);
+    const bool stopped = poses_.stops(arrival);
+    CommandStatus status = CommandStatus::kTimeBackwards;
+    if (verdict != Verdict::kRefused) {
+        const bool forgets = anew || verdict == Verdict::kBackwards;
+        ShownCommand shown{source.sequence, source.arrival_monotonic_ns, {}, 0};
+        std::unique_lock one(recording_, std::defer_lock);
+        if (recorder_) {
+            one.lock();
+            shown.number = note(command, source, forgets);
+        }
+        status = for_cameras(0, [&](const CommandedCamera& c) {
+            return set(*c.world, shown, forgets) ? CommandStatus::kAccepted : CommandStatus::kUnknownObject;
+        });
+    }
+    if (status == CommandStatus::kUnknownObject) return status;
+    poses_.took(subject, tag, arrival, anew ? Verdict::kAnew : verdict);
+    if (source.notes)
+        source.notes->tell_sender =
+            verdict == Verdict::kBackwards && poses_.rules().backwards == WhenBackwards::kFlag;
+    if (stopped) wake_cameras();
+    return status;
+}
+
+CommandStatus CommandDispatch::set_pose(const PoseCommand& pose, const CommandSource& source) {
+    if (!cameras_.front().world->thing_of(pose.object)) return CommandStatus::kUnknownObject;
+    PoseCommand resolved = pose;
+    return move(resolved, {pose.object, 0}, resolved.motion.time, source, pose.alone,
+                [&](WorldState& world, const ShownCommand& shown, bool anew) {
+                    return world.set(pose.object, resolved.motion, shown, anew);
+                });
+}
+
+CommandStatus CommandDispatch::turn(const JointCommand& joint, const CommandSource& source) {
+    if (!cameras_.front().world->thing_of(joint.object, joint.joint)) return CommandStatus::kUnknownObject;
+    JointCommand resolved = joint;
+    return move(resolved, {joint.object, joint.joint}, resolved.time, source, false,
+                [&](WorldState& world, const ShownCommand& shown, bool anew) {
+                    return world.set_joint(joint.object, joint.joint,
+                                           {resolved.time, joint.angle_rad, joint.rate_rad_s}, shown, anew);
+                });
+}
+
+CommandStatus CommandDispatch::switch_lamp(const LampCommand& lamp, const CommandSource& source) {
+    if (!cameras_.front().world->thing_of_lamp(lamp.lamp)) return CommandStatus::kUnknownObject;
+    LampCommand resolved = lamp;
+    return move(resolved, {0, 0, lamp.lamp}, resolved.time, source, false,
+                [&](WorldState& world, const ShownCommand& shown, bool anew) {
+                    return world.set_lamp(lamp.lamp, {resolved.time, lamp.level}, shown, anew);
+                });
+}
+
+CommandStatus CommandDispatch::change(const SettingsChange& change, const CommandSource& source,
+                                      CommandStatus refused) {
+    return for_cameras(source.camera, [&](const CommandedCamera& c) {
+        return c.settings->change(change) ? CommandStatus::kAccepted : refused;
+    });
+}
+
+CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSource& source) {
+    TriggerOrder order;
+    order.source = TriggerSource::kLine0;
+    order.frames = e.frames;
+    order.sequence = source.sequence;
+    order.at_any_time = e.at_any_time;
+    if (clock_.lockstep()) {
+        order.at_simulated = e.time;
+        return expose_in_lockstep(order, source);
+    }
+    TimeTai tag = e.time;
+    if (!resolve(tag, source)) return CommandStatus::kTimeOutOfRange;
+    order.at_monotonic_ns = source.arrival_monotonic_ns;
+    if (e.time.ns != 0) order.at_simulated = tag;
+    return for_cameras(source.camera,
+                       [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); });
+}
+
+// With events each frame is an order of its own, so that they come between any two.
+CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, const CommandSource& source) {
+    const std::lock_guard one(lockstep_);
+    if (!events_) return run_order(order, source);
+    TriggerOrder frame = order;
+    frame.frames = 1;
+    const std::int64_t burst = cameras_.front().settings->settings().burst_frames;
+    const std::int64_t frames = order.frames > 0 ? order.frames : burst;
+    for (std::int64_t i = 0; i < frames; ++i) {
+        events_->before_frame(frame);
+        if (events_->asks_to_end()) return CommandStatus::kNotNow;
+        const CommandStatus status = run_order(frame, source);
+        if (status != CommandStatus::kAccepted) return status;
+        frame.at_simulated = {};  // a period on
+    }
+    return CommandStatus::kAccepted;
+}
+
+// Answers when the loops have seen the world for the order's last frame: commands that come later do not
+// count for its frames, so the same commands give the same frames at any pace.
+CommandStatus CommandDispatch::run_order(const TriggerOrder& order, const CommandSource& source) {
+    const CommandStatus status = for_cameras(source.camera, [&](const CommandedCamera& c) {
+        return status_of(c.settings->order_in_lockstep(order));
+    });
+    const CommandStatus done = for_cameras(source.camera, [&](const CommandedCamera& c) {
+        return c.settings->wait_for_order(kPatience_s) ? CommandStatus::kAccepted : CommandStatus::kBusy;
+    });
+    return status == CommandStatus::kAccepted ? done : status;
+}
+
+// The next frame is another one on each camera, and a recording must name it: an order for each.
+CommandStatus CommandDispatch::order_from_next_frame(FaultCommand f, const CommandSource& source) {
+    return for_cameras(source.camera, [&](const CommandedCamera& c) {
+        CommandSource own = source;
+        own.camera = static_cast<std::uint16_t>(&c - cameras_.data() + 1);
+        f.order.from_frame = c.faults->next_frame();
+        return handle(f, own);
+    });
+}
+
+CommandStatus CommandDispatch::order(const FaultCommand& f, const CommandSource& source) {
+    if (!f.clear_all && !refusal_of(f.order).empty()) return CommandStatus::kBadArgument;
+    return for_cameras(source.camera, [&](const CommandedCamera& c) {
+        f.clear_all ? c.faults->clear_all() : c.faults->order(f.order);
+        return CommandStatus::kAccepted;
+    });
+}
+
+}  // namespace hilcam

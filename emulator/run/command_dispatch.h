@@ -1,0 +1,79 @@
+#pragma once
+// What decoded commands do: poses to the world, settings and triggers to the cameras, faults to their boards.
+//
+// Every camera has a picture of the world of its own, so poses go to all of them. Settings, triggers and
+// faults go to the camera that a command names, or to all: with several, a setting that one of them refuses
+// is refused for that one only, and the status says so. Time tags are judged by the watch over poses.
+
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "emulator/loop/live_settings.h"
+#include "emulator/world/clock.h"
+#include "emulator/world/pose_watch.h"
+#include "emulator/world/world_state.h"
+#include "io/contract/command.h"
+
+namespace hilcam {
+
+// What commands reach of a camera; all of it outlives the dispatch.
+struct CommandedCamera {
+    WorldState* world = nullptr;
+    LiveSettings* settings = nullptr;
+    FaultBoard* faults = nullptr;
+};
+
+class EventDirector;
+class Recorder;
+
+class CommandDispatch : public CommandHandler {
+  public:
+    // poses: the bench's; null: one of its own, by the default rules.
+    CommandDispatch(std::vector<CommandedCamera> cameras, SimulatedClock& clock, PoseWatch* poses = nullptr)
+        : cameras_(std::move(cameras)), clock_(clock), poses_(poses ? *poses : default_poses_) {}
+
+    CommandStatus handle(const Command& command, const CommandSource& source) override;
+    TimeTai now() const override { return clock_.now(); }
+    ClockReading read_clock(std::int64_t arrival_monotonic_ns) const override {
+        return clock_.read(arrival_monotonic_ns);
+    }
+
+    // All that is accepted goes into a recording. Before the first command; it outlives the last.
+    void record_to(Recorder& recorder) { recorder_ = &recorder; }
+    // In lockstep, events are asked before every frame. As above.
+    void ask_events(EventDirector& events) { events_ = &events; }
+
+  private:
+    CommandStatus perform(const Command& command, const CommandSource& source);
+    template <class F>
+    CommandStatus for_cameras(std::uint16_t camera, F&& act);
+    CommandStatus set_pose(const PoseCommand& pose, const CommandSource& source);
+    CommandStatus turn(const JointCommand& joint, const CommandSource& source);
+    CommandStatus switch_lamp(const LampCommand& lamp, const CommandSource& source);
+    template <class C, class F>
+    CommandStatus move(const C& command, PoseWatch::Subject subject, TimeTai& tag,
+                       const CommandSource& source, bool anew, F&& set);
+    bool resolve(TimeTai& tag, const CommandSource& source) const;
+    CommandStatus order(const ClockCommand& clock);
+    void wake_cameras();
+    CommandStatus change(const SettingsChange& change, const CommandSource& source, CommandStatus refused);
+    CommandStatus expose(const ExposeCommand& expose, const CommandSource& source);
+    CommandStatus expose_in_lockstep(const TriggerOrder& order, const CommandSource& source);
+    CommandStatus run_order(const TriggerOrder& order, const CommandSource& source);
+    std::uint64_t note(const Command& command, const CommandSource& source, bool forgets);
+    CommandStatus order(const FaultCommand& fault, const CommandSource& source);
+    CommandStatus order_from_next_frame(FaultCommand fault, const CommandSource& source);
+
+    std::vector<CommandedCamera> cameras_;
+    SimulatedClock& clock_;
+    PoseWatch default_poses_;
+    PoseWatch& poses_;
+    Recorder* recorder_ = nullptr;     // may be null
+    EventDirector* events_ = nullptr;  // may be null
+    std::mutex recording_;             // commands take effect in the order in which they are noted
+    // One order at a time; an event that takes a picture has its own order within one.
+    std::recursive_mutex lockstep_;
+};
+
+}  // namespace hilcam

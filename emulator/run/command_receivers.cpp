@@ -1,0 +1,40 @@
+#include "emulator/run/command_receivers.h"
+
+#include <spdlog/spdlog.h>
+
+namespace hilcam {
+
+std::vector<std::unique_ptr<CommandReceiver>> make_receivers(const CommandsConfig& c, CommandHandler& handler,
+                                                             FaultBoard& faults) {
+    std::vector<std::unique_ptr<CommandReceiver>> out;
+    if (c.has_udp) out.push_back(std::make_unique<UdpCommandReceiver>(c.udp, handler));
+    if (c.has_tcp) out.push_back(make_tcp_receiver(c.tcp, handler));
+    if (c.has_unix) out.push_back(make_unix_receiver(c.unix_socket, handler));
+    if (c.has_usb) out.push_back(make_usb_receiver(c.usb, handler, faults));
+    if (c.has_functionfs) out.push_back(make_functionfs_receiver(c.functionfs, handler, faults));
+    return out;
+}
+
+std::unique_ptr<CommandReceiver> make_vizard(const ScenarioConfig& scenario,
+                                             const std::vector<std::unique_ptr<CameraStation>>& stations,
+                                             CommandHandler& handler) {
+    std::vector<VizardCameraPart> parts;
+    for (const auto& station : stations) {
+        const CameraModel& camera = station->scenario().camera;
+        const auto [width, height] = array_size(camera);  // frames are no larger
+        auto sink =
+            std::make_unique<VizardSink>("vizard camera " + std::to_string(station->number()), width, height);
+        parts.push_back({sink.get(), station->settings().limits().color_pattern});
+        station->add_sink(std::move(sink));
+    }
+    return make_vizard_receiver(scenario.commands.vizard, vizard_bench(scenario), std::move(parts), handler,
+                                [](const std::string& text) { spdlog::warn("vizard: {}", text); });
+}
+
+CommandReport report_of(const std::vector<std::unique_ptr<CommandReceiver>>& receivers) {
+    CommandReport sum;
+    for (const auto& receiver : receivers) sum += receiver->report();
+    return sum;
+}
+
+}  // namespace hilcam

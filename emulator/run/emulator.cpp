@@ -1,0 +1,293 @@
+#include "emulator/run/emulator.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+
+#include "emulator/recording/recording_header.h"
+
+namespace hilcam {
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+void on_signal(int) { signalled = 1; }
+
+// Stops on SIGINT and SIGTERM while it lives, and on SIGHUP (the terminal closes) unless that is ignored, as
+// nohup does.
+class SignalGuard {
+  public:
+    SignalGuard() {
+        signalled = 0;
+        struct sigaction action {};
+        action.sa_handler = on_signal;
+        for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &before_[i]);
+        if (before_[kHangUp].sa_handler == SIG_IGN) sigaction(SIGHUP, &before_[kHangUp], nullptr);
+    }
+    ~SignalGuard() {
+        for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+    }
+
+  private:
+    static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+    static constexpr std::size_t kHangUp = 2;
+    std::array<struct sigaction, kSignals.size()> before_{};
+};
+
+}  // namespace
+
+Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
+    : scenario_(scenario),
+      limits_(limits),
+      grid_(scenario.spectrum_edges_um),
+      clock_(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep,
+             scenario.clock),
+      poses_(scenario.commands.poses, scenario.mode == CameraMode::kLockstep) {
+    prepare_recording();
+    const RealTime& wishes = scenario.loop.real_time;
+    require_rights(wishes);
+    if (!wishes.cores.empty())
+        threads_.emplace(tbb::global_control::max_allowed_parallelism, wishes.cores.size());
+    std::vector<CommandedCamera> bench;
+    for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
+        stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits));
+        bench.push_back({nullptr, &stations_.back()->settings(), &stations_.back()->faults()});
+    }
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+        stations_[i]->load(grid_);
+        stations_[i]->set_receivers(receivers_);
+        bench[i].world = &stations_[i]->world();
+    }
+    // Loading took its time; the simulation starts now.
+    clock_start_ns_ = monotonic_ns();
+    clock_.restart(parse_utc(scenario.time_utc), clock_start_ns_);
+    dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_, &poses_);
+    if (limits.outputs && limits.replay.empty()) {
+        receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());
+        if (scenario.commands.has_vizard) receivers_.push_back(make_vizard(scenario, stations_, *dispatch_));
+    }
+    if (limits.outputs) make_telemetry();
+    for (const auto& station : stations_) station->prepare(clock_, poses_);
+    make_replays();
+    make_recorder();
+    make_events();
+}
+
+// Before minutes go into a scene.
+void Emulator::prepare_recording() {
+    if (!limits_.record.empty() || !limits_.replay.empty()) recording_ = recording_header(scenario_);
+    if (limits_.replay.empty()) return;
+    const RecordingReader recording(limits_.replay);
+    for (const std::string& warning :
+         check_recording(recording.header(), limits_.replay.string(), recording_, limits_.replay_force))
+        spdlog::warn("{}", warning);
+}
+
+void Emulator::make_replays() {
+    if (limits_.replay.empty()) return;
+    for (const auto& station : stations_) {
+        const ScenarioConfig& own = station->scenario();
+        const ReplayedCamera camera{static_cast<std::uint16_t>(station->number()),
+                                    &station->world(),
+                                    &station->faults(),
+                                    station->settings().limits(),
+                                    station->settings().settings(),
+                                    1 + lower_levels(own).size()};
+        replays_.push_back(std::make_unique<Replay>(limits_.replay, camera, limits_.replay_fast));
+        station->loop().follow(*replays_.back());
+    }
+}
+
+void Emulator::make_recorder() {
+    if (limits_.record.empty()) return;
+    for (const std::string& warning : recording_warnings(scenario_)) spdlog::warn("{}", warning);
+    recording_.monotonic_start_ns = clock_start_ns_;
+    recorder_ = std::make_unique<Recorder>(limits_.record, recording_);
+    dispatch_->record_to(*recorder_);
+    for (const auto& station : stations_) station->record_to(*recorder_);
+}
+
+// A replay has what they did in its recording.
+void Emulator::make_events() {
+    if (scenario_.events.empty() || !limits_.replay.empty()) return;
+    const EventDirector::Bench bench{*dispatch_,
+                                     first().settings(),
+                                     clock_,
+                                     ShutterTiming(first().scenario().camera),
+                                     world().placed_objects(),
+                                     receivers_.empty()};
+    events_ = std::make_unique<EventDirector>(
+        EventSequence(scenario_.events, event_world(scenario_), clock_.start()), bench);
+    loop().tell(*events_);
+    if (clock_.lockstep()) dispatch_->ask_events(*events_);
+}
+
+// When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.
+Emulator::~Emulator() {
+    if (telemetry_) telemetry_->stop();
+    for (const auto& station : stations_) station->stop_outputs();
+    if (events_) events_->stop();
+    for (const auto& replay : replays_) replay->stop();
+}
+
+void Emulator::make_telemetry() {
+    if (!scenario_.has_telemetry && receivers_.empty()) return;
+    TelemetryConfig config = scenario_.telemetry;
+    if (!scenario_.has_telemetry) config.port.port = 0;
+    telemetry_ = std::make_unique<TelemetrySender>(config, [this] { return housekeeping(); });
+    std::vector<CommandReceiver*> receivers;
+    for (const auto& receiver : receivers_) receivers.push_back(receiver.get());
+    telemetry_->serve(std::move(receivers));
+    for (const auto& station : stations_)
+        station->add_sink(telemetry_->sink(static_cast<std::uint8_t>(station->number())));
+}
+
+// Called by telemetry's thread, once a second. What has no sum is the first camera's.
+HousekeepingFigures Emulator::housekeeping() {
+    HousekeepingFigures h;
+    const CameraSettings settings = first().settings().settings();
+    h.mode = first().settings().limits().lockstep ? OperatingMode::kLockstep
+             : settings.triggered                 ? OperatingMode::kTriggered
+                                                  : OperatingMode::kFreeRun;
+    h.running = settings.running;
+    h.simulated_time = clock_.now();
+    h.monotonic_ns = monotonic_ns();
+    h.uptime_s = static_cast<double>(h.monotonic_ns - begun_ns_) * 1e-9;
+    for (const auto& station : stations_) {
+        h.frames += station->loop().counters().frames.load();
+        h.deadline_misses += station->loop().counters().deadline_misses.load();
+    }
+    h.frame_rate_hz = static_cast<double>(h.frames - housekeeping_before_.frames) /
+                      std::max(h.uptime_s - housekeeping_before_.uptime_s, 1e-3);
+    const CommandReport commands = command_report();
+    h.commands_received = commands.received;
+    h.commands_refused = commands.refused;
+    h.commands_lost = commands.lost;
+    h.latency_p50_s = delivery().command_to_last.quantile_ms(0.5) * 1e-3;
+    h.latency_p99_s = delivery().command_to_last.quantile_ms(0.99) * 1e-3;
+    h.temperature_c = first().settings().limits().temperature_c;
+    for (const FaultKind kind : kAllFaults)
+        h.active_faults += std::any_of(stations_.begin(), stations_.end(), [kind](const auto& s) {
+            return s->faults().order_of(kind).has_value();
+        });
+    h.clients = static_cast<std::uint32_t>(commands.clients + telemetry_->port_report().clients);
+    housekeeping_before_ = h;
+    return h;
+}
+
+CommandReport Emulator::command_report() const { return report_of(receivers_); }
+
+bool Emulator::finished() const {
+    const auto asks = [](const auto& receiver) { return receiver->asks_to_end(); };
+    return std::any_of(receivers_.begin(), receivers_.end(), asks) || (events_ && events_->asks_to_end()) ||
+           std::all_of(stations_.begin(), stations_.end(),
+                       [](const auto& s) { return s->loop().finished(); });
+}
+
+void Emulator::run(const std::function<void()>& on_ready) {
+    const SignalGuard guard;
+    lock_memory(scenario_.loop.real_time);
+    for (const auto& station : stations_) station->start_outputs();
+    if (telemetry_) telemetry_->start();
+    for (const auto& receiver : receivers_) receiver->start();
+    const std::int64_t begun_ns = monotonic_ns();
+    begun_ns_ = begun_ns;
+    if (recorder_) recorder_->start();
+    for (const auto& replay : replays_) replay->start(clock_start_ns_);
+    if (events_) events_->start();
+    for (const auto& station : stations_) station->start_loop();
+    raise_threads(scenario_.loop.real_time);
+    on_ready();
+    const bool terminal = isatty(STDERR_FILENO);
+    std::int64_t next_line_ns = begun_ns + 1'000'000'000;
+    while (!signalled && !finished()) {
+        const std::int64_t now_ns = monotonic_ns();
+        seconds_ = static_cast<double>(now_ns - begun_ns) * 1e-9;
+        if (limits_.seconds > 0 && seconds_ >= limits_.seconds) break;
+        for (const auto& station : stations_) station->serve_faults(seconds_);
+        print_level_changes();
+        print_held_motion();
+        silence_log_.look();
+        print_output_faults(now_ns);
+        if (terminal && limits_.outputs && now_ns >= next_line_ns) {
+            print_line();
+            next_line_ns += 1'000'000'000;
+        }
+        sleep_until_monotonic_ns(now_ns + 10'000'000);
+    }
+    // Loops first: they answer what waits for a frame.
+    if (events_) events_->ask_to_stop();
+    for (const auto& station : stations_) station->stop_loop();
+    if (events_) events_->stop();
+    for (const auto& replay : replays_) replay->stop();
+    print_level_changes();
+    seconds_ = static_cast<double>(monotonic_ns() - begun_ns) * 1e-9;
+    for (const auto& receiver : receivers_) receiver->stop();
+    if (telemetry_) telemetry_->stop();
+    for (const auto& station : stations_) {
+        station->stop_outputs();
+        station->serve_faults(seconds_);
+    }
+    if (recorder_) recorder_->stop();
+    print_replays();
+}
+
+void Emulator::print_replays() const {
+    for (const auto& replay : replays_) {
+        const Replay::Outcome outcome = replay->outcome();
+        if (outcome.text.empty())
+            spdlog::info("the replay was ended after {} frames", outcome.frames);
+        else if (outcome.whole)
+            spdlog::info("replayed all {} frames", outcome.frames);
+        else
+            spdlog::warn("replayed {} frames, up to {}", outcome.frames, outcome.text);
+    }
+}
+
+void Emulator::print_level_changes() {
+    LevelChange change;
+    for (const auto& station : stations_)
+        while (station->loop().take_level_change(change))
+            spdlog::info(
+                "{}: from frame {} on quality level {} instead of {}, whose frames took {:.2f} ms ({:.2f} ms "
+                "are "
+                "allowed)",
+                station->name(), change.frame, change.to, change.from, change.mean_ms,
+                1e3 * scenario_.loop.frame_budget_s);
+}
+
+// Once: the simulated time has left what a file of motion knows.
+void Emulator::print_held_motion() {
+    if (told_held_motion_ || first().world().held() == 0) return;
+    told_held_motion_ = true;
+    spdlog::warn(
+        "a source of motion does not know the simulated time any more, {}: what it moves stands still",
+        format_utc(clock_.now()));
+}
+
+// What an output begins to be unable to do: once, not for each frame. The report at the end has it whole.
+void Emulator::print_output_faults(std::int64_t now_ns) {
+    constexpr std::int64_t kBetweenLooks_ns = 250'000'000;
+    if (now_ns < next_fault_look_ns_) return;
+    next_fault_look_ns_ = now_ns + kBetweenLooks_ns;
+    for (const auto& station : stations_)
+        for (const std::string& fault : station->new_faults()) spdlog::error("{}", fault);
+}
+
+// Of the first camera.
+void Emulator::print_line() {
+    const std::uint64_t frames = loop().counters().frames.load();
+    const CommandReport commands = command_report();
+    const std::uint64_t faults = first().faults().all_strikes();
+    spdlog::info(
+        "{} frames/s, command to last packet p50 {:.1f} ms p99 {:.1f} ms, {} exposures missed, {} commands "
+        "({} refused){}",
+        frames - frames_printed_, delivery().command_to_last.quantile_ms(0.5),
+        delivery().command_to_last.quantile_ms(0.99), loop().counters().deadline_misses.load(),
+        commands.received, commands.refused, faults == 0 ? "" : fmt::format(", {} fault strikes", faults));
+    frames_printed_ = frames;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,88 @@
+#pragma once
+// The emulator as a whole: builds every part of a scenario, runs it, tears it down.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <tbb/global_control.h>
+
+#include "emulator/recording/recorder.h"
+#include "emulator/recording/replay.h"
+#include "emulator/run/camera_station.h"
+#include "emulator/run/command_dispatch.h"
+#include "emulator/run/command_receivers.h"
+#include "emulator/run/event_director.h"
+#include "emulator/run/silence_log.h"
+#include "emulator/scenario/app_config.h"
+
+namespace hilcam {
+
+class Emulator {
+  public:
+    // Loads the scene and allocates everything; may take seconds. Throws InputError, DeviceError.
+    Emulator(const ScenarioConfig& scenario, const RunLimits& limits);
+    ~Emulator();
+
+    // Opens sockets and devices, then runs until a limit is reached or SIGINT, SIGTERM or SIGHUP comes.
+    // Throws DeviceError while starting. `on_ready` is called once the camera can be used.
+    void run(const std::function<void()>& on_ready);
+
+    // Cameras in the scenario's order; there is at least one.
+    const std::vector<std::unique_ptr<CameraStation>>& stations() const { return stations_; }
+    CameraStation& first() const { return *stations_.front(); }
+    FrameLoop& loop() { return first().loop(); }
+    Renderer& renderer() { return first().renderer(); }
+    SensorChain& chain() { return first().chain(); }
+    WorldState& world() { return first().world(); }
+    const DeliveryMeter& delivery() const { return first().delivery(); }
+    const SimulatedClock& clock() const { return clock_; }
+    const PoseWatch& poses() const { return poses_; }
+    double seconds() const { return seconds_; }
+    CommandReport command_report() const;
+    // Null: nothing is recorded.
+    const Recorder* recorder() const { return recorder_.get(); }
+    // By camera; none: this is no replay.
+    const std::vector<std::unique_ptr<Replay>>& replays() const { return replays_; }
+
+  private:
+    void prepare_recording();
+    void make_replays();
+    void make_recorder();
+    void make_events();
+    void print_replays() const;
+    void make_telemetry();
+    HousekeepingFigures housekeeping();
+    void print_line();
+    void print_level_changes();
+    void print_held_motion();
+    void print_output_faults(std::int64_t now_ns);
+    bool finished() const;
+
+    ScenarioConfig scenario_;
+    RunLimits limits_;
+    std::optional<tbb::global_control> threads_;  // as many as the loop has cores of its own
+    SpectralGrid grid_;
+    SimulatedClock clock_;
+    std::int64_t clock_start_ns_ = 0;  // CLOCK_MONOTONIC
+    PoseWatch poses_;
+    SilenceLog silence_log_{clock_, poses_};
+    std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null
+    RecordingHeader recording_;                   // with a recorder
+    std::unique_ptr<Recorder> recorder_;          // outlives all that records; may be null
+    std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them
+    std::unique_ptr<EventDirector> events_;         // outlives the loop that it watches; may be null
+    std::vector<std::unique_ptr<CameraStation>> stations_;
+    std::unique_ptr<CommandDispatch> dispatch_;
+    std::vector<std::unique_ptr<CommandReceiver>> receivers_;
+    double seconds_ = 0;
+    std::uint64_t frames_printed_ = 0;
+    bool told_held_motion_ = false;
+    std::int64_t next_fault_look_ns_ = 0;
+    std::atomic<std::int64_t> begun_ns_{0};
+    HousekeepingFigures housekeeping_before_;  // telemetry's thread
+};
+
+}  // namespace hilcam

@@ -1,0 +1,11 @@
+#pragma once
+// The program's log on standard error: "hilcam: " and a line of text that no terminal obeys.
+
+namespace hilcam {
+
+// Makes it what spdlog writes to. Messages quote files, command lines and the wire: what each of them holds
+// is made harmless here once more (render/vocabulary/quoted.h), so that none is forgotten. Call it once,
+// before the first message.
+void set_up_log();
+
+}  // namespace hilcam

@@ -1,0 +1,35 @@
+#include "emulator/run/page_maker.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <filesystem>
+
+#include "render/vocabulary/check.h"
+
+extern char** environ;
+
+namespace hilcam {
+
+void run_page_maker(const std::string& name, const std::vector<std::string>& arguments) {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
+    if (!std::filesystem::exists(program))
+        throw DeviceError(program.string() + " is missing: no page is made; build it (target " + name + ")");
+    std::vector<std::string> words = {name};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    if (posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ) != 0)
+        throw DeviceError(program.string() + " cannot be started: no page is made; it needs python3");
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw DeviceError(name + " failed (see above): no page is made");
+}
+
+}  // namespace hilcam

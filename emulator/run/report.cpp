@@ -1,0 +1,164 @@
+#include "emulator/run/report.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "emulator/recording/machine_report.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+using nlohmann::json;
+
+double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+
+}  // namespace
+
+json percentiles_report(const DurationHistogram& h) {
+    return {{"p50", rounded(h.quantile_ms(0.5))},
+            {"p99", rounded(h.quantile_ms(0.99))},
+            {"p99.9", rounded(h.quantile_ms(0.999))},
+            {"max", rounded(h.quantile_ms(1))}};
+}
+
+json stages_report(const StageMeters& m) {
+    return {{"setup", percentiles_report(m.setup)},       {"trace", percentiles_report(m.trace)},
+            {"stars", percentiles_report(m.stars)},       {"collapse", percentiles_report(m.collapse)},
+            {"convolve", percentiles_report(m.convolve)}, {"points", percentiles_report(m.points)},
+            {"digitise", percentiles_report(m.digitise)}, {"publish", percentiles_report(m.publish)},
+            {"render", percentiles_report(m.render)},     {"sense", percentiles_report(m.sense)}};
+}
+
+json within_budget(const LoopCounters& counters) {
+    const std::uint64_t lit_px = counters.lit_px.load();
+    if (lit_px == 0) return nullptr;
+    return rounded(static_cast<double>(counters.within_budget_px.load()) / static_cast<double>(lit_px));
+}
+
+namespace {
+
+json outputs_report(const CameraStation& station, json& faults) {
+    json outputs = json::array();
+    for (const FrameSink* sink : station.sinks()) {
+        const SinkReport r = sink->report();
+        json output = {{"name", r.name}, {"frames", r.frames}, {"dropped", r.dropped}};
+        for (const auto& [name, value] : r.figures) output[name] = value;
+        outputs.push_back(output);
+        if (!r.fault.empty()) faults.push_back(r.fault);
+    }
+    return outputs;
+}
+
+// Faults on demand: how often each kind struck, and the first strike of each frame.
+json strikes_report(const CameraStation& station) {
+    json counts = json::object(), log = json::array();
+    for (const FaultKind kind : kAllFaults)
+        if (const std::uint64_t count = station.faults().strikes_of(kind); count > 0)
+            counts[std::string(name_of(kind))] = count;
+    for (const FaultBoard::Entry& e : station.fault_log())
+        log.push_back({{"kind", name_of(e.kind)},
+                       {"frame", e.frame},
+                       {"item", e.index},
+                       {"value", e.value},
+                       {"monotonic_ns", e.monotonic_ns}});
+    return {{"counts", counts}, {"log", log}};
+}
+
+json quality_report(CameraStation& station) {
+    const RenderQuality& quality = station.scenario().quality.render;
+    const LoopCounters& counters = station.loop().counters();
+    json frames_at_level = json::array();
+    for (std::size_t i = 0; i <= lower_levels(station.scenario()).size(); ++i)
+        frames_at_level.push_back(counters.frames_at_level[i].load());
+    json report = {{"samples_per_axis", quality.samples_per_axis},
+                   {"max_depth", quality.max_depth},
+                   {"contribution_threshold", quality.contribution_threshold},
+                   {"rays_outside_atmosphere", station.renderer().rays_outside_air()},
+                   {"motion_limited_frames", counters.motion_limited.load()},
+                   {"frame_budget_ms", station.scenario().loop.frame_budget_s * 1e3},
+                   {"level", counters.level.load()},
+                   {"level_changes", counters.level_changes.load()},
+                   {"frames_at_level", frames_at_level},
+                   {"noise_budget", quality.noise_budget},
+                   {"within_noise_budget", within_budget(counters)}};
+    if (!report["within_noise_budget"].is_null())
+        report["worst_within_noise_budget"] = rounded(counters.worst_within_budget.load());
+    return report;
+}
+
+json camera_report(CameraStation& station, double seconds) {
+    const FrameLoop& loop = station.loop();
+    const DeliveryMeter& delivery = station.delivery();
+    const auto frames = loop.counters().frames.load();
+    json faults = json::array();
+    json outputs = outputs_report(station, faults);
+    return {
+        {"camera", station.name()},
+        {"frames", frames},
+        {"frame_rate_hz", rounded(static_cast<double>(frames) / std::max(1e-9, seconds))},
+        {"deadline_misses", loop.counters().deadline_misses.load()},
+        {"stale_frames", loop.counters().stale.load()},
+        {"standing_frames", loop.counters().standing.load()},
+        {"latency_ms",
+         {{"first_packet", percentiles_report(delivery.command_to_first)},
+          {"last_packet", percentiles_report(delivery.command_to_last)},
+          {"exposure_mid_to_last_packet", percentiles_report(delivery.exposure_to_last)}}},
+        {"outputs", outputs},
+        {"faults", faults},
+        {"fault_strikes", strikes_report(station)},
+        {"quality", quality_report(station)},
+        {"stages_ms", stages_report(loop.meters())},
+    };
+}
+
+}  // namespace
+
+json run_report(const Emulator& emulator) {
+    json report = camera_report(emulator.first(), emulator.seconds());
+    const CommandReport commands = emulator.command_report();
+    report["scenario"] = emulator.first().scenario().name;
+    report["seed"] = emulator.first().scenario().seed;
+    report["seconds"] = rounded(emulator.seconds());
+    report["commands"] = {
+        {"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}};
+    report["poses"] = {{"went_back", emulator.poses().went_back()}};
+    report["machine"] = machine_report();
+    if (const Recorder* recorder = emulator.recorder()) {
+        const RecorderReport r = recorder->report();
+        report["recording"] = {{"file", r.file},   {"frames", r.frames}, {"commands", r.commands},
+                               {"bytes", r.bytes}, {"lost", r.lost},     {"complete", r.fault.empty()}};
+        if (!r.fault.empty()) report["faults"].push_back(r.fault);
+    }
+    for (const auto& replay : emulator.replays()) {
+        const Replay::Outcome outcome = replay->outcome();
+        report["replay"].push_back({{"frames", outcome.frames}, {"whole", outcome.whole}});
+    }
+    if (emulator.stations().size() > 1)
+        for (const auto& station : emulator.stations())
+            report["cameras"].push_back(camera_report(*station, emulator.seconds()));
+    return report;
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw DeviceError(folder.string() + ": cannot be made: " + error.message());
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream out(file);
+    out << text;
+    out.close();
+    if (!out) throw DeviceError(file.string() + ": cannot be written");
+}
+
+void write_json(const std::filesystem::path& file, const json& value) {
+    std::error_code error;
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+    std::ofstream out(file);
+    out << value.dump(2) << '\n';
+    if (!out.flush()) throw DeviceError(file.string() + ": the report cannot be written");
+}
+
+}  // namespace hilcam

@@ -1,0 +1,29 @@
+#pragma once
+// Says in the log, once each time, that poses have stopped, that they come again, and that time tags went
+// back. Owner thread, outside the loop.
+
+#include <cstdint>
+
+#include "emulator/world/clock.h"
+#include "emulator/world/pose_watch.h"
+
+namespace hilcam {
+
+class SilenceLog {
+  public:
+    SilenceLog(const SimulatedClock& clock, const PoseWatch& poses) : clock_(clock), poses_(poses) {}
+    // To be called now and then while the loops run.
+    void look();
+
+  private:
+    void look_at_tags(std::int64_t now_ns);
+
+    const SimulatedClock& clock_;
+    const PoseWatch& poses_;
+    bool stale_ = false;
+    TimeTai since_;
+    std::uint64_t told_ = 0;
+    std::int64_t next_ns_ = 0;  // when the next line about tags may come
+};
+
+}  // namespace hilcam

@@ -1,0 +1,178 @@
+#include "emulator/run/status.h"
+
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "emulator/run/report.h"
+#include "io/contract/frame_flags.h"
+#include "io/preview/preview_request.h"
+
+namespace hilcam {
+namespace {
+
+using nlohmann::json;
+
+json histogram(const DurationHistogram& h) {
+    json buckets = json::array();
+    for (const DurationHistogram::Bucket& b : h.quarter_octaves()) buckets.push_back({b.from_ms, b.count});
+    return {{"count", h.count()},
+            {"p50", h.quantile_ms(0.5)},
+            {"p99", h.quantile_ms(0.99)},
+            {"max", h.quantile_ms(1)},
+            {"buckets", buckets}};
+}
+
+json camera_status(const CameraModel& camera, const CameraLimits& l) {
+    json c = {{"name", camera.name},
+              {"width", l.width},
+              {"height", l.height},
+              {"bits", l.bits},
+              {"color_pattern", l.color_pattern},
+              {"temperature_c", l.temperature_c},
+              {"lockstep", l.lockstep}};
+    // A companded DN is no line over the charge.
+    if (camera.converter.companding == Companding::kNone) c["gain_dn_e_at_0_db"] = camera.system_gain_dn_e(0);
+    return c;
+}
+
+json settings_status(const CameraSettings& s) {
+    return {{"exposure_s", s.exposure_s},
+            {"gain_db", s.gain_db},
+            {"black_level_dn", s.black_level_dn},
+            {"frame_rate_hz", s.frame_rate_hz},
+            {"running", s.running},
+            {"automatic_exposure", s.automatic_exposure},
+            {"triggered", s.triggered},
+            {"trigger_source", name_of(s.trigger_source)},
+            {"trigger_delay_s", s.trigger_delay_s},
+            {"burst_frames", s.burst_frames},
+            {"test_pattern", name_of(s.test_pattern)},
+            {"reverse_x", s.reverse_x},
+            {"reverse_y", s.reverse_y},
+            {"binning_x", s.binning_x},
+            {"binning_y", s.binning_y}};
+}
+
+// What the settings may be; a setting that the camera keeps to itself is fixed.
+json limits_status(const CameraLimits& l) {
+    return {{"exposure_s", {l.least_exposure_s, l.most_exposure_s}},
+            {"gain_db", {l.least_gain_db, l.most_gain_db}},
+            {"black_level_dn", {0, l.most_black_level_dn}},
+            {"frame_rate_hz", {l.least_frame_rate_hz, l.most_frame_rate_hz}},
+            {"trigger_delay_s", {0, l.most_trigger_delay_s}},
+            {"burst_frames", {1, l.most_burst_frames}},
+            {"binning", {1, l.most_binning}},
+            {"exposure_is_own", l.exposure_is_own},
+            {"gain_is_own", l.gain_is_own},
+            {"frame_rate_is_own", l.frame_rate_is_own},
+            {"has_automatic_exposure", l.has_automatic_exposure},
+            {"reversible", l.reversible}};
+}
+
+json outputs_status(const std::vector<FrameSink*>& sinks) {
+    json outputs = json::array();
+    for (const FrameSink* sink : sinks) {
+        const SinkReport r = sink->report();
+        json figures = json::object();
+        for (const auto& [name, value] : r.figures) figures[name] = value;
+        outputs.push_back({{"name", r.name},
+                           {"frames", r.frames},
+                           {"dropped", r.dropped},
+                           {"fault", r.fault},
+                           {"figures", figures}});
+    }
+    return outputs;
+}
+
+json counts(const CommandReport& r) {
+    return {{"received", r.received},     {"refused", r.refused},     {"lost", r.lost},
+            {"duplicates", r.duplicates}, {"strangers", r.strangers}, {"clients", r.clients},
+            {"went_back", r.went_back}};
+}
+
+json commands_status(const std::vector<std::unique_ptr<CommandReceiver>>* receivers) {
+    CommandReport all;
+    json links = json::array();
+    if (receivers)
+        for (const auto& receiver : *receivers) {
+            const CommandReport report = receiver->report();
+            all += report;
+            json link = counts(report);
+            link["name"] = receiver->name();
+            links.push_back(link);
+        }
+    json commands = counts(all);
+    commands["links"] = links;
+    return commands;
+}
+
+json faults_status(const FaultBoard& board) {
+    json faults = json::array();
+    for (const FaultKind kind : kAllFaults) {
+        json fault = {{"kind", name_of(kind)},
+                      {"number", static_cast<int>(kind)},
+                      {"bit", std::countr_zero(bit_of(kind))},
+                      {"meaning", meaning_of(kind)},
+                      {"strikes", board.strikes_of(kind)}};
+        if (const auto order = board.order_of(kind))
+            fault["order"] = {{"rate", order->rate},
+                              {"value", order->value},
+                              {"from_frame", order->from_frame},
+                              {"frames", order->frames},
+                              {"duration_s", order->duration_s}};
+        faults.push_back(fault);
+    }
+    return faults;
+}
+
+json clock_status(const SimulatedClock& clock) {
+    const ClockReading now = clock.read(monotonic_ns());
+    return {{"scale", now.scale}, {"stands", !clock.lockstep() && now.arrival >= now.stands_at}};
+}
+
+json flags_status() {
+    json flags = json::array();
+    for (const FrameFlag& flag : kFrameFlags)
+        flags.push_back({{"kind", flag.name}, {"bit", std::countr_zero(flag.bit)}});
+    return flags;
+}
+
+// The newest frame's level and share of pixels within the noise budget; 0 ms: the governor is off.
+json quality_status(const ScenarioConfig& scenario, const LoopCounters& counters) {
+    json quality = {{"level", counters.level.load()},
+                    {"levels", 1 + lower_levels(scenario).size()},
+                    {"level_changes", counters.level_changes.load()},
+                    {"frame_budget_ms", scenario.loop.frame_budget_s * 1e3},
+                    {"noise_budget", scenario.quality.render.noise_budget},
+                    {"within_noise_budget", nullptr}};
+    if (counters.lit_px.load() > 0) quality["within_noise_budget"] = counters.within_budget.load();
+    return quality;
+}
+
+}  // namespace
+
+std::string run_status(const StatusSources& s) {
+    const LoopCounters& counters = s.loop.counters();
+    const json status = {{"scenario", s.scenario.name},
+                         {"camera", camera_status(s.scenario.camera, s.camera.limits())},
+                         {"settings", settings_status(s.camera.settings())},
+                         {"limits", limits_status(s.camera.limits())},
+                         {"frames", counters.frames.load()},
+                         {"deadline_misses", counters.deadline_misses.load()},
+                         {"quality", quality_status(s.scenario, counters)},
+                         {"monotonic_ns", monotonic_ns()},
+                         {"clock", clock_status(s.loop.clock())},
+                         {"latency_ms",
+                          {{"first_packet", histogram(s.delivery.command_to_first)},
+                           {"last_packet", histogram(s.delivery.command_to_last)},
+                           {"exposure_mid_to_last_packet", histogram(s.delivery.exposure_to_last)}}},
+                         {"stages_ms", stages_report(s.loop.meters())},
+                         {"commands", commands_status(s.receivers)},
+                         {"outputs", outputs_status(s.sinks)},
+                         {"faults", faults_status(s.faults)},
+                         {"frame_flags", flags_status()}};
+    // Names come from files: bytes that are not UTF-8 are replaced.
+    return status.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace hilcam

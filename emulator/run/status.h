@@ -1,0 +1,28 @@
+#pragma once
+// The run as it is now, in JSON: what the preview's page shows (docs/preview.md). A report is of a whole run
+// (report.h), this is of an instant.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "emulator/loop/frame_loop.h"
+#include "emulator/scenario/app_config.h"
+#include "io/contract/command_receiver.h"
+#include "io/contract/fault.h"
+
+namespace hilcam {
+
+struct StatusSources {
+    const ScenarioConfig& scenario;
+    const FrameLoop& loop;
+    const DeliveryMeter& delivery;
+    const std::vector<std::unique_ptr<CommandReceiver>>* receivers;  // null: none
+    std::vector<FrameSink*> sinks;
+    const CameraControl& camera;
+    const FaultBoard& faults;
+};
+// Any thread but the loop.
+std::string run_status(const StatusSources& sources);
+
+}  // namespace hilcam

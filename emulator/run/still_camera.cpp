@@ -1,0 +1,75 @@
+#include "emulator/run/still_camera.h"
+
+#include "emulator/loop/shutter_timing.h"
+#include "emulator/scenario/initial_world.h"
+#include "emulator/scenario/lamp_setup.h"
+#include "emulator/scenario/motion_builder.h"
+#include "emulator/scenario/scene_loader.h"
+
+namespace hilcam {
+namespace {
+
+ImageGeometry image_geometry(const ScenarioConfig& s) {
+    return geometry_of(s.camera, static_cast<int>(s.quality.guard_px),
+                       static_cast<int>(s.quality.oversampling));
+}
+
+// Of the first frame that the camera would take.
+Exposure first_exposure(const CameraModel& camera) {
+    if (!camera.sequence.empty()) return {camera.sequence[0].exposure_s, camera.sequence[0].gain_db, {}, {}};
+    return {ShutterTiming(camera).exposure_s(camera.exposure_s), camera.gain_db, {}, {}};
+}
+
+}  // namespace
+
+StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
+    : scenario_(scenario),
+      grid_(scenario.spectrum_edges_um),
+      renderer_(load_renderer(scenario, grid_, image_geometry(scenario))),
+      time_(parse_utc(scenario.time_utc) + static_cast<std::int64_t>(time_offset_s * 1e9)),
+      snapshot_(snapshot_at(scenario, parse_utc(scenario.time_utc), time_)),
+      world_(initial_motions(scenario, parse_utc(scenario.time_utc)), scenario.origin, joints_of(scenario),
+             scenario.mount, load_motion_sources(scenario), lamp_mounts(scenario)),
+      exposures_(*renderer_, scenario, grid_, world_.placed_objects()),
+      radiance_(exposures_.make_image()),
+      exposure_(first_exposure(scenario.camera)) {
+    renderer_->require_air(snapshot_);
+    points_.reserve(exposures_.most_points());
+}
+
+SensorChain& StillCamera::chain() {
+    if (!chain_) {
+        chain_.emplace(scenario_.camera, grid_, sampling_of(scenario_.quality),
+                       load_detector_pictures(scenario_.camera));
+        const auto [array_width, array_height] = array_size(scenario_.camera);
+        electrons_ = ElectronImage(array_width, array_height);
+        const auto [width, height] = frame_size(scenario_.camera);
+        frame_ = DnImage(width, height);
+    }
+    return *chain_;
+}
+
+const RadianceImage& StillCamera::render(RandomKey key, FrameTruth* truth) {
+    exposures_.render(world_, time_, key, radiance_, points_, exposure_, truth);
+    return radiance_;
+}
+
+const ElectronImage& StillCamera::expose() {
+    chain().expose(radiance_, points_, exposure_, electrons_);
+    return electrons_;
+}
+
+const DnImage& StillCamera::digitise(RandomKey key) {
+    chain().digitise(electrons_, exposure_, key, frame_);
+    return frame_;
+}
+
+ElectronImage StillCamera::dark() {
+    const auto [width, height] = array_size(scenario_.camera);
+    ElectronImage out(width, height);
+    const RadianceImage nothing = exposures_.make_image();
+    chain().expose(nothing, {}, {exposure_.exposure_s, exposure_.gain_db}, out);
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,52 @@
+#pragma once
+// A scenario's camera at one instant: the frame that it would take then, as often as asked, stage by stage.
+// For pictures and for measurements; the loop has its own (frame_loop.h).
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "emulator/loop/exposure_renderer.h"
+#include "sensor/chain.h"
+
+namespace hilcam {
+
+class StillCamera {
+  public:
+    // Loads all that the scenario names. Throws InputError, DeviceError. Owner thread, as all here.
+    explicit StillCamera(const ScenarioConfig& scenario, double time_offset_s = 0);
+
+    // In this order; each gives what it fills, valid until the next call. The key chooses the light paths,
+    // and the noise.
+    const RadianceImage& render(RandomKey key, FrameTruth* truth = nullptr);
+    const ElectronImage& expose();
+    const DnImage& digitise(RandomKey key);
+    // What no light makes: dark current [e-].
+    ElectronImage dark();
+
+    const SpectralGrid& grid() const { return grid_; }
+    const Exposure& exposure() const { return exposure_; }
+    // Where everything is at mid-exposure, pointing jitter apart.
+    const WorldSnapshot& world() const { return snapshot_; }
+    Renderer& renderer() { return *renderer_; }
+
+  private:
+    // Made at the first use: a radiance image needs none.
+    SensorChain& chain();
+
+    ScenarioConfig scenario_;
+    SpectralGrid grid_;
+    std::unique_ptr<Renderer> renderer_;
+    TimeTai time_;
+    WorldSnapshot snapshot_;
+    WorldState world_;
+    ExposureRenderer exposures_;
+    RadianceImage radiance_;
+    std::vector<PointSource> points_;
+    Exposure exposure_;
+    std::optional<SensorChain> chain_;
+    ElectronImage electrons_;
+    DnImage frame_;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,44 @@
+#include "emulator/run/truth_source.h"
+
+namespace hilcam {
+
+// The renderer's objects: the scenario's, then all their turning parts, then the terrain (scene_loader.cpp).
+TruthSource truth_source(const ScenarioConfig& s, const SpectralGrid& grid, std::size_t number) {
+    TruthSource source;
+    source.camera = static_cast<int>(number);
+    source.model = s.camera;
+    source.oversampling = static_cast<int>(s.quality.oversampling);
+    source.grid = grid;
+    for (const ObjectConfig& object : s.objects) source.things.push_back(object.name);
+    source.parts = source.things;
+    for (const ObjectConfig& object : s.objects)
+        for (const JointConfig& joint : object.joints) source.parts.push_back(object.name + "/" + joint.node);
+    if (s.has_terrain) {
+        source.things.push_back(s.terrain.name);
+        source.parts.push_back(s.terrain.name);
+    }
+    return source;
+}
+
+TruthWishes truth_wishes(const ScenarioConfig& s) {
+    TruthWishes wishes = wishes_of(s.outputs.truth);
+    const auto objects = static_cast<std::uint32_t>(s.objects.size());
+    for (std::uint32_t i = 0; i < objects; ++i) wishes.thing_of_object.push_back(i);
+    for (std::uint32_t i = 0; i < objects; ++i)
+        wishes.thing_of_object.insert(wishes.thing_of_object.end(), s.objects[i].joints.size(), i);
+    if (s.has_terrain) wishes.thing_of_object.push_back(objects);
+    return wishes;
+}
+
+FrameTruth make_truth(const ScenarioConfig& s, const Renderer& renderer, const TruthWishes& wishes) {
+    const auto [width, height] = array_size(s.camera);  // frames are no larger
+    return renderer.make_truth(wishes, width, height);
+}
+
+std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& s, const SpectralGrid& grid,
+                                           std::size_t number, const Renderer& renderer) {
+    return std::make_unique<TruthSink>(s.outputs.truth, truth_source(s, grid, number),
+                                       [&] { return make_truth(s, renderer, truth_wishes(s)); });
+}
+
+}  // namespace hilcam

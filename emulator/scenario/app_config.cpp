@@ -1,0 +1,358 @@
+#include "emulator/scenario/app_config.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "emulator/events/event_sequence.h"
+#include "emulator/scenario/lamp_setup.h"
+#include "io/config/config_yaml.h"
+#include "io/system/plain_number.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+
+Fields fields(StarsConfig& s) {
+    return {
+        path("catalogue", s.catalogue, "CSV as configs/stars/hipparcos.csv; none: no stars"),
+        number("faintest_magnitude", s.faintest_magnitude, 1, {-2, 30}, "fainter ones are left out"),
+    };
+}
+
+Fields fields(QualityConfig& q) {
+    Fields list = fields(q.render);
+    list.push_back(integer("guard_px", q.guard_px, {0, 512},
+                           "border around the frame that takes the FFT's wrap-around"));
+    list.push_back(integer("oversampling", q.oversampling, {1, 8},
+                           "radiance pixels across one of the detector: what is finer than a pixel then "
+                           "aliases as on a real sensor"));
+    list.push_back(choice("psf", q.psf, {"auto", "fft"},
+                          "how the picture is blurred. auto: by a compact kernel where its transfer function "
+                          "is within 0.0025 of the exact one; fft: always exactly"));
+    list.push_back(choice("motion", q.motion, {"off", "fast", "exact"},
+                          "during the exposure. off: its middle; fast: the middle, blurred along the "
+                          "picture's way; exact: the mean of several instants"));
+    list.push_back(number("motion_error_px", q.motion_error_px, 1, {0.01, 16},
+                          "exact: an instant for each so many pixels that anything moves"));
+    return list;
+}
+
+SensorSampling sampling_of(const QualityConfig& q) {
+    SensorSampling sampling{static_cast<int>(q.guard_px), ray_grid_of(q.render),
+                            static_cast<int>(q.oversampling)};
+    sampling.always_fft = q.psf == PsfMethod::kFft;
+    return sampling;
+}
+
+Fields fields(FaultConfig& f) {
+    std::vector<std::string> words;
+    for (const FaultKind kind : kAllFaults) words.emplace_back(name_of(kind));
+    const auto present = [&f] {
+        return static_cast<std::size_t>(std::find(kAllFaults.begin(), kAllFaults.end(), f.kind) -
+                                        kAllFaults.begin());
+    };
+    return {
+        required(
+            Field{"kind", "what goes wrong (docs/faults.md)",
+                  ChoiceField{std::move(words), [&f](std::size_t i) { f.kind = kAllFaults[i]; }, present}}),
+        number("rate", f.order.rate, 1, {0, 1},
+               "share of packets, messages, frames or pixels that it strikes"),
+        number("value", f.order.value, 1, {-1e9, 1e9}, "by kind"),
+        number("at_s", f.at_s, 1, {0, 1e7}, "after the start, when it is ordered"),
+        integer("from_frame", f.from_frame, {0, 9e15},
+                "first frame that it strikes; 0: at once, and with frames the next that begins"),
+        integer("frames", f.frames, {0, 9e15}, "how many frames it lasts; 0: no end"),
+        number("duration_s", f.order.duration_s, 1, {0, 1e7}, "how long it lasts; 0: no end"),
+    };
+}
+
+FaultOrder order_of(const FaultConfig& f) {
+    FaultOrder order = f.order;
+    order.kind = f.kind;
+    order.from_frame = static_cast<std::uint64_t>(f.from_frame);
+    order.frames = static_cast<std::uint64_t>(f.frames);
+    return order;
+}
+
+void validate(const FaultConfig& f) {
+    if (const std::string_view reason = refusal_of(order_of(f)); !reason.empty())
+        throw InputError(std::string(name_of(f.kind)) + ": " + std::string(reason) + "; it " +
+                         std::string(meaning_of(f.kind)));
+}
+
+Fields fields(CommandsConfig& c) {
+    return {
+        optional(section("udp", c.udp, "listen for commands"), c.has_udp),
+        optional(section("tcp", c.tcp, "the same over TCP, for several clients"), c.has_tcp),
+        optional(section("unix", c.unix_socket, "the same over a Unix socket"), c.has_unix),
+        optional(section("usb", c.usb, "the same from a USB device with a bulk pair"), c.has_usb),
+        optional(section("functionfs", c.functionfs, "the same as a USB device (FunctionFS)"),
+                 c.has_functionfs),
+        optional(section("vizard", c.vizard,
+                         "take Vizard's place for Basilisk (docs/vizard.md); with mode: lockstep"),
+                 c.has_vizard),
+        section("poses", c.poses, "what is done when poses stop or their time goes back"),
+    };
+}
+
+Fields fields(OutputsConfig& o) {
+    return {
+        optional(section("gige", o.gige, "be a GigE Vision camera"), o.has_gige),
+        optional(section("v4l2", o.v4l2, "feed a v4l2loopback device"), o.has_v4l2),
+        optional(section("uvc", o.uvc, "be a USB camera, with a USB device controller"), o.has_uvc),
+        optional(section("files", o.files, "write pictures"), o.has_files),
+        optional(section("preview", o.preview, "a web page with the live picture"), o.has_preview),
+        optional(section("truth", o.truth, "what each frame shows, as the renderer had it (docs/truth.md)"),
+                 o.has_truth),
+    };
+}
+
+Fields fields(CameraConfig& c) {
+    return {
+        required(section("camera", c.camera, "its data sheet")),
+        integer("on", c.thing, {0, 65535},
+                "what it is fixed to; 0: the body of the first camera, or an object"),
+        vector3("position_m", c.mount.position_m, 1, {-1e6, 1e6}, "in that body's axes"),
+        quaternion("attitude", c.mount.thing_from_camera, "turns the camera's axes into that body's"),
+        beside_frames(section("outputs", c.outputs, "where its frames go")),
+    };
+}
+
+ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index) {
+    ScenarioConfig own = scenario;
+    if (index == 0) return own;
+    const CameraConfig& more = scenario.more_cameras[index - 1];
+    own.camera = more.camera;
+    own.mount = more.mount;
+    own.mount.thing = static_cast<std::size_t>(more.thing);
+    own.outputs = more.outputs;
+    // `rays`, where the scenario gives them, are the first camera's; the others go by their shutters.
+    own.has_rays = false;
+    own.models.rays = {};
+    return own;
+}
+
+EventWorld event_world(const ScenarioConfig& s) {
+    EventWorld world;
+    for (const ObjectConfig& object : s.objects) world.objects.push_back(object.name);
+    for (std::size_t i = 0; i < kBodyCount; ++i) world.visible[i] = s.bodies[i].visible;
+    return world;
+}
+
+VizardBench vizard_bench(const ScenarioConfig& s) {
+    VizardBench bench;
+    bench.start = parse_utc(s.time_utc);
+    bench.origin = s.origin;
+    for (const ObjectConfig& object : s.objects) bench.objects.push_back(object.name);
+    for (std::size_t i = 0; i <= s.more_cameras.size(); ++i) {
+        const ScenarioConfig own = scenario_of_camera(s, i);
+        const auto [width, height] = frame_size(own.camera);
+        // Of the undistorted lens, over all rows that a frame shows.
+        const double half_m = 0.5 * static_cast<double>(height * own.camera.binning_y) * own.camera.pitch_m;
+        bench.cameras.push_back({{own.mount.position_m, own.mount.thing_from_camera},
+                                 2 * std::atan2(half_m, own.camera.focal_length_m),
+                                 width,
+                                 height});
+    }
+    return bench;
+}
+
+Fields fields(PluginConfig& p) {
+    return {required(path("file", p.file, "shared library that adds models (render/frame/plugin.h)"))};
+}
+
+ScenarioConfig::ScenarioConfig() {
+    for (std::size_t i = 0; i < kBodyCount; ++i) bodies[i] = default_body(static_cast<BodyId>(i));
+}
+
+Fields fields(ScenarioConfig& s) {
+    Fields list = {
+        beside_frames(text("name", s.name, "for reports")),
+        required(text("time_utc", s.time_utc, "simulated time at the start")),
+        beside_frames(section("clock", s.clock, "how fast simulated time goes")),
+        optional(integer("seed", s.seed, {0, 9e15},
+                         "of a run's random numbers; where none is given, run and render draw their own"),
+                 s.has_seed),
+        beside_frames(integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core")),
+        section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
+        required(section("camera", s.camera, "the camera's data sheet")),
+        optional(
+            section("camera_pose", s.camera_pose, "where the camera stands until commands say otherwise"),
+            s.has_camera_pose),
+        optional(section("camera_motion", s.camera_motion,
+                         "how the camera's body moves until commands say otherwise, instead of camera_pose"),
+                 s.has_camera_motion),
+        optional(section("leap_seconds", s.leap_seconds, "a table of them, instead of the built-in one"),
+                 s.has_leap_seconds),
+        section("earth_orientation", s.earth_orientation,
+                "as the IERS measures it (Bulletin A); without it UT1 is UTC and the pole stands"),
+        sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
+        optional(section("terrain", s.terrain, "ground from a height map"), s.has_terrain),
+        sections("lamps", s.lamps, "light sources on things; commands number them from 1 (docs/lamps.md)"),
+        section("sun", s.sun, "the Sun"),
+        section("atmosphere", s.atmosphere, "the Earth's air"),
+        section("stars", s.stars, "the stars"),
+        numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
+                "edges of the spectral bins"),
+        optional(
+            section("rays", s.models.rays, "how pixels become rays, if not as the camera's shutter says"),
+            s.has_rays),
+        text("radiance", s.models.radiance, "reflected | emissive, or a plug-in's"),
+        sections("plugins", s.plugins, "shared libraries that add models"),
+        section("quality", s.quality, "speed against accuracy"),
+        section("loop", s.loop, "how the frame loop keeps its time"),
+        choice(
+            "mode", s.mode, {"free_run", "triggered", "lockstep"},
+            "what makes the camera take frames: its rate, triggers, or each `expose` one in simulated time"),
+        sections("more_cameras", s.more_cameras, "beside the first, in the same world"),
+        beside_frames(sections("faults", s.faults, "what goes wrong by itself")),
+        beside_frames(
+            sections("events", s.events, "what happens by itself, at a time or when something becomes true")),
+        beside_frames(section("commands", s.commands, "where commands come from")),
+        beside_frames(
+            optional(section("telemetry", s.telemetry, "who gets frame reports and housekeeping unasked"),
+                     s.has_telemetry)),
+        beside_frames(section("outputs", s.outputs, "where frames go")),
+    };
+    for (std::size_t i = 0; i < kBodyCount; ++i)
+        list.push_back(section(std::string(kBodyNames[i]), s.bodies[i], "the body of that name"));
+    return list;
+}
+
+namespace {
+
+// What the camera's shutter makes of its rows.
+const char* rays_of(ShutterKind kind) {
+    switch (kind) {
+        case ShutterKind::kRolling:
+            return "rolling";
+        case ShutterKind::kLineScan:
+            return "pushbroom";
+        case ShutterKind::kGlobal:
+        case ShutterKind::kFrameTransfer:
+            break;
+    }
+    return "pinhole";
+}
+
+// A plug-in's rays may do as they like; the program's own must be those of the shutter.
+void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
+    const std::string expected = rays_of(shutter.kind);
+    const bool own = rays.model == "pinhole" || rays.model == "rolling" || rays.model == "pushbroom";
+    if (!own) return;
+    if (rays.model != expected)
+        throw InputError("rays.model: found " + in_quotes(rays.model) + "; the camera's shutter asks for '" +
+                         expected + "' (leave 'rays' out, or change camera.shutter.kind)");
+    if (expected != "pinhole" && std::abs(rays.line_time_s - shutter.line_time_s) > 1e-12)
+        throw InputError("rays.line_time_us: found " + plain(rays.line_time_s * 1e6) +
+                         "; camera.shutter.line_time_us is " + plain(shutter.line_time_s * 1e6));
+}
+
+// A picture that is asked for is one frame of a world that waits for it, seen from where the message says.
+// Files of two cameras have the same names.
+void check_folders(const ScenarioConfig& s) {
+    std::set<std::string> taken;
+    const auto take = [&](const std::string& key, const std::filesystem::path& folder) {
+        if (!folder.empty() && !taken.insert(key + folder.lexically_normal().string()).second)
+            throw InputError(key + ": found '" + folder.string() +
+                             "' for two cameras; accepted: a folder for each");
+    };
+    const auto take_all = [&](const OutputsConfig& o) {
+        if (o.has_files) take("outputs.files.folder", o.files.folder);
+        if (o.has_truth) take("outputs.truth.folder", o.truth.folder);
+    };
+    take_all(s.outputs);
+    for (const CameraConfig& c : s.more_cameras) take_all(c.outputs);
+}
+
+void check_vizard(const ScenarioConfig& s) {
+    if (s.mode != CameraMode::kLockstep)
+        throw InputError(
+            "commands.vizard needs 'mode: lockstep': one frame for each image that is asked for");
+    const std::size_t cameras = 1 + s.more_cameras.size();
+    for (const VizardCameraConfig& c : s.commands.vizard.cameras)
+        if (c.camera > static_cast<std::int64_t>(cameras))
+            throw InputError("commands.vizard.cameras: camera: found " + std::to_string(c.camera) +
+                             "; accepted: 1 to " + std::to_string(cameras));
+    for (const CameraConfig& c : s.more_cameras)
+        if (c.thing != 0)
+            throw InputError("more_cameras: on: found " + std::to_string(c.thing) +
+                             "; accepted with commands.vizard: 0, as its messages place the cameras");
+}
+
+}  // namespace
+
+std::string governor_off(const ScenarioConfig& s) {
+    if (!(s.loop.frame_budget_s > 0)) return "loop.frame_budget_ms is 0";
+    if (s.mode == CameraMode::kLockstep) return "lockstep: the same commands give the same frames";
+    return "";
+}
+
+std::vector<RenderQuality> lower_levels(const ScenarioConfig& s) {
+    if (!governor_off(s).empty()) return {};
+    if (s.loop.levels.empty()) return built_in_levels(s.quality.render);
+    std::vector<RenderQuality> levels;
+    for (const QualityLevelConfig& level : s.loop.levels) levels.push_back(applied(s.quality.render, level));
+    return levels;
+}
+
+SensorSampling sampling_of(const ScenarioConfig& s) {
+    SensorSampling sampling = sampling_of(s.quality);
+    std::vector<RayGrid>& others = sampling.other_grids;
+    for (const RenderQuality& level : lower_levels(s)) {
+        const RayGrid grid = ray_grid_of(level);
+        if (grid != sampling.samples_per_axis &&
+            std::find(others.begin(), others.end(), grid) == others.end())
+            others.push_back(grid);
+    }
+    return sampling;
+}
+
+RenderModels models_of(const ScenarioConfig& s) {
+    RenderModels models = s.models;
+    if (!s.has_rays) models.rays = {rays_of(s.camera.shutter.kind), s.camera.shutter.line_time_s};
+    // Rows of the radiance image, of which there are more.
+    models.rays.line_time_s /= static_cast<double>(s.quality.oversampling);
+    return models;
+}
+
+void validate(const ScenarioConfig& s) {
+    parse_utc(s.time_utc);
+    SpectralGrid grid(s.spectrum_edges_um);
+    if (s.has_camera_pose && s.has_camera_motion)
+        throw InputError("a scenario has either 'camera_pose' or 'camera_motion'; found both");
+    if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
+    if (s.more_cameras.size() > kMostCameras - 1)
+        throw InputError("more_cameras: found " + std::to_string(s.more_cameras.size()) +
+                         "; accepted: at most " + std::to_string(kMostCameras - 1));
+    for (const CameraConfig& c : s.more_cameras)
+        if (c.thing > static_cast<std::int64_t>(s.objects.size()))
+            throw InputError("more_cameras: on: found " + std::to_string(c.thing) + "; accepted: 0 to " +
+                             std::to_string(s.objects.size()) + ", the number of objects");
+    for (const EventConfig& event : s.events)
+        if (event.camera > static_cast<std::int64_t>(1 + s.more_cameras.size()))
+            throw InputError("events: camera: found " + std::to_string(event.camera) + "; accepted: 0 to " +
+                             std::to_string(1 + s.more_cameras.size()));
+    const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
+    lamp_mounts(s);
+    check_folders(s);
+    if (s.commands.has_vizard) check_vizard(s);
+    if (s.mode == CameraMode::kLockstep) require_lockstep(s.clock), require_lockstep(s.commands.poses);
+}
+
+ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
+    ScenarioConfig scenario;
+    read_config(file, section_of(scenario), overrides);
+    if (scenario.has_leap_seconds) {
+        const std::string warning = apply_leap_seconds(scenario.leap_seconds, scenario.time_utc);
+        if (!warning.empty()) spdlog::warn("{}", warning);
+    }
+    use_earth_orientation(scenario.earth_orientation);
+    return scenario;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,34 @@
+#include "emulator/scenario/initial_world.h"
+
+#include "emulator/scenario/lamp_setup.h"
+#include "emulator/scenario/motion_builder.h"
+
+namespace hilcam {
+
+std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time) {
+    const Bodies bodies = bodies_at(time, scenario.origin);
+    std::vector<Motion> motions = {initial_motion(scenario.camera_pose, time, bodies)};
+    for (const ObjectConfig& object : scenario.objects)
+        motions.push_back(initial_motion(object.pose, time, bodies));
+    return motions;
+}
+
+std::vector<Joint> joints_of(const ScenarioConfig& scenario) {
+    std::vector<Joint> joints;
+    for (std::size_t i = 0; i < scenario.objects.size(); ++i)
+        for (const JointConfig& joint : scenario.objects[i].joints)
+            joints.push_back({i, joint.pivot_m, normalized(joint.axis), joint.angle_rad, joint.rate_rad_s});
+    return joints;
+}
+
+WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time) {
+    WorldState state(initial_motions(scenario, start), scenario.origin, joints_of(scenario), scenario.mount,
+                     load_motion_sources(scenario), lamp_mounts(scenario));
+    WorldSnapshot world;
+    world.objects.resize(state.placed_objects());
+    ShownCommand shown;
+    state.sample(time, world, shown);
+    return world;
+}
+
+}  // namespace hilcam

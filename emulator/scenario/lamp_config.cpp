@@ -1,0 +1,49 @@
+#include "emulator/scenario/lamp_config.h"
+
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+
+Fields fields(LampConfig& l) {
+    return {
+        required(text("name", l.name, "for messages")),
+        text("on", l.on, "what carries it: an object's name, or camera: the body of the first camera"),
+        integer("joint", l.joint, {0, 65535}, "of that object, on whose part it is, from 1; 0: the object"),
+        vector3("position_m", l.position_m, 1, {-1e6, 1e6}, "in that thing's axes; outside of its mesh"),
+        vector3("axis", l.axis, 1, {-1e6, 1e6}, "where the beam goes, in that thing's axes"),
+        optional(curve("intensity_w_sr_um", l.spectral_intensity_w_sr_um, {0, 1e9},
+                       "radiant intensity on the axis by wavelength"),
+                 l.has_spectral_intensity),
+        optional(number("intensity_w_sr", l.intensity_w_sr, 1, {0, 1e9},
+                        "instead: that of all wavelengths together, with spectrum"),
+                 l.has_intensity),
+        optional(curve("spectrum", l.spectrum, {0, 1e9}, "how it is spread over wavelength, in any unit"),
+                 l.has_spectrum),
+        optional(number("beam_angle_deg", l.beam_angle_rad, kDegree_rad, {0.1, 179},
+                        "the full one, to half the intensity, by cos^n; without it and beam: the same in all "
+                        "directions"),
+                 l.has_beam_angle),
+        optional(table("beam", l.beam, {"angle_deg", "intensity_ratio"}, {0, 180}, {0, 1e3},
+                       "instead: intensity off the axis over that on it; dark beyond the last angle"),
+                 l.has_beam),
+        flag("lit", l.lit, "whether it is when the run begins"),
+        number("level", l.level, 1, {0, 1}, "of the intensity when the run begins and it is lit"),
+    };
+}
+
+void validate(const LampConfig& l) {
+    if (!(length(l.axis) > 1e-9)) throw InputError("'axis' has no direction");
+    if (l.has_spectral_intensity == l.has_intensity)
+        throw InputError("a lamp has either 'intensity_w_sr_um' or 'intensity_w_sr'; found " +
+                         std::string(l.has_intensity ? "both" : "neither"));
+    if (l.has_intensity != l.has_spectrum)
+        throw InputError("'intensity_w_sr' and 'spectrum' go together; found one of them");
+    if (l.has_spectrum && l.spectrum.wavelength_um.size() < 2)
+        throw InputError("'spectrum' is a number; accepted: [[wavelength_um, value], ...]");
+    if (l.has_beam_angle && l.has_beam)
+        throw InputError("a lamp has either 'beam_angle_deg' or 'beam'; found both");
+    if (l.has_beam && l.beam.x.front() > 0) throw InputError("'beam' does not begin at 0 degrees, the axis");
+}
+
+}  // namespace hilcam

@@ -1,0 +1,16 @@
+#pragma once
+// A scenario's lamps for the renderer, and for the world state that carries and switches them.
+
+#include <vector>
+
+#include "emulator/scenario/app_config.h"
+#include "emulator/world/world_lamps.h"
+#include "render/scene/lamp.h"
+
+namespace hilcam {
+
+// Throw InputError that names the lamp.
+std::vector<LampMount> lamp_mounts(const ScenarioConfig& scenario);
+std::vector<SceneLamp> scene_lamps(const ScenarioConfig& scenario, const SpectralGrid& grid);
+
+}  // namespace hilcam

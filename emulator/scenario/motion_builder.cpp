@@ -1,0 +1,202 @@
+#include "emulator/scenario/motion_builder.h"
+
+#include <algorithm>
+
+#include "emulator/motion/attitude_laws.h"
+#include "emulator/motion/ephemeris.h"
+#include "emulator/motion/relative_motion.h"
+#include "emulator/motion/trajectories.h"
+#include "emulator/scenario/initial_world.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+constexpr const char* kCameraName = "camera";
+
+OrbitCenter center_of(const MotionConfig& m) {
+    if (m.center == kBodyCount) return {std::nullopt};
+    return {static_cast<BodyId>(m.center)};
+}
+
+class Builder {
+  public:
+    explicit Builder(const ScenarioConfig& scenario)
+        : scenario_(scenario), start_(parse_utc(scenario.time_utc)) {
+        names_.push_back(kCameraName);
+        for (const ObjectConfig& object : scenario.objects) names_.push_back(object.name);
+    }
+
+    MotionSources build() {
+        std::vector<std::unique_ptr<MotionSource>> sources(names_.size());
+        for (std::size_t thing = 0; thing < names_.size(); ++thing) {
+            const MotionConfig* motion = config_of(thing);
+            if (!motion) continue;
+            try {
+                sources[thing] = source_of(*motion, thing);
+            } catch (const InputError& error) {
+                throw InputError("motion of " + in_quotes(names_[thing]) + ": " + error.what());
+            }
+        }
+        return {std::move(sources), names_};
+    }
+
+  private:
+    const ScenarioConfig& scenario_;
+    TimeTai start_;
+    std::vector<std::string> names_;
+    std::vector<std::size_t> asked_;  // things on the way to the one whose orbit is asked for
+
+    const MotionConfig* config_of(std::size_t thing) const {
+        if (thing == 0) return scenario_.has_camera_motion ? &scenario_.camera_motion : nullptr;
+        const ObjectConfig& object = scenario_.objects[thing - 1];
+        return object.has_motion ? &object.motion : nullptr;
+    }
+
+    std::size_t thing_named(const std::string& name) const {
+        const auto at = std::find(names_.begin(), names_.end(), name);
+        if (at != names_.end()) return static_cast<std::size_t>(at - names_.begin());
+        std::string all;
+        for (const std::string& n : names_) all += (all.empty() ? "" : ", ") + n;
+        throw InputError("of: found " + in_quotes(name) + "; accepted: " + all);
+    }
+
+    PlacedFrame frame_of(MotionFrame kind, const std::string& of, const MotionConfig& m,
+                         std::size_t self) const {
+        PlacedFrame frame;
+        frame.kind = static_cast<PlacedFrame::Kind>(kind);
+        frame.center = center_of(m);
+        // An attitude against LVLH is by the thing's own orbit, unless another is named.
+        if (frame.follows_thing()) frame.thing = of.empty() ? self : thing_named(of);
+        return frame;
+    }
+
+    std::unique_ptr<MotionSource> source_of(const MotionConfig& m, std::size_t thing) {
+        AttitudeJitter jitter;
+        if (m.attitude.has_jitter)
+            jitter = AttitudeJitter(m.attitude.jitter, static_cast<std::uint64_t>(scenario_.seed),
+                                    static_cast<std::uint32_t>(thing), start_);
+        auto source =
+            std::make_unique<MotionSource>(trajectory_of(m, thing), attitude_of(m, thing), std::move(jitter));
+        if (m.outside == MotionConfig::Outside::kRefuse) source->require(start_);
+        return source;
+    }
+
+    Keyframes keyframes_of(const MotionConfig& m) const {
+        std::vector<Keyframe> keyframes;
+        for (const KeyframeConfig& k : m.keyframes) {
+            Keyframe& out = keyframes.emplace_back();
+            out.time = start_ + std::llround(k.at_s * 1e9);
+            out.position_m = k.position_m;
+            if (k.has_velocity) out.velocity_m_s = k.velocity_m_s;
+            if (k.has_attitude) out.attitude = k.attitude;
+        }
+        return Keyframes(keyframes);
+    }
+
+    std::unique_ptr<Trajectory> trajectory_of(const MotionConfig& m, std::size_t thing) {
+        const StateVector at_start{m.position_m, m.velocity_m_s};
+        switch (m.kind) {
+            case MotionConfig::Kind::kKeyframes:
+                return make_keyframed(frame_of(m.frame, m.of, m, thing), keyframes_of(m));
+            case MotionConfig::Kind::kKepler:
+                return kepler_of(m);
+            case MotionConfig::Kind::kTle: {
+                const std::string file = m.tle.file.string();
+                const std::vector<Tle> sets = load_tles(m.tle.file, m.tle.checksum);
+                return make_tle(choose_tle(sets, m.tle.satellite, start_, file), m.tle.valid_s, file);
+            }
+            case MotionConfig::Kind::kOem: {
+                std::vector<OemSegment> segments = load_oem(m.oem.file, m.oem.object);
+                if (m.outside == MotionConfig::Outside::kRefuse)
+                    require_no_gap(segments, m.oem.file.string());
+                return make_oem(std::move(segments), m.oem.file.string());
+            }
+            case MotionConfig::Kind::kCw: {
+                PlacedFrame lvlh{PlacedFrame::Kind::kLvlh, thing_named(m.of), center_of(m)};
+                const StateVector chief = orbit_of(lvlh.thing, lvlh.center);
+                return make_drifting(lvlh, at_start, mean_motion_rad_s(chief, gravity_m3_s2(lvlh.center)),
+                                     start_);
+            }
+            case MotionConfig::Kind::kFixed:
+                break;
+        }
+        return make_fixed(frame_of(m.frame, m.of, m, thing), at_start, start_);
+    }
+
+    std::unique_ptr<Trajectory> kepler_of(const MotionConfig& m) const {
+        const KeplerConfig& k = m.kepler;
+        const double mean =
+            k.has_true ? mean_anomaly(k.true_anomaly_rad, k.eccentricity) : k.mean_anomaly_rad;
+        const TimeTai epoch = k.epoch_utc.empty() ? start_ : parse_utc(k.epoch_utc);
+        return make_kepler(
+            center_of(m),
+            {k.semi_major_axis_m, k.eccentricity, k.inclination_rad, k.node_rad, k.periapsis_rad, mean},
+            epoch);
+    }
+
+    // A thing's state about a centre at the start, for its orbit's mean motion.
+    StateVector orbit_of(std::size_t thing, const OrbitCenter& center) {
+        const WorldFrame frame(start_, scenario_.origin);
+        std::vector<Motion> motions = initial_motions(scenario_, start_);
+        fill({thing, false}, frame, motions);
+        const Motion& m = motions[thing];
+        return about_center({frame, motions}, {m.pose.position_world_m, m.velocity_world_m_s}, center);
+    }
+    // A part of a thing at the start, and what it needs.
+    void fill(const MotionNeed& part, const WorldFrame& frame, std::vector<Motion>& motions) {
+        const MotionConfig* config = config_of(part.thing);
+        if (!config) return;
+        if (asked_.size() > 2 * names_.size())
+            throw InputError(
+                "follows a thing that follows it; accepted: things that do not go round in a circle");
+        asked_.push_back(part.thing);
+        if (part.attitude) fill({part.thing, false}, frame, motions);
+        const auto source = source_of(*config, part.thing);
+        for (const MotionNeed& need : part.attitude ? source->turn_needs() : source->place_needs())
+            fill(need, frame, motions);
+        const MotionContext context{frame, motions};
+        part.attitude ? source->turn(context, motions[part.thing])
+                      : source->place(context, motions[part.thing]);
+        asked_.pop_back();
+    }
+
+    std::unique_ptr<AttitudeLaw> attitude_of(const MotionConfig& m, std::size_t thing) {
+        const AttitudeConfig& a = m.attitude;
+        using Law = AttitudeConfig::Law;
+        if (a.law == Law::kHeld)
+            return make_turning(frame_of(a.frame, a.of, m, thing), {a.attitude, a.rate_body_rad_s}, start_);
+        if (a.law == Law::kKeyframes)
+            return make_keyframed_attitude(frame_of(m.frame, m.of, m, thing), keyframes_of(m));
+        if (a.law == Law::kAem) {
+            std::vector<AemSegment> segments = load_aem(a.aem.file, a.aem.object);
+            if (m.outside == MotionConfig::Outside::kRefuse) require_no_gap(segments, a.aem.file.string());
+            return make_aem(std::move(segments), center_of(m), a.aem.file.string());
+        }
+        return make_pointing(pointing_of(m));
+    }
+
+    Pointing pointing_of(const MotionConfig& m) const {
+        const AttitudeConfig& a = m.attitude;
+        using Law = AttitudeConfig::Law;
+        Pointing p;
+        p.axis = a.axis, p.second_axis = a.second_axis;
+        p.aim.center = p.second_aim.center = center_of(m);
+        p.aim.kind = a.law == Law::kNadir      ? Aim::Kind::kNadir
+                     : a.law == Law::kSun      ? Aim::Kind::kSun
+                     : a.law == Law::kVelocity ? Aim::Kind::kVelocity
+                                               : Aim::Kind::kThing;
+        if (a.law == Law::kThing) p.aim.thing = thing_named(a.of);
+        constexpr std::array kSecond = {Aim::Kind::kNorth, Aim::Kind::kVelocity, Aim::Kind::kOrbitNormal,
+                                        Aim::Kind::kNadir, Aim::Kind::kSun};
+        p.second_aim.kind = kSecond[static_cast<std::size_t>(a.second)];
+        return p;
+    }
+};
+
+}  // namespace
+
+MotionSources load_motion_sources(const ScenarioConfig& scenario) { return Builder(scenario).build(); }
+
+}  // namespace hilcam

@@ -1,0 +1,168 @@
+#include "emulator/scenario/motion_config.h"
+
+#include "io/files/leap_seconds_file.h"
+#include "render/sky/bodies.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+// The bodies in their order, then the Sun.
+std::vector<std::string> center_names() {
+    std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
+    names.emplace_back("sun");
+    return names;
+}
+
+std::vector<std::string> frame_names() { return {"world", "body_fixed", "lvlh", "object"}; }
+
+constexpr const char* kOf = "the thing that frames lvlh and object belong to: an object's name, or camera";
+
+}  // namespace
+
+Fields fields(KeyframeConfig& k) {
+    return {
+        required(number("at_s", k.at_s, 1, {-1e9, 1e9}, "after the scenario's start")),
+        vector3("position_m", k.position_m, 1, {-1e13, 1e13}, "in the motion's frame"),
+        optional(vector3("velocity_m_s", k.velocity_m_s, 1, {-1e9, 1e9}, "none: by its neighbours"),
+                 k.has_velocity),
+        optional(quaternion("attitude_wxyz", k.attitude, "turns body axes into the frame's; none: as before"),
+                 k.has_attitude),
+    };
+}
+
+Fields fields(KeplerConfig& k) {
+    return {
+        required(number("semi_major_axis_km", k.semi_major_axis_m, 1e3, {-1e10, 1e10},
+                        "negative with an eccentricity above 1")),
+        number("eccentricity", k.eccentricity, 1, {0, 1e3}, "not 1"),
+        number("inclination_deg", k.inclination_rad, kDegree_rad, {0, 180}, "against ICRF's equator"),
+        number("node_deg", k.node_rad, kDegree_rad, {-360, 360}, "right ascension of the ascending node"),
+        number("periapsis_deg", k.periapsis_rad, kDegree_rad, {-360, 360}, "argument of periapsis"),
+        optional(number("mean_anomaly_deg", k.mean_anomaly_rad, kDegree_rad, {-1e6, 1e6}, "at epoch"),
+                 k.has_mean),
+        optional(
+            number("true_anomaly_deg", k.true_anomaly_rad, kDegree_rad, {-360, 360}, "at epoch, instead"),
+            k.has_true),
+        text("epoch_utc", k.epoch_utc, "none: the scenario's start"),
+    };
+}
+
+void validate(const KeplerConfig& k) {
+    if (k.has_mean && k.has_true)
+        throw InputError("found both 'mean_anomaly_deg' and 'true_anomaly_deg'; accepted: one of them");
+    const bool ellipse = k.semi_major_axis_m > 0 && k.eccentricity < 1;
+    const bool hyperbola = k.semi_major_axis_m < 0 && k.eccentricity > 1;
+    if (!ellipse && !hyperbola)
+        throw InputError(
+            "found a 'semi_major_axis_km' that does not go with 'eccentricity'; accepted: above 0 with 0 to "
+            "below "
+            "1, below 0 with above 1");
+}
+
+Fields fields(TleConfig& t) {
+    return {
+        required(path("file", t.file, "of two-line element sets")),
+        text("satellite", t.satellite, "its number, or its name in the file; of several sets the newest"),
+        choice("checksum", t.checksum, {"verify", "ignore"}, "of each line"),
+        number("valid_days", t.valid_s, 86400, {0.01, 400}, "before and after the set's epoch"),
+    };
+}
+
+Fields fields(EphemerisFileConfig& f) {
+    return {
+        required(path("file", f.file, "a CCSDS message, keyword = value")),
+        text("object", f.object, "OBJECT_NAME or OBJECT_ID, in a message of several"),
+    };
+}
+
+Fields fields(AttitudeConfig& a) {
+    return {
+        choice("law", a.law, {"held", "nadir", "object", "sun", "velocity", "keyframes", "aem"},
+               "held: attitude_wxyz and rate_deg_s against frame (inertial, spin, lvlh, ...); nadir, object, "
+               "sun, "
+               "velocity: axis looks there; keyframes, aem: by them"),
+        choice("frame", a.frame, frame_names(), "of held; keyframes have the motion's"),
+        text("of", a.of, std::string(kOf) + ", or that law object looks at"),
+        quaternion("attitude_wxyz", a.attitude, "turns body axes into the frame's, scalar first"),
+        vector3("rate_deg_s", a.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "of held: about the body axes"),
+        vector3("axis", a.axis, 1, {-1e6, 1e6}, "of the body, that looks"),
+        vector3("second_axis", a.second_axis, 1, {-1e6, 1e6}, "of the body, that looks near 'second'"),
+        choice("second", a.second, {"north", "velocity", "orbit_normal", "nadir", "sun"},
+               "where; north: the world's +z"),
+        optional(section("aem", a.aem, "attitude ephemeris message, CCSDS 504.0-B"), a.has_aem),
+        optional(section("jitter", a.jitter, "unsteadiness about the body's axes"), a.has_jitter),
+    };
+}
+
+Fields fields(MotionConfig& m) {
+    return {
+        required(choice("kind", m.kind, {"fixed", "keyframes", "kepler", "tle", "oem", "cw"},
+                        "where positions come from; cw: drift near a thing on a circular orbit")),
+        choice("frame", m.frame, frame_names(), "of fixed and keyframes"),
+        text("of", m.of, kOf),
+        choice("center", m.center, center_names(), "of the orbit, of lvlh, or the body of body_fixed"),
+        vector3("position_m", m.position_m, 1, {-1e13, 1e13}, "of fixed and cw, at the start"),
+        vector3("velocity_m_s", m.velocity_m_s, 1, {-1e9, 1e9}, "of fixed and cw, in the frame"),
+        sections("keyframes", m.keyframes, "places on the way, in time"),
+        optional(section("kepler", m.kepler, "elements of an unperturbed orbit"), m.has_kepler),
+        optional(section("tle", m.tle, "element set, SGP4"), m.has_tle),
+        optional(section("oem", m.oem, "orbit ephemeris message, CCSDS 502.0-B"), m.has_oem),
+        section("attitude", m.attitude, "how it is turned"),
+        choice(
+            "outside", m.outside, {"refuse", "hold"},
+            "of the times that a file knows. refuse: gaps and a start outside are errors; hold: stand still "
+            "there"),
+    };
+}
+
+void validate(const MotionConfig& m) {
+    const auto need = [](bool given, const char* key, const char* kind) {
+        if (!given) throw InputError(std::string("has no '") + key + "'; kind " + kind + " needs it");
+    };
+    using Kind = MotionConfig::Kind;
+    if (m.kind == Kind::kKeyframes) need(!m.keyframes.empty(), "keyframes", "keyframes");
+    if (m.kind == Kind::kKepler) need(m.has_kepler, "kepler", "kepler");
+    if (m.kind == Kind::kTle) need(m.has_tle, "tle", "tle");
+    if (m.kind == Kind::kOem) need(m.has_oem, "oem", "oem");
+    if (m.kind == Kind::kCw) need(!m.of.empty(), "of", "cw");
+    if (m.frame == MotionFrame::kLvlh || m.frame == MotionFrame::kThing)
+        need(!m.of.empty(), "of", "with frames lvlh and object");
+    const AttitudeConfig& a = m.attitude;
+    if (a.law == AttitudeConfig::Law::kAem && !a.has_aem)
+        throw InputError("attitude has no 'aem'; law aem needs it");
+    if (a.law == AttitudeConfig::Law::kKeyframes && m.kind != Kind::kKeyframes)
+        throw InputError("attitude: law keyframes needs kind keyframes");
+    const bool of_thing = a.law == AttitudeConfig::Law::kThing ||
+                          (a.law == AttitudeConfig::Law::kHeld && a.frame == MotionFrame::kThing);
+    if (of_thing && a.of.empty()) throw InputError("attitude has no 'of': the object that it is about");
+}
+
+Fields fields(EarthOrientation& o) {
+    return {
+        number("ut1_minus_utc_s", o.ut1_minus_utc_s, 1, {-0.9, 0.9}, "of the run's day"),
+        number("pole_x_arcsec", o.pole_x_rad, kArcsecond_rad, {-2, 2}, "of the pole, towards Greenwich"),
+        number("pole_y_arcsec", o.pole_y_rad, kArcsecond_rad, {-2, 2}, "of the pole, towards 90 deg west"),
+    };
+}
+
+Fields fields(LeapSecondsConfig& l) {
+    return {
+        required(path("file", l.file, "the IERS's leap-seconds.list, as in /usr/share/zoneinfo")),
+        choice("expired", l.expired, {"refuse", "warn"}, "when the scenario begins after the file's expiry"),
+    };
+}
+
+std::string apply_leap_seconds(const LeapSecondsConfig& config, const std::string& scenario_utc) {
+    const LeapSecondsFile file = load_leap_seconds(config.file);
+    use_leap_seconds(file.table);
+    if (parse_utc(scenario_utc) < file.expires) return "";
+    const std::string what = config.file.string() + ": expired at " + format_utc(file.expires) +
+                             ", before the scenario's time_utc, " + scenario_utc;
+    if (config.expired == LeapSecondsConfig::Expired::kRefuse)
+        throw InputError(what + "; accepted: a newer leap-seconds.list (or expired: warn)");
+    return what;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,92 @@
+#pragma once
+// `motion` in a scenario: where a thing's positions and attitudes come from until commands say otherwise.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "emulator/motion/attitude_jitter.h"
+#include "io/files/tle_file.h"
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/earth_orientation.h"
+
+namespace hilcam {
+
+struct KeyframeConfig {
+    double at_s = 0;
+    Vec3d position_m, velocity_m_s;
+    Quat attitude;
+    bool has_velocity = false, has_attitude = false;
+};
+Fields fields(KeyframeConfig& keyframe);
+
+struct KeplerConfig {
+    double semi_major_axis_m = 0, eccentricity = 0, inclination_rad = 0, node_rad = 0, periapsis_rad = 0;
+    double mean_anomaly_rad = 0, true_anomaly_rad = 0;
+    bool has_mean = false, has_true = false;
+    std::string epoch_utc;  // empty: the scenario's start
+};
+Fields fields(KeplerConfig& kepler);
+void validate(const KeplerConfig& kepler);
+
+struct TleConfig {
+    std::filesystem::path file;
+    std::string satellite;
+    TleChecksum checksum = TleChecksum::kVerify;
+    double valid_s = 30 * 86400.0;
+};
+Fields fields(TleConfig& tle);
+
+struct EphemerisFileConfig {
+    std::filesystem::path file;
+    std::string object;
+};
+Fields fields(EphemerisFileConfig& file);
+
+enum class MotionFrame { kWorld, kBodyFixed, kLvlh, kThing };
+
+struct AttitudeConfig {
+    enum class Law { kHeld, kNadir, kThing, kSun, kVelocity, kKeyframes, kAem } law = Law::kHeld;
+    MotionFrame frame = MotionFrame::kWorld;
+    std::string of;
+    Quat attitude;
+    Vec3d rate_body_rad_s;
+    Vec3d axis{0, 0, 1}, second_axis{0, -1, 0};
+    enum class Second { kNorth, kVelocity, kOrbitNormal, kNadir, kSun } second = Second::kNorth;
+    EphemerisFileConfig aem;
+    JitterBand jitter;
+    bool has_aem = false, has_jitter = false;
+};
+Fields fields(AttitudeConfig& attitude);
+
+struct MotionConfig {
+    enum class Kind { kFixed, kKeyframes, kKepler, kTle, kOem, kCw } kind = Kind::kFixed;
+    MotionFrame frame = MotionFrame::kWorld;
+    std::string of;          // the thing that lvlh and thing are about: an object's name, or "camera"
+    std::size_t center = 2;  // a BodyId's index, or kBodyCount for the Sun: the Earth
+    Vec3d position_m, velocity_m_s;
+    std::vector<KeyframeConfig> keyframes;
+    KeplerConfig kepler;
+    TleConfig tle;
+    EphemerisFileConfig oem;
+    AttitudeConfig attitude;
+    enum class Outside { kRefuse, kHold } outside = Outside::kRefuse;
+    bool has_kepler = false, has_tle = false, has_oem = false;
+};
+Fields fields(MotionConfig& motion);
+void validate(const MotionConfig& motion);
+
+Fields fields(EarthOrientation& orientation);
+
+// The scenario's leap seconds, instead of ERFA's own.
+struct LeapSecondsConfig {
+    std::filesystem::path file;
+    enum class Expired { kRefuse, kWarn } expired = Expired::kRefuse;
+};
+Fields fields(LeapSecondsConfig& leap);
+
+// Puts the file's table in place for the whole program. Throws InputError when the scenario begins after it
+// expires, or gives the warning to print; empty: none. Before any other thread asks for a time.
+std::string apply_leap_seconds(const LeapSecondsConfig& config, const std::string& scenario_utc);
+
+}  // namespace hilcam

@@ -1,0 +1,116 @@
+#include "emulator/scenario/object_config.h"
+
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+
+Fields fields(PoseConfig& p) {
+    return {
+        vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "in the world"),
+        choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
+               "quaternion: attitude_wxyz; look_at: +z to a point, -y near up; nadir: +z to the Earth's "
+               "centre, +y south"),
+        quaternion("attitude_wxyz", p.world_from_body, "turns body axes into world axes, scalar first"),
+        vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the world"),
+        vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the world"),
+        vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "in the world"),
+        vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "about the body axes"),
+    };
+}
+
+Motion initial_motion(const PoseConfig& p, TimeTai time, const Bodies& bodies) {
+    Quat attitude = p.world_from_body;
+    if (p.attitude == PoseConfig::Attitude::kLookAt) attitude = look_along(p.look_at_m - p.position_m, p.up);
+    // +z down, +y along -north: then +x = y x z points east.
+    if (p.attitude == PoseConfig::Attitude::kNadir)
+        attitude = look_along(bodies.earth().world_m - p.position_m, Vec3d{0, 0, 1});
+    return {time, {p.position_m, attitude}, p.velocity_m_s, p.rate_body_rad_s};
+}
+
+Fields fields(GeneratedMeshConfig& g) {
+    return {
+        required(text("program", g.program, "a generator beside hilcam, as hilcam-make-spacecraft")),
+        integer("triangles", g.triangles, {5000, 20000000}, "how many it shall make"),
+        integer("seed", g.seed, {0, 1e9}, "of its random details"),
+        number("wing_angle_deg", g.wing_angle_deg, 1, {-360, 360},
+               "solar wings about +y: cells look along +z at 0, +x at 90"),
+    };
+}
+
+Fields fields(MaterialSet& set) {
+    return {sections("surfaces", set.surfaces, "materials by surface name, first match wins")};
+}
+
+Fields fields(JointConfig& j) {
+    return {
+        required(text("node", j.node,
+                      "of the mesh file that turns, with all below it; a trailing * matches any ending")),
+        vector3("pivot_m", j.pivot_m, 1, {-1e6, 1e6}, "a point of the axis, in the object's axes"),
+        vector3("axis", j.axis, 1, {-1e6, 1e6}, "its direction, in the object's axes"),
+        number("angle_deg", j.angle_rad, kDegree_rad, {-36000, 36000},
+               "turned from the file's own state, right-handed"),
+        number("rate_deg_s", j.rate_rad_s, kDegree_rad, {-1e5, 1e5}, "how fast it turns from the start on"),
+    };
+}
+
+void validate(const JointConfig& j) {
+    if (!(length(j.axis) > 1e-9)) throw InputError("'axis' has no direction");
+}
+
+Fields fields(ObjectConfig& o) {
+    return {
+        required(text("name", o.name, "for messages")),
+        optional(path("mesh", o.mesh, "GLB, glTF, OBJ, STL or PLY file in metres"), o.has_mesh),
+        optional(section("generate", o.generate, "a mesh made at first use and cached, instead of a file"),
+                 o.has_generate),
+        number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
+        optional(section("pose", o.pose, "where it stands until commands say otherwise"), o.has_pose),
+        optional(section("motion", o.motion, "how it moves until commands say otherwise, instead of pose"),
+                 o.has_motion),
+        section("materials", o.materials, "replaces the mesh's own looks"),
+        sections("joints", o.joints, "parts that turn; commands number them from 1"),
+    };
+}
+
+void validate(const ObjectConfig& o) {
+    if (o.has_mesh == o.has_generate)
+        throw InputError("an object has either 'mesh' or 'generate'; found " +
+                         std::string(o.has_mesh ? "both" : "neither"));
+    if (o.has_pose && o.has_motion) throw InputError("an object has either 'pose' or 'motion'; found both");
+}
+
+Fields fields(PlaceConfig& p) {
+    return {
+        required(choice("body", p.body, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
+                        "it turns with it")),
+        required(number("longitude_deg", p.place.longitude_rad, kDegree_rad, {-360, 360}, "east positive")),
+        required(number("latitude_deg", p.place.latitude_rad, kDegree_rad, {-90, 90}, "geodetic")),
+        number("height_km", p.place.height_m, 1e3, {-100, 1e5},
+               "of the map's height 0 over the body's ellipsoid"),
+    };
+}
+
+void validate(const TerrainConfig& t) {
+    if (t.has_pose && t.has_place) throw InputError("terrain has either 'pose' or 'place'; found both");
+}
+
+Fields fields(TerrainConfig& t) {
+    return {
+        text("name", t.name, "for messages"),
+        required(section("heights", t.heights, "the map")),
+        number("radius_km", t.radius_m, 1000, {0, 1e6}, "of the sphere under the map; 0: a plane"),
+        optional(
+            section(
+                "pose", t.pose,
+                "of the map's middle at height 0 in the world, where it stays; axes x east, y north, z up"),
+            t.has_pose),
+        optional(section("place", t.place, "the same on a body, with which it turns"), t.has_place),
+        section("material", t.material, "what the ground is made of"),
+        number("edge_px", t.edge_px, 1, {0.25, 64}, "of its triangles on the screen, at most"),
+        integer("most_triangles", t.most_triangles, {10'000, 50'000'000}, "at a time"),
+        flag("wait", t.wait, "frames wait for the terrain that fits them: the same every run, not real time"),
+    };
+}
+
+}  // namespace hilcam

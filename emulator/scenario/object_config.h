@@ -1,0 +1,95 @@
+#pragma once
+// What stands in the world: objects with their poses, meshes and joints, and terrain.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "emulator/scenario/motion_config.h"
+#include "emulator/world/world_state.h"
+#include "io/files/height_map_file.h"
+#include "render/scene/material.h"
+#include "render/sky/bodies.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+// Where a thing stands when the run begins, until commands say otherwise.
+struct PoseConfig {
+    enum class Attitude { kQuaternion, kLookAt, kNadir } attitude = Attitude::kQuaternion;
+    Vec3d position_m;
+    Quat world_from_body;
+    Vec3d look_at_m;
+    Vec3d up{0, 0, 1};
+    Vec3d velocity_m_s;
+    Vec3d rate_body_rad_s;
+};
+Fields fields(PoseConfig& pose);
+// The motion that a pose config describes at an instant. Throws InputError when look_at is not defined.
+Motion initial_motion(const PoseConfig& pose, TimeTai time, const Bodies& bodies);
+
+struct GeneratedMeshConfig {
+    std::string program;
+    std::int64_t triangles = 100000;
+    std::int64_t seed = 1;
+    double wing_angle_deg = 0;
+};
+Fields fields(GeneratedMeshConfig& mesh);
+
+struct MaterialSet {
+    std::vector<SurfaceConfig> surfaces;
+};
+Fields fields(MaterialSet& set);
+
+// A part of an object that turns about an axis: a solar wing, a gimbal.
+struct JointConfig {
+    std::string node;
+    Vec3d pivot_m;
+    Vec3d axis{0, 0, 1};
+    double angle_rad = 0;
+    double rate_rad_s = 0;
+};
+Fields fields(JointConfig& joint);
+void validate(const JointConfig& joint);
+
+struct ObjectConfig {
+    std::string name;
+    std::filesystem::path mesh;
+    GeneratedMeshConfig generate;
+    double scale = 1;
+    PoseConfig pose;
+    MotionConfig motion;
+    MaterialSet materials;
+    std::vector<JointConfig> joints;
+    bool has_mesh = false;
+    bool has_generate = false;
+    bool has_pose = false, has_motion = false;
+};
+Fields fields(ObjectConfig& object);
+void validate(const ObjectConfig& object);
+
+// A place on a body.
+struct PlaceConfig {
+    BodyId body = BodyId::kMoon;
+    Geodetic place;
+};
+Fields fields(PlaceConfig& place);
+
+// Ground from a height map, at rest in the world or on a body that turns.
+struct TerrainConfig {
+    std::string name = "terrain";
+    HeightMapConfig heights;
+    double radius_m = 0;
+    PoseConfig pose;
+    PlaceConfig place;
+    bool has_pose = false, has_place = false;
+    MaterialConfig material;
+    double edge_px = 2;
+    std::int64_t most_triangles = 1'000'000;
+    bool wait = false;
+};
+Fields fields(TerrainConfig& terrain);
+void validate(const TerrainConfig& terrain);
+
+}  // namespace hilcam

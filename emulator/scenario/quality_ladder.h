@@ -1,0 +1,52 @@
+#pragma once
+// The quality levels that the governor (governor.h) chooses from: level 0 is the scenario's `quality`, each
+// further one says what is different in it and is faster than the one before.
+//
+// Only what may change from one frame to the next is in a level. Without `loop.levels` the ladder is the
+// program's own (built_in_levels).
+
+#include <string>
+#include <vector>
+
+#include "emulator/scenario/real_time.h"
+#include "render/frame/render_quality.h"
+#include "render/vocabulary/config_field.h"
+#include "sensor/exposure.h"
+
+namespace hilcam {
+
+// Keys that are not given are as in `quality`.
+struct QualityLevelConfig {
+    RenderQuality values;
+    bool has_samples_per_axis = false, has_path_model = false, has_max_depth = false,
+         has_contribution_threshold = false, has_sun_disk = false, has_lod_error_px = false,
+         has_noise_budget = false;
+};
+Fields fields(QualityLevelConfig& level);
+
+inline constexpr std::size_t kMostLevels = 16;  // with level 0
+
+// What the frame loop is good at (frame_loop.h).
+enum class LoopPreference { kThroughput, kLatency };
+
+struct LoopConfig {
+    LoopPreference prefer = LoopPreference::kThroughput;
+    double frame_budget_s = 0;  // 0: no governor
+    std::vector<QualityLevelConfig> levels;
+    RealTime real_time;
+};
+Fields fields(LoopConfig& loop);
+void validate(const LoopConfig& loop);
+
+RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& level);
+
+// Steps down from a quality, each as far as it makes anything faster: towards configs/quality/realtime.yaml,
+// then coarser meshes and no noise budget, no bounce, direct light alone.
+std::vector<RenderQuality> built_in_levels(const RenderQuality& configured);
+
+// How that quality places its rays in a pixel.
+RayGrid ray_grid_of(const RenderQuality& quality);
+// What changes from one to the other, for people: "max_depth 1, lod_error_px 2".
+std::string difference(const RenderQuality& from, const RenderQuality& to);
+
+}  // namespace hilcam

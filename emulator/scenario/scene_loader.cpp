@@ -1,0 +1,192 @@
+#include "emulator/scenario/scene_loader.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "emulator/scenario/lamp_setup.h"
+#include "emulator/scenario/scenario_listing.h"
+#include "io/files/atmosphere_file.h"
+#include "io/files/brdf_file.h"
+#include "io/files/catalogue_file.h"
+#include "io/files/mesh_cache.h"
+#include "io/files/mesh_file.h"
+#include "io/files/mesh_level_cache.h"
+#include "io/files/picture_file.h"
+#include "render/frame/plugin.h"
+#include "render/scene/brdf_table.h"
+#include "render/sky/sun.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+std::filesystem::path mesh_path(const ObjectConfig& object) {
+    if (object.has_mesh) return object.mesh;
+    const GeneratedMeshConfig& g = object.generate;
+    std::string angle = std::to_string(g.wing_angle_deg);
+    angle.resize(angle.find('.') + 3);
+    return generated_mesh(g.program, {"--triangles", std::to_string(g.triangles), "--seed",
+                                      std::to_string(g.seed), "--wing-angle-deg=" + angle});
+}
+
+}  // namespace
+
+namespace {
+
+Material load_material(const MaterialConfig& m, const SpectralGrid& grid) {
+    return make_material(
+        m, grid, m.table.empty() ? nullptr : std::make_shared<const BrdfTable>(read_brdf(m.table, grid)));
+}
+
+std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, const SpectralGrid& grid) {
+    std::vector<Material> materials;
+    for (const MeshSurface& surface : mesh.surfaces) {
+        const SurfaceConfig* config = find_surface(set.surfaces, surface.name);
+        if (!config) {
+            materials.push_back(make_material(surface, grid));
+            continue;
+        }
+        materials.push_back(load_material(config->material, grid));
+        materials.back().texture = surface.base_color_texture;
+    }
+    return materials;
+}
+
+bool wants_levels_of_detail(const ScenarioConfig& scenario) {
+    const std::vector<RenderQuality> lower = lower_levels(scenario);
+    return scenario.quality.render.lod_error_px > 0 ||
+           std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
+}
+
+SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
+                        const SpectralGrid& grid) {
+    SceneObject object;
+    object.mesh = std::move(mesh);
+    const auto scale = static_cast<float>(config.scale);
+    for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
+    if (wants_levels_of_detail(scenario)) object.levels = cached_levels(object.mesh, cache_folder());
+    object.materials = load_materials(object.mesh, config.materials, grid);
+    return object;
+}
+
+// Objects of one make have the same meshes and the same looks, wherever they are and however they turn.
+std::string make_of(const ObjectConfig& config, const std::filesystem::path& mesh) {
+    std::string make = fmt::format("{}\n{}\n", mesh.string(), config.scale);
+    for (const JointConfig& joint : config.joints) make += joint.node + "\n";
+    MaterialSet materials = config.materials;
+    return make + section_listing(section_of(materials));
+}
+
+// The objects in their order, then all their turning parts: as WorldState places them. The first of a make is
+// loaded, the others are like it.
+std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const SpectralGrid& grid) {
+    std::vector<SceneObject> objects(scenario.objects.size());
+    struct Loaded {
+        std::size_t object, first_part;
+    };
+    std::map<std::string, Loaded> loaded;
+    for (std::size_t i = 0; i < scenario.objects.size(); ++i) {
+        const ObjectConfig& config = scenario.objects[i];
+        const std::filesystem::path file = mesh_path(config);
+        const auto [make, is_new] = loaded.try_emplace(make_of(config, file), Loaded{i, objects.size()});
+        std::vector<std::string> nodes;
+        for (const JointConfig& joint : config.joints) nodes.push_back(joint.node);
+        if (is_new) {
+            std::vector<Mesh> meshes = load_mesh_parts(file, nodes);
+            objects[i] = make_object(std::move(meshes.front()), config, scenario, grid);
+            for (std::size_t k = 1; k < meshes.size(); ++k)
+                objects.push_back(make_object(std::move(meshes[k]), config, scenario, grid));
+        } else {
+            objects[i].like = make->second.object;
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                objects.emplace_back().like = make->second.first_part + k;
+        }
+        objects[i].name = config.name;
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+            objects[objects.size() - nodes.size() + k].name = config.name + "/" + nodes[k];
+    }
+    return objects;
+}
+
+// A frame's radiance is the largest of all images: where it alone does not fit, nothing is begun.
+void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
+    constexpr double kGigabyte = 1e9;
+    const double frame_gb =
+        1.0 * g.padded_width() * g.padded_height() * grid.size() * sizeof(float) / kGigabyte;
+    const double machine_gb = 1.0 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                              static_cast<double>(sysconf(_SC_PAGESIZE)) / kGigabyte;
+    if (frame_gb > machine_gb)
+        throw InputError(
+            fmt::format("camera.width_px, height_px: a frame of {} x {} pixels (guard_px and oversampling "
+                        "included) in {} "
+                        "spectral bins takes {:.1f} GB; accepted: less than this machine's memory, {:.1f} GB",
+                        g.padded_width(), g.padded_height(), grid.size(), frame_gb, machine_gb));
+}
+
+}  // namespace
+
+Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules) {
+    Scene scene;
+    scene.objects = load_objects(scenario, grid);
+    const TimeTai time = parse_utc(scenario.time_utc);
+    if (scenario.has_terrain) {
+        const TerrainConfig& t = scenario.terrain;
+        const Pose pose = initial_motion(t.pose, time, bodies_at(time, scenario.origin)).pose;
+        scene.terrain = std::make_unique<SceneTerrain>(SceneTerrain{
+            t.name, open_height_map(t.heights), t.radius_m, pose,
+            t.has_place ? std::optional(t.place.body) : std::nullopt, t.place.place,
+            load_material(t.material, grid), t.edge_px, static_cast<std::size_t>(t.most_triangles), t.wait});
+    }
+    scene.lamps = scene_lamps(scenario, grid);
+    scene.stars_time = time;
+    if (!scenario.stars.catalogue.empty())
+        scene.stars =
+            stars_at(load_catalogue(scenario.stars.catalogue), time, scenario.stars.faintest_magnitude, grid);
+    for (std::size_t i = 0; i < kBodyCount; ++i) {
+        const BodyConfig& config = scenario.bodies[i];
+        SceneBody& body = scene.bodies[i];
+        body.visible = config.visible;
+        body.look = BodyLook(static_cast<BodyId>(i), config, grid);
+        if (!config.albedo_map.empty()) body.map = MipTexture(read_picture(config.albedo_map));
+    }
+    AtmosphereConfig air = scenario.atmosphere;
+    if (air.cache.empty()) air.cache = cache_folder();
+    if (scene.body(BodyId::kEarth).visible) {
+        std::optional<AtmosphereTable> table;
+        if (!air.table.empty()) table = read_atmosphere(air.table, grid);
+        scene.air =
+            modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
+    }
+    if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
+    scene.sun_irradiance_1au_w_m2_um =
+        scenario.sun.has_spectrum ? grid.average(scenario.sun.spectrum) : solar_irradiance_1au_w_m2_um(grid);
+    scene.limb_darkening = scenario.sun.limb_darkening;
+    return scene;
+}
+
+std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
+                                        const ImageGeometry& geometry) {
+    require_room(grid, geometry);
+    Modules modules;
+    std::vector<std::filesystem::path> plugins;
+    for (const PluginConfig& plugin : scenario.plugins) plugins.push_back(plugin.file);
+    load_plugins(plugins, modules);
+    return std::make_unique<Renderer>(load_scene(scenario, grid, modules), grid, geometry,
+                                      scenario.quality.render, models_of(scenario), modules,
+                                      lower_levels(scenario));
+}
+
+DetectorPictures load_detector_pictures(const CameraModel& camera) {
+    const FixedPatternConfig& config = camera.fixed_pattern;
+    DetectorPictures out;
+    if (!config.prnu_map.empty()) out.prnu = read_pixel_map(config.prnu_map, false);
+    if (!config.offset_map.empty()) out.offset_e = read_pixel_map(config.offset_map, true);
+    if (!config.dark_map.empty()) out.dark_e_s = read_pixel_map(config.dark_map, false);
+    return out;
+}
+
+}  // namespace hilcam

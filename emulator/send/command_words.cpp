@@ -1,0 +1,309 @@
+#include "emulator/send/command_words.h"
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+#include "io/contract/fault.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+using Take = std::function<void(const Command&)>;
+
+constexpr double kLatest_s = 1e9;  // of a script's lines: 30 years, which 64 bits hold in nanoseconds
+
+// What cannot be made into a command is the user's error.
+template <class Make>
+void hand_over(const CLI::App* app, const Take& take, const Make& make) {
+    Command command;
+    try {
+        command = make();
+    } catch (const InputError& error) {
+        throw CLI::ValidationError(app->get_name(), error.what());
+    }
+    take(command);
+}
+template <class Make>
+void on(CLI::App* app, const Take& take, Make make) {
+    app->callback([app, take, make] { hand_over(app, take, make); });
+}
+
+Vec3d vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+
+void add_simple(CLI::App& app, const Take& take) {
+    app.add_subcommand("ping", "ask for the simulated time")->callback([take] { take(PingCommand{1}); });
+    app.add_subcommand("start", "let the camera take frames")->callback([take] { take(StartCommand{}); });
+    app.add_subcommand("stop", "let the camera pause")->callback([take] { take(StopCommand{}); });
+}
+
+void add_settings(CLI::App& app, const Take& take) {
+    struct Options {
+        double exposure_ms = 0, gain_db = 0, frame_rate_hz = 0;
+    };
+    CLI::App* settings = app.add_subcommand("settings", "change exposure, gain, frame rate");
+    const auto o = std::make_shared<Options>();
+    CLI::Option* exposure = settings->add_option("--exposure-ms", o->exposure_ms);
+    CLI::Option* gain = settings->add_option("--gain-db", o->gain_db);
+    CLI::Option* rate = settings->add_option("--frame-rate-hz", o->frame_rate_hz);
+    on(settings, take, [=] {
+        SettingsCommand command;
+        if (exposure->count()) command.exposure_s = o->exposure_ms * 1e-3;
+        if (gain->count()) command.gain_db = o->gain_db;
+        if (rate->count()) command.frame_rate_hz = o->frame_rate_hz;
+        return command;
+    });
+}
+
+void add_pose(CLI::App& app, const Take& take) {
+    struct Options {
+        unsigned object = 0;
+        std::string utc;
+        std::array<double, 3> position_m{}, velocity_m_s{}, rate_deg_s{}, look_at_m{}, up{0, 0, 1};
+        std::array<double, 4> attitude{1, 0, 0, 0};
+    };
+    CLI::App* pose = app.add_subcommand("pose", "one pose");
+    const auto o = std::make_shared<Options>();
+    pose->add_option("--object", o->object, "0: the camera; 1, 2, ...: the scenario's objects")
+        ->check(CLI::Range(0, 65535));
+    pose->add_option("--position-m", o->position_m, "x y z in the world")->required();
+    CLI::Option* attitude = pose->add_option("--attitude", o->attitude, "w x y z, body to world");
+    CLI::Option* look =
+        pose->add_option("--look-at-m", o->look_at_m, "x y z, instead of an attitude")->excludes(attitude);
+    pose->add_option("--up", o->up, "x y z, for --look-at-m");
+    pose->add_option("--velocity-m-s", o->velocity_m_s, "x y z in the world");
+    pose->add_option("--at-utc", o->utc, "simulated time it is true at; left out: on arrival");
+    pose->add_option("--rate-deg-s", o->rate_deg_s, "x y z about the body axes");
+    on(pose, take, [=] {
+        PoseCommand command;
+        command.object = static_cast<std::uint16_t>(o->object);
+        Motion& m = command.motion;
+        if (!o->utc.empty()) m.time = parse_utc(o->utc);
+        m.pose.position_world_m = vec(o->position_m);
+        m.pose.world_from_body = {o->attitude[0], o->attitude[1], o->attitude[2], o->attitude[3]};
+        if (look->count())
+            m.pose.world_from_body = look_along(vec(o->look_at_m) - vec(o->position_m), vec(o->up));
+        m.velocity_world_m_s = vec(o->velocity_m_s);
+        m.rate_body_rad_s = kDegree_rad * vec(o->rate_deg_s);
+        return command;
+    });
+}
+
+void add_joint(CLI::App& app, const Take& take) {
+    struct Options {
+        unsigned object = 1, joint = 1;
+        double angle_deg = 0, rate_deg_s = 0;
+        std::string utc;
+    };
+    CLI::App* joint = app.add_subcommand("joint", "turn a part of an object");
+    const auto o = std::make_shared<Options>();
+    joint->add_option("--object", o->object, "1, 2, ...: the scenario's objects")
+        ->required()
+        ->check(CLI::Range(1, 65535));
+    joint->add_option("--joint", o->joint, "1, 2, ...: its joints")->check(CLI::Range(1, 65535));
+    joint->add_option("--angle-deg", o->angle_deg, "from the file's own state")->required();
+    joint->add_option("--rate-deg-s", o->rate_deg_s, "from then on");
+    joint->add_option("--at-utc", o->utc, "simulated time it is true at; left out: on arrival");
+    on(joint, take, [=] {
+        return JointCommand{static_cast<std::uint16_t>(o->object), static_cast<std::uint16_t>(o->joint),
+                            o->utc.empty() ? TimeTai{} : parse_utc(o->utc), o->angle_deg * kDegree_rad,
+                            o->rate_deg_s * kDegree_rad};
+    });
+}
+
+void add_lamp(CLI::App& app, const Take& take) {
+    struct Options {
+        std::string what, utc;
+        unsigned lamp = 1;
+        double level = 1;
+    };
+    CLI::App* lamp = app.add_subcommand("lamp", "switch a lamp");
+    const auto o = std::make_shared<Options>();
+    lamp->add_option("what", o->what, "on or off")->required()->check(CLI::IsMember({"on", "off"}));
+    lamp->add_option("--lamp", o->lamp, "1, 2, ...: the scenario's lamps")->check(CLI::Range(1, 65535));
+    CLI::Option* level = lamp->add_option("--level", o->level, "on: share of its intensity, 0 to 1");
+    lamp->add_option("--at-utc", o->utc, "simulated time of the switch; left out: on arrival");
+    on(lamp, take, [=] {
+        const bool off = o->what == "off";
+        if (off && level->count()) throw InputError("'off' and --level do not go together");
+        if (!(o->level >= 0 && o->level <= 1))
+            throw InputError("--level: found " + std::to_string(o->level) + "; accepted: 0 to 1");
+        return LampCommand{static_cast<std::uint16_t>(o->lamp),
+                           o->utc.empty() ? TimeTai{} : parse_utc(o->utc), off ? 0 : o->level};
+    });
+}
+
+void add_expose(CLI::App& app, const Take& take) {
+    struct Options {
+        unsigned frames = 0;
+        std::string utc;
+    };
+    CLI::App* expose = app.add_subcommand("expose", "trigger a frame or a burst (triggered, lockstep)");
+    const auto o = std::make_shared<Options>();
+    expose->add_option("--frames", o->frames, "of the burst; 0: as the settings have it")
+        ->check(CLI::Range(0, 65535));
+    expose->add_option(
+        "--at-utc", o->utc,
+        "simulated time of the trigger, in lockstep of the exposure's middle; left out: now, in "
+        "lockstep a frame period on");
+    on(expose, take, [=] {
+        return ExposeCommand{o->utc.empty() ? TimeTai{} : parse_utc(o->utc),
+                             static_cast<std::uint16_t>(o->frames)};
+    });
+}
+
+void add_clock(CLI::App& app, const Take& take) {
+    struct Options {
+        std::string what;
+        double scale = 1, seconds = 0;
+    };
+    CLI::App* clock = app.add_subcommand("clock", "how simulated time goes: ask, or change it");
+    const auto o = std::make_shared<Options>();
+    CLI::Option* what = clock->add_option("what", o->what, "pause, resume or step")
+                            ->check(CLI::IsMember({"pause", "resume", "step"}));
+    CLI::Option* scale =
+        clock->add_option("--scale", o->scale, "simulated seconds in one of the machine's")->excludes(what);
+    CLI::Option* seconds =
+        clock->add_option("--seconds", o->seconds, "step: for so much simulated time, then it stands again");
+    on(clock, take, [=] {
+        using Action = ClockCommand::Action;
+        ClockCommand command;
+        if (scale->count()) {
+            command.action = Action::kScale;
+            command.scale = o->scale;
+            if (!(o->scale >= kLeastClockScale && o->scale <= kMostClockScale))
+                throw InputError("--scale: found " + std::to_string(o->scale) + "; accepted: 0.001 to 1000");
+        }
+        if (o->what == "pause") command.action = Action::kPause;
+        if (o->what == "resume") command.action = Action::kResume;
+        if (o->what == "step") command.action = Action::kStep;
+        if ((command.action == Action::kStep) != (seconds->count() > 0))
+            throw InputError("'step' and --seconds go together");
+        if (command.action != Action::kStep) return command;
+        if (!(o->seconds >= 1e-9 && o->seconds <= 1e7))
+            throw InputError("--seconds: found " + std::to_string(o->seconds) + "; accepted: 1e-9 to 1e7");
+        command.step_ns = std::llround(o->seconds * 1e9);
+        return command;
+    });
+}
+
+void add_mode(CLI::App& app, const Take& take) {
+    struct Options {
+        std::string mode;
+        unsigned burst_frames = 0;
+    };
+    CLI::App* mode = app.add_subcommand("mode", "what starts a frame: the frame rate, or triggers");
+    const auto o = std::make_shared<Options>();
+    mode->add_option("mode", o->mode, "free-run or triggered")
+        ->required()
+        ->check(CLI::IsMember({"free-run", "triggered"}));
+    mode->add_option("--burst-frames", o->burst_frames, "frames of each trigger; left out: as it is")
+        ->check(CLI::Range(1, 65535));
+    on(mode, take, [=] {
+        return TriggerModeCommand{o->mode == "triggered", static_cast<std::uint16_t>(o->burst_frames)};
+    });
+}
+
+void add_fault(CLI::App& app, const Take& take, const std::function<void()>& list_faults) {
+    struct Options {
+        std::string name;
+        FaultOrder order;
+    };
+    CLI::App* fault = app.add_subcommand("fault", "let something go wrong");
+    const auto o = std::make_shared<Options>();
+    fault->add_option("name", o->name, "of the fault, 'clear' for the end of all, 'list' for their names")
+        ->required();
+    fault->add_option("--rate", o->order.rate, "share that is struck, 0 to 1; 0 ends the fault");
+    fault->add_option("--value", o->order.value, "by kind, see 'list'");
+    fault->add_option("--from-frame", o->order.from_frame, "first frame that can be struck; 0: at once");
+    fault->add_option("--frames", o->order.frames, "how many frames; 0: no end");
+    fault->add_option("--duration-s", o->order.duration_s, "how long; 0: no end");
+    const auto make = [o] {
+        FaultCommand command{o->order, o->name == "clear"};
+        if (command.clear_all) return command;
+        const std::optional<FaultKind> kind = fault_named(o->name);
+        if (!kind)
+            throw InputError("found " + in_quotes(o->name) +
+                             "; accepted: clear, or a fault's name ('hilcam send fault list')");
+        command.order.kind = *kind;
+        const std::string_view refusal = refusal_of(command.order);
+        if (!refusal.empty()) throw InputError(o->name + ": " + std::string(refusal));
+        return command;
+    };
+    fault->callback([=] {
+        if (list_faults && o->name == "list") return list_faults();
+        hand_over(fault, take, make);
+    });
+}
+
+// "@2.5" or "+0.1" before a line's words; false when there is none.
+bool read_time(const std::string& word, double before_s, double& at_s) {
+    if (word.empty() || (word[0] != '@' && word[0] != '+')) return false;
+    std::size_t end = 0;
+    double value = 0;
+    try {
+        value = std::stod(word.substr(1), &end);
+    } catch (const std::exception&) {
+        end = 0;
+    }
+    at_s = word[0] == '@' ? value : before_s + value;
+    if (end + 1 != word.size() || !(value >= 0) || !(at_s <= kLatest_s))
+        throw InputError("found " + in_quotes(word) +
+                         "; accepted: @SECONDS since the start or +SECONDS since the line before, up to 1e9");
+    if (at_s < before_s) throw InputError("its time " + word + " lies before the line before");
+    return true;
+}
+
+}  // namespace
+
+void add_command_words(CLI::App& app, const Take& take, const std::function<void()>& list_faults) {
+    add_simple(app, take);
+    add_settings(app, take);
+    add_pose(app, take);
+    add_joint(app, take);
+    add_lamp(app, take);
+    add_expose(app, take);
+    add_mode(app, take);
+    add_clock(app, take);
+    add_fault(app, take, list_faults);
+}
+
+Command command_of_words(const std::string& words) {
+    CLI::App app;
+    app.require_subcommand(1);
+    app.set_help_flag();
+    Command command;
+    add_command_words(app, [&](const Command& c) { command = c; });
+    app.parse(words, false);
+    return command;
+}
+
+std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name) {
+    std::vector<ScriptLine> out;
+    std::istringstream in(text);
+    std::string line;
+    double before_s = 0;
+    for (std::size_t number = 1; std::getline(in, line); ++number) {
+        line.erase(std::min(line.find('#'), line.size()));
+        std::istringstream words(line);
+        std::string first;
+        if (!(words >> first)) continue;
+        ScriptLine entry{before_s, {}, number};
+        try {
+            std::string rest = line;
+            if (read_time(first, before_s, entry.at_s)) std::getline(words, rest);
+            entry.command = command_of_words(rest);
+        } catch (const std::exception& error) {
+            throw InputError(name + ":" + std::to_string(number) + ": " + error.what());
+        }
+        before_s = entry.at_s;
+        out.push_back(entry);
+    }
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,104 @@
+#include "emulator/send/send_command.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <memory>
+
+#include "emulator/send/command_words.h"
+#include "emulator/send/send_clock.h"
+#include "emulator/send/send_fly.h"
+#include "emulator/send/send_watch.h"
+#include "emulator/world/clock.h"
+#include "io/commands/command_sender.h"
+#include "io/system/input_file.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+struct SendOptions {
+    SendTarget target;
+    Command command;
+    FlyOptions fly;
+    WatchOptions watch;
+    std::filesystem::path script;
+};
+
+int print(const Acknowledgement& a) {
+    const bool good = a.status == CommandStatus::kAccepted;
+    fmt::print("{} simulated time {}\n", text_of(a), format_utc(a.simulated_time));
+    return good ? 0 : 1;
+}
+
+int send_one(const SendOptions& o) {
+    if (const auto* clock = std::get_if<ClockCommand>(&o.command)) return send_clock(o.target, *clock);
+    CommandSender sender(o.target.endpoint, o.target.dialect);
+    sender.address(o.target.camera);
+    return print(sender.send(o.command, o.target.timeout_ms));
+}
+
+int list_faults() {
+    for (const FaultKind kind : kAllFaults) fmt::print("{:<20} {}\n", name_of(kind), meaning_of(kind));
+    return 0;
+}
+
+// Each line at its time; a line that comes late is sent at once.
+int play_script(const SendOptions& o) {
+    const std::string text = read_input_file(o.script, {64u << 20, "a text file of commands"});
+    const std::vector<ScriptLine> lines = parse_script(text, o.script.string());
+    CommandSender sender(o.target.endpoint, o.target.dialect);
+    sender.address(o.target.camera);
+    const std::int64_t start_ns = monotonic_ns();
+    std::size_t refused = 0;
+    for (const ScriptLine& line : lines) {
+        sleep_until_monotonic_ns(start_ns + static_cast<std::int64_t>(line.at_s * 1e9));
+        const Acknowledgement a = sender.send(line.command, o.target.timeout_ms);
+        if (a.status == CommandStatus::kAccepted) continue;
+        ++refused;
+        fmt::print("{}:{}: {}\n", harmless(o.script.string()), line.number, text_of(a));
+    }
+    fmt::print("{} commands sent, {} refused\n", lines.size(), refused);
+    return refused == 0 ? 0 : 1;
+}
+
+void add_target(CLI::App& send, SendTarget& target) {
+    send.add_option("--to", target.endpoint,
+                    "where the emulator listens: ADDRESS:PORT (UDP), tcp:ADDRESS:PORT, unix:PATH, "
+                    "usb:VENDOR:PRODUCT[:SERIAL]")
+        ->capture_default_str();
+    const std::map<std::string, Dialect> dialects = {{"hilcam", Dialect::kHilcam}, {"cfs", Dialect::kCfs}};
+    send.add_option("--dialect", target.dialect.dialect, "hilcam or cfs, as the emulator's")
+        ->transform(CLI::CheckedTransformer(dialects));
+    send.add_option("--camera", target.camera,
+                    "which camera settings, triggers and faults are for, from 1; 0: every one");
+    send.add_option("--timeout-ms", target.timeout_ms, "wait for an acknowledgement")
+        ->check(CLI::Range(1, 600000));
+}
+
+}  // namespace
+
+void add_send_command(CLI::App& app, std::function<int()>& action) {
+    auto o = std::make_shared<SendOptions>();
+    CLI::App* send = app.add_subcommand("send", "send commands to a running emulator");
+    send->require_subcommand(1);
+    add_target(*send, o->target);
+    add_command_words(
+        *send,
+        [&action, o](const Command& command) {
+            o->command = command;
+            action = [o] { return send_one(*o); };
+        },
+        [&action] { action = list_faults; });
+    CLI::App* fly = send->add_subcommand("fly", "fly on a circle around a point, looking at it");
+    add_fly_options(*fly, o->fly);
+    fly->callback([&action, o] { action = [o] { return send_flight(o->target, o->fly); }; });
+    CLI::App* watch = send->add_subcommand("watch", "print frame reports and housekeeping as they come");
+    add_watch_options(*watch, o->watch);
+    watch->callback([&action, o] { action = [o] { return watch_telemetry(o->target, o->watch); }; });
+    CLI::App* script = send->add_subcommand("script", "send the commands of a file, each at its time");
+    script->add_option("file", o->script, "lines: [@SECONDS or +SECONDS] and a command as here")->required();
+    script->callback([&action, o] { action = [o] { return play_script(*o); }; });
+}
+
+}  // namespace hilcam

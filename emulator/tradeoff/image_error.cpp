@@ -1,0 +1,63 @@
+#include "emulator/tradeoff/image_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+
+NoiseError noise_error(const ElectronImage& image, const ElectronImage& reference, const ElectronImage& dark,
+                       const SensorNoise& noise) {
+    HILCAM_CHECK(image.pixels() == reference.pixels() && image.pixels() == dark.pixels());
+    std::vector<double> errors;
+    double squares = 0;
+    std::size_t within = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const auto dark_e = static_cast<double>(dark.data()[i]);
+        const auto seen_e = static_cast<double>(image.data()[i]),
+                   true_e = static_cast<double>(reference.data()[i]);
+        if (std::max(seen_e, true_e) - dark_e <= noise.sigma_e(dark_e, dark_e)) continue;
+        const double error = std::abs(seen_e - true_e) / noise.sigma_e(true_e, dark_e);
+        errors.push_back(error);
+        squares += error * error;
+        if (error <= 0.5) ++within;
+    }
+    if (errors.empty()) return {};
+    const auto count = static_cast<double>(errors.size());
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * count)) - 1;
+    std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
+    return {errors[static_cast<std::size_t>(rank)], std::sqrt(squares / count),
+            static_cast<double>(within) / count, errors.size()};
+}
+
+ElectronImage clone(const ElectronImage& image) {
+    ElectronImage out(image.width(), image.height());
+    std::copy(image.all().begin(), image.all().end(), out.all().begin());
+    return out;
+}
+
+void saturate(ElectronImage& image, double full_e) {
+    const auto most = static_cast<float>(full_e);
+    for (float& charge : image.all()) charge = std::min(charge, most);
+}
+
+std::optional<WindowLight> window_light(const ElectronImage& image, const ElectronImage& dark,
+                                        const PixelBox& window) {
+    WindowLight light;
+    for (int y = window.y0; y < window.y1; ++y)
+        for (int x = window.x0; x < window.x1; ++x) {
+            const auto i = static_cast<std::size_t>(x);
+            const double e = static_cast<double>(image.row(y)[i]) - static_cast<double>(dark.row(y)[i]);
+            light.total_e += e;
+            light.x_px += (x + 0.5) * e;
+            light.y_px += (y + 0.5) * e;
+        }
+    if (!(light.total_e > 0)) return std::nullopt;
+    light.x_px /= light.total_e;
+    light.y_px /= light.total_e;
+    return light;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,168 @@
+#include "emulator/tradeoff/picture_judge.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/characterise/characterise_setup.h"
+#include "emulator/tradeoff/structural_similarity.h"
+#include "emulator/world/clock.h"
+#include "render/light/screen_bounds.h"
+
+namespace hilcam {
+namespace {
+
+constexpr int kTargetMargin_px = 8;
+// Their light paths are none that a measured frame has (tradeoff.cpp counts from 0).
+constexpr std::uint64_t kFirstReferenceFrame = std::uint64_t{1} << 32;
+
+// Of the frame that StillCamera takes.
+double gain_db_of(const CameraModel& camera) {
+    return camera.sequence.empty() ? camera.gain_db : camera.sequence[0].gain_db;
+}
+
+// A sum of pictures, in double.
+class PictureSum {
+  public:
+    explicit PictureSum(const ElectronImage& like) : width_(like.width()), height_(like.height()) {
+        sum_.resize(like.pixels());
+    }
+    void add(const ElectronImage& picture) {
+        for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += static_cast<double>(picture.data()[i]);
+        ++count_;
+    }
+    void add(const PictureSum& other) {
+        for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += other.sum_[i];
+        count_ += other.count_;
+    }
+    ElectronImage mean() const {
+        ElectronImage out(width_, height_);
+        for (std::size_t i = 0; i < sum_.size(); ++i) out.data()[i] = static_cast<float>(sum_[i] / count_);
+        return out;
+    }
+
+  private:
+    int width_, height_;
+    std::vector<double> sum_;
+    int count_ = 0;
+};
+
+PixelBox join(const PixelBox& a, const PixelBox& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+// Of the first object and its joints' parts, which stand behind all objects (scene_loader.cpp).
+std::vector<std::size_t> target_parts(const ScenarioConfig& s) {
+    if (s.objects.empty()) return {};
+    std::vector<std::size_t> parts = {0};
+    for (std::size_t i = 0; i < s.objects.front().joints.size(); ++i) parts.push_back(s.objects.size() + i);
+    return parts;
+}
+
+// Of a sphere, in pixels of the window.
+PixelBox box_of(Vec3d middle_world_m, double radius_m, const Pose& camera, const ImageGeometry& geometry) {
+    const Vec3d to_middle_m = middle_world_m - camera.position_world_m;
+    const double distance_m = length(to_middle_m);
+    if (distance_m <= radius_m) return {0, 0, geometry.width_px, geometry.height_px};
+    const double sine = radius_m / distance_m;
+    return screen_bounds_of_cone(geometry, camera, to_middle_m / distance_m, std::sqrt(1 - sine * sine));
+}
+
+}  // namespace
+
+PictureJudge::PictureJudge(const ScenarioConfig& s, const ReferenceLimits& limits,
+                           const std::function<void(const std::string&)>& log)
+    : noise_(s.camera, gain_db_of(s.camera)),
+      saturation_e_(configured_saturation_e(s.camera, gain_db_of(s.camera))),
+      offset_px_{static_cast<double>(s.camera.black_columns), static_cast<double>(s.camera.black_rows)} {
+    const std::int64_t start_ns = monotonic_ns();
+    StillCamera camera(s);
+    dark_ = camera.dark();
+    render(camera, static_cast<std::uint64_t>(s.seed), limits, log);
+    find_target(camera, s);
+    find_limbs(camera, s);
+    seconds_ = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
+}
+
+void PictureJudge::render(StillCamera& camera, std::uint64_t seed, const ReferenceLimits& limits,
+                          const std::function<void(const std::string&)>& log) {
+    PictureSum halves[] = {PictureSum(dark_), PictureSum(dark_)};
+    for (int goal = 4; goal <= limits.most_frames; goal *= 2) {
+        for (; frames_ < goal; ++frames_) {
+            camera.render({seed, kFirstReferenceFrame + static_cast<std::uint64_t>(frames_)});
+            ElectronImage picture = clone(camera.expose());
+            saturate(picture, saturation_e_);
+            halves[frames_ % 2].add(picture);
+        }
+        standard_error_ = noise_error(halves[0].mean(), halves[1].mean(), dark_, noise_);
+        standard_error_.p99 *= 0.5, standard_error_.rms *= 0.5;
+        if (standard_error_.lit_px == 0)
+            throw InputError(
+                fmt::format("nothing in the picture is brighter than the sensor's noise in the dark, "
+                            "{:.3g} e-: there is no error to measure; raise the exposure, or look at "
+                            "something",
+                            noise_.sigma_e(0, 0)));
+        log(fmt::format(
+            "reference of {} frames: standard error {:.4f} of the sensor's noise or less in 99 % of {} "
+            "lit pixels, {:.4f} rms",
+            frames_, standard_error_.p99, standard_error_.lit_px, standard_error_.rms));
+        if (standard_error_.p99 <= limits.standard_error_sigma) break;
+    }
+    halves[0].add(halves[1]);
+    reference_ = halves[0].mean();
+}
+
+void PictureJudge::find_target(StillCamera& camera, const ScenarioConfig& s) {
+    const ImageGeometry geometry = geometry_of(s.camera, 0);
+    const WorldSnapshot& world = camera.world();
+    PixelBox box;
+    for (const std::size_t part : target_parts(s))
+        box = join(box, box_of(world.objects.at(part).position_world_m,
+                               camera.renderer().object_radius_m(part), world.camera, geometry));
+    if (box.empty()) return;
+    const int left = static_cast<int>(s.camera.black_columns), top = static_cast<int>(s.camera.black_rows);
+    target_ = {std::max(left, left + box.x0 - kTargetMargin_px),
+               std::max(top, top + box.y0 - kTargetMargin_px),
+               std::min(reference_.width(), left + box.x1 + kTargetMargin_px),
+               std::min(reference_.height(), top + box.y1 + kTargetMargin_px)};
+    target_light_ = window_light(reference_, dark_, target_);
+}
+
+void PictureJudge::find_limbs(const StillCamera& camera, const ScenarioConfig& s) {
+    // The lines of a line camera are not of one instant.
+    if (s.camera.shutter.kind == ShutterKind::kLineScan) return;
+    const ImageGeometry geometry = geometry_of(s.camera, 0);
+    const WorldSnapshot& world = camera.world();
+    for (std::size_t i = 0; i < kBodyCount; ++i) {
+        if (!s.bodies[i].visible) continue;
+        for (const LimbPlace& place :
+             limb_places(world.bodies.body[i], kFigures[i], world.camera, geometry)) {
+            const double x = place.position_px.x + offset_px_.x, y = place.position_px.y + offset_px_.y;
+            // The target may stand before it.
+            const bool free = x < target_.x0 || x > target_.x1 || y < target_.y0 || y > target_.y1;
+            if (free) limbs_.push_back(place);
+        }
+    }
+}
+
+PictureErrors PictureJudge::errors(const ElectronImage& electrons) const {
+    ElectronImage picture = clone(electrons);
+    saturate(picture, saturation_e_);
+    PictureErrors out;
+    out.noise = noise_error(picture, reference_, dark_, noise_);
+    if (target_light_)
+        if (const auto light = window_light(picture, dark_, target_)) {
+            out.centroid_px =
+                std::hypot(light->x_px - target_light_->x_px, light->y_px - target_light_->y_px);
+            out.photometric_fraction = std::abs(light->total_e / target_light_->total_e - 1);
+        }
+    if (const auto limb = limb_error(picture, reference_, limbs_, offset_px_, noise_.sigma_e(0, 0)))
+        out.limb_px = limb->rms_px;
+    out.similarity = structural_similarity(picture, reference_, saturation_e_);
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,85 @@
+#include "emulator/world/pose_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
+
+}  // namespace
+
+Fields fields(PoseRules& r) {
+    return {
+        number("horizon_s", r.horizon_s, 1, {1e-3, 1e8},
+               "how far a time tag may lie from the simulated now; farther ones are refused"),
+        number("stale_after_s", r.stale_after_s, 1, {0, 1e7},
+               "simulated time without a pose after which frames are stale; 0: never. In lockstep: from the "
+               "newest time tag"),
+        choice("when_stale", r.when_stale, {"propagate", "hold", "black", "stop"},
+               "propagate: motion goes on; hold: the world stands; black: the shutter is closed; stop: no "
+               "frames"),
+        choice("watch", r.watch, {"any", "camera"},
+               "whose poses count for that: any thing's and joint's, or those of the camera's body alone"),
+        number(
+            "late_s", r.late_s, 1, {0, 1e6},
+            "a time tag so much before the newest of its thing is late; farther back, time went backwards"),
+        choice("backwards", r.backwards, {"flag", "accept", "refuse"},
+               "what then. flag: the pose counts, frame and acknowledgement say so; accept: it counts; "
+               "refuse: it does not"),
+    };
+}
+
+void require_lockstep(const PoseRules& r) {
+    if (r.when_stale == WhenStale::kStop)
+        throw InputError(
+            "commands.poses.when_stale: found 'stop'; accepted with 'mode: lockstep': propagate, hold, "
+            "black, "
+            "as each frame is asked for");
+}
+
+PoseWatch::PoseWatch(const PoseRules& rules, bool lockstep)
+    : rules_(rules),
+      lockstep_(lockstep),
+      horizon_ns_(to_ns(rules.horizon_s)),
+      stale_after_ns_(to_ns(rules.stale_after_s)),
+      late_ns_(to_ns(rules.late_s)) {}
+
+PoseWatch::Verdict PoseWatch::judge(Subject subject, TimeTai tag) const {
+    const std::lock_guard lock(mutex_);
+    const auto newest = newest_tags_.find(subject);
+    // Tags of lockstep may be anything: compared without overflow.
+    if (newest == newest_tags_.end() || tag >= newest->second) return Verdict::kForwards;
+    const auto back_ns = static_cast<std::uint64_t>(newest->second.ns) - static_cast<std::uint64_t>(tag.ns);
+    if (back_ns <= static_cast<std::uint64_t>(late_ns_)) return Verdict::kForwards;
+    return rules_.backwards == WhenBackwards::kRefuse ? Verdict::kRefused : Verdict::kBackwards;
+}
+
+void PoseWatch::took(Subject subject, TimeTai tag, TimeTai arrival, Verdict verdict) {
+    if (verdict == Verdict::kBackwards || verdict == Verdict::kRefused)
+        went_back_.fetch_add(1, std::memory_order_relaxed);
+    if (verdict == Verdict::kRefused) return;
+    const std::lock_guard lock(mutex_);
+    TimeTai& newest = newest_tags_.try_emplace(subject, tag).first->second;
+    const bool anew = verdict != Verdict::kForwards;
+    newest = anew ? tag : std::max(newest, tag);
+    if (subject.lamp != 0) return;
+    if (rules_.watch == WatchedPoses::kCamera && (subject.object != 0 || subject.joint != 0)) return;
+    const std::int64_t at_ns = lockstep_ ? newest.ns : arrival.ns;
+    newest_ns_.store(anew && lockstep_ ? at_ns : std::max(at_ns, newest_ns_.load(std::memory_order_relaxed)),
+                     std::memory_order_release);
+}
+
+PoseWatch::Silence PoseWatch::at(TimeTai time) const {
+    const std::int64_t newest_ns = newest_ns_.load(std::memory_order_acquire);
+    if (stale_after_ns_ == 0 || newest_ns == kNone_ns) return {};
+    // In lockstep both may be anything: no sum may overflow.
+    if (newest_ns > std::numeric_limits<std::int64_t>::max() - stale_after_ns_) return {};
+    const TimeTai since{newest_ns + stale_after_ns_};
+    return {since < time, since};
+}
+
+}  // namespace hilcam

@@ -1,0 +1,26 @@
+#pragma once
+// Commands over TCP: several clients, each a stream of packets, answers on the same connection.
+
+#include <memory>
+
+#include "io/commands/command_dialect.h"
+#include "io/contract/command_receiver.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+struct TcpCommandConfig {
+    std::string address = "127.0.0.1";
+    std::int64_t port = 5010;
+    std::vector<std::string> allow{};
+    std::int64_t clients = 8;
+    DialectConfig dialect{};
+};
+Fields fields(TcpCommandConfig& config);
+void validate(const TcpCommandConfig& config);
+
+std::unique_ptr<CommandReceiver> make_tcp_receiver(const TcpCommandConfig& config, CommandHandler& handler);
+// The read-only telemetry port: clients get all telemetry, and are not listened to.
+std::unique_ptr<CommandReceiver> make_telemetry_port(const TcpCommandConfig& config, const std::string& key);
+
+}  // namespace hilcam

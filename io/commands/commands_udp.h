@@ -1,0 +1,66 @@
+#pragma once
+// Commands over UDP: a thread of its own receives datagrams, hands them to the station and sends the answers.
+
+#include <list>
+#include <string>
+#include <thread>
+
+#include "io/commands/command_station.h"
+#include "io/contract/command_receiver.h"
+#include "io/system/allow_list.h"
+#include "io/system/fd.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+struct UdpCommandConfig {
+    std::string address = "127.0.0.1";
+    std::int64_t port = 5010;
+    std::vector<std::string> allow{};
+    DialectConfig dialect{};
+};
+Fields fields(UdpCommandConfig& config);
+void validate(const UdpCommandConfig& config);
+
+// A datagram holds one or more packets back to back; each is acknowledged to the sender's address and port,
+// one datagram each. What cannot be cut into packets is refused once. Arrival is the kernel's receive time
+// stamp, on CLOCK_MONOTONIC. The sixteen senders heard last are remembered, for a minute; a subscription to
+// telemetry ends with that.
+class UdpCommandReceiver : public CommandReceiver {
+  public:
+    UdpCommandReceiver(const UdpCommandConfig& config, CommandHandler& handler);
+    ~UdpCommandReceiver() override { stop(); }
+
+    // Throws DeviceError when the port is taken.
+    void start() override;
+    void stop() noexcept override;
+    std::string name() const override;
+    CommandReport report() const override { return station_.report(); }
+    std::vector<SenderReport> senders() const override { return station_.senders(); }
+    void tell(const Telemetry& telemetry) noexcept override;
+
+  private:
+    struct Peer {
+        sockaddr_in address{};
+        CommandStation::Sender* sender = nullptr;
+        std::int64_t heard_ns = 0;
+    };
+    void run();
+    void receive();
+    Peer& peer_of(const sockaddr_in& address, std::int64_t now_ns);
+    void forget_silent(std::int64_t now_ns);
+    void send_telemetry();
+    void send(std::span<const std::uint8_t> packet, const sockaddr_in& to);
+
+    UdpCommandConfig config_;
+    AllowList allow_;
+    CommandStation station_;
+    PacketStream stream_;
+    TelemetryQueue telemetry_;
+    Fd socket_, wakeup_ = open_wakeup();
+    std::atomic<bool> stopping_{false};
+    std::thread thread_;
+    std::list<Peer> peers_;  // heard last: last
+};
+
+}  // namespace hilcam

@@ -1,0 +1,69 @@
+#pragma once
+// Clients of a listening stream socket, TCP or Unix: packets in, answers and telemetry out. One thread serves
+// them all and never waits for one: what a client does not read is queued up to 256 KiB; then telemetry for
+// it is dropped, and a client whose answers do not fit either is disconnected.
+
+#include <atomic>
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/commands/command_station.h"
+#include "io/contract/command_receiver.h"
+#include "io/system/fd.h"
+#include "io/system/output_queue.h"
+
+namespace hilcam {
+
+struct StreamServerSetup {
+    std::string name;  // of the receiver
+    // A non-blocking listening socket. Throws InputError, DeviceError.
+    std::function<Fd()> listen;
+    // Whether a client that has connected may stay; gives its name and prepares the socket.
+    std::function<bool(int socket, std::string& peer)> admit;
+    std::function<void()> closed = [] {};  // the listening socket is no more
+    std::size_t most_clients = 8;
+    bool whole_packets = false;  // SOCK_SEQPACKET: a message is one or more whole packets
+    bool read_only = false;      // clients get all telemetry; what they send is thrown away
+};
+
+class StreamServer : public CommandReceiver {
+  public:
+    StreamServer(StreamServerSetup setup, CommandHandler& handler, const DialectConfig& dialect);
+    ~StreamServer() override { StreamServer::stop(); }
+
+    void start() override;
+    void stop() noexcept override;
+    std::string name() const override { return setup_.name; }
+    CommandReport report() const override { return station_.report(); }
+    std::vector<SenderReport> senders() const override { return station_.senders(); }
+    void tell(const Telemetry& telemetry) noexcept override;
+
+  private:
+    struct Client {
+        Fd socket;
+        CommandStation::Sender& sender;
+        PacketStream stream;
+        OutputQueue output;
+        bool gone = false, cut_off = false;
+    };
+    void run();
+    void accept_client();
+    void receive(Client& client);
+    void answer(Client& client, std::span<const std::uint8_t> packet);
+    void send_telemetry();
+    void drop_gone();
+
+    StreamServerSetup setup_;
+    CommandStation station_;
+    TelemetryQueue telemetry_;
+    Fd listener_, wakeup_ = open_wakeup();
+    std::atomic<bool> stopping_{false};
+    std::thread thread_;
+    std::list<Client> clients_;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,70 @@
+#pragma once
+// Telemetry: a report of every camera's every frame and housekeeping once a second, to the senders of
+// commands that subscribed, to clients of a read-only port, and to fixed UDP addresses. One thread sends it
+// all; each camera's loop has a way of its own to it, a sink that takes the frames' records alone.
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <semaphore>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/commands/commands_tcp.h"
+#include "io/contract/command_receiver.h"
+#include "io/contract/frame_sink.h"
+#include "io/system/fd.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+// The read-only port and the fixed addresses. Senders of commands subscribe without it.
+struct TelemetryConfig {
+    TcpCommandConfig port{.port = 5011};  // port 0: none
+    std::vector<std::string> udp_to;
+};
+Fields fields(TelemetryConfig& config);
+void validate(const TelemetryConfig& config);
+
+class TelemetrySender {
+  public:
+    // `figures` is asked once a second, by the sender's thread.
+    TelemetrySender(const TelemetryConfig& config, std::function<HousekeepingFigures()> figures);
+    ~TelemetrySender() { stop(); }
+
+    // Receivers whose senders may subscribe; they outlive the sink's start() to stop(). Owner thread, before
+    // start().
+    void serve(std::vector<CommandReceiver*> receivers) { receivers_ = std::move(receivers); }
+    // The output of a camera that is to be reported; both are used only while the other lives. Owner thread,
+    // before start().
+    std::unique_ptr<FrameSink> sink(std::uint8_t camera);
+
+    void start();
+    void stop() noexcept;
+    // Of the read-only port. Any thread.
+    CommandReport port_report() const { return port_ ? port_->report() : CommandReport{}; }
+
+  private:
+    class Sink;
+
+    void run();
+    void send_reports();
+    void send(const Telemetry& telemetry);
+
+    std::vector<Sink*> sinks_;
+    std::counting_semaphore<> ready_{0};  // counts the reports that wait in all of them
+
+    TelemetryConfig config_;
+    std::function<HousekeepingFigures()> figures_;
+    std::vector<CommandReceiver*> receivers_;
+    std::unique_ptr<CommandReceiver> port_;
+    Fd udp_;
+    std::vector<sockaddr_in> destinations_;
+    std::uint16_t report_count_ = 0, housekeeping_count_ = 0;  // packet counts of the UDP addresses
+    std::atomic<bool> stopping_{false};
+    std::thread thread_;
+};
+
+}  // namespace hilcam

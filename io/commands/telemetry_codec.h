@@ -1,0 +1,30 @@
+#pragma once
+// The bytes of telemetry (telemetry_records.h), as docs/protocol.md has them. Pure functions over bytes.
+
+#include <cstdint>
+#include <span>
+
+#include "io/commands/ccsds.h"
+#include "io/contract/telemetry_records.h"
+#include "io/system/bytes.h"
+
+namespace hilcam {
+
+inline constexpr std::uint16_t kFrameReportApid = 0x102;
+inline constexpr std::uint16_t kHousekeepingApid = 0x103;
+inline constexpr std::size_t kMostTelemetryBytes = 160;
+
+std::uint16_t apid_of(const Telemetry& telemetry);
+// The simulated time that it is about.
+TimeTai time_of(const Telemetry& telemetry);
+
+// Gives the number of bytes written. `count` is the primary header's 14-bit counter, one for each APID.
+std::size_t encode_telemetry(const Telemetry& telemetry, std::uint16_t count, std::span<std::uint8_t> bytes);
+// False when the bytes are no telemetry packet.
+bool decode_telemetry(std::span<const std::uint8_t> packet, Telemetry& telemetry);
+
+// From the protocol version on, without the check at the end.
+void write_telemetry_body(const Telemetry& telemetry, ByteWriter& out);
+bool read_telemetry_body(std::span<const std::uint8_t> body, Telemetry& telemetry);
+
+}  // namespace hilcam

@@ -1,0 +1,36 @@
+#pragma once
+// Answers and telemetry on their way into USB bulk transfers, and the faults that strike them. Pure but for
+// the fault board.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "io/contract/fault.h"
+
+namespace hilcam {
+
+class UsbAnswers {
+  public:
+    explicit UsbAnswers(FaultBoard& faults, std::size_t most_bytes = 256 * 1024)
+        : faults_(faults), most_bytes_(most_bytes) {}
+
+    // A whole packet; false, and it is dropped, when the queue is full. Telemetry may fill half of it.
+    bool put(std::span<const std::uint8_t> packet, bool telemetry);
+    // The bytes of the next transfer; 0 when there is nothing to send, or a fault withholds it. Never a
+    // multiple of 64 bytes, and so of no bulk endpoint's packet size: every transfer ends in a short packet,
+    // and needs no empty one to say so.
+    std::size_t next(std::span<std::uint8_t> transfer);
+    void clear();
+    std::size_t bytes() const { return bytes_.size() - begin_; }
+
+  private:
+    FaultBoard& faults_;
+    std::size_t most_bytes_;
+    std::vector<std::uint8_t> bytes_;
+    std::size_t begin_ = 0;
+    std::uint64_t packets_ = 0, transfers_ = 0;
+    bool second_half_ = false, stalled_ = false;
+};
+
+}  // namespace hilcam

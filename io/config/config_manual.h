@@ -1,0 +1,22 @@
+#pragma once
+// What configuration files accept, in words.
+
+#include <string>
+#include <string_view>
+
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+// "0 to 5", "1 or more", "5 or less", "any number".
+std::string accepted(const Range& range);
+
+// The value that a key "a.b.c" has now, as a file would give it; empty when there is no such key, or when it
+// has no short text (paths, sections, curves).
+std::string value_text(const SectionField& root, std::string_view key);
+
+// A Markdown table of the keys: key, accepted, default, meaning. Nested sections follow as rows
+// "section.key".
+std::string config_manual(const SectionField& root);
+
+}  // namespace hilcam

@@ -1,0 +1,377 @@
+#include "io/config/config_yaml.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "io/config/config_advice.h"
+#include "io/config/config_manual.h"
+#include "io/system/input_file.h"
+#include "io/system/plain_number.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/overloaded.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+const InputKind kYamlFile{4u << 20, "a YAML file"};
+constexpr int kDeepest = 16;
+
+// Where a value stands: in a file, or on the command line.
+struct Place {
+    std::string name;  // file, or "--set KEY"
+    std::filesystem::path folder;
+    bool command_line = false;
+};
+
+std::string show(const YAML::Node& node) {
+    if (!node.IsDefined() || node.IsNull()) return "nothing";
+    if (node.IsScalar()) return in_quotes(node.Scalar());
+    return node.IsMap() ? "a mapping" : "a list of " + std::to_string(node.size());
+}
+
+std::optional<double> to_number(const YAML::Node& node) {
+    if (!node.IsScalar()) return {};
+    std::string_view text = node.Scalar();
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
+    return value;
+}
+
+struct Override {
+    std::string path;
+    YAML::Node value;
+    bool used = false;
+};
+
+class Reader {
+  public:
+    explicit Reader(std::span<const std::string> overrides) {
+        for (const std::string& text : overrides) add_override(text);
+    }
+
+    void read_file(const std::filesystem::path& file, const SectionField& section, const std::string& path,
+                   int depth) {
+        std::error_code error;
+        const auto canonical = std::filesystem::weakly_canonical(file, error);
+        if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end())
+            throw InputError(file.string() + ": the file includes itself");
+        const std::string text = read_input_file(file, kYamlFile);
+        open_files_.push_back(canonical);
+        read_text(text, {file.string(), file.parent_path()}, section, path, depth);
+        open_files_.pop_back();
+    }
+
+    void read_text(std::string_view text, const Place& place, const SectionField& section,
+                   const std::string& path, int depth) {
+        YAML::Node node;
+        try {
+            // An alias makes one node stand in many places; without any there is nothing to blow up.
+            node = YAML::Load(std::string(text));
+        } catch (const YAML::Exception& error) {
+            throw InputError(place.name + ":" + std::to_string(error.mark.line + 1) + ":" +
+                             std::to_string(error.mark.column + 1) + ": not YAML: " + shortened(error.msg));
+        }
+        if (!node.IsMap()) fail(place, node, path, "found " + show(node) + "; accepted: a mapping of keys");
+        read_section(node, place, section, path, depth);
+    }
+
+    void require_all_overrides_used(const SectionField& root) const {
+        for (const Override& o : overrides_)
+            if (!o.used)
+                throw InputError("--set " + shortened(o.path) + ": " + why_unused(o.path, root.fields));
+    }
+
+  private:
+    std::vector<Override> overrides_;
+    std::vector<std::filesystem::path> open_files_;
+    std::size_t nodes_ = 0;
+    std::size_t numbers_ = 0;
+
+    // file:line:column
+    static std::string where(const Place& place, const YAML::Node& node) {
+        const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
+        if (place.command_line || mark.is_null()) return place.name;
+        return place.name + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+    }
+    [[noreturn]] static void fail(const Place& place, const YAML::Node& node, const std::string& path,
+                                  const std::string& what) {
+        throw InputError(where(place, node) + ": " + (path.empty() || place.command_line ? "" : path + ": ") +
+                         what);
+    }
+
+    // Follows an override's path down the sections until a word is unknown.
+    static std::string why_unused(std::string_view path, const Fields& known) {
+        const std::string_view word = path.substr(0, path.find('.'));
+        const auto field =
+            std::find_if(known.begin(), known.end(), [&](const Field& f) { return f.key == word; });
+        if (field == known.end()) return "unknown key" + advice_for(word, known);
+        if (std::holds_alternative<SectionsField>(field->target))
+            return "the list '" + field->key + "' has no such element in the file";
+        const auto* nested = std::get_if<SectionField>(&field->target);
+        if (!nested || word.size() == path.size()) return "'" + field->key + "' has no keys below it";
+        return why_unused(path.substr(word.size() + 1), nested->fields);
+    }
+
+    void add_override(const std::string& text) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw InputError("--set " + shortened(text) +
+                             ": accepted: KEY=VALUE, as --set camera.exposure_ms=2");
+        try {
+            overrides_.push_back({text.substr(0, equals), YAML::Load(text.substr(equals + 1))});
+        } catch (const YAML::Exception& error) {
+            throw InputError("--set " + shortened(text.substr(0, equals)) +
+                             ": not YAML: " + shortened(error.msg));
+        }
+    }
+
+    Override* override_at(const std::string& path) {
+        for (Override& o : overrides_)
+            if (o.path == path) return o.used = true, &o;
+        return nullptr;
+    }
+    bool override_below(const std::string& path) const {
+        return std::any_of(overrides_.begin(), overrides_.end(),
+                           [&](const Override& o) { return o.path.starts_with(path + "."); });
+    }
+    static std::string join(const std::string& path, const std::string& key) {
+        return path.empty() ? key : path + "." + key;
+    }
+
+    void count_node(const Place& place, const YAML::Node& node, const std::string& path, int depth) {
+        if (++nodes_ > 200000) fail(place, node, path, "the configuration has more than 200000 values");
+        if (depth > kDeepest)
+            fail(place, node, path, "nested deeper than " + std::to_string(kDeepest) + " levels");
+    }
+
+    // Through an alias a list of thousands may stand in thousands of places. 4 MiB of pairs as people write
+    // them are half a million numbers.
+    void count_number(const Place& place, const YAML::Node& node, const std::string& path) {
+        if (++numbers_ > 1000000)
+            fail(place, node, path, "the configuration has more than 1000000 numbers in its lists");
+    }
+
+    void read_section(const YAML::Node& map, const Place& place, const SectionField& section,
+                      const std::string& path, int depth) {
+        count_node(place, map, path, depth);
+        refuse_unknown_keys(map, place, section.fields, path);
+        for (const Field& field : section.fields) {
+            const std::string field_path = join(path, field.key);
+            const Override* override = override_at(field_path);
+            // yaml-cpp's nodes are references: one is only ever made, never assigned.
+            const YAML::Node given = override ? override->value : map[field.key];
+            const bool absent = !given.IsDefined() || given.IsNull();
+            const bool opened =
+                absent && std::holds_alternative<SectionField>(field.target) && override_below(field_path);
+            if (absent && !opened) {
+                if (field.required)
+                    fail(place, map, field_path, "the key is missing; it is " + field.meaning);
+                continue;
+            }
+            if (field.present) *field.present = true;
+            const Place value_place =
+                override ? Place{"--set " + field_path, std::filesystem::current_path(), true} : place;
+            read_value(opened ? YAML::Node(YAML::NodeType::Map) : given, value_place, field, field_path,
+                       depth);
+        }
+        if (!section.validate) return;
+        try {
+            section.validate();
+        } catch (const InputError& error) {
+            fail(place, map, path, error.what());
+        }
+    }
+
+    static void refuse_unknown_keys(const YAML::Node& map, const Place& place, const Fields& known,
+                                    const std::string& path) {
+        std::vector<std::string> seen;
+        for (const auto& entry : map) {
+            const std::string key =
+                entry.first.IsScalar() ? entry.first.Scalar() : std::string("(not a word)");
+            if (std::none_of(known.begin(), known.end(), [&](const Field& f) { return f.key == key; }))
+                fail(place, entry.first, join(path, shortened(key)), "unknown key" + advice_for(key, known));
+            if (std::find(seen.begin(), seen.end(), key) != seen.end())
+                fail(place, entry.first, join(path, shortened(key)), "the key is given twice");
+            seen.push_back(key);
+        }
+    }
+
+    void read_value(const YAML::Node& node, const Place& place, const Field& field, const std::string& path,
+                    int depth) {
+        count_node(place, node, path, depth);
+        const auto refuse = [&](const YAML::Node& at, const std::string& accepted) {
+            fail(place, at, path,
+                 "found " + show(at) + "; accepted: " + accepted + " (" + field.meaning + ")");
+        };
+        const auto number = [&](const YAML::Node& at, const Range& range) {
+            count_number(place, at, path);
+            const std::optional<double> value = to_number(at);
+            if (!value || *value < range.least || *value > range.most)
+                refuse(at, "a number, " + accepted(range));
+            return *value;
+        };
+        const auto list = [&](std::size_t fewest, std::size_t most) {
+            if (!node.IsSequence() || node.size() < fewest || node.size() > most)
+                refuse(node, "a list of " +
+                                 (fewest == most ? std::to_string(most)
+                                                 : std::to_string(fewest) + " to " + std::to_string(most)) +
+                                 " numbers");
+        };
+        std::visit(
+            Overloaded{
+                [&](const NumberField& f) { *f.value = number(node, f.range) * f.si_per_unit; },
+                [&](const IntegerField& f) { *f.value = integer(node, f.range, refuse); },
+                [&](const FlagField& f) {
+                    if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false"))
+                        refuse(node, "true or false");
+                    *f.value = node.Scalar() == "true";
+                },
+                [&](const TextField& f) {
+                    if (!node.IsScalar()) refuse(node, "a text");
+                    *f.value = node.Scalar();
+                },
+                [&](const TextsField& f) {
+                    if (!node.IsScalar() && !node.IsSequence()) refuse(node, "a list of texts");
+                    std::vector<std::string> list_of_texts;
+                    if (node.IsScalar()) list_of_texts.push_back(node.Scalar());
+                    for (const auto& item : node) {
+                        count_number(place, item, path);
+                        if (!item.IsScalar()) refuse(item, "a text");
+                        list_of_texts.push_back(item.Scalar());
+                    }
+                    *f.value = list_of_texts;
+                },
+                [&](const PathField& f) {
+                    if (!node.IsScalar() || node.Scalar().empty()) refuse(node, "a path");
+                    *f.value = place.folder / node.Scalar();
+                },
+                [&](const ChoiceField& f) {
+                    const auto word =
+                        std::find(f.words.begin(), f.words.end(), node.IsScalar() ? node.Scalar() : "");
+                    if (word == f.words.end()) {
+                        std::string words;
+                        for (const std::string& w : f.words) words += (words.empty() ? "" : " | ") + w;
+                        refuse(node, words);
+                    }
+                    f.set(static_cast<std::size_t>(word - f.words.begin()));
+                },
+                [&](const NumbersField& f) {
+                    list(f.fewest, f.most);
+                    std::vector<double> values;
+                    for (const auto& item : node) values.push_back(number(item, f.range) * f.si_per_unit);
+                    *f.value = values;
+                },
+                [&](const Vec3Field& f) {
+                    list(3, 3);
+                    *f.value = f.si_per_unit * Vec3d{number(node[0], f.range), number(node[1], f.range),
+                                                     number(node[2], f.range)};
+                },
+                [&](const QuatField& f) {
+                    list(4, 4);
+                    const Range unit{-1.001, 1.001};
+                    const Quat q{number(node[0], unit), number(node[1], unit), number(node[2], unit),
+                                 number(node[3], unit)};
+                    if (std::abs(norm(q) - 1) > 1e-3)
+                        fail(place, node, path,
+                             "found a quaternion of norm " + plain(norm(q)) +
+                                 "; accepted: [w, x, y, z] of norm 1");
+                    *f.value = normalized(q);
+                },
+                [&](const CurveField& f) {
+                    *f.value = curve(node, f.range, number, refuse);
+                    f.value->where = where(place, node);
+                },
+                [&](const TableField& f) { *f.value = table(node, f, number, refuse); },
+                [&](const SectionField& f) { section(node, place, f, path, depth, refuse); },
+                [&](const SectionsField& f) {
+                    if (!node.IsSequence()) refuse(node, "a list of mappings");
+                    for (std::size_t i = 0; i < node.size(); ++i)
+                        section(node[i], place, f.append(), join(path, std::to_string(i)), depth, refuse);
+                },
+            },
+            field.target);
+    }
+
+    template <class Refuse>
+    static std::int64_t integer(const YAML::Node& node, const Range& range, const Refuse& refuse) {
+        std::int64_t value = 0;
+        const std::string text = node.IsScalar() ? node.Scalar() : "";
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const auto as_double = static_cast<double>(value);
+        if (text.empty() || error != std::errc{} || end != text.data() + text.size() ||
+            as_double < range.least || as_double > range.most)
+            refuse(node, "a whole number, " + accepted(range));
+        return value;
+    }
+
+    template <class Number, class Refuse>
+    static Curve curve(const YAML::Node& node, const Range& range, const Number& number,
+                       const Refuse& refuse) {
+        if (node.IsScalar()) return Curve::constant(number(node, range));
+        if (!node.IsSequence() || node.size() == 0)
+            refuse(node, "a number, or [[wavelength_um, value], ...]");
+        Table pairs = table(node, {nullptr, "wavelength_um", "value", {0.1, 100}, range}, number, refuse);
+        return {std::move(pairs.x), std::move(pairs.y), {}};
+    }
+
+    template <class Number, class Refuse>
+    static Table table(const YAML::Node& node, const TableField& f, const Number& number,
+                       const Refuse& refuse) {
+        const std::string pair_text = "[" + f.x_name + ", " + f.y_name + "]";
+        if (!node.IsSequence() || node.size() == 0) refuse(node, "[" + pair_text + ", ...]");
+        Table out;
+        for (const auto& pair : node) {
+            if (!pair.IsSequence() || pair.size() != 2) refuse(pair, "a pair " + pair_text);
+            const double x = number(pair[0], f.x_range);
+            if (!out.x.empty() && x <= out.x.back())
+                refuse(pair[0], f.x_name + " that rises from pair to pair");
+            out.x.push_back(x);
+            out.y.push_back(number(pair[1], f.y_range));
+        }
+        return out;
+    }
+
+    template <class Refuse>
+    void section(const YAML::Node& node, const Place& place, const SectionField& f, const std::string& path,
+                 int depth, const Refuse& refuse) {
+        if (node.IsScalar()) return read_file(place.folder / node.Scalar(), f, path, depth + 1);
+        if (!node.IsMap()) refuse(node, "a mapping, or the path of a file that holds it");
+        read_section(node, place, f, path, depth + 1);
+    }
+};
+
+}  // namespace
+
+void read_config(const std::filesystem::path& file, const SectionField& root,
+                 std::span<const std::string> overrides) {
+    Reader reader(overrides);
+    reader.read_file(file, root, "", 0);
+    reader.require_all_overrides_used(root);
+}
+
+void read_config_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                      const SectionField& root, std::span<const std::string> overrides) {
+    Reader reader(overrides);
+    reader.read_text(text, {name, folder}, root, "", 0);
+    reader.require_all_overrides_used(root);
+}
+
+bool has_top_level_key(const std::filesystem::path& file, const std::string& key) {
+    try {
+        const YAML::Node node = YAML::Load(read_input_file(file, kYamlFile));
+        return node.IsMap() && node[key].IsDefined();
+    } catch (const YAML::Exception&) {
+        return false;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+}  // namespace hilcam

@@ -1,0 +1,30 @@
+#pragma once
+// Configuration files: YAML into structs through their field lists (render/vocabulary/config_field.h). The
+// only unit that knows YAML.
+//
+// Every error is one InputError line: file:line:column, the key's path, what was found, what is accepted.
+// Keys that are unknown name the nearest known one. A section may be given as the path of another file,
+// relative to the naming file. An override "a.b.0.c=VALUE" replaces a value before it is read; VALUE is YAML;
+// errors in it name "--set".
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+// Reads a file of at most 4 MiB into the section. Owner thread.
+void read_config(const std::filesystem::path& file, const SectionField& root,
+                 std::span<const std::string> overrides = {});
+// The same from memory; `name` stands for the file in messages, relative paths are taken from `folder`.
+void read_config_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                      const SectionField& root, std::span<const std::string> overrides = {});
+
+// Whether a file is a mapping with this key at its top: what kind of file it is. False for one that cannot be
+// read: read_config() says why.
+bool has_top_level_key(const std::filesystem::path& file, const std::string& key);
+
+}  // namespace hilcam

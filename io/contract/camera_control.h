@@ -1,0 +1,98 @@
+#pragma once
+// The camera's live settings and its trigger input, as commands and camera interfaces (GenICam) see them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "render/vocabulary/time.h"
+#include "sensor/test_pattern.h"
+
+namespace hilcam {
+
+// What starts a frame that is not taken by the frame rate alone. Line0 is the camera's trigger wire: here the
+// command `expose`.
+enum class TriggerSource : std::uint8_t { kSoftware, kLine0, kAction1 };
+
+struct CameraSettings {
+    double exposure_s = 0;
+    double gain_db = 0;         // over the camera file's gain
+    double black_level_dn = 0;  // unbinned
+    double frame_rate_hz = 0;   // free-run
+    bool running = true;        // false between stop and start
+    bool automatic_exposure = false;
+    // Each trigger takes burst_frames frames at the frame rate, the first trigger_delay_s after it.
+    bool triggered = false;
+    TriggerSource trigger_source = TriggerSource::kSoftware;
+    double trigger_delay_s = 0;
+    std::int64_t burst_frames = 1;
+    TestPattern test_pattern = TestPattern::kOff;
+    bool reverse_x = false, reverse_y = false;
+    std::int64_t binning_x = 1, binning_y = 1;
+};
+
+// Members that are set change; the others stay.
+struct SettingsChange {
+    std::optional<double> exposure_s{}, gain_db{}, black_level_dn{}, frame_rate_hz{};
+    std::optional<bool> running{}, automatic_exposure{}, triggered{};
+    std::optional<TriggerSource> trigger_source{};
+    std::optional<double> trigger_delay_s{};
+    std::optional<std::int64_t> burst_frames{};
+    std::optional<TestPattern> test_pattern{};
+    std::optional<bool> reverse_x{}, reverse_y{};
+    std::optional<std::int64_t> binning_x{}, binning_y{};
+};
+
+struct CameraLimits {
+    int width = 0;  // of a frame without binning
+    int height = 0;
+    int bits = 0;                 // of a published DN
+    std::string color_pattern{};  // of the colour filter array, its first two rows: "RGGB"; empty: none
+    double least_exposure_s = 0, most_exposure_s = 0;
+    double least_gain_db = 0, most_gain_db = 0;
+    double most_black_level_dn = 0;
+    double least_frame_rate_hz = 0, most_frame_rate_hz = 0;
+    double most_trigger_delay_s = 10;
+    std::int64_t most_burst_frames = 65535;
+    std::int64_t most_binning = 1;  // 1, 2, 4, ... up to this along each axis; 1: fixed
+    double temperature_c = 0;       // of the detector
+    // The camera sets them itself (a sequence, a line-scan shutter): any change is refused. With automatic
+    // exposure on, the exposure is refused too.
+    bool exposure_is_own = false, gain_is_own = false, frame_rate_is_own = false;
+    bool has_automatic_exposure = false;
+    bool reversible = false;  // ReverseX, ReverseY
+    bool lockstep = false;    // one frame per `expose`, in simulated time; triggered is fixed
+};
+
+enum class TriggerResult : std::uint8_t {
+    kTaken,
+    kMissed,    // the camera is busy with the frame before: no frame, an event
+    kNotArmed,  // the camera does not listen to this source now
+    kTooEarly,  // lockstep: not after the frame before
+};
+
+// A frame or burst that was asked for.
+struct TriggerOrder {
+    TriggerSource source = TriggerSource::kSoftware;
+    std::int64_t at_monotonic_ns = 0;  // 0: now
+    // Not before then, too; ns = 0: none. Lockstep: the instant of the exposure's middle; ns = 0: a period
+    // on.
+    TimeTai at_simulated;
+    std::int64_t frames = 0;     // 0: the settings' burst_frames
+    std::uint32_t sequence = 0;  // of the command
+    bool at_any_time = false;    // lockstep: also not after the frame before
+};
+
+// Changes take effect with the next frame whose exposure has not begun. All functions: any thread, never from
+// the loop (they may take a lock).
+class CameraControl {
+  public:
+    virtual ~CameraControl() = default;
+    virtual CameraSettings settings() const = 0;
+    virtual CameraLimits limits() const = 0;
+    // All or nothing: false, and nothing has changed, when one value is outside its limits.
+    virtual bool change(const SettingsChange& change) = 0;
+    virtual TriggerResult trigger(const TriggerOrder& order) = 0;
+};
+
+}  // namespace hilcam

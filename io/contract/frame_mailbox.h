@@ -1,0 +1,68 @@
+#pragma once
+// Frames from the loop to a sink's own thread: a ring of copies allocated beforehand. The loop never waits;
+// when the ring is full the new frame is dropped and counted.
+
+#include <atomic>
+#include <cstdint>
+#include <semaphore>
+#include <vector>
+
+#include "io/contract/frame_sink.h"
+
+namespace hilcam {
+
+class FrameMailbox {
+  public:
+    struct Item {
+        DnImage frame;
+        FrameRecord record;
+    };
+
+    // The largest frame's size.
+    FrameMailbox(int width, int height, std::size_t slots) : items_(slots) {
+        for (Item& item : items_) item.frame = DnImage(width, height);
+    }
+    // From here to close() a thread takes what is put in. Owner thread.
+    void open() { open_.store(true, std::memory_order_relaxed); }
+    // Loop, one thread.
+    void put(const DnImage& frame, const FrameRecord& record) noexcept {
+        const std::size_t head = head_.load(std::memory_order_relaxed);
+        if (head - tail_.load(std::memory_order_acquire) == items_.size()) {
+            dropped_.fetch_add(1, std::memory_order_relaxed);
+            return;
+        }
+        Item& item = items_[head % items_.size()];
+        item.frame.reshape(frame.width(), frame.height());
+        std::copy(frame.all().begin(), frame.all().end(), item.frame.all().begin());
+        item.record = record;
+        head_.store(head + 1, std::memory_order_release);
+        ready_.release();
+    }
+    // Sink's thread: waits for a frame; nullptr after close(). The item stays until done().
+    const Item* wait() {
+        ready_.acquire();
+        const std::size_t tail = tail_.load(std::memory_order_relaxed);
+        return tail == head_.load(std::memory_order_acquire) ? nullptr : &items_[tail % items_.size()];
+    }
+    void done() { tail_.fetch_add(1, std::memory_order_release); }
+    // Frames already in the ring are still delivered before wait() gives nullptr.
+    void close() {
+        open_.store(false, std::memory_order_relaxed);
+        ready_.release();
+    }
+    // Loop: put() finds a place, or nobody takes frames.
+    bool has_room() const {
+        if (!open_.load(std::memory_order_relaxed)) return true;
+        return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) < items_.size();
+    }
+    std::uint64_t dropped() const { return dropped_.load(); }
+
+  private:
+    std::vector<Item> items_;
+    std::atomic<std::size_t> head_{0}, tail_{0};
+    std::atomic<std::uint64_t> dropped_{0};
+    std::atomic<bool> open_{false};
+    std::counting_semaphore<> ready_{0};
+};
+
+}  // namespace hilcam

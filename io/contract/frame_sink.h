@@ -1,0 +1,94 @@
+#pragma once
+// Where finished frames go: a GigE Vision client, a V4L2 device, files. The loop hands every sink every
+// frame.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/vocabulary/image.h"
+#include "render/vocabulary/time.h"
+
+namespace hilcam {
+
+// What travels with a frame. Monotonic times are CLOCK_MONOTONIC nanoseconds; 0 means "none".
+struct FrameRecord {
+    std::uint64_t id = 0;                        // 1, 2, 3, ... of this run; skipped frames leave a gap
+    TimeTai exposure_mid;                        // simulated time
+    std::int64_t exposure_mid_monotonic_ns = 0;  // the same instant on the machine's clock
+    double exposure_s = 0;
+    double gain_db = 0;
+    double black_level_dn = 0;
+    int bits = 0;  // significant bits of a DN
+    std::int64_t binning_x = 1, binning_y = 1;
+    std::uint32_t pose_sequence = 0;     // of the newest command that this frame shows
+    TimeTai pose_time;                   // that command's time tag
+    std::uint32_t trigger_sequence = 0;  // of the `expose` that asked for it
+    std::uint64_t faults =
+        0;  // bits of the faults that strike it (fault.h), those of packets apart; and above
+    std::uint32_t quality_level = 0;  // 0: as configured
+    bool reverse_x = false, reverse_y = false;
+    std::int64_t command_arrival_monotonic_ns =
+        0;  // when that command arrived; 0 when no new one came since the last frame
+};
+
+struct SinkReport {
+    std::string name;           // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
+    std::uint64_t frames = 0;   // delivered
+    std::uint64_t dropped = 0;  // taken from the loop but not delivered (no client, sink too slow)
+    std::string fault;          // empty, or why the sink stopped delivering
+    // More figures by name: packets resent, clients, ...
+    std::vector<std::pair<std::string, double>> figures{};
+};
+
+// What happens to a frame before it is there.
+struct CameraEvent {
+    enum class Kind : std::uint8_t { kExposureStart, kExposureEnd, kTriggerMissed } kind;
+    std::uint64_t frame = 0;  // 0: of none (a missed trigger)
+    std::int64_t monotonic_ns = 0;
+};
+
+class FrameSink {
+  public:
+    virtual ~FrameSink() = default;
+    // Opens what it needs and starts its own threads. Throws InputError or DeviceError. Owner thread.
+    virtual void start() = 0;
+    // Takes a copy of the frame and returns; never waits for a client or a device. Loop. The image may be
+    // overwritten as soon as this returns.
+    virtual void publish(const DnImage& frame, const FrameRecord& record) noexcept = 0;
+    // False while the next publish() would drop a frame that somebody takes, because the one before is not
+    // out yet: never for long, and not where nobody takes frames (no client, the device gone, the sink
+    // stopped). Lockstep waits for it. Loop.
+    virtual bool has_room() const noexcept { return true; }
+    // Loop and any other thread, at the same time: never waits. An exposure's end is told by publish()'s
+    // thread, right before that frame's publish().
+    virtual void happened(const CameraEvent&) noexcept {}
+    // Ends the threads and closes everything; idempotent. Owner thread.
+    virtual void stop() noexcept = 0;
+    // Any thread.
+    virtual SinkReport report() const = 0;
+    // True when report() names a fault; for who asks often, and may not allocate. Any thread.
+    virtual bool has_fault() const noexcept { return false; }
+};
+
+// Told by sinks when the first and the last byte of a frame have left; times are CLOCK_MONOTONIC ns. Called
+// from the sink's own thread: no lock, no allocation.
+class DeliveryListener {
+  public:
+    virtual ~DeliveryListener() = default;
+    virtual void delivered(const FrameRecord& record, std::int64_t first_ns,
+                           std::int64_t last_ns) noexcept = 0;
+};
+
+class CameraControl;
+class FaultBoard;
+
+// What a sink lives among; all of it outlives the sink.
+struct SinkContext {
+    CameraControl& camera;
+    FaultBoard& faults;
+    DeliveryListener* listener = nullptr;  // may be null
+};
+
+}  // namespace hilcam

@@ -1,0 +1,44 @@
+#pragma once
+// Attitude Ephemeris Messages (AEM) in KVN form: CCSDS 504.0-B-2 section 4 (version 2.0), and version 1.0 of
+// 504.0-B-1 as far as its types are still in the second issue.
+//
+// Types: QUATERNION, QUATERNION/DERIVATIVE, QUATERNION/ANGVEL, EULER_ANGLE, EULER_ANGLE/DERIVATIVE,
+// EULER_ANGLE/ANGVEL, SPIN. One frame is the body's (SC_BODY...), the other ICRF, GCRF, EME2000, ITRF, TEME,
+// LVLH or RTN. Quaternions are those of annex F: of the rotation that takes frame A's axes to frame B's.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/files/ccsds_message.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+struct AttitudeSample {
+    TimeTai time;
+    Quat reference_from_body;  // neighbours have the same sign
+    Vec3d rate_body_rad_s;     // of the body against the reference; where the segment has rates
+};
+
+struct AemSegment {
+    std::string object_name, object_id;
+    CcsdsFrame reference = CcsdsFrame::kIcrf;
+    TimeTai usable_start, usable_stop;
+    Interpolation interpolation;
+    bool has_rates = false;
+    std::vector<AttitudeSample> attitudes;  // times rise; at least two, and enough for the interpolation
+    int line = 0;                           // of META_START
+};
+
+// As load_oem(): the segments of one object, in time, at most 256 MiB. HERMITE without rates in the message
+// (as in the standard's own example) takes as many attitudes as LAGRANGE of its degree. Throws InputError
+// with file:line.
+std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object = "");
+std::vector<AemSegment> read_aem(std::string_view text, const std::string& name,
+                                 const std::string& object = "");
+// How many attitudes an interpolation of the segment takes.
+int interpolation_nodes(const AemSegment& segment);
+
+}  // namespace hilcam

@@ -1,0 +1,77 @@
+#include "io/files/mesh_cache.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+extern char** environ;
+
+namespace hilcam {
+namespace {
+
+int run(const std::filesystem::path& program, std::vector<std::string> words) {
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    if (posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ) != 0) return -1;
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+std::filesystem::path cache_folder() {
+    if (const char* own = std::getenv("HILCAM_CACHE"); own && *own) return own;
+    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg)
+        return std::filesystem::path(xdg) / "hilcam";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return std::filesystem::path(home) / ".cache" / "hilcam";
+    return std::filesystem::temp_directory_path() / "hilcam";
+}
+
+std::filesystem::path generated_mesh(const std::string& program, const std::vector<std::string>& arguments,
+                                     const std::filesystem::path& folder) {
+    const auto plain = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
+    };
+    if (program.empty() || !std::all_of(program.begin(), program.end(), plain))
+        throw InputError("mesh generator " + in_quotes(program) +
+                         ": accepted: the name of a program beside hilcam, as " + "hilcam-make-spacecraft");
+    std::string name = program;
+    for (const std::string& argument : arguments) {
+        const std::string word = argument.substr(std::min(argument.find_first_not_of('-'), argument.size()));
+        name += "_";
+        for (const char c : word) name += plain(c) || c == '.' ? c : '-';
+    }
+    const std::filesystem::path file = folder / (name + ".glb");
+    if (std::filesystem::exists(file)) return file;
+
+    std::error_code error;
+    const auto beside = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / program;
+    if (!std::filesystem::exists(beside))
+        throw InputError("mesh generator " + beside.string() +
+                         " is missing; build it, or give the object a mesh file");
+    std::filesystem::create_directories(folder, error);
+    if (error) throw DeviceError("cache folder " + folder.string() + " cannot be made: " + error.message());
+    std::vector<std::string> words = {program};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    words.insert(words.end(), {"--out", file.string()});
+    const int status = run(beside, words);
+    if (status == 2) throw InputError("mesh generator " + program + " refuses its arguments (see above)");
+    if (status != 0 || !std::filesystem::exists(file))
+        throw DeviceError("mesh generator " + program + " failed with status " + std::to_string(status) +
+                          " for " + file.string());
+    return file;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,122 @@
+#include "io/files/mesh_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+
+#include "io/files/mesh_import.h"
+#include "io/system/confined.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+// What any mesh may take: a node or a material is a kilobyte and more, and libraries have tables.
+constexpr std::uint64_t kLeastMemory_bytes = std::uint64_t{512} << 20;
+constexpr double kLeastCpu_s = 10;
+
+void write_surface(const MeshSurface& s, ConfinedOutput& out) {
+    out.text(s.name);
+    out.value(s.base_color);
+    out.value(s.metallic);
+    out.value(s.roughness);
+    out.value(s.base_color_texture);
+}
+
+MeshSurface read_surface(ConfinedResult& in) {
+    MeshSurface s;
+    s.name = in.text();
+    s.base_color = in.value<Vec3f>();
+    s.metallic = in.value<float>();
+    s.roughness = in.value<float>();
+    s.base_color_texture = in.value<int>();
+    return s;
+}
+
+void write_texture(const Texture& t, ConfinedOutput& out) {
+    out.text(t.name);
+    out.value(t.width);
+    out.value(t.height);
+    out.list(std::span(t.texels));
+}
+
+Texture read_texture(ConfinedResult& in) {
+    Texture t;
+    t.name = in.text();
+    t.width = in.value<int>();
+    t.height = in.value<int>();
+    t.texels = in.list<std::array<std::uint8_t, 3>>();
+    if (t.width < 1 || t.height < 1 ||
+        t.texels.size() != static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height))
+        in.refuse();
+    return t;
+}
+
+void write_mesh(const Mesh& m, ConfinedOutput& out) {
+    out.list(std::span(m.vertices_m));
+    out.list(std::span(m.normals));
+    out.list(std::span(m.uvs));
+    out.list(std::span(m.triangles));
+    out.list(std::span(m.surface_of_triangle));
+    out.value(m.surfaces.size());
+    for (const MeshSurface& s : m.surfaces) write_surface(s, out);
+    out.value(m.textures.size());
+    for (const Texture& t : m.textures) write_texture(t, out);
+}
+
+// What would lead astray whoever uses it: the child may have been broken by the file.
+bool is_whole(const Mesh& m) {
+    const auto all_below = [](const auto& values, std::size_t end) {
+        return std::all_of(values.begin(), values.end(), [&](auto v) { return v < end; });
+    };
+    return m.surface_of_triangle.size() == m.triangles.size() &&
+           (m.normals.empty() || m.normals.size() == m.vertices_m.size()) &&
+           (m.uvs.empty() || m.uvs.size() == m.vertices_m.size()) &&
+           all_below(m.surface_of_triangle, m.surfaces.size()) &&
+           std::all_of(m.triangles.begin(), m.triangles.end(),
+                       [&](const auto& t) { return all_below(t, m.vertices_m.size()); }) &&
+           std::all_of(m.surfaces.begin(), m.surfaces.end(), [&](const MeshSurface& s) {
+               return s.base_color_texture < static_cast<int>(m.textures.size());
+           });
+}
+
+Mesh read_mesh(ConfinedResult& in) {
+    Mesh m;
+    m.vertices_m = in.list<Vec3f>();
+    m.normals = in.list<Vec3f>();
+    m.uvs = in.list<Vec2f>();
+    m.triangles = in.list<std::array<std::uint32_t, 3>>();
+    m.surface_of_triangle = in.list<std::uint16_t>();
+    for (auto left = in.value<std::size_t>(); left > 0; --left) m.surfaces.push_back(read_surface(in));
+    for (auto left = in.value<std::size_t>(); left > 0; --left) m.textures.push_back(read_texture(in));
+    if (!is_whole(m)) in.refuse();
+    return m;
+}
+
+}  // namespace
+
+Mesh load_mesh(const std::filesystem::path& file) { return std::move(load_mesh_parts(file, {}).front()); }
+
+std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes) {
+    std::string kind = file.extension().string();
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::array<std::string, 5> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply"};
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": no such mesh file");
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+        throw InputError(file.string() + ": found a file of kind " + in_quotes(kind) +
+                         "; accepted: .glb .gltf .obj .stl .ply");
+    const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
+    const ConfinedLimits limits{kLeastMemory_bytes + kMeshMemoryPerByte * bytes,
+                                kLeastCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
+    ConfinedResult result = run_confined(file.string(), limits, [&](ConfinedOutput& out) {
+        for (const Mesh& mesh : import_mesh_parts(file, kind, nodes)) write_mesh(mesh, out);
+    });
+    std::vector<Mesh> meshes;
+    for (std::size_t part = 0; part <= nodes.size(); ++part) meshes.push_back(read_mesh(result));
+    return meshes;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,355 @@
+#include "io/files/mesh_import.h"
+
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <new>
+#include <optional>
+
+#include "io/files/gltf_webp.h"
+#include "io/files/mesh_guard.h"
+#include "io/files/picture_file.h"
+#include "io/system/confined.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+// All textures of a file together have at most so many: 3 GB of colours.
+constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
+// Vertices, normals, places on textures, corners, and the same once more as assimp has them.
+constexpr std::uint64_t kBytesPerTriangle = 250;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+    throw InputError(file.string() + ": " + what);
+}
+
+class Loader {
+  public:
+    // part: which of `nodes` to take, or -1 for what none of them takes.
+    Loader(const std::filesystem::path& file, const aiScene& scene, std::span<const std::string> nodes,
+           int part)
+        : file_(file), scene_(scene), nodes_(nodes), part_(part) {}
+
+    Mesh load() {
+        read_materials();
+        count_normals_and_uvs();
+        if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1);
+        if (mesh_.triangles.empty()) refuse_empty();
+        return std::move(mesh_);
+    }
+
+  private:
+    const std::filesystem::path& file_;
+    const aiScene& scene_;
+    std::span<const std::string> nodes_;
+    int part_;
+    Mesh mesh_;
+    std::map<std::string, int> texture_index_;
+    bool any_normals_ = false;
+    bool any_uvs_ = false;
+    std::uint64_t texels_ = 0;
+
+    // One part without normals or uvs must not take them from the others, so the missing ones are filled in.
+    void count_normals_and_uvs() {
+        for (unsigned i = 0; i < scene_.mNumMeshes; ++i) {
+            any_normals_ |= scene_.mMeshes[i]->HasNormals();
+            any_uvs_ |= scene_.mMeshes[i]->HasTextureCoords(0);
+        }
+    }
+
+    void read_materials() {
+        for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
+            mesh_.surfaces.push_back(surface_of(*scene_.mMaterials[i]));
+        if (mesh_.surfaces.empty()) mesh_.surfaces.emplace_back();
+    }
+
+    MeshSurface surface_of(const aiMaterial& material) {
+        MeshSurface surface;
+        surface.name = material.GetName().C_Str();
+        aiColor4D color;
+        if (material.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS ||
+            material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS)
+            surface.base_color = {std::clamp(color.r, 0.0f, 1.0f), std::clamp(color.g, 0.0f, 1.0f),
+                                  std::clamp(color.b, 0.0f, 1.0f)};
+        ai_real value = 0;
+        if (material.Get(AI_MATKEY_METALLIC_FACTOR, value) == AI_SUCCESS)
+            surface.metallic = std::clamp(value, 0.0f, 1.0f);
+        if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == AI_SUCCESS)
+            surface.roughness = std::clamp(value, 0.0f, 1.0f);
+        aiString path;
+        for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
+            if (material.GetTexture(type, 0, &path) == AI_SUCCESS) {
+                surface.base_color_texture = texture_of(path.C_Str(), surface.name);
+                break;
+            }
+        return surface;
+    }
+
+    int texture_of(const std::string& path, const std::string& material) {
+        const auto known = texture_index_.find(path);
+        if (known != texture_index_.end()) return known->second;
+        Texture texture = decode(
+            path, file_.string() + ": texture " + in_quotes(path) + " of material " + in_quotes(material));
+        texture.name = path;
+        texels_ += texture.texels.size();
+        if (texels_ > kMostTexels)
+            refuse(file_, "its textures have more than " + std::to_string(kMostTexels) + " pixels together");
+        mesh_.textures.push_back(std::move(texture));
+        return texture_index_[path] = static_cast<int>(mesh_.textures.size()) - 1;
+    }
+
+    // `what` begins messages.
+    Texture decode(const std::string& path, const std::string& what) const {
+        const aiTexture* const embedded = scene_.GetEmbeddedTexture(path.c_str());
+        if (!embedded) {
+            const std::filesystem::path beside = file_.parent_path() / path;
+            std::error_code error;
+            if (!std::filesystem::exists(beside, error))
+                throw InputError(what + " is missing; expected at " + beside.string());
+            const std::string bytes = read_input_file(beside, picture_kind());
+            return decode_texture({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, what);
+        }
+        if (embedded->mHeight == 0)  // compressed: mWidth is the number of bytes
+            return decode_texture({reinterpret_cast<const std::uint8_t*>(embedded->pcData), embedded->mWidth},
+                                  what);
+        throw InputError(what + " is not compressed; accepted: PNG, JPEG, TIFF, BMP, WebP");
+    }
+
+    // Which of the names takes a node, or -1.
+    int taken_by(const std::string& name) const {
+        for (std::size_t k = 0; k < nodes_.size(); ++k) {
+            const std::string& pattern = nodes_[k];
+            const bool open = !pattern.empty() && pattern.back() == '*';
+            if (open ? name.starts_with(pattern.substr(0, pattern.size() - 1)) : name == pattern)
+                return static_cast<int>(k);
+        }
+        return -1;
+    }
+
+    // above: the part that a node further up belongs to.
+    void read_node(const aiNode& node, const aiMatrix4x4& parent, int above) {
+        const int own = taken_by(node.mName.C_Str());
+        const int part = own >= 0 ? own : above;
+        const aiMatrix4x4 body_from_node = parent * node.mTransformation;
+        if (part == part_)
+            for (unsigned i = 0; i < node.mNumMeshes; ++i)
+                read_part(*scene_.mMeshes[node.mMeshes[i]], body_from_node);
+        for (unsigned i = 0; i < node.mNumChildren; ++i) read_node(*node.mChildren[i], body_from_node, part);
+    }
+
+    [[noreturn]] void refuse_empty() const {
+        if (part_ < 0)
+            refuse(file_, nodes_.empty() ? "holds no triangle; accepted: a mesh with at least one"
+                                         : "holds no triangle besides its parts");
+        std::string names;
+        list_names(*scene_.mRootNode, names);
+        refuse(file_, "no triangle under a node " + in_quotes(nodes_[static_cast<std::size_t>(part_)]) +
+                          "; its nodes:" + harmless(names));
+    }
+    static void list_names(const aiNode& node, std::string& names) {
+        if (names.size() < 400) names.append(" ").append(node.mName.C_Str());
+        for (unsigned i = 0; i < node.mNumChildren; ++i) list_names(*node.mChildren[i], names);
+    }
+
+    void read_part(const aiMesh& part, const aiMatrix4x4& body_from_part) {
+        if (!(part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE)) return;
+        const auto base = static_cast<std::uint32_t>(mesh_.vertices_m.size());
+        require_finite(part);
+        aiMatrix3x3 normal_matrix(body_from_part);
+        const bool mirrored = normal_matrix.Determinant() < 0;
+        normal_matrix.Inverse().Transpose();
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const aiVector3D p = body_from_part * part.mVertices[i];
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+                refuse(file_,
+                       "part " + in_quotes(part.mName.C_Str()) + " is not finite once its node places it");
+            mesh_.vertices_m.push_back({p.x, p.y, p.z});
+            if (any_uvs_) {
+                const bool has = part.HasTextureCoords(0);
+                mesh_.uvs.push_back(has ? Vec2f{part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y}
+                                        : Vec2f{});
+            }
+            if (any_normals_) {
+                const aiVector3D n =
+                    part.HasNormals() ? normal_matrix * part.mNormals[i] : aiVector3D(0, 0, 0);
+                const float size = n.Length();
+                mesh_.normals.push_back(size > 0 && std::isfinite(size) ? Vec3f{n.x, n.y, n.z} / size
+                                                                        : Vec3f{});
+            }
+        }
+        const auto surface =
+            static_cast<std::uint16_t>(std::min<std::size_t>(part.mMaterialIndex, mesh_.surfaces.size() - 1));
+        for (unsigned i = 0; i < part.mNumFaces; ++i) {
+            const aiFace& face = part.mFaces[i];
+            if (face.mNumIndices != 3) continue;
+            std::array<std::uint32_t, 3> t = {face.mIndices[0], face.mIndices[1], face.mIndices[2]};
+            if (std::max({t[0], t[1], t[2]}) >= part.mNumVertices)
+                refuse(file_, "triangle " + std::to_string(i) + " of part " + in_quotes(part.mName.C_Str()) +
+                                  " names a vertex that does not exist");
+            // By place: some of assimp's loaders give each corner a vertex of its own.
+            const auto at = [&](std::size_t corner) { return mesh_.vertices_m[base + t[corner]]; };
+            if (at(0) == at(1) || at(1) == at(2) || at(0) == at(2)) continue;
+            if (mirrored) std::swap(t[1], t[2]);
+            for (std::uint32_t& index : t) index += base;
+            mesh_.triangles.push_back(t);
+            mesh_.surface_of_triangle.push_back(surface);
+        }
+    }
+
+    void require_finite(const aiMesh& part) const {
+        unsigned bad = 0;
+        unsigned first = 0;
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const aiVector3D& p = part.mVertices[i];
+            if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+            if (bad++ == 0) first = i;
+        }
+        if (bad > 0)
+            refuse(file_, std::to_string(bad) + " of " + std::to_string(part.mNumVertices) +
+                              " vertices of part " + in_quotes(part.mName.C_Str()) +
+                              " are not finite, the first is number " + std::to_string(first));
+    }
+};
+
+// The files that assimp opens: the mesh is in memory already, others are opened as every file is.
+class MeshFiles final : public Assimp::IOSystem {
+  public:
+    // `bytes` stand for the file `path`.
+    MeshFiles(std::string path, std::string_view bytes) : path_(std::move(path)), bytes_(bytes) {
+        if (path_.ends_with(".obj")) materials_.add(bytes_, path_);
+    }
+
+    // What is wrong with a file: assimp has words of its own for it, or goes on without the file.
+    const std::optional<InputError>& refused() const { return refused_; }
+
+    bool Exists(const char* file) const override {
+        std::error_code error;
+        return file == path_ || std::filesystem::exists(file, error);
+    }
+    char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char* file, const char*) override {
+        if (file == path_) return stream_of(bytes_);
+        if (!Exists(file)) return nullptr;
+        try {
+            beside_.push_back(read_input_file(file, mesh_kind()));
+            const std::string& text = beside_.back();
+            allow_more(kMeshMemoryPerByte * text.size(), kMeshCpu_s_byte * static_cast<double>(text.size()));
+            if (path_.ends_with(".obj")) materials_.add(text, file);
+            return stream_of(text);
+        } catch (const InputError& error) {
+            refused_ = error;
+            throw;
+        }
+    }
+    void Close(Assimp::IOStream* stream) override { delete stream; }
+
+  private:
+    std::string path_;
+    std::string_view bytes_;
+    std::optional<InputError> refused_;
+    std::deque<std::string> beside_;  // in use as long as assimp reads
+    ObjMaterials materials_;
+
+    static Assimp::IOStream* stream_of(std::string_view bytes) {
+        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    }
+};
+
+// A file as assimp is to read it: at a path whose ending says what it is.
+struct Source {
+    std::string path, bytes;
+};
+
+Source source_of(const std::filesystem::path& file, const std::string& kind) {
+    const std::string name = file.string();
+    Source source{(file.parent_path() / file.stem()).string() + kind, read_input_file(file, mesh_kind())};
+    if (kind == ".ply") require_ply_header(source.bytes, name);
+    if (kind == ".gltf") require_few_nodes(source.bytes, name);
+    if (kind != ".glb") return source;
+    const GlbChunks chunks = require_glb_chunks(source.bytes, name);
+    require_few_nodes(chunks.json, name);
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(source.bytes.data());
+    if (!chunks.has_binary) {
+        // assimp takes the first buffer of a GLB for its binary chunk. Without one, the JSON is all there is.
+        source = {source.path + ".gltf", std::string(chunks.json)};
+    } else if (const auto changed = with_plain_webp_sources({bytes, source.bytes.size()})) {
+        source.bytes.assign(changed->begin(), changed->end());
+    }
+    return source;
+}
+
+// What the parts have once their nodes place them.
+std::uint64_t placed_triangles(const aiNode& node, const std::vector<std::uint64_t>& of_mesh) {
+    std::uint64_t sum = 0;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) sum += of_mesh[node.mMeshes[i]];
+    for (unsigned i = 0; i < node.mNumChildren; ++i) sum += placed_triangles(*node.mChildren[i], of_mesh);
+    return sum;
+}
+
+// Called before anything is computed of it.
+void require_few(const aiScene& scene, const std::filesystem::path& file) {
+    if (scene.mNumMaterials > kMostMaterials) refuse_materials(scene.mNumMaterials, file.string());
+    std::vector<std::uint64_t> of_mesh(scene.mNumMeshes);
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+        const aiMesh& mesh = *scene.mMeshes[i];
+        for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+            const unsigned corners = mesh.mFaces[k].mNumIndices;
+            if (corners > kMostCorners)
+                refuse(file, "has a polygon of " + std::to_string(corners) + " corners; accepted: at most " +
+                                 std::to_string(kMostCorners));
+            of_mesh[i] += std::max(3u, corners) - 2;
+        }
+    }
+    const std::uint64_t triangles = scene.mRootNode ? placed_triangles(*scene.mRootNode, of_mesh) : 0;
+    if (triangles > kMostTriangles)
+        refuse(file, "has " + std::to_string(triangles) + " triangles; accepted: at most " +
+                         std::to_string(kMostTriangles));
+    allow_more(kBytesPerTriangle * triangles, 1e-6 * static_cast<double>(triangles));
+}
+
+const aiScene& read_scene(Assimp::Importer& importer, const Source& source,
+                          const std::filesystem::path& file) {
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    auto* const files = new MeshFiles(source.path, source.bytes);  // the importer's from the next line on
+    importer.SetIOHandler(files);
+    const aiScene* scene = importer.ReadFile(source.path, 0);
+    if (files->refused()) throw *files->refused();
+    if (scene) {
+        require_few(*scene, file);
+        scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+    }
+    const std::string error = importer.GetErrorString();
+    if (!scene && error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+    if (!scene) refuse(file, "does not parse: " + error);
+    return *scene;
+}
+
+}  // namespace
+
+const InputKind& mesh_kind() {
+    static const InputKind kind{std::uintmax_t{4} << 30, "a mesh file, or what one names beside it"};
+    return kind;
+}
+
+std::vector<Mesh> import_mesh_parts(const std::filesystem::path& file, const std::string& kind,
+                                    std::span<const std::string> nodes) {
+    const Source source = source_of(file, kind);
+    Assimp::Importer importer;
+    const aiScene& scene = read_scene(importer, source, file);
+    std::vector<Mesh> meshes;
+    for (int part = -1; part < static_cast<int>(nodes.size()); ++part)
+        meshes.push_back(Loader(file, scene, nodes, part).load());
+    return meshes;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,27 @@
+#pragma once
+// Mesh files through assimp, in this process: no caller but the child that mesh_file.cpp makes, and fuzzing.
+// The only unit that knows assimp.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/system/input_file.h"
+#include "render/vocabulary/mesh.h"
+
+namespace hilcam {
+
+// What mesh files, and what they name beside them, are opened as.
+const InputKind& mesh_kind();
+// What a byte of a mesh file may cost: a hundred times what large files take a megabyte.
+inline constexpr double kMeshCpu_s_byte = 3e-6;
+// A line of an OBJ becomes objects some tens of times its size.
+inline constexpr std::uint64_t kMeshMemoryPerByte = 64;
+
+// Does what load_mesh_parts() of mesh_file.h does. `kind`: the ending, in small letters. std::bad_alloc when
+// memory is limited and runs out.
+std::vector<Mesh> import_mesh_parts(const std::filesystem::path& file, const std::string& kind,
+                                    std::span<const std::string> nodes);
+
+}  // namespace hilcam

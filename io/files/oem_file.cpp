@@ -1,0 +1,148 @@
+#include "io/files/oem_file.h"
+
+#include <algorithm>
+
+#include "io/system/input_file.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::uintmax_t kMostBytes = 256u << 20;
+constexpr double kKilometre_m = 1000;
+
+void read_header(KvnLines& lines, KvnLine& line) {
+    if (!lines.next(line) || line.key != "CCSDS_OEM_VERS")
+        lines.refuse(line.text, "CCSDS_OEM_VERS = 1.0, 2.0 or 3.0 first");
+    if (line.value != "1.0" && line.value != "2.0" && line.value != "3.0")
+        lines.refuse(line.value, "CCSDS_OEM_VERS 1.0, 2.0 or 3.0");
+    while (lines.next(line)) {
+        if (line.text == "META_START") return;
+        if (line.key.empty()) lines.refuse(line.text, "META_START before data");
+    }
+    lines.fail("the file ends; accepted: META_START");
+}
+
+struct Metadata {
+    OemSegment segment;
+    TimeSystem system = TimeSystem::kUtc;
+    SegmentSpan span;
+};
+
+Metadata read_metadata(KvnLines& lines) {
+    Metadata m;
+    m.segment.line = lines.number();
+    KvnSection meta;
+    meta.read(lines, "META_STOP",
+              {"OBJECT_NAME", "OBJECT_ID", "CENTER_NAME", "REF_FRAME", "REF_FRAME_EPOCH", "TIME_SYSTEM",
+               "START_TIME", "USEABLE_START_TIME", "USEABLE_STOP_TIME", "STOP_TIME", "INTERPOLATION",
+               "INTERPOLATION_DEGREE"});
+    m.segment.object_name = meta.require(lines, "OBJECT_NAME").value;
+    m.segment.object_id = meta.require(lines, "OBJECT_ID").value;
+    m.segment.center_name = meta.require(lines, "CENTER_NAME").value;
+    m.segment.frame =
+        ccsds_frame(lines, meta.require(lines, "REF_FRAME"),
+                    {CcsdsFrame::kIcrf, CcsdsFrame::kEme2000, CcsdsFrame::kEarthFixed, CcsdsFrame::kTeme});
+    m.system = ccsds_time_system(lines, meta.require(lines, "TIME_SYSTEM"));
+    m.span = meta.span(lines, m.system);
+    m.segment.usable_start = m.span.usable_start, m.segment.usable_stop = m.span.usable_stop;
+    m.segment.interpolation = meta.interpolation(lines, "INTERPOLATION");
+    return m;
+}
+
+void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
+    std::string_view epoch;
+    const std::vector<double> v = data_numbers(lines, line.text, epoch);
+    if (v.size() != 6 && v.size() != 9)
+        lines.refuse(line.text, "an epoch with 6 or 9 numbers: position, velocity, perhaps acceleration");
+    const TimeTai time = ccsds_epoch(lines, epoch, m.system);
+    if (time < m.span.start || m.span.stop < time) lines.refuse(epoch, "epochs from START_TIME to STOP_TIME");
+    std::vector<StateSample>& states = m.segment.states;
+    if (!states.empty() && time <= states.back().time)
+        lines.refuse(epoch, "epochs that rise from line to line");
+    // Nothing that moves leaves 1e13 km or outruns light.
+    if (!(std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]) < 1e13) ||
+        !(std::abs(v[3]) + std::abs(v[4]) + std::abs(v[5]) < 3e5))
+        lines.refuse(line.text, "positions below 1e13 km and velocities below 3e5 km/s");
+    states.push_back({time, kKilometre_m * Vec3d{v[0], v[1], v[2]}, kKilometre_m * Vec3d{v[3], v[4], v[5]}});
+}
+
+// Whether the states reach over the usable span and are enough to interpolate.
+void check_states(const KvnLines& lines, const OemSegment& s) {
+    const auto fewest = static_cast<std::size_t>(std::max(2, interpolation_nodes(s.interpolation)));
+    if (s.states.size() < fewest)
+        lines.fail("the segment that begins here has " + std::to_string(s.states.size()) +
+                       " states; accepted: at least " + std::to_string(fewest) + " for its interpolation",
+                   s.line);
+    check_steps(lines, s.states, s.line);
+    if (s.states.front().time > s.usable_start || s.states.back().time < s.usable_stop)
+        lines.fail("the states of the segment that begins here, " + format_utc(s.states.front().time) +
+                       " to " + format_utc(s.states.back().time) + ", do not reach over its usable span, " +
+                       format_utc(s.usable_start) + " to " + format_utc(s.usable_stop),
+                   s.line);
+}
+
+void skip_covariance(KvnLines& lines, KvnLine& line) {
+    while (lines.next(line))
+        if (line.text == "COVARIANCE_STOP") return;
+    lines.fail("the file ends; accepted: COVARIANCE_STOP");
+}
+
+// Data up to the next META_START (true) or the file's end.
+bool read_data(KvnLines& lines, KvnLine& line, Metadata& m) {
+    while (lines.next(line)) {
+        if (line.text == "META_START") return true;
+        if (line.text == "COVARIANCE_START")
+            skip_covariance(lines, line);
+        else
+            read_state(lines, line, m);
+    }
+    return false;
+}
+
+bool is_object(const OemSegment& s, const std::string& object) {
+    return s.object_name == object || s.object_id == object;
+}
+
+void keep(const KvnLines& lines, std::vector<OemSegment>& kept, OemSegment&& segment,
+          const std::string& object) {
+    if (!object.empty() && !is_object(segment, object)) return;
+    if (!kept.empty()) {
+        const OemSegment& before = kept.back();
+        if (object.empty() && before.object_id != segment.object_id)
+            lines.fail("has objects " + in_quotes(before.object_id) + " and " + in_quotes(segment.object_id) +
+                           "; accepted: one of them by 'object'",
+                       segment.line);
+        if (segment.usable_start < before.usable_stop)
+            lines.fail("the segment that begins here is usable from " + format_utc(segment.usable_start) +
+                           ", before the one of line " + std::to_string(before.line) + " ends (" +
+                           format_utc(before.usable_stop) + ")",
+                       segment.line);
+    }
+    kept.push_back(std::move(segment));
+}
+
+}  // namespace
+
+std::vector<OemSegment> read_oem(std::string_view text, const std::string& name, const std::string& object) {
+    KvnLines lines(text, name);
+    KvnLine line;
+    read_header(lines, line);
+    std::vector<OemSegment> segments;
+    for (bool more = true; more;) {
+        Metadata m = read_metadata(lines);
+        more = read_data(lines, line, m);
+        check_states(lines, m.segment);
+        keep(lines, segments, std::move(m.segment), object);
+    }
+    if (segments.empty())
+        throw InputError(name + ": has no object " + in_quotes(object) +
+                         "; accepted: an OBJECT_NAME or OBJECT_ID");
+    return segments;
+}
+
+std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object) {
+    return read_oem(read_input_file(file, {kMostBytes, "an orbit ephemeris message (CCSDS OEM)"}),
+                    file.string(), object);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,39 @@
+#pragma once
+// Orbit Ephemeris Messages (OEM) in KVN form: CCSDS 502.0-B-3 section 5, versions 1.0 to 3.0.
+//
+// Frames: ICRF, GCRF, EME2000, ITRF and its realisations, TEME. Time systems: UTC, TAI, TT, GPS, TDB.
+// Covariances and accelerations are passed over.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/files/ccsds_message.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+struct StateSample {
+    TimeTai time;
+    Vec3d position_m, velocity_m_s;
+};
+
+// States that may be interpolated with each other.
+struct OemSegment {
+    std::string object_name, object_id, center_name;
+    CcsdsFrame frame = CcsdsFrame::kIcrf;
+    TimeTai usable_start, usable_stop;
+    Interpolation interpolation;
+    std::vector<StateSample> states;  // times rise; at least two, and enough for the interpolation
+    int line = 0;                     // of META_START
+};
+
+// The segments of one object, in time; usable spans do not overlap. An empty `object`: of a message with only
+// one, else its name or id. At most 256 MiB. Throws InputError with file:line.
+std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object = "");
+// The same from memory; `name` stands for the file in messages.
+std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
+                                 const std::string& object = "");
+
+}  // namespace hilcam

@@ -1,0 +1,178 @@
+#include "io/files/tle_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/files/text_lines.h"
+#include "io/system/input_file.h"
+#include "render/vocabulary/time_system.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kColumns = 69;
+constexpr std::uintmax_t kMostBytes = 16u << 20;
+constexpr double kTurn_rad = 2 * kPi;
+constexpr double kMinutesPerDay = 1440;
+
+// Columns are counted from 1, as the format's description does.
+std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
+    return trimmed(line.substr(first - 1, last - first + 1));
+}
+
+// Digits as they are, minus signs as 1, all else 0; the sum's last digit.
+char checksum_of(std::string_view line) {
+    int sum = 0;
+    for (const char c : line.substr(0, kColumns - 1)) {
+        if (c >= '0' && c <= '9') sum += c - '0';
+        if (c == '-') ++sum;
+    }
+    return static_cast<char>('0' + sum % 10);
+}
+
+// Digits after an assumed decimal point.
+std::optional<double> fraction_of(std::string_view digits) {
+    std::string text = ".";
+    text += digits;
+    return number_of(text);
+}
+
+// One of the two lines, with its messages.
+struct Line {
+    const TextLines& lines;
+    std::string_view text;
+    int number;
+
+    double value(std::size_t first, std::size_t last, const char* name, double least, double most) const {
+        const std::string_view digits = columns(text, first, last);
+        const auto found = number_of(digits);
+        if (!found || *found < least || *found > most) refuse(digits, first, last, name);
+        return *found;
+    }
+    // "-12345-3" stands for -0.12345e-3.
+    double assumed_point(std::size_t first, std::size_t last, const char* name) const {
+        const std::string_view all = columns(text, first, last);
+        std::string_view digits = all;
+        const bool negative = digits.starts_with('-');
+        if (negative || digits.starts_with('+')) digits.remove_prefix(1);
+        const std::size_t sign = digits.find_last_of("+-");
+        if (sign == std::string_view::npos) refuse(all, first, last, name);
+        const auto mantissa = fraction_of(digits.substr(0, sign));
+        const auto exponent = number_of(digits.substr(sign + 1));
+        if (!mantissa || !exponent || *mantissa < 0 || *exponent < 0 || *exponent > 9)
+            refuse(all, first, last, name);
+        const double magnitude = *mantissa * std::pow(10, digits[sign] == '-' ? -*exponent : *exponent);
+        return negative ? -magnitude : magnitude;
+    }
+    [[noreturn]] void refuse(std::string_view found, std::size_t first, std::size_t last,
+                             const char* name) const {
+        lines.refuse(
+            found, std::string(name) + " in columns " + std::to_string(first) + " to " + std::to_string(last),
+            number);
+    }
+};
+
+void check_line(const TextLines& lines, std::string_view line, char number, TleChecksum checksum) {
+    if (line.size() < kColumns || !trimmed(line.substr(kColumns)).empty())
+        lines.refuse(line, std::string("line ") + number + " of an element set, 69 columns; it has " +
+                               std::to_string(line.size()));
+    if (line[0] != number || line[1] != ' ')
+        lines.refuse(line.substr(0, 2), std::string("'") + number + " ' before an element set's line");
+    const char expected = checksum_of(line), found = line[kColumns - 1];
+    if (checksum == TleChecksum::kVerify && found != expected)
+        lines.refuse(line.substr(kColumns - 1, 1),
+                     std::string("checksum ") + expected + " in column 69 (or checksum: ignore)");
+}
+
+void read_epoch(const Line& line, Tle& tle) {
+    const int two_digits = static_cast<int>(line.value(19, 20, "the epoch's year", 0, 99));
+    const double day = line.value(21, 32, "the epoch's day of the year", 1, 367);
+    const int year = two_digits < 57 ? 2000 + two_digits : 1900 + two_digits;
+    const double whole = std::floor(day);
+    const std::optional<CalendarTime> date = calendar_of_day(year, static_cast<int>(whole));
+    if (!date) line.refuse(columns(line.text, 19, 32), 19, 32, "an epoch: a day of its year");
+    // Days of 86400 s after midnight UTC of the epoch's own date.
+    tle.epoch = *from_calendar(*date, TimeSystem::kUtc) + std::llround((day - whole) * 86400e9);
+    // 1957 to 2056 have a leap day every four years: days since 1949-12-31, so 1 for the first of 1950.
+    const int years = year - 1950;
+    tle.epoch_days_1950 = years * 365 + (years + 1) / 4 + day;
+}
+
+Tle read_set(const TextLines& lines, const Line& one, const Line& two) {
+    Tle tle;
+    tle.line = one.number;
+    tle.satellite = columns(one.text, 3, 7);
+    if (tle.satellite.empty()) one.refuse("", 3, 7, "a satellite's number");
+    if (const std::string_view other = columns(two.text, 3, 7); other != tle.satellite)
+        lines.refuse(other, "satellite " + tle.satellite + ", as on the line before", two.number);
+    read_epoch(one, tle);
+    tle.bstar_per_er = one.assumed_point(54, 61, "drag (B*)");
+    tle.inclination_rad = two.value(9, 16, "the inclination, 0 to 180 deg,", 0, 180) * kDegree_rad;
+    tle.node_rad = two.value(18, 25, "the node, 0 to 360 deg,", 0, 360) * kDegree_rad;
+    const std::string_view digits = columns(two.text, 27, 33);
+    const auto eccentricity = fraction_of(digits);
+    if (!eccentricity || digits.size() != 7 || *eccentricity < 0)
+        two.refuse(digits, 27, 33, "seven digits of the eccentricity");
+    tle.eccentricity = *eccentricity;
+    tle.perigee_rad = two.value(35, 42, "the argument of perigee, 0 to 360 deg,", 0, 360) * kDegree_rad;
+    tle.mean_anomaly_rad = two.value(44, 51, "the mean anomaly, 0 to 360 deg,", 0, 360) * kDegree_rad;
+    const double turns_day = two.value(53, 63, "the mean motion, above 0 to 20 turns a day,", 1e-8, 20);
+    tle.mean_motion_rad_min = turns_day * kTurn_rad / kMinutesPerDay;
+    return tle;
+}
+
+}  // namespace
+
+std::vector<Tle> read_tles(std::string_view text, const std::string& name, TleChecksum checksum) {
+    TextLines lines(text, name);
+    std::vector<Tle> sets;
+    std::string title;
+    std::string_view line;
+    while (lines.next(line)) {
+        if (trimmed(line).empty() || line.starts_with('#')) continue;
+        if (!line.starts_with("1 ")) {
+            if (line.starts_with("2 ")) lines.refuse(line, "line 1 of an element set before its line 2");
+            title = trimmed(line.starts_with("0 ") ? line.substr(2) : line);
+            if (title.size() > 80) lines.refuse(line, "an element set, or a satellite's name before it");
+            continue;
+        }
+        check_line(lines, line, '1', checksum);
+        const Line one{lines, line, lines.number()};
+        std::string_view next;
+        if (!lines.next(next)) lines.fail("the file ends; accepted: line 2 of the element set");
+        check_line(lines, next, '2', checksum);
+        sets.push_back(read_set(lines, one, {lines, next, lines.number()}));
+        sets.back().name = title;
+        title.clear();
+    }
+    if (sets.empty()) throw InputError(name + ": holds no element set; accepted: lines '1 ...' and '2 ...'");
+    return sets;
+}
+
+std::vector<Tle> load_tles(const std::filesystem::path& file, TleChecksum checksum) {
+    return read_tles(read_input_file(file, {kMostBytes, "a file of two-line element sets"}), file.string(),
+                     checksum);
+}
+
+const Tle& choose_tle(const std::vector<Tle>& sets, const std::string& satellite, TimeTai time,
+                      const std::string& file) {
+    const Tle* chosen = nullptr;
+    for (const Tle& tle : sets) {
+        if (satellite.empty() && tle.satellite != sets.front().satellite)
+            throw InputError(file + ": has sets of several satellites, " + in_quotes(sets.front().satellite) +
+                             " and " + in_quotes(tle.satellite) + "; accepted: one of them by 'satellite'");
+        if (!satellite.empty() && tle.satellite != satellite && tle.name != satellite) continue;
+        const bool past = tle.epoch <= time;
+        if (!chosen || (past && (chosen->epoch > time || tle.epoch > chosen->epoch)) ||
+            (!past && chosen->epoch > time && tle.epoch < chosen->epoch))
+            chosen = &tle;
+    }
+    if (!chosen)
+        throw InputError(file + ": has no satellite " + in_quotes(satellite) +
+                         "; accepted: a number or name as " + shortened(sets.front().satellite) +
+                         (sets.front().name.empty() ? "" : " or " + shortened(sets.front().name)));
+    return *chosen;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,14 @@
+#pragma once
+// GenICam description (GenApi schema 1.1) of the camera, generated from its feature table.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/gige/device/gige_features.h"
+
+namespace hilcam {
+
+std::string genicam_xml(const FeatureTable& table, const std::string& model);
+
+}  // namespace hilcam

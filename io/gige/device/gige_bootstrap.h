@@ -1,0 +1,29 @@
+#pragma once
+// The registers that say what the device is: version, identity, addresses, where its description lies, what
+// it can do.
+
+#include "io/gige/device/gige_core.h"
+
+namespace hilcam {
+
+class GigeBootstrap {
+  public:
+    GigeBootstrap(GigeCore& core, std::function<void(std::uint32_t before)> config_changed);
+
+    // The description, plain and zipped; both must outlive the register file. The sizes are in the URLs.
+    void add_description(std::span<const std::uint8_t> xml, std::span<const std::uint8_t> zip);
+    void reset();
+
+  private:
+    void add_identity();
+    void add_addresses();
+    void add_capabilities();
+    gvcp::Status write_gvcp_config(std::uint64_t value);
+
+    GigeCore& core_;
+    std::function<void(std::uint32_t)> config_changed_;
+    std::uint32_t persistent_ip_ = 0, persistent_mask_ = 0, persistent_gateway_ = 0;
+    std::uint32_t ip_configuration_ = 0;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,32 @@
+#include "io/gige/device/gige_features.h"
+
+namespace hilcam {
+
+std::vector<EnumEntry> counted(std::initializer_list<const char*> names) {
+    std::vector<EnumEntry> entries;
+    for (const char* const name : names) entries.push_back({name, entries.size()});
+    return entries;
+}
+
+void FeatureTable::add(const char* category, std::vector<Feature> rows) {
+    for (Feature& f : rows) {
+        f.category = category;
+        features.push_back(std::move(f));
+    }
+}
+
+FeatureTable gige_features(const CameraLimits& limits, bool multipart) {
+    FeatureTable table(limits, multipart);
+    add_device_features(table);
+    add_image_features(table);
+    add_acquisition_features(table);
+    add_chunk_features(table);
+    add_event_features(table);
+    add_transport_features(table);
+    add_fault_features(table);
+    for (Feature& f : table.features)
+        if (f.category == "TransportLayerControl" && f.visibility.empty()) f.visibility = "Expert";
+    return table;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,64 @@
+#pragma once
+// What a GigeDevice is made of. Only for its own .cpp files.
+
+#include <string>
+#include <vector>
+
+#include "io/gige/device/gige_access.h"
+#include "io/gige/device/gige_acquisition.h"
+#include "io/gige/device/gige_actions.h"
+#include "io/gige/device/gige_answers.h"
+#include "io/gige/device/gige_bootstrap.h"
+#include "io/gige/device/gige_clock.h"
+#include "io/gige/device/gige_device.h"
+#include "io/gige/device/gige_fault_registers.h"
+#include "io/gige/device/gige_image.h"
+#include "io/gige/device/gige_messages.h"
+#include "io/gige/device/gige_transport.h"
+#include "io/gige/device/gige_trigger.h"
+#include "io/gige/device/gige_user_sets.h"
+
+namespace hilcam {
+
+struct GigeDevice::Answer {
+    gvcp::Status status = gvcp::kSuccess;
+    std::size_t bytes = 0;
+    bool silent = false;  // not for this device: no answer at all
+};
+
+struct GigeDevice::Parts {
+    GigeCore core;
+    GigeBootstrap bootstrap;
+    GigeAcquisition acquisition;
+    GigeTransport transport;
+    GigeMessages messages;
+    GigeAccess access;
+    GigeClock clock;
+    GigeImage image;
+    GigeTrigger trigger;
+    GigeActions actions;
+    GigeFaultRegisters faults;
+    GigeUserSets user_sets;  // after all that have settings
+    GigeAnswers answers;
+    std::string xml;
+    std::vector<std::uint8_t> zip;
+
+    std::int64_t ticked_ns = 0;
+    bool reset_wanted = false;
+    std::uint32_t only = 0;  // of selectors with one entry
+    // The latest request, for faults that strike some attempts and not others.
+    Endpoint last_from;
+    std::uint16_t last_id = 0;
+    std::uint64_t attempt = 0;
+
+    Parts(const GigeIdentity& id, CameraControl& camera, FaultBoard& board, GigeEffects effects);
+    void add_device_registers();
+    void left();  // the controller is gone
+    // Of a request, for faults: its id and how often it has been tried.
+    std::uint64_t fault_index(std::uint16_t request_id);
+    bool in_subnet(const Endpoint& from) const {
+        return ((from.ip ^ core.identity.ip) & core.identity.mask) == 0;
+    }
+};
+
+}  // namespace hilcam

@@ -1,0 +1,54 @@
+#pragma once
+// The control side's sockets of a GigE Vision camera on one address: commands, broadcasts, messages.
+//
+// A camera hears its own interface only. Broadcasts reach every socket of this machine that is bound to their
+// address, whichever interface they come in by, and Linux takes datagrams for any of its addresses from any
+// network: a host on a LAN could order a loopback camera about. Hence each datagram is asked for the
+// interface that it came in by (IP_PKTINFO, ip(7)), which needs no rights.
+
+#include <poll.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "io/gige/stream/gige_stream.h"
+#include "io/system/fd.h"
+#include "io/system/net_interface.h"
+
+namespace hilcam {
+
+class GigeSockets {
+  public:
+    // Throws DeviceError when the address is not this machine's or port 3956 there is taken. Broadcasts are
+    // listened to where that is possible: several cameras share them.
+    explicit GigeSockets(const NetInterface& net);
+
+    std::uint16_t message_port() const { return message_port_; }
+    // Waits for datagrams, for `wakeup` or for so long.
+    void wait(const Fd& wakeup, std::int64_t timeout_ns);
+    // What wait() saw: (datagram, sender, whether it was broadcast). At most kAtOnce of each socket. Returns
+    // how many others were thrown away, because they came in by another interface.
+    using Receive = std::function<void(std::span<const std::uint8_t>, Endpoint, bool)>;
+    static constexpr int kAtOnce = 16;
+    std::uint64_t take(const Receive& receive);
+
+    void send_answer(std::span<const std::uint8_t> bytes, Endpoint to) noexcept;
+    void send_message(std::span<const std::uint8_t> bytes, Endpoint to) noexcept;
+
+  private:
+    static void send(const Fd& socket, std::span<const std::uint8_t> bytes, Endpoint to) noexcept;
+    // True when a datagram that came in by the interface of this number is meant for the camera.
+    bool is_heard(unsigned interface, bool broadcast);
+
+    std::string interface_;
+    unsigned interface_number_;  // as it was last; a card that is plugged in again gets another
+    Fd control_, message_;
+    std::array<Fd, 2> broadcast_;  // to everybody, to the subnet
+    std::uint16_t message_port_ = 0;
+    std::array<pollfd, 5> watched_{};  // wakeup, control, broadcasts, message
+};
+
+}  // namespace hilcam

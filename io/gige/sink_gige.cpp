@@ -1,0 +1,327 @@
+#include "io/gige/sink_gige.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include "io/gige/device/gige_device.h"
+#include "io/gige/gige_sockets.h"
+#include "io/gige/stream/gige_frame_writer.h"
+#include "io/gige/stream/gige_sender.h"
+#include "io/system/monotonic.h"
+#include "io/system/urgent_thread.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+// Clients ask again for packets up to some 100 ms old (Aravis' frame_retention).
+constexpr double kKept_s = 0.2;
+constexpr double kMostRingBytes = 512e6;
+
+std::size_t slots_for(double frame_rate_hz, std::size_t bytes_each) {
+    const double wanted = std::min(std::ceil(kKept_s * frame_rate_hz) + GigeRing::kMostWaiting + 1,
+                                   kMostRingBytes / static_cast<double>(bytes_each));
+    return std::max(GigeRing::kLeastSlots, static_cast<std::size_t>(wanted));
+}
+
+// Packets longer than the link's MTU would be cut up by the kernel, and most clients' filters lose such.
+std::uint32_t first_packet_bytes(const GigeConfig& config, const NetInterface& net) {
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(config.packet_bytes, net.mtu_bytes / 4 * 4));
+}
+
+}  // namespace
+
+Fields fields(GigeConfig& c) {
+    return {
+        text("interface", c.interface,
+             "IPv4 address or name of the interface to be a camera on; what comes in by others is not heard"),
+        text("model", c.model, "DeviceModelName; the camera's name when left as hilcam"),
+        text("serial", c.serial, "DeviceSerialNumber; unlike any other camera's on the network"),
+        text("user_name", c.user_name, "DeviceUserID at the start"),
+        integer("packet_bytes", c.packet_bytes, {576, 16384},
+                "of a stream packet until a client sets another; the interface's MTU at most"),
+        number("rate_limit_mb_s", c.rate_bytes_s, 1e6, {1, 100000},
+               "upper limit of the stream; packets asked for again may take half as much on top"),
+        flag("multipart", c.multipart, "announce multipart frames; they bring 64-bit block ids with them"),
+        number("spread", c.spread_fraction, 1, {0, 1},
+               "share of the frame period that a frame's packets are spread over; 0: at the rate limit"),
+    };
+}
+
+struct GigeSink::Implementation {
+    GigeConfig config;
+    CameraControl& camera;
+    FaultBoard& faults;
+    NetInterface net;
+    GigeRing ring;
+    GigeFrameWriter writer;
+    GigeSender sender;
+    std::unique_ptr<GigeSockets> sockets, next_sockets;  // next: after a change of the address
+    std::unique_ptr<GigeDevice> device;
+    Fd wakeup = open_wakeup();  // of the control thread
+    std::thread control_thread;
+    std::atomic<bool> stopping{false}, running{false};  // running: the sender takes frames
+
+    Latest<GigeStreamNow> for_loop;
+    std::uint64_t era = 1;  // counts resets; the upper half of an acquisition's number
+    std::atomic<std::uint64_t> finished{0};
+    struct Told {
+        CameraEvent event;
+        std::uint64_t block = 0;  // of the event's frame; 0: none, or not known yet
+    };
+    BoundedQueue<Told, 1024> events;
+    std::optional<CameraEvent> exposure_end;  // the loop's: told when publish() knows its frame's block
+    std::atomic<std::uint64_t> events_dropped{0};
+    std::atomic<bool> controlled{false};
+    std::atomic<std::uint32_t> address;  // for reports; net is the control thread's
+    std::atomic<std::uint32_t> acquisitions{0};
+    std::atomic<std::uint64_t> strange_datagrams{0};  // that came in by another interface
+
+    Implementation(const GigeConfig& c, const SinkContext& context, const CameraLimits& limits,
+                   std::size_t payload_bytes)
+        : config(c),
+          camera(context.camera),
+          faults(context.faults),
+          net(find_interface(c.interface)),
+          ring(slots_for(camera.settings().frame_rate_hz, payload_bytes), payload_bytes),
+          writer(ring, faults, limits.color_pattern, limits.width),
+          sender(ring, faults, context.listener, {c.rate_bytes_s, c.spread_fraction},
+                 [this](std::uint64_t acquisition) { finish(acquisition); }),
+          address(net.address) {}
+
+    void open();
+    GigeDevice::Effects effects();
+    void set_stream(const GigeStreamState& state);
+    void order_resend(const gvcp::ResendRequest& request, Endpoint requester);
+    void order_test_packet(const GigeStreamState& state, std::size_t payload_bytes);
+    bool change_address(std::uint32_t ip);
+    void move_to_next_sockets();
+
+    void serve_control();
+    void tell_device(std::int64_t now_ns);
+    void tell(const CameraEvent& event, std::uint64_t block) {
+        if (!events.push({event, block})) events_dropped.fetch_add(1, std::memory_order_relaxed);
+        wake(wakeup);
+    }
+    void finish(std::uint64_t acquisition) {
+        finished.store(acquisition, std::memory_order_release);
+        wake(wakeup);
+    }
+};
+
+void GigeSink::Implementation::open() {
+    sockets = std::make_unique<GigeSockets>(net);
+    sender.open(net.address);
+    device = std::make_unique<GigeDevice>(
+        GigeIdentity{config.model, config.serial, config.user_name, net.address, net.mask, 0, net.mac,
+                     first_packet_bytes(config, net), 0, config.multipart},
+        camera, faults, effects());
+    device->set_ports(sender.port(), sockets->message_port());
+}
+
+// --- what the device sets in motion
+// -------------------------------------------------------------------------------
+
+GigeDevice::Effects GigeSink::Implementation::effects() {
+    GigeDevice::Effects e;
+    e.stream_changed = [this](const GigeStreamState& state) { set_stream(state); };
+    e.resend = [this](const gvcp::ResendRequest& request, Endpoint requester) {
+        order_resend(request, requester);
+    };
+    e.test_packet = [this](const GigeStreamState& state, std::size_t bytes) {
+        order_test_packet(state, bytes);
+    };
+    e.send_message = [this](std::span<const std::uint8_t> bytes, Endpoint to) {
+        if (!faults.strikes(FaultKind::kLinkDown, 0)) sockets->send_message(bytes, to);
+    };
+    e.send_answer = [this](std::span<const std::uint8_t> bytes, Endpoint to) {
+        if (!faults.strikes(FaultKind::kLinkDown, 0)) sockets->send_answer(bytes, to);
+    };
+    e.reset = [this] {
+        ++era;  // no frame that is kept belongs to what comes
+        set_stream(device->stream_state());
+    };
+    e.change_address = [this](std::uint32_t ip, std::uint32_t, std::uint32_t) { return change_address(ip); };
+    return e;
+}
+
+void GigeSink::Implementation::set_stream(const GigeStreamState& state) {
+    const GigeStreamNow now{state, era << 32 | state.epoch};
+    acquisitions.store(state.epoch);
+    for_loop.write(now);
+    sender.set_stream(now);
+}
+
+void GigeSink::Implementation::order_resend(const gvcp::ResendRequest& request, Endpoint requester) {
+    const GigeStreamState& s = device->stream_state();
+    if (!s.open || request.channel != 0) return;
+    sender.order({.kind = GigeOrder::Kind::kResend,
+                  .to = s.resend_to_requester ? requester : s.destination,
+                  .acquisition = era << 32 | s.epoch,
+                  .block = request.block,
+                  .next = request.first_packet,
+                  .last = request.last_packet,
+                  .extended_ids = s.long_ids(),
+                  .packet_bytes = s.packet_bytes});
+}
+
+void GigeSink::Implementation::order_test_packet(const GigeStreamState& s, std::size_t payload_bytes) {
+    GigeOrder order;
+    order.kind = GigeOrder::Kind::kTestPacket;
+    order.to = s.destination;
+    order.packet_bytes = static_cast<std::uint32_t>(payload_bytes + 28);
+    order.do_not_fragment = s.do_not_fragment;
+    sender.order(order);
+}
+
+// New sockets are opened at once, so that the device can say whether it worked; they are used when the
+// message at hand is answered.
+bool GigeSink::Implementation::change_address(std::uint32_t ip) {
+    if (ip == net.address) return true;
+    try {
+        const NetInterface next = find_interface(format_ipv4(ip));
+        next_sockets = std::make_unique<GigeSockets>(next);
+        net = next;
+        return true;
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
+void GigeSink::Implementation::move_to_next_sockets() {
+    sockets = std::move(next_sockets);
+    sender.close();
+    sender.open(net.address);
+    sender.start();
+    device->set_ports(sender.port(), sockets->message_port());
+    address.store(net.address);
+}
+
+// --- control thread
+// ------------------------------------------------------------------------------------------------
+
+void GigeSink::Implementation::serve_control() {
+    make_thread_urgent();
+    std::array<std::uint8_t, gvcp::kMostDatagramBytes> out;
+    const GigeSockets::Receive answer = [&](std::span<const std::uint8_t> datagram, Endpoint from,
+                                            bool broadcast) {
+        const std::int64_t now_ns = monotonic_ns();
+        const std::size_t size = device->handle(datagram, from, now_ns, out, broadcast);
+        if (size > 0) sockets->send_answer({out.data(), size}, from);
+        device->tick(now_ns);
+    };
+    while (!stopping.load()) {
+        sockets->wait(wakeup, device->wake_ns() - monotonic_ns());
+        strange_datagrams.fetch_add(sockets->take(answer), std::memory_order_relaxed);
+        tell_device(monotonic_ns());
+        if (next_sockets) move_to_next_sockets();
+    }
+}
+
+void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
+    for (Told told{}; events.pop(told);) device->happened(told.event, told.block, now_ns);
+    if (const std::uint64_t last = finished.exchange(0, std::memory_order_acquire); last >> 32 == era)
+        device->acquisition_finished(static_cast<std::uint32_t>(last));
+    const GigeSender::Counts& c = sender.counts();
+    device->set_statistics({.frames = c.frames,
+                            .frames_dropped = writer.dropped(),
+                            .packets = c.packets,
+                            .packets_dropped = c.packets_dropped,
+                            .resend_requests = c.resend_requests,
+                            .packets_resent = c.packets_resent,
+                            .packets_refused = c.packets_refused,
+                            .events_dropped = events_dropped});
+    device->tick(now_ns);
+    sender.set_frame_rate(camera.settings().frame_rate_hz);
+    controlled.store(device->controlled());
+}
+
+// --- the sink
+// ------------------------------------------------------------------------------------------------------
+
+GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context) {
+    const CameraLimits limits = context.camera.limits();
+    const std::size_t bytes =
+        most_payload_bytes(limits.width, limits.height, limits.color_pattern, config.multipart);
+    implementation_ = std::make_unique<Implementation>(config, context, limits, bytes);
+}
+GigeSink::~GigeSink() { stop(); }
+
+void GigeSink::start() {
+    Implementation& my = *implementation_;
+    my.open();
+    my.stopping.store(false);
+    my.sender.start();
+    my.running.store(true);
+    my.control_thread = std::thread([&my] { my.serve_control(); });
+}
+
+void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
+    Implementation& my = *implementation_;
+    const GigeStreamNow& now = my.for_loop.read();
+    const std::uint64_t block = my.writer.admit(frame, record, now);
+    if (my.exposure_end) my.tell(*my.exposure_end, my.exposure_end->frame == record.id ? block : 0);
+    my.exposure_end.reset();
+    const GigeFrameWriter::Outcome outcome = my.writer.write(frame, record, now, block);
+    if (outcome.written) my.sender.frame_ready();
+    if (outcome.finished) my.finish(now.acquisition);
+}
+
+// A sender waits for no client for long, so a full ring has a place soon.
+bool GigeSink::has_room() const noexcept {
+    Implementation& my = *implementation_;
+    const GigeStreamState& s = my.for_loop.read().state;
+    const bool taken = s.open && s.acquiring && my.running.load(std::memory_order_relaxed);
+    return !taken || my.ring.has_room();
+}
+
+void GigeSink::happened(const CameraEvent& event) noexcept {
+    Implementation& my = *implementation_;
+    // A frame has its block id when it is published: whether the stream takes it is not known before, so an
+    // exposure's start goes out without.
+    if (event.kind == CameraEvent::Kind::kExposureEnd)
+        my.exposure_end = event;
+    else
+        my.tell(event, 0);
+}
+
+void GigeSink::stop() noexcept {
+    Implementation& my = *implementation_;
+    if (!my.control_thread.joinable()) return;
+    my.stopping.store(true);
+    wake(my.wakeup);
+    my.control_thread.join();
+    my.running.store(false);
+    my.sender.close();
+    my.sockets.reset();
+    my.next_sockets.reset();
+}
+
+SinkReport GigeSink::report() const {
+    const Implementation& my = *implementation_;
+    const GigeSender::Counts& c = my.sender.counts();
+    const auto n = [](std::uint64_t count) { return static_cast<double>(count); };
+    return {.name = "gige " + format_ipv4(my.address.load()),
+            .frames = c.frames,
+            .dropped = my.writer.dropped() + my.writer.of_other_size(),
+            .fault = "",
+            .figures = {{"clients", my.controlled ? 1.0 : 0.0},
+                        {"acquisitions", n(my.acquisitions)},
+                        {"packets_sent", n(c.packets)},
+                        {"bytes_sent", n(c.bytes)},
+                        {"packets_dropped_by_faults", n(c.packets_dropped)},
+                        {"packets_not_taken_by_kernel", n(c.packets_failed)},
+                        {"resend_requests", n(c.resend_requests)},
+                        {"packets_resent", n(c.packets_resent)},
+                        {"packets_refused", n(c.packets_refused)},
+                        {"packets_over_resend_limit", n(c.packets_over_limit)},
+                        {"resend_requests_unanswered", n(c.requests_unanswered)},
+                        {"test_packets", n(c.test_packets)},
+                        {"commands_from_other_interfaces", n(my.strange_datagrams)},
+                        {"frames_of_other_size", n(my.writer.of_other_size())},
+                        {"events_dropped", n(my.events_dropped)}}};
+}
+
+}  // namespace hilcam

@@ -1,0 +1,50 @@
+#pragma once
+// Frames out of a GigE Vision camera on one IPv4 address: the threads around gige_device.h (control) and
+// gige_sender.h (stream).
+//
+// The loop writes each frame into a ring slot (gige_frame_writer.h); the sender's thread sends it; the
+// control thread answers as soon as the machine lets it run, for it shares nothing with rendering. Leaders
+// carry the exposure's middle on the device's clock: CLOCK_MONOTONIC, 1 tick = 1 ns, unless a client reset it
+// or enabled PTP. Several cameras live in one process, one address each.
+
+#include <cstdint>
+#include <memory>
+
+#include "io/contract/camera_control.h"
+#include "io/contract/frame_sink.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+struct GigeConfig {
+    std::string interface = "127.0.0.1";  // IPv4 address or name of an interface
+    std::string model = "hilcam";
+    std::string serial = "HC000001";
+    std::string user_name = "";
+    std::int64_t packet_bytes = 7680;  // before a client negotiates another; no more than the interface's MTU
+    double rate_bytes_s = 400e6;       // upper limit of the stream
+    bool multipart = false;            // announce it
+    double spread_fraction = 0.5;      // of a frame period: what a frame's packets may be spread over
+};
+Fields fields(GigeConfig& config);
+
+class GigeSink : public FrameSink {
+  public:
+    // Throws InputError when there is no such interface.
+    GigeSink(const GigeConfig& config, const SinkContext& context);
+    ~GigeSink() override;
+
+    // Throws DeviceError when port 3956 there is taken.
+    void start() override;
+    void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
+    bool has_room() const noexcept override;
+    void happened(const CameraEvent& event) noexcept override;
+    void stop() noexcept override;
+    SinkReport report() const override;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace hilcam

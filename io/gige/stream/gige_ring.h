@@ -1,0 +1,73 @@
+#pragma once
+// Frames between the loop, which writes them, and the sender, which sends them and keeps them for packets
+// that are asked for again. All memory is allocated beforehand; nobody waits for the other: a slot that one
+// of them uses is passed over by the other.
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "io/gige/stream/gige_packets.h"
+
+namespace hilcam {
+
+// What the control side says, and to which acquisition it belongs: a number that never comes again, unlike
+// the device's own count, which a reset sets back. 0: none yet.
+struct GigeStreamNow {
+    GigeStreamState state;
+    std::uint64_t acquisition = 0;
+};
+
+class GigeSlot {
+  public:
+    GigeFrame frame;  // its payload lies in `bytes`
+    FrameRecord record;
+    std::uint64_t acquisition = 0;
+    bool last = false;         // of a counted acquisition
+    std::uint64_t resent = 0;  // packets of it that the sender was asked for again, since it was sent
+    std::vector<std::uint8_t> bytes;
+
+  private:
+    friend class GigeRing;
+    enum class Use : std::uint8_t { kKept, kWriting, kWaiting, kReading };
+    std::atomic<Use> use_{Use::kKept};
+    std::uint64_t turn_ = 0;  // counts what was written, over all slots
+};
+
+class GigeRing {
+  public:
+    // Frames that wait to be sent or are being sent; a further one is dropped.
+    static constexpr std::size_t kMostWaiting = 3;
+    // Kept for resends, whatever happens.
+    static constexpr std::size_t kLeastKept = 8;
+    static constexpr std::size_t kLeastSlots = kLeastKept + kMostWaiting + 1;
+
+    GigeRing(std::size_t slots, std::size_t bytes_each);
+
+    // Loop: the slot with the oldest frame, to be written; null: the sender is too far behind.
+    GigeSlot* claim() noexcept;
+    // Loop: claim() would give one.
+    bool has_room() const noexcept {
+        return written_.load(std::memory_order_relaxed) - sent_.load(std::memory_order_acquire) <
+               kMostWaiting;
+    }
+    void publish(GigeSlot& slot) noexcept;
+
+    // Sender: the next frame to send, or null; done() when it has been sent.
+    GigeSlot* next() noexcept;
+    void done(GigeSlot& slot) noexcept;
+    // Sender: a frame that was sent, to be given back with keep(). Null: it is not here; then `oldest_block`
+    // is the oldest one of that acquisition that is, 0: none.
+    GigeSlot* find(std::uint64_t acquisition, std::uint64_t block, std::uint64_t& oldest_block) noexcept;
+    void keep(GigeSlot& slot) noexcept;
+
+  private:
+    using Use = GigeSlot::Use;
+    std::vector<GigeSlot> slots_;
+    std::uint64_t turns_ = 0;  // the loop's
+    std::array<GigeSlot*, 2 * kMostWaiting> waiting_{};
+    std::atomic<std::uint64_t> written_{0}, sent_{0};
+    std::uint64_t taken_ = 0;  // the sender's
+};
+
+}  // namespace hilcam

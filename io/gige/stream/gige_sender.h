@@ -1,0 +1,151 @@
+#pragma once
+// Sends the frames of a ring as a GigE Vision stream, and packets of them again when they are asked for. One
+// thread, one socket.
+//
+// Packets leave in small batches with sleeps between: a receiver's buffer (208 KiB by default) must take a
+// batch while the receiver waits for a core. On this machine the sender waits for room in the receiver's
+// buffer besides (receiver_room.h). Requests and test packets are served between the batches of a frame.
+//
+// A request of twenty bytes can ask for a whole frame, so requests get what the frames leave. Fresh packets
+// keep their schedule whatever is asked for; packets sent again have a schedule of their own, at half of the
+// stream's rate while a frame is on its way and at all of it between frames. Of each block at most
+// kMostResent times its packets are sent again; the rest is refused (PACKET_UNAVAILABLE). Example: of a block
+// of 73 packets 292 are sent again.
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "io/gige/stream/gige_blocks.h"
+#include "io/gige/stream/gige_ring.h"
+#include "io/gige/stream/pacer.h"
+#include "io/gige/stream/packet_batch.h"
+#include "io/gige/stream/receiver_room.h"
+#include "io/system/bounded_queue.h"
+#include "io/system/fd.h"
+#include "render/vocabulary/latest.h"
+
+namespace hilcam {
+
+struct GigePaceConfig {
+    double rate_bytes_s = 400e6;   // upper limit
+    double spread_fraction = 0.5;  // of the frame period that a frame may take; 0: as fast as the limit
+};
+
+// What the control side asks for.
+struct GigeOrder {
+    enum class Kind : std::uint8_t { kResend, kTestPacket } kind = Kind::kResend;
+    Endpoint to;
+    std::uint64_t acquisition = 0, block = 0;
+    std::uint32_t next = 0, last = 0;  // packet ids
+    bool extended_ids = false;
+    std::uint32_t packet_bytes = 0;  // of the stream; kTestPacket: IP and UDP headers included
+    bool do_not_fragment = false;
+};
+
+class GigeSender {
+  public:
+    struct Counts {
+        std::atomic<std::uint64_t> frames{0};           // delivered
+        std::atomic<std::uint64_t> packets{0};          // sent for the first time
+        std::atomic<std::uint64_t> packets_dropped{0};  // by faults
+        std::atomic<std::uint64_t> packets_failed{0};   // not taken by the kernel
+        std::atomic<std::uint64_t> bytes{0};            // of all packets, IP and UDP headers included
+        std::atomic<std::uint64_t> resend_requests{0}, packets_resent{0}, packets_refused{0};
+        std::atomic<std::uint64_t> packets_over_limit{0};   // of those refused: their block had had its share
+        std::atomic<std::uint64_t> requests_unanswered{0};  // too many of them, or of those that are refused
+        std::atomic<std::uint64_t> test_packets{0};
+    };
+
+    // A client that loses a share p of all packets asks for each p / (1 - p) times on average: once when half
+    // of them are lost. Four times leaves room for the listeners of a group, who ask each for their own, and
+    // for clients that ask for whole ranges where single packets are missing.
+    static constexpr std::uint64_t kMostResent = 4;
+
+    // `listener` may be null. `finished`: called from the sender's thread with the number of an acquisition
+    // whose last frame has been sent.
+    GigeSender(GigeRing& ring, FaultBoard& faults, DeliveryListener* listener, const GigePaceConfig& pace,
+               std::function<void(std::uint64_t)> finished);
+    ~GigeSender() { close(); }
+
+    // Owner thread. open() throws DeviceError; start() after it. close() ends the thread and may come twice.
+    void open(std::uint32_t address);
+    std::uint16_t port() const { return ntohs(address_.sin_port); }
+    void start();
+    void close() noexcept;
+
+    // Control thread.
+    void set_stream(const GigeStreamNow& now) { stream_.write(now), wake(wakeup_); }
+    void set_frame_rate(double hz) { frame_rate_hz_.store(hz, std::memory_order_relaxed); }
+    bool order(const GigeOrder& order) noexcept;  // false: too many already
+    // Loop: there is a frame in the ring.
+    void frame_ready() noexcept { wake(wakeup_); }
+    // Any thread.
+    const Counts& counts() const { return counts_; }
+
+  private:
+    // A packet that a fault holds back.
+    struct Delayed {
+        std::int64_t due_ns = 0;
+        std::uint64_t acquisition = 0, block = 0;
+        std::uint32_t id = 0;
+        gvsp::Status status = gvsp::kFresh;
+        std::int64_t id_error = 0;
+        sockaddr_in to{};
+    };
+    static constexpr std::size_t kMostDelayed = 4096;
+
+    void run();
+    void send_frame(GigeSlot& slot);
+    void fill_batch(const GigeSlot& slot, PacketOrder& order);
+    // Sends the batch, and `pacer` counts it. `wait`: until the receiver's buffer has room for it.
+    void transmit(std::uint32_t packet_bytes, Pacer& pacer, bool wait = true);
+    void set_do_not_fragment(bool on);
+    Pace pace_of(const GigeSlot& slot);
+    void delay(const GigeSlot& slot, std::uint32_t id, gvsp::Status status, const PacketFate& fate,
+               const sockaddr_in& to);
+
+    // A bit of what was asked for; false: nothing is left to do now.
+    bool serve_orders();
+    void serve_resend();
+    void refuse(gvsp::Status reason, std::uint32_t last);
+    void resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t most_resent);
+    void serve_delayed(std::int64_t now_ns);
+    void send_test_packet(const GigeOrder& order);
+    // The frame when it is kept or is being sent now.
+    GigeSlot* borrow(std::uint64_t acquisition, std::uint64_t block, std::uint64_t& oldest);
+    void give_back(GigeSlot* slot);
+    // Serves orders until then; a fresh packet that is due comes first.
+    void pause_until(std::int64_t due_ns);
+    void sleep_until(std::int64_t due_ns);
+    std::int64_t next_due_ns() const;
+
+    GigeRing& ring_;
+    FaultBoard& faults_;
+    DeliveryListener* listener_;
+    GigePaceConfig pace_config_;
+    std::function<void(std::uint64_t)> finished_;
+    Fd socket_, wakeup_;
+    sockaddr_in address_{};
+    bool do_not_fragment_ = false;
+    std::thread thread_;
+    std::atomic<bool> stopping_{false};
+    Latest<GigeStreamNow> stream_;
+    std::atomic<double> frame_rate_hz_{0};
+    BoundedQueue<GigeOrder, 1024> orders_;
+    Counts counts_;
+
+    // The thread's own.
+    ReceiverRoom room_;
+    Pacer pacer_, resend_pacer_, refusal_pacer_;
+    PacketBatch batch_;
+    GigeSlot* current_ = nullptr;  // being sent
+    std::optional<GigeOrder> resend_;
+    BlockHistory history_;
+    std::uint64_t history_of_ = 0;
+    std::vector<Delayed> delayed_;  // never longer than reserved
+};
+
+}  // namespace hilcam

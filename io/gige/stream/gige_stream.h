@@ -1,0 +1,109 @@
+#pragma once
+// What the control side of a GigE Vision camera tells its stream side. It changes only by control messages.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "io/system/wire_format.h"
+
+namespace hilcam {
+
+// An application: IPv4 address and UDP port, host order.
+struct Endpoint {
+    std::uint32_t ip = 0;
+    std::uint16_t port = 0;
+    friend bool operator==(const Endpoint&, const Endpoint&) = default;
+};
+
+// Chunks that may follow a frame's pixels; bits of GigeStreamState::chunks. A chunk's id is kChunkIdBase plus
+// its place. Numbers are big-endian, floats IEEE 754.
+enum class Chunk : std::uint8_t {
+    kFrameId,          // u64
+    kTimestamp,        // u64, ns
+    kExposureTime,     // f64, us
+    kGain,             // f64, dB
+    kBlackLevel,       // f64, DN
+    kOffsetX,          // u32
+    kOffsetY,          // u32
+    kWidth,            // u32
+    kHeight,           // u32
+    kPixelFormat,      // u32
+    kPoseSequence,     // u32: of the newest command that the frame shows
+    kPoseTime,         // i64: that command's time tag, simulated TAI ns
+    kExposureMid,      // i64: middle of the exposure, simulated TAI ns
+    kTriggerSequence,  // u32
+    kFaults,           // u64: bits of fault.h
+};
+inline constexpr int kChunks = 15;
+inline constexpr std::uint32_t kChunkIdBase = 0x48430001;  // "HC", from 1 on
+inline constexpr std::uint32_t kImageChunkId = 0x48430000;
+constexpr std::uint32_t chunk_bytes(Chunk chunk) {
+    switch (chunk) {
+        case Chunk::kOffsetX:
+        case Chunk::kOffsetY:
+        case Chunk::kWidth:
+        case Chunk::kHeight:
+        case Chunk::kPixelFormat:
+        case Chunk::kPoseSequence:
+        case Chunk::kTriggerSequence:
+            return 4;
+        default:
+            return 8;
+    }
+}
+
+// What a multipart stream can show of a frame; ids as the SFNC 2.7 (4.13 ComponentIDValue) numbers
+// components.
+enum class GigeComponent : std::uint8_t { kIntensity, kConfidence };
+constexpr std::uint32_t bit_of(GigeComponent component) { return 1u << static_cast<unsigned>(component); }
+constexpr std::uint16_t id_of(GigeComponent component) {
+    return component == GigeComponent::kIntensity ? 1 : 6;
+}
+
+struct GigeStreamState {
+    bool open = false;               // a destination is set
+    bool acquiring = false;          // between AcquisitionStart and Stop
+    bool unconditional = false;      // goes on when the controller is gone (SCCFG b1)
+    std::uint32_t epoch = 0;         // counts AcquisitionStarts
+    std::uint32_t frames = 0;        // of this acquisition; 0: endless
+    Endpoint destination;            // may be a multicast group
+    std::uint32_t packet_bytes = 0;  // IP, UDP and GVSP headers included
+    bool do_not_fragment = false;
+    bool extended_ids = false;         // 64-bit block ids, 20-byte headers, where the client asked for them
+    bool multipart = false;            // every block is of parts; brings 64-bit ids with it
+    bool resend_to_requester = false;  // SCCFG b3: else to the destination
+    // Added to CLOCK_MONOTONIC it gives the device's clock, which all time stamps on the wire are of: 0
+    // unless a client reset the clock or enabled PTP (then it leads to CLOCK_TAI).
+    std::int64_t clock_offset_ns = 0;
+    std::uint32_t packet_delay_ns = 0;
+    double throughput_limit_bytes_s = 0;  // 0: the configuration's
+    WireFormat format = WireFormat::kMono8;
+    std::uint32_t width = 0, height = 0, offset_x = 0, offset_y = 0;
+    std::uint32_t binning_x = 1, binning_y = 1;
+    bool chunk_mode = false;
+    std::uint32_t chunks = 0;                                      // bits by Chunk, when chunk_mode is on
+    std::uint32_t components = bit_of(GigeComponent::kIntensity);  // of a multipart stream, at least one
+
+    // A short header has no room for the number of parts.
+    bool long_ids() const { return extended_ids || multipart; }
+    bool shows(GigeComponent component) const {
+        return multipart ? components & bit_of(component) : component == GigeComponent::kIntensity;
+    }
+    std::size_t image_bytes() const {
+        return shows(GigeComponent::kIntensity) ? wire_bytes(std::size_t{width} * height, format) : 0;
+    }
+    std::size_t confidence_bytes() const {
+        return shows(GigeComponent::kConfidence) ? std::size_t{width} * height : 0;
+    }
+    // With a chunk's 8 bytes of id and length behind each, and behind the image.
+    std::size_t chunk_data_bytes() const {
+        if (!chunk_mode) return 0;
+        std::size_t bytes = 8;
+        for (int i = 0; i < kChunks; ++i)
+            if (chunks >> i & 1u) bytes += 8 + chunk_bytes(static_cast<Chunk>(i));
+        return bytes;
+    }
+    std::size_t payload_bytes() const { return image_bytes() + confidence_bytes() + chunk_data_bytes(); }
+};
+
+}  // namespace hilcam

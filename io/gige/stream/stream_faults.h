@@ -1,0 +1,48 @@
+#pragma once
+// What faults on demand (fault.h) make of a stream's packets and time stamps. Only what goes onto the wire
+// is struck: frames that are kept for resends stay as they are.
+
+#include <cstdint>
+#include <optional>
+
+#include "io/contract/fault.h"
+
+namespace hilcam {
+
+struct PacketFate {
+    bool lost = false;
+    bool twice = false;
+    bool corrupt = false;                  // one byte of the payload inverted
+    std::optional<std::int64_t> delay_ns;  // sent so much later
+    std::int64_t id_error = 0;             // added to the packet id
+    std::size_t cut_bytes = 0;             // off the end
+};
+// Of a packet sent for the first time.
+PacketFate fate_of_packet(FaultBoard& faults, std::uint64_t frame, std::uint32_t id, std::uint32_t trailer);
+// Of one that is sent again: `lost` means refused.
+PacketFate fate_of_resend(FaultBoard& faults, std::uint64_t frame, std::uint32_t id);
+
+// Packet ids 0 to `last` in the order they are sent: rising, but for pairs that change places.
+class PacketOrder {
+  public:
+    explicit PacketOrder(std::uint32_t last) : last_(last) {}
+    bool done() const { return next_ > last_ && !held_; }
+    std::uint32_t next(FaultBoard& faults, std::uint64_t frame);
+
+  private:
+    std::uint32_t next_ = 0, last_;
+    std::optional<std::uint32_t> held_;
+};
+
+// The device's clock, as it is and as faults make it. One thread.
+class StampClock {
+  public:
+    // `faults_seen` gets the bits of the faults that struck.
+    std::uint64_t stamp(FaultBoard& faults, std::uint64_t frame, std::int64_t monotonic_ns,
+                        std::int64_t clock_offset_ns, std::uint64_t& faults_seen);
+
+  private:
+    std::uint64_t last_ = 0;
+};
+
+}  // namespace hilcam

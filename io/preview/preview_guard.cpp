@@ -1,0 +1,133 @@
+#include "io/preview/preview_guard.h"
+
+#include <arpa/inet.h>
+#include <dirent.h>
+#include <linux/tcp.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace hilcam {
+namespace {
+
+constexpr std::chrono::milliseconds kInterval{50};
+
+struct Connection {
+    int fd;
+    std::uint32_t peer_address;  // host order, as the port
+    std::uint16_t peer_port;
+    std::uint64_t received_bytes;
+};
+
+// The library keeps its sockets to itself, so they are found among the process's descriptors: TCP, connected,
+// with our port at this end.
+bool find_connection(int fd, std::uint16_t port, Connection& found) {
+    sockaddr_in here{}, there{};
+    socklen_t length = sizeof here;
+    if (getsockname(fd, reinterpret_cast<sockaddr*>(&here), &length) != 0) return false;
+    if (here.sin_family != AF_INET || ntohs(here.sin_port) != port) return false;
+    length = sizeof there;
+    if (getpeername(fd, reinterpret_cast<sockaddr*>(&there), &length) != 0) return false;
+    tcp_info info{};
+    length = sizeof info;
+    if (getsockopt(fd, IPPROTO_TCP, TCP_INFO, &info, &length) != 0) return false;
+    found = {fd, ntohl(there.sin_addr.s_addr), ntohs(there.sin_port), info.tcpi_bytes_received};
+    return true;
+}
+
+// Who sent all of a request, as far as headers go, and waits for a worker does not dawdle.
+bool has_request_unread(int fd) {
+    std::array<char, 8192> bytes;
+    const ssize_t size = recv(fd, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
+    return size > 0 && std::string_view(bytes.data(), static_cast<std::size_t>(size)).find("\r\n\r\n") !=
+                           std::string_view::npos;
+}
+
+std::vector<Connection> connections_of(std::uint16_t port) {
+    std::vector<Connection> all;
+    const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir("/proc/self/fd"), closedir);
+    if (!folder) return all;
+    while (const dirent* entry = readdir(folder.get())) {
+        int fd = -1;
+        const char* name = static_cast<const char*>(entry->d_name);
+        Connection found{};
+        if (std::from_chars(name, name + std::strlen(name), fd).ec == std::errc{} &&
+            find_connection(fd, port, found))
+            all.push_back(found);
+    }
+    return all;
+}
+
+}  // namespace
+
+void ConnectionGuard::start(std::uint16_t port, const Limits& limits) {
+    port_ = port, limits_ = limits;
+    stopping_ = ending_ = false;
+    first_seen_.clear();
+    heard_.clear();
+    thread_ = std::thread([this] { run(); });
+}
+
+void ConnectionGuard::end_all() {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+    changed_.notify_all();
+}
+
+void ConnectionGuard::stop() noexcept {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void ConnectionGuard::heard(const std::string& address, int port) {
+    in_addr parsed{};
+    if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) return;
+    const std::lock_guard lock(mutex_);
+    heard_.emplace(ntohl(parsed.s_addr), static_cast<std::uint16_t>(port));
+}
+
+void ConnectionGuard::run() {
+    std::unique_lock lock(mutex_);
+    while (!stopping_) {
+        look();
+        changed_.wait_for(lock, kInterval, [&] { return stopping_; });
+    }
+}
+
+void ConnectionGuard::look() {
+    const auto now = Clock::now();
+    const std::vector<Connection> connections = connections_of(port_);
+    const auto patience =
+        connections.size() > limits_.crowd ? limits_.request_age_in_crowd : limits_.request_age;
+    std::map<Peer, Clock::time_point> still_there;
+    std::set<Peer> still_heard;
+    for (const Connection& c : connections) {
+        const Peer peer{c.peer_address, c.peer_port};
+        const auto known = first_seen_.find(peer);
+        const auto since = known == first_seen_.end() ? now : known->second;
+        still_there.emplace(peer, since);
+        // A worker that has read a request may be kept from telling so: what was seen unread once has come.
+        const bool heard = heard_.contains(peer) || has_request_unread(c.fd);
+        if (heard) still_heard.insert(peer);
+        const bool dawdles = !heard && now - since > patience;
+        // The library sees the end of the connection and closes it.
+        if (ending_ || dawdles || now - since > limits_.age || c.received_bytes > limits_.received_bytes ||
+            !limits_.allows(c.peer_address))
+            shutdown(c.fd, SHUT_RDWR);
+    }
+    first_seen_ = std::move(still_there);
+    heard_ = std::move(still_heard);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,232 @@
+#include "io/preview/preview_request.h"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kMostFields = 32;
+constexpr int kLongestSide_px = 1 << 20;
+constexpr int kMostStep = 256;
+
+constexpr std::array<std::string_view, 3> kSources = {"software", "line0", "action1"};
+constexpr std::array<std::string_view, 6> kPatterns = {
+    "off", "black", "white", "ramp_horizontal", "ramp_vertical", "ramp_horizontal_moving"};
+
+bool is_plain(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.' || c == '+' || c == '-';
+}
+
+[[noreturn]] void refuse(std::string_view key, std::string_view found, const std::string& accepted) {
+    throw InputError("'" + std::string(key) + "' is '" + std::string(found) + "'; accepted: " + accepted);
+}
+
+template <class Number>
+Number parse_number(std::string_view key, std::string_view text, Number least, Number most) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Negated, so that NaN is refused.
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= least && value <= most)) {
+        if constexpr (std::is_floating_point_v<Number>)
+            refuse(key, text, "a number");
+        else
+            refuse(key, text, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+    }
+    return value;
+}
+
+double parse_real(std::string_view key, std::string_view text) {
+    return parse_number<double>(key, text, -1e300, 1e300);
+}
+
+bool parse_flag(std::string_view key, std::string_view text) {
+    if (text != "0" && text != "1") refuse(key, text, "0 or 1");
+    return text == "1";
+}
+
+// One of a list of words, as the enum whose values count them.
+template <class Enum, std::size_t N>
+Enum parse_word(std::string_view key, std::string_view text, const std::array<std::string_view, N>& words) {
+    std::string accepted;
+    for (std::size_t i = 0; i < N; ++i) {
+        if (text == words[i]) return static_cast<Enum>(i);
+        accepted += (i ? ", " : "") + std::string(words[i]);
+    }
+    refuse(key, text, accepted);
+}
+
+// ":8080"
+bool is_port(std::string_view text) {
+    return text.size() >= 2 && text.size() <= 6 && text[0] == ':' &&
+           std::all_of(text.begin() + 1, text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+[[noreturn]] void refuse_key(std::string_view key, const char* accepted) {
+    throw InputError("unknown key '" + std::string(key) + "'; accepted: " + accepted);
+}
+
+}  // namespace
+
+FormFields parse_form(std::string_view text) {
+    FormFields fields;
+    while (!text.empty()) {
+        const std::string_view field = text.substr(0, text.find('&'));
+        text.remove_prefix(std::min(text.size(), field.size() + 1));
+        for (const char c : field)
+            if (!is_plain(c) && c != '=')
+                throw InputError("character " + std::to_string(static_cast<unsigned char>(c)) +
+                                 " in a request; accepted: letters, digits, _ . + -");
+        const std::size_t equals = field.find('=');
+        if (equals == std::string_view::npos || equals == 0)
+            throw InputError("'" + std::string(field.substr(0, 40)) + "' is not KEY=VALUE");
+        if (fields.size() == kMostFields)
+            throw InputError("more than " + std::to_string(kMostFields) + " keys in a request");
+        fields.emplace_back(field.substr(0, equals), field.substr(equals + 1));
+    }
+    return fields;
+}
+
+PictureRequest parse_picture_request(std::string_view query) {
+    PictureRequest r;
+    const auto pixels = [](auto key, auto text) { return parse_number<int>(key, text, 0, kLongestSide_px); };
+    for (const auto& [key, text] : parse_form(query)) {
+        if (key == "viewer")
+            r.viewer = parse_number<std::uint64_t>(key, text, 0, ~std::uint64_t{0});
+        else if (key == "after")
+            r.after = parse_number<std::uint64_t>(key, text, 0, ~std::uint64_t{0});
+        else if (key == "x")
+            r.x = pixels(key, text);
+        else if (key == "y")
+            r.y = pixels(key, text);
+        else if (key == "width")
+            r.width = pixels(key, text);
+        else if (key == "height")
+            r.height = pixels(key, text);
+        else if (key == "step")
+            r.step = parse_number<int>(key, text, 1, kMostStep);
+        else
+            refuse_key(key, "viewer, after, x, y, width, height, step");
+    }
+    return r;
+}
+
+SettingsChange parse_settings_change(std::string_view body) {
+    SettingsChange c;
+    const auto count = [](auto key, auto text) { return parse_number<std::int64_t>(key, text, 0, 1 << 30); };
+    for (const auto& [key, text] : parse_form(body)) {
+        if (key == "exposure_s")
+            c.exposure_s = parse_real(key, text);
+        else if (key == "gain_db")
+            c.gain_db = parse_real(key, text);
+        else if (key == "black_level_dn")
+            c.black_level_dn = parse_real(key, text);
+        else if (key == "frame_rate_hz")
+            c.frame_rate_hz = parse_real(key, text);
+        else if (key == "running")
+            c.running = parse_flag(key, text);
+        else if (key == "automatic_exposure")
+            c.automatic_exposure = parse_flag(key, text);
+        else if (key == "triggered")
+            c.triggered = parse_flag(key, text);
+        else if (key == "trigger_source")
+            c.trigger_source = parse_word<TriggerSource>(key, text, kSources);
+        else if (key == "trigger_delay_s")
+            c.trigger_delay_s = parse_real(key, text);
+        else if (key == "burst_frames")
+            c.burst_frames = count(key, text);
+        else if (key == "test_pattern")
+            c.test_pattern = parse_word<TestPattern>(key, text, kPatterns);
+        else if (key == "reverse_x")
+            c.reverse_x = parse_flag(key, text);
+        else if (key == "reverse_y")
+            c.reverse_y = parse_flag(key, text);
+        else if (key == "binning_x")
+            c.binning_x = count(key, text);
+        else if (key == "binning_y")
+            c.binning_y = count(key, text);
+        else
+            refuse_key(key,
+                       "exposure_s, gain_db, black_level_dn, frame_rate_hz, running, automatic_exposure, "
+                       "triggered, trigger_source, trigger_delay_s, burst_frames, test_pattern, reverse_x, "
+                       "reverse_y, binning_x, binning_y");
+    }
+    return c;
+}
+
+TriggerOrder parse_trigger_order(std::string_view body) {
+    TriggerOrder order;
+    for (const auto& [key, text] : parse_form(body)) {
+        if (key == "source")
+            order.source = parse_word<TriggerSource>(key, text, kSources);
+        else if (key == "frames")
+            order.frames = parse_number<std::int64_t>(key, text, 0, 65535);
+        else
+            refuse_key(key, "source, frames");
+    }
+    return order;
+}
+
+FaultRequest parse_fault_request(std::string_view body) {
+    FaultRequest r;
+    bool has_kind = false;
+    for (const auto& [key, text] : parse_form(body)) {
+        if (key == "kind") {
+            const auto kind = fault_named(text);
+            if (!kind) refuse(key, text, "a name of GET /status, as packet_drop");
+            r.order.kind = *kind;
+            has_kind = true;
+        } else if (key == "rate") {
+            r.order.rate = parse_real(key, text);
+        } else if (key == "value") {
+            r.order.value = parse_real(key, text);
+        } else if (key == "from_frame") {
+            r.order.from_frame = parse_number<std::uint64_t>(key, text, 0, ~std::uint64_t{0});
+        } else if (key == "frames") {
+            r.order.frames = parse_number<std::uint64_t>(key, text, 0, 1'000'000'000'000);
+        } else if (key == "duration_s") {
+            r.order.duration_s = parse_real(key, text);
+        } else if (key == "clear_all") {
+            r.clear_all = parse_flag(key, text);
+        } else {
+            refuse_key(key, "kind, rate, value, from_frame, frames, duration_s, clear_all");
+        }
+    }
+    if (r.clear_all) return r;
+    if (!has_kind) throw InputError("missing key 'kind'");
+    if (const std::string_view why = refusal_of(r.order); !why.empty())
+        throw InputError(std::string(name_of(r.order.kind)) + ": " + std::string(why) + " (" +
+                         std::string(meaning_of(r.order.kind)) + ")");
+    return r;
+}
+
+std::string_view name_of(TriggerSource source) { return kSources[static_cast<std::size_t>(source)]; }
+std::string_view name_of(TestPattern pattern) { return kPatterns[static_cast<std::size_t>(pattern)]; }
+
+bool is_own_host(std::string_view host, std::string_view machine_name) {
+    // "[::1]:8080", "127.0.0.1:8080", "localhost"
+    const bool bracketed = host.starts_with('[');
+    const std::size_t name_end = bracketed ? host.find(']') : std::min(host.find(':'), host.size());
+    if (name_end == std::string_view::npos) return false;
+    const std::string_view rest = host.substr(name_end + (bracketed ? 1 : 0));
+    if (!rest.empty() && !is_port(rest)) return false;
+    const std::string name(bracketed ? host.substr(1, name_end - 1) : host.substr(0, name_end));
+    if (name.find('\0') != std::string::npos) return false;
+    in6_addr address{};
+    if (bracketed) return inet_pton(AF_INET6, name.c_str(), &address) == 1;
+    return inet_pton(AF_INET, name.c_str(), &address) == 1 || name == "localhost" ||
+           (!machine_name.empty() && name == machine_name);
+}
+
+bool is_own_origin(std::string_view origin, std::string_view host) {
+    return !host.empty() && origin.starts_with("http://") && origin.substr(7) == host;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,60 @@
+#include "io/preview/preview_slot.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace hilcam {
+
+PreviewSlot::PreviewSlot(std::size_t most_samples, std::chrono::nanoseconds least_interval)
+    : least_interval_(least_interval) {
+    incoming_.samples.resize(most_samples);
+    shown_.samples.resize(most_samples);
+}
+
+void PreviewSlot::start() {
+    stopping_ = false;
+    thread_ = std::thread([this] { hand_over(); });
+}
+
+void PreviewSlot::stop() noexcept {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    asked_.notify_all();
+    news_.notify_all();
+    full_.release();
+    if (thread_.joinable()) thread_.join();
+}
+
+void PreviewSlot::copy(const DnImage& frame, const FrameRecord& record) noexcept {
+    if (frame.pixels() > incoming_.samples.size()) return;
+    std::copy(frame.all().begin(), frame.all().end(), incoming_.samples.begin());
+    incoming_.width = frame.width(), incoming_.height = frame.height();
+    incoming_.record = record;
+    copies_.fetch_add(1, std::memory_order_relaxed);
+    state_.store(State::kFull, std::memory_order_release);
+    full_.release();
+}
+
+void PreviewSlot::hand_over() {
+    setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
+    std::unique_lock lock(mutex_);
+    while (!stopping_) {
+        asked_.wait(lock, [&] { return stopping_ || Clock::now() < asked_until_; });
+        if (stopping_) return;
+        state_.store(State::kWanted, std::memory_order_release);
+        lock.unlock();
+        full_.acquire();  // a frame, or stop()
+        lock.lock();
+        if (state_.load(std::memory_order_acquire) != State::kFull) return;
+        std::swap(incoming_, shown_);
+        state_.store(State::kIdle, std::memory_order_release);
+        news_.notify_all();
+        asked_.wait_for(lock, least_interval_, [&] { return stopping_; });
+    }
+}
+
+}  // namespace hilcam

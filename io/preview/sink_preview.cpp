@@ -1,0 +1,372 @@
+#include "io/preview/sink_preview.h"
+
+#include <httplib.h>
+#include <sys/resource.h>
+
+#include <charconv>
+#include <deque>
+
+#include "io/preview/preview_guard.h"
+#include "io/preview/preview_picture.h"
+#include "io/preview/preview_request.h"
+#include "io/preview/preview_slot.h"
+#include "io/preview/preview_viewers.h"
+#include "io/system/allow_list.h"
+#include "io/system/fd.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kLongestPoll = 2s;
+// A viewer has a poll for pictures and one for figures under way, and now and then an order.
+constexpr std::size_t kWorkers = 24;
+// Those who dawdle with their requests are ended together, however many: so many do not keep others out.
+constexpr std::size_t kMostWaiting = 232;
+constexpr int kBacklog = 128;  // in the kernel, behind those
+constexpr std::size_t kMostBody_bytes = 4096;
+
+// The page's files, as string literals made by CMake.
+constexpr std::string_view kPageHtml =
+#include "page.html.inc"
+    ;
+constexpr std::string_view kPageCss =
+#include "page.css.inc"
+    ;
+constexpr std::string_view kPageJs =
+#include "page.js.inc"
+    ;
+constexpr std::string_view kPictureJs =
+#include "picture.js.inc"
+    ;
+
+struct Asset {
+    const char* path;
+    std::string_view text;
+    const char* type;
+};
+constexpr Asset kAssets[] = {
+    {"/", kPageHtml, "text/html; charset=utf-8"},
+    {"/page.css", kPageCss, "text/css; charset=utf-8"},
+    {"/page.js", kPageJs, "text/javascript; charset=utf-8"},
+    {"/picture.js", kPictureJs, "text/javascript; charset=utf-8"},
+};
+
+// Browsers send less than 2 KB, at once; a picture over a slow line takes its time.
+ConnectionGuard::Limits connection_limits(const AllowList& allow) {
+    return {.age = 30s,
+            .received_bytes = 128 * 1024,
+            .request_age = 3s,
+            .request_age_in_crowd = 500ms,
+            .crowd = kWorkers,
+            .allows = [&allow](std::uint32_t address) { return allow.allows(address); }};
+}
+
+// The library's pool takes any number of connections; this one lets the accepting thread wait, and the
+// kernel's backlog refuses the rest.
+class BoundedPool : public httplib::TaskQueue {
+  public:
+    // bool in newer versions of the library.
+    using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+
+    BoundedPool() {
+        for (std::size_t i = 0; i < kWorkers; ++i) threads_.emplace_back([this] { work(); });
+    }
+    Enqueued enqueue(std::function<void()> job) override {
+        std::unique_lock lock(mutex_);
+        room_.wait(lock, [&] { return jobs_.size() < kMostWaiting; });
+        jobs_.push_back(std::move(job));
+        jobs_there_.notify_one();
+        return static_cast<Enqueued>(true);
+    }
+    void shutdown() override {
+        {
+            const std::lock_guard lock(mutex_);
+            over_ = true;
+        }
+        jobs_there_.notify_all();
+        for (std::thread& thread : threads_) thread.join();
+    }
+
+  private:
+    void work() {
+        setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
+        std::unique_lock lock(mutex_);
+        while (true) {
+            jobs_there_.wait(lock, [&] { return over_ || !jobs_.empty(); });
+            if (jobs_.empty()) return;
+            const std::function<void()> job = std::move(jobs_.front());
+            jobs_.pop_front();
+            room_.notify_one();
+            lock.unlock();
+            job();
+            lock.lock();
+        }
+    }
+
+    std::mutex mutex_;
+    std::condition_variable jobs_there_, room_;
+    std::deque<std::function<void()>> jobs_;
+    bool over_ = false;
+    std::vector<std::thread> threads_;
+};
+
+std::string machine_name() {
+    char name[256] = {};
+    gethostname(name, sizeof name - 1);
+    return name;
+}
+
+// As announced; what is no number is too many.
+std::uint64_t body_bytes(const httplib::Request& request) {
+    const std::string text = request.get_header_value("Content-Length");
+    std::uint64_t bytes = 0;
+    if (text.empty()) return 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
+    return error == std::errc{} && end == text.data() + text.size() ? bytes : ~std::uint64_t{0};
+}
+
+void refuse(httplib::Response& response, int status, const std::string& why) {
+    response.status = status;
+    response.set_content(why + "\n", "text/plain; charset=utf-8");
+}
+
+std::size_t most_samples(const CameraLimits& limits) {
+    return static_cast<std::size_t>(limits.width) * static_cast<std::size_t>(limits.height);
+}
+
+}  // namespace
+
+Fields fields(PreviewConfig& c) {
+    return {
+        text("address", c.address, "IPv4 address of this machine to serve the page at; no passwords"),
+        integer("port", c.port, {1, 65535}, "TCP port; open http://ADDRESS:PORT/ in a browser"),
+        allow_field(c.allow),
+    };
+}
+
+void validate(const PreviewConfig& c) { AllowList(c.allow, c.address, "outputs.preview"); }
+
+struct PreviewSink::Implementation {
+    Implementation(const PreviewConfig& c, const SinkContext& sink_context, std::function<std::string()> s)
+        : config(c),
+          allow(c.allow, c.address, "outputs.preview"),
+          context(sink_context),
+          status(std::move(s)),
+          color_pattern(sink_context.camera.limits().color_pattern),
+          slot(most_samples(sink_context.camera.limits()), PreviewViewers::kInterval) {}
+
+    PreviewConfig config;
+    AllowList allow;
+    SinkContext context;
+    std::function<std::string()> status;
+    std::string color_pattern;
+    std::string machine = machine_name();
+    PreviewSlot slot;
+    PreviewViewers viewers;
+    ConnectionGuard guard;
+    httplib::Server server;
+    std::thread thread;
+    std::atomic<std::uint64_t> pictures{0}, requests{0}, refused{0}, bytes{0};
+
+    void add_routes();
+    bool refuse_stranger(const httplib::Request& request, httplib::Response& response);
+    void send_picture(const httplib::Request& request, httplib::Response& response);
+    void change_settings(const httplib::Request& request, httplib::Response& response);
+    void trigger(const httplib::Request& request, httplib::Response& response);
+    void order_fault(const httplib::Request& request, httplib::Response& response);
+};
+
+// Before the body is read. True: answered.
+bool PreviewSink::Implementation::refuse_stranger(const httplib::Request& request,
+                                                  httplib::Response& response) {
+    const std::string host = request.get_header_value("Host");
+    in_addr peer{};
+    if (inet_pton(AF_INET, request.remote_addr.c_str(), &peer) != 1 || !allow.allows(ntohl(peer.s_addr))) {
+        refuse(response, 403, request.remote_addr + " is not among outputs.preview.allow");
+    } else if (request.get_header_value_count("Host") != 1 || request.get_header_value_count("Origin") > 1) {
+        refuse(response, 400, "accepted: one header Host, and at most one Origin");
+    } else if (!is_own_host(host, machine)) {
+        refuse(response, 403, "this host name is not known here; use the numeric address");
+    } else if (request.method != "GET" && request.method != "POST") {
+        refuse(response, 405, "accepted: GET, POST");
+    } else if (request.method == "POST" && !is_own_origin(request.get_header_value("Origin"), host)) {
+        refuse(response, 403, "the header Origin is not http://" + host);
+    } else if (request.has_header("Transfer-Encoding")) {
+        refuse(response, 411, "accepted: requests with Content-Length");
+    } else if (body_bytes(request) > kMostBody_bytes) {
+        refuse(response, 413, "accepted: up to " + std::to_string(kMostBody_bytes) + " bytes");
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void PreviewSink::Implementation::send_picture(const httplib::Request& request, httplib::Response& response) {
+    const std::size_t question = request.target.find('?');
+    const PictureRequest wanted = parse_picture_request(
+        question == std::string::npos ? std::string_view()
+                                      : std::string_view(request.target).substr(question + 1));
+    if (!viewers.admit(wanted.viewer))
+        return refuse(response, 429,
+                      "accepted: " + std::to_string(PreviewViewers::kMost) + " viewers, 15 requests/s each");
+    std::string picture;
+    const bool there = slot.wait_for(wanted.after, kLongestPoll, [&](const PreviewSlot::Frame& f) {
+        const PictureSource source{f.samples, f.width, f.height, f.record};
+        picture = encode_picture(source, fit_to_frame(wanted, f.width, f.height), color_pattern);
+    });
+    if (!there) {
+        response.status = 204;  // no frame in time: ask again
+        return;
+    }
+    pictures.fetch_add(1);
+    bytes.fetch_add(picture.size());
+    response.headers.emplace("Content-Type", "application/octet-stream");
+    response.body = std::move(picture);
+}
+
+void PreviewSink::Implementation::change_settings(const httplib::Request& request,
+                                                  httplib::Response& response) {
+    if (!context.camera.change(parse_settings_change(request.body)))
+        return refuse(response, 409, "the camera refuses this value or cannot set it now");
+    response.status = 204;
+}
+
+void PreviewSink::Implementation::trigger(const httplib::Request& request, httplib::Response& response) {
+    switch (context.camera.trigger(parse_trigger_order(request.body))) {
+        case TriggerResult::kTaken:
+            response.status = 204;
+            return;
+        case TriggerResult::kMissed:
+            return refuse(response, 409, "missed: the camera is busy with the frame before");
+        case TriggerResult::kTooEarly:
+            return refuse(response, 409, "too early: the instant is not after that of the frame before");
+        case TriggerResult::kNotArmed:
+            return refuse(response, 409, "the camera does not listen to this trigger now");
+    }
+}
+
+void PreviewSink::Implementation::order_fault(const httplib::Request& request, httplib::Response& response) {
+    const FaultRequest wanted = parse_fault_request(request.body);
+    if (wanted.clear_all)
+        context.faults.clear_all();
+    else
+        context.faults.order(wanted.order);
+    response.status = 204;
+}
+
+void PreviewSink::Implementation::add_routes() {
+    using httplib::Request, httplib::Response;
+    for (const Asset& asset : kAssets)
+        server.Get(asset.path, [&asset](const Request&, Response& response) {
+            response.set_content(asset.text.data(), asset.text.size(), asset.type);
+        });
+    server.Get("/frame", [this](const Request& q, Response& a) { send_picture(q, a); });
+    server.Get("/status",
+               [this](const Request&, Response& a) { a.set_content(status(), "application/json"); });
+    server.Post("/settings", [this](const Request& q, Response& a) { change_settings(q, a); });
+    server.Post("/trigger", [this](const Request& q, Response& a) { trigger(q, a); });
+    server.Post("/fault", [this](const Request& q, Response& a) { order_fault(q, a); });
+
+    server.set_pre_routing_handler([this](const Request& q, Response& a) {
+        // A POST's body, which nothing here needs long for, is still to come.
+        if (q.method == "GET") guard.heard(q.remote_addr, q.remote_port);
+        return refuse_stranger(q, a) ? httplib::Server::HandlerResponse::Handled
+                                     : httplib::Server::HandlerResponse::Unhandled;
+    });
+    server.set_expect_100_continue_handler(
+        [this](const Request& q, Response& a) { return refuse_stranger(q, a) ? a.status : 100; });
+    server.set_exception_handler([](const Request&, Response& a, std::exception_ptr error) {
+        try {
+            std::rethrow_exception(error);
+        } catch (const InputError& e) {
+            refuse(a, 400, e.what());
+        } catch (const std::exception& e) {
+            refuse(a, 500, e.what());
+        }
+    });
+    server.set_error_handler(httplib::Server::Handler([](const Request& q, Response& a) {
+        if (a.body.empty()) refuse(a, a.status, a.status == 404 ? "no such page" : "not understood");
+        static_cast<void>(q);
+    }));
+    server.set_logger([this](const Request&, const Response& a) {
+        requests.fetch_add(1);
+        if (a.status >= 400) refused.fetch_add(1);
+    });
+    server.set_default_headers(
+        {{"Cache-Control", "no-store"},
+         {"Content-Security-Policy", "default-src 'self'; img-src data:; frame-ancestors 'none'"},
+         {"X-Content-Type-Options", "nosniff"}});
+}
+
+PreviewSink::PreviewSink(const PreviewConfig& config, const SinkContext& context,
+                         std::function<std::string()> status)
+    : implementation_(std::make_unique<Implementation>(config, context, std::move(status))) {}
+
+PreviewSink::~PreviewSink() { stop(); }
+
+void PreviewSink::start() {
+    Implementation& i = *implementation_;
+    parse_ipv4(i.config.address, "outputs.preview.address");
+    i.add_routes();
+    i.server.new_task_queue = [] { return new BoundedPool; };
+    // One request a connection: an idle browser holds no worker.
+    i.server.set_keep_alive_max_count(1);
+    i.server.set_keep_alive_timeout(2);
+    i.server.set_read_timeout(2s);
+    i.server.set_write_timeout(5s);
+    i.server.set_payload_max_length(kMostBody_bytes);
+    i.server.set_tcp_nodelay(true);
+    // The library's own options let two programs share the port.
+    int listening = -1;
+    i.server.set_socket_options([&listening](int socket) {
+        listening = socket;
+        const int yes = 1;
+        setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    const auto port = static_cast<std::uint16_t>(i.config.port);
+    if (!i.server.bind_to_port(i.config.address, port))
+        throw DeviceError("outputs.preview: " + i.config.address + ":" + std::to_string(port) +
+                          " cannot be had: " + std::strerror(errno) +
+                          "; does another program use the port? (ss -ltnp)");
+    listen(listening, kBacklog);  // once more: the library's own backlog is 5
+    i.slot.start();
+    i.guard.start(port, connection_limits(i.allow));
+    i.thread = std::thread([&server = i.server] {
+        setpriority(PRIO_PROCESS, 0, kPreviewNiceness);
+        server.listen_after_bind();
+    });
+    // stop() of a server that does not run yet would do nothing.
+    while (!i.server.is_running()) std::this_thread::sleep_for(1ms);
+}
+
+void PreviewSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
+    implementation_->slot.put(frame, record);
+}
+
+void PreviewSink::stop() noexcept {
+    Implementation& i = *implementation_;
+    if (!i.thread.joinable()) return;
+    i.server.stop();
+    i.slot.stop();
+    i.guard.end_all();
+    i.thread.join();
+    i.guard.stop();
+}
+
+SinkReport PreviewSink::report() const {
+    const Implementation& i = *implementation_;
+    SinkReport r;
+    r.name = "preview http://" + i.config.address + ":" + std::to_string(i.config.port);
+    r.frames = i.pictures.load();
+    r.figures = {{"viewers", static_cast<double>(i.viewers.count())},
+                 {"copies", static_cast<double>(i.slot.copies())},
+                 {"requests", static_cast<double>(i.requests.load())},
+                 {"refused", static_cast<double>(i.refused.load())},
+                 {"megabytes", static_cast<double>(i.bytes.load()) * 1e-6}};
+    return r;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,202 @@
+#include "io/system/confined.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <new>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+// How a child ends. Others are those of libraries and sanitizers.
+enum class Status : int { kDone = 0, kRefused = 100, kMemory = 101, kDevice = 102, kBroken = 103 };
+
+std::uint64_t page_bytes() { return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
+
+// The address space that the program has, in bytes; nothing where the kernel does not say.
+std::uint64_t mapped_bytes() {
+    const Fd statm(open("/proc/self/statm", O_RDONLY | O_CLOEXEC));
+    std::array<char, 128> text{};
+    unsigned long pages = 0;  // the first number of statm (proc(5))
+    if (read(statm.get(), text.data(), text.size() - 1) <= 0 || std::sscanf(text.data(), "%lu", &pages) != 1)
+        return 0;
+    return pages * page_bytes();
+}
+
+void limit_child(const ConfinedLimits& limits) {
+    rlimit cpu{};
+    getrlimit(RLIMIT_CPU, &cpu);
+    cpu.rlim_cur = std::min(cpu.rlim_max, static_cast<rlim_t>(std::ceil(limits.cpu_s)));
+    setrlimit(RLIMIT_CPU, &cpu);
+    const rlimit core{0, 0};
+    setrlimit(RLIMIT_CORE, &core);
+    const std::uint64_t mapped = mapped_bytes();
+    if (mapped == 0) return;
+    rlimit space{};
+    getrlimit(RLIMIT_AS, &space);
+    // Half of the machine's memory at most, since what is found is copied once on its way out.
+    const std::uint64_t half = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) / 2 * page_bytes();
+    space.rlim_max = std::min<rlim_t>(space.rlim_max, mapped + half);
+    space.rlim_cur = std::min<rlim_t>(space.rlim_max, mapped + limits.memory_bytes);
+    setrlimit(RLIMIT_AS, &space);
+}
+
+[[noreturn]] void end_child(ConfinedOutput& out, int fd, Status status, const std::string& message = {}) {
+    try {
+        if (!message.empty()) {
+            if (ftruncate(fd, 0) != 0 || lseek(fd, 0, SEEK_SET) != 0) status = Status::kBroken;
+            out.text(message);
+        }
+    } catch (const std::exception&) {
+        status = Status::kBroken;
+    }
+    _exit(static_cast<int>(status));
+}
+
+[[noreturn]] void be_child(pid_t parent, int fd, const ConfinedLimits& limits,
+                           const std::function<void(ConfinedOutput&)>& work) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(static_cast<int>(Status::kBroken));  // it died before it was asked for
+    // No handler of the parent's (a sanitizer's, a test's) shall take an abort for its own.
+    for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGXCPU})
+        std::signal(signal, SIG_DFL);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    limit_child(limits);
+    ConfinedOutput out(fd);
+    try {
+        work(out);
+    } catch (const InputError& error) {
+        end_child(out, fd, Status::kRefused, error.what());
+    } catch (const DeviceError& error) {
+        end_child(out, fd, Status::kDevice, error.what());
+    } catch (const std::bad_alloc&) {
+        end_child(out, fd, Status::kMemory);
+    } catch (...) {
+        end_child(out, fd, Status::kBroken);
+    }
+    end_child(out, fd, Status::kDone);
+}
+
+double cpu_s_of(pid_t child) {
+    clockid_t clock = 0;
+    timespec time{};
+    if (clock_getcpuclockid(child, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// Waits until the child's end of the pipe is closed, which its death does. False after it was ended because
+// it only waited: RLIMIT_CPU does not see that.
+bool wait_while_it_works(pid_t child, const Fd& alive, unsigned waiting_s) {
+    constexpr int kLook_ms = 500;
+    double worked_s = 0, idle_s = 0;
+    for (;;) {
+        pollfd poll_fd{alive.get(), POLLIN, 0};
+        const int ready = poll(&poll_fd, 1, kLook_ms);
+        if (ready > 0) return true;
+        if (ready < 0) continue;  // a signal
+        const double now_s = cpu_s_of(child);
+        idle_s = now_s > worked_s ? 0 : idle_s + 1e-3 * kLook_ms;
+        worked_s = now_s;
+        if (idle_s < waiting_s) continue;
+        kill(child, SIGKILL);
+        return false;
+    }
+}
+
+// What a child's end says of the file. worked: it was not ended for waiting.
+std::string reason_of(int status, bool worked) {
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (!worked) return "its reader waits for something that does not come";
+    if (signal == SIGXCPU) return "its reader found no end";
+    if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(Status::kMemory))
+        return "it asks for more memory than a file of its size may, or than half of this machine's";
+    return "it is broken in a way that ends its reader; export it anew";
+}
+
+}  // namespace
+
+void ConfinedOutput::write(const void* from, std::size_t size) {
+    const auto* bytes = static_cast<const std::uint8_t*>(from);
+    while (size > 0) {
+        const ssize_t written = ::write(fd_, bytes, size);
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) throw std::bad_alloc();  // the file is memory
+        bytes += written, size -= static_cast<std::size_t>(written);
+    }
+}
+
+ConfinedResult::ConfinedResult(const Fd& file, std::string name) : name_(std::move(name)) {
+    struct stat found {};
+    if (fstat(file.get(), &found) != 0) refuse();
+    size_ = static_cast<std::uint64_t>(found.st_size);
+    if (size_ == 0) return;
+    void* const mapped = mmap(nullptr, size_, PROT_READ, MAP_SHARED, file.get(), 0);
+    if (mapped == MAP_FAILED) throw DeviceError("no memory for what was found in " + name_);
+    bytes_ = {static_cast<const std::uint8_t*>(mapped),
+              [size = size_](const std::uint8_t* p) { munmap(const_cast<std::uint8_t*>(p), size); }};
+}
+
+const std::uint8_t* ConfinedResult::take(std::uint64_t count, std::uint64_t size_each) {
+    if (count > (size_ - at_) / size_each) refuse();
+    return bytes_.get() + std::exchange(at_, at_ + count * size_each);
+}
+
+void ConfinedResult::refuse() const {
+    throw InputError(name_ +
+                     ": does not parse: it is broken in a way that confuses its reader; export it anew");
+}
+
+ConfinedResult run_confined(const std::string& name, const ConfinedLimits& limits,
+                            const std::function<void(ConfinedOutput&)>& work) {
+    const Fd results(memfd_create("hilcam", MFD_CLOEXEC));
+    std::array<int, 2> ends{-1, -1};
+    const pid_t parent = getpid();
+    const pid_t child = results && pipe2(ends.data(), O_CLOEXEC) == 0 ? fork() : -1;
+    const Fd alive(ends[0]);
+    if (child == 0) be_child(parent, results.get(), limits, work);
+    Fd(ends[1]).reset();  // the child alone holds it
+    if (child < 0) throw DeviceError("no process can be made to read " + name);
+    const bool worked = wait_while_it_works(child, alive, limits.waiting_s);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const auto is = [&](Status s) { return worked && code == static_cast<int>(s); };
+    if (!is(Status::kDone) && !is(Status::kRefused) && !is(Status::kDevice))
+        throw InputError(name + ": does not parse: " + reason_of(status, worked));
+    ConfinedResult result(results, name);
+    if (is(Status::kRefused)) throw InputError(result.text());
+    if (is(Status::kDevice)) throw DeviceError(result.text());
+    return result;
+}
+
+void allow_more(std::uint64_t memory_bytes, double cpu_s) {
+    const auto raise = [](__rlimit_resource_t which, std::uint64_t more) {
+        rlimit limit{};
+        getrlimit(which, &limit);
+        if (limit.rlim_cur == RLIM_INFINITY) return;
+        limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, limit.rlim_cur + more);
+        setrlimit(which, &limit);
+    };
+    raise(RLIMIT_AS, memory_bytes);
+    raise(RLIMIT_CPU, static_cast<std::uint64_t>(std::ceil(cpu_s)));
+}
+
+}  // namespace hilcam

@@ -1,0 +1,11 @@
+#include "io/system/crc32.h"
+
+#include <zlib.h>
+
+namespace hilcam {
+
+std::uint32_t crc32_of(std::span<const std::uint8_t> bytes, std::uint32_t before) {
+    return static_cast<std::uint32_t>(::crc32_z(before, bytes.data(), bytes.size()));
+}
+
+}  // namespace hilcam

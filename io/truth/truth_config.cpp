@@ -1,0 +1,74 @@
+#include "io/truth/truth_config.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "io/system/allow_list.h"
+#include "io/system/fd.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+struct LayerName {
+    std::string_view word;
+    bool TruthWishes::*wish;
+};
+constexpr std::array kLayers = {
+    LayerName{"object", &TruthWishes::object}, LayerName{"range", &TruthWishes::range},
+    LayerName{"depth", &TruthWishes::depth}, LayerName{"normal", &TruthWishes::normal},
+    LayerName{"position", &TruthWishes::position}};
+
+const LayerName* layer_named(std::string_view word) {
+    const auto found = std::find_if(kLayers.begin(), kLayers.end(),
+                                    [word](const LayerName& layer) { return layer.word == word; });
+    return found == kLayers.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Fields fields(TruthConfig& c) {
+    return {
+        text("address", c.address, "IPv4 address of this machine to listen on"),
+        integer("port", c.port, {0, 65535},
+                "TCP port whose clients get a line of JSON for each frame; 0: none"),
+        allow_field(c.allow),
+        integer("clients", c.clients, {1, 1000}, "connections at a time; more are closed at once"),
+        texts("udp_to", c.udp_to, "ADDRESS:PORT of those that get the lines as datagrams"),
+        path("folder", c.folder,
+             "for truth.jsonl and the layers' pictures, made when missing; none: no files"),
+        texts("layers", c.layers,
+              "for each pixel, as truth_00000001.exr: object, range, depth, normal, position"),
+        flag("visibility", c.visibility, "pixels, boxes and visible share of each thing: a ray per pixel"),
+        flag("stars", c.stars, "the stars in view"),
+        number("faintest_magnitude", c.faintest_magnitude, 1, {-2, 30}, "of those stars"),
+        integer("every_nth", c.every_nth, {1, 1e9}, "of every n-th frame only"),
+    };
+}
+
+void validate(const TruthConfig& c) {
+    if (c.port == 0 && c.udp_to.empty() && c.folder.empty())
+        throw InputError("outputs.truth goes nowhere; accepted: one of port, udp_to and folder, or several");
+    if (c.port != 0) AllowList(c.allow, c.address, "outputs.truth");
+    for (const std::string& to : c.udp_to) parse_endpoint(to);
+    for (const std::string& word : c.layers)
+        if (!layer_named(word))
+            throw InputError("layers: found " + in_quotes(word) +
+                             "; accepted: object, range, depth, normal, position");
+    if (!c.layers.empty() && c.folder.empty())
+        throw InputError("'layers' are written as pictures: they need 'folder'");
+}
+
+TruthWishes wishes_of(const TruthConfig& c) {
+    TruthWishes wishes;
+    wishes.visibility = c.visibility;
+    wishes.stars = c.stars;
+    wishes.faintest_magnitude = c.faintest_magnitude;
+    for (const std::string& word : c.layers)
+        if (const LayerName* layer = layer_named(word)) wishes.*(layer->wish) = true;
+    return wishes;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,33 @@
+#pragma once
+// Who gets the truth of a camera's frames, and which (docs/truth.md).
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/frame/frame_truth.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+struct TruthConfig {
+    std::string address = "127.0.0.1";
+    std::int64_t port = 0;  // 0: none
+    std::vector<std::string> allow{};
+    std::int64_t clients = 8;
+    std::vector<std::string> udp_to{};
+    std::filesystem::path folder{};  // empty: no files
+    std::vector<std::string> layers{};
+    bool visibility = true;
+    bool stars = true;
+    double faintest_magnitude = 30;
+    std::int64_t every_nth = 1;
+};
+Fields fields(TruthConfig& config);
+void validate(const TruthConfig& config);
+
+// What the renderer is asked for; thing_of_object is left empty.
+TruthWishes wishes_of(const TruthConfig& config);
+
+}  // namespace hilcam

@@ -1,0 +1,43 @@
+#pragma once
+// The truth of a frame as one line of JSON; docs/truth.md has every key, its frame and unit.
+
+#include <string>
+#include <vector>
+
+#include "io/contract/frame_sink.h"
+#include "render/frame/frame_truth.h"
+#include "render/vocabulary/spectrum.h"
+#include "sensor/camera_model.h"
+#include "sensor/point_electrons.h"
+
+namespace hilcam {
+
+// Whose truth it is; the same for all frames of a run.
+struct TruthSource {
+    int camera = 1;  // its number on the bench
+    CameraModel model;
+    int oversampling = 1;  // of the radiance image
+    SpectralGrid grid{{0.4, 0.7}};
+    std::vector<std::string> things;  // names of the objects, by number from 1
+    std::vector<std::string> parts;   // names of the renderer's objects
+};
+
+class TruthDocument {
+  public:
+    explicit TruthDocument(const TruthSource& source)
+        : source_(source), electrons_(source.model, source.grid) {}
+
+    // Without a newline. What is unknown or not finite is null. Any thread.
+    std::string line(const FrameTruth& truth, const FrameRecord& record, bool with_stars = true) const;
+    // "1 target", "1000399 earth": of the object layer's numbers, those that this frame can have.
+    std::vector<std::string> legend(const FrameTruth& truth) const;
+    const TruthSource& source() const { return source_; }
+
+  private:
+    std::string name_of_thing(const SeenThing& thing) const;
+
+    TruthSource source_;
+    PointElectrons electrons_;
+};
+
+}  // namespace hilcam

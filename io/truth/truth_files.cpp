@@ -1,0 +1,125 @@
+#include "io/truth/truth_files.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <fcntl.h>
+
+#include <cerrno>
+#include <cstdio>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+// Collects an image's channels.
+class Layers {
+  public:
+    Layers(Imf::Header& header, Imf::FrameBuffer& buffer) : header_(header), buffer_(buffer) {}
+
+    void add(const char* channel, Imf::PixelType type, const void* values, int width) {
+        header_.channels().insert(channel, Imf::Channel(type));
+        // OpenEXR's slices are for reading too, hence not const; writing does not touch them.
+        char* base = static_cast<char*>(const_cast<void*>(values));
+        buffer_.insert(channel, Imf::Slice(type, base, 4, 4 * static_cast<std::size_t>(width)));
+    }
+    template <class Layer>
+    void add_vector(const std::string& name, const Layer& layer) {
+        for (int p = 0; p < layer.planes(); ++p)
+            add((name + "." + "XYZ"[p]).c_str(), Imf::FLOAT, layer.plane(p).data(), layer.width());
+    }
+    void say(const std::string& name, const std::string& text) {
+        header_.insert(name, Imf::StringAttribute(text));
+    }
+
+  private:
+    Imf::Header& header_;
+    Imf::FrameBuffer& buffer_;
+};
+
+}  // namespace
+
+void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
+                     std::span<const std::string> legend) {
+    const FrameRaster& raster = truth.raster;
+    const TruthLayers& t = truth.layers;
+    try {
+        Imf::Header header(raster.width_px, raster.height_px);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        Imf::FrameBuffer buffer;
+        Layers layers(header, buffer);
+        layers.say("time_utc", format_utc(truth.time));
+        layers.say("time_tai_ns", std::to_string(truth.time.ns));
+        if (truth.wishes.object) {
+            layers.add("object.ID", Imf::UINT, t.object.data(), raster.width_px);
+            std::string names;
+            for (const std::string& line : legend) names += line + "\n";
+            layers.say("object.names", names);
+        }
+        if (truth.wishes.range) {
+            layers.add("range.D", Imf::FLOAT, t.range_m.data(), raster.width_px);
+            layers.say("range.unit", "m along the ray");
+        }
+        if (truth.wishes.depth) {
+            layers.add("depth.Z", Imf::FLOAT, t.depth_m.data(), raster.width_px);
+            layers.say("depth.unit", "m along the boresight");
+        }
+        if (truth.wishes.normal) {
+            layers.add_vector("normal", t.normal);
+            layers.say("normal.unit", "1, camera axes");
+        }
+        if (truth.wishes.position) {
+            layers.add_vector("position", t.position_m);
+            layers.say("position.unit", "m, camera axes");
+        }
+        Imf::OutputFile out(file.c_str(), header);
+        out.setFrameBuffer(buffer);
+        out.writePixels(raster.height_px);
+    } catch (const std::exception& error) {
+        // A picture that ends half-way is worse than none.
+        std::error_code ignored;
+        std::filesystem::remove(file, ignored);
+        throw DeviceError(file.string() + ": cannot be written: " + error.what());
+    }
+}
+
+TruthFiles::TruthFiles(const std::filesystem::path& folder) : folder_(folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw DeviceError(folder.string() + " cannot be made: " + error.message());
+    const std::filesystem::path file = folder / "truth.jsonl";
+    lines_ = Fd(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666));
+    if (!lines_) throw DeviceError(file.string() + " cannot be written");
+}
+
+// All of it or nothing: what is begun and does not fit is taken back.
+void TruthFiles::add_line(std::string_view line) {
+    const std::string text = std::string(line) + '\n';
+    std::size_t done = 0;
+    while (done < text.size()) {
+        const ssize_t wrote = ::write(lines_.get(), text.data() + done, text.size() - done);
+        if (wrote < 0 && errno == EINTR) continue;
+        if (wrote <= 0) break;
+        done += static_cast<std::size_t>(wrote);
+    }
+    if (done == text.size()) {
+        lines_bytes_ += static_cast<off_t>(done);
+        return;
+    }
+    [[maybe_unused]] const int cut = ftruncate(lines_.get(), lines_bytes_);
+    throw DeviceError((folder_ / "truth.jsonl").string() + " cannot be written; is the disk full?");
+}
+
+void TruthFiles::write(const FrameTruth& truth, std::uint64_t frame, std::string_view line,
+                       std::span<const std::string> legend) {
+    add_line(line);
+    if (!truth.wishes.layers()) return;
+    char name[64];
+    std::snprintf(name, sizeof name, "truth_%08llu.exr", static_cast<unsigned long long>(frame));
+    write_truth_exr(folder_ / name, truth, legend);
+}
+
+}  // namespace hilcam

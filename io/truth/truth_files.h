@@ -1,0 +1,39 @@
+#pragma once
+// Truth as files in a folder: truth.jsonl, a line for each frame, and truth_00000001.exr with the layers.
+//
+// Channels of the picture, all 32 bit: object.ID (unsigned whole numbers), range.D, depth.Z, normal.X Y Z,
+// position.X Y Z. Its header has each layer's unit ("range.unit") and the numbers' names ("object.names").
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/system/fd.h"
+#include "render/frame/frame_truth.h"
+
+namespace hilcam {
+
+// Only the layers that were asked for. DeviceError when it cannot be written; then there is no file.
+void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
+                     std::span<const std::string> legend);
+
+class TruthFiles {
+  public:
+    // Makes the folder and an empty truth.jsonl. DeviceError when that cannot be.
+    explicit TruthFiles(const std::filesystem::path& folder);
+
+    // line: without a newline; it is there for readers when this returns. DeviceError: what there was no room
+    // for is left out whole.
+    void write(const FrameTruth& truth, std::uint64_t frame, std::string_view line,
+               std::span<const std::string> legend);
+
+  private:
+    std::filesystem::path folder_;
+    Fd lines_;
+    off_t lines_bytes_ = 0;  // of whole lines
+
+    void add_line(std::string_view line);
+};
+
+}  // namespace hilcam

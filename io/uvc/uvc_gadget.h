@@ -1,0 +1,72 @@
+#pragma once
+// A USB camera made of the kernel's UVC function (f_uvc) in configfs: which folders, files and links, in
+// which order; made on a machine with a USB device controller (UDC) and taken down again.
+//
+// The controls that hosts see are fixed in kernels before 6.4 (automatic exposure, brightness); later ones
+// are told to show exposure time and gain too.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/uvc/uvc_stream.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+struct UvcConfig {
+    std::string udc;                   // empty: the only one
+    std::int64_t vendor_id = 0x1209;   // pid.codes
+    std::int64_t product_id = 0x0001;  // its number for tests
+    std::string serial = "1";
+    std::string manufacturer = "hilcam";
+    std::string product = "hilcam camera";
+    std::int64_t packet_bytes = 1024;
+    std::string command_function;  // a FunctionFS instance on the same cable
+    std::filesystem::path configfs = "/sys/kernel/config";
+};
+Fields fields(UvcConfig& config);
+
+struct ConfigfsStep {
+    enum class Kind { kFolder, kFile, kLink } kind;
+    std::filesystem::path path;  // relative to configfs/usb_gadget
+    std::string content;         // of a file; target of a link, relative as well
+    bool optional = false;       // older kernels refuse it
+};
+// The whole tree but for binding it to a controller.
+std::vector<ConfigfsStep> uvc_gadget_tree(const UvcConfig& config, const UvcStreamShape& shape);
+
+class UvcGadget {
+  public:
+    UvcGadget(UvcConfig config, UvcStreamShape shape);
+    ~UvcGadget() { remove(); }
+
+    // Throws DeviceError: no controller, no configfs, no right, a gadget of that name that will not go.
+    void make();
+    // Gives it to the controller. False: errno (with a command function: until that is ready).
+    bool bind();
+    // Idempotent. Also takes down what a killed run has left.
+    void remove() noexcept;
+
+    const std::string& udc() const { return udc_; }
+    // Of the video device that takes the pictures, "/dev/video0"; empty: not there (yet).
+    std::filesystem::path video_device() const;
+    // Whether hosts see exposure time and gain.
+    bool shows_exposure() const { return shows_exposure_; }
+    // Number of the interface that carries the pictures; composite gadgets shift it.
+    int streaming_interface() const;
+
+  private:
+    std::filesystem::path root() const { return config_.configfs / "usb_gadget"; }
+
+    UvcConfig config_;
+    UvcStreamShape shape_;
+    std::vector<ConfigfsStep> steps_;
+    std::string udc_;
+    bool made_ = false, shows_exposure_ = false;
+};
+
+// Names of the machine's USB device controllers.
+std::vector<std::string> usb_device_controllers();
+
+}  // namespace hilcam

@@ -1,0 +1,265 @@
+#include "io/vizard/commands_vizard.h"
+
+#include <unistd.h>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <thread>
+#include <zmq.hpp>
+
+#include "io/files/image_file.h"
+#include "io/system/fd.h"
+#include "io/system/monotonic.h"
+#include "io/system/wire_format.h"
+#include "io/vizard/vizard_conversation.h"
+#include "io/vizard/zmq_guard.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+// Twice what is read of a SIM_UPDATE (vizard_message.h), so that one too large is answered.
+constexpr std::int64_t kMostMessageBytes = 16 << 20;
+constexpr std::size_t kMostConnections = 8, kMostMessageParts = 1000;
+constexpr std::size_t kMostParts = 16;  // of a request; further ones are left out
+// From the frame rendered (the command's answer) to the frame published: the sensor's part.
+constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::milliseconds kStopStep{50};
+
+const char* reason_of(CommandStatus status) {
+    switch (status) {
+        case CommandStatus::kAccepted:
+            return "";
+        case CommandStatus::kBusy:
+            return "the camera is busy, or took too long";
+        case CommandStatus::kNotNow:
+            return "the camera is stopped, or has taken all its frames";
+        default:
+            return "the command for it was refused";
+    }
+}
+
+class VizardReceiver : public CommandReceiver {
+  public:
+    VizardReceiver(const VizardConfig& config, VizardBench bench, std::vector<VizardCameraPart> cameras,
+                   CommandHandler& handler, VizardWorld::Remark remark)
+        : config_(config),
+          cameras_(std::move(cameras)),
+          handler_(handler),
+          remark_(remark),
+          world_({config.time, config.tolerance_rad, config.cameras}, std::move(bench), std::move(remark)),
+          conversation_(world_, [this](const VizardShot& shot) { return photograph(shot); }) {}
+    ~VizardReceiver() override { stop(); }
+
+    void start() override;
+    void stop() noexcept override;
+    std::string name() const override { return "vizard " + config_.address; }
+    CommandReport report() const override;
+    std::vector<SenderReport> senders() const override { return {}; }
+    void tell(const Telemetry&) noexcept override {}
+    bool asks_to_end() const override { return over_.load(); }
+
+  private:
+    using Picture = VizardConversation::Picture;
+
+    void listen_behind_guard();
+    void run();
+    void serve();
+    VizardParts receive();
+    Picture photograph(const VizardShot& shot);
+    CommandStatus command(const Command& command, std::uint16_t camera);
+    bool wait_for(VizardSink& sink) const;
+    Picture encoded(const VizardCameraPart& camera) const;
+
+    VizardConfig config_;
+    std::vector<VizardCameraPart> cameras_;
+    CommandHandler& handler_;
+    VizardWorld::Remark remark_;
+    VizardWorld world_;
+    VizardConversation conversation_;
+    zmq::context_t context_{1};
+    zmq::socket_t socket_;
+    std::unique_ptr<ZmqGuard> guard_;  // of connections by TCP
+    Fd wakeup_ = open_wakeup();
+    std::atomic<bool> stopping_{false}, over_{false};
+    std::thread thread_;
+    std::uint32_t sequence_ = 0;
+    std::atomic<std::uint64_t> received_{0}, refused_{0}, ended_{0};
+};
+
+void VizardReceiver::start() {
+    const auto fail = [this](const std::exception& error) {
+        throw DeviceError("commands.vizard.address: " + config_.address +
+                          " cannot be listened at: " + error.what());
+    };
+    try {
+        socket_ = zmq::socket_t(context_, zmq::socket_type::rep);
+        socket_.set(zmq::sockopt::linger, 0);
+        socket_.set(zmq::sockopt::maxmsgsize, kMostMessageBytes);
+        socket_.set(zmq::sockopt::rcvhwm, 1);  // a simulator waits for its answer
+        config_.address.starts_with("tcp://") ? listen_behind_guard() : socket_.bind(config_.address);
+    } catch (const zmq::error_t& error) {
+        fail(error);
+    } catch (const DeviceError& error) {
+        fail(error);
+    } catch (const InputError& error) {
+        throw InputError(std::string("commands.vizard.address: ") + error.what());
+    }
+    stopping_ = false;
+    thread_ = std::thread([this] { run(); });
+}
+
+// Who may connect to a Unix socket's file is the file system's to say; by TCP comes whoever reaches the port.
+void VizardReceiver::listen_behind_guard() {
+    const pid_t own = getpid();
+    ZmqGuardSetup setup{config_.address,
+                        "hilcam-vizard-" + std::to_string(own) + "-" + std::to_string(monotonic_ns()),
+                        kMostConnections,
+                        {kMostMessageBytes, kMostMessageParts},
+                        [this](const std::string& why) {
+                            // Once: whoever does it may go on and on.
+                            if (ended_.fetch_add(1) == 0) remark_("a connection was ended: " + why);
+                        }};
+    // The C function: the wrapper does not know the option. Others would pass the guard by.
+    zmq_setsockopt(socket_.handle(), ZMQ_IPC_FILTER_PID, &own, sizeof own);
+    socket_.bind("ipc://@" + setup.inner);
+    guard_ = std::make_unique<ZmqGuard>(std::move(setup));
+    guard_->start();
+}
+
+void VizardReceiver::stop() noexcept {
+    guard_.reset();
+    if (thread_.joinable()) {
+        stopping_ = true;
+        wake(wakeup_);
+        thread_.join();
+    }
+    socket_.close();
+}
+
+void VizardReceiver::run() {
+    zmq::pollitem_t watched[] = {{socket_.handle(), 0, ZMQ_POLLIN, 0},
+                                 {nullptr, wakeup_.get(), ZMQ_POLLIN, 0}};
+    while (!stopping_) {
+        // The C function: the wrapper throws when a signal interrupts it.
+        if (zmq_poll(watched, 2, -1) < 0 && zmq_errno() != EINTR)
+            return world_.remark(std::string("ends, as its socket cannot be waited for: ") +
+                                 zmq_strerror(zmq_errno()));
+        if (stopping_ || !(watched[0].revents & ZMQ_POLLIN)) continue;
+        try {
+            serve();
+        } catch (const zmq::error_t& error) {
+            if (error.num() != EINTR) world_.remark(std::string("a request was lost: ") + error.what());
+        }
+    }
+}
+
+void VizardReceiver::serve() {
+    const VizardParts asked = receive();
+    received_.fetch_add(1, std::memory_order_relaxed);
+    const VizardConversation::Answer answer = conversation_.answer(asked);
+    if (answer.refused) refused_.fetch_add(1, std::memory_order_relaxed);
+    for (std::size_t i = 0; i < answer.parts.size(); ++i)
+        socket_.send(zmq::buffer(answer.parts[i]),
+                     i + 1 < answer.parts.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
+    if (conversation_.is_over() && !config_.stay) over_ = true;
+}
+
+// All parts of a message arrive together.
+VizardParts VizardReceiver::receive() {
+    VizardParts parts;
+    zmq::message_t part;
+    do {
+        if (!socket_.recv(part, zmq::recv_flags::none)) break;
+        if (parts.size() < kMostParts) parts.push_back(part.to_string());
+    } while (part.more());
+    return parts;
+}
+
+CommandStatus VizardReceiver::command(const Command& command, std::uint16_t camera) {
+    return handler_.handle(command, {++sequence_, monotonic_ns(), camera});
+}
+
+VizardConversation::Picture VizardReceiver::photograph(const VizardShot& shot) {
+    const VizardCameraPart& camera = cameras_[shot.camera - std::size_t{1}];
+    for (const PoseCommand& pose : shot.poses)
+        if (const CommandStatus status = command(pose, 0); status != CommandStatus::kAccepted)
+            return {{}, reason_of(status)};
+    camera.sink->expect(sequence_ + 1, shot.time);
+    const CommandStatus status = command(ExposeCommand{shot.time, 1, true}, shot.camera);
+    const bool there = status == CommandStatus::kAccepted && wait_for(*camera.sink);
+    if (!there) {
+        camera.sink->forget();
+        return {{}, status == CommandStatus::kAccepted ? "its frame did not come" : reason_of(status)};
+    }
+    return encoded(camera);
+}
+
+bool VizardReceiver::wait_for(VizardSink& sink) const {
+    for (std::chrono::nanoseconds waited{0}; waited < kPatience && !stopping_; waited += kStopStep)
+        if (sink.wait_for(kStopStep)) return true;
+    return false;
+}
+
+VizardConversation::Picture VizardReceiver::encoded(const VizardCameraPart& camera) const {
+    const DnImage& frame = camera.sink->frame();
+    const bool color = !camera.color_pattern.empty();
+    const WireFormat format = color                                  ? WireFormat::kRgb8
+                              : config_.depth == VizardDepth::kBytes ? WireFormat::kMono8
+                                                                     : WireFormat::kMono16;
+    const Crop all{0, 0, frame.width(), frame.height()};
+    std::vector<std::uint16_t> row(3 * static_cast<std::size_t>(frame.width()) + 8);
+    std::vector<std::uint8_t> samples(wire_bytes(frame.pixels(), format));
+    write_wire(frame, all, camera.sink->record().bits, format, camera.color_pattern, row, samples);
+    const PngSamples kind = color                          ? PngSamples::kRgb8
+                            : format == WireFormat::kMono8 ? PngSamples::kGray8
+                                                           : PngSamples::kGray16;
+    std::string png = encode_png(samples, frame.width(), frame.height(), kind);
+    return {std::move(png), "it cannot be encoded as PNG"};
+}
+
+CommandReport VizardReceiver::report() const {
+    CommandReport report;
+    report.received = received_.load();
+    report.refused = refused_.load();
+    report.strangers = ended_.load();
+    return report;
+}
+
+}  // namespace
+
+Fields fields(VizardConfig& c) {
+    return {
+        text("address", c.address, "ZeroMQ endpoint to listen at: tcp://ADDRESS:PORT or ipc://PATH"),
+        choice(
+            "depth", c.depth, {"16_bits", "8_bits"},
+            "of the PNG pictures; 16_bits: the number in the upper ones, so that readers of 8 bits see the "
+            "same"),
+        choice("time", c.time, {"message", "scenario"},
+               "where a run begins: at the epoch of its first message, or at time_utc"),
+        number("tolerance_deg", c.tolerance_rad, kDegree_rad, {0, 180},
+               "a body further than this from the scenario's ephemerides is remarked on"),
+        flag("stay", c.stay, "goes on when the simulator tells Vizard to end (terminateVizard)"),
+        sections("cameras", c.cameras, "which camera is which; none: in the messages' order"),
+    };
+}
+
+void validate(const VizardConfig& c) {
+    if (!c.address.starts_with("tcp://") && !c.address.starts_with("ipc://"))
+        throw InputError("address: found " + in_quotes(c.address) +
+                         "; accepted: tcp://ADDRESS:PORT, ipc://PATH");
+    for (std::size_t i = 0; i < c.cameras.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (c.cameras[i].id == c.cameras[j].id)
+                throw InputError("cameras: id " + std::to_string(c.cameras[i].id) + " is there twice");
+}
+
+std::unique_ptr<CommandReceiver> make_vizard_receiver(const VizardConfig& config, VizardBench bench,
+                                                      std::vector<VizardCameraPart> cameras,
+                                                      CommandHandler& handler, VizardWorld::Remark remark) {
+    return std::make_unique<VizardReceiver>(config, std::move(bench), std::move(cameras), handler,
+                                            std::move(remark));
+}
+
+}  // namespace hilcam

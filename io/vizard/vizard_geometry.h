@@ -1,0 +1,34 @@
+#pragma once
+// The rotations of Basilisk's messages as ours.
+//
+// Basilisk writes attitudes as Modified Rodrigues Parameters sigma_YX, which stand for the passive matrix
+// [YX]: it takes a vector's components in frame X to those in frame Y. Ours are quaternions that turn a
+// vector's components in the body to those in the world; of the same parameters they are the transposed
+// matrix.
+//
+// A camera's rotation comes as sigma_UB, from the body B to a frame U of Vizard's graphics, whose -x axis is
+// the boresight, y lies along a picture's rows to the right and z along its columns upwards. Basilisk makes
+// it of the script's own sigma_CB (C: x right, y down, z along the boresight, as ours) as [UB] = [UC] [CB]
+// with sigma_UC = (1/3, 1/3, -1/3).
+
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+// x_from_y of sigma_YX. Schaub & Junkins, Analytical Mechanics of Space Systems, 4th ed. (2018), section
+// 3.5.1: beta_0 = (1 - s^2) / (1 + s^2), beta_i = 2 sigma_i / (1 + s^2), s = |sigma|. Any finite sigma, the
+// shadow set too; NaN when s^2 overflows.
+Quat from_mrp(Vec3d sigma);
+// x_from_y of the passive matrix [YX].
+Quat from_dcm(const Mat3d& dcm_yx);
+// How far rows are from unit length and right angles: the largest element of |M M^T - 1|, and 2 for a
+// reflection.
+double rotation_error(const Mat3d& m);
+// Ours of a message's camera rotation.
+Quat body_from_camera(Vec3d sigma_ub);
+// The angle between two vectors, 0..pi; accurate for small ones too. 0 when one of them is zero.
+double angle_between(Vec3d a, Vec3d b);
+// The angle that takes one attitude to the other, 0..pi.
+double angle_between(const Mat3d& a, const Mat3d& b);
+
+}  // namespace hilcam

@@ -1,0 +1,50 @@
+#pragma once
+// Of a camera's frames, the one that the Vizard side has asked for: copied in the loop, read by who waits.
+//
+// Two threads share it without a lock: expect() hands the buffer to the loop, the loop hands it back with
+// the frame in it. The loop never waits.
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <semaphore>
+#include <string>
+
+#include "io/contract/frame_sink.h"
+
+namespace hilcam {
+
+class VizardSink : public FrameSink {
+  public:
+    // The largest frame's size.
+    VizardSink(std::string name, int width, int height) : name_(std::move(name)), frame_(width, height) {}
+
+    void start() override {}
+    void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
+    void stop() noexcept override {}
+    SinkReport report() const override;
+
+    // The frame of the `expose` with this sequence number, at this instant. Asking thread, as the rest.
+    void expect(std::uint32_t trigger_sequence, TimeTai exposure_mid);
+    // True when it is there; then frame() and record() are, until the next expect().
+    bool wait_for(std::chrono::nanoseconds patience);
+    // It is not wanted any more.
+    void forget();
+    const DnImage& frame() const { return frame_; }
+    const FrameRecord& record() const { return record_; }
+
+  private:
+    // kIdle and kFull: the asking thread owns the buffer; kWanted: nobody; kCopying: the loop.
+    enum class State : std::uint8_t { kIdle, kWanted, kCopying, kFull };
+
+    std::string name_;
+    std::atomic<State> state_{State::kIdle};
+    std::uint32_t sequence_ = 0;
+    TimeTai time_;
+    DnImage frame_;
+    FrameRecord record_;
+    std::counting_semaphore<> full_{0};
+    std::atomic<std::uint64_t> given_{0};
+};
+
+}  // namespace hilcam

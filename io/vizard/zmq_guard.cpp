@@ -1,0 +1,147 @@
+#include "io/vizard/zmq_guard.h"
+
+#include <arpa/inet.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstddef>
+#include <cstring>
+
+#include "io/system/net_interface.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+// Reads an address as ZeroMQ takes it: an address, an interface's name, or all of them.
+std::uint32_t address_named(const std::string& host) {
+    in_addr numeric{};
+    if (host == "*") return INADDR_ANY;
+    if (inet_pton(AF_INET, host.c_str(), &numeric) == 1) return ntohl(numeric.s_addr);
+    return find_interface(host).address;
+}
+
+Fd listen_at(const std::string& address) {
+    constexpr std::string_view kScheme = "tcp://";
+    const std::size_t colon = address.rfind(':');
+    std::uint16_t port = 0;
+    const char* const last = address.data() + address.size();
+    const auto [end, error] = std::from_chars(address.data() + colon + 1, last, port);
+    if (!address.starts_with(kScheme) || colon < kScheme.size() || error != std::errc{} || end != last ||
+        port == 0)
+        throw InputError("found " + in_quotes(address) + "; accepted: tcp://ADDRESS:PORT");
+    return listen_tcp(address_named(address.substr(kScheme.size(), colon - kScheme.size())), port);
+}
+
+Fd connect_abstract(const std::string& name) {
+    Fd fd(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_un to{};
+    to.sun_family = AF_UNIX;
+    if (name.size() + 1 > sizeof to.sun_path) return {};
+    std::memcpy(to.sun_path + 1, name.data(), name.size());
+    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+    if (!fd || connect(fd.get(), reinterpret_cast<const sockaddr*>(&to), size) != 0) return {};
+    return fd;
+}
+
+}  // namespace
+
+void ZmqGuard::start() {
+    listener_ = listen_at(setup_.address);
+    stopping_ = false;
+    thread_ = std::thread([this] { run(); });
+}
+
+void ZmqGuard::stop() noexcept {
+    if (!thread_.joinable()) return;
+    stopping_ = true;
+    wake(wakeup_);
+    thread_.join();
+    drain(wakeup_);
+    listener_.reset();
+}
+
+void ZmqGuard::run() {
+    std::vector<pollfd> watched;
+    while (!stopping_) {
+        watched.assign({{wakeup_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}});
+        // Read where there is room, written where there is something.
+        const auto events = [](const Way& from, const Way& to) {
+            return static_cast<short>((from.empty() ? POLLIN : 0) | (to.empty() ? 0 : POLLOUT));
+        };
+        for (const Connection& c : connections_) {
+            watched.push_back({c.outer.get(), events(c.in, c.out), 0});
+            watched.push_back({c.inner.get(), events(c.out, c.in), 0});
+        }
+        if (poll(watched.data(), watched.size(), -1) < 0) continue;
+        // One that is accepted below comes behind those that were watched.
+        auto at = watched.begin() + 2;
+        for (Connection& c : connections_) {
+            const short outer = (at++)->revents, inner = (at++)->revents;
+            serve(c, outer, inner);
+        }
+        connections_.remove_if([](const Connection& c) { return c.gone; });
+        if (watched[1].revents) accept_connection();
+    }
+    connections_.clear();
+}
+
+void ZmqGuard::accept_connection() {
+    Fd outer(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    if (!outer) {
+        // Out of descriptors: the caller would be back at once.
+        if (errno != EAGAIN && errno != ECONNABORTED) poll(nullptr, 0, 10);
+        return;
+    }
+    if (connections_.size() >= setup_.most_connections)
+        return setup_.ended("there are " + std::to_string(connections_.size()) + " connections already");
+    Fd inner = connect_abstract(setup_.inner);
+    if (!inner) return;
+    const int yes = 1;  // what comes in pieces goes on in pieces
+    setsockopt(outer.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+    connections_.push_back({std::move(outer), std::move(inner), {}, {}, ZmtpMeter(setup_.limits)});
+}
+
+// A side that has ended is noticed once all that it sent is passed on: before that it is not read.
+void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
+    if (c.in.empty() && (outer_events & ~POLLOUT)) {
+        c.gone |= !read_into(c.in, c.outer);
+        if (!c.meter.take({c.in.bytes.data() + c.in.begin, c.in.end - c.in.begin})) {
+            setup_.ended("its peer sends what is no ZMTP 3, or a message above " +
+                         std::to_string(setup_.limits.bytes) + " bytes or " +
+                         std::to_string(setup_.limits.parts) + " parts");
+            c.gone = true;
+        }
+    }
+    if (c.out.empty() && (inner_events & ~POLLOUT)) c.gone |= !read_into(c.out, c.inner);
+    c.gone |= !write_from(c.in, c.inner) || !write_from(c.out, c.outer);
+    // What cannot be passed on now never will be; poll() would come back with it at once, again and again.
+    const bool stuck =
+        (!c.in.empty() && (outer_events & POLLHUP)) || (!c.out.empty() && (inner_events & POLLHUP));
+    c.gone |= stuck || ((outer_events | inner_events) & (POLLERR | POLLNVAL)) != 0;
+}
+
+// False: the other side has ended.
+bool ZmqGuard::read_into(Way& way, const Fd& from) {
+    const ssize_t got = recv(from.get(), way.bytes.data(), way.bytes.size(), MSG_DONTWAIT);
+    if (got < 0 && (errno == EAGAIN || errno == EINTR)) return true;
+    if (got <= 0) return false;
+    way.begin = 0;
+    way.end = static_cast<std::size_t>(got);
+    return true;
+}
+
+bool ZmqGuard::write_from(Way& way, const Fd& to) {
+    if (way.empty()) return true;
+    const ssize_t sent =
+        send(to.get(), way.bytes.data() + way.begin, way.end - way.begin, MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (sent < 0) return errno == EAGAIN || errno == EINTR;
+    way.begin += static_cast<std::size_t>(sent);
+    return true;
+}
+
+}  // namespace hilcam

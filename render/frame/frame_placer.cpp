@@ -1,0 +1,195 @@
+#include "render/frame/frame_placer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/light/point_field.h"
+#include "render/light/screen_bounds.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
+    return std::any_of(objects.begin(), objects.end(), [&](const ShownObject& object) {
+        return std::any_of(object.materials().begin(), object.materials().end(), says);
+    });
+}
+
+}  // namespace
+
+FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+                         const RenderQuality& quality, const RenderModels& models, const Modules& modules)
+    : embree_(ordered_meshes(with_terrain_object(scene)), quality.watertight),
+      lamps_(std::move(scene.lamps)),
+      stars_(std::move(scene.stars), scene.stars_time),
+      bodies_(std::move(scene.bodies)),
+      air_(std::move(scene.air)),
+      bands_(grid),
+      background_(bodies_, air_.get(), scene.sun_irradiance_1au_w_m2_um, scene.limb_darkening, grid),
+      object_mask_(geometry),
+      full_mask_(geometry),
+      rays_(modules.rays.make(models.rays.model, models.rays)),
+      radiance_model_(modules.radiance.make(models.radiance)),
+      lod_error_px_(quality.lod_error_px),
+      samples_per_axis_(static_cast<int>(quality.samples_per_axis)),
+      rays_across_(static_cast<int>(quality.rays_across)) {
+    objects_ = shown_objects(scene);
+    if (scene.terrain)
+        terrain_ = std::make_unique<ShownTerrain>(embree_, std::move(scene.terrain), objects_.size() - 1);
+    world_.objects.reserve(objects_.size());
+    levels_.resize(objects_.size());
+    plans_.resize(objects_.size());
+    object_boxes_.resize(objects_.size());
+    for (const ShownObject& object : objects_) {
+        triangles_ += object.levels.front()->triangles.size();
+        radii_m_.push_back(object.radius_m());
+        shown_.push_back(object.levels.front().get());
+    }
+    full_mask_.fill();
+    // Rows of different instants sweep over more than a field, and draw a star several times that they are
+    // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
+    most_stars_ = rays_->is_still()
+                      ? std::min(stars_.size(), stars_.most_within(2 * half_field_rad(geometry)))
+                      : stars_.size();
+
+    frame_.scene = &embree_;
+    frame_.objects = &shown_;
+    frame_.world_from_body.resize(objects_.size());
+    frame_.is_point.resize(objects_.size());
+    frame_.background = &background_;
+    frame_.radiance = radiance_model_.get();
+    frame_.lamps = &lamps_;
+    frame_.bands = &bands_;
+    frame_.rays = rays_.get();
+    frame_.geometry = geometry;
+    frame_.bins = grid.size();
+    frame_.alpha_behind_diffuse = static_cast<float>(quality.facets_behind_diffuse);
+    frame_.has_glass =
+        any_material(objects_, [](const Material& m) { return m.model == ReflectionModel::kGlass; });
+    frame_.has_emission = radiance_model_->emits() &&
+                          any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
+}
+
+void FramePlacer::set_quality(const RenderQuality& quality, bool paths_sample_lobes) {
+    lod_error_px_ = quality.lod_error_px;
+    samples_per_axis_ = static_cast<int>(quality.samples_per_axis);
+    frame_.max_depth = static_cast<int>(quality.max_depth);
+    frame_.contribution_threshold = static_cast<float>(quality.contribution_threshold);
+    frame_.sun_is_disk = quality.sun_disk;
+    frame_.paths_sample_lobes = paths_sample_lobes;
+}
+
+// The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
+void FramePlacer::choose_levels() {
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+        const double nearest_m =
+            length(world_.objects[i].position_world_m - world_.camera.position_world_m) - radii_m_[i];
+        const double error_m = lod_error_px_ * std::max(0.0, nearest_m) / frame_.geometry.focal_length_px;
+        std::size_t level = 0;
+        while (level + 1 < objects_[i].levels.size() && objects_[i].error_m[level + 1] <= error_m) ++level;
+        levels_[i] = level;
+        shown_[i] = objects_[i].levels[level].get();
+    }
+}
+
+// Of the sphere that holds it.
+PixelBox FramePlacer::box_of(std::size_t i) const {
+    const Vec3d to_object_m = world_.objects[i].position_world_m - world_.camera.position_world_m;
+    const double sine = std::min(1.0, radii_m_[i] / plans_[i].distance_m);
+    return screen_bounds_of_cone(frame_.geometry, world_.camera, to_object_m / plans_[i].distance_m,
+                                 std::sqrt(1 - sine * sine));
+}
+
+void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
+    HILCAM_CHECK(world.objects.size() + (terrain_ ? 1 : 0) == objects_.size());
+    world_ = world;
+    if (terrain_) {
+        world_.objects.push_back(terrain_->update(world_, frame_.geometry.focal_length_px, objects_.back()));
+        radii_m_.back() = objects_.back().radius_m();
+    }
+    const RaySpace space = choose_ray_space(world_, radii_m_, rays_->is_still());
+    const double pixel_rad = 1 / frame_.geometry.focal_length_px;
+    background_.place(world_, space.origin_world_m, pixel_rad, terrain_ ? terrain_->body() : std::nullopt);
+    lamps_.place(world_, space.origin_world_m);
+    frame_.key = key;
+    frame_.rays_world_m = space.origin_world_m;
+    frame_.camera_m = world_.camera.position_world_m - space.origin_world_m;
+    frame_.start_before_m = space.start_before_m;
+    choose_levels();
+    embree_.place(world_.objects, levels_, space.origin_world_m);
+    rays_->place(frame_.geometry,
+                 {world_.time, world_.camera, world_.rows_velocity_m_s, world_.camera_rate_rad_s});
+    place_objects();
+    place_background();
+}
+
+// Rows with poses of their own meet objects anywhere: no mask, no boxes; here and below.
+void FramePlacer::place_objects() {
+    const bool still = rays_->is_still();
+    object_mask_.clear();
+    double farthest_m = 0;
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+        const Mat3d m = to_matrix(world_.objects[i].world_from_body);
+        frame_.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
+        plans_[i] = plan_object(frame_.geometry, world_, world_.objects[i], radii_m_[i],
+                                {samples_per_axis_, rays_across_});
+        plans_[i].level = levels_[i];
+        frame_.is_point[i] = plans_[i].use == ObjectUse::kPoints;
+        if (!frame_.is_point[i] && still &&
+            !object_mask_.add(world_.camera, world_.objects[i], shown_[i]->cluster_bounds_m))
+            plans_[i].use = ObjectUse::kHidden;
+        if (!frame_.is_point[i] && plans_[i].samples_per_axis > samples_per_axis_)
+            object_boxes_[i] = box_of(i);
+        farthest_m = std::max(farthest_m, plans_[i].distance_m + radii_m_[i]);
+    }
+    frame_.object_mask = still ? &object_mask_ : &full_mask_;
+    frame_.bodies_may_hide = farthest_m > background_.nearest_m();
+}
+
+void FramePlacer::place_background() {
+    const PixelBox everything{0, 0, frame_.geometry.padded_width(), frame_.geometry.padded_height()};
+    const auto bounds = [&](Vec3d dir, double cosine) {
+        return rays_->is_still() ? screen_bounds_of_cone(frame_.geometry, world_.camera, dir, cosine)
+                                 : everything;
+    };
+    frame_.body_box_count = background_.disks().size();
+    for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
+        const PlacedBody& body = background_.disks()[i];
+        frame_.body_boxes[i] = bounds(body.world_dir, body.cone_cosine);
+    }
+    frame_.sun_box = bounds(background_.sun_camera_dir(), background_.sun_disk_cosine());
+}
+
+MovingFrame FramePlacer::moving() const {
+    return {frame_,
+            plans_,
+            radii_m_,
+            terrain_ ? terrain_->body() : std::optional<BodyId>(),
+            terrain_ != nullptr,
+            !stars_.empty() || !background_.points().empty()};
+}
+
+bool FramePlacer::shows_body() const {
+    const PixelBox everything{0, 0, frame_.geometry.padded_width(), frame_.geometry.padded_height()};
+    return (terrain_ && terrain_->body()) || frame_.may_see_body(everything);
+}
+
+int FramePlacer::samples_in(const PixelBox& box) const {
+    int n = samples_per_axis_;
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        if (plans_[i].use == ObjectUse::kMesh && plans_[i].samples_per_axis > n &&
+            box.overlaps(object_boxes_[i]))
+            n = plans_[i].samples_per_axis;
+    return n;
+}
+
+std::vector<std::string> FramePlacer::explain(const RenderQuality& quality) const {
+    std::vector<std::size_t> triangles;
+    std::vector<std::string> names;
+    for (const ShownObject& object : objects_) names.push_back(object.name);
+    for (const ObjectSurfaces* surfaces : shown_) triangles.push_back(surfaces->triangles.size());
+    return hilcam::explain({frame_, plans_, names, triangles, quality, stars_.size()}, world_);
+}
+
+}  // namespace hilcam

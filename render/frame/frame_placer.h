@@ -1,0 +1,109 @@
+#pragma once
+// Where everything is in one frame and what may be seen of it: objects at their levels of detail, bodies,
+// terrain, the plan, and the bounds on the screen inside which rays have something to meet.
+//
+// Owns the scene; what it has placed is a FrameView, which those who trace only read.
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/frame/image_motion.h"
+#include "render/frame/plan.h"
+#include "render/frame/render_quality.h"
+#include "render/light/frame_view.h"
+#include "render/light/lamp_light.h"
+#include "render/light/radiance_model.h"
+#include "render/light/screen_mask.h"
+#include "render/scene/background.h"
+#include "render/scene/color_bands.h"
+#include "render/scene/embree_scene.h"
+#include "render/scene/scene.h"
+#include "render/scene/shown_object.h"
+#include "render/scene/shown_terrain.h"
+#include "render/sky/star_sky.h"
+
+namespace hilcam {
+
+class FramePlacer {
+  public:
+    // Takes the scene over; builds the acceleration structures. Throws InputError. Owner thread.
+    FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+                const RenderQuality& quality, const RenderModels& models, const Modules& modules);
+    FramePlacer(const FramePlacer&) = delete;  // the view points into it
+    FramePlacer& operator=(const FramePlacer&) = delete;
+
+    // What of the quality may change, from the next place() on. paths_sample_lobes: of its path model
+    // (path_model.h). Loop.
+    void set_quality(const RenderQuality& quality, bool paths_sample_lobes);
+    // For a path model that is only tried (render_bench.h).
+    void set_paths_sample_lobes(bool yes) { frame_.paths_sample_lobes = yes; }
+    // Loop; nothing is allocated after the first call.
+    void place(const WorldSnapshot& world, RandomKey key);
+
+    // --- the frame that was placed last
+
+    const FrameView& frame() const { return frame_; }
+    const WorldSnapshot& world() const { return world_; }  // with the terrain among its objects
+    MovingFrame moving() const;
+    const ObjectPlan& plan(std::size_t object) const { return plans_[object]; }
+    bool is_point(std::size_t object) const { return frame_.is_point[object] != 0; }
+    double radius_m(std::size_t object) const { return radii_m_[object]; }
+    // The last of the objects is the ground.
+    bool has_terrain() const { return terrain_ != nullptr; }
+    // Of the pixels that can meet the sphere that holds an object.
+    PixelBox box_of(std::size_t object) const;
+    // Any ray of the camera through the box can meet something.
+    bool can_see_anything(const PixelBox& box) const {
+        return frame_.object_mask->any(box) || frame_.may_see_body(box) || box.overlaps(frame_.sun_box);
+    }
+    // A body's disk, or terrain on one.
+    bool shows_body() const;
+    // Rays along a pixel: what the smallest thing in the box asks for.
+    int samples_in(const PixelBox& box) const;
+    std::vector<std::string> explain(const RenderQuality& quality) const;
+
+    // --- the scene
+
+    std::size_t objects() const { return objects_.size(); }
+    std::size_t triangles() const { return triangles_; }
+    const StarSky& stars() const { return stars_; }
+    std::size_t most_stars() const { return most_stars_; }  // of those that a frame can show
+    const Background& background() const { return background_; }
+    const Lamps& lamps() const { return lamps_; }
+    const Atmosphere* air() const { return air_.get(); }  // may be null
+    EmbreeScene& embree() { return embree_; }             // for measuring
+
+  private:
+    std::size_t triangles_ = 0;
+    EmbreeScene embree_;
+    std::vector<ShownObject> objects_;          // the last one is the terrain, if there is any
+    std::vector<std::size_t> levels_;           // of detail that each is shown at
+    std::vector<const ObjectSurfaces*> shown_;  // at that level
+    std::vector<double> radii_m_;
+    std::vector<ObjectPlan> plans_;
+    std::vector<PixelBox> object_boxes_;  // pixels that can meet an object
+    Lamps lamps_;
+    StarSky stars_;
+    std::size_t most_stars_;
+    std::array<SceneBody, kBodyCount> bodies_;
+    std::unique_ptr<Atmosphere> air_;
+    ColorBands bands_;
+    Background background_;
+    ScreenMask object_mask_, full_mask_;
+    std::unique_ptr<RayGenerator> rays_;
+    std::unique_ptr<RadianceModel> radiance_model_;
+    std::unique_ptr<ShownTerrain> terrain_;
+    double lod_error_px_;
+    int samples_per_axis_;
+    int rays_across_;
+    FrameView frame_;
+    WorldSnapshot world_;
+
+    void choose_levels();
+    void place_objects();
+    void place_background();
+};
+
+}  // namespace hilcam

@@ -1,0 +1,129 @@
+#include "render/frame/frame_tracer.h"
+
+#include <algorithm>
+
+namespace hilcam {
+namespace {
+
+void fill_zero(RadianceImage& radiance, const PixelBox& box) {
+    for (int p = 0; p < radiance.planes(); ++p)
+        for (int y = box.y0; y < box.y1; ++y)
+            std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
+}
+
+// share: factor on the pixels' values.
+void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, int bins,
+           RadianceImage& radiance) {
+    const int width = box.x1 - box.x0;
+    for (int b = 0; b < bins; ++b)
+        for (int y = box.y0; y < box.y1; ++y) {
+            float* out = radiance.row(y, b).data() + box.x0;
+            const Spectrum* in = pixels.data() + (y - box.y0) * width;
+            for (int x = 0; x < width; ++x) out[x] = share * in[x][b];
+        }
+}
+
+std::size_t slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
+
+}  // namespace
+
+FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
+                         std::span<const RenderQuality> levels)
+    : width_(geometry.padded_width()), height_(geometry.padded_height()) {
+    int most_tiles = 0;
+    bool budget = false;
+    for (const RenderQuality& quality : levels) {
+        const int edge_px = tile_edge_px(static_cast<int>(quality.samples_per_axis));
+        const std::size_t set = path_set(modules, quality.path_model);
+        for (const auto& model : path_sets_[set].models)
+            model->reserve_depth(static_cast<int>(quality.max_depth));
+        levels_.push_back(
+            {quality, set, edge_px, (width_ + edge_px - 1) / edge_px, (height_ + edge_px - 1) / edge_px});
+        most_tiles = std::max(most_tiles, levels_.back().tiles_across * levels_.back().tiles_down);
+        budget = budget || quality.noise_budget > 0;
+    }
+    tile_stats_.resize(static_cast<std::size_t>(most_tiles));
+    tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMostSamples));
+    for (std::size_t i = 0; budget && i < slots(); ++i)
+        samplers_.push_back(std::make_unique<AdaptiveSampler>());
+}
+
+FrameTracer::Paths FrameTracer::make_paths(const Modules& modules, const std::string& name) {
+    Paths paths;
+    for (std::size_t i = 0; i < slots(); ++i) paths.push_back(modules.paths.make(name));
+    return paths;
+}
+
+// Levels that differ in something else share a set.
+std::size_t FrameTracer::path_set(const Modules& modules, const std::string& name) {
+    for (std::size_t i = 0; i < path_sets_.size(); ++i)
+        if (path_sets_[i].name == name) return i;
+    path_sets_.push_back({name, make_paths(modules, name)});
+    return path_sets_.size() - 1;
+}
+
+void FrameTracer::use_level(std::size_t level) {
+    HILCAM_CHECK(level < levels_.size());
+    level_ = level;
+}
+
+PixelBox FrameTracer::tile(int index) const {
+    const Level& level = levels_[level_];
+    const int x = index % level.tiles_across * level.tile_px;
+    const int y = index / level.tiles_across * level.tile_px;
+    return {x, y, std::min(x + level.tile_px, width_), std::min(y + level.tile_px, height_)};
+}
+
+TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance) {
+    // Tiles smaller than the image's blocks share a mark: it stays off.
+    const bool marks = levels_[level_].tile_px == RadianceImage::kBlock_px;
+    if (!marks) radiance.clear_marks();
+    for_each_tile([&](int index, const PixelBox& tile, std::size_t slot) {
+        TileStats& stats = tile_stats_[static_cast<std::size_t>(index)];
+        const bool anything = placer.can_see_anything(tile);
+        const bool was_dark = radiance.dark(tile.x0, tile.y0);
+        if (marks) radiance.mark_dark(tile.x0, tile.y0, !anything);
+        stats = {};
+        if (anything)
+            trace_tile(placer, tile, slot, stats, radiance);
+        else if (!was_dark)
+            fill_zero(radiance, tile);
+    });
+    TileStats sum;
+    const auto tiles = static_cast<std::size_t>(levels_[level_].tiles_across * levels_[level_].tiles_down);
+    for (std::size_t i = 0; i < tiles; ++i) sum += tile_stats_[i];
+    return sum;
+}
+
+void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot,
+                             TileStats& stats, RadianceImage& radiance) {
+    const int n = placer.samples_in(box);
+    const int edge = tile_edge_px(n);
+    const bool once = quality().noise_budget == 0;
+    for (int y = box.y0; y < box.y1; y += edge)
+        for (int x = box.x0; x < box.x1; x += edge) {
+            const PixelBox part{x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)};
+            if (once)
+                trace_once(placer.frame(), part, n, slot, stats, radiance);
+            else
+                trace_to_budget(placer.frame(), part, n, slot, stats, radiance);
+        }
+}
+
+void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
+                             TileStats& stats, RadianceImage& radiance) {
+    const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
+    const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
+    std::fill(pixels.begin(), pixels.end(), Spectrum{});
+    Tile tile{frame, box, n, pixels, stats};
+    paths()[slot]->trace(tile);
+    write(pixels, 1 / static_cast<float>(n * n), box, frame.bins, radiance);
+}
+
+void FrameTracer::trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
+                                  TileStats& stats, RadianceImage& radiance) {
+    const NoiseBudget budget{quality().noise_budget, static_cast<int>(quality().most_passes), noise_};
+    write(samplers_[slot]->trace(frame, box, n, budget, *paths()[slot], stats), 1, box, frame.bins, radiance);
+}
+
+}  // namespace hilcam

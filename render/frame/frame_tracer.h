@@ -1,0 +1,89 @@
+#pragma once
+// Traces a placed frame tile by tile on oneTBB's threads. Every slot of the thread pool has a path model and
+// scratch memory of its own; a tile's result depends neither on the slot nor on the order.
+//
+// Has several qualities ready (levels), of which one is in use: path models and memory are made for all of
+// them beforehand.
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/frame/adaptive_sampler.h"
+#include "render/frame/frame_placer.h"
+#include "render/frame/render_quality.h"
+#include "render/vocabulary/image.h"
+
+namespace hilcam {
+
+class FrameTracer {
+  public:
+    // One path model for each slot.
+    using Paths = std::vector<std::unique_ptr<PathModel>>;
+
+    // levels: at least one; the first is in use. Throws InputError when a path model is not known. Owner
+    // thread.
+    FrameTracer(const ImageGeometry& geometry, const Modules& modules, std::span<const RenderQuality> levels);
+
+    // From the next frame on. Loop.
+    void use_level(std::size_t level);
+    const RenderQuality& quality() const { return levels_[level_].quality; }
+    // What the noise budget is weighed against from the next frame on. Loop.
+    void set_pixel_noise(const PixelNoise& noise) { noise_ = noise; }
+    bool paths_sample_lobes() const { return paths().front()->samples_lobes(); }
+    PathModel& first_paths() { return *paths().front(); }
+    static Paths make_paths(const Modules& modules, const std::string& name);
+    // In place of those of the level in use, for a comparison (render_bench.h).
+    void exchange_paths(Paths& paths) { std::swap(path_sets_[levels_[level_].paths].models, paths); }
+
+    // Fills the image. Loop.
+    TileStats trace(const FramePlacer& placer, RadianceImage& radiance);
+
+    // Runs work(tile index, tile, slot of the thread) over all tiles.
+    template <class Work>
+    void for_each_tile(const Work& work) {
+        const int tiles = levels_[level_].tiles_across * levels_[level_].tiles_down;
+        tbb::parallel_for(tbb::blocked_range<int>(0, tiles), [&](const tbb::blocked_range<int>& range) {
+            const auto slot = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+            for (int i = range.begin(); i < range.end(); ++i) work(i, tile(i), slot);
+        });
+    }
+
+  private:
+    struct Level {
+        RenderQuality quality;
+        std::size_t paths;  // index of its set
+        int tile_px, tiles_across, tiles_down;
+    };
+    struct PathSet {
+        std::string name;
+        Paths models;
+    };
+    int width_, height_;
+    std::vector<Level> levels_;
+    std::size_t level_ = 0;
+    std::vector<PathSet> path_sets_;
+    PixelNoise noise_;
+    // By slot.
+    std::vector<std::vector<Spectrum>> tile_pixels_;
+    std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
+    std::vector<TileStats> tile_stats_;                       // by tile
+
+    const Paths& paths() const { return path_sets_[levels_[level_].paths].models; }
+    std::size_t path_set(const Modules& modules, const std::string& name);
+    PixelBox tile(int index) const;
+    void trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot, TileStats& stats,
+                    RadianceImage& radiance);
+    void trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot, TileStats& stats,
+                    RadianceImage& radiance);
+    void trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
+                         TileStats& stats, RadianceImage& radiance);
+};
+
+}  // namespace hilcam

@@ -1,0 +1,138 @@
+#include "render/frame/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "render/light/lamp_light.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+
+RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> radius_m, bool rays_still) {
+    // Single precision leaves 6e-8 of the distance; beyond this many radii that begins to be seen in a pixel.
+    constexpr double kFar = 20;
+    const RaySpace at_camera{world.camera.position_world_m, 0};
+    if (radius_m.empty() || !rays_still) return at_camera;
+    Vec3d middle;
+    for (const Pose& object : world.objects) middle = middle + object.position_world_m;
+    middle = middle / static_cast<double>(world.objects.size());
+    double reach_m = 0;
+    for (std::size_t i = 0; i < radius_m.size(); ++i)
+        reach_m = std::max(reach_m, length(world.objects[i].position_world_m - middle) + radius_m[i]);
+    if (length(middle - world.camera.position_world_m) < kFar * reach_m) return at_camera;
+    return {middle, 1.01 * reach_m};
+}
+
+ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world, const Pose& object,
+                       double radius_m, RayDensity density) {
+    ObjectPlan plan;
+    const Vec3d to_object_m = object.position_world_m - world.camera.position_world_m;
+    plan.distance_m = length(to_object_m);
+    plan.use = ObjectUse::kMesh;
+    plan.samples_per_axis = density.samples_per_axis;
+    plan.size_px = geometry.padded_width();
+    if (plan.distance_m <= radius_m) return plan;
+    plan.size_px = 2 * radius_m / plan.distance_m * geometry.focal_length_px;
+    if (plan.size_px < kPoints_px) plan.use = ObjectUse::kPoints;
+    const double across = std::ceil(density.rays_across / plan.size_px);
+    plan.samples_per_axis = std::max(density.samples_per_axis, static_cast<int>(std::min(16.0, across)));
+    return plan;
+}
+
+namespace {
+
+const char* reason(ObjectUse use) {
+    switch (use) {
+        case ObjectUse::kHidden:
+            return "no ray looks for it (outside the field); it still shades and is reflected";
+        case ObjectUse::kPoints:
+            return "points with the flux of its own little picture (below 8 pixels)";
+        case ObjectUse::kMesh:
+            return "traced (in the field)";
+    }
+    return "";
+}
+
+std::string body_line(const FrameView& f, std::size_t i) {
+    const PlacedBody& body = f.background->disks()[i];
+    std::ostringstream line;
+    line << kBodyNames[index_of(body.id)] << ", " << body.distance_m * 1e-3 << " km away, "
+         << 2 * std::acos(body.disk_cosine) / kDegree_rad
+         << " deg wide: " << (f.body_boxes[i].empty() ? "not drawn (outside the field)" : "drawn")
+         << "; lights and is reflected where that reaches the threshold";
+    if (body.may_be_eclipsed) line << "; another body may shadow it";
+    return line.str();
+}
+
+std::string sun_line(const FrameView& f, const WorldSnapshot& world) {
+    std::ostringstream line;
+    line << "Sun, " << length(world.bodies.sun_world_m - world.camera.position_world_m) / kAstronomicalUnit_m
+         << " au away: " << (f.sun_box.empty() ? "not drawn (outside the field)" : "its disk is drawn")
+         << "; light from its " << (f.sun_is_disk ? "whole disk" : "middle (sun_disk: false)");
+    const float seen = f.background->sun_seen_from(f.rays_world_m, BodyId{kBodyCount})[0];
+    if (seen < 1) line << "; bodies leave " << 100 * seen << " % of it to the objects (first bin)";
+    return line.str();
+}
+
+std::string lamp_line(const FrameView& f, std::size_t i) {
+    std::ostringstream line;
+    line << "lamp " << i + 1 << " '" << f.lamps->all()[i].name << "': ";
+    for (const PlacedLamp& lamp : f.lamps->lit()) {
+        if (lamp.number != i) continue;
+        line << "lit, " << length(lamp.position_m - f.camera_m)
+             << " m from the camera: a shadow ray to it from every surface that its beam meets";
+        return line.str();
+    }
+    const bool shines = largest(f.lamps->all()[i].intensity_w_sr_um) > 0;
+    line << (shines ? "off" : "dark, as its spectrum has nothing in the scenario's bins")
+         << ": costs nothing";
+    return line.str();
+}
+
+std::string air_line(const Background& background) {
+    if (!background.air()) return "no atmosphere";
+    return "atmosphere " + background.air()->describe() +
+           (background.camera_in_air() ? "; objects are seen through it (the camera is in it)"
+                                       : "; objects are not dimmed (the camera is outside it)");
+}
+
+}  // namespace
+
+std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapshot& world) {
+    const FrameView& f = planned.frame;
+    std::vector<std::string> lines;
+    const auto add = [&](const auto&... parts) {
+        std::ostringstream line;
+        (line << ... << parts);
+        lines.push_back(line.str());
+    };
+    const RenderQuality& q = planned.quality;
+    add(f.bins, " spectral bins; ", q.samples_per_axis, " x ", q.samples_per_axis, " rays per pixel");
+    if (q.noise_budget > 0)
+        add("noise budget: pixels are sampled again, ", q.most_passes,
+            " times at most, while their error is above ", q.noise_budget, " of their sensor noise");
+    add("path model ", q.path_model, ", ", f.max_depth, " surfaces deep, paths end below ",
+        f.contribution_threshold);
+    add("rays begin at the ", f.start_before_m > 0 ? "objects (far away against their size)" : "camera");
+    for (std::size_t i = 0; i < planned.plans.size(); ++i) {
+        const ObjectPlan& plan = planned.plans[i];
+        add("object ", i + 1, " '", planned.names[i], "', ", planned.triangles[i], " triangles (level ",
+            plan.level, "), ", plan.distance_m, " m away, ", plan.size_px, " px: ", reason(plan.use));
+    }
+    lines.push_back(sun_line(f, world));
+    for (std::size_t i = 0; i < f.background->disks().size(); ++i) lines.push_back(body_line(f, i));
+    std::string far;
+    for (const PlacedBody& body : f.background->points())
+        far.append(" ").append(kBodyNames[index_of(body.id)]);
+    lines.push_back(far.empty() ? "no body is a point" : "points (smaller than a pixel):" + far);
+    for (std::size_t i = 0; i < f.lamps->all().size(); ++i) lines.push_back(lamp_line(f, i));
+    if (f.lamps->all().empty()) lines.push_back("no lamps");
+    lines.push_back(air_line(*f.background));
+    add(planned.stars, " stars to look through");
+    add(f.has_glass ? "glass: shadow rays go through it" : "no glass: shadow rays end at the first surface");
+    add(f.has_emission ? "surfaces emit" : "no emission");
+    return lines;
+}
+
+}  // namespace hilcam

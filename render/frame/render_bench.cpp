@@ -1,0 +1,61 @@
+#include "render/frame/render_bench.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace hilcam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+PathModelSpeed speed_of(const std::string& name, FramePlacer& placer, FrameTracer& tracer,
+                        RadianceImage& radiance, int runs) {
+    std::vector<double> frame_ms;
+    // The first round is for the caches, the last one is recorded.
+    for (int run = 0; run < runs + 2; ++run) {
+        if (run == runs + 1) placer.embree().start_recording();
+        const auto start = Clock::now();
+        tracer.trace(placer, radiance);
+        if (run > 0 && run <= runs) frame_ms.push_back(ms_since(start));
+    }
+    const EmbreeScene::Replay replay = placer.embree().replay();
+    return {name, replay.rays, median(frame_ms), replay.milliseconds};
+}
+
+}  // namespace
+
+double bare_rays_ms(FramePlacer& placer, FrameTracer& tracer) {
+    const FrameView& frame = placer.frame();
+    RadianceImage radiance(frame.geometry.padded_width(), frame.geometry.padded_height(), frame.bins);
+    placer.embree().start_recording();
+    tracer.trace(placer, radiance);
+    return placer.embree().replay(EmbreeScene::Replayed::kPrimaryAndShadow).milliseconds;
+}
+
+std::vector<PathModelSpeed> path_model_speeds(FramePlacer& placer, FrameTracer& tracer,
+                                              const Modules& modules, int runs) {
+    const FrameView& frame = placer.frame();
+    RadianceImage radiance(frame.geometry.padded_width(), frame.geometry.padded_height(), frame.bins);
+    std::vector<PathModelSpeed> speeds;
+    const bool samples_lobes = frame.paths_sample_lobes;
+    for (const std::string& name : modules.paths.list()) {
+        FrameTracer::Paths paths = FrameTracer::make_paths(modules, name);
+        placer.set_paths_sample_lobes(paths.front()->samples_lobes());
+        tracer.exchange_paths(paths);
+        speeds.push_back(speed_of(name, placer, tracer, radiance, runs));
+        tracer.exchange_paths(paths);
+    }
+    placer.set_paths_sample_lobes(samples_lobes);
+    return speeds;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,30 @@
+#pragma once
+// What `hilcam bench` measures of the renderer: bare Embree on a frame's own rays, and path models against
+// it. Not for the loop.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/frame/frame_placer.h"
+#include "render/frame/frame_tracer.h"
+
+namespace hilcam {
+
+// How fast a path model is against Embree alone on the same rays.
+struct PathModelSpeed {
+    std::string name;
+    std::uint64_t rays = 0;  // of all kinds, of one frame
+    double frame_ms = 0;
+    double bare_ms = 0;  // Embree alone
+};
+
+// Time that bare Embree needs for the primary and shadow rays that the placed frame traces, the same packets
+// on the same threads with nothing around them [ms]: the floor that no renderer built on it can go below.
+double bare_rays_ms(FramePlacer& placer, FrameTracer& tracer);
+
+// The placed frame with every path model of the registry, medians of `runs`.
+std::vector<PathModelSpeed> path_model_speeds(FramePlacer& placer, FrameTracer& tracer,
+                                              const Modules& modules, int runs);
+
+}  // namespace hilcam

@@ -1,0 +1,36 @@
+#pragma once
+// Speed against accuracy, and the models to render with: what the user chooses of the renderer.
+
+#include <cstdint>
+#include <string>
+
+#include "render/light/modules.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+// Every value here is a named choice of the user. Those marked (f) may change from frame to frame.
+struct RenderQuality {
+    std::int64_t samples_per_axis = 1;     // (f) n: a regular n x n grid of rays in each pixel
+    std::string path_model = "path";       // (f)
+    std::int64_t max_depth = 2;            // (f) 1: direct light only; 2: one bounce; ...
+    double contribution_threshold = 1e-3;  // (f) see path_model.h
+    bool sun_disk = false;  // (f) soft shadows and exact highlights; false: a point at its middle
+    double facets_behind_diffuse = 0.4;  // least GGX alpha there; 0: as they are
+    bool watertight = true;              // no ray slips through between two triangles
+    double lod_error_px = 0.25;          // (f) of a coarser level of detail; 0: the mesh itself, always
+    std::int64_t rays_across =
+        128;  // of a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
+    std::int64_t point_samples = 96;  // of an object of few pixels, along one axis of its little picture
+    double noise_budget = 0;          // (f) see adaptive_sampler.h; 0: a pixel is sampled once
+    std::int64_t most_passes = 16;    // over a pixel, with a noise budget
+};
+Fields fields(RenderQuality& quality);
+
+// The chosen models, by name.
+struct RenderModels {
+    RayConfig rays;
+    std::string radiance = "reflected";
+};
+
+}  // namespace hilcam

@@ -1,0 +1,180 @@
+#include "render/frame/renderer.h"
+
+#include <chrono>
+
+#include "render/frame/frame_placer.h"
+#include "render/frame/frame_tracer.h"
+#include "render/frame/object_probe.h"
+#include "render/frame/render_bench.h"
+#include "render/frame/truth_probe.h"
+#include "render/light/point_field.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::vector<RenderQuality> all_levels(const RenderQuality& quality, std::span<const RenderQuality> lower) {
+    std::vector<RenderQuality> levels = {quality};
+    levels.insert(levels.end(), lower.begin(), lower.end());
+    return levels;
+}
+
+}  // namespace
+
+struct Renderer::Implementation {
+    FramePlacer placer;
+    FrameTracer tracer;
+    ObjectProbe probe;  // for objects of a few pixels
+
+    Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+                   const std::vector<RenderQuality>& levels, const RenderModels& models,
+                   const Modules& modules)
+        : placer(std::move(scene), grid, geometry, levels.front(), models, modules),
+          tracer(geometry, modules, levels),
+          probe(placer.frame(), static_cast<int>(levels.front().point_samples)) {
+        use_level(0);
+    }
+
+    void use_level(std::size_t level) {
+        tracer.use_level(level);
+        placer.set_quality(tracer.quality(), tracer.paths_sample_lobes());
+    }
+
+    // Stars, bodies, lamps and objects that are drawn as points. Gives what it took to trace.
+    TileStats add_points(std::vector<PointSource>& points) {
+        const PointField field(placer.frame(), placer.world());
+        field.add_stars(placer.stars(), points);
+        for (const PlacedBody& body : placer.background().points())
+            field.add(body.world_dir, body.distance_m, placer.background().point_irradiance(body), points);
+        add_lamps_seen(placer.frame(), field, points);
+        TileStats sum;
+        for (std::size_t i = 0; i < placer.objects(); ++i)
+            if (placer.is_point(i))
+                sum += probe.add_points(placer.frame(), placer.world(), i, placer.plan(i), placer.radius_m(i),
+                                        tracer.first_paths(), field, points);
+        return sum;
+    }
+};
+
+Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+                   const RenderQuality& quality, const RenderModels& models, const Modules& modules,
+                   std::span<const RenderQuality> lower)
+    : implementation_(std::make_unique<Implementation>(std::move(scene), grid, geometry,
+                                                       all_levels(quality, lower), models, modules)) {}
+Renderer::~Renderer() = default;
+
+void Renderer::use_level(std::size_t level) { implementation_->use_level(level); }
+const RenderQuality& Renderer::quality() const { return implementation_->tracer.quality(); }
+void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->tracer.set_pixel_noise(noise); }
+
+std::size_t Renderer::most_points() const {
+    const FramePlacer& placer = implementation_->placer;
+    const std::size_t cells = ObjectProbe::kMostCells * ObjectProbe::kMostCells;
+    return placer.most_stars() + placer.objects() * cells + kBodyCount + placer.lamps().all().size();
+}
+std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
+double Renderer::object_radius_m(std::size_t object) const {
+    return implementation_->placer.radius_m(object);
+}
+const ImageGeometry& Renderer::geometry() const { return implementation_->placer.frame().geometry; }
+
+void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& radiance,
+                      std::vector<PointSource>& points, RenderStats& stats) {
+    Implementation& my = *implementation_;
+    const ImageGeometry& g = geometry();
+    HILCAM_CHECK(radiance.width() == g.padded_width() && radiance.height() == g.padded_height() &&
+                 radiance.planes() == my.placer.frame().bins);
+    const auto start = Clock::now();
+    my.placer.place(world, key);
+    stats.setup_ms = ms_since(start);
+
+    const auto traced = Clock::now();
+    TileStats sum = my.tracer.trace(my.placer, radiance);
+    stats.trace_ms = ms_since(traced);
+
+    const auto pointed = Clock::now();
+    points.clear();
+    sum += my.add_points(points);
+    stats.points_ms = ms_since(pointed);
+
+    stats.primary_rays = sum.primary_rays;
+    stats.shadow_rays = sum.shadow_rays;
+    stats.secondary_rays = sum.secondary_rays;
+    stats.coverage = sum.covered_px / (static_cast<double>(g.padded_width()) * g.padded_height());
+    stats.lit_px = sum.lit_px;
+    stats.within_budget_px = sum.within_budget_px;
+}
+
+ImageMotion Renderer::motion(const WorldSnapshot& middle, const WorldSnapshot& before,
+                             const WorldSnapshot& after) {
+    implementation_->placer.place(middle, {});
+    return motion_of_last(before, after);
+}
+
+ImageMotion Renderer::motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after) {
+    const FramePlacer& placer = implementation_->placer;
+    return image_motion(placer.moving(), {placer.world(), before, after});
+}
+
+void Renderer::set_drifts(const WorldSnapshot& before, const WorldSnapshot& after, double per_s,
+                          std::span<PointSource> points) {
+    const FramePlacer& placer = implementation_->placer;
+    hilcam::set_drifts(placer.moving(), {placer.world(), before, after}, per_s, points);
+}
+
+bool Renderer::last_shows_body() const { return implementation_->placer.shows_body(); }
+
+FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int height_px) const {
+    return hilcam::make_truth(implementation_->placer, wishes, width_px, height_px);
+}
+
+void Renderer::tell_truth(FrameTruth& truth) const { TruthProbe(implementation_->placer, truth).tell(); }
+
+std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
+    Implementation& my = *implementation_;
+    my.placer.place(world, {});
+    return my.placer.explain(quality());
+}
+
+void Renderer::require_air(const WorldSnapshot& world) {
+    FramePlacer& placer = implementation_->placer;
+    if (!placer.air()) return;
+    placer.place(world, {});
+    const ImageGeometry& g = geometry();
+    const Mat3d world_from_camera = to_matrix(world.camera.world_from_body);
+    constexpr int kSteps = 48;
+    for (int y = 0; y <= kSteps; ++y)
+        for (int x = 0; x <= kSteps; ++x) {
+            const Vec3d dir = world_from_camera *
+                              normalized(g.direction_camera(x * g.width_px / static_cast<double>(kSteps),
+                                                            y * g.height_px / static_cast<double>(kSteps)));
+            const std::string missing = placer.background().air_missing(dir);
+            if (!missing.empty()) throw InputError("atmosphere: the camera sees a " + missing);
+        }
+}
+
+std::uint64_t Renderer::rays_outside_air() const {
+    const Atmosphere* air = implementation_->placer.air();
+    return air ? air->rays_outside() : 0;
+}
+
+double Renderer::floor_ms(const WorldSnapshot& world) {
+    Implementation& my = *implementation_;
+    my.placer.place(world, {});
+    return bare_rays_ms(my.placer, my.tracer);
+}
+
+std::vector<PathModelSpeed> Renderer::path_model_speeds(const WorldSnapshot& world, const Modules& modules,
+                                                        int runs) {
+    Implementation& my = *implementation_;
+    my.placer.place(world, {});
+    return hilcam::path_model_speeds(my.placer, my.tracer, modules, runs);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,107 @@
+#pragma once
+// The radiance engine: a scene and a world snapshot in, a radiance image and a list of point sources out.
+//
+// Radiance is equation (1) of Peng et al. 2011. What it is made of are exchangeable models (modules.h): the
+// camera's rays (ray_generator.h), how light is followed (path_model.h), what a surface sends by itself
+// (radiance_model.h), and the air (atmosphere.h). Before each frame a plan decides what this one needs
+// (plan.h).
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/frame/frame_truth.h"
+#include "render/frame/image_motion.h"
+#include "render/frame/plan.h"
+#include "render/frame/render_quality.h"
+#include "render/light/modules.h"
+#include "render/scene/scene.h"
+#include "render/vocabulary/image.h"
+#include "render/vocabulary/image_geometry.h"
+#include "render/vocabulary/pixel_noise.h"
+#include "render/vocabulary/point_source.h"
+#include "render/vocabulary/random.h"
+
+namespace hilcam {
+
+struct PathModelSpeed;  // render_bench.h
+
+struct RenderStats {
+    std::uint64_t primary_rays = 0;
+    std::uint64_t shadow_rays = 0;
+    std::uint64_t secondary_rays = 0;
+    double coverage = 0;   // share of the frame's samples that meet an object
+    double setup_ms = 0;   // instances, plan, background
+    double trace_ms = 0;   // rays and shading
+    double points_ms = 0;  // stars, and what is smaller than a pixel
+    // With a noise budget: pixels that light falls on, points apart, and those of them within the budget.
+    std::uint64_t lit_px = 0, within_budget_px = 0;
+};
+
+class Renderer {
+  public:
+    // Builds the acceleration structures; takes the scene over. Throws InputError. Owner thread.
+    // lower: qualities that use_level() may choose instead, from 1 on. Only what RenderQuality marks may be
+    // different in them; the rest stays that of `quality`, which is level 0.
+    Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
+             const RenderQuality& quality, const RenderModels& models = {}, const Modules& modules = {},
+             std::span<const RenderQuality> lower = {});
+    ~Renderer();
+
+    // The quality of the next frames. Loop: nothing is allocated.
+    void use_level(std::size_t level);
+    const RenderQuality& quality() const;
+    // What the noise budget is weighed against in the next frames; until it is told, pixels are sampled once.
+    // Loop.
+    void set_pixel_noise(const PixelNoise& noise);
+
+    // Fills `radiance` (padded size, a plane per bin) and `points` (cleared first; capacity reserved by
+    // reserve_points). Loop: after the first call with this thread pool nothing is allocated. Runs on oneTBB;
+    // the result does not depend on the thread count.
+    void render(const WorldSnapshot& world, RandomKey key, RadianceImage& radiance,
+                std::vector<PointSource>& points, RenderStats& stats);
+
+    // How the picture of `middle` moves from the one world to the other. Loop, as render().
+    ImageMotion motion(const WorldSnapshot& middle, const WorldSnapshot& before, const WorldSnapshot& after);
+    // The same of the world that was rendered last.
+    ImageMotion motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after);
+    // Sets the drifts of the points that it gave: the way from one world to the other, times per_s.
+    void set_drifts(const WorldSnapshot& before, const WorldSnapshot& after, double per_s,
+                    std::span<PointSource> points);
+    // A body's disk or terrain on one may be in the last picture: how it moves depends on the bodies.
+    bool last_shows_body() const;
+
+    // A record with room for what frames show, up to a size of them. Owner thread.
+    FrameTruth make_truth(const TruthWishes& wishes, int width_px, int height_px) const;
+    // What the world that was placed last, by render() or motion(), shows; truth.raster is set. Loop, as
+    // render().
+    void tell_truth(FrameTruth& truth) const;
+
+    // An upper bound of the points that render() can give.
+    std::size_t most_points() const;
+    std::size_t triangles() const;
+    // Of the sphere about an object's origin that holds it, in the scene's order.
+    double object_radius_m(std::size_t object) const;
+    const ImageGeometry& geometry() const;
+
+    // What a frame of this world needs and why, a line each. Not for the loop.
+    std::vector<std::string> explain_plan(const WorldSnapshot& world);
+
+    // Throws InputError where the atmosphere does not cover what the camera sees of the Earth: what is
+    // missing. For the first instant of a run; what leaves the table later is counted. Not for the loop.
+    void require_air(const WorldSnapshot& world);
+    std::uint64_t rays_outside_air() const;
+
+    // See render_bench.h. Not for the loop.
+    double floor_ms(const WorldSnapshot& world);
+    std::vector<PathModelSpeed> path_model_speeds(const WorldSnapshot& world, const Modules& modules,
+                                                  int runs);
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace hilcam

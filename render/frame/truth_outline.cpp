@@ -1,0 +1,242 @@
+// What a thing would cover if it were alone (TruthProbe).
+//
+// In the frame nearly all of it is known from the pixels' own rays: where they see the thing it is there, and
+// where they see the sky it is not, as nothing stands before it. Rays of its own go only where something else
+// is seen, and beside the frame.
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "render/frame/truth_probe.h"
+#include "render/light/screen_bounds.h"
+
+namespace hilcam {
+namespace {
+
+// Beside the frame, per thing: where it is larger one ray stands for a square of several pixels.
+constexpr double kMostRaysBeside = 65536;
+// Across the bounds of a small thing.
+constexpr int kFine = 64;
+
+double area_of(const PixelBox& box) {
+    return box.empty() ? 0.0 : static_cast<double>(box.x1 - box.x0) * (box.y1 - box.y0);
+}
+
+// Places in the frame, gathered for sixteen rays at a time.
+template <class Trace>
+class Packets {
+  public:
+    explicit Packets(const Trace& trace) : trace_(trace) {}
+
+    void add(Vec2d frame_px, double area_px) {
+        frame_px_[count_] = frame_px, area_px_[count_] = area_px;
+        if (++count_ == frame_px_.size()) flush();
+    }
+    // After the last one.
+    void flush() {
+        if (count_ > 0)
+            trace_(std::span<const Vec2d>(frame_px_.data(), count_),
+                   std::span<const double>(area_px_.data(), count_));
+        count_ = 0;
+    }
+
+  private:
+    const Trace& trace_;
+    std::array<Vec2d, kPacketSize> frame_px_;
+    std::array<double, kPacketSize> area_px_{};
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+void TruthProbe::Outline::add(Vec2d frame_px, double area) {
+    area_px += area;
+    const int x = static_cast<int>(std::floor(frame_px.x)), y = static_cast<int>(std::floor(frame_px.y));
+    x0 = std::min(x0, x), x1 = std::max(x1, x + 1);
+    y0 = std::min(y0, y), y1 = std::max(y1, y + 1);
+}
+
+void TruthProbe::Outline::add(const Outline& other) {
+    area_px += other.area_px;
+    x0 = std::min(x0, other.x0), x1 = std::max(x1, other.x1);
+    y0 = std::min(y0, other.y0), y1 = std::max(y1, other.y1);
+}
+
+// Of the sphere that holds it, in px of the frame, up to a frame's size beside it.
+PixelBox TruthProbe::canvas_bounds(const SeenThing& thing) const {
+    const FrameRaster& raster = truth_.raster;
+    const int width = raster.width_px, height = raster.height_px;
+    const PixelBox canvas{-width, -height, 2 * width, 2 * height};
+    // Rows of several instants meet it anywhere.
+    if (!frame_.rays->is_still() || thing.distance_m <= thing.radius_m) return canvas;
+    // The picture with a guard band that holds the canvas.
+    ImageGeometry wide = frame_.geometry;
+    wide.guard_px = 2 * static_cast<int>(std::ceil(
+                            std::max(std::abs(raster.x.scale) * width + std::abs(raster.x.offset_px),
+                                     std::abs(raster.y.scale) * height + std::abs(raster.y.offset_px))));
+    const double sine = thing.radius_m / thing.distance_m;
+    const Vec3d to_thing_m = thing.world.position_world_m - world_.camera.position_world_m;
+    const PixelBox padded =
+        screen_bounds_of_cone(wide, world_.camera, to_thing_m / thing.distance_m, std::sqrt(1 - sine * sine));
+    if (padded.empty()) return {};
+    const double guard_px = wide.guard_px;
+    const Vec2d a = raster.frame_px({padded.x0 - guard_px, padded.y0 - guard_px});
+    const Vec2d b = raster.frame_px({padded.x1 - guard_px, padded.y1 - guard_px});
+    const auto within = [](double px, int least, int most) {
+        return static_cast<int>(std::clamp(px, static_cast<double>(least), static_cast<double>(most)));
+    };
+    return {within(std::floor(std::min(a.x, b.x)), canvas.x0, canvas.x1),
+            within(std::floor(std::min(a.y, b.y)), canvas.y0, canvas.y1),
+            within(std::ceil(std::max(a.x, b.x)), canvas.x0, canvas.x1),
+            within(std::ceil(std::max(a.y, b.y)), canvas.y0, canvas.y1)};
+}
+
+std::uint32_t TruthProbe::meets_alone(const SeenThing& thing, std::span<const Vec2d> image_px) const {
+    std::uint32_t met = 0;
+    if (thing.is_body) {
+        for (const PlacedBody& body : frame_.background->disks())
+            if (truth_id(body.id) == thing.id) met = rays_.meets_body(image_px, body);
+    } else {
+        for (std::size_t i = 0; i < placer_.objects(); ++i)
+            if (owner_of(i) + 1 == thing.id) met |= rays_.meets_object(image_px, i);
+    }
+    for (std::size_t k = 0; k < image_px.size(); ++k)
+        if ((met >> k & 1u) != 0 && !rays_.exists(image_px[k])) met &= ~(1u << k);
+    return met;
+}
+
+// What the thing covers of the places that fill(row, packets) gives, over all rows from one to another.
+template <class Fill>
+TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, int last_row,
+                                        const Fill& fill) const {
+    const auto add_rows = [&](const tbb::blocked_range<int>& range, Outline sum) {
+        const auto trace = [&](std::span<const Vec2d> frame_px, std::span<const double> area_px) {
+            std::array<Vec2d, kPacketSize> image_px;
+            for (std::size_t k = 0; k < frame_px.size(); ++k)
+                image_px[k] = truth_.raster.image_px(frame_px[k]);
+            const std::uint32_t met = meets_alone(thing, {image_px.data(), frame_px.size()});
+            for (std::size_t k = 0; k < frame_px.size(); ++k)
+                if ((met >> k & 1u) != 0) sum.add(frame_px[k], area_px[k]);
+        };
+        Packets packets(trace);
+        for (int row = range.begin(); row < range.end(); ++row) fill(row, packets);
+        packets.flush();
+        return sum;
+    };
+    // Sums of whole numbers: the same in any order.
+    return tbb::parallel_reduce(tbb::blocked_range<int>(first_row, last_row, 8), Outline{}, add_rows,
+                                [](Outline a, const Outline& b) {
+                                    a.add(b);
+                                    return a;
+                                });
+}
+
+// In the frame, behind other things and under black pixels.
+TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelBox& bounds) const {
+    const PixelBox box{std::max(bounds.x0, 0), std::max(bounds.y0, 0),
+                       std::min(bounds.x1, truth_.raster.width_px),
+                       std::min(bounds.y1, truth_.raster.height_px)};
+    if (box.empty()) return {};
+    return covered(thing, box.y0, box.y1, [&](int y, auto& packets) {
+        const std::span<const std::uint32_t> ids = std::as_const(truth_.layers.object).row(y);
+        for (int x = box.x0; x < box.x1; ++x) {
+            const std::uint32_t id = ids[static_cast<std::size_t>(x)];
+            if (id == thing.id) continue;
+            // Black pixels have had no ray.
+            const Vec2d at{x + 0.5, y + 0.5};
+            if (id != kSkyId || !on_image(truth_.raster.image_px(at))) packets.add(at, 1);
+        }
+    });
+}
+
+// In a box that lies beside the frame; rays go through the middles of squares of `step` pixels.
+TruthProbe::Outline TruthProbe::part_beside(const SeenThing& thing, const PixelBox& box, int step) const {
+    if (box.empty()) return {};
+    const int rows = (box.y1 - box.y0 + step - 1) / step;
+    return covered(thing, 0, rows, [&](int row, auto& packets) {
+        const int y0 = box.y0 + row * step, y1 = std::min(y0 + step, box.y1);
+        for (int x0 = box.x0; x0 < box.x1; x0 += step) {
+            const int x1 = std::min(x0 + step, box.x1);
+            packets.add({0.5 * (x0 + x1), 0.5 * (y0 + y1)}, area_of({x0, y0, x1, y1}));
+        }
+    });
+}
+
+void TruthProbe::measure_outline(SeenThing& thing) {
+    const auto disks = frame_.background->disks();
+    if (thing.is_body && std::none_of(disks.begin(), disks.end(),
+                                      [&](const PlacedBody& body) { return truth_id(body.id) == thing.id; }))
+        return;
+    // Ground has no outline of its own: there is as much of it as the camera needs.
+    if (placer_.has_terrain() && thing.id == 1 + owner_of(placer_.objects() - 1)) return;
+    const PixelBox bounds = canvas_bounds(thing);
+    if (bounds.empty()) return;
+    if (bounds.x1 - bounds.x0 <= SeenThing::kSmall_px && bounds.y1 - bounds.y0 <= SeenThing::kSmall_px)
+        return measure_small(thing, bounds);
+
+    const int width = truth_.raster.width_px, height = truth_.raster.height_px;
+    Outline all = hidden_part(thing, bounds);
+    if (thing.visible_px > 0) {
+        const PixelBox& seen = thing.visible_box_px;
+        all.add(Outline{static_cast<double>(thing.visible_px), seen.x0, seen.y0, seen.x1, seen.y1});
+    }
+    const int y0 = std::max(bounds.y0, 0), y1 = std::min(bounds.y1, height);
+    const std::array<PixelBox, 4> beside = {{{bounds.x0, bounds.y0, bounds.x1, std::min(bounds.y1, 0)},
+                                             {bounds.x0, std::max(bounds.y0, height), bounds.x1, bounds.y1},
+                                             {bounds.x0, y0, std::min(bounds.x1, 0), y1},
+                                             {std::max(bounds.x0, width), y0, bounds.x1, y1}}};
+    double area_px = 0;
+    for (const PixelBox& box : beside) area_px += area_of(box);
+    const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area_px / kMostRaysBeside))));
+    for (const PixelBox& box : beside) all.add(part_beside(thing, box, step));
+    thing.silhouette_px = all.area_px;
+    thing.silhouette_box_px = all.box();
+    if (all.area_px <= 0) return;
+    thing.visible_fraction = static_cast<double>(thing.visible_px) / all.area_px;
+    thing.silhouette_cut = all.x0 - step < -width || all.y0 - step < -height || all.x1 + step > 2 * width ||
+                           all.y1 + step > 2 * height;
+}
+
+void TruthProbe::measure_small(SeenThing& thing, const PixelBox& bounds) {
+    const double step_x = static_cast<double>(bounds.x1 - bounds.x0) / kFine;
+    const double step_y = static_cast<double>(bounds.y1 - bounds.y0) / kFine;
+    Outline all, visible;
+    Vec2d sum_px{};
+    const auto trace = [&](std::span<const Vec2d> frame_px, std::span<const double> area_px) {
+        std::array<Vec2d, kPacketSize> image_px;
+        for (std::size_t k = 0; k < frame_px.size(); ++k) image_px[k] = truth_.raster.image_px(frame_px[k]);
+        const std::span<const Vec2d> points(image_px.data(), frame_px.size());
+        const std::uint32_t met = meets_alone(thing, points);
+        if (met == 0) return;
+        std::array<RayMet, kPacketSize> first;
+        rays_.trace(points, false, first);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            if ((met >> k & 1u) == 0) continue;
+            const Vec2d at = frame_px[k];
+            all.add(at, area_px[k]);
+            const bool in_frame = at.x >= 0 && at.y >= 0 && at.x < truth_.raster.width_px &&
+                                  at.y < truth_.raster.height_px && on_image(points[k]);
+            if (!in_frame || id_of(first[k]) != thing.id) continue;
+            visible.add(at, area_px[k]);
+            sum_px = {sum_px.x + area_px[k] * at.x, sum_px.y + area_px[k] * at.y};
+        }
+    };
+    Packets packets(trace);
+    for (int y = 0; y < kFine; ++y)
+        for (int x = 0; x < kFine; ++x)
+            packets.add({bounds.x0 + (x + 0.5) * step_x, bounds.y0 + (y + 0.5) * step_y}, step_x * step_y);
+    packets.flush();
+    thing.silhouette_px = all.area_px;
+    thing.silhouette_box_px = all.box();
+    thing.visible_box_px = visible.box();
+    if (visible.area_px > 0)
+        thing.visible_center_px = {sum_px.x / visible.area_px, sum_px.y / visible.area_px};
+    if (all.area_px > 0) thing.visible_fraction = visible.area_px / all.area_px;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,155 @@
+// One random path per sample, in waves of packets: at every vertex the lamps by next-event estimation and one
+// direction drawn from the surface's own reflection. Where both can find the same light they are weighed by
+// the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
+// lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "render/light/path_models.h"
+#include "render/light/primary_rays.h"
+#include "render/light/radiance_equation.h"
+#include "render/light/radiance_model.h"
+
+namespace hilcam {
+namespace {
+
+// A ray that continues a path.
+struct NextRay {
+    const Vertex* from;
+    Vec3f origin_m;
+    Vec3f dir;
+    float density;      // of the direction [sr^-1]; 0: exact
+    float alpha_least;  // of the next vertex's facet lobe
+    Spectrum weight;
+
+    // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
+    RayWidth width() const {
+        const float spread = density > 0 ? std::min(0.5f, 0.25f / std::sqrt(density)) : 0.0f;
+        return {from->footprint_m, spread};
+    }
+};
+
+class TracedPaths final : public PathModel {
+  public:
+    void trace(Tile& tile) override {
+        std::size_t count = trace_primary_rays(tile, {current_, kMost});
+        for (int depth = 1; count > 0; ++depth) {
+            tile.frame.radiance->add_light(tile, {current_, count}, LampLight::kSampled);
+            const bool last = depth == tile.frame.max_depth;
+            count = follow(tile, choose(tile, count, last), last);
+        }
+    }
+
+    bool samples_lobes() const override { return true; }
+
+  private:
+    static constexpr auto kMost = static_cast<std::size_t>(kMostSamples);
+    std::array<Vertex, kMost> a_, b_;
+    std::array<NextRay, kMost> next_;
+    Vertex* current_ = a_.data();
+    Vertex* following_ = b_.data();
+
+    // At the last surface only exact directions go on: no lamp has been counted in them.
+    std::size_t choose(Tile& tile, std::size_t count, bool last) {
+        const FrameView& frame = tile.frame;
+        const float least = frame.contribution_threshold;
+        std::size_t ray_count = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vertex& at = current_[i];
+            if (last && !at.surface.has_exact()) continue;
+            const auto random = tile.random_of(at, 0);
+            const BrdfSample sample =
+                brdf_sample(at.surface, at.normal, at.view_dir,
+                            {uniform01(random[0]), uniform01(random[1]), uniform01(random[2])});
+            if (!sample.valid || (last && !sample.exact) ||
+                (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0))
+                continue;
+            Spectrum weight = at.weight * sample.weight;
+            const float most = largest(weight);
+            if (!(most > 0)) continue;
+            if (most < least) {
+                const float chance = most / least;
+                if (uniform01(random[3]) >= chance) continue;
+                weight = (1 / chance) * weight;
+            }
+            // A facet lobe met through another is at least as wide as that one; behind a diffuse bounce, as
+            // wide as the quality says, so that the mean stays and the sparkle goes (Kaplanyan & Dachsbacher,
+            // CGF 32(2), 2013).
+            const float alpha_least = frame.alpha_behind_diffuse > 0
+                                          ? (sample.diffuse ? frame.alpha_behind_diffuse : at.surface.alpha)
+                                          : 0.0f;
+            next_[ray_count++] = {&at,   at.start(!sample.transmits), sample.dir, sample.density, alpha_least,
+                                  weight};
+        }
+        return ray_count;
+    }
+
+    // Traces the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
+    // sees the background.
+    std::size_t follow(Tile& tile, std::size_t ray_count, bool last) {
+        const FrameView& frame = tile.frame;
+        RayPacket rays;
+        HitPacket hits;
+        std::size_t found = 0;
+        for (std::size_t first = 0; first < ray_count; first += kPacketSize) {
+            rays.count = static_cast<int>(std::min<std::size_t>(kPacketSize, ray_count - first));
+            for (int i = 0; i < rays.count; ++i) {
+                const NextRay& ray = next_[first + static_cast<std::size_t>(i)];
+                rays.set(i, ray.origin_m, ray.dir, 0, std::numeric_limits<float>::infinity());
+            }
+            frame.scene->intersect(rays, Coherence::kIncoherent, hits);
+            tile.stats.secondary_rays += static_cast<std::uint64_t>(rays.count);
+            for (int i = 0; i < rays.count; ++i) {
+                const auto k = static_cast<std::size_t>(i);
+                const NextRay& ray = next_[first + k];
+                const bool hit = hits.object[k] != HitPacket::kMiss &&
+                                 !(frame.bodies_may_hide &&
+                                   frame.background->hides(ray.origin_m, to_double(ray.dir),
+                                                           static_cast<double>(hits.distance[k])));
+                if (!hit) {
+                    add_background(tile, ray);
+                    continue;
+                }
+                if (last) continue;
+                Vertex& vertex = following_[found];
+                if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, ray.width(), vertex))
+                    continue;
+                vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
+                vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
+                vertex.weight = ray.weight;
+                ++found;
+            }
+        }
+        std::swap(current_, following_);
+        return found;
+    }
+
+    // The share of the light that next-event estimation has not counted.
+    static void add_background(Tile& tile, const NextRay& ray) {
+        const FrameView& frame = tile.frame;
+        const Background& background = *frame.background;
+        Spectrum& pixel = tile.pixels[ray.from->pixel];
+        const bool exact = ray.density == 0;
+        const float lamps = exact ? 0 : lamp_density(frame, *ray.from, ray.dir);
+        Spectrum weight = exact ? ray.weight : (ray.density / (ray.density + lamps)) * ray.weight;
+        if (background.may_meet_body(ray.dir) &&
+            background.add_bodies(ray.origin_m, to_double(ray.dir), weight, pixel))
+            return;
+        // As a point the Sun is only seen where no lobe has counted it.
+        if (exact) return background.add_sun_disk(to_double(ray.dir), weight, pixel);
+        const float sun = sun_density(frame, ray.dir);
+        if (sun > 0) {
+            weight = (ray.density / (ray.density + sun)) * ray.weight;
+            background.add_sun_disk(to_double(ray.dir), weight, pixel);
+        }
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<PathModel> make_traced_paths() { return std::make_unique<TracedPaths>(); }
+
+}  // namespace hilcam

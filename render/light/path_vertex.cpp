@@ -1,0 +1,71 @@
+#include "render/light/path_vertex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hilcam {
+
+bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+                 float alpha_least, RayWidth width, Vertex& vertex) {
+    const auto k = static_cast<std::size_t>(lane);
+    const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+    const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
+    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
+    const Material& material = object.materials[triangle.surface];
+
+    Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+    float squared = dot(geometric_raw, geometric_raw);
+    // Twice the area, squared: of edges below 1e-8 m or above 1e7 m it leaves single precision's range.
+    if (!(squared > 1e-30f && squared < 1e30f)) {
+        const float greatest =
+            std::max({std::abs(geometric_raw.x), std::abs(geometric_raw.y), std::abs(geometric_raw.z)});
+        if (!(greatest > 0 && std::isfinite(greatest))) return false;  // without an area: nothing to see
+        geometric_raw = geometric_raw / greatest;
+        squared = dot(geometric_raw, geometric_raw);
+    }
+    const Vec3f geometric_body = geometric_raw / std::sqrt(squared);
+    const float u = hits.u[k];
+    const float v = hits.v[k];
+
+    vertex.view_dir = -normalized(dir);
+    Vec3f geometric = world_from_body * geometric_body;
+    Vec3f normal = world_from_body * object.normal_at(triangle, u, v, geometric_body);
+    if (dot(geometric, vertex.view_dir) < 0) geometric = -geometric;
+    if (dot(normal, geometric) < 0) normal = -normal;
+    // A smoothed normal that leans away from the viewer would make the surface vanish.
+    if (dot(normal, vertex.view_dir) <= 1e-4f) normal = geometric;
+    vertex.geometric_normal = geometric;
+    vertex.normal = normal;
+
+    vertex.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
+    vertex.point_m = origin_m + hits.distance[k] * dir;
+    // The hit point's rounding grows with the coordinates it was made of: 16 half-ulps of the greatest
+    // (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
+    const float greatest =
+        std::max({std::abs(vertex.point_m.x), std::abs(vertex.point_m.y), std::abs(vertex.point_m.z),
+                  std::abs(origin_m.x), std::abs(origin_m.y), std::abs(origin_m.z)});
+    vertex.offset_m = 16 * std::numeric_limits<float>::epsilon() * greatest;
+
+    const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
+    vertex.surface = {&material, alpha, material.base, material.highlight};
+    if (material.texture >= 0) {
+        const auto& uv = object.corner_uvs[hits.triangle[k]];
+        const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];
+        // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor
+        // of four.
+        const float slant = 1 / std::max(0.25f, dot(geometric, vertex.view_dir));
+        const float footprint = vertex.footprint_m * std::sqrt(slant) * object.uv_per_m[hits.triangle[k]];
+        const Spectrum scale = frame.bands->spectrum(
+            texture.sample((1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
+                           (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y, footprint));
+        // The one colour of a file scales what the material mostly is.
+        const bool shiny =
+            material.model == ReflectionModel::kMetal || material.model == ReflectionModel::kMirror;
+        vertex.surface.base = vertex.surface.base * scale;
+        if (shiny) vertex.surface.highlight = vertex.surface.highlight * scale;
+    }
+    return true;
+}
+
+}  // namespace hilcam

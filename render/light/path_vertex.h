@@ -1,0 +1,41 @@
+#pragma once
+// A path at one of its vertices: where a ray has met an object, and how light scatters there.
+
+#include "render/light/frame_view.h"
+#include "render/scene/brdf.h"
+#include "render/scene/embree_scene.h"
+#include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+struct Vertex {
+    std::uint32_t pixel;     // in the tile
+    std::uint16_t sample;    // in the pixel
+    std::uint16_t depth;     // 1: seen by the camera
+    Vec3f point_m;           // ray space
+    float offset_m;          // how far a ray must start above the surface
+    Vec3f geometric_normal;  // towards the viewer's side, unit
+    Vec3f normal;            // shading, same side
+    Vec3f view_dir;          // back along the path, unit
+    float footprint_m;       // how wide the ray was when it came
+    Spectrum weight;
+    Scatterer surface;
+
+    // Where a ray begins that leaves to this side: above the surface, or below it through glass.
+    Vec3f start(bool above = true) const {
+        return point_m + (above ? offset_m : -offset_m) * geometric_normal;
+    }
+};
+
+// Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's.
+// The facet lobe is at least `alpha_least` wide. False where there is nothing to see: a triangle without an
+// area. Loop, any thread. footprint_m: width of the ray where it began, spread_rad: by how much it widens.
+struct RayWidth {
+    float footprint_m = 0;
+    float spread_rad = 0;
+};
+bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+                 float alpha_least, RayWidth width, Vertex& vertex);
+
+}  // namespace hilcam

@@ -1,0 +1,224 @@
+#include "render/light/primary_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/vocabulary/place_sequence.h"
+
+namespace hilcam {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// One tile's way through its packets.
+class PrimaryRays {
+  public:
+    PrimaryRays(Tile& tile, std::span<Vertex> vertices)
+        : tile_(tile),
+          frame_(tile.frame),
+          vertices_(vertices),
+          bodies_(frame_.may_see_body(tile.box)),
+          sun_(tile.box.overlaps(frame_.sun_box)),
+          linear_(frame_.rays->linear()),
+          plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)) {
+        sample_rad_ = static_cast<float>(1 / frame_.geometry.focal_length_px) /
+                      static_cast<float>(tile.samples_per_axis);
+        std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
+        rays_.nearest.fill(0), rays_.farthest.fill(kInfinity);
+        if (linear_) {
+            // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
+            corner_ = linear_->corner + tile.box.x0 * linear_->right + tile.box.y0 * linear_->down;
+        }
+    }
+
+    std::size_t trace() {
+        const int n = tile_.samples_per_axis;
+        const float step = 1.0f / static_cast<float>(n);
+        // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
+        static_assert(ScreenMask::kBlock_px == 4);
+        const PixelBox& box = tile_.box;
+        for (int by = box.y0; by < box.y1; by += 4)
+            for (int bx = box.x0; bx < box.x1; bx += 4) {
+                const bool objects = frame_.object_mask->at(bx, by);
+                if (!objects && !bodies_ && !sun_) continue;
+                rays_.count = 0;
+                for (int y = by; y < std::min(by + 4, box.y1); ++y)
+                    for (int x = bx; x < std::min(bx + 4, box.x1); ++x) {
+                        if (!tile_.wants(x, y)) continue;
+                        x_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(x - box.x0);
+                        y_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(y - box.y0);
+                        ++rays_.count;
+                    }
+                if (rays_.count == 0) continue;
+                if (tile_.scattered) choose_sequences();
+                for (int s = 0; s < n * n; ++s) {
+                    const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
+                    if (tile_.scattered)
+                        scatter(sample);
+                    else
+                        center((static_cast<float>(s % n) + 0.5f) * step,
+                               (static_cast<float>(s / n) + 0.5f) * step);
+                    trace_packet(objects, sample);
+                }
+            }
+        return count_;
+    }
+
+  private:
+    Tile& tile_;
+    const FrameView& frame_;
+    std::span<Vertex> vertices_;
+    bool bodies_, sun_;
+    const LinearRays* linear_;
+    bool plain_;        // the one body in view is done sixteen rays at a time
+    float sample_rad_;  // angle between neighbouring rays
+    Spectrum weight_;
+    Vec3d corner_;
+    RayPacket rays_;
+    HitPacket hits_;
+    std::array<float, kPacketSize> x_of_{}, y_of_{};  // of the packet's pixels, from the tile's corner
+    std::array<float, kPacketSize> x_at_{}, y_at_{};  // of their samples
+    std::array<std::uint32_t, kPacketSize> word_x_{}, word_y_{};  // of their sequences
+    std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
+    std::size_t count_ = 0;
+
+    // The packet's samples, all at the same place of their pixels.
+    void center(float dx, float dy) {
+        for (std::size_t k = 0; k < kPacketSize; ++k) x_at_[k] = x_of_[k] + dx, y_at_[k] = y_of_[k] + dy;
+    }
+    // Of the packet's pixels, the same for all their samples.
+    void choose_sequences() {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
+            const std::uint32_t pixel = tile_.frame_pixel(tile_.box.x0 + static_cast<int>(x_of_[k]),
+                                                          tile_.box.y0 + static_cast<int>(y_of_[k]));
+            const auto words = random_words(frame_.key, RandomPurpose::kPixelPlace, pixel);
+            word_x_[k] = words[0], word_y_[k] = words[1];
+        }
+    }
+    // Each at a place of its own, of its pixel's sequence.
+    void scatter(std::uint16_t sample) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
+            const auto [dx, dy] = place_in_sequence(sample, word_x_[k], word_y_[k]);
+            x_at_[k] = x_of_[k] + dx;
+            y_at_[k] = y_of_[k] + dy;
+        }
+    }
+
+    void aim() {
+        if (linear_ && frame_.start_before_m <= 0) {
+            const Vec3f corner = to_float(corner_), right = to_float(linear_->right),
+                        down = to_float(linear_->down);
+            const Vec3f origin = to_float(frame_.camera_m);
+            rays_.origin_x.fill(origin.x), rays_.origin_y.fill(origin.y), rays_.origin_z.fill(origin.z);
+            for (std::size_t k = 0; k < kPacketSize; ++k) {
+                rays_.dir_x[k] = corner.x + x_at_[k] * right.x + y_at_[k] * down.x;
+                rays_.dir_y[k] = corner.y + x_at_[k] * right.y + y_at_[k] * down.y;
+                rays_.dir_z[k] = corner.z + x_at_[k] * right.z + y_at_[k] * down.z;
+            }
+            return;
+        }
+        std::array<Vec2d, kPacketSize> points;
+        const auto n = static_cast<std::size_t>(rays_.count);
+        for (std::size_t k = 0; k < n; ++k)
+            points[k] = {static_cast<double>(x_at_[k]) + tile_.box.x0,
+                         static_cast<double>(y_at_[k]) + tile_.box.y0};
+        frame_.rays->generate({points.data(), n}, {exact_.data(), n});
+        for (std::size_t k = 0; k < n; ++k) {
+            const Vec3d dir = normalized(exact_[k].dir);
+            const Vec3f start = frame_.start_of(dir, exact_[k].from_camera_m);
+            rays_.set(static_cast<int>(k), start, to_float(dir), 0, kInfinity);
+        }
+    }
+
+    // In double precision: the limb of a planet must not crawl.
+    Vec3d exact_dir(std::size_t k) const {
+        if (!linear_) return exact_[k].dir;
+        return corner_ + static_cast<double>(x_at_[k]) * linear_->right +
+               static_cast<double>(y_at_[k]) * linear_->down;
+    }
+
+    // The ray met an object that the camera sees.
+    bool meets_object(std::size_t k) const {
+        const std::uint32_t object = hits_.object[k];
+        if (object == HitPacket::kMiss || frame_.is_point[object]) return false;
+        if (!frame_.bodies_may_hide) return true;
+        const Vec3d dir = normalized(exact_dir(k));
+        const Vec3d point =
+            Vec3d{rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]} +
+            static_cast<double>(hits_.distance[k]) * Vec3d{rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]};
+        return !frame_.background->hides_seen(dir, length(point - frame_.camera_m));
+    }
+
+    void add_backdrop(std::size_t k, float sun_cosine, Spectrum& pixel) const {
+        if (plain_) {
+            if (sun_cosine > EarthRays::kMiss)
+                return frame_.background->add_plain_at(sun_cosine, weight_, pixel);
+            if (sun_) frame_.background->add_sun_disk(exact_dir(k), weight_, pixel);
+            return;
+        }
+        Spectrum weight = weight_;
+        const Vec3d dir = exact_dir(k);
+        if (bodies_ && frame_.background->add_bodies_seen(dir, weight, pixel)) return;
+        if (sun_) frame_.background->add_sun_disk(dir, weight, pixel);
+    }
+
+    void trace_packet(bool objects, std::uint16_t sample) {
+        aim();
+        if (objects) {
+            frame_.scene->intersect(rays_, Coherence::kCoherent, hits_);
+            tile_.stats.primary_rays += static_cast<std::uint64_t>(rays_.count);
+        } else {
+            hits_.object.fill(HitPacket::kMiss);
+        }
+        EarthRays::Floats sun_cosine{};
+        if (plain_)
+            frame_.background->plain_rays(corner_, linear_->right, linear_->down)
+                .sun_cosines(x_at_, y_at_, sun_cosine);
+        const int width = tile_.box.x1 - tile_.box.x0;
+        for (int i = 0; i < rays_.count; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const auto pixel =
+                static_cast<std::uint32_t>(static_cast<int>(y_of_[k]) * width + static_cast<int>(x_of_[k]));
+            if (objects && meets_object(k)) {
+                // One pass tells.
+                if (tile_.first_sample == 0)
+                    tile_.stats.covered_px += 1.0 / (tile_.samples_per_axis * tile_.samples_per_axis);
+                add_vertex(i, pixel, sample);
+            } else if (bodies_ || sun_) {
+                add_backdrop(k, sun_cosine[k], tile_.pixels[pixel]);
+            }
+        }
+    }
+
+    void add_vertex(int lane, std::uint32_t pixel, std::uint16_t sample) {
+        const auto k = static_cast<std::size_t>(lane);
+        const Vec3f origin{rays_.origin_x[k], rays_.origin_y[k], rays_.origin_z[k]};
+        const Vec3f dir{rays_.dir_x[k], rays_.dir_y[k], rays_.dir_z[k]};
+        Vertex& vertex = vertices_[count_];
+        const RayWidth width{
+            frame_.start_before_m > 0
+                ? sample_rad_ * static_cast<float>(length(frame_.start_at_m - frame_.camera_m))
+                : 0.0f,
+            sample_rad_};
+        if (!make_vertex(frame_, hits_, lane, origin, dir, 0, width, vertex)) return;
+        vertex.pixel = pixel;
+        vertex.sample = sample;
+        vertex.depth = 1;
+        vertex.weight = weight_;
+        ++count_;
+        if (!frame_.background->camera_in_air()) return;
+        const double distance_m = length(to_double(vertex.point_m) - frame_.camera_m);
+        const Atmosphere::Sight sight = frame_.background->air_before(exact_dir(k), distance_m);
+        tile_.pixels[pixel] += weight_ * sight.radiance_sr;
+        vertex.weight = weight_ * sight.transmittance;
+    }
+};
+
+}  // namespace
+
+std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {
+    return PrimaryRays(tile, vertices).trace();
+}
+
+}  // namespace hilcam

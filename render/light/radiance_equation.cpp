@@ -1,0 +1,176 @@
+#include "render/light/radiance_equation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/light/lamp_light.h"
+#include "render/light/shadow_rays.h"
+#include "render/scene/brdf_microfacet.h"
+
+namespace hilcam {
+namespace {
+
+// The Sun's disk widens a highlight: its angular radius of 4.65 mrad turns facets by half of that, and slopes
+// of independent causes add by their squares.
+float sun_widened(float alpha) { return std::min(1.0f, std::sqrt(alpha * alpha + 0.00233f * 0.00233f)); }
+
+bool in_cone(const BodyLamp& lamp, Vec3f dir) {
+    const Vec3f axis = to_float(lamp.world_dir);
+    const Vec3f across = cross(axis, dir);
+    return dot(axis, dir) > 0 && dot(across, across) <= lamp.cone_sine_squared;
+}
+float cone_density(const BodyLamp& lamp) { return 1 / (2 * kPiF * std::max(1e-20f, lamp.one_minus_cosine)); }
+
+// The path's own next direction may meet the lamp as well.
+bool is_weighed(const FrameView& frame, const Vertex& at) {
+    return frame.paths_sample_lobes && at.depth < frame.max_depth;
+}
+
+// Whether the whole of a body could add what the threshold asks for, against white paint in the Sun, and
+// stands over the surface's horizon.
+bool lamp_counts(const FrameView& frame, const Vertex& at, const BodyLamp& lamp) {
+    const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
+    if (largest(at.weight) * largest(lamp.most_over_sun) * solid_angle < frame.contribution_threshold)
+        return false;
+    return dot(at.geometric_normal, to_float(lamp.world_dir)) >= -std::sqrt(lamp.cone_sine_squared);
+}
+
+Vec3f in_cone_at(const Frame& axis, float one_minus_cosine, float u1, float u2) {
+    const float below = u1 * one_minus_cosine;  // 1 - z
+    const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * u2;
+    return axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
+}
+
+struct LitBy {
+    const Vertex* at;
+    Spectrum weight;  // on the light that comes along dir
+    Vec3f dir;
+};
+
+void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
+    const FrameView& frame = tile.frame;
+    const Background& background = *frame.background;
+    const Spectrum& irradiance = background.sun_irradiance_w_m2_um();
+    if (largest(irradiance) <= 0) return;
+    const Vec3f center = to_float(background.sun_world_dir());
+    const Frame axis(center);
+    // 1 - cos of a small angle by its sine: single precision has no digits left for it.
+    const auto sine_squared =
+        static_cast<float>(1 - background.sun_disk_cosine() * background.sun_disk_cosine());
+    const float disk_density = 1 / (kPiF * sine_squared);
+
+    const auto lit = [&](const LitBy& by, const Spectrum* glass) {
+        tile.pixels[by.at->pixel] += glass ? by.weight * *glass : by.weight;
+    };
+    ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.shadow_rays, lit);
+    for (const Vertex& at : vertices) {
+        if (!at.surface.has_lobes()) continue;
+        Vec3f dir = center;
+        Spectrum light = irradiance;
+        float share = 1;
+        if (frame.sun_is_disk) {
+            const auto random = tile.random_of(at, 1);
+            const float u1 = uniform01(random[0]), phi = 2 * kPiF * uniform01(random[1]);
+            const float r = std::sqrt(u1 * sine_squared);
+            dir = normalized(axis.to_world({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)}));
+            light = light * background.sun_disk().relative_radiance(std::sqrt(1 - u1));
+        }
+        const float ni = dot(at.normal, dir);
+        if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
+        const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
+        if (frame.sun_is_disk) {
+            // Narrow lobes are better found by their own samples (Veach & Guibas, SIGGRAPH 95, balance
+            // heuristic).
+            if (is_weighed(frame, at)) share = disk_density / (disk_density + brdf_density(at.surface, c));
+        }
+        Scatterer surface = at.surface;
+        if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
+        const Spectrum weight = (ni * share) * (at.weight * light * brdf_value(surface, c));
+        if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
+    }
+}
+
+// Directions to the bodies, over each one's cone.
+void add_lamplight(Tile& tile, std::span<const Vertex> vertices, LampLight how) {
+    const FrameView& frame = tile.frame;
+    const Background& background = *frame.background;
+    const auto lit = [&](const LitBy& by, const Spectrum* glass) {
+        Spectrum weight = glass ? by.weight * *glass : by.weight;
+        background.add_bodies(by.at->start(), to_double(by.dir), weight, tile.pixels[by.at->pixel]);
+    };
+    ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.secondary_rays, lit);
+    // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
+    constexpr int kQuadrature = 64;
+    constexpr float kGolden = 0.61803399f;
+    const int count = how == LampLight::kSampled ? 1 : kQuadrature;
+    std::uint32_t use = 2;
+    for (const BodyLamp& lamp : background.lamps()) {
+        const Frame axis(to_float(lamp.world_dir));
+        ++use;
+        for (const Vertex& at : vertices) {
+            if (!at.surface.has_lobes() || !lamp_counts(frame, at, lamp)) continue;
+            for (int i = 0; i < count; ++i) {
+                float u1 = (static_cast<float>(i) + 0.5f) / kQuadrature, u2 = static_cast<float>(i) * kGolden;
+                if (how == LampLight::kSampled) {
+                    const auto random = tile.random_of(at, use);
+                    u1 = uniform01(random[0]), u2 = uniform01(random[1]);
+                }
+                const Vec3f dir = in_cone_at(axis, lamp.one_minus_cosine, u1, u2);
+                const float ni = dot(at.normal, dir);
+                if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
+                const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
+                Scatterer surface = at.surface;
+                if (how == LampLight::kQuadrature && surface.alpha < kNarrowAlpha) surface.alpha = 0;
+                float density = cone_density(lamp) * kQuadrature;
+                if (how == LampLight::kSampled)
+                    density = lamp_density(frame, at, dir) +
+                              (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
+                const Spectrum weight = (ni / density) * (at.weight * brdf_value(surface, c));
+                if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
+            }
+        }
+    }
+}
+
+class RadianceEquation final : public RadianceModel {
+  public:
+    explicit RadianceEquation(bool emission) : emission_(emission) {}
+
+    void add_light(Tile& tile, std::span<const Vertex> vertices, LampLight lamps) const override {
+        if (tile.frame.has_emission)
+            for (const Vertex& at : vertices)
+                tile.pixels[at.pixel] += at.weight * at.surface.material->emission;
+        add_sunlight(tile, vertices);
+        add_lamps_reflected(tile, vertices);
+        if (lamps != LampLight::kNone) add_lamplight(tile, vertices, lamps);
+    }
+    bool emits() const override { return emission_; }
+
+  private:
+    bool emission_;
+};
+
+}  // namespace
+
+std::unique_ptr<RadianceModel> make_radiance_equation(bool emission) {
+    return std::make_unique<RadianceEquation>(emission);
+}
+
+float lamp_density(const FrameView& frame, const Vertex& at, Vec3f dir) {
+    float density = 0;
+    for (const BodyLamp& lamp : frame.background->lamps())
+        if (in_cone(lamp, dir) && lamp_counts(frame, at, lamp)) density += cone_density(lamp);
+    return density;
+}
+
+float sun_density(const FrameView& frame, Vec3f dir) {
+    if (!frame.sun_is_disk) return 0;
+    const Vec3f across = cross(dir, to_float(frame.background->sun_world_dir()));
+    const double cosine = frame.background->sun_disk_cosine();
+    const auto sine_squared = static_cast<float>(1 - cosine * cosine);
+    const bool inside =
+        dot(across, across) <= sine_squared && dot(dir, to_float(frame.background->sun_world_dir())) > 0;
+    return inside ? 1 / (kPiF * sine_squared) : 0.0f;
+}
+
+}  // namespace hilcam

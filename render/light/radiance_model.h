@@ -1,0 +1,35 @@
+#pragma once
+// The light that a surface sends towards the viewer by itself: the terms of equation (1) that need no
+// recursion. One of the program's exchangeable models; the recursion is path_model.h's.
+//
+//   reflected   Sun, bodies and lamps, reflected (the paper's equation without emission)
+//   emissive    the same, and eps L_T of materials that have a temperature
+
+#include <span>
+
+#include "render/light/tile.h"
+
+namespace hilcam {
+
+// Who finds the light of the Earth, the Moon and the planets on the objects.
+enum class LampLight {
+    kNone,        // nobody
+    kSampled,     // one random direction to each, weighed against the path's own direction
+    kQuadrature,  // fixed directions over each one's disk, for what scatters wider than kNarrowAlpha
+};
+// Facet lobes narrower than this (GGX alpha) would fall between fixed directions; they are followed as
+// mirrors.
+inline constexpr float kNarrowAlpha = 0.35f;
+
+class RadianceModel {
+  public:
+    virtual ~RadianceModel() = default;
+
+    // Adds to the tile's pixels, vertex by vertex, weight times radiance towards the viewer. Loop, any
+    // thread.
+    virtual void add_light(Tile& tile, std::span<const Vertex> vertices, LampLight lamps) const = 0;
+    // The materials' own emission counts.
+    virtual bool emits() const = 0;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,14 @@
+#pragma once
+// Which pixels a body in the sky can cover: a conservative box in padded pixels.
+
+#include "render/vocabulary/image_geometry.h"
+#include "render/vocabulary/pixel_box.h"
+#include "render/vocabulary/pose.h"
+
+namespace hilcam {
+
+// Of a cone of directions around `axis_world` with half angle acos(cosine).
+PixelBox screen_bounds_of_cone(const ImageGeometry& geometry, const Pose& camera, Vec3d axis_world,
+                               double cosine);
+
+}  // namespace hilcam

@@ -1,0 +1,92 @@
+#include "render/light/screen_mask.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hilcam {
+
+ScreenMask::ScreenMask(const ImageGeometry& geometry)
+    : geometry_(geometry),
+      across_((geometry.padded_width() + kBlock_px - 1) / kBlock_px),
+      down_((geometry.padded_height() + kBlock_px - 1) / kBlock_px),
+      blocks_(static_cast<std::size_t>(across_ * down_)) {}
+
+void ScreenMask::clear() { std::fill(blocks_.begin(), blocks_.end(), std::uint8_t{0}); }
+
+void ScreenMask::fill() { std::fill(blocks_.begin(), blocks_.end(), std::uint8_t{1}); }
+
+bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std::array<Vec3f, 2>> boxes_m) {
+    const Mat3d camera_from_world = transposed(to_matrix(camera.world_from_body));
+    const Mat3d camera_from_body = camera_from_world * to_matrix(object.world_from_body);
+    const Mat3d axes = transposed(camera_from_body);  // rows: the body's axes in the camera's
+    const Vec3d offset_m = camera_from_world * (object.position_world_m - camera.position_world_m);
+    bool any_marked = false;
+    for (const auto& [least_m, most_m] : boxes_m) {
+        const Vec3d from = camera_from_body * to_double(least_m) + offset_m;
+        const Vec3d size = to_double(most_m) - to_double(least_m);
+        const std::array<Vec3d, 3> edges = {size.x * axes.x, size.y * axes.y, size.z * axes.z};
+        double least_x = 1e300, least_y = 1e300, most_x = -1e300, most_y = -1e300;
+        int in_front = 0;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            Vec3d p = from;
+            if (corner & 1u) p = p + edges[0];
+            if (corner & 2u) p = p + edges[1];
+            if (corner & 4u) p = p + edges[2];
+            if (!(p.z > 1e-9 * (std::abs(p.x) + std::abs(p.y)))) continue;
+            ++in_front;
+            const double x = p.x / p.z, y = p.y / p.z;
+            least_x = std::min(least_x, x), most_x = std::max(most_x, x);
+            least_y = std::min(least_y, y), most_y = std::max(most_y, y);
+        }
+        if (in_front == 0) continue;
+        // A box that reaches through the camera's plane has no outline.
+        if (in_front < 8) {
+            fill();
+            return true;
+        }
+        any_marked |= mark({least_x, least_y}, {most_x, most_y});
+    }
+    return any_marked;
+}
+
+// least, most: of the box's outline on the plane at distance 1.
+bool ScreenMask::mark(Vec2d least, Vec2d most) {
+    double least_x = 1e300, least_y = 1e300, most_x = -1e300, most_y = -1e300;
+    const auto grow = [&](double x, double y) {
+        const Vec2d px = geometry_.project_px({x, y, 1});
+        least_x = std::min(least_x, px.x), most_x = std::max(most_x, px.x);
+        least_y = std::min(least_y, px.y), most_y = std::max(most_y, px.y);
+    };
+    // A lens bends the outline: its sides are followed in steps, and what is between them gets a margin.
+    const int steps = geometry_.distortion.none() ? 1 : 8;
+    for (int i = 0; i <= steps; ++i) {
+        const double u = static_cast<double>(i) / steps;
+        const double x = least.x + u * (most.x - least.x), y = least.y + u * (most.y - least.y);
+        grow(x, least.y), grow(x, most.y), grow(least.x, y), grow(most.x, y);
+    }
+    if (steps > 1) {
+        const double margin = 0.02 * std::max(most_x - least_x, most_y - least_y);
+        least_x -= margin, least_y -= margin, most_x += margin, most_y += margin;
+    }
+    // A quarter of a pixel covers the rounding of rays to single precision.
+    const auto block = [&](double px, int blocks) {
+        const double at = std::floor((px + geometry_.guard_px) / kBlock_px);
+        return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(blocks)));
+    };
+    const int x0 = std::max(0, block(least_x - 0.25, across_));
+    const int x1 = std::min(across_ - 1, block(most_x + 0.25, across_));
+    const int y0 = std::max(0, block(least_y - 0.25, down_));
+    const int y1 = std::min(down_ - 1, block(most_y + 0.25, down_));
+    for (int y = y0; y <= y1; ++y)
+        for (int x = x0; x <= x1; ++x) blocks_[static_cast<std::size_t>(y * across_ + x)] = 1;
+    return x0 <= x1 && y0 <= y1;
+}
+
+bool ScreenMask::any(const PixelBox& box) const {
+    for (int y = box.y0 / kBlock_px; y * kBlock_px < box.y1; ++y)
+        for (int x = box.x0 / kBlock_px; x * kBlock_px < box.x1; ++x)
+            if (blocks_[static_cast<std::size_t>(y * across_ + x)] != 0) return true;
+    return false;
+}
+
+}  // namespace hilcam

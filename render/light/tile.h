@@ -1,0 +1,55 @@
+#pragma once
+// What the models that trace a tile share: the frame, the tile's pixels, counters, random numbers.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "render/light/frame_view.h"
+#include "render/light/path_vertex.h"
+#include "render/vocabulary/pixel_box.h"
+
+namespace hilcam {
+
+struct TileStats {
+    std::uint64_t primary_rays = 0, shadow_rays = 0, secondary_rays = 0;
+    double covered_px = 0;  // by objects
+    // With a noise budget: pixels with light, and those of them whose error is within it.
+    std::uint64_t lit_px = 0, within_budget_px = 0;
+
+    TileStats& operator+=(const TileStats& other) {
+        primary_rays += other.primary_rays, shadow_rays += other.shadow_rays;
+        secondary_rays += other.secondary_rays, covered_px += other.covered_px;
+        lit_px += other.lit_px, within_budget_px += other.within_budget_px;
+        return *this;
+    }
+};
+
+struct Tile {
+    const FrameView& frame;
+    PixelBox box;
+    int samples_per_axis;        // n: an n x n grid of rays in each pixel
+    std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
+    TileStats& stats;
+    // Of a pass over pixels that are sampled more than once (adaptive_sampler.h).
+    bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
+    std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
+    const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
+
+    bool wants(int x, int y) const {
+        return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];
+    }
+    std::uint32_t frame_pixel(int x, int y) const {
+        return static_cast<std::uint32_t>(y * frame.geometry.padded_width() + x);
+    }
+    // Random words of a path's vertex; `use` (below 16) tells apart what they are for.
+    std::array<std::uint32_t, 4> random_of(const Vertex& at, std::uint32_t use) const {
+        const int width = box.x1 - box.x0;
+        const int px = box.x0 + static_cast<int>(at.pixel) % width;
+        const int py = box.y0 + static_cast<int>(at.pixel) / width;
+        return random_words(frame.key, RandomPurpose::kPathSample, frame_pixel(px, py),
+                            (std::uint32_t{at.sample} * 64 + at.depth) * 16 + use);
+    }
+};
+
+}  // namespace hilcam

@@ -1,0 +1,159 @@
+#pragma once
+// What a ray meets that meets no object: the Moon and the planets with their air, the Sun's disk, or black
+// sky. Stars are point sources, not here. Also how much of the Sun reaches a place: distance, and eclipses by
+// bodies.
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "render/scene/color_bands.h"
+#include "render/scene/earth_rays.h"
+#include "render/scene/scene.h"
+#include "render/sky/sun.h"
+
+namespace hilcam {
+
+// A body that shines on the objects: the cone that holds it.
+struct BodyLamp {
+    Vec3d world_dir;          // from the objects
+    float cone_sine_squared;  // of its half angle; 1 inside it
+    float one_minus_cosine;   // of its half angle, with all its digits where it is small
+    Spectrum most_over_sun;   // of its radiance, per unit of solar irradiance [sr^-1]
+};
+
+// A body for one frame. Body axes: its own; "from" the body's centre.
+struct PlacedBody {
+    BodyId id{};
+    Vec3d world_dir;         // from the camera to its centre, as seen
+    double distance_m = 0;   // of the centre from the camera
+    double cone_cosine = 1;  // of the cone that holds it and its air; half a space inside it
+    double disk_cosine = 1;  // of the body without air
+    Vec3d camera_m;          // the camera in body axes
+    Vec3d sun_dir;           // in body axes
+    Mat3d fixed_from_world;
+    Spectrum irradiance_w_m2_um;   // of the Sun at the body
+    bool may_be_eclipsed = false;  // another body can stand between it and the Sun
+};
+
+class Background {
+  public:
+    // The bodies and the air of the scene must outlive this.
+    Background(const std::array<SceneBody, kBodyCount>& bodies, const Atmosphere* air,
+               const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening, const SpectralGrid& grid);
+
+    // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h).
+    // pixel_rad: bodies smaller than this are points, not here. Bodies are where a camera in motion sees
+    // them, but for the one whose ground is among the objects, which stays with it.
+    void place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad,
+               std::optional<BodyId> ground = {});
+
+    // The Sun as the objects have it: direction, and irradiance with eclipses and air [W m^-2 um^-1].
+    Vec3d sun_world_dir() const { return sun_world_dir_; }
+    const Spectrum& sun_irradiance_w_m2_um() const { return sun_irradiance_; }
+    double sun_disk_cosine() const { return sun_disk_cosine_; }
+    const SunDisk& sun_disk() const { return disk_; }
+    // As the camera sees it.
+    Vec3d sun_camera_dir() const { return sun_camera_dir_; }
+
+    // Bodies with a disk, nearest first; and those that are points.
+    std::span<const PlacedBody> disks() const { return {disks_.data(), disk_count_}; }
+    std::span<const PlacedBody> points() const { return {points_.data(), point_count_}; }
+    std::span<const BodyLamp> lamps() const { return {lamps_.data(), lamp_count_}; }
+    // Irradiance of a point body at the camera [W m^-2 um^-1].
+    Spectrum point_irradiance(const PlacedBody& body) const;
+    const Atmosphere* air() const { return air_; }
+    // The camera is in air, so that objects are seen through it.
+    bool camera_in_air() const { return camera_in_air_; }
+
+    // Adds weight * radiance of the nearest body along a ray (origin relative to the objects, world axes,
+    // direction of any length), air included. Gives whether a body was met; air alone is not, and dims
+    // `weight` for what is behind it. Loop, any thread.
+    bool add_bodies(Vec3f origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
+        return add_bodies_from(to_double(origin_m) + objects_from_camera_m_, dir, weight, radiance);
+    }
+    // Cheaply, whether add_bodies() could add anything. dir: unit.
+    bool may_meet_body(Vec3f dir) const {
+        for (const BodyLamp& lamp : lamps()) {
+            const Vec3f axis = to_float(lamp.world_dir);
+            const float cosine = dot(axis, dir);
+            // The cone with a margin for single precision and for the objects' own size.
+            if (cosine > 0 && 1 - cosine * cosine <= lamp.cone_sine_squared + 1e-3f) return true;
+            if (lamp.cone_sine_squared >= 1) return true;
+        }
+        return false;
+    }
+    // The same from the camera.
+    bool add_bodies_seen(Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
+        return add_bodies_from({}, dir, weight, radiance);
+    }
+    // What they do, for the Sun's disk: mean radiance E_s / (pi sin^2 rho) inside its angular radius rho,
+    // darker to the edge. No eclipse: what stands before it is in the way of the ray itself.
+    void add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
+    // Whether a body lies before `distance`, in lengths of the direction. Loop, any thread.
+    bool hides(Vec3f origin_m, Vec3d dir, double distance) const {
+        return hides_from(to_double(origin_m) + objects_from_camera_m_, dir, distance);
+    }
+    bool hides_seen(Vec3d dir, double distance) const { return hides_from({}, dir, distance); }
+    // The body that add_bodies_seen() finds along a ray of the camera, its air apart. Loop, any thread.
+    struct BodyMet {
+        const PlacedBody* body = nullptr;  // null: none
+        double distance = 0;               // in lengths of the direction
+        Vec3d normal_world_dir;            // of its ground, unit
+    };
+    BodyMet first_body_seen(Vec3d dir) const;
+    // A ray of the camera that meets nothing else meets the Sun's disk.
+    bool meets_sun_disk(Vec3d dir) const {
+        const Vec3d d = normalized(dir), across = cross(d, sun_camera_dir_);
+        return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
+    }
+    // From the camera to the nearest that any body can be.
+    double nearest_m() const { return nearest_m_; }
+    // Light and transmittance of the air before an object at a distance; only where camera_in_air().
+    Atmosphere::Sight air_before(Vec3d dir, double distance_m) const;
+
+    // What the air lacks for a ray of the camera (Atmosphere::missing).
+    std::string air_missing(Vec3d dir) const;
+
+    // The one body in view that EarthRays can do sixteen at a time, or null.
+    const PlacedBody* plain_body() const { return plain_; }
+    EarthRays plain_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir) const;
+    void add_plain_at(float sun_cosine, const Spectrum& weight, Spectrum& radiance) const {
+        if (sun_cosine > 0) radiance += sun_cosine * (weight * plain_radiance_);
+    }
+
+    // The share of the Sun's irradiance that the bodies leave at a place in the world [0..1], per bin.
+    Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const;
+
+  private:
+    const std::array<SceneBody, kBodyCount>& scene_;
+    const Atmosphere* air_;
+    Spectrum sun_irradiance_1au_;
+    SunDisk disk_;
+    ColorBands bands_;
+    int bins_;
+    std::array<Spectrum, kBodyCount> map_factor_;  // on texel colours
+    std::array<Spectrum, kBodyCount> map_mean_;    // what they then are on the mean; 1 without a map
+
+    std::array<PlacedBody, kBodyCount> disks_, points_;
+    std::array<BodyLamp, kBodyCount> lamps_;
+    std::size_t disk_count_ = 0, point_count_ = 0, lamp_count_ = 0;
+    const PlacedBody* plain_ = nullptr;
+    Spectrum plain_radiance_;
+    Bodies bodies_;
+    Vec3d objects_from_camera_m_;
+    Spectrum sun_irradiance_, sun_clear_irradiance_;
+    Vec3d sun_world_dir_{0, 0, 1}, sun_camera_dir_{0, 0, 1};
+    double sun_disk_cosine_ = 1;
+    double nearest_m_ = 0;
+    double pixel_rad_ = 0;
+    bool camera_in_air_ = false;
+
+    PlacedBody placed(BodyId id, const WorldSnapshot& world, bool stays) const;
+    bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance) const;
+    bool hides_from(Vec3d origin_m, Vec3d dir, double distance) const;
+    bool has_air(BodyId id) const { return air_ && id == BodyId::kEarth; }
+    Spectrum surface_radiance(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir) const;
+};
+
+}  // namespace hilcam

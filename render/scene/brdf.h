@@ -1,0 +1,72 @@
+#pragma once
+// How a point of a surface scatters light: values, densities and samples of every reflection model of
+// material.h.
+//
+// All models are isotropic, so a BRDF is a function of three cosines: of the viewer and the light to the
+// shading normal, and of the two to each other. Values are f [sr^-1], without the cosine; densities are per
+// solid angle of the light's direction. Exact reflection and transmission have no value: only sample() gives
+// them, as `exact`. Loop, any thread.
+
+#include <array>
+
+#include "render/scene/material.h"
+#include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+struct Cosines {
+    float no, ni, io;
+};
+
+// What scatters at one point: a material, its spectra there (textures scale them), and the width of its facet
+// lobe there (at least the material's own; see path_vertex.h).
+struct Scatterer {
+    const Material* material = nullptr;
+    float alpha = 0;
+    Spectrum base;
+    Spectrum highlight;
+
+    bool is_glass() const { return material->model == ReflectionModel::kGlass; }
+    // Some light goes in exactly one direction, which no lamp is met in by chance.
+    bool has_exact() const { return is_glass() || (alpha == 0 && material->has_facets()); }
+    // Some light goes in all directions.
+    bool has_lobes() const {
+        return !is_glass() && !(alpha == 0 && (material->model == ReflectionModel::kMetal ||
+                                               material->model == ReflectionModel::kMirror));
+    }
+};
+
+struct BrdfSample {
+    Vec3f dir;               // towards the light, unit, world
+    Spectrum weight;         // f cos / density, or the whole reflectance where exact
+    float density = 0;       // 0 where exact
+    bool exact = false;      // a mirror's or a sheet's one direction
+    bool transmits = false;  // goes on to the other side
+    bool diffuse = false;    // not of the highlight
+    bool valid = false;
+};
+
+// f for light from above the surface (no, ni > 0); zero otherwise.
+Spectrum brdf_value(const Scatterer& at, Cosines c);
+// Density of sample() for a direction, exact parts left out.
+float brdf_density(const Scatterer& at, Cosines c);
+// A direction in proportion to f cos, about. u: three uniform numbers.
+BrdfSample brdf_sample(const Scatterer& at, Vec3f normal, Vec3f view_dir, std::array<float, 3> u);
+// The exact parts alone, one after the other: 0 reflection, 1 transmission; the weight is the whole
+// reflectance or transmittance in that direction.
+BrdfSample brdf_exact(const Scatterer& at, Vec3f normal, Vec3f view_dir, int part);
+// Transmittance of a sheet for a ray at this cosine; zero for all that is not glass.
+Spectrum sheet_transmittance(const Scatterer& at, float cosine);
+// The share of light that comes back in all directions for light from the viewer's side, about: what chooses
+// a sample's part and ends a path.
+float brdf_albedo(const Scatterer& at, float no, int bins);
+
+// Over the bins of the grid.
+inline float mean(const Spectrum& s, int bins) {
+    float sum = 0;
+    for (int b = 0; b < kMaxBins; ++b) sum += s[b];
+    return sum / static_cast<float>(bins);
+}
+
+}  // namespace hilcam

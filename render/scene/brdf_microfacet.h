@@ -1,0 +1,101 @@
+#pragma once
+// Parts of microfacet reflection: GGX normals, Smith shadowing, Fresnel. Unit vectors; `no`, `ni`, `nh` are
+// the cosines between the shading normal and the viewer, the light and their half vector. Inline: called per
+// ray.
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/vocabulary/units.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+inline constexpr float kPiF = static_cast<float>(kPi);
+
+// (1 - cosine)^5 of Schlick's Fresnel term: F = F0 + (1 - F0) * this (Computer Graphics Forum 13(3), 1994).
+inline float schlick_weight(float cosine) {
+    const float x = std::clamp(1.0f - cosine, 0.0f, 1.0f);
+    return x * x * x * x * x;
+}
+
+// Unpolarised Fresnel reflectance of a smooth dielectric met from vacuum: Born & Wolf, Principles of Optics,
+// 7th ed., 1.5.2. refractive_index >= 1.
+inline float fresnel_dielectric(float refractive_index, float cosine) {
+    const float c = std::clamp(cosine, 0.0f, 1.0f);
+    const float n2 = refractive_index * refractive_index;
+    const float g = std::sqrt(n2 - 1 + c * c);
+    const float perpendicular = (c - g) / (c + g);
+    const float parallel = (n2 * c - g) / (n2 * c + g);
+    return 0.5f * (perpendicular * perpendicular + parallel * parallel);
+}
+
+// GGX distribution of normals [sr^-1]: Walter et al., EGSR 2007, eq. 33.
+inline float ggx_distribution(float alpha, float nh) {
+    const float a2 = alpha * alpha;
+    const float t = nh * nh * (a2 - 1) + 1;
+    return a2 / (kPiF * t * t);
+}
+
+// G2 / (4 no ni), Smith height-correlated: Heitz, JCGT 3(2), 2014, eq. 99.
+inline float ggx_visibility(float alpha, float no, float ni) {
+    const float a2 = alpha * alpha;
+    return 0.5f / (ni * std::sqrt(no * no * (1 - a2) + a2) + no * std::sqrt(ni * ni * (1 - a2) + a2));
+}
+
+// G2 / G1 of a facet seen from the viewer: the weight of a sample of visible normals (Heitz, JCGT 7(4), 2018,
+// eq. 19).
+inline float ggx_sample_weight(float alpha, float no, float ni) {
+    const float a2 = alpha * alpha;
+    const float lambda_o = std::sqrt(no * no * (1 - a2) + a2);
+    const float lambda_i = std::sqrt(ni * ni * (1 - a2) + a2);
+    return ni * (no + lambda_o) / (ni * lambda_o + no * lambda_i);
+}
+
+// Density of directions that sample_visible_normal() and a reflection give [sr^-1]: G1 D / (4 no) (Heitz
+// 2018, eq. 17).
+inline float ggx_density(float alpha, float no, float nh) {
+    const float a2 = alpha * alpha;
+    return ggx_distribution(alpha, nh) / (2 * (no + std::sqrt(no * no * (1 - a2) + a2)));
+}
+
+// Two unit vectors that make a right-handed frame with the unit vector n: Duff et al., JCGT 6(1), 2017.
+struct Frame {
+    Vec3f t, b, n;
+    explicit Frame(Vec3f normal) : n(normal) {
+        const float sign = std::copysign(1.0f, n.z);
+        const float a = -1.0f / (sign + n.z);
+        const float c = n.x * n.y * a;
+        t = {1.0f + sign * n.x * n.x * a, sign * c, -sign * n.x};
+        b = {c, sign + n.y * n.y * a, -n.y};
+    }
+    Vec3f to_world(Vec3f v) const { return v.x * t + v.y * b + v.z * n; }
+    Vec3f to_local(Vec3f v) const { return {dot(v, t), dot(v, b), dot(v, n)}; }
+};
+
+// A facet normal seen from `view` (local frame, z = normal), distributed as the visible GGX normals: Heitz
+// 2018.
+inline Vec3f sample_visible_normal(float alpha, Vec3f view, float u1, float u2) {
+    const Vec3f v = normalized(Vec3f{alpha * view.x, alpha * view.y, view.z});
+    const float across = v.x * v.x + v.y * v.y;
+    const Vec3f t1 = across > 0 ? Vec3f{-v.y, v.x, 0} / std::sqrt(across) : Vec3f{1, 0, 0};
+    const Vec3f t2 = cross(v, t1);
+    const float r = std::sqrt(u1);
+    const float phi = 2 * kPiF * u2;
+    const float p1 = r * std::cos(phi);
+    const float s = 0.5f * (1 + v.z);
+    const float p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * std::sin(phi);
+    const Vec3f n = p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0f, 1 - p1 * p1 - p2 * p2)) * v;
+    return normalized(Vec3f{alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)});
+}
+
+// A direction above the local plane with density cos/pi (Malley's method, pbrt 3rd ed., 13.6.3).
+inline Vec3f sample_cosine(float u1, float u2) {
+    const float r = std::sqrt(u1);
+    const float phi = 2 * kPiF * u2;
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u1))};
+}
+
+inline Vec3f reflect(Vec3f view, Vec3f normal) { return 2 * dot(view, normal) * normal - view; }
+
+}  // namespace hilcam

@@ -1,0 +1,301 @@
+#include "render/scene/embree_scene.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <tbb/blocked_range.h>
+#include <tbb/concurrent_vector.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+// Occlusion never takes Embree's coherent path: built by a GCC before 14 (Debian 12's is) it does not end on
+// processors with AVX-512, as the compiler leaves rubbish above a 16-bit mask (Embree pull request 574,
+// 2025).
+constexpr Coherence kOcclusion = Coherence::kIncoherent;
+// Trees with spatial splits take longer to build and suit long thin triangles, as simplified meshes have.
+constexpr std::size_t kSpatialSplits = 1000000;
+
+// What differs between the two versions: how a query takes its options.
+#if RTC_VERSION_MAJOR >= 4
+RTCRayQueryFlags flags_of(Coherence c) {
+    return c == Coherence::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+}
+void intersect_16(const int* valid, RTCScene scene, Coherence coherence, RTCRayHit16& rays) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = flags_of(coherence);
+    rtcIntersect16(valid, scene, &rays, &arguments);
+}
+void occluded_16(const int* valid, RTCScene scene, RTCRay16& rays) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = flags_of(kOcclusion);
+    rtcOccluded16(valid, scene, &rays, &arguments);
+}
+#else
+RTCIntersectContext context_of(Coherence c) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = c == Coherence::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                              : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return context;
+}
+void intersect_16(const int* valid, RTCScene scene, Coherence coherence, RTCRayHit16& rays) {
+    RTCIntersectContext context = context_of(coherence);
+    rtcIntersect16(valid, scene, &context, &rays);
+}
+void occluded_16(const int* valid, RTCScene scene, RTCRay16& rays) {
+    RTCIntersectContext context = context_of(kOcclusion);
+    rtcOccluded16(valid, scene, &context, &rays);
+}
+#endif
+
+// All ones for the rays that exist, zero for the rest of the packet.
+void set_valid(int count, int* valid) {
+    for (int i = 0; i < kPacketSize; ++i) valid[i] = i < count ? -1 : 0;
+}
+
+// Rays that do not exist are made harmless: on processors without AVX-512 Embree takes a packet of sixteen
+// apart and looks at all of them, whatever the mask says.
+void blank_rays(int count, RTCRay16& rays) {
+    for (int i = count; i < kPacketSize; ++i) {
+        rays.org_x[i] = rays.org_y[i] = rays.org_z[i] = 0;
+        rays.dir_x[i] = rays.dir_y[i] = 0, rays.dir_z[i] = 1;
+        rays.tnear[i] = 0, rays.tfar[i] = -std::numeric_limits<float>::infinity();
+    }
+}
+
+void copy_rays(const RayPacket& from, RTCRay16& to) {
+    static_assert(sizeof(from.origin_x) == sizeof(to.org_x));
+    std::memcpy(to.org_x, from.origin_x.data(), sizeof(to.org_x));
+    std::memcpy(to.org_y, from.origin_y.data(), sizeof(to.org_y));
+    std::memcpy(to.org_z, from.origin_z.data(), sizeof(to.org_z));
+    std::memcpy(to.dir_x, from.dir_x.data(), sizeof(to.dir_x));
+    std::memcpy(to.dir_y, from.dir_y.data(), sizeof(to.dir_y));
+    std::memcpy(to.dir_z, from.dir_z.data(), sizeof(to.dir_z));
+    std::memcpy(to.tnear, from.nearest.data(), sizeof(to.tnear));
+    std::memcpy(to.tfar, from.farthest.data(), sizeof(to.tfar));
+    std::memset(to.time, 0, sizeof(to.time));
+    std::memset(to.flags, 0, sizeof(to.flags));
+    std::memset(to.mask, 0xFF, sizeof(to.mask));
+    blank_rays(from.count, to);
+}
+
+std::uint32_t blocked_in(RTCScene scene, const RayPacket& rays) {
+    alignas(64) int valid[kPacketSize];
+    set_valid(rays.count, valid);
+    RTCRay16 query;
+    copy_rays(rays, query);
+    occluded_16(valid, scene, query);
+    // Embree marks a blocked ray by tfar = -infinity.
+    std::uint32_t blocked = 0;
+    for (int i = 0; i < rays.count; ++i) blocked |= (query.tfar[i] < 0 ? 1u : 0u) << i;
+    return blocked;
+}
+
+}  // namespace
+
+// An object whose instance has to be told its scene anew.
+constexpr std::size_t kNoLevel = std::numeric_limits<std::size_t>::max();
+
+struct EmbreeScene::Implementation {
+    RTCDevice device = nullptr;
+    RTCScene top = nullptr;
+    bool watertight = true;
+    std::vector<std::vector<RTCScene>> levels;  // per object
+    std::vector<std::size_t> shown;             // level of each
+    std::vector<RTCGeometry> instances;
+
+    struct Recorded {
+        RayPacket rays;
+        Coherence coherence;
+        bool occlusion;
+    };
+    std::unique_ptr<tbb::concurrent_vector<Recorded>> recorded;
+
+    ~Implementation() {
+        for (RTCGeometry geometry : instances) rtcReleaseGeometry(geometry);
+        for (const std::vector<RTCScene>& scenes : levels)
+            for (RTCScene scene : scenes) rtcReleaseScene(scene);
+        if (top) rtcReleaseScene(top);
+        if (device) rtcReleaseDevice(device);
+    }
+    void require_no_error(const char* doing) const {
+        const RTCError error = rtcGetDeviceError(device);
+        if (error == RTC_ERROR_OUT_OF_MEMORY)
+            throw InputError(std::string("out of memory while ") + doing +
+                             "; use a mesh with fewer triangles");
+        if (error != RTC_ERROR_NONE)
+            throw DeviceError(std::string("Embree reports error ") + std::to_string(static_cast<int>(error)) +
+                              " while " + doing);
+    }
+    RTCScene build(const Mesh& mesh) const {
+        RTCScene scene = rtcNewScene(device);
+        if (watertight) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(scene, mesh.triangles.size() < kSpatialSplits ? RTC_BUILD_QUALITY_HIGH
+                                                                              : RTC_BUILD_QUALITY_MEDIUM);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(Vec3f), mesh.vertices_m.size());
+        void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                  3 * sizeof(std::uint32_t), mesh.triangles.size());
+        require_no_error("copying a mesh");
+        // Not memcpy: a mesh without a triangle has no memory to copy from.
+        std::copy_n(mesh.vertices_m.data(), mesh.vertices_m.size(), static_cast<Vec3f*>(vertices));
+        std::copy_n(mesh.triangles.data(), mesh.triangles.size(),
+                    static_cast<std::array<std::uint32_t, 3>*>(triangles));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene);
+        require_no_error("building a mesh's tree");
+        return scene;
+    }
+};
+
+EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool watertight)
+    : implementation_(std::make_unique<Implementation>()) {
+    Implementation& my = *implementation_;
+    my.device = rtcNewDevice(nullptr);
+    if (!my.device) throw DeviceError("Embree cannot start on this processor; it needs SSE2 at least");
+    my.top = rtcNewScene(my.device);
+    my.watertight = watertight;
+    rtcSetSceneFlags(my.top,
+                     watertight ? RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(my.top, RTC_BUILD_QUALITY_LOW);
+    std::map<const Mesh*, RTCScene> built;
+    for (const std::vector<const Mesh*>& meshes : objects) {
+        std::vector<RTCScene>& scenes = my.levels.emplace_back();
+        for (const Mesh* mesh : meshes) {
+            RTCScene& scene = built[mesh];
+            if (scene)
+                rtcRetainScene(scene);
+            else
+                scene = my.build(*mesh);
+            scenes.push_back(scene);
+        }
+        my.shown.push_back(0);
+        RTCGeometry instance = rtcNewGeometry(my.device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, scenes.front());
+        rtcSetGeometryTimeStepCount(instance, 1);
+        rtcAttachGeometryByID(my.top, instance, static_cast<unsigned>(my.instances.size()));
+        my.instances.push_back(instance);
+    }
+}
+
+EmbreeScene::~EmbreeScene() = default;
+
+void EmbreeScene::place(std::span<const Pose> objects, std::span<const std::size_t> levels,
+                        Vec3d origin_world_m) {
+    Implementation& my = *implementation_;
+    HILCAM_CHECK(objects.size() == my.instances.size() && levels.size() == objects.size());
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (my.shown[i] != levels[i])
+            rtcSetGeometryInstancedScene(my.instances[i], my.levels[i][my.shown[i] = levels[i]]);
+        const Mat3d r = to_matrix(objects[i].world_from_body);
+        // The only narrowing of the world: after the camera is subtracted.
+        const Vec3f t = to_float(objects[i].position_world_m - origin_world_m);
+        const Vec3f rx = to_float(r.x), ry = to_float(r.y), rz = to_float(r.z);
+        const float columns[12] = {rx.x, ry.x, rz.x, rx.y, ry.y, rz.y, rx.z, ry.z, rz.z, t.x, t.y, t.z};
+        rtcSetGeometryTransform(my.instances[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+        rtcCommitGeometry(my.instances[i]);
+    }
+    rtcCommitScene(my.top);
+}
+
+PreparedMesh::~PreparedMesh() {
+    if (scene_) rtcReleaseScene(static_cast<RTCScene>(scene_));
+}
+
+PreparedMesh EmbreeScene::prepare(const Mesh& mesh) const {
+    PreparedMesh out;
+    out.scene_ = implementation_->build(mesh);
+    return out;
+}
+
+void EmbreeScene::adopt(std::size_t object, PreparedMesh& mesh) {
+    RTCScene& first = implementation_->levels[object].front();
+    void* const replaced = first;
+    first = static_cast<RTCScene>(mesh.scene_);
+    mesh.scene_ = replaced;
+    implementation_->shown[object] = kNoLevel;
+}
+
+void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const {
+    if (implementation_->recorded) implementation_->recorded->push_back({rays, coherence, false});
+    alignas(64) int valid[kPacketSize];
+    set_valid(rays.count, valid);
+    RTCRayHit16 query;
+    copy_rays(rays, query.ray);
+    std::memset(query.hit.geomID, 0xFF, sizeof(query.hit.geomID));
+    std::memset(query.hit.instID[0], 0xFF, sizeof(query.hit.instID[0]));
+    intersect_16(valid, implementation_->top, coherence, query);
+    static_assert(HitPacket::kMiss == RTC_INVALID_GEOMETRY_ID);
+    std::memcpy(hits.distance.data(), query.ray.tfar, sizeof(query.ray.tfar));
+    std::memcpy(hits.u.data(), query.hit.u, sizeof(query.hit.u));
+    std::memcpy(hits.v.data(), query.hit.v, sizeof(query.hit.v));
+    std::memcpy(hits.normal_x.data(), query.hit.Ng_x, sizeof(query.hit.Ng_x));
+    std::memcpy(hits.normal_y.data(), query.hit.Ng_y, sizeof(query.hit.Ng_y));
+    std::memcpy(hits.normal_z.data(), query.hit.Ng_z, sizeof(query.hit.Ng_z));
+    std::memcpy(hits.triangle.data(), query.hit.primID, sizeof(query.hit.primID));
+    for (std::size_t i = 0; i < kPacketSize; ++i)
+        hits.object[i] =
+            query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? HitPacket::kMiss : query.hit.instID[0][i];
+}
+
+std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
+    if (implementation_->recorded) implementation_->recorded->push_back({rays, kOcclusion, true});
+    return blocked_in(implementation_->top, rays);
+}
+
+std::uint32_t EmbreeScene::occluded_by(std::size_t object, const RayPacket& rays) const {
+    return blocked_in(implementation_->levels[object][implementation_->shown[object]], rays);
+}
+
+void EmbreeScene::start_recording() {
+    implementation_->recorded = std::make_unique<tbb::concurrent_vector<Implementation::Recorded>>();
+}
+
+EmbreeScene::Replay EmbreeScene::replay(Replayed which) {
+    const auto recorded = std::move(implementation_->recorded);
+    std::vector<Implementation::Recorded> packets;
+    for (const Implementation::Recorded& packet : *recorded)
+        if (which == Replayed::kAll || packet.occlusion || packet.coherence == Coherence::kCoherent)
+            packets.push_back(packet);
+    Replay out;
+    for (const Implementation::Recorded& packet : packets)
+        out.rays += static_cast<std::uint64_t>(packet.rays.count);
+    const auto start = std::chrono::steady_clock::now();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 64),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          HitPacket hits;
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              const Implementation::Recorded& packet = packets[i];
+                              if (packet.occlusion)
+                                  occluded(packet.rays);
+                              else
+                                  intersect(packet.rays, packet.coherence, hits);
+                          }
+                      });
+    out.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return out;
+}
+
+}  // namespace hilcam

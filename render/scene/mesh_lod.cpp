@@ -1,0 +1,192 @@
+#include "render/scene/mesh_lod.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kSmallMesh = 2000;  // triangles; below, nothing is gained
+
+// Each vertex of a surface's triangles once, in order of their first use.
+struct Submesh {
+    std::vector<std::uint32_t> vertices;  // into the mesh
+    std::vector<unsigned> indices;        // into `vertices`, three a triangle
+};
+
+Submesh submesh_of(const Mesh& mesh, std::span<const std::uint32_t> triangles,
+                   std::vector<std::uint32_t>& scratch) {
+    constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+    scratch.resize(mesh.vertices_m.size(), kNone);
+    Submesh out;
+    for (const std::uint32_t t : triangles)
+        for (const std::uint32_t v : mesh.triangles[t]) {
+            if (scratch[v] == kNone) {
+                scratch[v] = static_cast<std::uint32_t>(out.vertices.size());
+                out.vertices.push_back(v);
+            }
+            out.indices.push_back(scratch[v]);
+        }
+    for (const std::uint32_t v : out.vertices) scratch[v] = kNone;
+    return out;
+}
+
+Vec3d area_vector(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+    const Vec3d a = to_double(mesh.vertices_m[t[0]]);
+    return 0.5 * cross(to_double(mesh.vertices_m[t[1]]) - a, to_double(mesh.vertices_m[t[2]]) - a);
+}
+
+double area_of(const Mesh& mesh, std::uint16_t surface) {
+    double sum = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        if (mesh.surface_of_triangle[i] == surface) sum += length(area_vector(mesh, mesh.triangles[i]));
+    return sum;
+}
+
+// Flat-shaded surfaces come with corners of their own for every triangle, which could never be collapsed. If
+// most are such, equal places become one vertex and the level has no normals there (a zero normal means the
+// facet's own).
+bool weld_facets(Submesh& part, std::vector<Vec3f>& positions) {
+    std::vector<unsigned> remap(positions.size());
+    const std::size_t places = meshopt_generateVertexRemap(remap.data(), nullptr, positions.size(),
+                                                           positions.data(), positions.size(), sizeof(Vec3f));
+    if (2 * places > positions.size()) return false;
+    std::vector<Vec3f> welded(places);
+    std::vector<std::uint32_t> vertices(places);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        welded[remap[i]] = positions[i], vertices[remap[i]] = part.vertices[i];
+    for (unsigned& index : part.indices) index = remap[index];
+    positions = std::move(welded), part.vertices = std::move(vertices);
+    return true;
+}
+
+// Flattening wrinkles takes away area: a facet that leans by theta has 1 / cos theta times the area it
+// covers. For GGX-like slopes of mean square alpha^2 the ratio is about 1 + alpha^2 / 2 (small slopes).
+float flattened_alpha(double area, double level_area) {
+    if (!(level_area > 0) || area <= level_area) return 0;
+    return static_cast<float>(std::min(1.0, std::sqrt(2 * (area / level_area - 1))));
+}
+
+// Wrinkles are seen by their normals long before they are by their shape. A level is looked at with pixels of
+// about four times its error, so an edge may be that long; or as long as the normal turns by kTurn_rad along
+// it, if that is more.
+std::size_t triangles_for_shading(const Mesh& mesh, std::span<const std::uint32_t> triangles,
+                                  double error_m) {
+    constexpr double kTurn_rad = 0.1, kPixelOverError = 4;
+    if (mesh.normals.empty()) return 0;
+    double count = 0;
+    for (const std::uint32_t t : triangles) {
+        const auto& corners = mesh.triangles[t];
+        double per_m = 0;  // turn of the normal along the edges
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
+            const double edge_m = length(to_double(mesh.vertices_m[a]) - to_double(mesh.vertices_m[b]));
+            const double turn = length(to_double(mesh.normals[a]) - to_double(mesh.normals[b]));
+            if (edge_m > 0) per_m = std::max(per_m, turn / edge_m);
+        }
+        if (per_m <= 0) continue;
+        const double edge_m = std::max(kPixelOverError * error_m, kTurn_rad / per_m);
+        constexpr double kEquilateral = 0.4330127;  // area over the square of the edge
+        count += std::min(1.0, length(area_vector(mesh, corners)) / (kEquilateral * edge_m * edge_m));
+    }
+    return static_cast<std::size_t>(count);
+}
+
+// meshoptimizer asks each triangle at a vertex about each other one there: a fan of 100,000 takes it a
+// minute. What has so many stays as it is.
+bool is_crowded(std::span<const unsigned> indices, std::span<const Vec3f> positions) {
+    constexpr std::uint32_t kMostAtAPlace = 4096;
+    std::vector<unsigned> places(indices.size());
+    meshopt_generateShadowIndexBuffer(places.data(), indices.data(), indices.size(), positions.data(),
+                                      positions.size(), sizeof(Vec3f), sizeof(Vec3f));
+    std::vector<std::uint32_t> triangles(positions.size());
+    return std::any_of(places.begin(), places.end(),
+                       [&](unsigned place) { return ++triangles[place] > kMostAtAPlace; });
+}
+
+Mesh simplified(const Mesh& mesh, float error_m) {
+    std::vector<std::vector<std::uint32_t>> by_surface(mesh.surfaces.size());
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+        by_surface[mesh.surface_of_triangle[i]].push_back(i);
+    Mesh out;
+    out.surfaces = mesh.surfaces;
+    std::vector<std::uint32_t> scratch;
+    for (std::size_t s = 0; s < by_surface.size(); ++s) {
+        if (by_surface[s].empty()) continue;
+        Submesh part = submesh_of(mesh, by_surface[s], scratch);
+        std::vector<Vec3f> positions;
+        for (const std::uint32_t v : part.vertices) positions.push_back(mesh.vertices_m[v]);
+        const bool faceted = weld_facets(part, positions);
+        const std::size_t fewest =
+            std::min(part.indices.size() / 3, triangles_for_shading(mesh, by_surface[s], error_m));
+        const float scale = meshopt_simplifyScale(&positions[0].x, positions.size(), sizeof(Vec3f));
+        std::vector<unsigned> kept = part.indices;
+        // Down to nothing if the error allows it: what is smaller than the error does not matter.
+        std::size_t count = kept.size();
+        if (!is_crowded(part.indices, positions))
+            count = scale > 0 ? meshopt_simplify(kept.data(), part.indices.data(), part.indices.size(),
+                                                 &positions[0].x, positions.size(), sizeof(Vec3f),
+                                                 std::max<std::size_t>(3, 3 * fewest), error_m / scale,
+                                                 meshopt_SimplifyLockBorder)
+                              : 0;
+        std::vector<std::uint32_t> place(part.vertices.size(), std::numeric_limits<std::uint32_t>::max());
+        for (std::size_t i = 0; i + 2 < count; i += 3) {
+            std::array<std::uint32_t, 3> triangle{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const unsigned v = kept[i + k];
+                if (place[v] == std::numeric_limits<std::uint32_t>::max()) {
+                    place[v] = static_cast<std::uint32_t>(out.vertices_m.size());
+                    const std::uint32_t from = part.vertices[v];
+                    out.vertices_m.push_back(mesh.vertices_m[from]);
+                    if (!mesh.normals.empty()) out.normals.push_back(faceted ? Vec3f{} : mesh.normals[from]);
+                    if (!mesh.uvs.empty()) out.uvs.push_back(mesh.uvs[from]);
+                }
+                triangle[k] = place[v];
+            }
+            out.triangles.push_back(triangle);
+            out.surface_of_triangle.push_back(static_cast<std::uint16_t>(s));
+        }
+    }
+    return out;
+}
+
+double size_m(const Mesh& mesh) {
+    Vec3f least{1e30f, 1e30f, 1e30f}, most{-1e30f, -1e30f, -1e30f};
+    for (const Vec3f& v : mesh.vertices_m) {
+        least = {std::min(least.x, v.x), std::min(least.y, v.y), std::min(least.z, v.z)};
+        most = {std::max(most.x, v.x), std::max(most.y, v.y), std::max(most.z, v.z)};
+    }
+    return static_cast<double>(length(most - least));
+}
+
+}  // namespace
+
+std::vector<MeshLevel> coarser_levels(const Mesh& mesh) {
+    std::vector<MeshLevel> levels;
+    if (mesh.triangles.size() < kSmallMesh) return levels;
+    std::vector<double> areas;
+    for (std::size_t s = 0; s < mesh.surfaces.size(); ++s)
+        areas.push_back(area_of(mesh, static_cast<std::uint16_t>(s)));
+    const double size = size_m(mesh);
+    for (double error_m = size / 65536; error_m < size / 32; error_m *= 4) {
+        const Mesh& finer = levels.empty() ? mesh : levels.back().mesh;
+        if (finer.triangles.size() < kSmallMesh) break;
+        MeshLevel level{simplified(finer, static_cast<float>(error_m)), error_m, {}};
+        // Errors of levels made from levels add up.
+        if (!levels.empty()) level.error_m += levels.back().error_m;
+        if (level.mesh.triangles.empty()) break;
+        if (10 * level.mesh.triangles.size() > 6 * finer.triangles.size()) continue;
+        for (std::size_t s = 0; s < mesh.surfaces.size(); ++s)
+            level.flattened_alpha.push_back(
+                flattened_alpha(areas[s], area_of(level.mesh, static_cast<std::uint16_t>(s))));
+        levels.push_back(std::move(level));
+    }
+    return levels;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,27 @@
+#pragma once
+// Levels of detail: coarser copies of a mesh, each within a known distance of it, made once by edge collapse
+// (meshoptimizer; quadric error of Garland & Heckbert, SIGGRAPH 97).
+//
+// Surfaces are simplified one by one and their borders stay, so that materials keep their areas: a level
+// never loses a solar cell, it only has no needless triangles in it. Wrinkles wider than the pixels that a
+// level is made for stay too. What a level loses besides its shape is the scatter of the normals of wrinkles
+// that it flattens: MeshLevel::flattened_alpha gives it back as roughness.
+
+#include <vector>
+
+#include "render/vocabulary/mesh.h"
+
+namespace hilcam {
+
+struct MeshLevel {
+    Mesh mesh;           // textures left empty: they are the first level's
+    double error_m = 0;  // no point of the mesh is farther from the level, about
+    // Per surface: GGX alpha of the facets that the level has flattened; adds to a material's by squares.
+    std::vector<float> flattened_alpha;
+};
+
+// From fine to coarse, error growing fourfold; a level is kept where it saves two fifths of the triangles.
+// Empty for small meshes. Owner thread; some seconds per million triangles.
+std::vector<MeshLevel> coarser_levels(const Mesh& mesh);
+
+}  // namespace hilcam

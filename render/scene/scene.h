@@ -1,0 +1,87 @@
+#pragma once
+// What there is to see, as it stands after loading: it does not change during a run. Poses come with each
+// frame.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/scene/color_bands.h"
+#include "render/scene/height_map.h"
+#include "render/scene/lamp.h"
+#include "render/scene/material.h"
+#include "render/scene/mesh_lod.h"
+#include "render/sky/atmosphere.h"
+#include "render/sky/bodies.h"
+#include "render/sky/body_light.h"
+#include "render/sky/stars.h"
+#include "render/vocabulary/mesh.h"
+
+namespace hilcam {
+
+struct SceneObject {
+    std::string name;
+    // An earlier object whose mesh, materials and levels it has, too: the fields below are then empty.
+    std::optional<std::size_t> like{};
+    Mesh mesh;                        // body axes, metres
+    std::vector<Material> materials;  // one per surface of the mesh
+    std::vector<MeshLevel> levels;    // coarser ones, from fine to coarse; may be empty
+};
+
+struct SceneBody {
+    bool visible = false;
+    BodyLook look;
+    MipTexture map;  // empty: uniform. Relative to its mean where the look is tied to a magnitude
+};
+
+// Ground from a height map (terrain.h), at rest in the world or on a body that turns.
+struct SceneTerrain {
+    std::string name;
+    std::unique_ptr<HeightMap> map;
+    double radius_m = 0;
+    Pose pose;                   // in the world, without a body
+    std::optional<BodyId> body;  // on which the map's middle is at `place`, x east, y north, z up
+    Geodetic place;
+    Material material;
+    double edge_px = 2;
+    std::size_t most_triangles = 1'000'000;
+    bool wait = false;  // frames wait for the terrain that fits them
+};
+
+struct Scene {
+    std::vector<SceneObject> objects;
+    std::unique_ptr<SceneTerrain> terrain;  // null: none
+    std::vector<SceneLamp> lamps;
+    std::vector<Star> stars;
+    TimeTai stars_time;                        // of their places
+    std::array<SceneBody, kBodyCount> bodies;  // by BodyId
+    std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
+    Spectrum sun_irradiance_1au_w_m2_um;
+    bool limb_darkening = true;
+
+    SceneBody& body(BodyId id) { return bodies[index_of(id)]; }
+};
+
+// One instant of the world: what a frame shows. objects: a pose per Scene::objects; lamps: as Scene::lamps.
+struct WorldSnapshot {
+    TimeTai time;
+    Pose camera;
+    Vec3d camera_velocity_m_s;  // in the world
+    // The camera's velocity against what its rows see, in its own time: for rows that are not of one instant.
+    Vec3d rows_velocity_m_s;
+    Vec3d camera_rate_rad_s;  // about the camera's axes
+    std::vector<Pose> objects;
+    ShownLamps lamps;
+    Bodies bodies;
+
+    // Returns the velocity that shifts the sky. No camera is as fast as the limit (Parker Solar Probe: 192
+    // km/s): what seems to be is a jump between two poses, and shifts nothing.
+    Vec3d shifting_velocity_m_s() const {
+        constexpr double kFastest_m_s = 1e6;
+        return length(camera_velocity_m_s) < kFastest_m_s ? camera_velocity_m_s : Vec3d{};
+    }
+};
+
+}  // namespace hilcam

@@ -1,0 +1,64 @@
+#include "render/scene/shown_object.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/scene/triangle_order.h"
+
+namespace hilcam {
+namespace {
+
+// What a level has flattened makes its facets' lobes wider: slopes add by their squares.
+std::vector<Material> widened(std::vector<Material> materials, const std::vector<float>& flattened_alpha) {
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (materials[i].has_facets() && materials[i].ggx_alpha > 0 && flattened_alpha[i] > 0)
+            materials[i].ggx_alpha = std::min(1.0f, std::hypot(materials[i].ggx_alpha, flattened_alpha[i]));
+    return materials;
+}
+
+}  // namespace
+
+std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene) {
+    std::vector<std::vector<const Mesh*>> objects;
+    for (SceneObject& object : scene.objects) {
+        if (object.like) {
+            objects.push_back(objects[*object.like]);
+            continue;
+        }
+        std::vector<const Mesh*>& meshes = objects.emplace_back();
+        order_triangles(object.mesh);
+        meshes.push_back(&object.mesh);
+        for (MeshLevel& level : object.levels) {
+            order_triangles(level.mesh);
+            meshes.push_back(&level.mesh);
+        }
+    }
+    return objects;
+}
+
+std::vector<ShownObject> shown_objects(Scene& scene) {
+    std::vector<ShownObject> objects;
+    for (SceneObject& object : scene.objects) {
+        if (object.like) {
+            objects.push_back(objects[*object.like]);
+            objects.back().name = object.name;
+            continue;
+        }
+        ShownObject& out = objects.emplace_back();
+        out.name = object.name;
+        std::vector<MipTexture> pictures;
+        for (Texture& texture : object.mesh.textures) pictures.emplace_back(std::move(texture));
+        const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));
+        out.levels.push_back(std::make_shared<const ObjectSurfaces>(object.mesh, object.materials, textures));
+        out.error_m.push_back(0);
+        for (const MeshLevel& level : object.levels) {
+            out.levels.push_back(std::make_shared<const ObjectSurfaces>(
+                level.mesh, widened(object.materials, level.flattened_alpha), textures));
+            out.error_m.push_back(level.error_m);
+        }
+    }
+    scene.objects.clear();
+    return objects;
+}
+
+}  // namespace hilcam

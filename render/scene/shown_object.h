@@ -1,0 +1,28 @@
+#pragma once
+// The scene's objects as the renderer keeps them: surfaces for shading at every level of detail.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/scene/scene.h"
+#include "render/scene/surface.h"
+
+namespace hilcam {
+
+struct ShownObject {
+    std::string name;
+    std::vector<std::shared_ptr<const ObjectSurfaces>> levels;  // the mesh itself first; shared by its like
+    std::vector<double> error_m;                                // of each
+
+    const std::vector<Material>& materials() const { return levels.front()->materials; }
+    double radius_m() const { return levels.front()->radius_m; }
+};
+
+// Per object its meshes, from fine to coarse, their triangles ordered for the cache. They stay in the scene.
+// Objects that are like another have the same ones.
+std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene);
+// Takes the objects out of the scene; ordered_meshes() comes first.
+std::vector<ShownObject> shown_objects(Scene& scene);
+
+}  // namespace hilcam

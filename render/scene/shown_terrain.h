@@ -1,0 +1,39 @@
+#pragma once
+// The scene's terrain as one of the renderer's objects, brought up to date with the camera.
+
+#include <memory>
+#include <optional>
+
+#include "render/scene/scene.h"
+#include "render/scene/shown_object.h"
+#include "render/scene/terrain_streamer.h"
+
+namespace hilcam {
+
+// Gives a scene with terrain an object in its place, the last one; nothing without terrain.
+Scene& with_terrain_object(Scene& scene);
+
+class ShownTerrain {
+  public:
+    // index: of that object. Owner thread.
+    ShownTerrain(EmbreeScene& embree, std::unique_ptr<SceneTerrain> terrain, std::size_t index);
+
+    // What it turns with.
+    std::optional<BodyId> body() const { return terrain_->body; }
+    // Takes what the streamer has ready and asks it for what the camera needs; the first call, and every one
+    // of a terrain that waits, makes it at once. Gives the pose of the object's mesh. Loop, but for those
+    // calls.
+    Pose update(const WorldSnapshot& world, double focal_length_px, ShownObject& object);
+
+  private:
+    EmbreeScene& embree_;
+    std::unique_ptr<SceneTerrain> terrain_;
+    std::size_t index_;
+    TerrainStreamer streamer_;
+    bool any_ = false;
+    Vec3d anchor_m_, camera_m_;  // of what is shown
+
+    void adopt(PreparedTerrain& prepared, ShownObject& object);
+};
+
+}  // namespace hilcam

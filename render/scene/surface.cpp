@@ -1,0 +1,95 @@
+#include "render/scene/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+std::uint32_t snorm16(float value) {
+    const float scaled = std::round(std::clamp(value, -1.0f, 1.0f) * 32767.0f);
+    return static_cast<std::uint16_t>(static_cast<std::int16_t>(scaled));
+}
+
+constexpr std::size_t kClusterTriangles = 256;
+
+using Box = std::array<Vec3f, 2>;
+constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr Box kNothing{Vec3f{kFar, kFar, kFar}, Vec3f{-kFar, -kFar, -kFar}};
+
+void grow(Box& box, Vec3f p) {
+    box[0] = {std::min(box[0].x, p.x), std::min(box[0].y, p.y), std::min(box[0].z, p.z)};
+    box[1] = {std::max(box[1].x, p.x), std::max(box[1].y, p.y), std::max(box[1].z, p.z)};
+}
+
+std::vector<Box> clusters_of(const Mesh& mesh) {
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (i % kClusterTriangles == 0) boxes.push_back(kNothing);
+        for (const std::uint32_t vertex : mesh.triangles[i]) grow(boxes.back(), mesh.vertices_m[vertex]);
+    }
+    return boxes;
+}
+
+// Square root of the areas' ratio.
+float density_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+    const Vec3f a = mesh.vertices_m[t[0]];
+    const float area = length(cross(mesh.vertices_m[t[1]] - a, mesh.vertices_m[t[2]] - a));
+    const Vec2f p = mesh.uvs[t[0]], q = mesh.uvs[t[1]], r = mesh.uvs[t[2]];
+    const float uv_area = std::abs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+    return area > 0 ? std::sqrt(uv_area / area) : 0.0f;
+}
+
+}  // namespace
+
+std::uint32_t pack_normal(Vec3f n) {
+    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    float x = n.x / sum;
+    float y = n.y / sum;
+    if (n.z < 0) {
+        const float folded_x = (1 - std::abs(y)) * std::copysign(1.0f, x);
+        y = (1 - std::abs(x)) * std::copysign(1.0f, y);
+        x = folded_x;
+    }
+    return snorm16(x) | (snorm16(y) << 16);
+}
+
+ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials_of_surfaces,
+                               std::shared_ptr<const std::vector<MipTexture>> textures_of_object)
+    : materials(std::move(materials_of_surfaces)),
+      textures(std::move(textures_of_object)),
+      cluster_bounds_m(clusters_of(mesh)) {
+    HILCAM_CHECK(materials.size() == mesh.surfaces.size());
+    for (const Vec3f& v : mesh.vertices_m) radius_m = std::max(radius_m, length(to_double(v)));
+    const bool no_normals = mesh.normals.empty();
+    const bool textured = !mesh.uvs.empty() && std::any_of(materials.begin(), materials.end(),
+                                                           [](const Material& m) { return m.texture >= 0; });
+    if (!textured)
+        for (Material& material : materials) material.texture = -1;
+    triangles.resize(mesh.triangles.size());
+    if (textured) {
+        corner_uvs.resize(mesh.triangles.size());
+        uv_per_m.resize(mesh.triangles.size());
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        triangles[i].surface = mesh.surface_of_triangle[i];
+        // A zero normal stands for "the file has none here".
+        const auto missing = [&](std::uint32_t vertex) {
+            return !(dot(mesh.normals[vertex], mesh.normals[vertex]) > 0);
+        };
+        const bool flat =
+            no_normals || std::any_of(mesh.triangles[i].begin(), mesh.triangles[i].end(), missing);
+        triangles[i].flat = flat ? 1 : 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t vertex = mesh.triangles[i][k];
+            triangles[i].corner_normals[k] = flat ? 0 : pack_normal(mesh.normals[vertex]);
+            if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
+        }
+        if (textured) uv_per_m[i] = density_of(mesh, mesh.triangles[i]);
+    }
+}
+
+}  // namespace hilcam

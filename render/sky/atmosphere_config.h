@@ -1,0 +1,29 @@
+#pragma once
+// What a scenario says of the Earth's air.
+
+#include <filesystem>
+#include <string>
+
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+struct AtmosphereConfig {
+    std::string model = "none";
+    // precomputed
+    double pressure_pa = 101325;          // at the ground
+    double aerosol_optical_depth = 0.10;  // vertical, at 0.55 um
+    double angstrom_exponent = 1.3;       // tau ~ wavelength^-exponent
+    double aerosol_scale_height_m = 1500;
+    double aerosol_asymmetry = 0.70;  // g of Cornette-Shanks' phase function
+    double aerosol_single_albedo = 0.92;
+    double ozone_du = 300;
+    double ground_albedo = 0.25;  // for the light between ground and sky
+    std::filesystem::path cache;  // folder for the tables; empty: the user's cache folder
+    // table
+    std::filesystem::path table;  // CSV or MODTRAN tape7.scn, as docs/atmosphere.md describes
+};
+Fields fields(AtmosphereConfig& config);
+void validate(const AtmosphereConfig& config);
+
+}  // namespace hilcam

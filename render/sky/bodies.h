@@ -1,0 +1,157 @@
+#pragma once
+// The Sun, the Moon and the planets: where they are, how they are turned, how large they are.
+//
+// Positions in the world are those that an observer at rest at its origin sees: light time and stellar
+// aberration by the origin's own velocity are in them, except for the body that the origin belongs to. A
+// camera that moves in the world sees them shifted once more (seen_in_motion).
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "render/vocabulary/config_field.h"
+#include "render/vocabulary/mesh.h"
+#include "render/vocabulary/pose.h"
+#include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+
+// Index in Bodies and Scene::bodies.
+enum class BodyId : std::uint8_t {
+    kMercury,
+    kVenus,
+    kEarth,
+    kMoon,
+    kMars,
+    kJupiter,
+    kSaturn,
+    kUranus,
+    kNeptune
+};
+inline constexpr std::size_t kBodyCount = 9;
+inline constexpr std::array<std::string_view, kBodyCount> kBodyNames = {
+    "mercury", "venus", "earth", "moon", "mars", "jupiter", "saturn", "uranus", "neptune"};
+inline constexpr std::size_t index_of(BodyId id) { return static_cast<std::size_t>(id); }
+
+// An ellipsoid of revolution about its z axis.
+struct Figure {
+    double equatorial_radius_m;
+    double polar_radius_m;
+};
+// Archinal et al., Celest. Mech. Dyn. Astron. 130:22 (2018), tables 4 and 5; the Earth's is WGS 84.
+inline constexpr std::array<Figure, kBodyCount> kFigures = {{
+    {2440.53e3, 2438.26e3},
+    {6051.8e3, 6051.8e3},
+    {kEarthEquatorialRadius_m, kEarthEquatorialRadius_m*(1 - kEarthFlattening)},
+    {1737.4e3, 1737.4e3},
+    {3396.19e3, 3376.20e3},
+    {71492e3, 66854e3},
+    {60268e3, 54364e3},
+    {25559e3, 24973e3},
+    {24764e3, 24341e3},
+}};
+
+// Geocentric geometric position of the Sun [m], ICRF axes: minus the heliocentric Earth of ERFA's eraEpv00
+// (VSOP2000 fit, good to 14 km from 1900 to 2100).
+Vec3d sun_from_earth_m(TimeTai time);
+// Heliocentric geometric position and velocity [m, m/s], ICRF axes. Earth: eraEpv00. Moon: that plus
+// eraMoon98 (Meeus' series; 10 arcsec, 50 km). Planets: planet_by_series() (planet_series.h).
+struct StateVector {
+    Vec3d position_m, velocity_m_s;
+};
+StateVector heliocentric(BodyId id, TimeTai time);
+
+// The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
+// angle (ERFA eraC2t00b), with the pole and UT1 that earth_orientation() has.
+Mat3d earth_fixed_from_icrf(TimeTai time);
+// Without the pole's motion: into the Earth's axes about the celestial intermediate pole.
+Mat3d earth_rotated_from_icrf(TimeTai time);
+// Into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by Archinal et al. 2018
+// (the Moon's mean-Earth frame by its series, 0.01 deg).
+Mat3d body_fixed_from_icrf(BodyId id, TimeTai time);
+
+// A place on a body: angles in rad, height above its ellipsoid in m; latitude is geodetic (of the normal).
+struct Geodetic {
+    double longitude_rad = 0;
+    double latitude_rad = 0;
+    double height_m = 0;
+};
+Vec3d earth_fixed_position_m(const Geodetic& place);
+Vec3d body_fixed_position_m(BodyId id, const Geodetic& place);
+
+// The scenario's world origin, which may ride with a rotating body.
+struct OriginConfig {
+    enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed } kind = Kind::kEarthCenter;
+    BodyId body = BodyId::kEarth;
+    Geodetic place;  // of the fixed ones: a geostationary longitude with height 35 786 km, say
+    BodyId center() const {
+        return kind == Kind::kBodyCenter || kind == Kind::kBodyFixed ? body : BodyId::kEarth;
+    }
+    bool turns() const { return kind == Kind::kEarthFixed || kind == Kind::kBodyFixed; }
+};
+Fields fields(OriginConfig& config);
+
+// Where the bodies stand in the world at an instant.
+struct BodyState {
+    Vec3d world_m;
+    Mat3d fixed_from_world;
+    // Its motion in the world that world_m does not show yet as light time: where the origin turns with it.
+    Vec3d velocity_m_s;
+};
+struct Bodies {
+    Vec3d sun_world_m;
+    StateVector origin_from_barycenter;  // ICRF axes
+    std::array<BodyState, kBodyCount> body;
+
+    BodyState& operator[](BodyId id) { return body[index_of(id)]; }
+    const BodyState& operator[](BodyId id) const { return body[index_of(id)]; }
+    const BodyState& earth() const { return (*this)[BodyId::kEarth]; }
+};
+// Loop: some hundred microseconds, no allocation.
+Bodies bodies_at(TimeTai time, const OriginConfig& origin);
+
+// A direction as an observer with this velocity sees it (ERFA eraAb, relativistic, the Sun's own light
+// bending left out).
+Vec3d aberrated(Vec3d dir, Vec3d observer_velocity_m_s);
+// Where an observer sees the middle of a body's disk from whom it is at `to_body_m`, when he moves by it: the
+// outline of a sphere in motion is a circle (Penrose, Proc. Camb. Phil. Soc. 55, 1959, 137), and this sphere
+// of the same radius has that very outline. Exact: the cone of the limb's directions is the 4-vector of the
+// length of its tangent and the place of its middle, and is boosted as such. A radius of 0 is aberration.
+Vec3d seen_in_motion(Vec3d to_body_m, double radius_m, Vec3d observer_velocity_m_s);
+
+// The nearer intersection of a ray from outside with an ellipsoid. Origin and direction in its axes, metres
+// from its centre. Closed form in double. Distance in lengths of the direction, or a negative value: no hit.
+inline double intersect_ellipsoid(const Figure& figure, Vec3d origin_m, Vec3d dir) {
+    // Scaling z by a/b turns the ellipsoid into a sphere of radius a; then the closest-approach form of the
+    // quadratic, which keeps its digits for far origins (Haines et al., Ray Tracing Gems, 2019, ch. 7).
+    const double a = figure.equatorial_radius_m;
+    const double stretch = a / figure.polar_radius_m;
+    const Vec3d o{origin_m.x, origin_m.y, origin_m.z * stretch};
+    const Vec3d d{dir.x, dir.y, dir.z * stretch};
+    const double d_squared = dot(d, d);
+    const double to_closest = -dot(o, d) / d_squared;
+    const Vec3d closest = o + to_closest * d;
+    // a^2 - c^2 as a product: both are of the same size near the limb.
+    const double distance = length(closest);
+    const double rest = (a - distance) * (a + distance);
+    if (rest < 0 || to_closest < 0) return -1;
+    return to_closest - std::sqrt(rest / d_squared);
+}
+inline double intersect_earth(Vec3d origin_m, Vec3d dir) {
+    return intersect_ellipsoid(kFigures[index_of(BodyId::kEarth)], origin_m, dir);
+}
+
+// The outward unit normal of an ellipsoid at a point on it.
+inline Vec3d ellipsoid_normal(const Figure& figure, Vec3d point_m) {
+    // Gradient of x^2/a^2 + y^2/a^2 + z^2/b^2.
+    const double ratio = figure.polar_radius_m / figure.equatorial_radius_m;
+    return normalized(Vec3d{point_m.x, point_m.y, point_m.z / (ratio * ratio)});
+}
+inline Vec3d earth_normal(Vec3d point_m) {
+    return ellipsoid_normal(kFigures[index_of(BodyId::kEarth)], point_m);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,25 @@
+#include "render/sky/earth_frames.h"
+
+#include <erfa.h>
+
+#include <cmath>
+
+namespace hilcam {
+
+Mat3d icrf_from_teme(TimeTai time) {
+    const JulianDate ut1 = julian_ut1(time);
+    const double angle = eraGmst82(ut1.day, ut1.fraction), c = std::cos(angle), s = std::sin(angle);
+    return transposed(earth_rotated_from_icrf(time)) * Mat3d{{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+}
+
+Mat3d icrf_from_eme2000() {
+    double bias[3][3], precession[3][3], both[3][3];
+    eraBp06(2451545.0, 0.0, bias, precession, both);
+    return transposed(Mat3d{{bias[0][0], bias[0][1], bias[0][2]},
+                            {bias[1][0], bias[1][1], bias[1][2]},
+                            {bias[2][0], bias[2][1], bias[2][2]}});
+}
+
+Vec3d earth_rate_rad_s(TimeTai time) { return kEarthRate_rad_s * earth_rotated_from_icrf(time).z; }
+
+}  // namespace hilcam

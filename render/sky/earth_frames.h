@@ -1,0 +1,23 @@
+#pragma once
+// The Earth's other axes: those that orbits are given in.
+
+#include "render/sky/bodies.h"
+
+namespace hilcam {
+
+// The Earth's rotation [rad/s] about the axis of ITRF: the rate of the Earth rotation angle (Capitaine,
+// Guinot & McCarthy 2000; IERS Conventions 2010, eq. 5.15).
+inline constexpr double kEarthRate_rad_s = 7.292115146706979e-5;
+
+// True equator and mean equinox of date, SGP4's axes, into ICRF: about the pole by Greenwich mean sidereal
+// time of 1982 into the Earth's axes (AIAA 2006-6753, appendix C), then by earth_rotated_from_icrf(). UT1 -
+// UTC and its error fall out, as both turns have it. Against the way through IAU 1976/1980 the axes differ by
+// some tens of mas: a metre at most in low orbits, where SGP4 is good to a kilometre.
+Mat3d icrf_from_teme(TimeTai time);
+// Mean equator and equinox of J2000 into ICRF: the frame bias of IAU 2006 (ERFA eraBp06), 23 mas.
+Mat3d icrf_from_eme2000();
+
+// The Earth's rotation in ICRF axes: about the celestial intermediate pole, which is not quite ITRF's z.
+Vec3d earth_rate_rad_s(TimeTai time);
+
+}  // namespace hilcam

@@ -1,0 +1,72 @@
+#pragma once
+// The stars sorted by where they stand in the sky, so that a frame looks at those of its field and at no
+// others.
+//
+// Cells are those of a cube around the barycentre, each face a square grid of equal angles: about a hundred
+// stars a cell.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "render/sky/stars.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+
+class StarSky {
+  public:
+    StarSky() = default;
+    // time: of the stars' places.
+    StarSky(std::vector<Star> stars, TimeTai time);
+
+    std::size_t size() const { return stars_.size(); }
+    bool empty() const { return stars_.empty(); }
+    TimeTai time() const { return time_; }
+    // At most so many stars are in a cone of this half angle, wherever it points. Slow.
+    std::size_t most_within(double angle_rad) const;
+
+    // Calls use(star, apparent direction) for each star that the observer may see within a cone, and for some
+    // just outside. In the order of the cells. Loop, any thread.
+    template <class Use>
+    void each_within(const StarObserver& observer, Vec3d axis_dir, double angle_rad, const Use& use) const {
+        const Cone field(axis_dir, angle_rad + farthest_shift_rad(observer));
+        for (const Cell& cell : cells_) {
+            if (!field.touches(cell.cone)) continue;
+            for (std::size_t i = cell.begin; i < cell.end; ++i)
+                if (field.holds(stars_[i].world_dir)) use(stars_[i], observer.apparent_dir(stars_[i]));
+        }
+    }
+
+  private:
+    // Directions no farther than its half angle from its axis.
+    struct Cone {
+        Vec3d axis_dir;
+        double angle_rad, cosine, sine;
+
+        Cone(Vec3d axis, double angle)
+            : axis_dir(axis),
+              angle_rad(std::min(angle, kPi)),
+              cosine(std::cos(angle_rad)),
+              sine(std::sin(angle_rad)) {}
+        bool holds(Vec3d dir) const { return dot(dir, axis_dir) >= cosine; }
+        bool touches(const Cone& other) const {
+            return angle_rad + other.angle_rad >= kPi ||
+                   dot(axis_dir, other.axis_dir) >= cosine * other.cosine - sine * other.sine;
+        }
+    };
+    struct Cell {
+        Cone cone;  // that holds its stars
+        std::size_t begin, end;
+    };
+
+    std::vector<Star> stars_;
+    std::vector<Cell> cells_;
+    TimeTai time_;
+    double fastest_rad_yr_ = 0, most_parallax_rad_ = 0;
+
+    Cone cone_of(std::size_t begin, std::size_t end) const;
+    double farthest_shift_rad(const StarObserver& observer) const;
+};
+
+}  // namespace hilcam

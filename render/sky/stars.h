@@ -1,0 +1,66 @@
+#pragma once
+// The stars of a run: where they stand and how much light they send.
+//
+// Place: the catalogue's with its proper motion, from its epoch to the run's start by ERFA's eraPmsafe
+// without a radial velocity, and from there on along the same straight line. Each frame sees it from where
+// the camera is (annual parallax) and as fast as the camera moves (stellar aberration). Not modelled: the
+// Sun's bending of light (4 mas at 90 degrees, 0.05 arcsec at 9), variability, orbits of double stars. Light:
+// a black body of the star's colour temperature, scaled to its V magnitude at 0.55 um.
+//   temperature from B-V: Ballesteros, EPL 97 (2012) 34008, eq. 14, good to a few percent from 3,000 to
+//   30,000 K. V = 0: 3.63e-8 W m^-2 um^-1 at the V band (Bessell, Castelli & Plez, A&A 333, 1998, table A2).
+
+#include <cstdint>
+#include <vector>
+
+#include "render/sky/star_catalogue.h"
+#include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/time.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+struct Star {
+    Vec3d world_dir;              // unit, ICRF, from the barycentre at the run's start
+    Vec3f motion_rad_yr;          // of world_dir, along the tangent
+    float parallax_rad = 0;       // annual
+    Spectrum irradiance_w_m2_um;  // at the aperture, mean over each bin
+    float magnitude_v = 0;
+    std::uint32_t row = 0;  // of the catalogue's stars, from 0
+    std::uint32_t hip = 0;  // Hipparcos number; 0: none
+    std::uint32_t hd = 0;   // Henry Draper number; 0: none
+};
+
+// From where and how fast the stars are looked at: about the barycentre of the Solar System, ICRF axes.
+class StarObserver {
+  public:
+    StarObserver() = default;
+    // years: Julian, since the instant of the stars' places.
+    StarObserver(double years, Vec3d position_m, Vec3d velocity_m_s);
+
+    // Unit, ICRF. Stellar aberration is that of aberrated(), ERFA's eraAb, without the call: a hundred
+    // thousand stars may be looked at in a frame. Loop, any thread.
+    Vec3d apparent_dir(const Star& star) const {
+        const Vec3d from_here = normalized(star.world_dir + years_ * to_double(star.motion_rad_yr) -
+                                           static_cast<double>(star.parallax_rad) * position_au_);
+        const double along = dot(from_here, beta_);
+        return normalized(inverse_lorentz_ * from_here + (1 + along / (1 + inverse_lorentz_)) * beta_);
+    }
+    double years() const { return years_; }
+    Vec3d position_au() const { return position_au_; }
+    Vec3d beta() const { return beta_; }  // velocity over that of light
+
+  private:
+    double years_ = 0;
+    Vec3d position_au_, beta_;
+    double inverse_lorentz_ = 1;
+};
+
+// Colour temperature [K] of a Johnson B-V index; B-V is limited to -0.4 .. 2.5, beyond which the formula runs
+// away.
+double color_temperature_k(double color_b_v);
+// Bin means of a star's spectral irradiance [W m^-2 um^-1].
+Spectrum star_irradiance_w_m2_um(double magnitude_v, double color_b_v, const SpectralGrid& grid);
+// Stars not fainter than `faintest_magnitude`, in the catalogue's order, with their places at an instant.
+std::vector<Star> stars_at(const StarCatalogue& catalogue, TimeTai time, double faintest_magnitude,
+                           const SpectralGrid& grid);
+}  // namespace hilcam

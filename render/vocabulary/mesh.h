@@ -1,0 +1,42 @@
+#pragma once
+// A triangle mesh with named surfaces, as it comes from a file: body axes, metres.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+// 8-bit sRGB-encoded (IEC 61966-2-1) colour picture, rows downwards from v = 1 (u right, v up as in glTF
+// after the loader's flip: row 0 is v = 0 in the mesh's own uv). Wraps around in both directions.
+struct Texture {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    std::vector<std::array<std::uint8_t, 3>> texels;
+};
+
+// The look that the mesh file itself gives a surface (glTF metallic-roughness terms); the scenario may
+// replace it by name with a measured material.
+struct MeshSurface {
+    std::string name;
+    Vec3f base_color{0.5f, 0.5f, 0.5f};  // linear RGB reflectance, 0..1
+    float metallic = 0;                  // 0 dielectric .. 1 metal
+    float roughness = 1;                 // perceptual; GGX alpha is its square
+    int base_color_texture = -1;         // index into Mesh::textures; multiplies base_color
+};
+
+struct Mesh {
+    std::vector<Vec3f> vertices_m;
+    std::vector<Vec3f> normals;  // one unit vector per vertex, or empty: flat shading
+    std::vector<Vec2f> uvs;      // one per vertex, or empty: no textures
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint16_t> surface_of_triangle;  // index into surfaces
+    std::vector<MeshSurface> surfaces;
+    std::vector<Texture> textures;
+};
+
+}  // namespace hilcam

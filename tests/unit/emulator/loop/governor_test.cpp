@@ -1,0 +1,246 @@
+#include "emulator/loop/governor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "tests/support/plate.h"
+
+namespace hilcam {
+namespace {
+
+constexpr double kBudget_ms = 16;
+
+// Levels whose frames take what a function of level and frame says.
+struct Plant {
+    std::function<double(std::size_t level, int frame)> cost_ms;
+    std::size_t levels = 4;
+    int delay = 2;  // frames until the governor is told
+
+    struct Outcome {
+        std::vector<std::size_t> level;  // of each frame
+        int changes = 0;
+        int misses = 0;
+        // In frames from .. to-1.
+        int changes_in(std::size_t from, std::size_t to) const {
+            int sum = 0;
+            for (std::size_t i = std::max<std::size_t>(from, 1); i < to; ++i)
+                sum += level[i] != level[i - 1] ? 1 : 0;
+            return sum;
+        }
+    };
+    Outcome run(int frames) const {
+        Governor governor({kBudget_ms, levels});
+        Outcome out;
+        std::vector<double> took_ms;
+        for (int i = 0; i < frames; ++i) {
+            std::size_t level = governor.level();
+            if (i >= delay) {
+                const auto told = static_cast<std::size_t>(i - delay);
+                level = governor.take(out.level[told], took_ms[told]);
+            }
+            out.level.push_back(level);
+            took_ms.push_back(cost_ms(level, i));
+            out.misses += took_ms.back() > kBudget_ms ? 1 : 0;
+        }
+        out.changes = out.changes_in(0, out.level.size());
+        return out;
+    }
+};
+
+// A plant that does not change: down at most levels - 1 times at first; after that each climb that is taken
+// back doubles the hold-off, 10 times from 64 to 65536 frames, then there is one in 65536 frames. Each is two
+// changes; a climb may be to a level in between, which holds, before the one that does not.
+int most_changes(std::size_t levels, int frames) {
+    const int doublings = static_cast<int>(std::log2(Governor::kMostStay / Governor::kLeastStay));
+    return 2 * static_cast<int>(levels - 1) +
+           2 * (doublings + frames / static_cast<int>(Governor::kMostStay));
+}
+
+TEST(Governor, KeepsTheBestLevelThatFitsAndGoesStraightToIt) {
+    const Plant plant{
+        [](std::size_t level, int) { return 10 + 40.0 / static_cast<double>(1 << (2 * level)); }};
+    const Plant::Outcome out = plant.run(2000);  // 50, 20, 12.5, 10.6 ms
+    EXPECT_EQ(out.level.back(), 2u);
+    // Two levels down: three misses each, and what was under way.
+    const int first = Governor::kWarmUp + 2 * (3 + plant.delay);
+    EXPECT_EQ(out.level[static_cast<std::size_t>(first)], 2u);
+    EXPECT_LE(out.changes, most_changes(4, 2000));
+    // It is all but a few frames at the level that fits.
+    EXPECT_GT(std::count(out.level.begin(), out.level.end(), 2u), 1900);
+}
+
+TEST(Governor, StaysWhereTheBudgetLiesBetweenTwoLevels) {
+    for (const double above_ms : {16.1, 20.0, 30.0}) {
+        const Plant plant{[&](std::size_t level, int) { return level == 0 ? above_ms : 12.0; }, 2};
+        constexpr int kFrames = 1'000'000;
+        const Plant::Outcome out = plant.run(kFrames);
+        EXPECT_LE(out.changes, most_changes(2, kFrames)) << above_ms;
+        EXPECT_GT(out.changes, 1) << above_ms;  // it does look again
+        // Of an hour at 60 Hz, the last half: a try in 18 minutes.
+        EXPECT_LE(out.changes_in(500'000, kFrames), 2 * (500'000 / 65536 + 1)) << above_ms;
+        EXPECT_LT(out.misses, 12 * 40) << above_ms;
+    }
+}
+
+// No hold-off that grows: the same plant swings all the time. What the test above would see then.
+TEST(Governor, ATryEveryLeastStayWouldBeSeen) {
+    int changes = 0;
+    std::size_t level = 1;
+    for (int i = 0, stay = 0; i < 1'000'000; ++i, ++stay)
+        if (stay >= (level == 1 ? Governor::kLeastStay : 3)) level = 1 - level, stay = 0, ++changes;
+    EXPECT_GT(changes, 10 * most_changes(2, 1'000'000));
+}
+
+TEST(Governor, NoiseIsNoReasonToSwing) {
+    std::mt19937 engine(5);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform;
+    // Ten percent of noise about means on both sides of the budget, and a hiccup of 100 ms in 200 frames.
+    for (const double upper_ms : {13.0, 15.0, 15.9, 16.5, 18.0}) {
+        const Plant plant{[&](std::size_t level, int) {
+                              const double mean_ms = level == 0 ? upper_ms : 0.8 * upper_ms;
+                              const double hiccup_ms = uniform(engine) < 1.0 / 200 ? 100 : 0;
+                              return mean_ms * (1 + 0.1 * normal(engine)) + hiccup_ms;
+                          },
+                          3};
+        constexpr int kFrames = 500'000;
+        const Plant::Outcome out = plant.run(kFrames);
+        // Noise may also push it from the middle level to the last and back: levels - 1 times the bound.
+        EXPECT_LE(out.changes, 2 * most_changes(3, kFrames)) << upper_ms;
+        EXPECT_LE(out.changes_in(250'000, kFrames), 2 * 2 * (250'000 / 65536 + 1)) << upper_ms;
+    }
+}
+
+TEST(Governor, ASingleHiccupChangesNothing) {
+    const Plant plant{[](std::size_t, int frame) { return frame % 40 == 39 ? 200.0 : 10.0; }};
+    const Plant::Outcome out = plant.run(5000);
+    EXPECT_EQ(out.changes, 0);
+}
+
+TEST(Governor, FollowsALoadThatJumpsAndComesBack) {
+    // Twice the load from frame 1000 to 3000: 12, 6, 3 ms become 24, 12, 6 ms... of a budget of 16.
+    const Plant plant{[](std::size_t level, int frame) {
+        const double load = frame >= 1000 && frame < 3000 ? 2 : 1;
+        return load * 12 / static_cast<double>(1 << level);
+    }};
+    const Plant::Outcome out = plant.run(6000);
+    EXPECT_EQ(out.level[999], 0u);
+    EXPECT_EQ(out.level[1000 + 3 + 2], 1u);  // three misses, told two frames later
+    EXPECT_EQ(out.level[2999], 1u);
+    // Back when its hold-off is over, however often it had to be taken back meanwhile: a load that has
+    // fallen by half is tried after 64 frames or a sixteenth of it.
+    const auto back = std::find(out.level.begin() + 3000, out.level.end(), 0u) - out.level.begin();
+    EXPECT_LE(back, 3000 + 200);
+    EXPECT_EQ(out.level.back(), 0u);
+}
+
+// A load that alternates with any period does not make it swing with it for ever.
+TEST(Governor, AnAlternatingLoadIsFollowedEverLessOften) {
+    for (const int period : {10, 50, 100, 200, 500}) {
+        const Plant plant{[&](std::size_t level, int frame) {
+                              const double load = frame / period % 2 == 0 ? 20 : 8;
+                              return load / (level == 0 ? 1 : 2);
+                          },
+                          2};
+        constexpr int kFrames = 500'000;
+        const Plant::Outcome out = plant.run(kFrames);
+        // Two changes in kMostStay / 16 frames at the most, when the hold-off has grown.
+        const int least = static_cast<int>(Governor::kMostStay / 16);
+        EXPECT_LE(out.changes_in(250'000, kFrames), 2 * (250'000 / least + 1)) << period;
+    }
+}
+
+TEST(Governor, OffWithoutABudgetOrLevels) {
+    for (const GovernorSettings settings : {GovernorSettings{0, 4}, GovernorSettings{16, 1}}) {
+        Governor governor(settings);
+        for (int i = 0; i < 1000; ++i) EXPECT_EQ(governor.take(0, 1e6), 0u);
+    }
+}
+
+TEST(Governor, StopsAtTheLastLevel) {
+    const Plant plant{[](std::size_t, int) { return 100.0; }};
+    const Plant::Outcome out = plant.run(1000);
+    EXPECT_EQ(out.level.back(), 3u);
+    EXPECT_EQ(out.changes, 3);
+}
+
+// --- in the loop
+
+TEST_F(PlateTest, FramesThatAreTooSlowGoDownTheLadderAndSaySo) {
+    const auto file = scenario("",
+                               "loop: {frame_budget_ms: 0.001, levels: [{max_depth: 1}, {max_depth: 1, "
+                               "path_model: direct}]}\n");
+    const std::vector<std::string> fast = {"camera.exposure_ms=1", "camera.frame_rate_hz=200"};
+    const ScenarioConfig config = load_scenario(file, fast);
+    const GovernorSettings governor{1e3 * config.loop.frame_budget_s, 1 + lower_levels(config).size()};
+    ASSERT_EQ(governor.levels, 3u);
+    LoopRig rig(file, {.frames = 60, .governor = governor}, fast);
+    rig.loop.start();
+    ASSERT_TRUE(rig.collector.wait_for(60));
+    rig.loop.stop();
+    const auto& frames = rig.collector.frames;
+    EXPECT_EQ(frames.front().record.quality_level, 0u);
+    EXPECT_EQ(frames.back().record.quality_level, 2u);
+    EXPECT_EQ(rig.loop.counters().level_changes.load(), 2u);
+    std::uint64_t sum = 0;
+    for (const auto& count : rig.loop.counters().frames_at_level) sum += count.load();
+    EXPECT_EQ(sum, 60u);
+    LevelChange change;
+    for (std::size_t to = 1; to <= 2; ++to) {
+        ASSERT_TRUE(rig.loop.take_level_change(change));
+        EXPECT_EQ(change.from, to - 1);
+        EXPECT_EQ(change.to, to);
+        EXPECT_GT(change.mean_ms, governor.budget_ms);
+        const auto first = std::find_if(frames.begin(), frames.end(),
+                                        [&](const auto& f) { return f.record.quality_level == to; });
+        EXPECT_EQ(first->record.id, change.frame);
+    }
+    EXPECT_FALSE(rig.loop.take_level_change(change));
+}
+
+// With latency frames are made one after the other: none begins before the one before is out. Their pixels
+// are those of throughput.
+TEST_F(PlateTest, PreferringLatencyFramesDoNotOverlapAndAreTheSame) {
+    const auto file = scenario("", "mode: lockstep\n");
+    std::vector<std::vector<std::uint16_t>> pictures[2];
+    for (const LoopPreference prefer : {LoopPreference::kThroughput, LoopPreference::kLatency}) {
+        LoopRig rig(file, {.prefer = prefer});
+        rig.loop.start();
+        EXPECT_EQ(rig.send(ExposeCommand{{}, 12}), CommandStatus::kAccepted);
+        ASSERT_TRUE(rig.collector.wait_for(12));
+        rig.loop.stop();
+        for (const auto& frame : rig.collector.frames)
+            pictures[static_cast<std::size_t>(prefer)].push_back(frame.dn);
+        if (prefer != LoopPreference::kLatency) continue;
+        // Exposure's beginnings and ends as the sinks are told of them: begin, end, begin, end.
+        const auto& events = rig.collector.events;
+        ASSERT_GE(events.size(), 24u);
+        for (std::size_t i = 0; i < 24; ++i) {
+            EXPECT_EQ(events[i].frame, 1 + i / 2);
+            EXPECT_EQ(events[i].kind == CameraEvent::Kind::kExposureStart, i % 2 == 0) << i;
+        }
+    }
+    EXPECT_EQ(pictures[0], pictures[1]);
+}
+
+TEST_F(PlateTest, InLockstepTheGovernorIsOff) {
+    const auto file = scenario("", "mode: lockstep\nloop: {frame_budget_ms: 0.001}\n");
+    const ScenarioConfig config = load_scenario(file, {});
+    EXPECT_TRUE(lower_levels(config).empty());
+    EXPECT_NE(governor_off(config).find("lockstep"), std::string::npos);
+    LoopRig rig(file, {.governor = {0.001, 3}});
+    rig.loop.start();
+    for (int i = 0; i < 20; ++i) {
+        EXPECT_EQ(rig.send(ExposeCommand{{}, 0}), CommandStatus::kAccepted);
+        ASSERT_TRUE(rig.collector.wait_for(static_cast<std::size_t>(i + 1)));
+        EXPECT_EQ(rig.collector.frames.back().record.quality_level, 0u);
+    }
+}
+
+}  // namespace
+}  // namespace hilcam

@@ -1,0 +1,201 @@
+#include "io/config/config_yaml.h"
+#include "io/config/config_manual.h"
+
+#include <gmock/gmock.h>
+
+#include <unistd.h>
+
+#include <fstream>
+#include <iostream>
+
+#include "render/vocabulary/check.h"
+#include "tests/support/limits.h"
+
+namespace hilcam {
+namespace {
+
+using testing::HasSubstr;
+
+struct Inner {
+    double exposure_s = 0.001;
+    Curve curve = Curve::constant(1);
+};
+Fields fields(Inner& c) {
+    return {number("exposure_ms", c.exposure_s, 1e-3, {0.01, 1000}, "exposure time"),
+            curve("qe", c.curve, {0, 1}, "efficiency")};
+}
+void validate(const Inner& c) {
+    if (c.exposure_s > 0.5) throw InputError("exposure_ms is above what the well takes");
+}
+struct Outer {
+    std::string name;
+    std::int64_t count = 1;
+    bool on = false;
+    enum class Mode { kA, kB } mode = Mode::kA;
+    Vec3d position;
+    Quat attitude;
+    Inner inner;
+    std::vector<Inner> list;
+    std::vector<std::string> words;
+};
+Fields fields(Outer& c) {
+    return {required(text("name", c.name, "name")),
+            integer("count", c.count, {1, 10}, "how many"),
+            flag("on", c.on, "switch"),
+            choice("mode", c.mode, {"a", "b"}, "mode"),
+            vector3("position_m", c.position, 1, {-10, 10}, "where"),
+            quaternion("attitude_wxyz", c.attitude, "how"),
+            section("inner", c.inner, "nested"),
+            sections("list", c.list, "many"),
+            texts("words", c.words, "some words")};
+}
+
+Outer read(const std::string& text, std::vector<std::string> overrides = {}) {
+    Outer out;
+    read_config_text(text, "test.yaml", ".", section_of(out), overrides);
+    return out;
+}
+std::string error_of(const std::string& text, std::vector<std::string> overrides = {}) {
+    try {
+        read(text, overrides);
+    } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(ConfigYaml, NumbersOfListsCountInEachPlaceThatAnAliasGivesThem) {
+    std::string text = "name: x\ninner: {qe: &c [";
+    for (int i = 0; i < 20000; ++i) text.append("[").append(std::to_string(0.1 + 1e-4 * i)).append(", 0.5],");
+    text += "]}\nlist:\n";
+    for (int i = 0; i < 1000; ++i) text += "- {qe: *c}\n";
+    EXPECT_EXIT(
+        {
+            limit_this_process(256u << 20, 60);
+            std::cerr << error_of(text);
+            _exit(0);
+        },
+        testing::ExitedWithCode(0),
+        "list.24.qe: the configuration has more than 1000000 numbers in its lists");
+}
+
+TEST(ConfigYaml, ReadsEveryKindAndConvertsUnits) {
+    const Outer o = read(
+        "name: x\ncount: 3\non: true\nmode: b\nposition_m: [1, 2, 3]\nattitude_wxyz: [1, 0, 0, 0]\n"
+        "inner: {exposure_ms: 2, qe: [[0.4, 0.1], [0.5, 0.2]]}\nlist: [{exposure_ms: 5}, {}]\n");
+    EXPECT_EQ(o.name, "x");
+    EXPECT_EQ(o.count, 3);
+    EXPECT_TRUE(o.on);
+    EXPECT_EQ(o.mode, Outer::Mode::kB);
+    EXPECT_EQ(o.position.y, 2);
+    EXPECT_DOUBLE_EQ(o.inner.exposure_s, 0.002);
+    EXPECT_NEAR(o.inner.curve.at(0.45), 0.15, 1e-12);
+    ASSERT_EQ(o.list.size(), 2u);
+    EXPECT_DOUBLE_EQ(o.list[0].exposure_s, 0.005);
+}
+
+TEST(ConfigYaml, UnknownKeyNamesPlaceAndNearest) {
+    EXPECT_THAT(error_of("name: x\ncuont: 3\n"),
+                HasSubstr("test.yaml:2:1: cuont: unknown key; nearest known key: count"));
+    EXPECT_THAT(
+        error_of("name: x\ninner: {exposure_us: 3}\n"),
+        HasSubstr("test.yaml:2:9: inner.exposure_us: unknown key; its unit here is another: exposure_ms"));
+}
+
+TEST(ConfigYaml, WrongValuesNameFoundAndAccepted) {
+    EXPECT_THAT(error_of("name: x\ncount: 30\n"),
+                HasSubstr("test.yaml:2:8: count: found '30'; accepted: a whole number, 1 to 10"));
+    EXPECT_THAT(error_of("name: x\ncount: 3.5\n"), HasSubstr("accepted: a whole number"));
+    EXPECT_THAT(error_of("name: x\ninner: {exposure_ms: 5ms}\n"),
+                HasSubstr("found '5ms'; accepted: a number, 0.01 to 1000"));
+    EXPECT_THAT(error_of("name: x\ninner: {exposure_ms: .nan}\n"), HasSubstr("accepted: a number"));
+    EXPECT_THAT(error_of("name: x\nmode: c\n"), HasSubstr("accepted: a | b"));
+    EXPECT_THAT(error_of("name: x\non: yes\n"), HasSubstr("accepted: true or false"));
+    EXPECT_THAT(error_of("name: x\nposition_m: [1, 2]\n"),
+                HasSubstr("found a list of 2; accepted: a list of 3 numbers"));
+    EXPECT_THAT(error_of("name: x\nattitude_wxyz: [1, 1, 0, 0]\n"), HasSubstr("quaternion of norm 1.414"));
+    EXPECT_THAT(error_of("name: x\ninner: {qe: [[0.5, 0.1], [0.4, 0.2]]}\n"),
+                HasSubstr("wavelength_um that rises"));
+    EXPECT_THAT(error_of("name: x\ninner: {qe: [[0.5, 1.1]]}\n"), HasSubstr("accepted: a number, 0 to 1"));
+    EXPECT_THAT(error_of("name: x\nname: y\n"), HasSubstr("given twice"));
+    EXPECT_THAT(error_of("count: 3\n"), HasSubstr("name: the key is missing"));
+    EXPECT_THAT(error_of("name: [x\n"), HasSubstr("not YAML"));
+    EXPECT_THAT(error_of("- a\n"), HasSubstr("accepted: a mapping of keys"));
+    EXPECT_THAT(error_of("name: x\ninner: {exposure_ms: 900}\n"),
+                HasSubstr("test.yaml:2:8: inner: exposure_ms is above"));
+    EXPECT_THAT(error_of("name: x\ninner: missing.yaml\n"), HasSubstr("missing.yaml: cannot be read"));
+}
+
+TEST(ConfigYaml, OverridesReplaceAndAreChecked) {
+    EXPECT_EQ(read("name: x\n", {"count=7", "inner.exposure_ms=4"}).count, 7);
+    EXPECT_DOUBLE_EQ(read("name: x\n", {"inner.exposure_ms=4"}).inner.exposure_s, 0.004);
+    EXPECT_DOUBLE_EQ(read("name: x\nlist: [{}]\n", {"list.0.exposure_ms=4"}).list[0].exposure_s, 0.004);
+    EXPECT_THAT(error_of("name: x\n", {"count=70"}), HasSubstr("--set count: found '70'"));
+    EXPECT_THAT(error_of("name: x\n", {"cuont=7"}),
+                HasSubstr("--set cuont: unknown key; nearest known key: count"));
+    EXPECT_THAT(error_of("name: x\n", {"inner.exposure_us=7"}),
+                HasSubstr("--set inner.exposure_us: unknown key; its unit here is another: exposure_ms"));
+    EXPECT_THAT(error_of("name: x\nlist: [{}]\n", {"list.1.exposure_ms=7"}),
+                HasSubstr("--set list.1.exposure_ms: the list 'list' has no such element"));
+    EXPECT_THAT(error_of("name: x\n", {"count.more=7"}), HasSubstr("'count' has no keys below it"));
+    EXPECT_THAT(error_of("name: x\n", {"count"}), HasSubstr("accepted: KEY=VALUE"));
+}
+
+TEST(ConfigYaml, SectionFromAnotherFileNamesThatFile) {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("hilcam_config_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "inner.yaml") << "exposure_ms: 7\n";
+    std::ofstream(folder / "bad.yaml") << "\nexposure: 7\n";
+    std::ofstream(folder / "outer.yaml") << "name: x\ninner: inner.yaml\n";
+    Outer out;
+    read_config(folder / "outer.yaml", section_of(out));
+    EXPECT_DOUBLE_EQ(out.inner.exposure_s, 0.007);
+    try {
+        const std::vector<std::string> set = {"inner=" + (folder / "bad.yaml").string()};
+        read_config(folder / "outer.yaml", section_of(out), set);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("bad.yaml:2:1: inner.exposure: unknown key"));
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST(ConfigYaml, ManualListsKeysWithDefaults) {
+    Outer out;
+    EXPECT_THAT(config_manual(section_of(out)),
+                HasSubstr("| `inner.exposure_ms` | 0.01 to 1000 | 1 | exposure time |"));
+}
+
+// Every prefix of a good file and many damaged ones: an error or a value, never a crash.
+TEST(ConfigYaml, DamagedTextNeverCrashes) {
+    const std::string good =
+        "name: x\ncount: 3\nposition_m: [1, 2, 3]\ninner: {exposure_ms: 2, qe: [[0.4, 0.1]]}\nlist: [{}]\n";
+    std::uint32_t state = 1;
+    for (std::size_t i = 0; i < 3000; ++i) {
+        std::string text = good.substr(0, i < good.size() ? i : good.size());
+        for (int k = 0; k < 3 && i >= good.size(); ++k) {
+            state = state * 1664525u + 1013904223u;
+            text[state / 7 % text.size()] = static_cast<char>(state >> 24);
+        }
+        try {
+            read(text);
+        } catch (const InputError&) {
+        }
+    }
+}
+
+TEST(ConfigYaml, ListsOfTextsMayBeOneTextAndNothingElse) {
+    EXPECT_EQ(read("name: x\nwords: [127.0.0.1, 10.0.0.0/8]").words,
+              (std::vector<std::string>{"127.0.0.1", "10.0.0.0/8"}));
+    EXPECT_EQ(read("name: x\nwords: any").words, std::vector<std::string>{"any"});
+    EXPECT_EQ(read("name: x", {"words=[a]"}).words, std::vector<std::string>{"a"});
+    EXPECT_TRUE(read("name: x\nwords: []").words.empty());
+    EXPECT_THAT(error_of("name: x\nwords: {a: 1}"),
+                HasSubstr("words: found a mapping; accepted: a list of texts"));
+    EXPECT_THAT(error_of("name: x\nwords: [a, [b]]"), HasSubstr("found a list of 1; accepted: a text"));
+}
+
+}  // namespace
+}  // namespace hilcam

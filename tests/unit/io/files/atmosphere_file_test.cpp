@@ -1,0 +1,156 @@
+#include "io/files/atmosphere_file.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "render/sky/atmosphere_config.h"
+#include "render/sky/atmosphere_models.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
+#include "tests/support/files.h"
+
+namespace hilcam {
+namespace {
+
+using testing::HasSubstr;
+
+const SpectralGrid kGrid({0.45, 0.55, 0.65});
+constexpr double kGround_m = kEarthEquatorialRadius_m;
+
+class AtmosphereFiles : public FilesTest {
+  protected:
+    std::string table_error(const std::filesystem::path& file) {
+        return error_of([&] { read_atmosphere(file, kGrid); });
+    }
+};
+
+const std::string kHeader =
+    "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,wavelength_um,tau_1,tau_2,path_radiance_sr,sky_"
+    "irradiance\n";
+
+// A ray from space to a ground point on the equator: zenith angles of Sun and viewer, azimuth between them.
+struct Ray {
+    Vec3d origin, dir, sun;
+    double distance;
+};
+Ray ray_to_ground(double sun_deg, double view_deg, double azimuth_deg) {
+    const double s = sun_deg * kDegree_rad, v = view_deg * kDegree_rad, a = azimuth_deg * kDegree_rad;
+    const Vec3d ground{kGround_m, 0, 0};
+    const Vec3d to_viewer{std::cos(v), std::sin(v), 0};
+    return {ground + 1e6 * to_viewer,
+            -to_viewer,
+            {std::cos(s), std::sin(s) * std::cos(a), std::sin(s) * std::sin(a)},
+            1e6};
+}
+
+// The precomputed atmosphere written as a table and read again looks the same on the grid and between its
+// points.
+TEST_F(AtmosphereFiles, ATableSaysWhatItWasMadeFrom) {
+    AtmosphereConfig config;
+    const auto truth = make_precomputed_atmosphere({config, kGrid});
+    std::string text = kHeader;
+    for (int sun = 0; sun <= 70; sun += 10)
+        for (int view = 0; view <= 70; view += 10)
+            for (int azimuth = 0; azimuth <= 180; azimuth += 20) {
+                const Ray ray = ray_to_ground(sun, view, azimuth);
+                const auto sight = truth->look(ray.origin, ray.dir, ray.distance, ray.sun);
+                const Vec3d ground{kGround_m, 0, 0};
+                for (const auto& [um, bin] : {std::pair{0.45, 0}, {0.5499, 0}, {0.5501, 1}, {0.65, 1}})
+                    text += std::to_string(sun) + "," + std::to_string(view) + "," + std::to_string(azimuth) +
+                            ",800," + std::to_string(um) + "," +
+                            std::to_string(truth->sun_transmittance(ground, ray.sun)[bin]) + "," +
+                            std::to_string(sight.transmittance[bin]) + "," +
+                            std::to_string(sight.radiance_sr[bin]) + "," +
+                            std::to_string(truth->sky_irradiance(ground, ray.sun)[bin]) + "\n";
+            }
+    AtmosphereTable table = read_atmosphere(write("t.csv", text), kGrid);
+    const auto air = make_table_atmosphere({config, kGrid, &table});
+    for (const auto& [sun, view, azimuth] :
+         {std::array{20.0, 30.0, 40.0}, {15.0, 35.0, 70.0}, {62.0, 48.0, 110.0}}) {
+        const Ray ray = ray_to_ground(sun, view, azimuth);
+        const auto seen = air->look(ray.origin, ray.dir, ray.distance, ray.sun);
+        const auto right = truth->look(ray.origin, ray.dir, ray.distance, ray.sun);
+        for (int b = 0; b < 2; ++b) {
+            EXPECT_NEAR(seen.transmittance[b] / right.transmittance[b], 1, 0.01);
+            EXPECT_NEAR(seen.radiance_sr[b] / right.radiance_sr[b], 1, 0.04)
+                << sun << " " << view << " " << azimuth;
+            EXPECT_NEAR(air->sky_irradiance({kGround_m, 0, 0}, ray.sun)[b] /
+                            truth->sky_irradiance({kGround_m, 0, 0}, ray.sun)[b],
+                        1, 0.02);
+        }
+        EXPECT_EQ(air->missing(ray.origin, ray.dir, ray.distance, ray.sun), "");
+    }
+    EXPECT_EQ(air->rays_outside(), 0u);
+    const Ray low = ray_to_ground(75, 30, 0);
+    EXPECT_THAT(air->missing(low.origin, low.dir, low.distance, low.sun),
+                HasSubstr("zenith angle of the Sun of 75.0"));
+    air->look(low.origin, low.dir, low.distance, low.sun);
+    EXPECT_EQ(air->rays_outside(), 1u);
+    // What misses the ground is clear.
+    EXPECT_EQ(
+        air->look(low.origin, {0, 1, 0}, std::numeric_limits<double>::infinity(), low.sun).transmittance[0],
+        1);
+}
+
+TEST_F(AtmosphereFiles, WhatATableLacksIsNamed) {
+    const std::string rows = "10,0,0,800,0.45,0.8,0.9,0.02,0.1\n10,0,0,800,0.65,0.8,0.9,0.02,0.1\n";
+    EXPECT_EQ(table_error(write("good.csv", kHeader + rows)), "no error");
+    EXPECT_THAT(table_error(folder_ / "none.csv"), HasSubstr("none.csv: cannot be read"));
+    EXPECT_THAT(table_error(write("a.csv", "angle,tau\n1,2\n")), HasSubstr("a.csv:1: found 'angle,tau'"));
+    EXPECT_THAT(table_error(write("b.csv", kHeader + rows + "20,0,0,800,0.45,0.8\n")),
+                HasSubstr("b.csv:4: found 6 columns"));
+    EXPECT_THAT(table_error(write("c.csv", kHeader + rows + "95,0,0,800,0.45,0.8,0.9,0.02,0.1\n")),
+                HasSubstr("c.csv:4: sun_zenith_deg: found '95'; accepted: a number from 0 to 90"));
+    EXPECT_THAT(table_error(write("d.csv", kHeader + rows + "20,0,0,800,0.45,1.2,0.9,0.02,0.1\n")),
+                HasSubstr("d.csv:4: a transmittance is not within 0 to 1: tau_1 1.2"));
+    EXPECT_THAT(
+        table_error(
+            write("e.csv",
+                  kHeader + rows + "20,30,0,800,0.45,0.8,0.9,0.02,0.1\n20,30,0,800,0.65,0.8,0.9,0.02,0.1\n")),
+        HasSubstr(
+            "e.csv: has no geometry sun_zenith_deg 10, view_zenith_deg 30, azimuth_deg 0, height_km 800"));
+    EXPECT_THAT(
+        table_error(
+            write("f.csv", kHeader + "10,0,0,800,0.45,0.8,0.9,0.02,0.1\n10,0,0,800,0.60,0.8,0.9,0.02,0.1\n")),
+        HasSubstr("the curve reaches from 0.450 to 0.600 um"));
+}
+
+// A run in MODTRAN's layout, made by hand from known quantities: E = 0.18 W cm^-2 um^-1, tau_1 = 0.7, tau_2 =
+// 0.8, albedo 0.3, sky 0.12, Sun at 60 degrees.
+TEST_F(AtmosphereFiles, AModtranRunGivesItsQuantitiesBack) {
+    const double e = 0.18, tau_1 = 0.7, tau_2 = 0.8, mu = 0.5, albedo = 0.3, sky = 0.12, path = 0.005;
+    const double direct = albedo / kPi * mu * e * tau_1 * tau_2;
+    const double ground = direct + albedo / kPi * sky * e * tau_2;
+    std::string run =
+        " MM  2 3 2 1\n some card\n"
+        "   WAVLEN(NM) TOT_TRANS PTH_THRML THRML_SCT SURF_EMIS SOL_SCAT SING_SCAT GRND_RFLT DRCT_RFLT "
+        "TOTAL_RAD REF_SOL SOL@OBS DEPTH TOA_SUN\n"
+        "   (units)\n";
+    for (const char* nm : {"440.0", "550.0", "660.0"})
+        run += std::string("  ") + nm + " " + std::to_string(tau_2) + " 0 0 0 " + std::to_string(path * e) +
+               " 0 " + std::to_string(ground) + " " + std::to_string(direct) + " 0 " +
+               std::to_string(e * tau_1 * tau_2) + " " + std::to_string(e) + " 0.2 " + std::to_string(e) +
+               "\n";
+    run += " -9999.\n";
+    write("tape7.scn", run);
+    const auto index = write(
+        "runs.csv", "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file\n60,20,90,800,tape7.scn\n");
+    const AtmosphereTable table = read_atmosphere(index, kGrid);
+    ASSERT_EQ(table.cells.size(), 1u);
+    EXPECT_NEAR(table.cells[0].tau_1[0], tau_1, 1e-4);
+    EXPECT_NEAR(table.cells[0].tau_2[1], tau_2, 1e-5);
+    EXPECT_NEAR(table.cells[0].radiance_sr[0], path, 1e-4 * path);
+    EXPECT_NEAR(table.cells[0].sky[0], sky, 1e-3);
+    write("cut.scn", run.substr(0, 60));
+    EXPECT_THAT(
+        table_error(write(
+            "cut.csv", "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file\n60,20,90,800,cut.scn\n")),
+        HasSubstr("cut.scn:"));
+}
+
+}  // namespace
+}  // namespace hilcam

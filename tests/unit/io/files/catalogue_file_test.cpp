@@ -1,0 +1,81 @@
+#include "io/files/catalogue_file.h"
+
+#include <gmock/gmock.h>
+
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
+#include "tests/support/files.h"
+
+namespace hilcam {
+namespace {
+
+using testing::HasSubstr;
+
+class CatalogueFile : public FilesTest {
+  protected:
+    std::string refused(const std::string& text) {
+        return error_of([&] { load_catalogue(write("c.csv", text)); });
+    }
+};
+
+TEST_F(CatalogueFile, ShippedOneHasSiriusFirstAndVegaInItsPlace) {
+    const StarCatalogue c = load_catalogue(HILCAM_SOURCE_DIR "/configs/stars/hipparcos.csv");
+    EXPECT_GT(c.stars.size(), 40000u);
+    EXPECT_EQ(c.stars[0].hip, 32349);
+    EXPECT_EQ(c.stars[0].hd, 48915);
+    // Hipparcos main catalogue, HIP 91262, J1991.25: 279.23410832 +38.78299311, 201.02 287.46 mas/yr, 128.93
+    // mas, V 0.03.
+    const auto vega =
+        std::find_if(c.stars.begin(), c.stars.end(), [](const CatalogueStar& s) { return s.hip == 91262; });
+    ASSERT_NE(vega, c.stars.end());
+    EXPECT_EQ(vega->hd, 172167);
+    const double years = vega->epoch_year - 1991.25;
+    EXPECT_NEAR(vega->declination_rad / kDegree_rad, 38.78299311 + years * 0.28746 / 3600, 1e-6);
+    EXPECT_NEAR(vega->right_ascension_rad / kDegree_rad,
+                279.23410832 + years * 0.20102 / 3600 / std::cos(38.783 * kDegree_rad), 1e-6);
+    // Motion: the new reduction's (van Leeuwen, A&A 474, 653, 2007).
+    EXPECT_NEAR(vega->pm_dec_rad_yr / kArcsecond_rad, 0.28623, 2e-4);
+    EXPECT_NEAR(vega->parallax_rad / kArcsecond_rad, 0.12893, 2e-3);
+    EXPECT_NEAR(vega->magnitude_v, 0.03, 0.02);
+}
+
+TEST_F(CatalogueFile, ColumnsComeInAnyOrderAndSomeMayLack) {
+    const StarCatalogue c = load_catalogue(write("c.csv",
+                                                 "# made up\nv_mag,dec_deg,ra_deg,epoch_year,hip\r\n"
+                                                 "5.5,-30,120,2016,7\r\n\n6,0,0,2000,0\n"));
+    ASSERT_EQ(c.stars.size(), 2u);
+    EXPECT_EQ(c.stars[0].hip, 7);
+    EXPECT_EQ(c.stars[0].magnitude_v, 5.5);
+    EXPECT_EQ(c.stars[0].epoch_year, 2016);
+    EXPECT_NEAR(c.stars[0].right_ascension_rad / kDegree_rad, 120, 1e-12);
+    EXPECT_EQ(c.stars[0].parallax_rad, 0);
+    // A file of before there was a column for it.
+    EXPECT_EQ(load_catalogue(write("old.csv",
+                                   "hd,ra_deg,dec_deg,pm_ra_mas_yr,pm_dec_mas_yr,v_mag,b_v\n"
+                                   "11,30,88.0,0,0,1,0.5\n"))
+                  .stars[0]
+                  .epoch_year,
+              1991.25);
+    // A measured parallax may come out below zero: such a star is far away.
+    EXPECT_EQ(load_catalogue(write("p.csv", "ra_deg,dec_deg,v_mag,parallax_mas\n1,1,1,-0.5\n"))
+                  .stars[0]
+                  .parallax_rad,
+              0);
+}
+
+TEST_F(CatalogueFile, WhatIsNoCatalogueIsNamedByItsLine) {
+    const std::string head = "ra_deg,dec_deg,v_mag\n";
+    EXPECT_THAT(refused("hd,ra_deg\n1,2,3\n"), HasSubstr("c.csv:1: found 'hd,ra_deg'; accepted: the names"));
+    EXPECT_THAT(refused("ra_deg,dec_deg,v_mag,colour\n"), HasSubstr("c.csv:1: found"));
+    EXPECT_THAT(refused("ra_deg,ra_deg,dec_deg,v_mag\n"), HasSubstr("c.csv:1: found"));
+    EXPECT_THAT(refused("1,2,3\n"), HasSubstr("c.csv:1: found '1,2,3'"));
+    EXPECT_THAT(refused("# only\n"), HasSubstr("holds no star"));
+    EXPECT_THAT(refused(head), HasSubstr("holds no star"));
+    for (const char* row : {"400,0,1", "1,2", "1,2,3,4", "1,2,x", "1,2,", "1,2,nan", "1,91,3", "1,2,3 "})
+        EXPECT_THAT(refused(head + "1,2,3\n" + row + "\n"),
+                    HasSubstr("c.csv:3: found '" + std::string(row) + "'; accepted: ra_deg,dec_deg,v_mag"))
+            << row;
+}
+
+}  // namespace
+}  // namespace hilcam

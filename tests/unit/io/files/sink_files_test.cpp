@@ -1,0 +1,59 @@
+#include "io/files/sink_files.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/support/files.h"
+
+namespace hilcam {
+namespace {
+
+using testing::HasSubstr;
+
+class FilesSinkTest : public FilesTest {
+  protected:
+    // A file of the folder that has no room for anything: as on a full disk.
+    void fill_up(const std::string& name) { std::filesystem::create_symlink("/dev/full", folder_ / name); }
+    // Publishes frames 1 to `last` and waits until each is done with.
+    static void publish(FilesSink& sink, std::uint64_t last) {
+        for (std::uint64_t id = 1; id <= last; ++id) {
+            while (!sink.has_room()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            FrameRecord record;
+            record.id = id;
+            sink.publish(DnImage(8, 4), record);
+        }
+    }
+};
+
+TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginnings) {
+    const std::array<const char*, 3> endings = {"png", "tiff", "raw"};
+    for (std::size_t i = 0; i < endings.size(); ++i) {
+        const std::string ending = std::string(".") + endings[i];
+        FilesConfig config;
+        config.folder = folder_;
+        config.format = static_cast<FilesConfig::Format>(i);
+        fill_up("frame_00000002" + ending);
+        fill_up("frame_00000003" + ending);
+        testing::internal::CaptureStderr();
+        FilesSink sink(config, 8, 4, PixelLayout{});
+        sink.start();
+        publish(sink, 4);
+        sink.stop();
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+        const SinkReport report = sink.report();
+        EXPECT_THAT(report.fault, HasSubstr("frame_00000002" + ending +
+                                            ": cannot be written: No space left on device (the first of 2 "
+                                            "frames lost)"));
+        EXPECT_EQ(report.frames, 2u);
+        EXPECT_EQ(report.dropped, 2u);
+        for (const char* id : {"1", "4"})
+            EXPECT_GT(std::filesystem::file_size(folder_ / ("frame_0000000" + (id + ending))), 0u);
+        for (const char* id : {"2", "3"})
+            EXPECT_FALSE(std::filesystem::is_symlink(folder_ / ("frame_0000000" + (id + ending))));
+    }
+}
+
+}  // namespace
+}  // namespace hilcam

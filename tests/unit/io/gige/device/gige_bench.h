@@ -1,0 +1,195 @@
+#pragma once
+// A GigE Vision device without sockets, a camera that keeps what it is told, and a client's words.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "io/gige/device/gige_device.h"
+#include "io/gige/device/gige_registers.h"
+#include "io/system/bytes.h"
+
+namespace hilcam {
+
+class PlainCamera : public CameraControl {
+  public:
+    CameraSettings s{.exposure_s = 0.001, .frame_rate_hz = 30};
+    CameraLimits l{.width = 640,
+                   .height = 480,
+                   .bits = 12,
+                   .color_pattern = {},
+                   .least_exposure_s = 1e-5,
+                   .most_exposure_s = 1,
+                   .least_gain_db = 0,
+                   .most_gain_db = 24,
+                   .most_black_level_dn = 200,
+                   .least_frame_rate_hz = 0.1,
+                   .most_frame_rate_hz = 200,
+                   .most_binning = 4,
+                   .has_automatic_exposure = true,
+                   .reversible = true};
+    std::vector<TriggerOrder> triggers;
+    TriggerResult trigger_result = TriggerResult::kTaken;
+
+    CameraSettings settings() const override { return s; }
+    CameraLimits limits() const override { return l; }
+    bool change(const SettingsChange& c) override {
+        const auto within = [](const auto& value, double least, double most) {
+            return !value || (static_cast<double>(*value) >= least && static_cast<double>(*value) <= most);
+        };
+        const auto binning = [&](const std::optional<std::int64_t>& b) {
+            return !b || (*b >= 1 && *b <= l.most_binning && (*b & (*b - 1)) == 0);
+        };
+        if (!within(c.exposure_s, l.least_exposure_s, l.most_exposure_s) ||
+            !within(c.gain_db, l.least_gain_db, l.most_gain_db) ||
+            !within(c.black_level_dn, 0, l.most_black_level_dn) ||
+            !within(c.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz) ||
+            !within(c.trigger_delay_s, 0, l.most_trigger_delay_s) || !binning(c.binning_x) ||
+            !binning(c.binning_y))
+            return false;
+        const auto take = [](const auto& from, auto& to) {
+            if (from) to = *from;
+        };
+        take(c.exposure_s, s.exposure_s), take(c.gain_db, s.gain_db);
+        take(c.black_level_dn, s.black_level_dn), take(c.frame_rate_hz, s.frame_rate_hz);
+        take(c.automatic_exposure, s.automatic_exposure), take(c.triggered, s.triggered);
+        take(c.trigger_source, s.trigger_source), take(c.trigger_delay_s, s.trigger_delay_s);
+        take(c.burst_frames, s.burst_frames), take(c.test_pattern, s.test_pattern);
+        take(c.reverse_x, s.reverse_x), take(c.reverse_y, s.reverse_y);
+        take(c.binning_x, s.binning_x), take(c.binning_y, s.binning_y);
+        return true;
+    }
+    TriggerResult trigger(const TriggerOrder& order) override {
+        triggers.push_back(order);
+        return trigger_result;
+    }
+};
+
+inline constexpr Endpoint kClient{0x7F000001, 40000}, kOther{0x7F000001, 40001};
+
+struct GigeBench {
+    struct Sent {
+        std::vector<std::uint8_t> bytes;
+        Endpoint to;
+    };
+    struct Reply {
+        unsigned status = 0xFFFF, command = 0, id = 0;  // status 0xFFFF: no answer
+        std::vector<std::uint8_t> payload;
+    };
+
+    PlainCamera camera;
+    FaultBoard faults{7};
+    std::vector<gvcp::ResendRequest> resends;
+    std::vector<std::size_t> tests;
+    std::vector<Sent> messages, late;
+    std::vector<std::uint32_t> addresses;
+    bool has_address = true;
+    int resets = 0;
+    GigeSystemClock system_clock;
+    std::int64_t now_ns = 1'000'000'000;
+    std::uint16_t id = 1;
+    GigeDevice device;
+
+    explicit GigeBench(const CameraLimits* limits = nullptr)
+        : camera(limits ? with(*limits) : PlainCamera()),
+          device({.model = "cam",
+                  .serial = "S1",
+                  .user_name = {},
+                  .ip = 0x7F000001,
+                  .mask = 0xFF000000,
+                  .mac = 0x020000000001,
+                  .multipart = true},
+                 camera, faults, effects()) {
+        device.tick(now_ns);
+    }
+    static PlainCamera with(const CameraLimits& limits) {
+        PlainCamera camera;
+        camera.l = limits;
+        return camera;
+    }
+    GigeEffects effects() {
+        GigeEffects e;
+        e.resend = [this](const gvcp::ResendRequest& r, Endpoint) { resends.push_back(r); };
+        e.test_packet = [this](const GigeStreamState&, std::size_t n) { tests.push_back(n); };
+        e.send_message = [this](auto bytes, Endpoint to) {
+            messages.push_back({{bytes.begin(), bytes.end()}, to});
+        };
+        e.send_answer = [this](auto bytes, Endpoint to) {
+            late.push_back({{bytes.begin(), bytes.end()}, to});
+        };
+        e.reset = [this] { ++resets; };
+        e.change_address = [this](std::uint32_t ip, std::uint32_t, std::uint32_t) {
+            if (has_address) addresses.push_back(ip);
+            return has_address;
+        };
+        e.system_clock = [this] { return system_clock; };
+        return e;
+    }
+
+    static std::vector<std::uint8_t> words(std::initializer_list<std::uint32_t> values) {
+        std::vector<std::uint8_t> out(4 * values.size());
+        ByteWriter w(out);
+        for (const std::uint32_t v : values) w.u32(v);
+        return out;
+    }
+    static Reply decoded(std::span<const std::uint8_t> bytes) {
+        if (bytes.empty()) return {};
+        ByteReader in(bytes);
+        Reply r;
+        r.status = in.u16();
+        r.command = in.u16();
+        EXPECT_EQ(in.u16(), bytes.size() - 8);
+        r.id = in.u16();
+        r.payload.assign(in.rest().begin(), in.rest().end());
+        return r;
+    }
+    std::span<const std::uint8_t> raw(const std::vector<std::uint8_t>& bytes, Endpoint from = kClient,
+                                      bool broadcast = false) {
+        return {out.data(), device.handle(bytes, from, now_ns, out, broadcast)};
+    }
+    // reuse: an id that was used before; 0: a new one.
+    Reply send(std::uint16_t command, const std::vector<std::uint8_t>& payload, Endpoint from = kClient,
+               std::uint16_t reuse = 0, std::uint8_t flags = 1, bool broadcast = false) {
+        std::vector<std::uint8_t> bytes(8 + payload.size());
+        const unsigned length = static_cast<unsigned>(payload.size());
+        ByteWriter(bytes).u8(0x42).u8(flags).u16(command).u16(length).u16(reuse ? reuse : id++).copy(payload);
+        return decoded(raw(bytes, from, broadcast));
+    }
+    unsigned write(std::uint32_t address, std::uint32_t value, Endpoint from = kClient) {
+        return send(gvcp::kWriteRegister, words({address, value}), from).status;
+    }
+    unsigned write64(std::uint32_t address, std::uint64_t value) {
+        std::vector<std::uint8_t> payload(12);
+        ByteWriter(payload).u32(address).u64(value);
+        return send(gvcp::kWriteMemory, payload).status;
+    }
+    unsigned write_real(std::uint32_t address, double value) {
+        return write64(address, std::bit_cast<std::uint64_t>(value));
+    }
+    std::uint32_t read(std::uint32_t address, Endpoint from = kClient) {
+        return ByteReader(send(gvcp::kReadRegister, words({address}), from).payload).u32();
+    }
+    Reply read_memory(std::uint32_t address, std::uint16_t bytes) {
+        std::vector<std::uint8_t> ask(8);
+        ByteWriter(ask).u32(address).u16(0).u16(bytes);
+        return send(gvcp::kReadMemory, ask);
+    }
+    std::uint64_t read64(std::uint32_t address) {
+        const Reply r = read_memory(address, 8);
+        return ByteReader(std::span(r.payload).subspan(4)).u64();
+    }
+    double read_real(std::uint32_t address) { return std::bit_cast<double>(read64(address)); }
+    void take_control() { ASSERT_EQ(write(bootstrap::kControl, 2), gvcp::kSuccess); }
+    void open_stream() {
+        write(bootstrap::kStreamAddress, kClient.ip);
+        write(bootstrap::kStreamPort, 50000);
+    }
+    void wait_ms(std::int64_t ms) {
+        now_ns += ms * 1'000'000;
+        device.tick(now_ns);
+    }
+
+    std::vector<std::uint8_t> out = std::vector<std::uint8_t>(gvcp::kMostDatagramBytes);
+};
+
+}  // namespace hilcam

@@ -1,0 +1,198 @@
+// The preview's requests and pictures as bytes.
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+#include "io/preview/preview_picture.h"
+#include "io/preview/preview_request.h"
+#include "io/preview/preview_slot.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+template <class F>
+std::string message_of(F&& f) {
+    try {
+        f();
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+TEST(PreviewRequest, PictureTakesItsNumbers) {
+    const PictureRequest r = parse_picture_request("viewer=7&after=12&x=3&y=4&width=50&height=60&step=2");
+    EXPECT_EQ(r.viewer, 7u);
+    EXPECT_EQ(r.after, 12u);
+    EXPECT_EQ((std::array{r.x, r.y, r.width, r.height, r.step}), (std::array{3, 4, 50, 60, 2}));
+    EXPECT_EQ(parse_picture_request("").step, 1);
+}
+
+TEST(PreviewRequest, RefusalsNameTheKeyAndWhatIsAccepted) {
+    EXPECT_EQ(message_of([] { parse_picture_request("step=0"); }),
+              "'step' is '0'; accepted: a whole number from 1 to 256");
+    EXPECT_THAT(message_of([] { parse_picture_request("step=-1"); }), HasSubstr("'step' is '-1'"));
+    EXPECT_THAT(message_of([] { parse_picture_request("x=99999999999999999999"); }), HasSubstr("'x'"));
+    EXPECT_THAT(message_of([] { parse_picture_request("z=1"); }), HasSubstr("unknown key 'z'"));
+    EXPECT_THAT(message_of([] { parse_picture_request("x"); }), HasSubstr("not KEY=VALUE"));
+    EXPECT_THAT(message_of([] { parse_picture_request("x=%31"); }), HasSubstr("character 37"));
+    EXPECT_THAT(message_of([] { parse_settings_change("exposure_s=nan"); }), HasSubstr("accepted: a number"));
+    EXPECT_THAT(message_of([] { parse_settings_change("gain_db=inf"); }), HasSubstr("accepted: a number"));
+    EXPECT_THAT(message_of([] { parse_settings_change("running=yes"); }), HasSubstr("accepted: 0 or 1"));
+    EXPECT_THAT(message_of([] { parse_settings_change("test_pattern=plaid"); }), HasSubstr("ramp_vertical"));
+    EXPECT_THAT(message_of([] { parse_fault_request("rate=1"); }), HasSubstr("missing key 'kind'"));
+    EXPECT_THAT(message_of([] { parse_fault_request("kind=packet_drop&rate=2"); }),
+                HasSubstr("rate is not 0 to 1"));
+    std::string many;
+    for (int i = 0; i < 33; ++i) many += "x=1&";
+    EXPECT_THAT(message_of([&] { parse_picture_request(many); }), HasSubstr("more than 32 keys"));
+}
+
+TEST(PreviewRequest, SettingsAndFaultsAreWhatWasAsked) {
+    const SettingsChange c = parse_settings_change("exposure_s=1e-05&triggered=1&trigger_source=action1");
+    EXPECT_EQ(c.exposure_s, 1e-5);
+    EXPECT_EQ(c.triggered, true);
+    EXPECT_EQ(c.trigger_source, TriggerSource::kAction1);
+    EXPECT_FALSE(c.gain_db.has_value());
+    const FaultOrder o =
+        parse_fault_request("kind=image_tear&rate=0.25&value=0.5&frames=10&duration_s=3").order;
+    EXPECT_EQ(o.kind, FaultKind::kImageTear);
+    EXPECT_EQ((std::array{o.rate, o.value, o.duration_s}), (std::array{0.25, 0.5, 3.0}));
+    EXPECT_EQ(o.frames, 10u);
+    EXPECT_TRUE(parse_fault_request("clear_all=1").clear_all);
+    for (const TestPattern p : {TestPattern::kOff, TestPattern::kRampHorizontalMoving})
+        EXPECT_EQ(parse_settings_change("test_pattern=" + std::string(name_of(p))).test_pattern, p);
+}
+
+TEST(PreviewRequest, HostsThatAWebSiteCouldNameAreStrangers) {
+    for (const char* own : {"127.0.0.1:8080", "192.168.1.7", "localhost:8080", "[::1]:8080", "bench"})
+        EXPECT_TRUE(is_own_host(own, "bench")) << own;
+    for (const char* strange :
+         {"", "evil.example:8080", "127.0.0.1.evil.example", "localhost.evil.example", "[::1", "[evil]",
+          "127.1:80", "127.0.0.1:8080@evil.example", "127.0.0.1:", "127.0.0.1:http", "127.0.0.1:808080",
+          "[::1]evil.example", "[::1]@evil", "bench:80,evil"})
+        EXPECT_FALSE(is_own_host(strange, "bench")) << strange;
+    EXPECT_FALSE(is_own_host("", ""));
+    EXPECT_TRUE(is_own_origin("http://127.0.0.1:8080", "127.0.0.1:8080"));
+    for (const char* strange :
+         {"", "null", "http://evil.example", "https://127.0.0.1:8080", "http://127.0.0.1"})
+        EXPECT_FALSE(is_own_origin(strange, "127.0.0.1:8080")) << strange;
+    EXPECT_FALSE(is_own_origin("http://", ""));
+}
+
+template <class T>
+T at(const std::string& bytes, std::size_t offset) {
+    T value;
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+}
+
+TEST(PreviewPicture, PartsAreCutToTheFrame) {
+    PictureRequest r;
+    r.x = 90, r.width = 50, r.y = 1000, r.step = 4;
+    r = fit_to_frame(r, 100, 60);
+    EXPECT_EQ((std::array{r.x, r.y, r.width, r.height}), (std::array{88, 56, 12, 4}));
+    // 8000 x 8000 samples do not go in one answer: 2^21 do, that is every 6 x 6.
+    EXPECT_EQ(fit_to_frame({}, 8000, 8000).step, 6);
+    EXPECT_EQ(fit_to_frame({}, 2048, 1024).step, 1);
+}
+
+TEST(PreviewPicture, ExactAtStep1AndMeansAtOthers) {
+    std::vector<std::uint16_t> samples(5 * 3);
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<std::uint16_t>(100 * i);
+    FrameRecord record;
+    record.id = 77, record.bits = 12, record.exposure_s = 0.25, record.pose_sequence = 9, record.faults = 5;
+    record.pose_time.ns = -3;
+    const PictureSource source{samples, 5, 3, record};
+
+    const std::string whole = encode_picture(source, fit_to_frame({}, 5, 3), "RGGB");
+    ASSERT_EQ(whole.size(), kPictureHeaderBytes + 30);
+    EXPECT_EQ(whole.substr(0, 4), "HCP1");
+    EXPECT_EQ(at<std::uint32_t>(whole, 4), kPictureHeaderBytes);
+    EXPECT_EQ(at<std::uint64_t>(whole, 8), 77u);
+    EXPECT_EQ(at<std::uint32_t>(whole, 44), 12u);
+    EXPECT_EQ(at<std::int64_t>(whole, 56), -3);
+    EXPECT_EQ(at<double>(whole, 80), 0.25);
+    EXPECT_EQ(at<std::uint64_t>(whole, 104), 5u);
+    EXPECT_EQ(at<std::uint32_t>(whole, 112), 9u);
+    EXPECT_EQ(whole.substr(132, 4), "RGGB");
+    for (std::size_t i = 0; i < 15; ++i)
+        EXPECT_EQ(at<std::uint16_t>(whole, kPictureHeaderBytes + 2 * i), 100 * i);
+
+    PictureRequest r;
+    r.x = 2, r.step = 2;
+    const std::string part = encode_picture(source, fit_to_frame(r, 5, 3), "");
+    EXPECT_EQ(at<std::uint32_t>(part, 32), 2u);  // 2 x 2 blocks, the last of each narrower
+    EXPECT_EQ(at<std::uint32_t>(part, 36), 2u);
+    ASSERT_EQ(part.size(), kPictureHeaderBytes + 8);
+    EXPECT_EQ(at<std::uint16_t>(part, 160), (200 + 300 + 700 + 800) / 4);
+    EXPECT_EQ(at<std::uint16_t>(part, 162), (400 + 900) / 2);
+    EXPECT_EQ(at<std::uint16_t>(part, 164), (1200 + 1300) / 2);
+    EXPECT_EQ(at<std::uint16_t>(part, 166), 1400);
+}
+
+// Every frame has its id in every pixel: a reader sees whole frames only, and never an older one than before.
+TEST(PreviewSlot, ReadersSeeWholeFramesAndTheLoopCopiesForThemOnly) {
+    PreviewSlot slot(64 * 64, 1ms);
+    slot.start();
+    std::atomic<bool> over{false};
+    std::uint64_t published = 0;
+    std::thread loop([&] {
+        DnImage frame(64, 64);
+        FrameRecord record;
+        while (!over) {
+            ++record.id;
+            std::fill(frame.all().begin(), frame.all().end(), static_cast<std::uint16_t>(record.id));
+            slot.put(frame, record);
+            std::this_thread::sleep_for(100us);
+        }
+        published = record.id;
+    });
+    std::this_thread::sleep_for(20ms);
+    EXPECT_EQ(slot.copies(), 0u);
+    const auto look = [&] {
+        std::uint64_t last = 0;
+        for (int i = 0; i < 50; ++i)
+            ASSERT_TRUE(slot.wait_for(last, 10s, [&](const PreviewSlot::Frame& f) {
+                EXPECT_GT(f.record.id, last);
+                last = f.record.id;
+                for (const std::uint16_t sample : f.samples)
+                    ASSERT_EQ(sample, static_cast<std::uint16_t>(f.record.id));
+            }));
+    };
+    std::thread other(look);
+    look();
+    other.join();
+    over = true;
+    loop.join();
+    EXPECT_LT(slot.copies(), published);
+    std::uint64_t last = 0;
+    slot.wait_for(0, 1s, [&](const PreviewSlot::Frame& f) { last = f.record.id; });
+    EXPECT_FALSE(slot.wait_for(last, 5ms, [](const PreviewSlot::Frame&) {})) << "no loop, no news";
+    slot.stop();
+    EXPECT_FALSE(slot.wait_for(0, 10s, [](const PreviewSlot::Frame&) {}));
+}
+
+TEST(PreviewSlot, AFrameLargerThanItsRoomIsNotCopied) {
+    PreviewSlot slot(16, 1ms);
+    slot.start();
+    std::atomic<bool> over{false};
+    std::thread loop([&] {
+        const DnImage large(8, 8);
+        while (!over) slot.put(large, FrameRecord{});
+    });
+    EXPECT_FALSE(slot.wait_for(0, 30ms, [](const PreviewSlot::Frame&) {}));
+    over = true;
+    loop.join();
+    EXPECT_EQ(slot.copies(), 0u);
+}
+
+}  // namespace
+}  // namespace hilcam

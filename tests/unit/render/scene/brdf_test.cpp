@@ -1,0 +1,281 @@
+#include "render/scene/brdf.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "render/scene/brdf_microfacet.h"
+#include "render/scene/brdf_table.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+const SpectralGrid kGrid({0.5, 0.6, 0.7});
+
+struct NamedMaterial {
+    const char* name;
+    MaterialConfig config;
+    bool keeps_all;       // a white one gives back all that it gets
+    double most = 1.002;  // of what it gives back
+};
+
+MaterialConfig model(ReflectionModel m, double reflectance, double roughness = 0.3) {
+    MaterialConfig config;
+    config.model = m;
+    config.reflectance = Curve::constant(reflectance);
+    config.roughness = roughness;
+    return config;
+}
+
+// Every model that has lobes, as white as it can be.
+std::vector<NamedMaterial> white_materials() {
+    using M = ReflectionModel;
+    MaterialConfig phong = model(M::kPhong, 0.5);
+    phong.specular = Curve::constant(0.5);
+    phong.exponent = 20;
+    MaterialConfig hapke = model(M::kHapke, 1);
+    hapke.slope_rad = 20 * kDegree_rad;
+    hapke.surge_amplitude = 1;
+    return {{"lambert", model(M::kLambert, 1), true},
+            {"oren_nayar 0.3", model(M::kOrenNayar, 1, 0.3), true},
+            {"oren_nayar 1", model(M::kOrenNayar, 1, 1), true},
+            {"metal 0.3", model(M::kMetal, 1, 0.3), true},
+            {"metal 0.7", model(M::kMetal, 1, 0.7), true},
+            {"metal 1", model(M::kMetal, 1, 1), true},
+            {"dielectric 0.2", model(M::kDielectric, 1, 0.2), true},
+            {"dielectric 0.6", model(M::kDielectric, 1, 0.6), true},
+            {"phong", phong, false},
+            {"lommel_seeliger", model(M::kLommelSeeliger, 0.25), false},
+            // Hapke's multiple scattering is that of isotropic grains: 3 % too much where they are not and
+            // lose nothing.
+            {"hapke", model(M::kHapke, 1), false, 1.03},
+            {"hapke 0.9", model(M::kHapke, 0.9), false},
+            {"hapke rough", hapke, false, 1.03}};
+}
+
+Scatterer scatterer(const Material& m) { return {&m, m.ggx_alpha, m.base, m.highlight}; }
+
+Vec3f direction(double cosine, double azimuth) {
+    const double s = std::sqrt(1 - cosine * cosine);
+    return to_float(Vec3d{s * std::cos(azimuth), s * std::sin(azimuth), cosine});
+}
+const Vec3f kUp{0, 0, 1};
+
+// Integral of f cos over the half sphere.
+double albedo_by_directions(const Scatterer& at, Vec3f view) {
+    double sum = 0;
+    constexpr int kRings = 1000, kSpokes = 720;
+    for (int i = 0; i < kRings; ++i)
+        for (int j = 0; j < kSpokes; ++j) {
+            const Vec3f light = direction((i + 0.5) / kRings, 2 * kPi * (j + 0.5) / kSpokes);
+            sum += static_cast<double>(brdf_value(at, {view.z, light.z, dot(view, light)})[0] * light.z);
+        }
+    return sum * 2 * kPi / (kRings * kSpokes);
+}
+
+TEST(Brdf, WhiteFurnaceStaysWhiteAndNothingGains) {
+    for (const NamedMaterial& named : white_materials()) {
+        const Material m = make_material(named.config, kGrid);
+        for (const double cosine : {0.95, 0.5, 0.2}) {
+            const double albedo = albedo_by_directions(scatterer(m), direction(cosine, 0.3));
+            EXPECT_LT(albedo, named.most) << named.name << " at " << cosine;
+            if (named.keeps_all) {
+                EXPECT_GT(albedo, 0.998) << named.name << " at " << cosine;
+            }
+        }
+    }
+}
+
+// With alpha = 1 the distribution of normals is 1/pi and Smith's G2 / (4 no ni) is 1 / (2 (no + ni)): the
+// integral of the single reflection has a closed form, 1 - no ln((1 + no) / no).
+TEST(Brdf, FacetAlbedoIsTheClosedForm) {
+    const LobeAlbedo albedo = ggx_albedo(1, 0);
+    for (const float no : {0.25f, 0.5f, 0.75f, 1.0f})
+        EXPECT_NEAR(albedo(no), 1 - no * std::log((1 + no) / no), 2e-3);
+    double mean = 0;
+    constexpr int kSteps = 100000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double mu = (i + 0.5) / kSteps;
+        mean += 2 * mu * (1 - mu * std::log((1 + mu) / mu)) / kSteps;
+    }
+    EXPECT_NEAR(albedo.average, mean, 2e-3);
+}
+
+TEST(Brdf, LightMayGoBothWays) {
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<double> uniform(0.02, 0.98);
+    for (const NamedMaterial& named : white_materials()) {
+        const Material m = make_material(named.config, kGrid);
+        for (int i = 0; i < 500; ++i) {
+            const Vec3f a = direction(uniform(engine), 7 * uniform(engine));
+            const Vec3f b = direction(uniform(engine), 7 * uniform(engine));
+            const float there = brdf_value(scatterer(m), {a.z, b.z, dot(a, b)})[0];
+            const float back = brdf_value(scatterer(m), {b.z, a.z, dot(a, b)})[0];
+            ASSERT_TRUE(std::isfinite(there)) << named.name;
+            ASSERT_NEAR(there, back, 1e-4 * (there + back) + 1e-6) << named.name;
+        }
+    }
+}
+
+// Samples against densities, chi-square over cells of equal solid angle in cosine and azimuth.
+double chi_square_per_degree(const Material& m, double cosine, float wrong) {
+    constexpr int kRings = 12, kSpokes = 16;
+    constexpr int kSamples = 200000;
+    const Vec3f view = direction(cosine, 0.7);
+    std::vector<double> expected(kRings * kSpokes), counted(kRings * kSpokes);
+    double valid_share = 0;
+    constexpr int kFine = 40;
+    for (int i = 0; i < kRings * kFine; ++i)
+        for (int j = 0; j < kSpokes * kFine; ++j) {
+            const Vec3f light =
+                direction((i + 0.5) / (kRings * kFine), 2 * kPi * (j + 0.5) / (kSpokes * kFine));
+            const double density =
+                static_cast<double>(brdf_density(scatterer(m), {view.z, light.z, dot(view, light)}));
+            const double share = density * 2 * kPi / (kRings * kFine * kSpokes * kFine);
+            expected[static_cast<std::size_t>(i / kFine * kSpokes + j / kFine)] += share * kSamples;
+            valid_share += share;
+        }
+    EXPECT_LT(valid_share, 1.02);
+    std::mt19937 engine(11);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (int i = 0; i < kSamples; ++i) {
+        const BrdfSample s =
+            brdf_sample(scatterer(m), kUp, view, {uniform(engine), uniform(engine), uniform(engine)});
+        if (!s.valid) continue;
+        double azimuth = std::atan2(s.dir.y, s.dir.x);
+        if (azimuth < 0) azimuth += 2 * kPi;
+        const double z = std::pow(static_cast<double>(s.dir.z), static_cast<double>(wrong));
+        const int ring = std::min(kRings - 1, static_cast<int>(z * kRings));
+        const int spoke = std::min(kSpokes - 1, static_cast<int>(azimuth / (2 * kPi) * kSpokes));
+        counted[static_cast<std::size_t>(ring * kSpokes + spoke)] += 1;
+    }
+    double chi = 0, pooled_expected = 0, pooled_counted = 0;
+    int degrees = 0;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        pooled_expected += expected[k], pooled_counted += counted[k];
+        if (pooled_expected < 20) continue;
+        // 1 % for the sum that makes the expectation.
+        const double difference =
+            std::max(0.0, std::abs(pooled_counted - pooled_expected) - 0.01 * pooled_expected);
+        chi += difference * difference / pooled_expected;
+        pooled_expected = pooled_counted = 0;
+        ++degrees;
+    }
+    return chi / degrees;
+}
+
+TEST(Brdf, SamplesFollowTheirDensity) {
+    for (const NamedMaterial& named : white_materials()) {
+        const Material m = make_material(named.config, kGrid);
+        for (const double cosine : {0.9, 0.4})
+            EXPECT_LT(chi_square_per_degree(m, cosine, 1), 1.5) << named.name << " at " << cosine;
+    }
+    // The test sees a wrong sampler: directions pushed towards the normal.
+    EXPECT_GT(chi_square_per_degree(make_material(model(ReflectionModel::kLambert, 1), kGrid), 0.9, 0.8f), 5);
+}
+
+// The mean of a sample's weight is the albedo, for each model.
+TEST(Brdf, SampleWeightsAverageToTheAlbedo) {
+    std::mt19937 engine(2);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    for (const NamedMaterial& named : white_materials()) {
+        const Material m = make_material(named.config, kGrid);
+        const Vec3f view = direction(0.5, 1);
+        double sum = 0;
+        constexpr int kSamples = 200000;
+        for (int i = 0; i < kSamples; ++i) {
+            const BrdfSample s =
+                brdf_sample(scatterer(m), kUp, view, {uniform(engine), uniform(engine), uniform(engine)});
+            if (s.valid) sum += static_cast<double>(s.weight[0]);
+        }
+        EXPECT_NEAR(sum / kSamples / albedo_by_directions(scatterer(m), view), 1, 0.01) << named.name;
+    }
+}
+
+// Fresnel at normal incidence and at Brewster's angle: Born & Wolf 1.5.
+TEST(Brdf, DielectricFresnelIsExact) {
+    EXPECT_NEAR(fresnel_dielectric(1.5f, 1), 0.04, 1e-6);
+    // At Brewster's angle only the perpendicular part is left: ((n^2-1)/(n^2+1))^2 / 2.
+    const float brewster = 1 / std::sqrt(1 + 2.25f);
+    EXPECT_NEAR(fresnel_dielectric(1.5f, brewster), 0.5 * std::pow(1.25 / 3.25, 2), 1e-6);
+    EXPECT_NEAR(fresnel_dielectric(1.5f, 0), 1, 1e-6);
+}
+
+TEST(Brdf, GlassKeepsWhatItDoesNotAbsorb) {
+    MaterialConfig glass = model(ReflectionModel::kGlass, 0);
+    const Material clear = make_material(glass, kGrid);
+    glass.transmittance = Curve::constant(0.5);
+    const Material grey = make_material(glass, kGrid);
+    for (const double cosine : {1.0, 0.5, 0.1}) {
+        const Vec3f view = direction(cosine, 0);
+        const BrdfSample back = brdf_exact(scatterer(clear), kUp, view, 0),
+                         through = brdf_exact(scatterer(clear), kUp, view, 1);
+        EXPECT_NEAR(back.weight[0] + through.weight[0], 1, 1e-5);
+        EXPECT_NEAR(dot(through.dir, view), -1, 1e-6);
+        EXPECT_LT(brdf_exact(scatterer(grey), kUp, view, 1).weight[0], 0.5);
+    }
+    // Two surfaces of 4 %, inner reflections added: T = (1-R)/(1+R).
+    EXPECT_NEAR(brdf_exact(scatterer(clear), kUp, kUp, 1).weight[0], 0.96 / 1.04, 1e-5);
+}
+
+// Chandrasekhar's H for w = 0.9 at mu = 0.5: 1.6011 (Radiative Transfer, 1960, table XI:
+// conservative 2.0128).
+TEST(Brdf, HapkesHIsWithinTwoPercentOfChandrasekhars) {
+    EXPECT_NEAR(hapke_h(1, 0.5f) / 2.0128, 1, 0.02);
+    EXPECT_NEAR(hapke_h(1, 1) / 2.9078, 1, 0.02);
+}
+
+// A table filled from a model gives the model back, between its points too.
+TEST(BrdfTable, GivesBackTheModelItWasFilledFrom) {
+    const Material m = make_material(model(ReflectionModel::kDielectric, 0.6, 0.6), kGrid);
+    std::array<std::vector<float>, 3> axes;
+    for (int i = 0; i <= 90; i += 2)
+        axes[0].push_back(static_cast<float>(i * kDegree_rad)), axes[2] = axes[0];
+    for (int i = 0; i <= 180; i += 4) axes[1].push_back(static_cast<float>(i * kDegree_rad));
+    std::vector<Spectrum> values;
+    for (const float ti : axes[0])
+        for (const float phi : axes[1])
+            for (const float to : axes[2]) {
+                const float io = std::sin(ti) * std::sin(to) * std::cos(phi) + std::cos(ti) * std::cos(to);
+                values.push_back(brdf_value(
+                    scatterer(m), {std::max(std::cos(to), 1e-3f), std::max(std::cos(ti), 1e-3f), io}));
+            }
+    MaterialConfig config = model(ReflectionModel::kTable, 1);
+    config.table = "a.csv";
+    const Material table =
+        make_material(config, kGrid,
+                      std::make_shared<const BrdfTable>(BrdfTable(BrdfTable::Layout::kAngles, axes, values)));
+    std::mt19937 engine(9);
+    std::uniform_real_distribution<double> uniform(0.3, 0.98);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3f a = direction(uniform(engine), 7 * uniform(engine)),
+                    b = direction(uniform(engine), 7 * uniform(engine));
+        const Cosines c{a.z, b.z, dot(a, b)};
+        ASSERT_NEAR(brdf_value(scatterer(table), c)[0] / brdf_value(scatterer(m), c)[0], 1, 0.02);
+    }
+    EXPECT_LT(chi_square_per_degree(table, 0.8, 1), 1.5);
+}
+
+TEST(Material, RefusesWhatWouldCreateLight) {
+    MaterialConfig phong = model(ReflectionModel::kPhong, 0.7);
+    phong.specular = Curve::constant(0.5);
+    EXPECT_THROW(validate(phong), InputError);
+    EXPECT_THROW(validate(model(ReflectionModel::kLommelSeeliger, 0.3)), InputError);
+    EXPECT_THROW(validate(model(ReflectionModel::kTable, 1)), InputError);
+    EXPECT_NO_THROW(validate(model(ReflectionModel::kLambert, 1)));
+}
+
+TEST(Material, EmissionIsPlancksTimesOneMinusReflectance) {
+    MaterialConfig hot = model(ReflectionModel::kLambert, 0.25);
+    hot.temperature_k = 1500;
+    const Material m = make_material(hot, SpectralGrid({0.899, 0.901}));
+    // 2 h c^2 / lambda^5 / (exp(h c / lambda k T) - 1) at 0.9 um, 1500 K: 4744.4 W m^-2 sr^-1 um^-1.
+    EXPECT_NEAR(m.emission[0] / (0.75 * 4744.4), 1, 2e-3);
+}
+
+}  // namespace
+}  // namespace hilcam
