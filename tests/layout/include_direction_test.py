@@ -1,45 +1,118 @@
 #!/usr/bin/python3
-"""Includes point downwards only: emulator -> io -> sensor -> render; each third-party header stays in its few units."""
+"""The order of the rooms (docs/architecture.md): a room's includes point to itself or to rooms below it, and no file includes itself
+by way of others.
+
+Prints how many files, rooms and arrows there are, the biggest room, the median and the longest file; then what is wrong: includes that
+climb or go in circles, third-party headers outside their few units, folders that ROOMS does not know, rooms that are too full or have no
+README.md.
+"""
+import graphlib
 import pathlib
 import re
+import statistics
 import sys
+from collections import Counter
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-ORDER = ["render", "sensor", "io", "emulator"]
+LAYERS = ("emulator", "io", "sensor", "render")
+# From the top down. A layer's own name stands for the files that lie in none of its rooms.
+ROOMS = (
+    "emulator",
+    "emulator/tradeoff", "emulator/check", "emulator/bench", "emulator/characterise", "emulator/run", "emulator/recording",
+    "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion",
+    "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/truth", "io/commands",
+    "io/files", "io/config", "io/contract", "io/system",
+    "sensor/measure", "sensor",
+    "render/frame", "render/light", "render/scene", "render/sky", "render/vocabulary",
+)
+MOST_FILES = 50
+# The sections of the data sheet name each other, so the sensor's stages stay side by side.
+FULLER = {"sensor": 65}
 ONLY_IN = {
     "embree": {"render/scene/embree_scene.cpp"},
+    "meshoptimizer": {"render/scene/mesh_lod.cpp"},
     "yaml-cpp": {"io/config/config_yaml.cpp"},
     "assimp": {"io/files/mesh_import.cpp"},
     "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
-    "opencv2": {"io/files/image_file.cpp", "io/files/kept_stderr.cpp", "io/files/picture_file.cpp", "emulator/tradeoff/structural_similarity.cpp"},
+    "opencv2": {"io/files/image_file.cpp", "io/files/kept_stderr.cpp", "io/files/picture_file.cpp",
+                "emulator/tradeoff/structural_similarity.cpp"},
+    "Imf": {"io/files/image_file.cpp", "io/truth/truth_files.cpp"},
+    "zlib": {"io/gige/device/gige_zip.cpp", "io/system/crc32.cpp"},
     "httplib": {"io/preview/sink_preview.cpp"},
     "google": {"io/vizard/vizard_message.cpp"},
     "vizard.pb": {"io/vizard/vizard_message.cpp"},
     "zmq": {"io/vizard/commands_vizard.cpp"},
     "libusb": {"io/commands/command_link_usb.cpp", "io/commands/commands_usb.cpp", "io/commands/usb_device.cpp"},
-    "erfa": {"render/sky/bodies.cpp", "render/sky/earth_frames.cpp", "render/sky/stars.cpp", "render/vocabulary/time.cpp", "render/vocabulary/time_system.cpp"},
+    "erfa": {"render/sky/bodies.cpp", "render/sky/earth_frames.cpp", "render/sky/stars.cpp", "render/vocabulary/time.cpp",
+             "render/vocabulary/time_system.cpp"},
 }
+ONLY_IN_LAYER = {"CLI": "emulator", "spdlog": "emulator"}
+
+
+def includes(path):
+    return re.findall(r'^#include ["<]([^">]+)[">]', path.read_text(), re.MULTILINE)
+
+
+def fault_of_include(name, room, target):
+    """What is wrong with an include of a file in a room, or None."""
+    to = str(pathlib.PurePosixPath(target).parent)
+    if target.split("/")[0] in LAYERS:
+        if not (TOP / target).is_file():
+            return f"{name} includes {target}, which is not there"
+        if to in ROOMS and ROOMS.index(to) < ROOMS.index(room):
+            return f"{name} includes {target}, which lies above it"
+    for library, allowed in ONLY_IN.items():
+        if target.split("/")[0].startswith(library) and name not in allowed:
+            return f"{name} includes {target}; only {', '.join(sorted(allowed))} may"
+    for library, layer in ONLY_IN_LAYER.items():
+        if target.startswith(library + "/") and not name.startswith(layer + "/"):
+            return f"{name} includes {target}; only {layer}/ may"
+    return None
+
+
+def circle(graph):
+    """Files that include each other in a circle, or an empty list."""
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+        return []
+    except graphlib.CycleError as error:
+        return error.args[1]
 
 
 def main():
-    faults, files = [], 0
-    for folder in ORDER:
-        for path in sorted(p for p in (TOP / folder).rglob("*") if p.suffix in (".h", ".cpp")):
-            files += 1
-            name = path.relative_to(TOP).as_posix()
-            for line in path.read_text().splitlines():
-                match = re.match(r'#include ["<]([^">]+)[">]', line)
-                if not match:
-                    continue
-                target = match.group(1)
-                head = target.split("/")[0]
-                if head in ORDER and ORDER.index(head) > ORDER.index(folder):
-                    faults.append(f"{name} includes {target}, which lies above it")
-                for library, allowed in ONLY_IN.items():
-                    if head.startswith(library) and name not in allowed:
-                        faults.append(f"{name} includes {target}; only {', '.join(sorted(allowed))} may")
-    print("\n".join(faults) or f"{files} files, all includes point down")
-    sys.exit(1 if faults or files == 0 else 0)
+    files = sorted(p for layer in LAYERS for p in (TOP / layer).rglob("*") if p.suffix in (".h", ".cpp"))
+    faults, arrows, filled, graph = [], set(), Counter(), {}
+    for path in files:
+        name, room = path.relative_to(TOP).as_posix(), path.parent.relative_to(TOP).as_posix()
+        if room not in ROOMS:
+            faults.append(f"{name}: no such room in the order of {pathlib.Path(__file__).name}")
+            continue
+        filled[room] += 1
+        graph[name] = includes(path)
+        for target in graph[name]:
+            to = str(pathlib.PurePosixPath(target).parent)
+            if to in ROOMS and to != room:
+                arrows.add((room, to))
+            fault = fault_of_include(name, room, target)
+            if fault:
+                faults.append(fault)
+    for room in ROOMS:
+        if filled[room] == 0:
+            faults.append(f"{room}: nothing in it")
+        if filled[room] > FULLER.get(room, MOST_FILES):
+            faults.append(f"{room}: {filled[room]} files; accepted: {FULLER.get(room, MOST_FILES)}")
+        if not (TOP / room / "README.md").is_file():
+            faults.append(f"{room}: no README.md")
+    around = circle(graph)
+    if around:
+        faults.append("a circle of includes: " + " -> ".join(around))
+    lines = sorted((len(p.read_text().splitlines()), p.relative_to(TOP).as_posix()) for p in files)
+    up = sum(ROOMS.index(to) < ROOMS.index(room) for room, to in arrows)
+    fullest = max(filled, key=filled.get)
+    print(f"{len(files)} files in {len(filled)} rooms, {len(arrows)} arrows between rooms, {up} of them upwards, "
+          f"{'no' if not around else 'at least one'} circle; biggest room {fullest} ({filled[fullest]} files); lines: median {statistics.median(n for n, _ in lines):.0f}, most {lines[-1][0]} ({lines[-1][1]})")
+    print("\n".join(faults))
+    sys.exit(1 if faults else 0)
 
 
 main()
