@@ -8,16 +8,12 @@
 #include "emulator/run/emulator.h"
 #include "emulator/run/report.h"
 #include "render/frame/render_bench.h"
+#include "render/vocabulary/median.h"
 
 namespace hilcam {
 namespace {
 
 using nlohmann::json;
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0 : values[values.size() / 2];
-}
 
 struct Run {
     double rate_hz, p50_ms, p99_ms;

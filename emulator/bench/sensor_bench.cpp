@@ -8,6 +8,7 @@
 #include "emulator/recording/machine_report.h"
 #include "emulator/run/report.h"
 #include "emulator/world/clock.h"
+#include "render/vocabulary/median.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -111,12 +112,6 @@ struct Picture {
         }
     }
 };
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
 
 // A camera at work on a picture.
 class Rig {

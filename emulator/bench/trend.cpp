@@ -4,15 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "render/vocabulary/median.h"
+
 namespace hilcam {
 namespace {
-
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) return *middle;
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 double terms(double n) { return n * (n - 1) * (2 * n + 5) / 18; }
 

@@ -16,7 +16,7 @@ constexpr double kBrightAlbedo = 0.8, kDarkAlbedo = 0.2;
 constexpr double kBright_fraction = 0.8;  // of saturation, by the bright plate
 // Pixels of the radiance image to one of the detector: what is above the detector's Nyquist frequency is not
 // folded down before the MTF acts on it. And rays, so that an edge's steps on their grid stay below 0.001.
-constexpr SensorSampling kSampling{16, 8, 2};
+constexpr SensorSampling kFineSampling{16, 8, 2};
 // Noise of a calibrated pixel over the edge's step. The MTF at Nyquist is a mean over some ten thousand
 // pixels and errs by about the same number.
 constexpr double kPixelNoise = 7e-4;
@@ -105,7 +105,7 @@ MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, Edg
                      const DetectorPictures& pictures) {
     const BenchSetup s = windowed(setup, direction);
     PixelSelection selection = bench_selection(s);
-    CameraBench bench(s.camera, s.grid, kSampling, s.lamp_w_m2_um, pictures);
+    CameraBench bench(s.camera, s.grid, kFineSampling, s.lamp_w_m2_um, pictures);
     const double tilt_rad = direction == EdgeDirection::kAlongRows ? kTilt_rad : kTilt_rad - kPi / 2;
     const double filter = kBright_fraction / kOverexposure / kBrightAlbedo;
 

@@ -6,11 +6,10 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
+#include "render/vocabulary/time.h"
 
 namespace hilcam {
 namespace {
-
-std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
 std::string place_of(std::size_t index, const EventConfig& config) {
     return "events." + std::to_string(index) + (config.name.empty() ? "" : " " + in_quotes(config.name)) +

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/loop/frame_schedule.h"
 #include "emulator/loop/image_faults.h"
 #include "io/contract/frame_flags.h"
+#include "render/vocabulary/time.h"
 #include "sensor/test_pattern.h"
 
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kLongestSleep_ns = 5'000'000;  // how long a stop, or a change of the clock, may wait
-
-std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
 std::int64_t from_ms(double ms) { return static_cast<std::int64_t>(ms * 1e6); }
 
 }  // namespace

@@ -8,6 +8,10 @@
 
 namespace hilcam {
 
+// The longest that a stop, or a change of the clock, waits for a thread of the loop to look up from its
+// sleep.
+inline constexpr std::int64_t kLongestSleep_ns = 5'000'000;
+
 class FrameSchedule {
   public:
     explicit FrameSchedule(std::int64_t first_ns) : last_ns_(first_ns) {}

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/vocabulary/time.h"
+
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kLongestSleep_ns = 5'000'000;  // how long a stop, or a change of the clock, may wait
-constexpr std::int64_t kLastStretch_ns = 1'000'000;   // before a begin nothing else is listened to
-
-std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
+constexpr std::int64_t kLastStretch_ns = 1'000'000;  // before a begin nothing else is listened to
 
 // When an exposure of that begin in the camera's time begins on the machine's clock: kNever_ns where the
 // camera waits, be it at that very instant. What is then told of the world before time goes on counts for it.

@@ -26,10 +26,8 @@ using wgs72::kJ2;
 using wgs72::kJ3;
 using wgs72::kJ4;
 
-constexpr double kTurn_rad = 2 * kPi;
 constexpr double kDeepSpacePeriod_min = 225;
 
-double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 double axis_of(double mean_motion_rad_min) {
     return std::pow(wgs72::root_mu() / mean_motion_rad_min, 2.0 / 3.0);

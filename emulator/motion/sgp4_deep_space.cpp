@@ -7,14 +7,11 @@
 namespace hilcam {
 namespace {
 
-constexpr double kTurn_rad = 2 * kPi;
 // The Earth's rotation [rad/min].
 constexpr double kSiderealRate = 4.37526908801129966e-3;
 // Below 3 degrees from the equator, either way round, the node's rate is left out.
 constexpr double kFlat_rad = 5.2359877e-2;
 constexpr double kStep_min = 720;
-
-double square(double x) { return x * x; }
 
 // Greenwich mean sidereal time of 1982 (Aoki et al., Astron. Astrophys. 105, 1982), UT1 = UTC.
 double sidereal_rad(double days_1950) {

@@ -14,7 +14,7 @@ namespace hilcam {
 namespace {
 
 constexpr auto kPatience = std::chrono::milliseconds(50);  // how long a stop may have to wait
-constexpr std::int64_t kLongestSleep_ns = 50'000'000;
+constexpr std::int64_t kStopsWithin_ns = 50'000'000;
 
 bool binning_fits(std::int64_t binning, std::int64_t at_power_up, std::int64_t most) {
     return binning == at_power_up || (binning >= 1 && binning <= most && (binning & (binning - 1)) == 0);
@@ -217,7 +217,7 @@ bool Replay::offer(const FrameUse& use) {
         not_before_ns_ = use_.end_ns;
         for (std::int64_t now_ns = monotonic_ns(); now_ns < use_.begin_ns; now_ns = monotonic_ns()) {
             if (stopping_.load()) return false;
-            sleep_until_monotonic_ns(std::min(use_.begin_ns, now_ns + kLongestSleep_ns));
+            sleep_until_monotonic_ns(std::min(use_.begin_ns, now_ns + kStopsWithin_ns));
         }
     }
     offered_.release();

@@ -10,6 +10,7 @@
 
 #include "io/commands/acknowledgement.h"
 #include "render/vocabulary/overloaded.h"
+#include "render/vocabulary/time.h"
 
 namespace hilcam {
 namespace {
@@ -18,8 +19,6 @@ namespace {
 // (frame_starter.cpp), so that a new frame rate does not move that begin.
 constexpr std::int64_t kLead_ns = 900'000;
 constexpr std::int64_t kLongestWait_ns = 50'000'000;  // how long a stop may have to wait
-
-std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "emulator/tradeoff/pareto.h"
 #include "emulator/tradeoff/tradeoff_combinations.h"
 #include "emulator/world/clock.h"
+#include "render/vocabulary/median.h"
 
 namespace hilcam {
 namespace {
@@ -15,12 +16,6 @@ using Log = std::function<void(const std::string&)>;
 using Kind = MeasuredSetting::Kind;
 
 double seconds_since(std::int64_t start_ns) { return static_cast<double>(monotonic_ns() - start_ns) * 1e-9; }
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 // Means over the frames of a setting.
 class MeanErrors {

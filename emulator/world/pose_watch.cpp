@@ -4,13 +4,10 @@
 #include <cmath>
 
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/time.h"
 
 namespace hilcam {
-namespace {
-
-std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(std::llround(seconds * 1e9)); }
-
-}  // namespace
+namespace {}  // namespace
 
 Fields fields(PoseRules& r) {
     return {

@@ -36,7 +36,7 @@ Fd open_file(const std::filesystem::path& path, int flags) {
 }
 
 void write_all(const Fd& fd, const std::vector<std::uint8_t>& bytes, const std::string& what) {
-    if (write(fd.get(), bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
+    if (::write(fd.get(), bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
         throw trouble_with("FunctionFS does not take the " + what);
 }
 
@@ -168,7 +168,7 @@ void FunctionFsReceiver::run() {
 
 void FunctionFsReceiver::take_events() {
     std::array<usb_functionfs_event, 4> events;
-    const ssize_t size = read(control_.get(), events.data(), sizeof events);
+    const ssize_t size = ::read(control_.get(), events.data(), sizeof events);
     if (size <= 0) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(size) / sizeof events[0]; ++i) {
         switch (events[i].type) {
@@ -183,9 +183,9 @@ void FunctionFsReceiver::take_events() {
             case FUNCTIONFS_SETUP:
                 // We have no requests of our own: input or output in the wrong direction stalls.
                 if (events[i].u.setup.bRequestType & USB_DIR_IN) [[maybe_unused]]
-                    const auto got = read(control_.get(), nullptr, 0);
+                    const auto got = ::read(control_.get(), nullptr, 0);
                 else [[maybe_unused]]
-                    const auto put = write(control_.get(), nullptr, 0);
+                    const auto put = ::write(control_.get(), nullptr, 0);
                 break;
             default:
                 break;

@@ -21,14 +21,14 @@ namespace hilcam {
 namespace {
 
 constexpr std::string_view kHeader = "theta_i_deg,phi_deg,theta_o_deg,wavelength_um,brdf_sr";
-constexpr std::size_t kColumns = 5;
-constexpr std::array<std::array<double, 2>, kColumns> kRanges = {
+constexpr std::size_t kRowValues = 5;
+constexpr std::array<std::array<double, 2>, kRowValues> kRanges = {
     {{0, 90}, {0, 180}, {0, 90}, {0.1, 100}, {0, 1e6}}};
-constexpr std::array<const char*, 4> kAxes = {"theta_i_deg", "phi_deg", "theta_o_deg", "wavelength_um"};
+constexpr std::array<const char*, 4> kAxisKeys = {"theta_i_deg", "phi_deg", "theta_o_deg", "wavelength_um"};
 constexpr std::size_t kMostValues = 50'000'000;
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // 80 a value
+constexpr std::uintmax_t kMostBrdfBytes = std::uintmax_t{4} << 30;  // 80 a value
 
-using Row = std::array<double, kColumns>;
+using Row = std::array<double, kRowValues>;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
     throw InputError(file.string() + ": " + what);
@@ -36,11 +36,11 @@ using Row = std::array<double, kColumns>;
 
 bool parse_row(std::string_view line, Row& row) {
     if (line.ends_with('\r')) line.remove_suffix(1);
-    for (std::size_t i = 0; i < kColumns; ++i) {
+    for (std::size_t i = 0; i < kRowValues; ++i) {
         const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), row[i]);
         if (error != std::errc{} || !(row[i] >= kRanges[i][0] && row[i] <= kRanges[i][1])) return false;
         line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-        if (i + 1 == kColumns) return line.empty();
+        if (i + 1 == kRowValues) return line.empty();
         if (!line.starts_with(',')) return false;
         line.remove_prefix(1);
     }
@@ -63,7 +63,7 @@ struct Sheet {
 };
 
 Sheet read_sheet(const std::filesystem::path& file) {
-    InputStream in(file, {kMostBytes, "a BRDF in CSV"});
+    InputStream in(file, {kMostBrdfBytes, "a BRDF in CSV"});
     Sheet sheet;
     std::string line;
     bool headed = false;
@@ -101,7 +101,7 @@ void require_angles(const std::filesystem::path& file, const Sheet& sheet) {
         const std::vector<double>& axis = sheet.axes[k];
         const bool held = sheet.hold && k != 1;
         if (axis.front() > 0 || (axis.back() < kLast[k] && !held))
-            refuse(file, std::string(kAxes[k]) + " reaches from " + plain(axis.front()) + " to " +
+            refuse(file, std::string(kAxisKeys[k]) + " reaches from " + plain(axis.front()) + " to " +
                              plain(axis.back()) + "; needed: 0 to " + plain(kLast[k]) +
                              (k == 1 ? "" : ", or a line '# hold' to keep the last values up to there"));
     }
@@ -126,7 +126,7 @@ BrdfTable read_csv(const std::filesystem::path& file, const SpectralGrid& grid) 
             at[k] = rest % sheet.axes[k].size();
         std::string where;
         for (std::size_t k = 0; k < 4; ++k)
-            where += (k ? ", " : "") + std::string(kAxes[k]) + " " + plain(sheet.axes[k][at[k]]);
+            where += (k ? ", " : "") + std::string(kAxisKeys[k]) + " " + plain(sheet.axes[k][at[k]]);
         refuse(file, "has no value at " + where);
     }
     Curve curve{sheet.axes[3], std::vector<double>(waves), file.string()};
@@ -147,7 +147,7 @@ BrdfTable read_csv(const std::filesystem::path& file, const SpectralGrid& grid) 
 BrdfTable read_merl(const std::filesystem::path& file, const SpectralGrid& grid) {
     constexpr std::size_t kThetaH = 90, kThetaD = 90, kPhiD = 180, kCells = kThetaH * kThetaD * kPhiD;
     constexpr std::size_t kBytes = 3 * sizeof(std::int32_t) + 3 * kCells * sizeof(double);
-    InputStream in(file, {kMostBytes, "a BRDF in MERL's binary format"});
+    InputStream in(file, {kMostBrdfBytes, "a BRDF in MERL's binary format"});
     if (in.bytes() != kBytes)
         refuse(file,
                "has " + std::to_string(in.bytes()) + " bytes; a MERL BRDF has " + std::to_string(kBytes));

@@ -15,7 +15,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30;  // ten times Tycho-2's stars
+constexpr std::uintmax_t kMostCatalogueBytes = std::uintmax_t{1} << 30;  // ten times Tycho-2's stars
 constexpr double kMas_rad = kArcsecond_rad * 1e-3;
 
 struct Column {
@@ -25,7 +25,7 @@ struct Column {
     bool must_be_there = false;
 };
 
-constexpr std::array kColumns = {
+constexpr std::array kStarColumns = {
     Column{"hip", 0, 1e7, [](CatalogueStar& s, double v) { s.hip = static_cast<int>(v); }},
     Column{"hd", 0, 1e7, [](CatalogueStar& s, double v) { s.hd = static_cast<int>(v); }},
     Column{"ra_deg", 0, 360, [](CatalogueStar& s, double v) { s.right_ascension_rad = v * kDegree_rad; },
@@ -62,7 +62,7 @@ void add_name(std::string& names, std::string_view name) {
 
 std::string all_columns() {
     std::string names;
-    for (const Column& column : kColumns) add_name(names, column.name);
+    for (const Column& column : kStarColumns) add_name(names, column.name);
     return names;
 }
 
@@ -71,13 +71,13 @@ std::vector<const Column*> parse_header(std::string_view line) {
     std::vector<const Column*> found;
     while (!line.empty()) {
         const std::string_view name = take_field(line);
-        const auto* column = std::find_if(kColumns.begin(), kColumns.end(),
+        const auto* column = std::find_if(kStarColumns.begin(), kStarColumns.end(),
                                           [name](const Column& c) { return c.name == name; });
-        if (column == kColumns.end() || std::find(found.begin(), found.end(), column) != found.end())
+        if (column == kStarColumns.end() || std::find(found.begin(), found.end(), column) != found.end())
             return {};
         found.push_back(column);
     }
-    for (const Column& column : kColumns)
+    for (const Column& column : kStarColumns)
         if (column.must_be_there && std::find(found.begin(), found.end(), &column) == found.end()) return {};
     return found;
 }
@@ -99,7 +99,7 @@ bool parse_row(std::string_view line, const std::vector<const Column*>& columns,
 }  // namespace
 
 StarCatalogue load_catalogue(const std::filesystem::path& file) {
-    InputStream in(file, {kMostBytes, "a star catalogue in CSV"});
+    InputStream in(file, {kMostCatalogueBytes, "a star catalogue in CSV"});
     StarCatalogue catalogue;
     std::vector<const Column*> columns;
     std::string text;

@@ -13,7 +13,7 @@ namespace hilcam {
 namespace {
 
 // The most that columns and rows can ask for: a map is not read whole.
-constexpr std::uintmax_t kMostBytes = 4'000'000'000'000;
+constexpr std::uintmax_t kMostHeightBytes = 4'000'000'000'000;
 
 class MappedHeights final : public HeightMap {
   public:
@@ -25,7 +25,7 @@ class MappedHeights final : public HeightMap {
           scale_(static_cast<float>(c.scale)),
           offset_m_(static_cast<float>(c.offset_m)) {
         const auto refuse = [&](const std::string& what) { throw InputError(c.file.string() + ": " + what); };
-        const InputFile in = open_input_file(c.file, {kMostBytes, "a raw file of heights"});
+        const InputFile in = open_input_file(c.file, {kMostHeightBytes, "a raw file of heights"});
         size_ = static_cast<std::size_t>(c.columns) * static_cast<std::size_t>(c.rows) * bytes_each();
         if (in.bytes != size_)
             refuse("has " + std::to_string(in.bytes) + " bytes; " + std::to_string(c.columns) +

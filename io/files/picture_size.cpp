@@ -8,9 +8,9 @@ namespace hilcam {
 namespace {
 
 // Bytes that may not be there: what lies beyond the end is 0.
-class Header {
+class Opening {
   public:
-    explicit Header(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+    explicit Opening(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
     std::uint64_t size() const { return bytes_.size(); }
     std::uint8_t byte(std::uint64_t at) const { return at < bytes_.size() ? bytes_[at] : std::uint8_t{0}; }
@@ -35,18 +35,18 @@ class Header {
 };
 
 // PNG specification (W3C, third edition), 5.2 and 11.2.1: the signature, then the chunk IHDR.
-PictureSize png_size(const Header& h) { return {h.big(16, 4), h.big(20, 4)}; }
+PictureSize png_size(const Opening& h) { return {h.big(16, 4), h.big(20, 4)}; }
 
 // BITMAPCOREHEADER of 12 bytes has 16-bit sizes, BITMAPINFOHEADER and later ones signed 32-bit sizes, where a
-// negative height means rows from the top (Microsoft, "Bitmap Header Types").
-PictureSize bmp_size(const Header& h) {
+// negative height means rows from the top (Microsoft, "Bitmap Opening Types").
+PictureSize bmp_size(const Opening& h) {
     if (h.little(14, 4) == 12) return {h.little(18, 2), h.little(20, 2)};
     const auto height = static_cast<std::int32_t>(h.little(22, 4));
     return {h.little(18, 4), static_cast<std::uint64_t>(height < 0 ? -std::int64_t{height} : height)};
 }
 
 // RFC 9649, 2.5 to 2.7: the first chunk is VP8X with the canvas, or the picture itself.
-PictureSize webp_size(const Header& h) {
+PictureSize webp_size(const Opening& h) {
     if (h.has(12, "VP8X")) return {h.little(24, 3) + 1, h.little(27, 3) + 1};
     if (h.has(12, "VP8L")) {
         const std::uint64_t bits = h.little(21, 4);
@@ -57,7 +57,7 @@ PictureSize webp_size(const Header& h) {
 }
 
 // ITU-T T.81, B.1 and B.2.2: marker segments up to the first frame header (SOF0 to SOF15 but DHT, JPG, DAC).
-PictureSize jpeg_size(const Header& h) {
+PictureSize jpeg_size(const Opening& h) {
     std::uint64_t at = 2;
     while (at + 9 < h.size()) {
         if (h.byte(at) != 0xFF) return {};
@@ -75,7 +75,7 @@ PictureSize jpeg_size(const Header& h) {
 
 // TIFF 6.0 (Adobe, 1992), section 2, and BigTIFF: the first directory's ImageWidth (256) and ImageLength
 // (257).
-PictureSize tiff_size(const Header& h) {
+PictureSize tiff_size(const Opening& h) {
     const bool little = h.byte(0) == 'I';
     const auto number = [&](std::uint64_t at, unsigned bytes) {
         return little ? h.little(at, bytes) : h.big(at, bytes);
@@ -97,7 +97,7 @@ PictureSize tiff_size(const Header& h) {
 
 // Netpbm's formats (ppm(5)) and the float maps derived from them: a letter P and a kind, then width and
 // height as words, with comments from # to the line's end.
-PictureSize netpbm_size(const Header& h) {
+PictureSize netpbm_size(const Opening& h) {
     std::uint64_t at = 2;
     const auto number = [&] {
         for (bool comment = false; at < h.size(); ++at) {
@@ -118,7 +118,7 @@ PictureSize netpbm_size(const Header& h) {
 }  // namespace
 
 std::optional<PictureSize> picture_size(std::span<const std::uint8_t> bytes) {
-    const Header h(bytes);
+    const Opening h(bytes);
     PictureSize size;
     if (h.has(0, "\x89PNG\r\n\x1a\n")) size = png_size(h);
     if (h.has(0, "BM")) size = bmp_size(h);

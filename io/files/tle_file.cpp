@@ -11,8 +11,8 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kColumns = 69;
-constexpr std::uintmax_t kMostBytes = 16u << 20;
+constexpr std::size_t kLineColumns = 69;
+constexpr std::uintmax_t kMostTleBytes = 16u << 20;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kMinutesPerDay = 1440;
 
@@ -24,7 +24,7 @@ std::string_view columns(std::string_view line, std::size_t first, std::size_t l
 // Digits as they are, minus signs as 1, all else 0; the sum's last digit.
 char checksum_of(std::string_view line) {
     int sum = 0;
-    for (const char c : line.substr(0, kColumns - 1)) {
+    for (const char c : line.substr(0, kLineColumns - 1)) {
         if (c >= '0' && c <= '9') sum += c - '0';
         if (c == '-') ++sum;
     }
@@ -74,14 +74,14 @@ struct Line {
 };
 
 void check_line(const TextLines& lines, std::string_view line, char number, TleChecksum checksum) {
-    if (line.size() < kColumns || !trimmed(line.substr(kColumns)).empty())
+    if (line.size() < kLineColumns || !trimmed(line.substr(kLineColumns)).empty())
         lines.refuse(line, std::string("line ") + number + " of an element set, 69 columns; it has " +
                                std::to_string(line.size()));
     if (line[0] != number || line[1] != ' ')
         lines.refuse(line.substr(0, 2), std::string("'") + number + " ' before an element set's line");
-    const char expected = checksum_of(line), found = line[kColumns - 1];
+    const char expected = checksum_of(line), found = line[kLineColumns - 1];
     if (checksum == TleChecksum::kVerify && found != expected)
-        lines.refuse(line.substr(kColumns - 1, 1),
+        lines.refuse(line.substr(kLineColumns - 1, 1),
                      std::string("checksum ") + expected + " in column 69 (or checksum: ignore)");
 }
 
@@ -151,7 +151,7 @@ std::vector<Tle> read_tles(std::string_view text, const std::string& name, TleCh
 }
 
 std::vector<Tle> load_tles(const std::filesystem::path& file, TleChecksum checksum) {
-    return read_tles(read_input_file(file, {kMostBytes, "a file of two-line element sets"}), file.string(),
+    return read_tles(read_input_file(file, {kMostTleBytes, "a file of two-line element sets"}), file.string(),
                      checksum);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "render/vocabulary/median.h"
+
 namespace hilcam {
 namespace {
 
@@ -10,11 +12,6 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
 }
 
 PathModelSpeed speed_of(const std::string& name, FramePlacer& placer, FrameTracer& tracer,

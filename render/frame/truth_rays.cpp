@@ -10,7 +10,7 @@
 namespace hilcam {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNoEnd = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void TruthRays::trace(std::span<const Vec2d> points_px, bool normals, std::span<
     for (std::size_t k = 0; k < count; ++k) {
         starts[k] = frame_.start_of(rays[k].dir, rays[k].from_camera_m);
         dirs[k] = to_float(rays[k].dir);
-        packet.set(static_cast<int>(k), starts[k], dirs[k], 0, kInfinity);
+        packet.set(static_cast<int>(k), starts[k], dirs[k], 0, kNoEnd);
     }
     HitPacket hits;
     frame_.scene->intersect(packet, Coherence::kCoherent, hits);
@@ -96,7 +96,7 @@ std::uint32_t TruthRays::meets_object(std::span<const Vec2d> points_px, std::siz
         const Vec3d eye_m = camera_m + object_from_world * rays[k].from_camera_m;
         // From just before it, so that it keeps its digits at any distance.
         const double before_m = std::max(0.0, -dot(eye_m, dir) - 1.01 * placer_.radius_m(object));
-        packet.set(static_cast<int>(k), to_float(eye_m + before_m * dir), to_float(dir), 0, kInfinity);
+        packet.set(static_cast<int>(k), to_float(eye_m + before_m * dir), to_float(dir), 0, kNoEnd);
     }
     return frame_.scene->occluded_by(object, packet);
 }

@@ -73,11 +73,11 @@ float flattened_alpha(double area, double level_area) {
 }
 
 // Wrinkles are seen by their normals long before they are by their shape. A level is looked at with pixels of
-// about four times its error, so an edge may be that long; or as long as the normal turns by kTurn_rad along
-// it, if that is more.
+// about four times its error, so an edge may be that long; or as long as the normal turns by
+// kTurnOfNormal_rad along it, if that is more.
 std::size_t triangles_for_shading(const Mesh& mesh, std::span<const std::uint32_t> triangles,
                                   double error_m) {
-    constexpr double kTurn_rad = 0.1, kPixelOverError = 4;
+    constexpr double kTurnOfNormal_rad = 0.1, kPixelOverError = 4;
     if (mesh.normals.empty()) return 0;
     double count = 0;
     for (const std::uint32_t t : triangles) {
@@ -90,7 +90,7 @@ std::size_t triangles_for_shading(const Mesh& mesh, std::span<const std::uint32_
             if (edge_m > 0) per_m = std::max(per_m, turn / edge_m);
         }
         if (per_m <= 0) continue;
-        const double edge_m = std::max(kPixelOverError * error_m, kTurn_rad / per_m);
+        const double edge_m = std::max(kPixelOverError * error_m, kTurnOfNormal_rad / per_m);
         constexpr double kEquilateral = 0.4330127;  // area over the square of the edge
         count += std::min(1.0, length(area_vector(mesh, corners)) / (kEquilateral * edge_m * edge_m));
     }

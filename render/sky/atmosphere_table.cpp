@@ -11,7 +11,6 @@
 namespace hilcam {
 namespace {
 
-constexpr double kGround_m = kEarthEquatorialRadius_m;
 constexpr double kAbove_m = 100e3;  // where the last height ends to be the viewer's own
 
 using Geometry = std::array<double, AtmosphereTable::kAxes>;
@@ -35,7 +34,7 @@ class TableAtmosphere final : public Atmosphere {
 
     // From the air's edge on, one height is as good as another.
     double height_m(Vec3d origin_m) const {
-        const double height = length(origin_m) - kGround_m;
+        const double height = length(origin_m) - kEarthEquatorialRadius_m;
         return height >= kAbove_m ? std::max(height, table_.axes[AtmosphereTable::kHeight].back()) : height;
     }
 
@@ -47,7 +46,7 @@ class TableAtmosphere final : public Atmosphere {
         if (!std::isfinite(distance_m)) return out;
         const Vec3d ground = origin_m + distance_m * dir;
         // Something before the ground: the table is of the whole way to it.
-        if (length(ground) > kGround_m + 1000) return out;
+        if (length(ground) > kEarthEquatorialRadius_m + 1000) return out;
         const AtmosphereTable::Cell cell = at(geometry_of(ground, -dir, sun_dir, height_m(origin_m)));
         out.transmittance = cell.tau_2;
         out.radiance_sr = cell.radiance_sr;
@@ -55,7 +54,7 @@ class TableAtmosphere final : public Atmosphere {
     }
     Spectrum sun_transmittance(Vec3d point_m, Vec3d sun_dir) const override {
         const Vec3d up = normalized(point_m);
-        if (length(point_m) > kGround_m + 1000) {
+        if (length(point_m) > kEarthEquatorialRadius_m + 1000) {
             Spectrum clear;
             clear.bin.fill(1);
             return clear;

@@ -1,6 +1,7 @@
 #pragma once
 // Instants: TAI nanoseconds inside, UTC text at the edges.
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ struct TimeTai {
 };
 
 inline constexpr double kSecondsPerNs = 1e-9;
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+// Rounds to the nearest nanosecond.
+inline std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
 // Reads "2026-03-20T06:00:00[.fraction][Z]" as UTC. Throws InputError when it is not such a text, or the date
 // lies outside 1950-2200. Leap seconds come from ERFA's table (eraDat); years past its end use its last

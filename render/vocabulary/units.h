@@ -4,6 +4,7 @@
 namespace hilcam {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kTurn_rad = 2 * kPi;
 inline constexpr double kDegree_rad = kPi / 180.0;
 inline constexpr double kArcsecond_rad = kPi / 648000.0;
 
@@ -27,5 +28,7 @@ inline constexpr double kEarthFlattening = 1.0 / 298.257223563;
 inline constexpr double photon_energy_j(double wavelength_um) {
     return kPlanck_j_s * kSpeedOfLight_m_s / (wavelength_um * 1e-6);
 }
+
+inline constexpr double square(double x) { return x * x; }
 
 }  // namespace hilcam

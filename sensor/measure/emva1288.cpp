@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
 #include "sensor/measure/least_squares.h"
 
 namespace hilcam {
@@ -14,8 +15,6 @@ constexpr double kQuantisation_dn2 = 1.0 / 12;
 // Fourth degree takes away falloff and vignetting over a window to 1e-5; of a random pattern it takes fifteen
 // degrees of freedom.
 constexpr int kShadingOrder = 4;
-
-double square(double x) { return x * x; }
 
 std::vector<double> sum_of_images(std::vector<double> a, std::span<const double> b, double factor) {
     for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "render/vocabulary/units.h"
 #include "sensor/measure/least_squares.h"
 
 namespace hilcam {
@@ -17,7 +18,6 @@ std::span<const std::uint8_t> use_of(const PixelSelection& s, int y) {
     return std::span(s.use).subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(s.width),
                                     static_cast<std::size_t>(s.width));
 }
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -36,7 +36,7 @@ ONLY_IN = {
     "fftw3": {"sensor/convolve.cpp", "sensor/psf.cpp", "sensor/zernike.cpp"},
     "opencv2": {"io/files/image_file.cpp", "io/files/kept_stderr.cpp", "io/files/picture_file.cpp",
                 "emulator/tradeoff/structural_similarity.cpp"},
-    "Imf": {"io/files/image_file.cpp", "io/truth/truth_files.cpp"},
+    "OpenEXR": {"io/files/image_file.cpp", "io/truth/truth_files.cpp"},
     "zlib": {"io/gige/device/gige_zip.cpp", "io/system/crc32.cpp"},
     "httplib": {"io/preview/sink_preview.cpp"},
     "google": {"io/vizard/vizard_message.cpp"},

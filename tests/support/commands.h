@@ -17,6 +17,11 @@ inline std::vector<std::uint8_t> encoded(const Command& command, std::uint32_t s
     return bytes;
 }
 
+inline std::vector<std::uint8_t> operator+(std::vector<std::uint8_t> a, const std::vector<std::uint8_t>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
 inline std::vector<std::uint8_t> with_crc(std::vector<std::uint8_t> bytes) {
     const std::uint16_t crc = crc16(std::span(bytes).first(bytes.size() - 2));
     bytes[bytes.size() - 2] = static_cast<std::uint8_t>(crc >> 8);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/near.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {
@@ -29,11 +30,6 @@ class TruthStage : public Stage {
     }
 };
 
-inline void expect_near(Vec3d seen, Vec3d expected, double tolerance) {
-    EXPECT_NEAR(seen.x, expected.x, tolerance);
-    EXPECT_NEAR(seen.y, expected.y, tolerance);
-    EXPECT_NEAR(seen.z, expected.z, tolerance);
-}
 inline void expect_box(const PixelBox& seen, const PixelBox& expected) {
     EXPECT_EQ(seen.x0, expected.x0);
     EXPECT_EQ(seen.y0, expected.y0);

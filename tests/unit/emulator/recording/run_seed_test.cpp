@@ -16,8 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::size_t kFrames = 16, kPixels = 64 * 64;
-using Frames = std::array<std::array<double, kPixels>, kFrames>;
+constexpr std::size_t kRunFrames = 16, kPixels = 64 * 64;
+using Frames = std::array<std::array<double, kPixels>, kRunFrames>;
 
 // A camera whose pixels differ, before a plate that fills its view.
 class RunSeedTest : public PlateTest {
@@ -45,7 +45,7 @@ class RunSeedTest : public PlateTest {
     }
     Frames frames_in(const std::string& folder) const {
         Frames out{};
-        for (std::size_t i = 0; i < kFrames; ++i) {
+        for (std::size_t i = 0; i < kRunFrames; ++i) {
             char name[32];
             std::snprintf(name, sizeof name, "frame_%08zu.raw", i + 1);
             std::ifstream in(folder_ / folder / name, std::ios::binary);
@@ -73,14 +73,14 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 std::vector<double> pattern(const Frames& frames) {
     std::vector<double> mean(kPixels);
     for (const auto& frame : frames)
-        for (std::size_t p = 0; p < kPixels; ++p) mean[p] += frame[p] / kFrames;
+        for (std::size_t p = 0; p < kPixels; ++p) mean[p] += frame[p] / kRunFrames;
     return mean;
 }
 
 // What changes from frame to frame: differences of neighbours, so that no pattern is in them.
 std::vector<double> noise(const Frames& frames) {
     std::vector<double> out;
-    for (std::size_t i = 0; i + 1 < kFrames; i += 2)
+    for (std::size_t i = 0; i + 1 < kRunFrames; i += 2)
         for (std::size_t p = 0; p < kPixels; ++p) out.push_back(frames[i + 1][p] - frames[i][p]);
     return out;
 }

@@ -11,7 +11,6 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kNever_ns = SimulatedClock::kNever_ns;
 using Action = ClockCommand::Action;
 

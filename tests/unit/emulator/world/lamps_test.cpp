@@ -21,8 +21,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
 // --- a lamp's switches
 
 TEST(LampSwitches, HoldFromTheirTimeOnInAnyOrder) {

@@ -15,7 +15,6 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 using Verdict = PoseWatch::Verdict;
 
 TEST(PoseWatch, SilenceBeginsAfterTheNewestArrivalAndEndsWithTheNext) {

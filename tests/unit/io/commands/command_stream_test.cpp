@@ -14,11 +14,6 @@ using Bytes = std::vector<std::uint8_t>;
 using Kind = PacketStream::Item::Kind;
 const Bytes kMarker = {0x1A, 0xCF, 0xFC, 0x1D};
 
-Bytes operator+(Bytes a, const Bytes& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
 struct Taken {
     std::vector<std::uint32_t> packets;  // sequence numbers
     int broken = 0;

@@ -75,11 +75,6 @@ class Client {
     PacketStream stream{answer_rule({})};
 };
 
-Bytes operator+(Bytes a, const Bytes& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
 TcpCommandConfig tcp_config(std::int64_t port) {
     TcpCommandConfig c;
     c.address = kAddress;

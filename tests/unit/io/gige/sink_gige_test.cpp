@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
 
-class PlainCamera : public CameraControl {
+class StreamedCamera : public CameraControl {
   public:
     CameraSettings settings() const override {
         CameraSettings s;
@@ -84,7 +84,7 @@ class Client {
 
 TEST(GigeSink, TwoCamerasInOneProcess) {
     constexpr std::uint32_t kFirst = 0x7F530201, kSecond = 0x7F530202;
-    PlainCamera camera;
+    StreamedCamera camera;
     std::array<FaultBoard, 2> faults;
     std::vector<std::unique_ptr<GigeSink>> sinks;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -151,19 +151,19 @@ TEST(GigeSink, TwoCamerasInOneProcess) {
 
 // 127.64.0.0/10, of this process alone: the tests of a fixture run beside one another, and a camera's port is
 // always the same.
-std::uint32_t own_loopback(std::uint32_t host) {
+std::uint32_t streams_loopback(std::uint32_t host) {
     const auto process = static_cast<std::uint32_t>(getpid());
     return 0x7F400000u | (process & 0x3FFFu) << 8 | host;
 }
 
 // 6 kB a frame at 200 kB/s, 30 ms: the ring is full at once.
 struct SlowSink : testing::Test {
-    const std::uint32_t camera_address = own_loopback(1);
-    PlainCamera camera;
+    const std::uint32_t camera_address = streams_loopback(1);
+    StreamedCamera camera;
     FaultBoard faults;
     GigeSink sink{{.interface = format_ipv4(camera_address), .packet_bytes = 576, .rate_bytes_s = 200e3},
                   {camera, faults}};
-    Client client{own_loopback(2)};
+    Client client{streams_loopback(2)};
     DnImage image{kWidth, kHeight};
     FrameRecord record;
 
@@ -246,7 +246,7 @@ TEST_F(SlowSink, NeitherDoesACutCableNorAStoppedOutput) {
 
 TEST(GigeSink, AnExposuresEndNamesItsFramesBlock) {
     constexpr std::uint32_t kCamera = 0x7F530601, kHere = 0x7F530602;
-    PlainCamera camera;
+    StreamedCamera camera;
     FaultBoard faults;
     GigeSink sink({.interface = format_ipv4(kCamera)}, {camera, faults});
     sink.start();
@@ -300,7 +300,7 @@ TEST(GigeSink, AnExposuresEndNamesItsFramesBlock) {
 }
 
 TEST(GigeSink, ATakenAddressIsSaid) {
-    PlainCamera camera;
+    StreamedCamera camera;
     FaultBoard faults;
     GigeConfig config;
     config.interface = "127.83.3.1";

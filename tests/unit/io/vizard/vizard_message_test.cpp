@@ -9,6 +9,7 @@
 
 #include "io/vizard/vizard_geometry.h"
 #include "render/vocabulary/units.h"
+#include "tests/support/near.h"
 #include "tests/support/vizard_wire.h"
 
 namespace hilcam {
@@ -16,12 +17,6 @@ namespace {
 
 using testing::HasSubstr;
 using vizard_wire::Message;
-
-void expect_near(Vec3d found, Vec3d expected, double tolerance) {
-    EXPECT_NEAR(found.x, expected.x, tolerance);
-    EXPECT_NEAR(found.y, expected.y, tolerance);
-    EXPECT_NEAR(found.z, expected.z, tolerance);
-}
 
 // The matrix [BN] of MRPs by its own formula, Schaub & Junkins (2018), eq. (3.147):
 // [BN] = 1 + (8 [s~]^2 - 4 (1 - s^2) [s~]) / (1 + s^2)^2.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/vocabulary/units.h"
+#include "tests/support/near.h"
 
 namespace hilcam {
 namespace {
@@ -16,12 +17,6 @@ using testing::IsEmpty;
 
 const TimeTai kEpoch = parse_utc("2026-03-20T14:00:00Z");
 const Quat kQuarterAboutZ = from_rotation_vector({0, 0, kPi / 2});
-
-void expect_near(Vec3d found, Vec3d expected, double tolerance) {
-    EXPECT_NEAR(found.x, expected.x, tolerance);
-    EXPECT_NEAR(found.y, expected.y, tolerance);
-    EXPECT_NEAR(found.z, expected.z, tolerance);
-}
 
 class VizardWorldTest : public testing::Test {
   protected:

@@ -7,15 +7,10 @@
 #include "render/vocabulary/pose.h"
 #include "render/vocabulary/random.h"
 #include "render/vocabulary/units.h"
+#include "tests/support/near.h"
 
 namespace hilcam {
 namespace {
-
-void expect_near(Vec3d a, Vec3d b, double tolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-}
 
 TEST(Quaternion, QuarterTurnAboutZTakesXToY) {
     const Quat q = from_rotation_vector({0, 0, kPi / 2});
