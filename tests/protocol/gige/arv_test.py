@@ -256,12 +256,14 @@ class GStreamer(CameraTest):
         for caps, name in (("video/x-raw,format=GRAY8", "Mono8"), ("video/x-raw,format=GRAY16_LE", "Mono16")):
             with tempfile.TemporaryDirectory() as folder:
                 result = subprocess.run(
-                    ["gst-launch-1.0", "-e", "aravissrc", f"camera-name={self.address}", "num-buffers=8", "!", caps, "!",
-                     "filesink", f"location={folder}/frames.raw"], capture_output=True, text=True, timeout=60)
+                    ["gst-launch-1.0", "-e", "-v", "aravissrc", f"camera-name={self.address}", "num-buffers=8", "!", caps, "!",
+                     # aravissrc gives its memory back to the stream at once, so a sink must not keep it for later.
+                     "identity", "silent=false", "!", "filesink", "buffer-mode=unbuffered", f"location={folder}/frames.raw"],
+                    capture_output=True, text=True, timeout=60)
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
                 stream = pathlib.Path(folder, "frames.raw").read_bytes()
             size = 256 * 192 * (1 if name == "Mono8" else 2)
-            self.assertEqual(len(stream), 8 * size)
+            self.assertEqual(len(stream), 8 * size, result.stdout + result.stderr)
             taken = [stream[i:i + size] for i in range(0, len(stream), size)]
             time.sleep(0.5)  # the files' thread writes behind the loop
             index = {}
