@@ -5,7 +5,6 @@
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
-namespace {}  // namespace
 
 SensorNoise::SensorNoise(const CameraModel& c, double gain_db, int charges_per_reading)
     : floor_e2_((square(c.dark_noise_e()) + 1 / (12 * square(c.system_gain_dn_e(gain_db)))) /

@@ -1,13 +1,11 @@
 #include "emulator/world/pose_watch.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/time.h"
 
 namespace hilcam {
-namespace {}  // namespace
 
 Fields fields(PoseRules& r) {
     return {
