@@ -16,6 +16,7 @@
 #include "io/files/mesh_file.h"
 #include "io/files/mesh_level_cache.h"
 #include "io/files/picture_file.h"
+#include "io/files/transfer_cache.h"
 #include "render/frame/plugin.h"
 #include "render/scene/brdf_table.h"
 #include "render/sky/sun.h"
@@ -62,6 +63,20 @@ bool wants_levels_of_detail(const ScenarioConfig& scenario) {
            std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
 }
 
+bool wants_kept_light(const ScenarioConfig& scenario) {
+    const std::vector<RenderQuality> lower = lower_levels(scenario);
+    const auto keeps = [](const RenderQuality& q) { return q.path_model == "kept"; };
+    return keeps(scenario.quality.render) || std::any_of(lower.begin(), lower.end(), keeps);
+}
+
+std::shared_ptr<const TransferTable> load_transfer(const SceneObject& object, const RenderQuality& quality) {
+    std::vector<std::uint8_t> glass;
+    for (const Material& material : object.materials) glass.push_back(material.model == ReflectionModel::kGlass);
+    const TransferSettings settings{static_cast<int>(quality.kept_directions),
+                                    static_cast<std::size_t>(quality.kept_nodes)};
+    return cached_transfer(object.mesh, glass, settings, cache_folder());
+}
+
 SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
                         const SpectralGrid& grid) {
     SceneObject object;
@@ -70,6 +85,7 @@ SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioCon
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
     if (wants_levels_of_detail(scenario)) object.levels = cached_levels(object.mesh, cache_folder());
     object.materials = load_materials(object.mesh, config.materials, grid);
+    if (wants_kept_light(scenario)) object.transfer = load_transfer(object, scenario.quality.render);
     return object;
 }
 

@@ -47,6 +47,12 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
         shown_.push_back(object.levels.front().get());
     }
     full_mask_.fill();
+    const bool emission = radiance_model_->emits() &&
+                          any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
+    const KeptScene::Settings kept_settings{static_cast<float>(quality.facets_behind_diffuse),
+                                            static_cast<float>(quality.kept_step_rad), lamps_.all().size(),
+                                            emission};
+    kept_ = std::make_unique<KeptScene>(objects_, bands_, kept_settings);
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     most_stars_ = rays_->is_still()
@@ -67,17 +73,21 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.alpha_behind_diffuse = static_cast<float>(quality.facets_behind_diffuse);
     frame_.has_glass =
         any_material(objects_, [](const Material& m) { return m.model == ReflectionModel::kGlass; });
-    frame_.has_emission = radiance_model_->emits() &&
-                          any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
+    frame_.has_emission = emission;
 }
 
-void FramePlacer::set_quality(const RenderQuality& quality, bool paths_sample_lobes) {
+void FramePlacer::set_paths(const PathModel& paths) {
+    frame_.paths_sample_lobes = paths.samples_lobes();
+    frame_.kept = paths.uses_kept_light() ? kept_.get() : nullptr;
+}
+
+void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& paths) {
     lod_error_px_ = quality.lod_error_px;
     samples_per_axis_ = static_cast<int>(quality.samples_per_axis);
     frame_.max_depth = static_cast<int>(quality.max_depth);
     frame_.contribution_threshold = static_cast<float>(quality.contribution_threshold);
     frame_.sun_is_disk = quality.sun_disk;
-    frame_.paths_sample_lobes = paths_sample_lobes;
+    set_paths(paths);
 }
 
 // The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
@@ -122,6 +132,7 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
                  {world_.time, world_.camera, world_.rows_velocity_m_s, world_.camera_rate_rad_s});
     place_objects();
     place_background();
+    if (frame_.kept) kept_->place(frame_, world_);
 }
 
 // Rows with poses of their own meet objects anywhere: no mask, no boxes; here and below.

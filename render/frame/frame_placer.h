@@ -13,7 +13,9 @@
 #include "render/frame/plan.h"
 #include "render/frame/render_quality.h"
 #include "render/light/frame_view.h"
+#include "render/light/kept_scene.h"
 #include "render/light/lamp_light.h"
+#include "render/light/path_model.h"
 #include "render/light/radiance_model.h"
 #include "render/light/screen_mask.h"
 #include "render/scene/background.h"
@@ -34,11 +36,10 @@ class FramePlacer {
     FramePlacer(const FramePlacer&) = delete;  // the view points into it
     FramePlacer& operator=(const FramePlacer&) = delete;
 
-    // What of the quality may change, from the next place() on. paths_sample_lobes: of its path model
-    // (path_model.h). Loop.
-    void set_quality(const RenderQuality& quality, bool paths_sample_lobes);
-    // For a path model that is only tried (render_bench.h).
-    void set_paths_sample_lobes(bool yes) { frame_.paths_sample_lobes = yes; }
+    // What of the quality may change, from the next place() on; with its path model. Loop.
+    void set_quality(const RenderQuality& quality, const PathModel& paths);
+    // For a path model that is only tried (render_bench.h), too.
+    void set_paths(const PathModel& paths);
     // Loop; nothing is allocated after the first call.
     void place(const WorldSnapshot& world, RandomKey key);
 
@@ -91,6 +92,7 @@ class FramePlacer {
     std::unique_ptr<Atmosphere> air_;
     ColorBands bands_;
     Background background_;
+    std::unique_ptr<KeptScene> kept_;
     ScreenMask object_mask_, full_mask_;
     std::unique_ptr<RayGenerator> rays_;
     std::unique_ptr<RadianceModel> radiance_model_;

@@ -36,7 +36,6 @@ class FrameTracer {
     const RenderQuality& quality() const { return levels_[level_].quality; }
     // What the noise budget is weighed against from the next frame on. Loop.
     void set_pixel_noise(const PixelNoise& noise) { noise_ = noise; }
-    bool paths_sample_lobes() const { return paths().front()->samples_lobes(); }
     PathModel& first_paths() { return *paths().front(); }
     static Paths make_paths(const Modules& modules, const std::string& name);
     // In place of those of the level in use, for a comparison (render_bench.h).

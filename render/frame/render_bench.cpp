@@ -43,15 +43,14 @@ std::vector<PathModelSpeed> path_model_speeds(FramePlacer& placer, FrameTracer& 
     const FrameView& frame = placer.frame();
     RadianceImage radiance(frame.geometry.padded_width(), frame.geometry.padded_height(), frame.bins);
     std::vector<PathModelSpeed> speeds;
-    const bool samples_lobes = frame.paths_sample_lobes;
     for (const std::string& name : modules.paths.list()) {
         FrameTracer::Paths paths = FrameTracer::make_paths(modules, name);
-        placer.set_paths_sample_lobes(paths.front()->samples_lobes());
+        placer.set_paths(*paths.front());
         tracer.exchange_paths(paths);
         speeds.push_back(speed_of(name, placer, tracer, radiance, runs));
         tracer.exchange_paths(paths);
     }
-    placer.set_paths_sample_lobes(samples_lobes);
+    placer.set_paths(tracer.first_paths());
     return speeds;
 }
 

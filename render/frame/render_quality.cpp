@@ -5,13 +5,19 @@ namespace hilcam {
 Fields fields(RenderQuality& q) {
     return {
         integer("samples_per_axis", q.samples_per_axis, {1, 16}, "n: each pixel is an n x n grid of rays"),
-        text("path_model", q.path_model, "direct | hemisphere | path, or a plug-in's"),
+        text("path_model", q.path_model, "kept | direct | hemisphere | path, or a plug-in's"),
         integer("max_depth", q.max_depth, {1, 64},
                 "surfaces that a light path may meet; 1: direct sunlight only"),
         number(
             "contribution_threshold", q.contribution_threshold, 1, {0, 1},
             "a path whose largest weight falls below this ends (hemisphere), or lives on by chance (path)"),
         flag("sun_disk", q.sun_disk, "sunlight from the whole disk: soft shadows, exact highlights"),
+        integer("kept_directions", q.kept_directions, {16, 256},
+                "kept: directions that each place's light comes from, 16, 60 or 256"),
+        integer("kept_nodes", q.kept_nodes, {1000, 4'000'000},
+                "kept: places on an object, both sides, where light is kept"),
+        number("kept_step_deg", q.kept_step_rad, kDegree_rad, {0.01, 10},
+               "kept: the grid that directions of the Sun and the bodies are rounded to, in an object's own axes"),
         number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
                "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they "
                "are"),

@@ -43,7 +43,7 @@ struct Renderer::Implementation {
 
     void use_level(std::size_t level) {
         tracer.use_level(level);
-        placer.set_quality(tracer.quality(), tracer.paths_sample_lobes());
+        placer.set_quality(tracer.quality(), tracer.first_paths());
     }
 
     // Stars, bodies, lamps and objects that are drawn as points. Gives what it took to trace.

@@ -20,6 +20,7 @@
 
 namespace hilcam {
 
+class KeptScene;
 class Lamps;
 class RadianceModel;
 
@@ -33,6 +34,7 @@ struct FrameView {
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
     const Lamps* lamps = nullptr;  // lamp_light.h; null: none
+    const KeptScene* kept = nullptr;  // kept_scene.h; null: the path model does without
     const ColorBands* bands = nullptr;
     const RayGenerator* rays = nullptr;
     ImageGeometry geometry;

@@ -20,6 +20,7 @@ Modules::Modules() {
     rays.add("pushbroom", [](const RayConfig& c) { return make_pushbroom_rays(c.line_time_s); });
     paths.add("direct", make_direct_paths);
     paths.add("hemisphere", make_hemisphere_paths);
+    paths.add("kept", make_kept_paths);
     paths.add("path", make_traced_paths);
     radiance.add("reflected", [] { return make_radiance_equation(false); });
     radiance.add("emissive", [] { return make_radiance_equation(true); });

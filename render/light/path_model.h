@@ -3,6 +3,8 @@
 //
 //   direct      what the camera sees, lit by the Sun; nothing else
 //   hemisphere  Peng et al. 2011: 60 fixed directions of equal area at every target, again at what they meet
+//   kept        light between surfaces and from the bodies out of what is kept (kept_scene.h), rays for mirrors; random
+//               paths where nothing is kept
 //   path        random paths with next-event estimation, multiple importance sampling and Russian roulette
 // A path ends where it leaves the scene, where it can no longer add contribution_threshold, or at max_depth
 // surfaces.
@@ -29,6 +31,8 @@ class PathModel {
     virtual void reserve_depth(int /*max_depth*/) {}
     // Its own directions can meet lamps that next-event estimation counts too; they are weighed then.
     virtual bool samples_lobes() const { return false; }
+    // Its frames need light that is kept (kept_scene.h).
+    virtual bool uses_kept_light() const { return false; }
 };
 
 // The tile's edge [px] such that its samples fit a PathModel.

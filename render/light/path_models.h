@@ -11,6 +11,7 @@ namespace hilcam {
 
 std::unique_ptr<PathModel> make_direct_paths();
 std::unique_ptr<PathModel> make_hemisphere_paths();
+std::unique_ptr<PathModel> make_kept_paths();
 std::unique_ptr<PathModel> make_traced_paths();
 
 // The 60 directions of `hemisphere`, about +z: the middles of the equal triangles that a dodecahedron's

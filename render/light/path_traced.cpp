@@ -2,16 +2,22 @@
 // direction drawn from the surface's own reflection. Where both can find the same light they are weighed by
 // the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
 // lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
+//
+// With kept light (kept_scene.h) nothing is drawn at vertices that keep it: there a path ends, but for mirrors and
+// lobes too narrow to be kept, whose one mirror direction goes on for the whole lobe, and for glass, whose two do. What
+// can add less than contribution_threshold is left out.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "render/light/kept_scene.h"
 #include "render/light/path_models.h"
 #include "render/light/primary_rays.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/radiance_model.h"
+#include "render/scene/brdf_microfacet.h"
 
 namespace hilcam {
 namespace {
@@ -23,6 +29,7 @@ struct NextRay {
     Vec3f dir;
     float density;      // of the direction [sr^-1]; 0: exact
     float alpha_least;  // of the next vertex's facet lobe
+    bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
     Spectrum weight;
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
@@ -34,18 +41,33 @@ struct NextRay {
 
 class TracedPaths final : public PathModel {
   public:
+    explicit TracedPaths(bool kept) : kept_(kept) {}
+
     void trace(Tile& tile) override {
+        const FrameView& frame = tile.frame;
         std::size_t count = trace_primary_rays(tile, {current_, kMost});
         for (int depth = 1; count > 0; ++depth) {
-            tile.frame.radiance->add_light(tile, {current_, count}, LampLight::kSampled);
-            const bool last = depth == tile.frame.max_depth;
-            count = follow(tile, choose(tile, count, last), last);
+            std::size_t keep = 0;
+            if (frame.kept) {
+                Vertex* const others = std::partition(current_, current_ + count,
+                                                      [](const Vertex& v) { return v.keeps_light; });
+                keep = static_cast<std::size_t>(others - current_);
+                frame.radiance->add_light(tile, {current_, keep}, LampLight::kNone);
+                frame.kept->add_reflected(tile, {current_, keep});
+            }
+            frame.radiance->add_light(tile, {current_ + keep, count - keep}, LampLight::kSampled);
+            const bool last = depth == frame.max_depth;
+            std::size_t rays = 0;
+            for (std::size_t i = 0; i < keep; ++i) continue_kept(tile, current_[i], rays);
+            count = follow(tile, choose(tile, keep, count, rays, last), last);
         }
     }
 
     bool samples_lobes() const override { return true; }
+    bool uses_kept_light() const override { return kept_; }
 
   private:
+    bool kept_;
     static constexpr auto kMost = static_cast<std::size_t>(kMostSamples);
     std::array<Vertex, kMost> a_, b_;
     std::array<NextRay, kMost> next_;
@@ -53,11 +75,10 @@ class TracedPaths final : public PathModel {
     Vertex* following_ = b_.data();
 
     // At the last surface only exact directions go on: no lamp has been counted in them.
-    std::size_t choose(Tile& tile, std::size_t count, bool last) {
+    std::size_t choose(Tile& tile, std::size_t first, std::size_t count, std::size_t ray_count, bool last) {
         const FrameView& frame = tile.frame;
         const float least = frame.contribution_threshold;
-        std::size_t ray_count = 0;
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = first; i < count && ray_count < kMost; ++i) {
             const Vertex& at = current_[i];
             if (last && !at.surface.has_exact()) continue;
             const auto random = tile.random_of(at, 0);
@@ -81,10 +102,39 @@ class TracedPaths final : public PathModel {
             const float alpha_least = frame.alpha_behind_diffuse > 0
                                           ? (sample.diffuse ? frame.alpha_behind_diffuse : at.surface.alpha)
                                           : 0.0f;
-            next_[ray_count++] = {&at,   at.start(!sample.transmits), sample.dir, sample.density, alpha_least,
-                                  weight};
+            next_[ray_count++] = {&at,  at.start(!sample.transmits), sample.dir, sample.density, alpha_least,
+                                  true, weight};
         }
         return ray_count;
+    }
+
+    // The one direction of a narrow lobe, both of a sheet of glass; what is seen of the bodies in it at once, where
+    // nothing can be in its way.
+    void continue_kept(Tile& tile, const Vertex& at, std::size_t& ray_count) {
+        const FrameView& frame = tile.frame;
+        const Scatterer& surface = at.surface;
+        const int parts = surface.is_glass() ? 2 : 1;
+        const bool narrow = surface.material->has_facets() && surface.alpha < kNarrowestKept;
+        if (!narrow && parts == 1) return;
+        for (int part = 0; part < parts && ray_count < kMost; ++part) {
+            NextRay ray{&at, at.start(part == 0), {}, 0, surface.alpha, surface.alpha == 0, {}};
+            if (narrow) {
+                const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+                ray.dir = normalized(reflect(at.view_dir, at.normal));
+                ray.weight = at.weight * frame.kept->light(at.object).albedo(at.surface_number).lobe(no);
+            } else {
+                const BrdfSample exact = brdf_exact(surface, at.normal, at.view_dir, part);
+                if (!exact.valid) continue;
+                ray.dir = exact.dir;
+                ray.weight = at.weight * exact.weight;
+            }
+            if (largest(ray.weight) < frame.contribution_threshold) continue;
+            if (part == 0 && dot(at.geometric_normal, ray.dir) <= 0) continue;
+            if (part == 0 && !frame.kept->is_near(frame, at, ray.dir))
+                add_background(tile, ray);
+            else
+                next_[ray_count++] = ray;
+        }
     }
 
     // Traces the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
@@ -139,7 +189,10 @@ class TracedPaths final : public PathModel {
             background.add_bodies(ray.origin_m, to_double(ray.dir), weight, pixel))
             return;
         // As a point the Sun is only seen where no lobe has counted it.
-        if (exact) return background.add_sun_disk(to_double(ray.dir), weight, pixel);
+        if (exact) {
+            if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), weight, pixel);
+            return;
+        }
         const float sun = sun_density(frame, ray.dir);
         if (sun > 0) {
             weight = (ray.density / (ray.density + sun)) * ray.weight;
@@ -150,6 +203,7 @@ class TracedPaths final : public PathModel {
 
 }  // namespace
 
-std::unique_ptr<PathModel> make_traced_paths() { return std::make_unique<TracedPaths>(); }
+std::unique_ptr<PathModel> make_traced_paths() { return std::make_unique<TracedPaths>(false); }
+std::unique_ptr<PathModel> make_kept_paths() { return std::make_unique<TracedPaths>(true); }
 
 }  // namespace hilcam

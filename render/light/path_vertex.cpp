@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/light/kept_scene.h"
+
 namespace hilcam {
 
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
@@ -46,6 +48,10 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
         std::max({std::abs(vertex.point_m.x), std::abs(vertex.point_m.y), std::abs(vertex.point_m.z),
                   std::abs(origin_m.x), std::abs(origin_m.y), std::abs(origin_m.z)});
     vertex.offset_m = 16 * std::numeric_limits<float>::epsilon() * greatest;
+
+    vertex.object = hits.object[k];
+    vertex.surface_number = triangle.surface;
+    vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
 
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     vertex.surface = {&material, alpha, material.base, material.highlight};

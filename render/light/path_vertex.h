@@ -19,6 +19,9 @@ struct Vertex {
     Vec3f normal;            // shading, same side
     Vec3f view_dir;          // back along the path, unit
     float footprint_m;       // how wide the ray was when it came
+    std::uint32_t object;
+    std::uint16_t surface_number;  // of the object's mesh
+    bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     Spectrum weight;
     Scatterer surface;
 

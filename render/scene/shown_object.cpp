@@ -46,6 +46,7 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         }
         ShownObject& out = objects.emplace_back();
         out.name = object.name;
+        out.transfer = std::move(object.transfer);
         std::vector<MipTexture> pictures;
         for (Texture& texture : object.mesh.textures) pictures.emplace_back(std::move(texture));
         const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));

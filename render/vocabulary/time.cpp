@@ -15,10 +15,6 @@
 namespace hilcam {
 namespace {
 
-// The Julian date of the epoch, 1970-01-01T00:00:00.
-constexpr double kEpochJulianDay = 2440587.5;
-constexpr std::int64_t kNsPerDay = 86'400'000'000'000;
-
 bool scan(std::string_view text, CalendarTime& t) {
     const std::string copy(text);
     char t_or_space = 0;
@@ -68,10 +64,10 @@ JulianDate julian_tt(TimeTai time) {
     // TT = TAI + 32.184 s, exact by definition.
     constexpr std::int64_t kTtMinusTai_ns = 32'184'000'000;
     const std::int64_t ns = time.ns + kTtMinusTai_ns;
-    std::int64_t days = ns / kNsPerDay;
-    if (ns % kNsPerDay < 0) --days;
+    std::int64_t days = ns / kDay_ns;
+    if (ns % kDay_ns < 0) --days;
     return {kEpochJulianDay + static_cast<double>(days),
-            static_cast<double>(ns - days * kNsPerDay) / static_cast<double>(kNsPerDay)};
+            static_cast<double>(ns - days * kDay_ns) / static_cast<double>(kDay_ns)};
 }
 
 JulianDate julian_ut1(TimeTai time) {

@@ -20,6 +20,8 @@ struct TimeTai {
 
 inline constexpr double kSecondsPerNs = 1e-9;
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+inline constexpr std::int64_t kDay_ns = 86'400 * kSecond_ns;
+inline constexpr double kEpochJulianDay = 2440587.5;  // 1970-01-01T00:00:00
 // Rounds to the nearest nanosecond.
 inline std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 

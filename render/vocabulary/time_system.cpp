@@ -9,13 +9,11 @@
 namespace hilcam {
 namespace {
 
-constexpr double kEpochJulianDay = 2440587.5;  // 1970-01-01T00:00:00
-constexpr std::int64_t kNsPerDay = 86'400'000'000'000;
 
 TimeTai from_julian(double day, double fraction) {
     const double days = day - kEpochJulianDay;
-    return {static_cast<std::int64_t>(std::llround(days)) * kNsPerDay +
-            std::llround(((days - std::round(days)) + fraction) * static_cast<double>(kNsPerDay))};
+    return {static_cast<std::int64_t>(std::llround(days)) * kDay_ns +
+            std::llround(((days - std::round(days)) + fraction) * static_cast<double>(kDay_ns))};
 }
 
 std::optional<TimeTai> from_utc(const CalendarTime& t) {
@@ -42,7 +40,7 @@ std::optional<TimeTai> from_calendar(const CalendarTime& t, TimeSystem system) {
         return {};
     // Nanoseconds in integers: a day in double counts to 15 ns.
     const std::int64_t minutes_ns = (t.hour * 60 + t.minute) * 60'000'000'000LL;
-    const TimeTai same{std::llround(day + mjd - kEpochJulianDay) * kNsPerDay + minutes_ns +
+    const TimeTai same{std::llround(day + mjd - kEpochJulianDay) * kDay_ns + minutes_ns +
                        std::llround(t.second * 1e9)};
     constexpr std::int64_t kTtMinusTai_ns = 32'184'000'000, kTaiMinusGps_ns = 19'000'000'000;
     switch (system) {

@@ -1,0 +1,430 @@
+#include "render/light/kept_light.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+#include "render/light/lamp_light.h"
+#include "render/scene/brdf_microfacet.h"
+#include "render/scene/surface.h"
+
+namespace hilcam {
+namespace {
+
+using Nodes = tbb::blocked_range<std::size_t>;
+constexpr std::size_t kBlock = 256;  // nodes that a thread takes at a time; no result depends on it
+
+// Directions on an octahedron's faces (Cigolle et al., JCGT 3(2), 2014), at the middle of a cell of a grid.
+Vec3f rounded_dir(Vec3f dir, float step_rad) {
+    const float sum = std::abs(dir.x) + std::abs(dir.y) + std::abs(dir.z);
+    const auto sign = [](float x) { return x >= 0 ? 1.0f : -1.0f; };
+    float x = dir.x / sum, y = dir.y / sum;
+    if (dir.z < 0) {
+        const float folded = (1 - std::abs(y)) * sign(x);
+        y = (1 - std::abs(x)) * sign(y);
+        x = folded;
+    }
+    // A face's edge of length 1 spans a right angle.
+    const float cells = std::ceil(0.5f * kPiF / step_rad);
+    const auto middle = [cells](float v) { return (std::floor(v * cells) + 0.5f) / cells; };
+    x = std::clamp(middle(x), -1.0f, 1.0f), y = std::clamp(middle(y), -1.0f, 1.0f);
+    const float z = 1 - std::abs(x) - std::abs(y);
+    return normalized(z >= 0 ? Vec3f{x, y, z} : Vec3f{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z});
+}
+
+float schlick_normal_incidence(float refractive_index) {
+    const float r = (refractive_index - 1) / (refractive_index + 1);
+    return r * r;
+}
+
+// A cone's directions, sixteen of equal solid angle (Vogel 1979), for the irradiance that it makes.
+constexpr int kConeDirections = 16;
+std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_cosine) {
+    const Frame axis(axis_dir);
+    std::array<Vec3f, kConeDirections> out;
+    for (int i = 0; i < kConeDirections; ++i) {
+        const float below = (static_cast<float>(i) + 0.5f) / kConeDirections * (1 - cone_cosine);
+        const float r = std::sqrt(std::max(0.0f, below * (2 - below))), phi = 2 * kPiF * 0.61803399f * static_cast<float>(i);
+        out[static_cast<std::size_t>(i)] = axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
+    }
+    return out;
+}
+
+}  // namespace
+
+KeptSource KeptSource::rounded(float step_rad) const {
+    KeptSource out = *this;
+    if (kind == Kind::kNone || kind == Kind::kGlow) return out;
+    out.dir = rounded_dir(dir, step_rad);
+    // Steps of a sixty-fourth of the sine: 1 % of the half angle, about.
+    const float sine = std::sqrt(std::max(0.0f, 1 - cone_cosine * cone_cosine));
+    if (kind == Kind::kCone && cone_cosine > 0) {
+        const float kept = std::exp2(std::round(std::log2(std::max(sine, 1e-6f)) * 64) / 64);
+        out.cone_cosine = std::sqrt(std::max(0.0f, 1 - kept * kept));
+    }
+    if (kind == Kind::kLamp) {
+        const float grid_m = std::exp2(std::floor(std::log2(std::max(length(position_m), 1e-3f))) - 6);
+        const auto middle = [grid_m](float x) { return (std::floor(x / grid_m) + 0.5f) * grid_m; };
+        out.position_m = {middle(position_m.x), middle(position_m.y), middle(position_m.z)};
+    }
+    return out;
+}
+
+void KeptLight::Workspace::reserve(const KeptLight& light) {
+    const std::size_t nodes = std::max(light.table().size(), senders_.size());
+    senders_.resize(nodes), radiosity_.resize(nodes), first_.resize(nodes), now_.resize(nodes);
+}
+
+KeptLight::KeptLight(std::shared_ptr<const TransferTable> table, const std::vector<Material>& materials,
+                     const ColorBands& bands, float alpha_behind_diffuse, float step_rad)
+    : table_(std::move(table)), alpha_behind_diffuse_(alpha_behind_diffuse), step_rad_(step_rad) {
+    for (const Material& material : materials) {
+        albedos_.emplace_back(material);
+        materials_.push_back(&material);
+    }
+    // Grouped by the point that they belong to.
+    const std::vector<Vec3f> local = transfer_directions(table_->directions());
+    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
+        for (std::size_t d = p; d < local.size(); d += LightNode::kPoints)
+            local_x_.push_back(local[d].x), local_y_.push_back(local[d].y), local_z_.push_back(local[d].z);
+
+    const std::vector<LightNode>& nodes = table_->nodes().nodes();
+    const bool textured = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.texture >= 0; });
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const Material& material = *materials_[nodes[n].surface];
+        Spectrum white = albedos_[nodes[n].surface].white();
+        if (textured) {
+            colors_.push_back(Spectrum{});
+            colors_.back().bin.fill(1);
+            if (material.texture >= 0) colors_.back() = bands.spectrum(nodes[n].color);
+            white = white * colors_.back();
+        }
+        white_.emplace_back((1 / kPiF) * white);
+        const bool lobe = material.has_facets() && material.ggx_alpha >= kNarrowestKept;
+        first_along_.push_back(lobe ? static_cast<std::uint32_t>(along_) : kNoLobe);
+        if (lobe) along_ += table_->entries(n).size();
+    }
+}
+
+KeptTerm KeptLight::make_term(KeptSource::Kind kind) const {
+    KeptTerm term;
+    term.irradiance.resize(table_->size());
+    if (kind == KeptSource::Kind::kSun) term.along.resize(along_);
+    if (kind == KeptSource::Kind::kCone) term.seen.resize(table_->size());
+    return term;
+}
+
+std::size_t KeptLight::bytes() const {
+    return colors_.size() * sizeof(Spectrum) + white_.size() * sizeof(PackedSpectrum) +
+           first_along_.size() * sizeof(std::uint32_t);
+}
+
+Vec3f KeptLight::local_dir(Vec3f dir, std::size_t node, std::size_t point) const {
+    const Vec3f l = Frame(unpack_normal(table_->nodes().nodes()[node].normal[point])).to_local(dir);
+    const Vec2f t = table_->turn(node);
+    return {t.x * l.x + t.y * l.y, t.x * l.y - t.y * l.x, l.z};
+}
+
+// --- what nodes receive from the source, and send
+
+void KeptLight::solve(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,
+                      KeptTerm& term) const {
+    term.source = source;
+    if (table_->size() == 0) return;
+    light_nodes(source, scene, object, work, term);
+    gather_first(work, term);
+    const auto most = [&](const std::vector<Spectrum>& of) {
+        return tbb::parallel_reduce(
+            Nodes(0, table_->size(), 4096), 0.0f,
+            [&](const Nodes& r, float m) {
+                for (std::size_t n = r.begin(); n < r.end(); ++n) m = std::max(m, largest(of[n]));
+                return m;
+            },
+            [](float a, float b) { return std::max(a, b); });
+    };
+    // White paint in a hollow keeps light for long; a thousandth of the brightest place is a tenth of the noise there.
+    const float enough = 1e-3f * most(work.first_);
+    constexpr int kMostBounces = 64;
+    for (int bounce = 0; bounce < kMostBounces && gather_again(work) > enough; ++bounce) {
+    }
+    tbb::parallel_for(Nodes(0, table_->size(), kBlock), [&](const Nodes& r) {
+        for (std::size_t n = r.begin(); n < r.end(); ++n) {
+            term.irradiance[n] = PackedSpectrum(work.now_[n]);
+            if (term.along.empty() || first_along_[n] == kNoLobe) continue;
+            PackedSpectrum* along = term.along.data() + first_along_[n];
+            for (const TransferTable::Entry e : table_->entries(n)) {
+                *along = PackedSpectrum(along->unpacked() + work.radiosity_[e.node].unpacked());
+                ++along;
+            }
+        }
+    });
+}
+
+void KeptLight::light_nodes(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,
+                            KeptTerm& term) const {
+    tbb::parallel_for(Nodes(0, table_->size(), kBlock), [&](const Nodes& r) {
+        for (std::size_t first = r.begin(); first < r.end(); first += kBlock)
+            light_block(source, scene, object, first, std::min(r.end(), first + kBlock), work, term);
+    });
+}
+
+void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, std::size_t object,
+                            std::size_t first, std::size_t last, Workspace& work, KeptTerm& term) const {
+    // Of each node: how much its points would receive, rays that ask, and those that get through.
+    struct Asked {
+        float received = 0;
+        int rays = 0, lit = 0;
+        Vec3f dir;
+    };
+    std::array<Asked, kBlock> asked;
+    RayPacket rays;
+    std::array<std::size_t, kPacketSize> of;
+    rays.count = 0;
+    const auto flush = [&] {
+        if (rays.count == 0) return;
+        const std::uint32_t blocked = scene.occluded_by(object, rays);
+        for (int i = 0; i < rays.count; ++i)
+            if (!(blocked >> i & 1u)) ++asked[of[static_cast<std::size_t>(i)]].lit;
+        rays.count = 0;
+    };
+    const bool cone = source.kind == KeptSource::Kind::kCone;
+    const auto cone_dirs = cone_directions(source.dir, cone ? source.cone_cosine : 1);
+    for (std::size_t n = first; n < last; ++n) {
+        Asked& a = asked[n - first];
+        a.dir = source.dir;
+        if (source.kind == KeptSource::Kind::kGlow) continue;
+        const LightNode& node = table_->nodes().nodes()[n];
+        float most = 0;
+        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+            if (!table_->is_live(n, p)) continue;
+            const Vec3f normal = unpack_normal(node.normal[p]), geometric = unpack_normal(node.geometric[p]);
+            Vec3f dir = source.dir;
+            float strength = 1, until_m = std::numeric_limits<float>::infinity();
+            if (source.kind == KeptSource::Kind::kLamp) {
+                const Vec3f way = source.position_m - node.point_m[p];
+                const float distance_m = std::max(length(way), 1e-3f);
+                dir = way / distance_m;
+                strength = static_cast<float>(source.beam->at(to_double(source.dir), to_double(-dir))) /
+                           (distance_m * distance_m);
+                until_m = std::max(0.0f, distance_m * (1 - 1e-5f) - static_cast<float>(kLampClearance_m));
+            }
+            float cosine = std::max(0.0f, dot(normal, dir));
+            if (cone) {
+                float sum = 0, faced = 0;
+                for (const Vec3f d : cone_dirs) {
+                    sum += std::max(0.0f, dot(normal, d));
+                    faced += std::max(0.0f, dot(source.dir, d));
+                }
+                cosine = sum / faced;
+            }
+            if (cosine * strength <= 0 || (!cone && dot(geometric, dir) <= 0)) continue;
+            a.received += cosine * strength;
+            if (cosine * strength > most) most = cosine * strength, a.dir = dir;
+            // Two points tell of a node's shadow.
+            if (cone || a.rays == 2) continue;
+            of[static_cast<std::size_t>(rays.count)] = n - first;
+            rays.set(rays.count, node.point_m[p], dir, 0, until_m);
+            ++a.rays;
+            if (++rays.count == kPacketSize) flush();
+        }
+    }
+    flush();
+    for (std::size_t n = first; n < last; ++n) {
+        const Asked& a = asked[n - first];
+        float share = a.rays > 0 ? static_cast<float>(a.lit) / static_cast<float>(a.rays) : 0;
+        if (cone) {
+            share = seen_of_cone(source, n);
+            term.seen[n] = static_cast<std::uint8_t>(std::lround(255 * share));
+        }
+        const float mean = a.received / static_cast<float>(table_->live_points(n));
+        Workspace::Sender& sender = work.senders_[n];
+        send(n, a.dir, share * mean, sender);
+        if (source.kind == KeptSource::Kind::kGlow)
+            sender.diffuse = PackedSpectrum(materials_[table_->nodes().nodes()[n].surface]->emission);
+        if (cone && sender.alpha > 0) {
+            const float sine = std::sqrt(std::max(0.0f, 1 - source.cone_cosine * source.cone_cosine));
+            sender.alpha = std::min(1.0f, std::hypot(sender.alpha, 0.5f * sine));
+        }
+    }
+}
+
+// received: irradiance, per unit of the source.
+void KeptLight::send(std::size_t n, Vec3f source_dir, float received, Workspace::Sender& sender) const {
+    const LightNode& node = table_->nodes().nodes()[n];
+    sender = {};
+    if (!(received > 0)) return;
+    Vec3f mean{};
+    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
+        if (table_->is_live(n, p)) mean = mean + unpack_normal(node.normal[p]);
+    const Vec3f normal = dot(mean, mean) > 1e-6f ? normalized(mean) : unpack_normal(node.normal[0]);
+    const float cosine = std::clamp(dot(normal, source_dir), 1e-3f, 1.0f);
+    const Material& material = *materials_[node.surface];
+    const MaterialAlbedo& albedo = albedos_[node.surface];
+    Spectrum diffuse = (received / kPiF) * albedo.base(cosine);
+    if (!colors_.empty()) diffuse = diffuse * colors_[n];
+    sender.diffuse = PackedSpectrum(diffuse);
+    sender.normal = pack_normal(normal);
+    sender.ni = cosine;
+    if (!material.has_facets()) return;
+    sender.alpha = std::max(material.ggx_alpha, alpha_behind_diffuse_);
+    Spectrum normal_incidence = material.highlight;
+    if (material.model == ReflectionModel::kDielectric)
+        normal_incidence.bin.fill(schlick_normal_incidence(material.refractive_index));
+    else if (!colors_.empty())
+        normal_incidence = normal_incidence * colors_[n];
+    Spectrum rest;
+    for (int b = 0; b < kMaxBins; ++b) rest[b] = 1 - normal_incidence[b];
+    sender.lobe = PackedSpectrum(received * normal_incidence);
+    sender.grazing = PackedSpectrum(received * rest);
+}
+
+// --- between nodes
+
+void KeptLight::gather_first(Workspace& work, KeptTerm& term) const {
+    // Of a lamp, seen from the object's middle: it differs by node, but little along one direction.
+    const bool lamp = term.source.kind == KeptSource::Kind::kLamp && length(term.source.position_m) > 0;
+    const Vec3f source_dir = lamp ? normalized(term.source.position_m) : term.source.dir;
+    const std::size_t per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
+    tbb::parallel_for(Nodes(0, table_->size(), kBlock), [&](const Nodes& r) {
+        for (std::size_t n = r.begin(); n < r.end(); ++n) {
+            const LightNode& node = table_->nodes().nodes()[n];
+            const auto entries = table_->entries(n);
+            Spectrum sum;
+            if (!entries.empty()) {
+                std::array<Frame, LightNode::kPoints> frames = {
+                    Frame(unpack_normal(node.normal[0])), Frame(unpack_normal(node.normal[1])),
+                    Frame(unpack_normal(node.normal[2])), Frame(unpack_normal(node.normal[3]))};
+                const Vec2f t = table_->turn(n);
+                PackedSpectrum* along = term.along.empty() || first_along_[n] == kNoLobe
+                                            ? nullptr
+                                            : term.along.data() + first_along_[n];
+                for (const TransferTable::Entry e : entries) {
+                    const Workspace::Sender& from = work.senders_[e.node];
+                    Spectrum radiance = from.diffuse.unpacked();
+                    if (from.alpha > 0) {
+                        const auto point = TransferTable::point_of(static_cast<int>(e.direction));
+                        const std::size_t k = point * per_point + e.direction / LightNode::kPoints;
+                        const Vec3f dir = frames[point].to_world({t.x * local_x_[k] - t.y * local_y_[k],
+                                                                  t.y * local_x_[k] + t.x * local_y_[k], local_z_[k]});
+                        const float no = std::max(-dot(unpack_normal(from.normal), dir), 1e-2f);
+                        const float io = -dot(dir, source_dir);
+                        const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f));
+                        const float nh = std::min((no + from.ni) * inverse, 1.0f), ih = 0.5f / inverse;
+                        const float law =
+                            ggx_distribution(from.alpha, nh) * ggx_visibility(from.alpha, no, from.ni);
+                        radiance += law * (from.lobe.unpacked() + schlick_weight(ih) * from.grazing.unpacked());
+                    }
+                    if (along) *along++ = PackedSpectrum(radiance);
+                    sum += radiance;
+                }
+            }
+            work.first_[n] = work.now_[n] = (kPiF / static_cast<float>(table_->counted(n))) * sum;
+        }
+    });
+}
+
+// One more bounce; gives the greatest change.
+float KeptLight::gather_again(Workspace& work) const {
+    tbb::parallel_for(Nodes(0, table_->size(), 4096), [&](const Nodes& r) {
+        for (std::size_t n = r.begin(); n < r.end(); ++n)
+            work.radiosity_[n] = PackedSpectrum(white_[n].unpacked() * work.now_[n]);
+    });
+    return tbb::parallel_reduce(
+        Nodes(0, table_->size(), kBlock), 0.0f,
+        [&](const Nodes& r, float change) {
+            for (std::size_t n = r.begin(); n < r.end(); ++n) {
+                Spectrum sum;
+                for (const TransferTable::Entry e : table_->entries(n)) sum += work.radiosity_[e.node].unpacked();
+                const Spectrum next = work.first_[n] + (kPiF / static_cast<float>(table_->counted(n))) * sum;
+                for (int b = 0; b < kMaxBins; ++b) change = std::max(change, std::abs(next[b] - work.now_[n][b]));
+                work.now_[n] = next;
+            }
+            return change;
+        },
+        [](float a, float b) { return std::max(a, b); });
+}
+
+// Of the directions in the cone, and of those beside it by falling weights, since sixty directions stand 20 degrees
+// apart.
+float KeptLight::seen_of_cone(const KeptSource& source, std::size_t n) const {
+    const float half_angle = std::acos(std::clamp(source.cone_cosine, -1.0f, 1.0f));
+    const float outside = std::cos(std::min(kPiF, half_angle + 0.45f));
+    const std::size_t per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
+    float all = 0, free = 0;
+    for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+        if (!table_->is_live(n, p)) continue;
+        const Vec3f axis = local_dir(source.dir, n, p);
+        for (std::size_t j = 0; j < per_point; ++j) {
+            const std::size_t k = p * per_point + j;
+            const float cosine = local_x_[k] * axis.x + local_y_[k] * axis.y + local_z_[k] * axis.z;
+            if (cosine <= outside) continue;
+            const float in = std::min(1.0f, (cosine - outside) / std::max(source.cone_cosine - outside, 1e-3f));
+            all += in * in;
+            if (table_->is_free(n, static_cast<int>(j * LightNode::kPoints + p))) free += in * in;
+        }
+    }
+    return all > 0 ? free / all : 0;
+}
+
+// --- lookup
+
+KeptLight::Lobe KeptLight::lobe(const KeptTerm* sun, std::uint32_t n, Vec3f normal, Vec3f view_dir,
+                                float alpha) const {
+    const auto per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
+    const float no = std::max(dot(normal, view_dir), 1e-2f);
+    std::array<float, 256> weight;  // by direction
+    float all = 0, free = 0;
+    for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+        const bool live = table_->is_live(n, p);
+        const Vec3f m = local_dir(normal, n, p), v = local_dir(view_dir, n, p);
+        for (std::size_t j = 0; j < per_point; ++j) {
+            const std::size_t k = p * per_point + j, d = j * LightNode::kPoints + p;
+            const float ni = local_x_[k] * m.x + local_y_[k] * m.y + local_z_[k] * m.z;
+            const float io = local_x_[k] * v.x + local_y_[k] * v.y + local_z_[k] * v.z;
+            const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f));
+            const float nh = std::min((no + ni) * inverse, 1.0f);
+            const bool counts = live && ni > 0;
+            const float safe = std::max(ni, 1e-3f);
+            weight[d] = counts ? ggx_distribution(alpha, nh) * ggx_visibility(alpha, no, safe) : 0.0f;
+            all += weight[d];
+        }
+    }
+    Lobe out;
+    if (!(all > 0)) return out;
+    for (std::size_t d = 0; d < per_point * LightNode::kPoints; ++d)
+        if (table_->is_free(n, static_cast<int>(d))) free += weight[d];
+    const PackedSpectrum* along =
+        sun && first_along_[n] != kNoLobe ? sun->along.data() + first_along_[n] : nullptr;
+    float occupied = 0;
+    for (const TransferTable::Entry e : table_->entries(n)) {
+        occupied += weight[e.direction];
+        if (along) out.kept += weight[e.direction] * (along++)->unpacked();
+    }
+    out.kept = (1 / all) * out.kept;
+    out.free = free / all;
+    out.occupied = occupied / all;
+    return out;
+}
+
+bool KeptLight::is_near(std::uint32_t n, Vec3f dir) const {
+    constexpr float kNear = 0.88f;  // 28 degrees: further than the next direction
+    const std::size_t per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
+    for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+        if (!table_->is_live(n, p)) continue;
+        const Vec3f l = local_dir(dir, n, p);
+        for (std::size_t j = 0; j < per_point; ++j) {
+            const std::size_t k = p * per_point + j;
+            if (local_x_[k] * l.x + local_y_[k] * l.y + local_z_[k] * l.z > kNear &&
+                !table_->is_free(n, static_cast<int>(j * LightNode::kPoints + p)))
+                return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace hilcam

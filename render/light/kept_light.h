@@ -1,0 +1,153 @@
+#pragma once
+// The light between the parts of one object, kept from frame to frame at its nodes (scene/light_nodes.h).
+//
+// For each source there is a term: the irradiance that reaches every node by way of other surfaces, all bounces, for
+// one unit of the source. It is found from the table of directions (scene/transfer_table.h): what a node receives
+// first is summed from what its directions meet, each seen from there as its own reflection law says; then light
+// goes on as from white, grey or coloured paint until it stays the same (radiosity: Goral et al., SIGGRAPH 84), with the
+// directions in place of form factors. No ray is traced but those that ask which nodes a source shines on, and
+// nothing is drawn by chance.
+//
+// A term depends on nothing but the table and the place of its source in the object's own axes, rounded to a step: so
+// frames stay functions of their commands. The light itself (eclipses, the Sun's distance, a lamp's level) is a factor
+// at the pixel.
+//
+// The approximation: facets that other surfaces see are at least as wide as the quality's facets_behind_diffuse; from
+// the second bounce on everything scatters as a diffuse surface of the same albedo; glass is clear.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/light/material_albedo.h"
+#include "render/scene/color_bands.h"
+#include "render/scene/embree_scene.h"
+#include "render/scene/lamp.h"
+#include "render/scene/transfer_table.h"
+#include "render/vocabulary/packed_spectrum.h"
+
+namespace hilcam {
+
+// Facet lobes narrower than this (GGX alpha) fall between the directions: rays follow them.
+inline constexpr float kNarrowestKept = 0.12f;
+
+// A source in an object's own axes.
+struct KeptSource {
+    enum class Kind : std::uint8_t {
+        kNone,
+        kSun,   // a point far away; unit: 1 W m^-2 um^-1 across the way
+        kCone,  // a body's disk, of even radiance; the same unit on a surface that faces it
+        kLamp,  // a lamp; unit: intensity on its axis
+        kGlow   // what the materials emit
+    };
+    Kind kind = Kind::kNone;
+    Vec3f dir{};            // to it; unit. A lamp's axis
+    float cone_cosine = 1;  // of the cone's half angle
+    Vec3f position_m{};     // of a lamp
+    const LampBeam* beam = nullptr;
+
+    bool operator==(const KeptSource& o) const {
+        return kind == o.kind && dir == o.dir && cone_cosine == o.cone_cosine && position_m == o.position_m &&
+               beam == o.beam;
+    }
+    // At the middle of its cell of a grid of about `step_rad`, and of a hundredth of what is near for a lamp's place.
+    KeptSource rounded(float step_rad) const;
+};
+
+// What one source gives to every node, per unit of it.
+struct KeptTerm {
+    KeptSource source;
+    std::vector<PackedSpectrum> irradiance;  // by way of other surfaces
+    std::vector<PackedSpectrum> along;       // radiance along each entry of the nodes with facets; of the Sun only
+    std::vector<std::uint8_t> seen;          // share of a cone that is free, of 255
+};
+
+class KeptLight {
+  public:
+    // What solving needs besides the result; one for all objects. Sized by reserve().
+    class Workspace {
+      public:
+        void reserve(const KeptLight& light);
+
+      private:
+        friend class KeptLight;
+        // What a node sends: radiance per unit of the source.
+        struct alignas(64) Sender {
+            PackedSpectrum diffuse;
+            PackedSpectrum lobe, grazing;  // of facets: at normal incidence; what Schlick's term adds
+            std::uint32_t normal;          // packed
+            float alpha;                   // 0: no facets that shine
+            float ni;                      // cosine of the source
+        };
+        std::vector<Sender> senders_;
+        std::vector<PackedSpectrum> radiosity_;  // over pi
+        std::vector<Spectrum> first_, now_;      // irradiance
+    };
+
+    // materials: one per surface of the mesh. alpha_behind_diffuse: see above. step_rad: of the grid that sources are
+    // rounded to.
+    KeptLight(std::shared_ptr<const TransferTable> table, const std::vector<Material>& materials,
+              const ColorBands& bands, float alpha_behind_diffuse, float step_rad);
+
+    const TransferTable& table() const { return *table_; }
+    float step_rad() const { return step_rad_; }
+    // Memory for a term of such a source.
+    KeptTerm make_term(KeptSource::Kind kind) const;
+    // Solves the term for its source, which has been rounded. scene: the object is placed in it. On oneTBB. Loop:
+    // nothing is allocated.
+    void solve(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,
+               KeptTerm& term) const;
+
+    // --- lookup. Loop, any thread.
+
+    const MaterialAlbedo& albedo(std::uint16_t surface) const { return albedos_[surface]; }
+    static Spectrum irradiance(const KeptTerm& term, const NodesAbout& about) {
+        Spectrum sum;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(about.count); ++i)
+            sum += about.weight[i] * term.irradiance[about.node[i]].unpacked();
+        return sum;
+    }
+    static float seen(const KeptTerm& term, const NodesAbout& about) {
+        float sum = 0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(about.count); ++i)
+            sum += about.weight[i] * static_cast<float>(term.seen[about.node[i]]);
+        return sum * (1 / 255.0f);
+    }
+    // A facet lobe about a node's directions: what it finds of the kept light along them and which share of it goes
+    // free. normal, view_dir: body axes, unit.
+    struct Lobe {
+        Spectrum kept;      // mean radiance, of the term, times the share that meets something
+        float free = 1;     // share of the lobe
+        float occupied = 0; // share that meets a node
+    };
+    Lobe lobe(const KeptTerm* sun, std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
+    // Whether anything stands near a direction from a node, within about 20 degrees.
+    bool is_near(std::uint32_t node, Vec3f dir) const;
+    std::size_t bytes() const;
+
+  private:
+    static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
+
+    std::shared_ptr<const TransferTable> table_;
+    std::vector<MaterialAlbedo> albedos_;
+    std::vector<const Material*> materials_;
+    float alpha_behind_diffuse_, step_rad_;
+    // Local directions, component by component, grouped by the point that they belong to.
+    std::vector<float> local_x_, local_y_, local_z_;
+    std::vector<Spectrum> colors_;           // by node where there are textures; else empty
+    std::vector<PackedSpectrum> white_;      // by node: albedo over pi
+    std::vector<std::uint32_t> first_along_;  // by node: of its entries in KeptTerm::along
+    std::size_t along_ = 0;
+
+    Vec3f local_dir(Vec3f body_dir, std::size_t node, std::size_t point) const;
+    void light_nodes(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,
+                     KeptTerm& term) const;
+    void light_block(const KeptSource& source, const EmbreeScene& scene, std::size_t object, std::size_t first,
+                     std::size_t last, Workspace& work, KeptTerm& term) const;
+    void send(std::size_t node, Vec3f source_dir, float received, Workspace::Sender& sender) const;
+    void gather_first(Workspace& work, KeptTerm& term) const;
+    float gather_again(Workspace& work) const;
+    float seen_of_cone(const KeptSource& source, std::size_t node) const;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,50 @@
+#include "render/light/material_albedo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/scene/brdf_microfacet.h"
+
+namespace hilcam {
+namespace {
+
+// The mean weight of samples on a grid of places: the directional albedo.
+Spectrum total(const Scatterer& at, float cosine) {
+    constexpr int kChoices = 8, kGrid = 16;
+    const Vec3f normal{0, 0, 1}, view{std::sqrt(std::max(0.0f, 1 - cosine * cosine)), 0, cosine};
+    Spectrum sum;
+    for (int c = 0; c < kChoices; ++c)
+        for (int i = 0; i < kGrid; ++i)
+            for (int k = 0; k < kGrid; ++k) {
+                const BrdfSample sample =
+                    brdf_sample(at, normal, view,
+                                {(static_cast<float>(c) + 0.5f) / kChoices, (static_cast<float>(i) + 0.5f) / kGrid,
+                                 (static_cast<float>(k) + 0.5f) / kGrid});
+                if (sample.valid && !sample.transmits) sum += sample.weight;
+            }
+    return (1.0f / (kChoices * kGrid * kGrid)) * sum;
+}
+
+}  // namespace
+
+MaterialAlbedo::MaterialAlbedo(const Material& material) {
+    const Scatterer at{&material, material.has_facets() ? material.ggx_alpha : 0.0f, material.base,
+                       material.highlight};
+    for (int i = 0; i <= kSteps; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const float cosine = std::max(1e-3f, static_cast<float>(i) / kSteps);
+        const Spectrum all = total(at, cosine);
+        if (!material.has_facets()) {
+            base_[k] = all;
+        } else {
+            // What leaves the facets after several reflections, or enters the body (material.h).
+            base_[k] = std::max(0.0f, 1 - material.facets(cosine)) * material.base;
+            for (int b = 0; b < kMaxBins; ++b) lobe_[k][b] = std::max(0.0f, all[b] - base_[k][b]);
+        }
+        // 2 cos d cos, by the trapezoid rule.
+        const float weight = (i == 0 || i == kSteps ? 1.0f : 2.0f) * static_cast<float>(i) / (kSteps * kSteps);
+        white_ += weight * (base_[k] + lobe_[k]);
+    }
+}
+
+}  // namespace hilcam

@@ -1,0 +1,473 @@
+#include "render/scene/light_nodes.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "render/scene/color_bands.h"
+#include "render/scene/surface.h"
+
+namespace hilcam {
+namespace {
+
+// --- keys: 16 bits for each coordinate of the cube, three for the way it faces, thirteen for the surface
+
+constexpr int kMostCubes = 65000;  // along an axis
+
+struct Cube {
+    int x, y, z;
+};
+
+unsigned way_of(Vec3f normal) {
+    const float x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+    if (x >= y && x >= z) return normal.x >= 0 ? 0 : 1;
+    if (y >= z) return normal.y >= 0 ? 2 : 3;
+    return normal.z >= 0 ? 4 : 5;
+}
+
+std::uint64_t kind_of(Vec3f normal, std::uint16_t surface) {
+    return way_of(normal) | static_cast<std::uint64_t>(surface & 0x1FFFu) << 3;
+}
+
+// Coordinates from -1 on, so that a cube's neighbours have keys.
+std::uint64_t key_of(Cube c, std::uint64_t kind) {
+    const auto part = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint16_t>(i + 1)); };
+    return kind << 48 | part(c.z) << 32 | part(c.y) << 16 | part(c.x);
+}
+
+Cube cube_of(std::uint64_t key) {
+    const auto part = [key](int shift) { return static_cast<int>(key >> shift & 0xFFFF) - 1; };
+    return {part(0), part(16), part(32)};
+}
+
+// Finalizer of SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
+std::uint64_t mixed(std::uint64_t x) {
+    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ x >> 27) * 0x94D049BB133111EBu;
+    return x ^ x >> 31;
+}
+
+// --- points spread over triangles
+
+struct Corner {
+    Vec3f m;
+    std::uint32_t vertex;
+};
+
+// A triangle with its longest edge from b to c, and how many points are spread over it.
+struct Spread {
+    std::array<Corner, 3> corner;  // apex, b, c
+    int along = 1, across = 1;
+    float area_m2 = 0;
+    Vec3f normal;
+
+    Spread(const Mesh& mesh, std::size_t triangle, float step_m) {
+        const auto& t = mesh.triangles[triangle];
+        const auto at = [&](std::size_t i) { return Corner{mesh.vertices_m[t[i]], t[i]}; };
+        std::size_t apex = 0;
+        float longest = -1;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const float edge_m = length(at((i + 2) % 3).m - at((i + 1) % 3).m);
+            if (edge_m > longest) longest = edge_m, apex = i;
+        }
+        corner = {at(apex), at((apex + 1) % 3), at((apex + 2) % 3)};
+        const Vec3f twice = cross(corner[1].m - corner[0].m, corner[2].m - corner[0].m);
+        const float size = length(twice);
+        area_m2 = 0.5f * size;
+        if (!(size > 0) || !std::isfinite(size)) {
+            area_m2 = 0;
+            return;
+        }
+        normal = twice / size;
+        const float most = 4096;
+        along = static_cast<int>(std::clamp(std::ceil(longest / step_m), 1.0f, most));
+        across = static_cast<int>(std::clamp(std::ceil(size / longest / step_m), 1.0f, most));
+    }
+    int points() const { return along * across; }
+    // Weights of the corners of point i; equal areas (Turk, Graphics Gems, 1990, p. 24).
+    Vec3f weights(int i) const {
+        const float r1 = std::sqrt((static_cast<float>(i / along) + 0.5f) / static_cast<float>(across));
+        const float r2 = (static_cast<float>(i % along) + 0.5f) / static_cast<float>(along);
+        return {1 - r1, r1 * (1 - r2), r1 * r2};
+    }
+    Vec3f at(Vec3f w) const { return w.x * corner[0].m + w.y * corner[1].m + w.z * corner[2].m; }
+};
+
+struct Candidate {
+    float priority = 0;  // the smaller, the sooner it is taken
+    std::uint32_t triangle = 0;
+    std::uint32_t point = 0;
+    bool back = false;
+};
+
+// What is known of a cell while it is found: its area, and candidates for its points.
+struct Found {
+    std::uint64_t key = 0;
+    double area_m2 = 0;
+    int count = 0;
+    std::array<Candidate, LightNode::kPoints> best;
+
+    void add(const Candidate& candidate) {
+        const auto before = [](const Candidate& a, const Candidate& b) {
+            return std::tuple(a.priority, a.triangle, a.point) <
+                   std::tuple(b.priority, b.triangle, b.point);
+        };
+        auto end = best.begin() + count;
+        const auto place = std::upper_bound(best.begin(), end, candidate, before);
+        if (place == best.end()) return;
+        if (count < LightNode::kPoints) ++count, ++end;
+        std::move_backward(place, end - 1, end);
+        *place = candidate;
+    }
+    void add(const Found& other) {
+        area_m2 += other.area_m2;
+        for (int i = 0; i < other.count; ++i) add(other.best[static_cast<std::size_t>(i)]);
+    }
+};
+
+struct Grid {
+    Vec3f corner_m;
+    float cube_m;
+
+    Cube cube(Vec3f m) const {
+        const auto part = [this](float x) { return std::clamp(static_cast<int>(x / cube_m), 0, kMostCubes); };
+        return {part(m.x - corner_m.x), part(m.y - corner_m.y), part(m.z - corner_m.z)};
+    }
+};
+
+void merge_equal(std::vector<Found>& cells) {
+    std::stable_sort(cells.begin(), cells.end(), [](const Found& a, const Found& b) { return a.key < b.key; });
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (out > 0 && cells[out - 1].key == cells[i].key)
+            cells[out - 1].add(cells[i]);
+        else
+            cells[out++] = cells[i];
+    }
+    cells.resize(out);
+}
+
+// Runs of triangles, a fixed number of them: sums do not depend on how many threads there are.
+constexpr std::size_t kRuns = 256;
+
+std::vector<Found> find_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps, const Grid& grid) {
+    std::vector<std::vector<Found>> runs(kRuns);
+    tbb::parallel_for(std::size_t{0}, kRuns, [&](std::size_t run) {
+        std::vector<Found>& out = runs[run];
+        const std::size_t count = mesh.triangles.size();
+        for (std::size_t t = count * run / kRuns; t < count * (run + 1) / kRuns; ++t) {
+            const std::uint16_t surface = mesh.surface_of_triangle[t];
+            if (!keeps[surface]) continue;
+            const Spread spread(mesh, t, 0.5f * grid.cube_m);
+            if (!(spread.area_m2 > 0)) continue;
+            const float share = spread.area_m2 / static_cast<float>(spread.points());
+            for (int i = 0; i < spread.points(); ++i) {
+                const Cube cube = grid.cube(spread.at(spread.weights(i)));
+                const auto number = static_cast<std::uint32_t>(i);
+                // By area, without order: the least of -ln(u) / area (Efraimidis & Spirakis, Inf. Process. Lett.
+                // 97, 2006).
+                const float u = (static_cast<float>(mixed(t << 24 | number) >> 41) + 0.5f) * 0x1p-23f;
+                const float priority = -std::log(u) / share;
+                for (const bool back : {false, true}) {
+                    Found cell;
+                    cell.key = key_of(cube, kind_of(back ? -spread.normal : spread.normal, surface));
+                    cell.area_m2 = share;
+                    cell.add(Candidate{priority, static_cast<std::uint32_t>(t), number, back});
+                    // Neighbours in a run are mostly of one cell.
+                    if (!out.empty() && out.back().key == cell.key)
+                        out.back().add(cell);
+                    else if (out.size() > 1 && out[out.size() - 2].key == cell.key)
+                        out[out.size() - 2].add(cell);
+                    else
+                        out.push_back(cell);
+                }
+            }
+        }
+        merge_equal(out);
+    });
+    std::vector<Found> all;
+    for (std::vector<Found>& run : runs) {
+        all.insert(all.end(), run.begin(), run.end());
+        run = {};
+    }
+    merge_equal(all);
+    return all;
+}
+
+struct Extent {
+    Vec3f least, most;
+    double area_m2 = 0;
+};
+
+Extent extent_of(const Mesh& mesh, std::span<const std::uint8_t> keeps) {
+    Extent e{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!keeps[mesh.surface_of_triangle[t]]) continue;
+        const auto& corners = mesh.triangles[t];
+        for (const std::uint32_t v : corners) {
+            const Vec3f p = mesh.vertices_m[v];
+            e.least = {std::min(e.least.x, p.x), std::min(e.least.y, p.y), std::min(e.least.z, p.z)};
+            e.most = {std::max(e.most.x, p.x), std::max(e.most.y, p.y), std::max(e.most.z, p.z)};
+        }
+        const Vec3f a = mesh.vertices_m[corners[0]];
+        e.area_m2 += 0.5 * static_cast<double>(length(
+                               cross(mesh.vertices_m[corners[1]] - a, mesh.vertices_m[corners[2]] - a)));
+    }
+    return e;
+}
+
+// --- nodes
+
+// The cells about a corner of the grid, and which corner of which cell's cube that is.
+struct CornerUse {
+    std::uint64_t key;  // of the cube above it in all axes
+    std::uint32_t cell;
+    std::uint32_t corner;  // of the cell's cube: x + 2 y + 4 z
+};
+
+std::vector<CornerUse> corners_of(std::span<const Found> cells) {
+    std::vector<CornerUse> uses;
+    uses.reserve(8 * cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const Cube cube = cube_of(cells[c].key);
+        for (int i = 0; i < 8; ++i)
+            uses.push_back({key_of({cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)},
+                                   cells[c].key >> 48),
+                            static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(i)});
+    }
+    std::sort(uses.begin(), uses.end(), [](const CornerUse& a, const CornerUse& b) {
+        return std::tuple(a.key, a.cell) < std::tuple(b.key, b.cell);
+    });
+    return uses;
+}
+
+// Cells that a node stands for, in order; unused places hold kClosed.
+using CellSet = std::array<std::uint32_t, 8>;
+
+struct TextureReader {
+    const Mesh& mesh;
+    std::vector<MipTexture> pictures;
+
+    explicit TextureReader(const Mesh& m) : mesh(m) {
+        for (const Texture& texture : m.textures) pictures.emplace_back(Texture(texture));
+    }
+    Vec3f color(const Spread& spread, Vec3f w, std::uint16_t surface) const {
+        const int texture = mesh.surfaces[surface].base_color_texture;
+        if (texture < 0 || mesh.uvs.empty()) return {1, 1, 1};
+        const auto uv = [&](std::size_t i) { return mesh.uvs[spread.corner[i].vertex]; };
+        return pictures[static_cast<std::size_t>(texture)].sample(
+            w.x * uv(0).x + w.y * uv(1).x + w.z * uv(2).x, w.x * uv(0).y + w.y * uv(1).y + w.z * uv(2).y, 0);
+    }
+};
+
+class NodeMaker {
+  public:
+    NodeMaker(const Mesh& mesh, const Grid& grid, std::span<const Found> cells)
+        : mesh_(mesh), grid_(grid), cells_(cells), textures_(mesh) {
+        float greatest = 0;
+        for (const Vec3f v : mesh.vertices_m)
+            greatest = std::max({greatest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+        // As rays leave surfaces in path_vertex.cpp, with room for the triangles' own rounding.
+        above_m_ = 32 * std::numeric_limits<float>::epsilon() * greatest;
+    }
+
+    LightNode make(const CellSet& set, std::uint64_t seed) const {
+        LightNode node;
+        double area = 0;
+        for (const std::uint32_t c : set)
+            if (c != LightNodes::kClosed) area += cells_[c].area_m2;
+        // Places along the cells' areas one behind the other, evenly.
+        const double shift = static_cast<double>(mixed(seed) >> 11) * 0x1p-53;
+        std::array<int, 8> used{};
+        std::size_t k = 0;
+        double passed = 0;
+        Vec3f color{};
+        for (int i = 0; i < LightNode::kPoints; ++i) {
+            const double at = (i + shift) / LightNode::kPoints * area;
+            while (k + 1 < set.size() && set[k + 1] != LightNodes::kClosed &&
+                   passed + cells_[set[k]].area_m2 <= at)
+                passed += cells_[set[k]].area_m2, ++k;
+            const Found& cell = cells_[set[k]];
+            add(node, static_cast<std::size_t>(i), cell.best[static_cast<std::size_t>(used[k]++ % cell.count)], color);
+        }
+        node.color = color / static_cast<float>(LightNode::kPoints);
+        return node;
+    }
+
+  private:
+    const Mesh& mesh_;
+    Grid grid_;
+    std::span<const Found> cells_;
+    TextureReader textures_;
+    float above_m_ = 0;
+
+    void add(LightNode& node, std::size_t i, const Candidate& candidate, Vec3f& color) const {
+        const Spread spread(mesh_, candidate.triangle, 0.5f * grid_.cube_m);
+        const Vec3f w = spread.weights(static_cast<int>(candidate.point));
+        const Vec3f geometric = candidate.back ? -spread.normal : spread.normal;
+        Vec3f normal = geometric;
+        if (!mesh_.normals.empty()) {
+            const auto at = [&](std::size_t k) { return mesh_.normals[spread.corner[k].vertex]; };
+            const Vec3f smooth = w.x * at(0) + w.y * at(1) + w.z * at(2);
+            if (dot(smooth, smooth) > 1e-6f) normal = normalized(smooth);
+            if (dot(normal, geometric) < 0) normal = -normal;
+        }
+        node.surface = mesh_.surface_of_triangle[candidate.triangle];
+        node.point_m[i] = spread.at(w) + above_m_ * geometric;
+        node.normal[i] = pack_normal(normal);
+        node.geometric[i] = pack_normal(geometric);
+        color = color + textures_.color(spread, w, node.surface);
+    }
+};
+
+}  // namespace
+
+LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted) {
+    const Extent extent = extent_of(mesh, keeps);
+    if (!(extent.area_m2 > 0) || !std::isfinite(extent.area_m2)) return;
+    const Vec3f size = extent.most - extent.least;
+    const float least_cube_m = std::max({size.x, size.y, size.z}) / (kMostCubes - 8);
+    // Two sides; a wall that is aslant lies in half as many cubes again. Corrected by what is found.
+    cube_m_ = std::max(least_cube_m,
+                       static_cast<float>(std::sqrt(3 * extent.area_m2 / static_cast<double>(wanted))));
+    std::vector<Found> cells;
+    for (int attempt = 0; attempt < 4; ++attempt) {
+        corner_m_ = extent.least - Vec3f{0.37f * cube_m_, 0.41f * cube_m_, 0.43f * cube_m_};
+        cells = find_cells(mesh, keeps, {corner_m_, cube_m_});
+        const double ratio = static_cast<double>(cells.size()) / static_cast<double>(wanted);
+        if (ratio > 0.6 && ratio < 1.3) break;
+        cube_m_ = std::max(least_cube_m, cube_m_ * static_cast<float>(std::sqrt(ratio)));
+    }
+
+    const std::vector<CornerUse> uses = corners_of(cells);
+    struct Group {
+        CellSet set;
+        std::size_t first;  // of its uses
+    };
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < uses.size();) {
+        Group group{{}, i};
+        group.set.fill(kClosed);
+        std::size_t count = 0;
+        for (const std::uint64_t key = uses[i].key; i < uses.size() && uses[i].key == key; ++i)
+            group.set[count++] = uses[i].cell;
+        groups.push_back(group);
+    }
+    std::sort(groups.begin(), groups.end(),
+              [](const Group& a, const Group& b) { return std::tuple(a.set, a.first) < std::tuple(b.set, b.first); });
+    cells_.resize(cells.size());
+    std::vector<CellSet> sets;
+    for (const Group& group : groups) {
+        if (sets.empty() || sets.back() != group.set) sets.push_back(group.set);
+        const std::uint64_t key = uses[group.first].key;
+        for (std::size_t i = group.first; i < uses.size() && uses[i].key == key; ++i)
+            cells_[uses[i].cell][uses[i].corner] = static_cast<std::uint32_t>(sets.size() - 1);
+    }
+    nodes_.resize(sets.size());
+    const NodeMaker maker(mesh, {corner_m_, cube_m_}, cells);
+    tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t i) { nodes_[i] = maker.make(sets[i], i); });
+
+    std::vector<std::uint64_t> keys;
+    for (const Found& cell : cells) keys.push_back(cell.key);
+    index(keys);
+}
+
+void LightNodes::index(std::span<const std::uint64_t> keys) {
+    slots_.assign(std::bit_ceil(2 * keys.size() + 1), {});
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        std::size_t at = mixed(keys[i]) & mask;
+        while (slots_[at].key != Slot::kNone) at = (at + 1) & mask;
+        slots_[at] = {keys[i], static_cast<std::uint32_t>(i)};
+    }
+}
+
+const LightNodes::Cell* LightNodes::cell(std::uint64_t key) const {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t at = mixed(key) & mask; slots_[at].key != Slot::kNone; at = (at + 1) & mask)
+        if (slots_[at].key == key) return &cells_[slots_[at].cell];
+    return nullptr;
+}
+
+bool LightNodes::find(Vec3f point_m, Vec3f geometric_normal, std::uint16_t surface, NodesAbout& about) const {
+    about.count = 0;
+    if (slots_.empty()) return false;
+    const std::uint64_t kind = kind_of(geometric_normal, surface);
+    const Vec3f at = (point_m - corner_m_) / cube_m_;
+    const Cube cube = Grid{corner_m_, cube_m_}.cube(point_m);
+    const Cell* found = cell(key_of(cube, kind));
+    Cube taken = cube;
+    // The surface can cut a corner off the cube that no point fell into, and a level of detail is a little beside
+    // the mesh: then the nearest of the neighbours that share a face or an edge.
+    if (!found) {
+        float nearest = INFINITY;
+        for (int i = 0; i < 27; ++i) {
+            const Cube near{cube.x + i % 3 - 1, cube.y + i / 3 % 3 - 1, cube.z + i / 9 - 1};
+            const auto beyond = [](float x, int c) {
+                return std::max({static_cast<float>(c) - x, x - static_cast<float>(c + 1), 0.0f});
+            };
+            const Vec3f off{beyond(at.x, near.x), beyond(at.y, near.y), beyond(at.z, near.z)};
+            if (dot(off, off) >= nearest) continue;
+            const Cell* candidate = cell(key_of(near, kind));
+            if (candidate) found = candidate, taken = near, nearest = dot(off, off);
+        }
+        if (!found) return false;
+    }
+    const auto share = [](float x, int c) { return std::clamp(x - static_cast<float>(c), 0.0f, 1.0f); };
+    const Vec3f t{share(at.x, taken.x), share(at.y, taken.y), share(at.z, taken.z)};
+    float sum = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const std::uint32_t node = (*found)[i];
+        const float weight = (i & 1 ? t.x : 1 - t.x) * (i & 2 ? t.y : 1 - t.y) * (i & 4 ? t.z : 1 - t.z);
+        if (node == kClosed || !(weight > 0)) continue;
+        sum += weight;
+        int k = 0;
+        while (k < about.count && about.node[static_cast<std::size_t>(k)] != node) ++k;
+        const auto place = static_cast<std::size_t>(k);
+        if (k == about.count) {
+            about.node[place] = node;
+            about.weight[place] = weight;
+            ++about.count;
+        } else {
+            about.weight[place] += weight;
+        }
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(about.count); ++i) about.weight[i] /= sum;
+    return true;
+}
+
+void LightNodes::keep(std::span<const std::uint32_t> new_number) {
+    std::vector<LightNode> kept;
+    for (const std::uint32_t number : new_number)
+        if (number != kClosed) kept.emplace_back();
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+        if (new_number[i] != kClosed) kept[new_number[i]] = nodes_[i];
+    nodes_ = std::move(kept);
+    for (Cell& cell : cells_)
+        for (std::uint32_t& node : cell)
+            if (node != kClosed) node = new_number[node];
+}
+
+std::size_t LightNodes::bytes() const {
+    return slots_.size() * sizeof(Slot) + cells_.size() * sizeof(Cell) + nodes_.size() * sizeof(LightNode);
+}
+
+bool LightNodes::is_whole() const {
+    if (!(cube_m_ > 0) || (!slots_.empty() && !std::has_single_bit(slots_.size()))) return false;
+    std::size_t used = 0;
+    for (const Slot& slot : slots_) {
+        if (slot.key == Slot::kNone) continue;
+        if (slot.cell >= cells_.size()) return false;
+        ++used;
+    }
+    if (!slots_.empty() && used == slots_.size()) return false;  // a search would not end
+    for (const Cell& cell : cells_)
+        for (const std::uint32_t node : cell)
+            if (node != kClosed && node >= nodes_.size()) return false;
+    return true;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,93 @@
+#pragma once
+// Places on an object's surface where light is kept from frame to frame (light/kept_light.h).
+//
+// Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh and faces one of
+// six ways (the greatest component of its normal) is a cell; the two sides of a sheet are cells of their own. Light
+// belongs to nodes, which are the corners of the cubes: a node stands for the cells of one kind that touch its
+// corner, by a few points on them. A place between has its cube's eight corners, weighted linearly, so that light
+// is continuous where the surface is. Corners that touch the same cells are one node: a flat wall has one layer.
+//
+// Nothing here depends on how the mesh is triangulated, so every level of detail finds its light in the same nodes.
+// What is finer than a cube is blurred: the size follows from how many nodes are wanted.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/vocabulary/mesh.h"
+
+namespace hilcam {
+
+// The nodes about a place, with weights whose sum is 1.
+struct NodesAbout {
+    std::array<std::uint32_t, 8> node;
+    std::array<float, 8> weight;
+    int count = 0;  // 0: the place is closed in, no light comes there
+
+    // The one with the greatest weight; count > 0.
+    std::uint32_t nearest() const {
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < static_cast<std::size_t>(count); ++i)
+            if (weight[i] > weight[best]) best = i;
+        return node[best];
+    }
+};
+
+// Points on the cells that a node stands for, body axes, metres; just above the surface.
+struct LightNode {
+    static constexpr int kPoints = 4;
+    std::array<Vec3f, kPoints> point_m;
+    std::array<std::uint32_t, kPoints> normal;     // packed (surface.h): the shading normal on this side
+    std::array<std::uint32_t, kPoints> geometric;  // packed: the triangle's, on this side
+    std::uint16_t surface = 0;
+    Vec3f color{1, 1, 1};         // of the texture about there, linear RGB; 1 without
+};
+
+class LightNodes {
+  public:
+    static constexpr std::uint32_t kClosed = ~std::uint32_t{0};
+
+    LightNodes() = default;
+    // keeps: per surface of the mesh, whether light is kept on it. wanted: about so many nodes (between half and one
+    // and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of threads.
+    LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted);
+
+    // A place in body axes, on a surface that faces `geometric_normal`. False where there are no cells: the place is
+    // off every surface by more than a cube. Loop, any thread.
+    bool find(Vec3f point_m, Vec3f geometric_normal, std::uint16_t surface, NodesAbout& about) const;
+
+    const std::vector<LightNode>& nodes() const { return nodes_; }
+    float cube_m() const { return cube_m_; }
+    std::size_t bytes() const;
+
+    // Renumbers: new_number[old], or kClosed for nodes that go.
+    void keep(std::span<const std::uint32_t> new_number);
+
+    // For files (io/files/transfer_cache.h): all there is.
+    struct Slot {
+        std::uint64_t key = kNone;
+        std::uint32_t cell = 0;
+        static constexpr std::uint64_t kNone = ~std::uint64_t{0};
+    };
+    using Cell = std::array<std::uint32_t, 8>;  // nodes of its cube's corners: x + 2 y + 4 z
+    template <class Archive>
+    static void list(auto& self, Archive& archive) {
+        archive(self.corner_m_), archive(self.cube_m_), archive(self.slots_), archive(self.cells_),
+            archive(self.nodes_);
+    }
+    // Whether what was read fits together.
+    bool is_whole() const;
+
+  private:
+    Vec3f corner_m_;
+    float cube_m_ = 1;
+    std::vector<Slot> slots_;  // open addressing; a power of two
+    std::vector<Cell> cells_;
+    std::vector<LightNode> nodes_;
+
+    const Cell* cell(std::uint64_t key) const;
+    void index(std::span<const std::uint64_t> keys);
+};
+
+}  // namespace hilcam

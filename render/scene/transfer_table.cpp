@@ -1,0 +1,270 @@
+#include "render/scene/transfer_table.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "render/scene/brdf_microfacet.h"
+#include "render/scene/embree_scene.h"
+#include "render/scene/surface.h"
+
+namespace hilcam {
+namespace {
+
+constexpr float kGolden = 0.61803399f;
+constexpr float kFarthest = std::numeric_limits<float>::infinity();
+
+// What a direction meets, while it is being traced.
+constexpr std::uint32_t kFree = ~std::uint32_t{0};
+constexpr std::uint32_t kDark = kFree - 1;
+constexpr std::uint32_t kBuried = kFree - 2;  // of a point that does not count
+constexpr std::uint32_t kTracing = kFree - 3;
+
+struct Ray {
+    std::size_t direction;
+    Vec3f origin_m, dir;
+    int sheets = 0;  // of glass that it has passed
+};
+
+TransferTable::Entry entry_of(std::uint32_t node, std::uint32_t direction) {
+    TransferTable::Entry entry;
+    entry.node = node & 0xFFFFFFu;
+    entry.direction = direction & 0xFFu;
+    return entry;
+}
+
+// Traces a block of nodes.
+class Tracer {
+  public:
+    Tracer(const Mesh& mesh, std::span<const std::uint8_t> glass, const LightNodes& nodes, const EmbreeScene& scene,
+           std::span<const Vec3f> local, std::span<const Vec2f> turns)
+        : mesh_(mesh), glass_(glass), nodes_(nodes), scene_(scene), local_(local), turns_(turns) {}
+
+    // met: by node and direction of the block.
+    void trace(std::size_t first, std::size_t last, std::span<std::uint32_t> met) const {
+        std::vector<Ray> rays;
+        for (std::size_t n = first; n < last; ++n) {
+            const std::span<std::uint32_t> of_node = met.subspan((n - first) * local_.size(), local_.size());
+            std::vector<float> distance(local_.size(), kFarthest);
+            aim(n, of_node, rays);
+            follow(rays, of_node, distance);
+            drop_buried(of_node, distance);
+        }
+    }
+
+  private:
+    const Mesh& mesh_;
+    std::span<const std::uint8_t> glass_;
+    const LightNodes& nodes_;
+    const EmbreeScene& scene_;
+    std::span<const Vec3f> local_;
+    std::span<const Vec2f> turns_;
+
+    void aim(std::size_t n, std::span<std::uint32_t> met, std::vector<Ray>& rays) const {
+        const LightNode& node = nodes_.nodes()[n];
+        rays.clear();
+        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+            const Frame frame(unpack_normal(node.normal[p]));
+            const Vec3f geometric = unpack_normal(node.geometric[p]);
+            for (std::size_t d = p; d < local_.size(); d += LightNode::kPoints) {
+                const Vec3f l = local_[d];
+                const Vec2f t = turns_[n];
+                const Vec3f dir = frame.to_world({t.x * l.x - t.y * l.y, t.y * l.x + t.x * l.y, l.z});
+                met[d] = kDark;
+                if (dot(dir, geometric) <= 0) continue;
+                met[d] = kTracing;
+                rays.push_back({d, node.point_m[p], dir});
+            }
+        }
+    }
+
+    void follow(std::vector<Ray>& rays, std::span<std::uint32_t> met, std::span<float> distance) const {
+        RayPacket packet;
+        HitPacket hits;
+        std::vector<Ray> through;  // glass
+        while (!rays.empty()) {
+            through.clear();
+            for (std::size_t first = 0; first < rays.size(); first += kPacketSize) {
+                packet.count = static_cast<int>(std::min<std::size_t>(kPacketSize, rays.size() - first));
+                for (int i = 0; i < packet.count; ++i) {
+                    const Ray& ray = rays[first + static_cast<std::size_t>(i)];
+                    packet.set(i, ray.origin_m, ray.dir, 0, kFarthest);
+                }
+                scene_.intersect(packet, Coherence::kIncoherent, hits);
+                for (int i = 0; i < packet.count; ++i)
+                    meet(rays[first + static_cast<std::size_t>(i)], hits, static_cast<std::size_t>(i), met, distance,
+                         through);
+            }
+            rays.swap(through);
+        }
+    }
+
+    void meet(const Ray& ray, const HitPacket& hits, std::size_t k, std::span<std::uint32_t> met,
+              std::span<float> distance, std::vector<Ray>& through) const {
+        std::uint32_t& out = met[ray.direction];
+        if (hits.object[k] == HitPacket::kMiss) {
+            out = kFree;
+            return;
+        }
+        const Vec3f point_m = ray.origin_m + hits.distance[k] * ray.dir;
+        const std::uint16_t surface = mesh_.surface_of_triangle[hits.triangle[k]];
+        if (glass_[surface]) {
+            // As rays leave surfaces in path_vertex.cpp.
+            const float greatest = std::max({std::abs(point_m.x), std::abs(point_m.y), std::abs(point_m.z)});
+            constexpr int kMostSheets = 16;
+            out = kDark;
+            if (ray.sheets < kMostSheets)
+                through.push_back({ray.direction,
+                                   point_m + 32 * std::numeric_limits<float>::epsilon() * greatest * ray.dir,
+                                   ray.dir, ray.sheets + 1});
+            return;
+        }
+        if (ray.sheets == 0) distance[ray.direction] = hits.distance[k];
+        Vec3f normal{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+        if (dot(normal, ray.dir) > 0) normal = -normal;
+        NodesAbout about;
+        out = nodes_.find(point_m, normal, surface, about) && about.count > 0 ? about.nearest() : kDark;
+    }
+
+    void drop_buried(std::span<std::uint32_t> met, std::span<const float> distance) const {
+        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+            bool buried = true;
+            for (std::size_t d = p; d < met.size() && buried; d += LightNode::kPoints)
+                buried = met[d] != kFree && (met[d] == kDark || distance[d] < 0.5f * nodes_.cube_m());
+            for (std::size_t d = p; d < met.size() && buried; d += LightNode::kPoints) met[d] = kBuried;
+        }
+    }
+};
+
+}  // namespace
+
+std::vector<Vec3f> transfer_directions(int count) {
+    std::vector<Vec3f> out;
+    for (int i = 0; i < count; ++i) {
+        const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+        const float r = std::sqrt(u), phi = 2 * kPiF * kGolden * static_cast<float>(i);
+        out.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)});
+    }
+    return out;
+}
+
+TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass,
+                             const TransferSettings& settings, const std::function<void(double)>& progress)
+    : directions_(settings.directions) {
+    std::vector<std::uint8_t> keeps;
+    for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
+    nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMostNodes / 2));
+    if (size() == 0) {
+        first_entry_.assign(1, 0);
+        return;
+    }
+    const std::vector<Vec3f> local = transfer_directions(directions_);
+    for (std::size_t n = 0; n < size(); ++n) {
+        // Turns that are far from those of the nodes beside.
+        const float part = std::fmod(static_cast<float>(n % 4096) * kGolden, 1.0f);
+        turns_.push_back({std::cos(2 * kPiF * part), std::sin(2 * kPiF * part)});
+    }
+    EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
+    scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
+    const Tracer tracer(mesh, glass, nodes_, scene, local, turns_);
+
+    // A block of nodes has lists of its own: memory for what is met, not for what could be.
+    constexpr std::size_t kBlock = 256;
+    struct Block {
+        std::vector<Entry> entries;
+        std::vector<std::uint32_t> counts;
+    };
+    std::vector<Block> blocks((size() + kBlock - 1) / kBlock);
+    free_.assign(size() * free_words(), 0);
+    live_.assign(size(), 0);
+    std::atomic<std::size_t> done = 0;
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+        const std::size_t first = b * kBlock, last = std::min(size(), first + kBlock);
+        std::vector<std::uint32_t> met((last - first) * local.size());
+        tracer.trace(first, last, met);
+        for (std::size_t n = first; n < last; ++n) {
+            std::uint32_t count = 0;
+            for (std::size_t d = 0; d < local.size(); ++d) {
+                const std::uint32_t m = met[(n - first) * local.size() + d];
+                if (m == kBuried) continue;
+                live_[n] = static_cast<std::uint8_t>(live_[n] | 1u << point_of(static_cast<int>(d)));
+                if (m == kFree) free_[n * free_words() + d / 64] |= std::uint64_t{1} << (d % 64);
+                if (m == kFree || m == kDark) continue;
+                blocks[b].entries.push_back(entry_of(m, static_cast<std::uint32_t>(d)));
+                ++count;
+            }
+            blocks[b].counts.push_back(count);
+        }
+        const std::size_t now = done += 1;
+        if (progress) progress(static_cast<double>(now) / static_cast<double>(blocks.size()));
+    });
+
+    // Light reaches a node that is free somewhere, or that meets one that light reaches.
+    std::vector<std::uint8_t> open(size());
+    for (std::size_t n = 0; n < size(); ++n)
+        for (std::size_t w = 0; w < free_words(); ++w) open[n] |= free_[n * free_words() + w] != 0;
+    for (bool more = true; more;) {
+        more = false;
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            const Entry* entry = blocks[b].entries.data();
+            for (std::size_t i = 0; i < blocks[b].counts.size(); ++i) {
+                const std::size_t n = b * kBlock + i;
+                const Entry* const end = entry + blocks[b].counts[i];
+                if (!open[n] && std::any_of(entry, end, [&](Entry e) { return open[e.node] != 0; }))
+                    open[n] = 1, more = true;
+                entry = end;
+            }
+        }
+    }
+    std::vector<std::uint32_t> number(size(), LightNodes::kClosed);
+    std::uint32_t kept = 0;
+    for (std::size_t n = 0; n < size(); ++n)
+        if (open[n] && live_[n] != 0) number[n] = kept++;
+
+    first_entry_.push_back(0);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const Entry* entry = blocks[b].entries.data();
+        for (std::size_t i = 0; i < blocks[b].counts.size(); ++i) {
+            const std::size_t n = b * kBlock + i;
+            const Entry* const end = entry + blocks[b].counts[i];
+            if (number[n] != LightNodes::kClosed) {
+                for (const Entry* e = entry; e != end; ++e)
+                    if (number[e->node] != LightNodes::kClosed)
+                        entries_.push_back(entry_of(number[e->node], e->direction));
+                first_entry_.push_back(static_cast<std::uint32_t>(entries_.size()));
+                const std::size_t to = number[n];
+                live_[to] = live_[n], turns_[to] = turns_[n];
+                for (std::size_t w = 0; w < free_words(); ++w)
+                    free_[to * free_words() + w] = free_[n * free_words() + w];
+            }
+            entry = end;
+        }
+        blocks[b] = {};
+    }
+    nodes_.keep(number);
+    live_.resize(size()), turns_.resize(size()), free_.resize(size() * free_words());
+    live_.shrink_to_fit(), turns_.shrink_to_fit(), free_.shrink_to_fit(), entries_.shrink_to_fit();
+}
+
+std::size_t TransferTable::bytes() const {
+    return nodes_.bytes() + first_entry_.size() * sizeof(std::uint32_t) + entries_.size() * sizeof(Entry) +
+           free_.size() * sizeof(std::uint64_t) + live_.size() +
+           turns_.size() * sizeof(Vec2f);
+}
+
+bool TransferTable::is_whole() const {
+    const std::size_t n = size();
+    if (directions_ < 4 || directions_ % LightNode::kPoints != 0 || directions_ > 256 || !nodes_.is_whole() || n > kMostNodes) return false;
+    if (first_entry_.size() != n + 1 || first_entry_.front() != 0 || first_entry_.back() != entries_.size() ||
+        free_.size() != n * free_words() || live_.size() != n || turns_.size() != n)
+        return false;
+    if (!std::is_sorted(first_entry_.begin(), first_entry_.end())) return false;
+    return std::all_of(entries_.begin(), entries_.end(), [&](Entry e) {
+        return e.node < n && static_cast<int>(e.direction) < directions_;
+    });
+}
+
+}  // namespace hilcam

@@ -1,0 +1,89 @@
+#pragma once
+// What each place on an object meets along fixed directions of its half sphere: traced once, kept for good, since it
+// is knowledge of the mesh and not of a frame (light/kept_light.h makes light of it).
+//
+// The directions are the paper's sixty (Peng et al. 2011), or 16 or 256, but in equal shares of irradiance instead of
+// solid angle: a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179) projected up from the disk (Malley), turned
+// for each node by an angle of its own. A node's points share them in turn, so that a node sees what its whole
+// surface sees. Glass is passed. Each direction either is free, or meets another node, or ends in the dark: behind
+// the horizon of a rough place, or where nothing keeps light.
+//
+// Nodes that no light can reach (the inside of a closed body) are left out; a point that sees nothing but what is
+// nearer than half a cube is buried and does not count.
+
+#include <bit>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/scene/light_nodes.h"
+#include "render/vocabulary/mesh.h"
+
+namespace hilcam {
+
+struct TransferSettings {
+    int directions = 60;           // a multiple of LightNode::kPoints, 256 at most
+    std::size_t nodes = 400'000;  // about, before those that no light reaches are left out
+};
+
+// Local axes (z: the normal) of the directions, before a node's own turn.
+std::vector<Vec3f> transfer_directions(int count);
+
+class TransferTable {
+  public:
+    TransferTable() = default;
+    // glass: per surface, whether it is. progress: told the share that is done, from any thread. Throws InputError when
+    // memory runs out. Owner thread, on oneTBB; the same on any number of threads.
+    TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass, const TransferSettings& settings,
+                  const std::function<void(double)>& progress = {});
+
+    const LightNodes& nodes() const { return nodes_; }
+    std::size_t size() const { return nodes_.nodes().size(); }
+    int directions() const { return directions_; }
+    std::size_t bytes() const;
+
+    // What a node's directions meet.
+    struct Entry {
+        std::uint32_t node : 24;
+        std::uint32_t direction : 8;
+    };
+    static constexpr std::size_t kMostNodes = (1u << 24) - 1;
+    std::span<const Entry> entries(std::size_t node) const {
+        return {entries_.data() + first_entry_[node], first_entry_[node + 1] - first_entry_[node]};
+    }
+    std::size_t first_entry(std::size_t node) const { return first_entry_[node]; }
+    bool is_free(std::size_t node, int direction) const {
+        return free_[node * free_words() + static_cast<std::size_t>(direction) / 64] >> (direction % 64) & 1u;
+    }
+    // A direction belongs to one of the node's points; those of buried points do not count.
+    static std::size_t point_of(int direction) { return static_cast<std::size_t>(direction) % LightNode::kPoints; }
+    bool is_live(std::size_t node, std::size_t point) const { return live_[node] >> point & 1u; }
+    int live_points(std::size_t node) const { return std::popcount(live_[node]); }
+    int counted(std::size_t node) const { return live_points(node) * directions_ / LightNode::kPoints; }
+    // A direction's angle of turn about the normal, of this node [cos, sin].
+    Vec2f turn(std::size_t node) const { return turns_[node]; }
+
+    // For files: all that cannot be computed from the rest.
+    template <class Archive>
+    static void list(auto& self, Archive& archive) {
+        LightNodes::list(self.nodes_, archive);
+        archive(self.directions_), archive(self.first_entry_), archive(self.entries_), archive(self.free_),
+            archive(self.live_), archive(self.turns_);
+    }
+    bool is_whole() const;
+
+  private:
+    LightNodes nodes_;
+    int directions_ = 0;
+    std::vector<std::uint32_t> first_entry_;  // by node, and one more
+    std::vector<Entry> entries_;
+    std::vector<std::uint64_t> free_;
+    std::vector<std::uint8_t> live_;
+    std::vector<Vec2f> turns_;
+
+    std::size_t free_words() const { return (static_cast<std::size_t>(directions_) + 63) / 64; }
+};
+
+}  // namespace hilcam
