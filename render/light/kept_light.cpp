@@ -105,7 +105,8 @@ KeptLight::KeptLight(std::shared_ptr<const TransferTable> table, const std::vect
             white = white * colors_.back();
         }
         white_.emplace_back((1 / kPiF) * white);
-        const bool lobe = material.has_facets() && material.ggx_alpha >= kNarrowestKept;
+        // Curved surfaces widen lobes, so that any may be asked for.
+        const bool lobe = material.has_facets();
         first_along_.push_back(lobe ? static_cast<std::uint32_t>(along_) : kNoLobe);
         if (lobe) along_ += table_->entries(n).size();
     }
@@ -377,11 +378,15 @@ KeptLight::Lobe KeptLight::lobe(const KeptTerm* sun, std::uint32_t n, Vec3f norm
                                 float alpha) const {
     const auto per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
     const float no = std::max(dot(normal, view_dir), 1e-2f);
+    const Vec3f mirror = reflect(view_dir, normal);
+    // A narrow lobe's tails begin 15 degrees from the mirror's direction and are whole at 30.
+    const bool narrow = alpha < kNarrowestKept;
+    constexpr float kNone = 0.966f, kWhole = 0.866f;
     std::array<float, 256> weight;  // by direction
-    float all = 0, free = 0;
+    float even = 0, all = 0, free = 0;
     for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
         const bool live = table_->is_live(n, p);
-        const Vec3f m = local_dir(normal, n, p), v = local_dir(view_dir, n, p);
+        const Vec3f m = local_dir(normal, n, p), v = local_dir(view_dir, n, p), r = local_dir(mirror, n, p);
         for (std::size_t j = 0; j < per_point; ++j) {
             const std::size_t k = p * per_point + j, d = j * LightNode::kPoints + p;
             const float ni = local_x_[k] * m.x + local_y_[k] * m.y + local_z_[k] * m.z;
@@ -391,13 +396,19 @@ KeptLight::Lobe KeptLight::lobe(const KeptTerm* sun, std::uint32_t n, Vec3f norm
             const bool counts = live && ni > 0;
             const float safe = std::max(ni, 1e-3f);
             weight[d] = counts ? ggx_distribution(alpha, nh) * ggx_visibility(alpha, no, safe) : 0.0f;
+            even += weight[d];
+            if (table_->is_free(n, static_cast<int>(d))) free += weight[d];
+            if (narrow) {
+                const float off = local_x_[k] * r.x + local_y_[k] * r.y + local_z_[k] * r.z;
+                weight[d] *= std::clamp((kNone - off) * (1 / (kNone - kWhole)), 0.0f, 1.0f);
+            }
             all += weight[d];
         }
     }
     Lobe out;
-    if (!(all > 0)) return out;
-    for (std::size_t d = 0; d < per_point * LightNode::kPoints; ++d)
-        if (table_->is_free(n, static_cast<int>(d))) free += weight[d];
+    if (!(even > 0)) return out;
+    // Sixty directions are too few for a sum over a lobe; for its tails they are enough.
+    if (narrow) all = static_cast<float>(table_->counted(n)) / kPiF;
     const PackedSpectrum* along =
         sun && first_along_[n] != kNoLobe ? sun->along.data() + first_along_[n] : nullptr;
     float occupied = 0;
@@ -406,7 +417,7 @@ KeptLight::Lobe KeptLight::lobe(const KeptTerm* sun, std::uint32_t n, Vec3f norm
         if (along) out.kept += weight[e.direction] * (along++)->unpacked();
     }
     out.kept = (1 / all) * out.kept;
-    out.free = free / all;
+    out.free = free / even;
     out.occupied = occupied / all;
     return out;
 }

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "render/light/material_albedo.h"
+#include "render/light/sky_light.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/lamp.h"
@@ -28,8 +29,14 @@
 
 namespace hilcam {
 
-// Facet lobes narrower than this (GGX alpha) fall between the directions: rays follow them.
+// Facet lobes narrower than this (GGX alpha) fall between the directions: rays follow them, for all of the lobe but its
+// tails.
 inline constexpr float kNarrowestKept = 0.12f;
+// What is narrower than this is followed as a mirror, by one ray; else by four.
+inline constexpr float kNarrowestLobe = SkyLight::kLeastAlpha;
+// The share of a narrow lobe that its ray does not stand for: facets turned by more than 11 degrees from the normal (GGX
+// as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
+inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
 
 // A source in an object's own axes.
 struct KeptSource {
@@ -113,12 +120,12 @@ class KeptLight {
             sum += about.weight[i] * static_cast<float>(term.seen[about.node[i]]);
         return sum * (1 / 255.0f);
     }
-    // A facet lobe about a node's directions: what it finds of the kept light along them and which share of it goes
-    // free. normal, view_dir: body axes, unit.
+    // A facet lobe about a node's directions, or the tails of one that is narrow: what it finds of the kept light along
+    // them. Shares are of what an even sky would give, Fresnel's term left out. normal, view_dir: body axes, unit.
     struct Lobe {
-        Spectrum kept;      // mean radiance, of the term, times the share that meets something
-        float free = 1;     // share of the lobe
-        float occupied = 0; // share that meets a node
+        Spectrum kept;       // mean radiance of the term, times the share that meets it
+        float free = 1;      // share of the whole lobe that goes free
+        float occupied = 0;  // share that meets a node
     };
     Lobe lobe(const KeptTerm* sun, std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
     // Whether anything stands near a direction from a node, within about 20 degrees.

@@ -92,8 +92,9 @@ NodesAbout KeptScene::nodes_about(const FrameView& frame, const Vertex& at, bool
     const Mat3f& axes = frame.world_from_body[at.object];
     const Object& object = objects_[at.object];
     NodesAbout about;
-    found = object.light->table().nodes().find(to_body(axes, at.point_m - object.origin_m),
-                                               to_body(axes, at.geometric_normal), at.surface_number, about);
+    found = object.light->table().nodes().find(
+        to_body(axes, at.point_m - object.origin_m),
+        {to_body(axes, at.geometric_normal), at.surface_number, at.back}, about);
     return about;
 }
 
@@ -138,8 +139,9 @@ Spectrum KeptScene::reflected(const FrameView& frame, const Vertex& at) const {
     const MaterialAlbedo& albedo = light.albedo(at.surface_number);
     const bool textured = at.surface.material->texture >= 0;
     Spectrum out = (1 / kPiF) * (albedo.base(no) * all);
-    const bool wide = at.surface.material->has_facets() && at.surface.alpha >= kNarrowestKept;
-    if (wide) {
+    if (!at.surface.material->has_facets()) return textured ? tint(at.surface) * out : out;
+    const Spectrum reflectance = albedo.lobe(no);
+    if (at.surface.alpha >= SkyLight::kLeastAlpha) {
         const Mat3f& axes = frame.world_from_body[at.object];
         KeptLight::Lobe lobe;
         if (found)
@@ -150,7 +152,7 @@ Spectrum KeptScene::reflected(const FrameView& frame, const Vertex& at) const {
         const Vec3f mirror = reflect(at.view_dir, at.normal);
         for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
             radiance += lobe.free * sky_.glossy(b, mirror, at.surface.alpha);
-        out += albedo.lobe(no) * radiance;
+        out += reflectance * radiance;
     }
     return textured ? tint(at.surface) * out : out;
 }

@@ -3,9 +3,9 @@
 // the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
 // lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
 //
-// With kept light (kept_scene.h) nothing is drawn at vertices that keep it: there a path ends, but for mirrors and
-// lobes too narrow to be kept, whose one mirror direction goes on for the whole lobe, and for glass, whose two do. What
-// can add less than contribution_threshold is left out.
+// With kept light (kept_scene.h) nothing is drawn at vertices that keep it: there a path ends, but for mirrors, lobes
+// too narrow to be kept, and glass, which fixed directions follow. What can add less than contribution_threshold is
+// left out.
 
 #include <algorithm>
 #include <array>
@@ -31,6 +31,7 @@ struct NextRay {
     float alpha_least;  // of the next vertex's facet lobe
     bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
     Spectrum weight;
+    bool meets_bodies = true;  // they have not been counted yet
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
     RayWidth width() const {
@@ -69,8 +70,9 @@ class TracedPaths final : public PathModel {
   private:
     bool kept_;
     static constexpr auto kMost = static_cast<std::size_t>(kMostSamples);
-    std::array<Vertex, kMost> a_, b_;
-    std::array<NextRay, kMost> next_;
+    static constexpr int kLobeRays = 4;  // of a narrow lobe at the first surface
+    std::array<Vertex, kLobeRays * kMost> a_, b_;
+    std::array<NextRay, kLobeRays * kMost> next_;
     Vertex* current_ = a_.data();
     Vertex* following_ = b_.data();
 
@@ -78,7 +80,7 @@ class TracedPaths final : public PathModel {
     std::size_t choose(Tile& tile, std::size_t first, std::size_t count, std::size_t ray_count, bool last) {
         const FrameView& frame = tile.frame;
         const float least = frame.contribution_threshold;
-        for (std::size_t i = first; i < count && ray_count < kMost; ++i) {
+        for (std::size_t i = first; i < count && ray_count < next_.size(); ++i) {
             const Vertex& at = current_[i];
             if (last && !at.surface.has_exact()) continue;
             const auto random = tile.random_of(at, 0);
@@ -108,33 +110,56 @@ class TracedPaths final : public PathModel {
         return ray_count;
     }
 
-    // The one direction of a narrow lobe, both of a sheet of glass; what is seen of the bodies in it at once, where
-    // nothing can be in its way.
+    // Rays from a vertex that keeps light: a mirror's one direction, four of a narrow lobe, both of a sheet of glass.
     void continue_kept(Tile& tile, const Vertex& at, std::size_t& ray_count) {
-        const FrameView& frame = tile.frame;
         const Scatterer& surface = at.surface;
-        const int parts = surface.is_glass() ? 2 : 1;
-        const bool narrow = surface.material->has_facets() && surface.alpha < kNarrowestKept;
-        if (!narrow && parts == 1) return;
-        for (int part = 0; part < parts && ray_count < kMost; ++part) {
-            NextRay ray{&at, at.start(part == 0), {}, 0, surface.alpha, surface.alpha == 0, {}};
-            if (narrow) {
-                const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-                ray.dir = normalized(reflect(at.view_dir, at.normal));
-                ray.weight = at.weight * frame.kept->light(at.object).albedo(at.surface_number).lobe(no);
-            } else {
+        if (surface.is_glass()) {
+            for (const int part : {0, 1}) {
                 const BrdfSample exact = brdf_exact(surface, at.normal, at.view_dir, part);
-                if (!exact.valid) continue;
-                ray.dir = exact.dir;
-                ray.weight = at.weight * exact.weight;
+                if (exact.valid)
+                    add_kept(tile, {&at, at.start(part == 0), exact.dir, 0, 0, true, at.weight * exact.weight}, ray_count);
             }
-            if (largest(ray.weight) < frame.contribution_threshold) continue;
-            if (part == 0 && dot(at.geometric_normal, ray.dir) <= 0) continue;
-            if (part == 0 && !frame.kept->is_near(frame, at, ray.dir))
-                add_background(tile, ray);
-            else
-                next_[ray_count++] = ray;
+            return;
         }
+        if (!surface.material->has_facets() || surface.alpha >= kNarrowestKept) return;
+        const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+        const Spectrum weight =
+            at.weight * tile.frame.kept->light(at.object).albedo(at.surface_number).lobe(no);
+        const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
+        if (surface.alpha < kNarrowestLobe) {
+            const NextRay ray{&at, at.start(), mirror, 0, surface.alpha, surface.alpha == 0, weight};
+            // What stands nowhere near is not looked for.
+            if (tile.frame.kept->is_near(tile.frame, at, mirror))
+                add_kept(tile, ray, ray_count);
+            else if (dot(at.geometric_normal, mirror) > 0)
+                add_background(tile, ray);
+            return;
+        }
+        // The bodies in a lobe are kept_scene.h's; its rays look for what is near.
+        if (!tile.frame.kept->is_near(tile.frame, at, mirror)) return;
+        const float core = 1 - tail_share(surface.alpha);
+        // Behind the first surface the lobe's middle stands for all of it: rays do not multiply.
+        const int count = at.depth == 1 ? kLobeRays : 1;
+        const Frame local(at.normal);
+        for (int i = 0; i < count; ++i) {
+            NextRay ray{&at, at.start(), mirror, 0, surface.alpha, false, (core / static_cast<float>(count)) * weight};
+            ray.meets_bodies = false;
+            if (count > 1) {
+                const float u1 = core * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+                const float u2 = std::fmod(0.25f * static_cast<float>(i) + 0.125f, 1.0f);
+                ray.dir = normalized(reflect(
+                    at.view_dir, local.to_world(sample_visible_normal(surface.alpha, local.to_local(at.view_dir), u1, u2))));
+            }
+            add_kept(tile, ray, ray_count);
+        }
+    }
+
+    void add_kept(Tile& tile, const NextRay& ray, std::size_t& ray_count) {
+        const bool leaves = dot(ray.from->geometric_normal, ray.dir) > 0;
+        const bool through = ray.from->surface.is_glass();
+        if ((leaves || through) && ray_count < next_.size() &&
+            largest(ray.weight) >= tile.frame.contribution_threshold)
+            next_[ray_count++] = ray;
     }
 
     // Traces the chosen rays; what they meet becomes the next wave's vertices (none after the last), the rest
@@ -179,6 +204,7 @@ class TracedPaths final : public PathModel {
 
     // The share of the light that next-event estimation has not counted.
     static void add_background(Tile& tile, const NextRay& ray) {
+        if (!ray.meets_bodies) return;
         const FrameView& frame = tile.frame;
         const Background& background = *frame.background;
         Spectrum& pixel = tile.pixels[ray.from->pixel];

@@ -7,6 +7,17 @@
 #include "render/light/kept_scene.h"
 
 namespace hilcam {
+namespace {
+
+// A facet lobe over a surface that turns by `turn_rad` within the ray's width: slopes spread evenly over that have a
+// variance of its square over 12, and GGX's alpha is the root of twice a variance (Kaplanyan et al., HPG 2016: normals
+// are filtered in the space of slopes). So a curved mirror smaller than a pixel shines as all of it does, and not as
+// the one place that a ray meets.
+float widened(float alpha, float turn_rad) {
+    return std::min(1.0f, std::sqrt(alpha * alpha + turn_rad * turn_rad * (1.0f / 6)));
+}
+
+}  // namespace
 
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                  float alpha_least, RayWidth width, Vertex& vertex) {
@@ -33,7 +44,8 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     vertex.view_dir = -normalized(dir);
     Vec3f geometric = world_from_body * geometric_body;
     Vec3f normal = world_from_body * object.normal_at(triangle, u, v, geometric_body);
-    if (dot(geometric, vertex.view_dir) < 0) geometric = -geometric;
+    vertex.back = dot(geometric, vertex.view_dir) < 0;
+    if (vertex.back) geometric = -geometric;
     if (dot(normal, geometric) < 0) normal = -normal;
     // A smoothed normal that leans away from the viewer would make the surface vanish.
     if (dot(normal, vertex.view_dir) <= 1e-4f) normal = geometric;
@@ -53,7 +65,10 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     vertex.surface_number = triangle.surface;
     vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
 
-    const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
+    const float alpha =
+        material.has_facets()
+            ? widened(std::max(material.ggx_alpha, alpha_least), triangle.curvature_m() * vertex.footprint_m)
+            : 0.0f;
     vertex.surface = {&material, alpha, material.base, material.highlight};
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];

@@ -21,6 +21,7 @@ struct Vertex {
     float footprint_m;       // how wide the ray was when it came
     std::uint32_t object;
     std::uint16_t surface_number;  // of the object's mesh
+    bool back;                     // the side that its triangle's own normal points away from
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     Spectrum weight;
     Scatterer surface;

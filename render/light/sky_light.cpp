@@ -37,6 +37,15 @@ std::array<Patch, kQuadrature> patches_of(const Background& background, const Bo
 
 float sign(float x) { return x >= 0 ? 1.0f : -1.0f; }
 
+// Bilinear in a square of steps + 1 values a side; x and y below steps.
+Spectrum interpolated(const std::vector<Spectrum>& value, int steps, float x, float y) {
+    const int ix = static_cast<int>(x), iy = static_cast<int>(y);
+    const float tx = x - static_cast<float>(ix), ty = y - static_cast<float>(iy);
+    const Spectrum* corner = value.data() + iy * (steps + 1) + ix;
+    return (1 - ty) * ((1 - tx) * corner[0] + tx * corner[1]) +
+           ty * ((1 - tx) * corner[steps + 1] + tx * corner[steps + 2]);
+}
+
 }  // namespace
 
 SkyLight::SkyLight() = default;
@@ -58,11 +67,7 @@ Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
     }
     const auto place = [](float v) { return std::clamp((0.5f * v + 0.5f) * kSteps, 0.0f, kSteps - 1e-3f); };
     const float px = place(x), py = place(y);
-    const int ix = static_cast<int>(px), iy = static_cast<int>(py);
-    const float tx = px - static_cast<float>(ix), ty = py - static_cast<float>(iy);
-    const Spectrum* corner = value.data() + iy * (kSteps + 1) + ix;
-    return (1 - ty) * ((1 - tx) * corner[0] + tx * corner[1]) +
-           ty * ((1 - tx) * corner[kSteps + 1] + tx * corner[kSteps + 2]);
+    return interpolated(value, kSteps, px, py);
 }
 
 void SkyLight::place(const Background& background) {
@@ -77,34 +82,62 @@ void SkyLight::place(const Background& background) {
             body.irradiance_w_m2_um += std::max(0.0f, dot(patch.dir, body.world_dir)) * patch.irradiance;
         if (!(largest(body.irradiance_w_m2_um) > 0)) continue;
         DirectionMap& irradiance = irradiance_[count_];
-        std::array<DirectionMap, kAlphas.size()>& glossy = glossy_[count_];
         tbb::parallel_for(0, static_cast<int>(irradiance.value.size()), [&](int i) {
-            const auto k = static_cast<std::size_t>(i);
-            const Vec3f dir = DirectionMap::direction(i);
-            Spectrum diffuse;
-            std::array<Spectrum, kAlphas.size()> lobes;
+            const Vec3f normal = DirectionMap::direction(i);
+            Spectrum sum;
+            for (const Patch& patch : patches) sum += std::max(0.0f, dot(normal, patch.dir)) * patch.irradiance;
+            irradiance.value[static_cast<std::size_t>(i)] = sum;
+        });
+        std::array<ConeMap, kAlphas.size()>& glossy = glossy_[count_];
+        const Frame axis(body.world_dir);
+        const float half_angle = std::acos(std::clamp(body.cone_cosine, -1.0f, 1.0f));
+        for (std::size_t a = 0; a < kAlphas.size(); ++a)
+            // Beyond twenty times its alpha a lobe has 1 / 400 of its light.
+            glossy[a].reach_rad = std::min(kPiF, half_angle + 20 * kAlphas[a]);
+        tbb::parallel_for(0, static_cast<int>(glossy.size() * glossy[0].value.size()), [&](int i) {
+            const std::size_t a = static_cast<std::size_t>(i) / glossy[0].value.size();
+            const std::size_t k = static_cast<std::size_t>(i) % glossy[0].value.size();
+            const Vec3f mirror = glossy[a].direction(axis, static_cast<int>(k));
+            // No lobe is narrower than the patches lie apart.
+            const float alpha = std::max(kAlphas[a], 0.5f * half_angle / std::sqrt(static_cast<float>(kQuadrature)));
+            Spectrum sum;
             for (const Patch& patch : patches) {
-                const float cosine = dot(dir, patch.dir);
-                if (cosine <= 0) continue;
-                diffuse += cosine * patch.irradiance;
-                const float half = std::sqrt(0.5f + 0.5f * cosine);
                 // Seen along the normal, all of the lobe is D / 4 d omega, which sums to 1 but for what goes below.
-                for (std::size_t a = 0; a < kAlphas.size(); ++a)
-                    lobes[a] += (0.25f * ggx_distribution(kAlphas[a], half)) * patch.irradiance;
+                const float half = std::sqrt(std::max(0.0f, 0.5f + 0.5f * dot(mirror, patch.dir)));
+                sum += (0.25f * ggx_distribution(alpha, half)) * patch.irradiance;
             }
-            irradiance.value[k] = diffuse;
-            for (std::size_t a = 0; a < kAlphas.size(); ++a) glossy[a].value[k] = lobes[a];
+            glossy[a].value[k] = sum;
         });
         ++count_;
     }
 }
 
+Vec3f SkyLight::ConeMap::direction(const Frame& axis, int index) const {
+    const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
+    const float y = 2 * static_cast<float>(index / (kSteps + 1)) / kSteps - 1;
+    const float r = std::sqrt(x * x + y * y), angle = std::min(kPiF, r * reach_rad);
+    if (!(r > 0)) return axis.n;
+    const float sine = std::sin(angle) / r;
+    return axis.to_world({x * sine, y * sine, std::cos(angle)});
+}
+
+Spectrum SkyLight::ConeMap::at(const Frame& axis, Vec3f dir) const {
+    const Vec3f local = axis.to_local(dir);
+    const float across = std::sqrt(local.x * local.x + local.y * local.y);
+    const float r = std::atan2(across, local.z) / reach_rad;
+    if (r >= 1) return {};
+    const float scale = across > 0 ? r / across : 0.0f;
+    const auto place = [](float v) { return std::clamp((0.5f * v + 0.5f) * kSteps, 0.0f, kSteps - 1e-3f); };
+    return interpolated(value, kSteps, place(local.x * scale), place(local.y * scale));
+}
+
 Spectrum SkyLight::glossy(std::size_t body, Vec3f world_dir, float alpha) const {
-    const std::array<DirectionMap, kAlphas.size()>& maps = glossy_[body];
+    const std::array<ConeMap, kAlphas.size()>& maps = glossy_[body];
+    const Frame axis(bodies_[body].world_dir);
     std::size_t i = 0;
     while (i + 2 < kAlphas.size() && alpha > kAlphas[i + 1]) ++i;
     const float t = std::clamp((alpha - kAlphas[i]) / (kAlphas[i + 1] - kAlphas[i]), 0.0f, 1.0f);
-    return (1 - t) * maps[i].at(world_dir) + t * maps[i + 1].at(world_dir);
+    return (1 - t) * maps[i].at(axis, world_dir) + t * maps[i + 1].at(axis, world_dir);
 }
 
 }  // namespace hilcam

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/scene/background.h"
+#include "render/scene/brdf_microfacet.h"
 
 namespace hilcam {
 
@@ -29,9 +30,10 @@ class SkyLight {
 
     // Irradiance [W m^-2 um^-1] on a surface with this normal. Loop, any thread.
     Spectrum irradiance(std::size_t body, Vec3f world_normal) const { return irradiance_[body].at(world_normal); }
-    // Mean radiance that a facet lobe (GGX alpha) finds about the mirror's direction; the lobe is as one sees it
-    // along the normal (Karis, SIGGRAPH 2013 course: the first part of the split sum).
+    // Mean radiance that a facet lobe (GGX alpha, kLeastAlpha at least) finds about the mirror's direction; the lobe is
+    // as one sees it along the normal (Karis, SIGGRAPH 2013 course: the first part of the split sum).
     Spectrum glossy(std::size_t body, Vec3f world_dir, float alpha) const;
+    static constexpr float kLeastAlpha = 0.03f;
 
   private:
     // A function of the direction, on an octahedron's faces (Cigolle et al., JCGT 3(2), 2014); bilinear.
@@ -41,12 +43,20 @@ class SkyLight {
         static Vec3f direction(int index);
         Spectrum at(Vec3f dir) const;
     };
-    static constexpr std::array<float, 3> kAlphas = {0.12f, 0.25f, 0.5f};
+    // About a body's middle, by the angle from it in any direction (azimuthal equidistant); zero further off.
+    struct ConeMap {
+        static constexpr int kSteps = 32;
+        float reach_rad = 0;
+        std::vector<Spectrum> value = std::vector<Spectrum>((kSteps + 1) * (kSteps + 1));
+        Vec3f direction(const Frame& axis, int index) const;
+        Spectrum at(const Frame& axis, Vec3f dir) const;
+    };
+    static constexpr std::array<float, 5> kAlphas = {kLeastAlpha, 0.06f, 0.12f, 0.25f, 0.5f};
 
     std::size_t count_ = 0;
     std::array<Body, kMostBodies> bodies_;
     std::array<DirectionMap, kMostBodies> irradiance_;
-    std::array<std::array<DirectionMap, kAlphas.size()>, kMostBodies> glossy_;
+    std::array<std::array<ConeMap, kAlphas.size()>, kMostBodies> glossy_;
 };
 
 }  // namespace hilcam

@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// --- keys: 16 bits for each coordinate of the cube, three for the way it faces, thirteen for the surface
+// --- keys: 16 bits for each coordinate of the cube, three for the way it faces, one for the side, twelve for the surface
 
 constexpr int kMostCubes = 65000;  // along an axis
 
@@ -28,8 +28,9 @@ unsigned way_of(Vec3f normal) {
     return normal.z >= 0 ? 4 : 5;
 }
 
-std::uint64_t kind_of(Vec3f normal, std::uint16_t surface) {
-    return way_of(normal) | static_cast<std::uint64_t>(surface & 0x1FFFu) << 3;
+std::uint64_t kind_of(const SurfaceSide& side) {
+    return way_of(side.geometric_normal) | static_cast<std::uint64_t>(side.back) << 3 |
+           static_cast<std::uint64_t>(side.surface & 0xFFFu) << 4;
 }
 
 // Coordinates from -1 on, so that a cube's neighbours have keys.
@@ -173,7 +174,7 @@ std::vector<Found> find_cells(const Mesh& mesh, std::span<const std::uint8_t> ke
                 const float priority = -std::log(u) / share;
                 for (const bool back : {false, true}) {
                     Found cell;
-                    cell.key = key_of(cube, kind_of(back ? -spread.normal : spread.normal, surface));
+                    cell.key = key_of(cube, kind_of({back ? -spread.normal : spread.normal, surface, back}));
                     cell.area_m2 = share;
                     cell.add(Candidate{priority, static_cast<std::uint32_t>(t), number, back});
                     // Neighbours in a run are mostly of one cell.
@@ -392,10 +393,10 @@ const LightNodes::Cell* LightNodes::cell(std::uint64_t key) const {
     return nullptr;
 }
 
-bool LightNodes::find(Vec3f point_m, Vec3f geometric_normal, std::uint16_t surface, NodesAbout& about) const {
+bool LightNodes::find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about) const {
     about.count = 0;
     if (slots_.empty()) return false;
-    const std::uint64_t kind = kind_of(geometric_normal, surface);
+    const std::uint64_t kind = kind_of(side);
     const Vec3f at = (point_m - corner_m_) / cube_m_;
     const Cube cube = Grid{corner_m_, cube_m_}.cube(point_m);
     const Cell* found = cell(key_of(cube, kind));

@@ -1,8 +1,9 @@
 #pragma once
 // Places on an object's surface where light is kept from frame to frame (light/kept_light.h).
 //
-// Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh and faces one of
-// six ways (the greatest component of its normal) is a cell; the two sides of a sheet are cells of their own. Light
+// Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh, is the same side of
+// its triangles (so that the inside of a body thinner than a cube is no part of its outside) and faces one of six ways
+// (the greatest component of its normal) is a cell. Light
 // belongs to nodes, which are the corners of the cubes: a node stands for the cells of one kind that touch its
 // corner, by a few points on them. A place between has its cube's eight corners, weighted linearly, so that light
 // is continuous where the surface is. Corners that touch the same cells are one node: a flat wall has one layer.
@@ -18,6 +19,13 @@
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
+
+// Where on an object's surface: what tells cells of a cube apart.
+struct SurfaceSide {
+    Vec3f geometric_normal;  // of this side, body axes
+    std::uint16_t surface = 0;
+    bool back = false;  // the triangle's own normal (right-handed) points to the other side
+};
 
 // The nodes about a place, with weights whose sum is 1.
 struct NodesAbout {
@@ -53,9 +61,9 @@ class LightNodes {
     // and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of threads.
     LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted);
 
-    // A place in body axes, on a surface that faces `geometric_normal`. False where there are no cells: the place is
-    // off every surface by more than a cube. Loop, any thread.
-    bool find(Vec3f point_m, Vec3f geometric_normal, std::uint16_t surface, NodesAbout& about) const;
+    // A place in body axes. False where there are no cells: the place is off every surface by more than a cube. Loop,
+    // any thread.
+    bool find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about) const;
 
     const std::vector<LightNode>& nodes() const { return nodes_; }
     float cube_m() const { return cube_m_; }

@@ -123,10 +123,10 @@ class Tracer {
             return;
         }
         if (ray.sheets == 0) distance[ray.direction] = hits.distance[k];
-        Vec3f normal{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
-        if (dot(normal, ray.dir) > 0) normal = -normal;
+        const Vec3f normal{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
+        const bool back = dot(normal, ray.dir) > 0;
         NodesAbout about;
-        out = nodes_.find(point_m, normal, surface, about) && about.count > 0 ? about.nearest() : kDark;
+        out = nodes_.find(point_m, {back ? -normal : normal, surface, back}, about) && about.count > 0 ? about.nearest() : kDark;
     }
 
     void drop_buried(std::span<std::uint32_t> met, std::span<const float> distance) const {
