@@ -5,6 +5,7 @@
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
 #include "emulator/scenario/scene_loader.h"
+#include "emulator/world/clock.h"
 
 namespace hilcam {
 namespace {
@@ -35,6 +36,13 @@ StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
       exposure_(first_exposure(scenario.camera)) {
     renderer_->require_air(snapshot_);
     points_.reserve(exposures_.most_points());
+}
+
+void StillCamera::look_from(const Pose& body) {
+    world_.set(0, {time_, body, {}, {}}, {1, monotonic_ns()}, true);
+    ShownCommand shown;
+    world_.sample(time_, snapshot_, shown);
+    renderer_->require_air(snapshot_);
 }
 
 SensorChain& StillCamera::chain() {
