@@ -194,6 +194,14 @@ int run_bench(const Options& o) {
                result["frame_rate_hz"].get<double>(), result["frame_ms"]["p50"].get<double>(),
                result["frame_ms"]["p99"].get<double>(), result["floor_ms"].get<double>(),
                result["ratio_to_floor"].get<double>());
+    fmt::print("{:.2f} core-ms a frame, of all threads\n", result["core_ms_per_frame"].get<double>());
+    const nlohmann::json& rays = result["rays"];
+    fmt::print(
+        "rays of the last frame: {} primary, {} shadow, {} shadow behind a bounce, {} to lamps and "
+        "bodies, {} of paths\n",
+        rays["primary"].get<std::uint64_t>(), rays["shadow"].get<std::uint64_t>(),
+        rays["bounce_shadow"].get<std::uint64_t>(), rays["lamp"].get<std::uint64_t>(),
+        rays["path"].get<std::uint64_t>());
     for (const auto& [stage, times] : result["stages_ms"].items())
         fmt::print("  {:<10} p50 {:7.3f} ms  p99 {:7.3f} ms\n", stage, times["p50"].get<double>(),
                    times["p99"].get<double>());
@@ -309,7 +317,8 @@ int run_command_line(int argc, char** argv) {
     add_config(check_app, o);
     check_app->callback([&] { action = [&] { return check(o); }; });
 
-    CLI::App* bench_app = app.add_subcommand("bench", "measure how fast a scenario runs here");
+    CLI::App* bench_app =
+        app.add_subcommand("bench", "measure how fast a scenario runs here, or how far off its frames are");
     add_config(bench_app, o);
     bench_app->add_flag("--json", o.json, "machine-readable");
     bench_app->add_flag("--path-models", o.bench.path_models,

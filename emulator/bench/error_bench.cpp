@@ -97,7 +97,7 @@ json figures_json(const PictureErrors& e, const NoiseError& error, const NoiseEr
     return {{"error_sigma_p99", if_lit(error, error.p99)},
             {"error_sigma_rms", if_lit(error, error.rms)},
             {"within_half_sigma_fraction", if_lit(error, error.within_half_fraction)},
-            {"lit_px", error.lit_px},
+            {"lit_px", static_cast<double>(error.lit_px) / kFrames},
             {"false_lights", e.false_lights},
             {"centroid_shift_px", or_null(e.centroid_px)},
             {"photometric_error_fraction", or_null(e.photometric_fraction)},

@@ -16,8 +16,8 @@ std::vector<double> lit_errors(const ComparedPictures& p, const SensorNoise& noi
         const auto dark_e = static_cast<double>(p.dark.data()[i]);
         const auto one_e = static_cast<double>(p.image.data()[i]),
                    other_e = static_cast<double>(p.other.data()[i]);
-        if (std::max(one_e, other_e) - dark_e <= noise.sigma_e(dark_e, dark_e)) continue;
         const auto true_e = static_cast<double>(p.truth.data()[i]);
+        if (std::max({one_e, other_e, true_e}) - dark_e <= noise.sigma_e(dark_e, dark_e)) continue;
         errors.push_back(std::abs(one_e - other_e) / noise.sigma_e(true_e, dark_e));
     }
     return errors;

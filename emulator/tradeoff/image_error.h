@@ -23,8 +23,8 @@ struct NoiseError {
 NoiseError noise_error(const ElectronImage& image, const ElectronImage& reference, const ElectronImage& dark,
                        const SensorNoise& noise);
 
-// The same pixel by pixel, to put several pictures together: |difference| / sigma of the pixels that are lit
-// in one picture or the other; sigma is that of the truth's pixel.
+// The same pixel by pixel, to put several pictures together: |image - other| / sigma of the pixels that are
+// lit in any of the pictures; sigma is that of the truth's pixel.
 struct ComparedPictures {
     const ElectronImage& image;
     const ElectronImage& other;

@@ -282,7 +282,7 @@ TEST(Renderer, NothingUnneededIsTraced) {
     Stage s;
     s.quality.max_depth = 1;
     s.render();  // an empty sky
-    EXPECT_EQ(s.stats.primary_rays + s.stats.shadow_rays + s.stats.secondary_rays, 0u);
+    EXPECT_EQ(s.stats.primary_rays + s.stats.shadow_rays + s.stats.lamp_rays + s.stats.secondary_rays, 0u);
     s.add(plate(lambert(0.5), s.grid), {0, 0, -3});  // behind the camera
     s.render();
     EXPECT_EQ(s.stats.primary_rays, 0u);
@@ -301,7 +301,8 @@ TEST(Renderer, NothingUnneededIsTraced) {
     s.render();
     const auto shadow_rays = s.stats.shadow_rays;
     EXPECT_GT(shadow_rays, 0u);
-    EXPECT_EQ(s.stats.secondary_rays, 0u);  // no body, no depth
+    EXPECT_EQ(s.stats.lamp_rays, 0u);       // no body
+    EXPECT_EQ(s.stats.secondary_rays, 0u);  // no depth
     // The Earth out of the field adds its own light, and no primary ray.
     const auto primary_rays = s.stats.primary_rays;
     s.earth(0.3);
@@ -310,11 +311,11 @@ TEST(Renderer, NothingUnneededIsTraced) {
     s.render();
     EXPECT_EQ(s.stats.primary_rays, primary_rays);
     EXPECT_EQ(s.stats.shadow_rays, shadow_rays);
-    EXPECT_GT(s.stats.secondary_rays, 0u);
+    EXPECT_GT(s.stats.lamp_rays, 0u);
     // Below the threshold it is not asked.
     s.quality.contribution_threshold = 0.05;
     s.render();
-    EXPECT_EQ(s.stats.secondary_rays, 0u);
+    EXPECT_EQ(s.stats.lamp_rays + s.stats.secondary_rays + s.stats.bounce_shadow_rays, 0u);
     EXPECT_TRUE(s.points.empty());
 }
 
