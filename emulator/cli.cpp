@@ -172,7 +172,7 @@ int run_soak(const Options& o, const ScenarioConfig& scenario) {
 int run_error_bench(const Options& o) {
     const nlohmann::json result = error_bench({o.config, o.overrides}, o.error_bench, cache_folder(),
                                               [](const std::string& line) { spdlog::info("{}", line); });
-    fmt::print("{}\n", o.json ? result.dump(2) : error_bench_text(result));
+    fmt::print("{}", o.json ? result.dump(2) + "\n" : error_bench_text(result));
     return 0;
 }
 

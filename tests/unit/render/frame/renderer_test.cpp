@@ -277,6 +277,28 @@ TEST(Renderer, TexturesAreAveragedOverAPixel) {
     }
 }
 
+// A block beside a plate, both in the Sun: the camera's own sight of them, and what paths find of the block.
+TEST(Renderer, RaysAreCountedByWhatTheyAreFor) {
+    Stage s;
+    s.sun({1, 0, -1});
+    s.add(plate(lambert(0.5), s.grid), {0, 0, 3});
+    s.add(cube(lambert(0.5), s.grid), {-1, 0, 2.4});
+    s.quality.max_depth = 1;
+    s.quality.contribution_threshold = 0;
+    s.render();
+    const RayCounts direct = s.stats;
+    EXPECT_GT(direct.shadow_rays, 0u);
+    EXPECT_LE(direct.shadow_rays, direct.primary_rays);
+    EXPECT_EQ(direct.bounce_shadow_rays + direct.secondary_rays + direct.lamp_rays, 0u);
+    s.quality.max_depth = 2;
+    s.render();
+    EXPECT_EQ(s.stats.primary_rays, direct.primary_rays);
+    EXPECT_EQ(s.stats.shadow_rays, direct.shadow_rays);
+    EXPECT_GT(s.stats.bounce_shadow_rays, 0u);
+    EXPECT_GT(s.stats.secondary_rays, s.stats.bounce_shadow_rays);  // a second surface has one Sun
+    EXPECT_EQ(s.stats.lamp_rays, 0u);
+}
+
 // Models that a frame does not need cost it nothing: no ray, no look into the air, no point.
 TEST(Renderer, NothingUnneededIsTraced) {
     Stage s;
