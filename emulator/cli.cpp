@@ -12,7 +12,6 @@
 #include <sstream>
 
 #include "emulator/bench/bench.h"
-#include "emulator/bench/error_bench.h"
 #include "emulator/bench/sensor_bench.h"
 #include "emulator/bench/soak_report.h"
 #include "emulator/characterise/characterise_report.h"
@@ -28,6 +27,7 @@
 #include "emulator/run/report.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/send/send_command.h"
+#include "emulator/tradeoff/error_bench.h"
 #include "emulator/tradeoff/tradeoff_report.h"
 #include "io/config/config_manual.h"
 #include "io/config/config_yaml.h"

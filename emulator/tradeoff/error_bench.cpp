@@ -1,4 +1,4 @@
-#include "emulator/bench/error_bench.h"
+#include "emulator/tradeoff/error_bench.h"
 
 #include <spdlog/fmt/fmt.h>
 
