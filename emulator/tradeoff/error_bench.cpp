@@ -19,10 +19,11 @@ constexpr std::uint64_t kFrames = 2;  // of a view: one more than one tells what
 
 struct View {
     double angle_deg = 0;
-    Pose body;
+    std::optional<Pose> body;  // none: where the scenario has it
 };
 
 std::vector<View> views_of(const ScenarioConfig& scenario, int count) {
+    if (scenario.objects.empty()) return {View{}};
     const CircleFlight flight = flight_around_target(scenario);
     std::vector<View> out;
     for (int i = 0; i < count; ++i) {
@@ -65,15 +66,16 @@ class References {
                const Log& log)
         : scenario_(scenario), limits_(limits), folder_(std::move(folder)), log_(log) {}
 
-    ReferencePicture of(const View& view) {
-        const std::string key = reference_key(scenario_, view.body, limits_);
+    // camera_world: where the view has the camera.
+    ReferencePicture of(const View& view, const Pose& camera_world) {
+        const std::string key = reference_key(scenario_, view.body.value_or(camera_world), limits_);
         const std::filesystem::path file = reference_file(folder_, key);
         if (std::optional<ReferencePicture> kept = kept_reference(file, key)) {
             log_(fmt::format("reference of {} frames from {}", kept->frames, file.string()));
             return std::move(*kept);
         }
         if (!camera_) camera_.emplace(scenario_);
-        camera_->look_from(view.body);
+        if (view.body) camera_->look_from(*view.body);
         ReferencePicture made = render_reference(*camera_, scenario_, limits_, log_);
         keep_reference(file, key, made);
         log_(fmt::format("took {:.0f} s; kept as {}", made.seconds, file.string()));
@@ -107,9 +109,10 @@ json figures_json(const PictureErrors& e, const NoiseError& error, const NoiseEr
             {"scatter_sigma_rms", if_lit(scatter, scatter.rms)}};
 }
 
-json view_json(const View& view, const ViewErrors& v, const ReferencePicture& reference) {
+json view_json(const View& view, const Pose& camera_world, const ViewErrors& v,
+               const ReferencePicture& reference) {
     json out = figures_json(v.mean, noise_error(v.errors), noise_error(v.scatter));
-    const Vec3d& p = view.body.position_world_m;
+    const Vec3d& p = camera_world.position_world_m;
     out["angle_deg"] = view.angle_deg;
     out["position_m"] = {p.x, p.y, p.z};
     const NoiseError& e = reference.standard_error;
@@ -188,13 +191,16 @@ json error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
     StillCamera camera(scenario);
     AllViews all;
     json views = json::array();
-    for (const View& view : views_of(scenario, options.views)) {
-        log(fmt::format("view {} of {}", views.size() + 1, options.views));
-        camera.look_from(view.body);
-        const PictureJudge judge(best, camera, references.of(view));
+    const std::vector<View> all_views = views_of(scenario, options.views);
+    if (scenario.objects.empty()) log("no object to look at from all around: one view, the scenario's own");
+    for (const View& view : all_views) {
+        log(fmt::format("view {} of {}", views.size() + 1, all_views.size()));
+        if (view.body) camera.look_from(*view.body);
+        const Pose& camera_world = camera.world().camera;
+        const PictureJudge judge(best, camera, references.of(view, camera_world));
         const ViewErrors errors = measure(camera, judge, static_cast<std::uint64_t>(scenario.seed));
         all.add(errors);
-        views.push_back(view_json(view, errors, judge.reference()));
+        views.push_back(view_json(view, camera_world, errors, judge.reference()));
     }
     return {{"scenario", scenario.name},           {"width", scenario.camera.width_px},
             {"height", scenario.camera.height_px}, {"views", views},
@@ -204,8 +210,9 @@ json error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
 
 std::string error_bench_text(const json& report) {
     std::string out = fmt::format(
-        "{}: {} views around the target, {} frames in each; in sensor noise: error, scatter, and the "
-        "standard error of the reference\n\n"
+        "{}: number of views {}, of frames in each {}; in sensor noise: error, scatter, and the standard "
+        "error of "
+        "the reference\n\n"
         "{:>6} {:>8} {:>8} {:>7} {:>9} {:>9} {:>9} {:>8} {:>8} {:>9}\n"
         "{:>6} {:>8} {:>8} {:>7} {:>9} {:>9} {:>9} {:>8} {:>8} {:>9}\n",
         report["scenario"].get<std::string>(), report["views"].size(),
