@@ -39,9 +39,13 @@ StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
 }
 
 void StillCamera::look_from(const Pose& body) {
-    world_.set(0, {time_, body, {}, {}}, {1, monotonic_ns()}, true);
-    ShownCommand shown;
-    world_.sample(time_, snapshot_, shown);
+    const auto stand = [&](Vec3d velocity_world_m_s) {
+        world_.set(0, {time_, body, velocity_world_m_s, {}}, {1, monotonic_ns()}, true);
+        ShownCommand shown;
+        world_.sample(time_, snapshot_, shown);
+    };
+    stand({});
+    stand(world_.nearest_velocity_m_s(snapshot_));
     renderer_->require_air(snapshot_);
 }
 

@@ -16,8 +16,9 @@ class StillCamera {
     // Loads all that the scenario names. Throws InputError, DeviceError. Owner thread, as all here.
     explicit StillCamera(const ScenarioConfig& scenario, double time_offset_s = 0);
 
-    // From now on the body that the first camera rides on stands there, at rest; everything else is where it
-    // was. Throws InputError where the atmosphere does not cover what is seen from there.
+    // From now on the body that the camera rides on stands there, at rest against the object that is nearest;
+    // everything else is where it was. Throws InputError where the atmosphere does not cover what is seen
+    // from there.
     void look_from(const Pose& body);
 
     // In this order; each gives what it fills, valid until the next call. The key chooses the light paths,

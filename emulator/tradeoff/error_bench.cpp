@@ -22,9 +22,13 @@ struct View {
     std::optional<Pose> body;  // none: where the scenario has it
 };
 
-std::vector<View> views_of(const ScenarioConfig& scenario, int count) {
+// The flight of the bench; where things have motions of their own, about where those have them. world: at the
+// start.
+std::vector<View> views_of(const ScenarioConfig& scenario, const WorldSnapshot& world, int count) {
     if (scenario.objects.empty()) return {View{}};
-    const CircleFlight flight = flight_around_target(scenario);
+    CircleFlight flight = flight_around_target(scenario);
+    if (scenario.has_camera_motion) flight.start_m = world.camera.position_world_m;
+    if (scenario.objects.front().has_motion) flight.center_m = world.objects.front().position_world_m;
     std::vector<View> out;
     for (int i = 0; i < count; ++i) {
         const double share = static_cast<double>(i) / count;
@@ -191,7 +195,7 @@ json error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
     StillCamera camera(scenario);
     AllViews all;
     json views = json::array();
-    const std::vector<View> all_views = views_of(scenario, options.views);
+    const std::vector<View> all_views = views_of(scenario, camera.world(), options.views);
     if (scenario.objects.empty()) log("no object to look at from all around: one view, the scenario's own");
     for (const View& view : all_views) {
         log(fmt::format("view {} of {}", views.size() + 1, all_views.size()));

@@ -1,9 +1,9 @@
 #pragma once
 // `hilcam bench --error`: how far a scenario's frames are from the truth, in views all around its target.
 //
-// Views are spaced evenly over the flight of `hilcam bench` (bench/pilot.h), the camera at rest in each;
-// time is the scenario's start, so that nothing but the camera moves. A scenario without objects has one
-// view, its own. In each view two frames with light paths of their own are compared with a reference
+// Views are spaced evenly over the flight of `hilcam bench` (bench/pilot.h), the camera at rest against the
+// target; time is the scenario's start, so that nothing but the camera moves. A scenario without objects has
+// one view, its own. In each view two frames with light paths of their own are compared with a reference
 // (picture_judge.h), which is kept in the cache folder (reference_cache.h).
 
 #include <filesystem>

@@ -10,10 +10,11 @@
 
 namespace hilcam {
 
-// All that a reference depends on, and more than that, as text: the limits, where the camera's body stands, and the scenario at
-// the reference's settings (scenario_listing.h: a file by its name, length and CRC-32; a generated mesh by
-// the generator's arguments). A key of the quality at its default is not in it, so that a new one that the
-// reference has no use for makes no other reference; kReferenceVersion stands for the defaults.
+// All that a reference depends on, and more than that, as text: the limits, where the camera's body stands,
+// and the scenario at the reference's settings (scenario_listing.h: a file by its name, length and CRC-32; a
+// generated mesh by the generator's arguments). A key of the quality at its default is not in it, so that a
+// new one that the reference has no use for makes no other reference; kReferenceVersion stands for the
+// defaults.
 std::string reference_key(const ScenarioConfig& reference, const Pose& body, const ReferenceLimits& limits);
 
 // Raised when the same key would give another reference: the path tracer, the sensor's optics, a default.

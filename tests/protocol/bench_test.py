@@ -137,6 +137,14 @@ class Speed(unittest.TestCase):
         self.assertIn("shadow behind a bounce", text)
 
 
+    def test_a_camera_that_cannot_fly_around_is_bad_input(self):
+        # Above the target along the axis of the circle.
+        result = hilcam("bench", SCENARIO, *SMALL, "--set", "camera_pose.position_m=[0, 0, 30]", "--set",
+                        "camera_pose.attitude=quaternion")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("circle: the start must lie off the axis", result.stderr)
+
+
 class Error(unittest.TestCase):
     FIGURES = ("error_sigma_p99", "error_sigma_rms", "within_half_sigma_fraction", "false_lights", "centroid_shift_px",
                "photometric_error_fraction", "ssim", "scatter_sigma_p99", "scatter_sigma_rms")
