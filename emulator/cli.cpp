@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <bit>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -26,9 +27,11 @@
 #include "emulator/run/report.h"
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/send/send_command.h"
+#include "emulator/tradeoff/error_bench.h"
 #include "emulator/tradeoff/tradeoff_report.h"
 #include "io/config/config_manual.h"
 #include "io/config/config_yaml.h"
+#include "io/files/mesh_cache.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -41,8 +44,9 @@ struct Options {
     std::uint64_t frames = 0;
     BenchOptions bench;
     SoakOptions soak;
+    ErrorBenchOptions error_bench;
     TradeoffOptions tradeoff;
-    bool json = false, sensor = false;
+    bool json = false, sensor = false, error = false;
     RunLimits run;
     std::uint16_t preview_port = 0;  // 0: as the scenario says
     RenderStage stage = RenderStage::kFrame;
@@ -165,9 +169,17 @@ int run_soak(const Options& o, const ScenarioConfig& scenario) {
     return 0;
 }
 
+int run_error_bench(const Options& o) {
+    const nlohmann::json result = error_bench({o.config, o.overrides}, o.error_bench, cache_folder(),
+                                              [](const std::string& line) { spdlog::info("{}", line); });
+    fmt::print("{}", o.json ? result.dump(2) + "\n" : error_bench_text(result));
+    return 0;
+}
+
 int run_bench(const Options& o) {
     const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     const auto threads = limit_threads(scenario);
+    if (o.error) return run_error_bench(o);
     if (o.soak.seconds > 0) return run_soak(o, scenario);
     if (o.sensor) return run_sensor_bench(o, scenario);
     const nlohmann::json result = bench(scenario, o.bench);
@@ -182,6 +194,14 @@ int run_bench(const Options& o) {
                result["frame_rate_hz"].get<double>(), result["frame_ms"]["p50"].get<double>(),
                result["frame_ms"]["p99"].get<double>(), result["floor_ms"].get<double>(),
                result["ratio_to_floor"].get<double>());
+    fmt::print("{:.2f} core-ms a frame, of all threads\n", result["core_ms_per_frame"].get<double>());
+    const nlohmann::json& rays = result["rays"];
+    fmt::print(
+        "rays of the last frame: {} primary, {} shadow, {} shadow behind a bounce, {} to lamps and "
+        "bodies, {} of paths\n",
+        rays["primary"].get<std::uint64_t>(), rays["shadow"].get<std::uint64_t>(),
+        rays["bounce_shadow"].get<std::uint64_t>(), rays["lamp"].get<std::uint64_t>(),
+        rays["path"].get<std::uint64_t>());
     for (const auto& [stage, times] : result["stages_ms"].items())
         fmt::print("  {:<10} p50 {:7.3f} ms  p99 {:7.3f} ms\n", stage, times["p50"].get<double>(),
                    times["p99"].get<double>());
@@ -222,6 +242,18 @@ int run_doctor(const Options& o) {
     const std::vector<Finding> findings = diagnose(needs, look_at_machine(needs));
     fmt::print("{}", o.json ? findings_json(findings) : findings_text(findings));
     return all_there(findings) ? 0 : 1;
+}
+
+// Halves and halves of halves: frames of a reference.
+CLI::Validator power_of_two_from_4() {
+    return {[](std::string& text) {
+                int value = 0;
+                const bool ok = CLI::detail::lexical_cast(text, value) && value >= 4 && value <= 65536 &&
+                                std::has_single_bit(static_cast<unsigned>(value));
+                return ok ? std::string()
+                          : "found " + in_quotes(text) + "; accepted: a power of two from 4 to 65536";
+            },
+            "a power of two from 4 to 65536"};
 }
 
 void add_config(CLI::App* command, Options& o) {
@@ -285,7 +317,8 @@ int run_command_line(int argc, char** argv) {
     add_config(check_app, o);
     check_app->callback([&] { action = [&] { return check(o); }; });
 
-    CLI::App* bench_app = app.add_subcommand("bench", "measure how fast a scenario runs here");
+    CLI::App* bench_app =
+        app.add_subcommand("bench", "measure how fast a scenario runs here, or how far off its frames are");
     add_config(bench_app, o);
     bench_app->add_flag("--json", o.json, "machine-readable");
     bench_app->add_flag("--path-models", o.bench.path_models,
@@ -310,6 +343,31 @@ int run_command_line(int argc, char** argv) {
     bench_app
         ->add_flag("--outputs", o.soak.outputs, "of --soak: also the scenario's outputs and command ports")
         ->needs(soak);
+    CLI::Option* errors =
+        bench_app
+            ->add_flag(
+                "--error", o.error,
+                "not how fast but how far off: views around the first object against references, which "
+                "are kept in the cache folder")
+            ->excludes(soak)
+            ->excludes("--sensor", "--path-models", "--frames", "--runs");
+    bench_app->add_option("--views", o.error_bench.views, "of --error: how many, evenly around")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str()
+        ->needs(errors);
+    bench_app
+        ->add_option(
+            "--reference-frames", o.error_bench.reference.most_frames,
+            "of --error, for each view's reference, at most; fewer where its standard error is small "
+            "before")
+        ->check(power_of_two_from_4())
+        ->capture_default_str()
+        ->needs(errors);
+    bench_app
+        ->add_option("--reference-set", o.error_bench.reference_set,
+                     "of --error: KEY=VALUE, replaces a value of the references; may be repeated")
+        ->allow_extra_args(false)
+        ->needs(errors);
     bench_app->callback([&] { action = [&] { return run_bench(o); }; });
 
     CLI::App* tradeoff_app =

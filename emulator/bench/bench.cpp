@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 struct Run {
-    double rate_hz, p50_ms, p99_ms;
+    double rate_hz, p50_ms, p99_ms, core_ms;
     json stages, latency;
     RenderStats render;
     double floor_render_ms, fft_ms, copy_ms;
@@ -82,7 +82,9 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
         });
         emulator.run([] {});
     }
+    const std::int64_t processor = processor_ns() - emulator.loop().warm_processor_ns();
     Run run;
+    run.core_ms = static_cast<double>(processor) * 1e-6 / static_cast<double>(options.frames);
     const StageMeters& meters = emulator.loop().meters();
     run.p50_ms = meters.interval.quantile_ms(0.5);
     run.p99_ms = meters.interval.quantile_ms(0.99);
@@ -149,6 +151,7 @@ json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
         {"frame_rate_hz", median_of(&Run::rate_hz)},
         {"frame_ms",
          {{"p50", p50}, {"p99", median_of(&Run::p99_ms)}, {"runs_p50", figures_of(&Run::p50_ms)}}},
+        {"core_ms_per_frame", median_of(&Run::core_ms)},
         {"stages_ms", medians(figures_of(&Run::stages))},
         {"latency_ms", medians(figures_of(&Run::latency))},
         {"floor_ms", floor},
@@ -160,7 +163,9 @@ json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
         {"rays",
          {{"primary", last.render.primary_rays},
           {"shadow", last.render.shadow_rays},
-          {"secondary", last.render.secondary_rays}}},
+          {"bounce_shadow", last.render.bounce_shadow_rays},
+          {"lamp", last.render.lamp_rays},
+          {"path", last.render.secondary_rays}}},
         {"within_noise_budget", last.within_budget},
         {"path_models", last.path_models},
         {"runs", options.runs},

@@ -17,7 +17,9 @@ struct BenchOptions {
 
 // The camera flies once around the first object while frames are computed as fast as the pipeline goes,
 // without outputs. Figures are medians over the runs, counts those of the last. latency_ms: from a pose's
-// arrival to the first frame that shows it, handed over. floor_ms: bare Embree on the primary and shadow rays
+// arrival to the first frame that shows it, handed over. core_ms_per_frame: processor time of all the
+// process's threads over the timed frames, the pilot's (pilot.h) among them; not in it are loading, warming
+// up and the floor's measurement. floor_ms: bare Embree on the primary and shadow rays
 // of such frames (the median of nine places of the circle), plus one FFT pair, plus one copy of the frame.
 nlohmann::json bench(const ScenarioConfig& scenario, const BenchOptions& options);
 

@@ -18,6 +18,7 @@ CircleFlight flight_around_target(const ScenarioConfig& scenario) {
 
 Pilot::Pilot(Emulator& emulator, const CircleFlight& flight, std::function<double(std::int64_t)> flown_s)
     : emulator_(emulator), flight_(flight), flown_s_(std::move(flown_s)) {
+    flight_.at(0, TimeTai{});
     thread_ = std::thread([this] { fly(); });
 }
 

@@ -19,7 +19,8 @@ CircleFlight flight_around_target(const ScenarioConfig& scenario);
 // their beat.
 class Pilot {
   public:
-    // flown_s: the place on the flight at an instant of CLOCK_MONOTONIC; called by the pilot's thread.
+    // flown_s: the place on the flight at an instant of CLOCK_MONOTONIC; called by the pilot's thread. Throws
+    // InputError when there is no such flight.
     Pilot(Emulator& emulator, const CircleFlight& flight,
           std::function<double(std::int64_t monotonic_ns)> flown_s);
     ~Pilot();

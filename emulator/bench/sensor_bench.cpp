@@ -81,11 +81,11 @@ const std::vector<Effect>& effects() {
 
 // Disk of a sunlit white surface's brightness over a third of the picture, on nothing; a star in every 10,000
 // pixels.
-struct Picture {
+struct TimedPicture {
     RadianceImage radiance;
     std::vector<PointSource> points;
 
-    Picture(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling) {
+    TimedPicture(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling) {
         const ImageGeometry g = geometry_of(camera, sampling.guard_px, sampling.oversampling);
         radiance = RadianceImage(g.padded_width(), g.padded_height(), grid.size());
         const double radius_px = std::sqrt(g.padded_width() * g.padded_height() / (3 * kPi));
@@ -117,7 +117,7 @@ struct Picture {
 class Rig {
   public:
     Rig(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling,
-        const Picture& picture, const Exposure& exposure)
+        const TimedPicture& picture, const Exposure& exposure)
         : picture_(picture),
           exposure_(exposure),
           chain_(camera, grid, sampling),
@@ -134,7 +134,7 @@ class Rig {
     SensorChain& chain() { return chain_; }
 
   private:
-    const Picture& picture_;
+    const TimedPicture& picture_;
     Exposure exposure_;
     SensorChain chain_;
     ElectronImage mean_e_;
@@ -190,7 +190,7 @@ json bench_sensor(const ScenarioConfig& scenario, int runs) {
     const SensorSampling sampling = sampling_of(scenario.quality);
     CameraModel common = scenario.camera;
     turn_on_common(common);
-    const Picture picture(common, grid, sampling);
+    const TimedPicture picture(common, grid, sampling);
     const Exposure plain{.exposure_s = common.exposure_s};
     Rig base_rig(common, grid, sampling, picture, plain);
     for (int i = 0; i < 5; ++i) base_rig.run();  // warming up

@@ -39,9 +39,7 @@ void scale(float factor, RadianceImage& image) {
 }
 
 void accumulate(const RenderStats& part, float share, RenderStats& sum) {
-    sum.primary_rays += part.primary_rays;
-    sum.shadow_rays += part.shadow_rays;
-    sum.secondary_rays += part.secondary_rays;
+    sum += part;
     sum.coverage += static_cast<double>(share) * part.coverage;
     sum.setup_ms += part.setup_ms;
     sum.trace_ms += part.trace_ms;

@@ -312,7 +312,10 @@ void FrameLoop::sense(Slot& slot) {
     if (last_published_ns_ != 0) meters_.interval.record(done_ns - last_published_ns_);
     last_published_ns_ = done_ns;
     counters_.last_id.store(slot.record.id, std::memory_order_relaxed);
-    if (counters_.frames.fetch_add(1, std::memory_order_relaxed) + 1 == limits_.warm_up) meters_.clear();
+    if (counters_.frames.fetch_add(1, std::memory_order_relaxed) + 1 == limits_.warm_up) {
+        meters_.clear();
+        warm_processor_ns_ = processor_ns();
+    }
 }
 
 // When the exposure was, on the machine's clock: the scale of time may have changed since it began.

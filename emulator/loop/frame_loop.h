@@ -141,6 +141,8 @@ class FrameLoop {
     bool take_level_change(LevelChange& change) noexcept { return level_changes_.pop(change); }
     // Of the frame rendered last; for benchmarks, when the loop is stopped.
     const RenderStats& render_stats() const { return stats_; }
+    // What processor_ns() was after the last frame of warming up; likewise.
+    std::int64_t warm_processor_ns() const { return warm_processor_ns_; }
 
   private:
     struct Slot {
@@ -212,7 +214,7 @@ class FrameLoop {
     ElectronImage electrons_;
     DnImage frame_, before_;    // the one being finished, and the one published before it
     FrameHistogram histogram_;  // for automatic exposure
-    std::int64_t last_published_ns_ = 0;
+    std::int64_t last_published_ns_ = 0, warm_processor_ns_ = 0;
 
     LoopCounters counters_;
     StageMeters meters_;

@@ -5,6 +5,7 @@
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
 #include "emulator/scenario/scene_loader.h"
+#include "emulator/world/clock.h"
 
 namespace hilcam {
 namespace {
@@ -35,6 +36,17 @@ StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
       exposure_(first_exposure(scenario.camera)) {
     renderer_->require_air(snapshot_);
     points_.reserve(exposures_.most_points());
+}
+
+void StillCamera::look_from(const Pose& body) {
+    const auto stand = [&](Vec3d velocity_world_m_s) {
+        world_.set(0, {time_, body, velocity_world_m_s, {}}, {1, monotonic_ns()}, true);
+        ShownCommand shown;
+        world_.sample(time_, snapshot_, shown);
+    };
+    stand({});
+    stand(world_.nearest_velocity_m_s(snapshot_));
+    renderer_->require_air(snapshot_);
 }
 
 SensorChain& StillCamera::chain() {

@@ -16,6 +16,11 @@ class StillCamera {
     // Loads all that the scenario names. Throws InputError, DeviceError. Owner thread, as all here.
     explicit StillCamera(const ScenarioConfig& scenario, double time_offset_s = 0);
 
+    // From now on the body that the camera rides on stands there, at rest against the object that is nearest;
+    // everything else is where it was. Throws InputError where the atmosphere does not cover what is seen
+    // from there.
+    void look_from(const Pose& body);
+
     // In this order; each gives what it fills, valid until the next call. The key chooses the light paths,
     // and the noise.
     const RadianceImage& render(RandomKey key, FrameTruth* truth = nullptr);
@@ -29,6 +34,7 @@ class StillCamera {
     // Where everything is at mid-exposure, pointing jitter apart.
     const WorldSnapshot& world() const { return snapshot_; }
     Renderer& renderer() { return *renderer_; }
+    const Renderer& renderer() const { return *renderer_; }
 
   private:
     // Made at the first use: a radiance image needs none.

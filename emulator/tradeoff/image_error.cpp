@@ -8,28 +8,56 @@
 
 namespace hilcam {
 
-NoiseError noise_error(const ElectronImage& image, const ElectronImage& reference, const ElectronImage& dark,
-                       const SensorNoise& noise) {
-    HILCAM_CHECK(image.pixels() == reference.pixels() && image.pixels() == dark.pixels());
+std::vector<double> lit_errors(const ComparedPictures& p, const SensorNoise& noise) {
+    HILCAM_CHECK(p.image.pixels() == p.other.pixels() && p.image.pixels() == p.truth.pixels() &&
+                 p.image.pixels() == p.dark.pixels());
     std::vector<double> errors;
+    for (std::size_t i = 0; i < p.image.pixels(); ++i) {
+        const auto dark_e = static_cast<double>(p.dark.data()[i]);
+        const auto one_e = static_cast<double>(p.image.data()[i]),
+                   other_e = static_cast<double>(p.other.data()[i]);
+        const auto true_e = static_cast<double>(p.truth.data()[i]);
+        if (std::max({one_e, other_e, true_e}) - dark_e <= noise.sigma_e(dark_e, dark_e)) continue;
+        errors.push_back(std::abs(one_e - other_e) / noise.sigma_e(true_e, dark_e));
+    }
+    return errors;
+}
+
+NoiseError noise_error(std::vector<double> errors) {
+    if (errors.empty()) return {};
     double squares = 0;
     std::size_t within = 0;
-    for (std::size_t i = 0; i < image.pixels(); ++i) {
-        const auto dark_e = static_cast<double>(dark.data()[i]);
-        const auto seen_e = static_cast<double>(image.data()[i]),
-                   true_e = static_cast<double>(reference.data()[i]);
-        if (std::max(seen_e, true_e) - dark_e <= noise.sigma_e(dark_e, dark_e)) continue;
-        const double error = std::abs(seen_e - true_e) / noise.sigma_e(true_e, dark_e);
-        errors.push_back(error);
+    for (const double error : errors) {
         squares += error * error;
         if (error <= 0.5) ++within;
     }
-    if (errors.empty()) return {};
     const auto count = static_cast<double>(errors.size());
     const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * count)) - 1;
     std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
     return {errors[static_cast<std::size_t>(rank)], std::sqrt(squares / count),
             static_cast<double>(within) / count, errors.size()};
+}
+
+NoiseError noise_error(const ElectronImage& image, const ElectronImage& reference, const ElectronImage& dark,
+                       const SensorNoise& noise) {
+    return noise_error(lit_errors({image, reference, reference, dark}, noise));
+}
+
+std::size_t false_lights(const ElectronImage& image, const ElectronImage& reference,
+                         const ElectronImage& dark, const SensorNoise& noise) {
+    HILCAM_CHECK(image.pixels() == reference.pixels() && image.pixels() == dark.pixels());
+    // Far enough out that the reference's own scatter makes none; dim enough that no frame shows an edge
+    // there.
+    constexpr double kLeast_sigma = 5, kMostTrue_e = 100;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const auto dark_e = static_cast<double>(dark.data()[i]),
+                   true_e = static_cast<double>(reference.data()[i]);
+        if (true_e - dark_e >= kMostTrue_e) continue;
+        const double excess_e = static_cast<double>(image.data()[i]) - true_e;
+        if (excess_e > kLeast_sigma * noise.sigma_e(true_e, dark_e)) ++count;
+    }
+    return count;
 }
 
 ElectronImage clone(const ElectronImage& image) {

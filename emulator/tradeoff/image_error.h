@@ -3,6 +3,7 @@
 // All of them [e-], of the read-out array, without noise; `dark` is what they hold without light.
 
 #include <optional>
+#include <vector>
 
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/pixel_box.h"
@@ -21,6 +22,22 @@ struct NoiseError {
 };
 NoiseError noise_error(const ElectronImage& image, const ElectronImage& reference, const ElectronImage& dark,
                        const SensorNoise& noise);
+
+// The same pixel by pixel, to put several pictures together: |image - other| / sigma of the pixels that are
+// lit in any of the pictures; sigma is that of the truth's pixel.
+struct ComparedPictures {
+    const ElectronImage& image;
+    const ElectronImage& other;
+    const ElectronImage& truth;
+    const ElectronImage& dark;
+};
+std::vector<double> lit_errors(const ComparedPictures& pictures, const SensorNoise& noise);
+NoiseError noise_error(std::vector<double> lit_errors);
+
+// Pixels that shine where nothing does: more than 5 sigma above the reference (sigma as above), where that
+// has less than 100 e- of light, which is what it has above its dark charge.
+std::size_t false_lights(const ElectronImage& image, const ElectronImage& reference,
+                         const ElectronImage& dark, const SensorNoise& noise);
 
 // Images do not copy by themselves. Owner thread.
 ElectronImage clone(const ElectronImage& image);

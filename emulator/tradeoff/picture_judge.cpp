@@ -71,51 +71,65 @@ PixelBox box_of(Vec3d middle_world_m, double radius_m, const Pose& camera, const
     return screen_bounds_of_cone(geometry, camera, to_middle_m / distance_m, std::sqrt(1 - sine * sine));
 }
 
-}  // namespace
-
-PictureJudge::PictureJudge(const ScenarioConfig& s, const ReferenceLimits& limits,
-                           const std::function<void(const std::string&)>& log)
-    : noise_(s.camera, gain_db_of(s.camera)),
-      saturation_e_(configured_saturation_e(s.camera, gain_db_of(s.camera))),
-      offset_px_{static_cast<double>(s.camera.black_columns), static_cast<double>(s.camera.black_rows)} {
-    const std::int64_t start_ns = monotonic_ns();
-    StillCamera camera(s);
-    dark_ = camera.dark();
-    render(camera, static_cast<std::uint64_t>(s.seed), limits, log);
-    find_target(camera, s);
-    find_limbs(camera, s);
-    seconds_ = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
+SensorNoise noise_of(const CameraModel& camera) { return SensorNoise(camera, gain_db_of(camera)); }
+double saturation_of(const CameraModel& camera) {
+    return configured_saturation_e(camera, gain_db_of(camera));
 }
 
-void PictureJudge::render(StillCamera& camera, std::uint64_t seed, const ReferenceLimits& limits,
-                          const std::function<void(const std::string&)>& log) {
-    PictureSum halves[] = {PictureSum(dark_), PictureSum(dark_)};
+}  // namespace
+
+ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, const ReferenceLimits& limits,
+                                  const std::function<void(const std::string&)>& log) {
+    const std::int64_t start_ns = monotonic_ns();
+    const SensorNoise noise = noise_of(s.camera);
+    const auto seed = static_cast<std::uint64_t>(s.seed);
+    ReferencePicture out;
+    out.dark = camera.dark();
+    PictureSum halves[] = {PictureSum(out.dark), PictureSum(out.dark)};
     for (int goal = 4; goal <= limits.most_frames; goal *= 2) {
-        for (; frames_ < goal; ++frames_) {
-            camera.render({seed, kFirstReferenceFrame + static_cast<std::uint64_t>(frames_)});
+        for (; out.frames < goal; ++out.frames) {
+            camera.render({seed, kFirstReferenceFrame + static_cast<std::uint64_t>(out.frames)});
             ElectronImage picture = clone(camera.expose());
-            saturate(picture, saturation_e_);
-            halves[frames_ % 2].add(picture);
+            saturate(picture, saturation_of(s.camera));
+            halves[out.frames % 2].add(picture);
         }
-        standard_error_ = noise_error(halves[0].mean(), halves[1].mean(), dark_, noise_);
-        standard_error_.p99 *= 0.5, standard_error_.rms *= 0.5;
-        if (standard_error_.lit_px == 0)
-            throw InputError(
-                fmt::format("nothing in the picture is brighter than the sensor's noise in the dark, "
-                            "{:.3g} e-: there is no error to measure; raise the exposure, or look at "
-                            "something",
-                            noise_.sigma_e(0, 0)));
+        out.standard_error = noise_error(halves[0].mean(), halves[1].mean(), out.dark, noise);
+        out.standard_error.p99 *= 0.5, out.standard_error.rms *= 0.5;
         log(fmt::format(
             "reference of {} frames: standard error {:.4f} of the sensor's noise or less in 99 % of {} "
             "lit pixels, {:.4f} rms",
-            frames_, standard_error_.p99, standard_error_.lit_px, standard_error_.rms));
-        if (standard_error_.p99 <= limits.standard_error_sigma) break;
+            out.frames, out.standard_error.p99, out.standard_error.lit_px, out.standard_error.rms));
+        if (out.standard_error.p99 <= limits.standard_error_sigma) break;
     }
     halves[0].add(halves[1]);
-    reference_ = halves[0].mean();
+    out.mean = halves[0].mean();
+    out.seconds = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
+    return out;
 }
 
-void PictureJudge::find_target(StillCamera& camera, const ScenarioConfig& s) {
+PictureJudge first_instant_judge(const ScenarioConfig& s, const ReferenceLimits& limits,
+                                 const std::function<void(const std::string&)>& log) {
+    StillCamera camera(s);
+    ReferencePicture reference = render_reference(camera, s, limits, log);
+    if (reference.standard_error.lit_px == 0)
+        throw InputError(
+            fmt::format("nothing in the picture is brighter than the sensor's noise in the dark, "
+                        "{:.3g} e-: there is no error to measure; raise the exposure, or look at "
+                        "something",
+                        noise_of(s.camera).sigma_e(0, 0)));
+    return {s, camera, std::move(reference)};
+}
+
+PictureJudge::PictureJudge(const ScenarioConfig& s, const StillCamera& camera, ReferencePicture reference)
+    : noise_(noise_of(s.camera)),
+      saturation_e_(saturation_of(s.camera)),
+      offset_px_{static_cast<double>(s.camera.black_columns), static_cast<double>(s.camera.black_rows)},
+      reference_(std::move(reference)) {
+    find_target(camera, s);
+    find_limbs(camera, s);
+}
+
+void PictureJudge::find_target(const StillCamera& camera, const ScenarioConfig& s) {
     const ImageGeometry geometry = geometry_of(s.camera, 0);
     const WorldSnapshot& world = camera.world();
     PixelBox box;
@@ -126,9 +140,9 @@ void PictureJudge::find_target(StillCamera& camera, const ScenarioConfig& s) {
     const int left = static_cast<int>(s.camera.black_columns), top = static_cast<int>(s.camera.black_rows);
     target_ = {std::max(left, left + box.x0 - kTargetMargin_px),
                std::max(top, top + box.y0 - kTargetMargin_px),
-               std::min(reference_.width(), left + box.x1 + kTargetMargin_px),
-               std::min(reference_.height(), top + box.y1 + kTargetMargin_px)};
-    target_light_ = window_light(reference_, dark_, target_);
+               std::min(reference_.mean.width(), left + box.x1 + kTargetMargin_px),
+               std::min(reference_.mean.height(), top + box.y1 + kTargetMargin_px)};
+    target_light_ = window_light(reference_.mean, reference_.dark, target_);
 }
 
 void PictureJudge::find_limbs(const StillCamera& camera, const ScenarioConfig& s) {
@@ -148,21 +162,39 @@ void PictureJudge::find_limbs(const StillCamera& camera, const ScenarioConfig& s
     }
 }
 
-PictureErrors PictureJudge::errors(const ElectronImage& electrons) const {
+ElectronImage PictureJudge::saturated(const ElectronImage& electrons) const {
     ElectronImage picture = clone(electrons);
     saturate(picture, saturation_e_);
+    return picture;
+}
+
+PictureErrors PictureJudge::errors(const ElectronImage& electrons) const {
+    const ElectronImage picture = saturated(electrons);
+    const ElectronImage &truth = reference_.mean, &dark = reference_.dark;
     PictureErrors out;
-    out.noise = noise_error(picture, reference_, dark_, noise_);
+    out.noise = noise_error(picture, truth, dark, noise_);
+    out.false_lights = static_cast<double>(false_lights(picture, truth, dark, noise_));
     if (target_light_)
-        if (const auto light = window_light(picture, dark_, target_)) {
+        if (const auto light = window_light(picture, dark, target_)) {
             out.centroid_px =
                 std::hypot(light->x_px - target_light_->x_px, light->y_px - target_light_->y_px);
             out.photometric_fraction = std::abs(light->total_e / target_light_->total_e - 1);
         }
-    if (const auto limb = limb_error(picture, reference_, limbs_, offset_px_, noise_.sigma_e(0, 0)))
+    if (const auto limb = limb_error(picture, truth, limbs_, offset_px_, noise_.sigma_e(0, 0)))
         out.limb_px = limb->rms_px;
-    out.similarity = structural_similarity(picture, reference_, saturation_e_);
+    out.similarity = structural_similarity(picture, truth, saturation_e_);
     return out;
+}
+
+std::vector<double> PictureJudge::lit_errors(const ElectronImage& electrons) const {
+    const ElectronImage &truth = reference_.mean, &dark = reference_.dark;
+    return hilcam::lit_errors({saturated(electrons), truth, truth, dark}, noise_);
+}
+
+std::vector<double> PictureJudge::lit_scatter(const ElectronImage& electrons,
+                                              const ElectronImage& other) const {
+    return hilcam::lit_errors({saturated(electrons), saturated(other), reference_.mean, reference_.dark},
+                              noise_);
 }
 
 }  // namespace hilcam

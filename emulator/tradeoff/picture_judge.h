@@ -1,5 +1,5 @@
 #pragma once
-// The reference picture of a scenario's first instant, and how far other renderings of it are from that.
+// The reference picture of what a still camera sees, and how far other renderings of it are from that.
 //
 // The reference is a mean of frames with light paths of their own. They come in two halves; the standard
 // error of the mean of both is half their difference. Frames are added until that is small, by a rule that
@@ -23,6 +23,7 @@ namespace hilcam {
 // None: there is no such thing in the picture. All are magnitudes.
 struct PictureErrors {
     NoiseError noise;
+    double false_lights = 0;                     // pixels (image_error.h); of several frames, the mean
     std::optional<double> centroid_px;           // way of the centre of the target's light
     std::optional<double> photometric_fraction;  // of the target's light
     std::optional<double> limb_px;               // limb_error.h, of all bodies in view
@@ -34,37 +35,50 @@ struct ReferenceLimits {
     int most_frames = 64;                // a power of two, 4 at least
 };
 
+struct ReferencePicture {
+    ElectronImage mean;         // [e-], saturated
+    ElectronImage dark;         // what it has without light
+    NoiseError standard_error;  // |standard error| / sigma over lit pixels; those may be none
+    int frames = 0;
+    double seconds = 0;  // that it took
+};
+// `camera`: of the scenario, as it stands. Owner thread.
+ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& scenario,
+                                  const ReferenceLimits& limits,
+                                  const std::function<void(const std::string&)>& log);
+
 class PictureJudge {
   public:
-    // Renders the reference. InputError when nothing in it is brighter than the sensor's noise in the dark.
-    PictureJudge(const ScenarioConfig& reference, const ReferenceLimits& limits,
-                 const std::function<void(const std::string&)>& log);
+    // `camera`: of the scenario, whatever its quality, standing where the reference's stood; asked where
+    // things are.
+    PictureJudge(const ScenarioConfig& scenario, const StillCamera& camera, ReferencePicture reference);
 
     // `electrons`: as StillCamera::expose() gives them, of the same camera.
     PictureErrors errors(const ElectronImage& electrons) const;
+    // By lit pixel (image_error.h): how far a picture is from the reference, and from another rendering.
+    std::vector<double> lit_errors(const ElectronImage& electrons) const;
+    std::vector<double> lit_scatter(const ElectronImage& electrons, const ElectronImage& other) const;
 
-    int frames() const { return frames_; }
-    double seconds() const { return seconds_; }
-    // Of the reference: |standard error| / sigma over lit pixels.
-    const NoiseError& standard_error() const { return standard_error_; }
+    const ReferencePicture& reference() const { return reference_; }
     double saturation_e() const { return saturation_e_; }
 
   private:
-    void render(StillCamera& camera, std::uint64_t seed, const ReferenceLimits& limits,
-                const std::function<void(const std::string&)>& log);
-    void find_target(StillCamera& camera, const ScenarioConfig& scenario);
+    ElectronImage saturated(const ElectronImage& electrons) const;
+    void find_target(const StillCamera& camera, const ScenarioConfig& scenario);
     void find_limbs(const StillCamera& camera, const ScenarioConfig& scenario);
 
     SensorNoise noise_;
     double saturation_e_;
     Vec2d offset_px_;  // of the window in the array
-    ElectronImage dark_, reference_;
+    ReferencePicture reference_;
     PixelBox target_;
     std::optional<WindowLight> target_light_;
     std::vector<LimbPlace> limbs_;
-    NoiseError standard_error_;
-    int frames_ = 0;
-    double seconds_ = 0;
 };
+
+// The judge of a scenario's first instant; renders the reference. InputError when nothing in it is brighter
+// than the sensor's noise in the dark.
+PictureJudge first_instant_judge(const ScenarioConfig& reference, const ReferenceLimits& limits,
+                                 const std::function<void(const std::string&)>& log);
 
 }  // namespace hilcam

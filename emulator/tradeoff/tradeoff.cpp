@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "emulator/tradeoff/mean_errors.h"
 #include "emulator/tradeoff/pareto.h"
 #include "emulator/tradeoff/tradeoff_combinations.h"
 #include "emulator/world/clock.h"
@@ -16,40 +17,6 @@ using Log = std::function<void(const std::string&)>;
 using Kind = MeasuredSetting::Kind;
 
 double seconds_since(std::int64_t start_ns) { return static_cast<double>(monotonic_ns() - start_ns) * 1e-9; }
-
-// Means over the frames of a setting.
-class MeanErrors {
-  public:
-    void add(const PictureErrors& e) {
-        ++count_;
-        sum_.noise.p99 += e.noise.p99;
-        sum_.noise.rms += e.noise.rms;
-        within_ += e.noise.within_half_fraction;
-        sum_.noise.lit_px = e.noise.lit_px;
-        add(sum_.centroid_px, e.centroid_px);
-        add(sum_.photometric_fraction, e.photometric_fraction);
-        add(sum_.limb_px, e.limb_px);
-        add(sum_.similarity, e.similarity);
-    }
-    PictureErrors mean() const {
-        PictureErrors out = sum_;
-        out.noise.p99 /= count_, out.noise.rms /= count_;
-        out.noise.within_half_fraction = within_ / count_;
-        for (auto* figure : {&out.centroid_px, &out.photometric_fraction, &out.limb_px, &out.similarity})
-            if (*figure) **figure /= count_;
-        return out;
-    }
-
-  private:
-    // What one frame lacks, the mean has not.
-    void add(std::optional<double>& sum, const std::optional<double>& value) const {
-        if (!value || (count_ > 1 && !sum)) return sum.reset();
-        sum = sum.value_or(0) + *value;
-    }
-    PictureErrors sum_;
-    double within_ = 0;
-    int count_ = 0;
-};
 
 // One frame of a setting: whole, and its rendering [ms].
 struct FrameTime {
@@ -189,10 +156,10 @@ Tradeoff measure_tradeoff(const ScenarioSource& source, const TradeoffOptions& o
 
     std::vector<std::string> overrides = out.reference_overrides;
     if (out.scenario.has_terrain) overrides.emplace_back("terrain.wait=true");
-    const PictureJudge judge(source.load(overrides), options.reference, log);
-    out.reference_frames = judge.frames();
-    out.reference_s = judge.seconds();
-    out.reference_standard_error = judge.standard_error();
+    const PictureJudge judge = first_instant_judge(source.load(overrides), options.reference, log);
+    out.reference_frames = judge.reference().frames;
+    out.reference_s = judge.reference().seconds;
+    out.reference_standard_error = judge.reference().standard_error;
 
     Sweep(out, judge, options, log).run();
     std::vector<TimedError> points;

@@ -46,6 +46,7 @@ std::vector<Column> columns_of(const MeasuredSetting& s) {
             {"error_sigma_p99", e.noise.p99},
             {"error_sigma_rms", e.noise.rms},
             {"within_half_sigma_fraction", e.noise.within_half_fraction},
+            {"false_lights", e.false_lights},
             {"centroid_shift_px", e.centroid_px},
             {"photometric_error_fraction", e.photometric_fraction},
             {"limb_error_px", e.limb_px},
@@ -181,19 +182,19 @@ std::string tradeoff_text(const Tradeoff& t) {
     std::string out = fmt::format(
         "{}: {} settings measured; reference of {} frames, standard error {:.4f} sigma (99 % of lit "
         "pixels)\n\n"
-        "{:>4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}  {}\n",
+        "{:>4} {:>9} {:>9} {:>9} {:>7} {:>9} {:>9} {:>9} {:>8}  {}\n",
         t.scenario.name, t.settings.size(), t.reference_frames, t.reference_standard_error.p99, "id",
-        "frame ms", "render ms", "error", "centroid", "photom.", "limb px", "SSIM", "setting");
+        "frame ms", "render ms", "error", "false", "centroid", "photom.", "limb px", "SSIM", "setting");
     const auto shown = [](const std::optional<double>& value, int digits) {
         return value ? fmt::format("{:.{}f}", *value, digits) : std::string("n/a");
     };
     for (const std::size_t i : front_by_time(t)) {
         const MeasuredSetting& s = t.settings[i];
         const PictureErrors& e = s.errors;
-        out += fmt::format("{:>4} {:>9.2f} {:>9.2f} {:>9.3f} {:>9} {:>9} {:>9} {:>8}  {}\n", i,
-                           s.times.frame_ms, s.times.render_ms, s.error(), shown(e.centroid_px, 4),
-                           shown(e.photometric_fraction, 5), shown(e.limb_px, 4), shown(e.similarity, 5),
-                           changes_of(t, s));
+        out += fmt::format("{:>4} {:>9.2f} {:>9.2f} {:>9.3f} {:>7.1f} {:>9} {:>9} {:>9} {:>8}  {}\n", i,
+                           s.times.frame_ms, s.times.render_ms, s.error(), e.false_lights,
+                           shown(e.centroid_px, 4), shown(e.photometric_fraction, 5), shown(e.limb_px, 4),
+                           shown(e.similarity, 5), changes_of(t, s));
     }
     out += "\n";
     out += answer_text(t, fmt::format("least error within {:.2f} ms", t.frame_ms), t.within_time,

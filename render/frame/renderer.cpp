@@ -103,9 +103,7 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     sum += my.add_points(points);
     stats.points_ms = ms_since(pointed);
 
-    stats.primary_rays = sum.primary_rays;
-    stats.shadow_rays = sum.shadow_rays;
-    stats.secondary_rays = sum.secondary_rays;
+    static_cast<RayCounts&>(stats) = sum;
     stats.coverage = sum.covered_px / (static_cast<double>(g.padded_width()) * g.padded_height());
     stats.lit_px = sum.lit_px;
     stats.within_budget_px = sum.within_budget_px;

@@ -17,6 +17,7 @@
 #include "render/frame/plan.h"
 #include "render/frame/render_quality.h"
 #include "render/light/modules.h"
+#include "render/light/ray_counts.h"
 #include "render/scene/scene.h"
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/image_geometry.h"
@@ -28,10 +29,7 @@ namespace hilcam {
 
 struct PathModelSpeed;  // render_bench.h
 
-struct RenderStats {
-    std::uint64_t primary_rays = 0;
-    std::uint64_t shadow_rays = 0;
-    std::uint64_t secondary_rays = 0;
+struct RenderStats : RayCounts {
     double coverage = 0;   // share of the frame's samples that meet an object
     double setup_ms = 0;   // instances, plan, background
     double trace_ms = 0;   // rays and shading

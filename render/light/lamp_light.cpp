@@ -72,7 +72,7 @@ void add_lamps_reflected(Tile& tile, std::span<const Vertex> vertices) {
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
         tile.pixels[by.at->pixel] += glass ? by.weight * *glass : by.weight;
     };
-    ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.shadow_rays, lit);
+    ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     for (const PlacedLamp& lamp : frame.lamps->lit())
         for (const Vertex& at : vertices) {
             if (!at.surface.has_lobes()) continue;

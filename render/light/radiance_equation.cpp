@@ -51,7 +51,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
     const Spectrum& irradiance = background.sun_irradiance_w_m2_um();
-    if (largest(irradiance) <= 0) return;
+    if (largest(irradiance) <= 0 || vertices.empty()) return;
     const Vec3f center = to_float(background.sun_world_dir());
     const Frame axis(center);
     // 1 - cos of a small angle by its sine: single precision has no digits left for it.
@@ -62,7 +62,9 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
         tile.pixels[by.at->pixel] += glass ? by.weight * *glass : by.weight;
     };
-    ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.shadow_rays, lit);
+    TileStats& stats = tile.stats;
+    std::uint64_t& counter = vertices.front().depth == 1 ? stats.shadow_rays : stats.bounce_shadow_rays;
+    ShadowRays<LitBy, decltype(lit)> shadow(frame, counter, lit);
     for (const Vertex& at : vertices) {
         if (!at.surface.has_lobes()) continue;
         Vec3f dir = center;
@@ -98,7 +100,7 @@ void add_lamplight(Tile& tile, std::span<const Vertex> vertices, LampLight how) 
         Spectrum weight = glass ? by.weight * *glass : by.weight;
         background.add_bodies(by.at->start(), to_double(by.dir), weight, tile.pixels[by.at->pixel]);
     };
-    ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.secondary_rays, lit);
+    ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
     constexpr int kQuadrature = 64;
     constexpr float kGolden = 0.61803399f;

@@ -25,8 +25,8 @@ class RadianceModel {
   public:
     virtual ~RadianceModel() = default;
 
-    // Adds to the tile's pixels, vertex by vertex, weight times radiance towards the viewer. Loop, any
-    // thread.
+    // Adds to the tile's pixels, vertex by vertex, weight times radiance towards the viewer. All vertices are
+    // of one depth. Loop, any thread.
     virtual void add_light(Tile& tile, std::span<const Vertex> vertices, LampLight lamps) const = 0;
     // The materials' own emission counts.
     virtual bool emits() const = 0;

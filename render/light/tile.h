@@ -7,19 +7,19 @@
 
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
+#include "render/light/ray_counts.h"
 #include "render/vocabulary/pixel_box.h"
 
 namespace hilcam {
 
-struct TileStats {
-    std::uint64_t primary_rays = 0, shadow_rays = 0, secondary_rays = 0;
+struct TileStats : RayCounts {
     double covered_px = 0;  // by objects
     // With a noise budget: pixels with light, and those of them whose error is within it.
     std::uint64_t lit_px = 0, within_budget_px = 0;
 
     TileStats& operator+=(const TileStats& other) {
-        primary_rays += other.primary_rays, shadow_rays += other.shadow_rays;
-        secondary_rays += other.secondary_rays, covered_px += other.covered_px;
+        RayCounts::operator+=(other);
+        covered_px += other.covered_px;
         lit_px += other.lit_px, within_budget_px += other.within_budget_px;
         return *this;
     }

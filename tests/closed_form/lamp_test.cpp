@@ -91,11 +91,11 @@ TEST(Lamps, SeveralAddUpAndAreDimmedByTheirLevels) {
     const Vec3d place_m = s.place(7, 7, 3);
     const double expected = plate_radiance(place_m, first_m, 1) + 0.25 * plate_radiance(place_m, second_m, 1);
     EXPECT_NEAR(s.center() / expected, 1, kSinglePrecision);
-    EXPECT_EQ(s.stats.shadow_rays, 2u * 15 * 15);
+    EXPECT_EQ(s.stats.lamp_rays, 2u * 15 * 15);
     s.world.lamps[0].level = s.world.lamps[1].level = 0;
     s.render_again();
     EXPECT_EQ(s.center(), 0);
-    EXPECT_EQ(s.stats.shadow_rays, 0u);  // off: nothing is asked for
+    EXPECT_EQ(s.stats.lamp_rays, 0u);  // off: nothing is asked for
 }
 
 TEST(Lamps, ABlockerBetweenShadesAndOneBehindOrUnderTheLampDoesNot) {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""`hilcam bench --soak` and tools/performance-curves on small scenarios: their files and messages, not their figures.
+"""`hilcam bench`, its --error and --soak, and tools/performance-curves on small scenarios: their files and messages, not their figures.
 
     bench_test.py HILCAM SOURCE_DIR
 """
@@ -8,6 +8,7 @@ import csv
 import importlib.machinery
 import importlib.util
 import json
+import math
 import os
 import pathlib
 import signal
@@ -115,6 +116,100 @@ class Soak(unittest.TestCase):
                                   ("--out requires --soak", ("--out", self.folder)),
                                   ("--soak", ("--soak", 0, "--out", self.folder)),
                                   ("--sensor excludes --soak", ("--soak", 1, "--out", self.folder, "--sensor"))):
+            result = hilcam("bench", SCENARIO, *arguments)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(needle, result.stderr)
+
+
+class Speed(unittest.TestCase):
+    def test_processor_time_and_rays_by_kind(self):
+        result = hilcam("bench", SCENARIO, *SMALL, "--runs", 1, "--frames", 10, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        told = json.loads(result.stdout)
+        # No more than all cores have in the time of the run, which is longer than that of the frames.
+        self.assertGreater(told["core_ms_per_frame"], 0)
+        self.assertLess(told["core_ms_per_frame"], 20e3)
+        self.assertEqual(set(told["rays"]), {"primary", "shadow", "bounce_shadow", "lamp", "path"})
+        for kind in ("primary", "shadow", "path"):
+            self.assertGreater(told["rays"][kind], 0, kind)
+        text = hilcam("bench", SCENARIO, *SMALL, "--runs", 1, "--frames", 2).stdout
+        self.assertIn("core-ms a frame", text)
+        self.assertIn("shadow behind a bounce", text)
+
+
+    def test_a_camera_that_cannot_fly_around_is_bad_input(self):
+        # Above the target along the axis of the circle.
+        result = hilcam("bench", SCENARIO, *SMALL, "--set", "camera_pose.position_m=[0, 0, 30]", "--set",
+                        "camera_pose.attitude=quaternion")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("circle: the start must lie off the axis", result.stderr)
+
+
+class Error(unittest.TestCase):
+    FIGURES = ("error_sigma_p99", "error_sigma_rms", "within_half_sigma_fraction", "false_lights", "centroid_shift_px",
+               "photometric_error_fraction", "ssim", "scatter_sigma_p99", "scatter_sigma_rms")
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def bench(self, *arguments, scene=SMALL):
+        # References in a cache of its own; meshes are where the other tests have them.
+        cache = pathlib.Path(self.temporary.name)
+        for mesh in pathlib.Path(os.environ["HILCAM_CACHE"]).glob("*.glb"):
+            (cache / mesh.name).exists() or (cache / mesh.name).symlink_to(mesh)
+        return subprocess.run([HILCAM, "bench", SCENARIO, *scene, "--error", "--views", "2", *map(str, arguments)],
+                              capture_output=True, text=True, timeout=120, env=os.environ | {"HILCAM_CACHE": str(cache)})
+
+    def test_views_have_all_figures_and_references_are_kept(self):
+        first = self.bench("--reference-frames", 4, "--json")
+        self.assertEqual(first.returncode, 0, first.stderr)
+        report = json.loads(first.stdout)
+        self.assertEqual([view["angle_deg"] for view in report["views"]], [0, 180])
+        for figures in (*report["views"], report["all_views"]):
+            for name in self.FIGURES:
+                self.assertTrue(math.isfinite(figures[name]), name)
+                self.assertGreaterEqual(figures[name], 0, name)
+            self.assertIsNone(figures["limb_error_px"])  # no limb in view
+            self.assertGreater(figures["lit_px"], 0)
+            self.assertGreater(figures["error_sigma_rms"], 0)
+        self.assertEqual([view["reference"]["frames"] for view in report["views"]], [4, 4])
+        a, b = (view["position_m"] for view in report["views"])
+        self.assertAlmostEqual(a[0] + b[0], 0, delta=1e-6)  # on the other side
+        self.assertAlmostEqual(a[2] - b[2], 0, delta=1e-6)  # about z
+        self.assertAlmostEqual(sum(view["false_lights"] for view in report["views"]), report["all_views"]["false_lights"])
+        self.assertEqual(first.stderr.count("kept as"), 2)
+
+        again = self.bench("--reference-frames", 4, "--json")
+        self.assertEqual(json.loads(again.stdout), report)
+        self.assertNotIn("kept as", again.stderr)
+        file = next(pathlib.Path(self.temporary.name).glob("reference_*.bin"))
+        file.write_bytes(file.read_bytes()[:-8])
+        repaired = self.bench("--reference-frames", 4)
+        self.assertEqual(repaired.stderr.count("kept as"), 1)
+        rows = repaired.stdout.splitlines()[-3:]
+        self.assertEqual([row.split()[0] for row in rows], ["0", "180", "all"])
+        self.assertEqual([row.split()[6] for row in rows], ["-"] * 3, repaired.stdout)
+
+    def test_where_nothing_is_seen_there_are_no_figures(self):
+        dark = (*SMALL[:6], "--set", "sun.spectrum=0", "--set", "objects=[]")
+        result = self.bench("--reference-frames", 4, "--json", scene=dark)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("nan", result.stdout.lower())
+        told = json.loads(result.stdout)
+        self.assertEqual(len(told["views"]), 1)  # around nothing
+        for figures in (*told["views"], told["all_views"]):
+            self.assertEqual(figures["false_lights"], 0)
+            self.assertEqual([figures[name] for name in self.FIGURES if name not in ("false_lights", "ssim")], [None] * 7)
+
+    def test_bad_input_is_status_2(self):
+        for needle, arguments in (("accepted: a power of two from 4 to 65536", ("--error", "--reference-frames", 6)),
+                                  ("--views requires --error", ("--views", 2)),
+                                  ("--frames excludes --error", ("--error", "--frames", 2))):
             result = hilcam("bench", SCENARIO, *arguments)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(needle, result.stderr)

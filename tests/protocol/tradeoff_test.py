@@ -20,7 +20,7 @@ SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
 # A picture of few pixels, with the Earth's limb in none of them.
 SMALL = ("--set", "camera.width_px=64", "--set", "camera.height_px=48", "--set", "camera.focal_length_mm=0.7",
          "--set", "objects.0.generate.triangles=5000", "--reference-frames", "4")
-ERRORS = ("error_sigma_p99", "error_sigma_rms", "within_half_sigma_fraction", "centroid_shift_px",
+ERRORS = ("error_sigma_p99", "error_sigma_rms", "within_half_sigma_fraction", "false_lights", "centroid_shift_px",
           "photometric_error_fraction", "limb_error_px", "ssim")
 
 

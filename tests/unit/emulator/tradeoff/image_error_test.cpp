@@ -110,6 +110,56 @@ TEST(ImageError, LightWhereTheReferenceIsDarkCounts) {
     EXPECT_EQ(noise_error(dark, dark, dark, noise).lit_px, 0u);
 }
 
+TEST(ImageError, PixelsOfSeveralPicturesAreAsOfOne) {
+    const CameraModel camera = quiet_camera();
+    const SensorNoise noise(camera, 0);
+    const ElectronImage dark = even(4, 0), reference = spot(4, 2, 2, 5000, 2000);
+    const ElectronImage near = spot(4, 2, 2, 5100, 2000), far = spot(4, 2, 2, 5400, 2000);
+    std::vector<double> both = lit_errors({near, reference, reference, dark}, noise);
+    const std::vector<double> second = lit_errors({far, reference, reference, dark}, noise);
+    both.insert(both.end(), second.begin(), second.end());
+    const NoiseError a = noise_error(near, reference, dark, noise),
+                     b = noise_error(far, reference, dark, noise), all = noise_error(both);
+    EXPECT_EQ(all.lit_px, 32u);
+    EXPECT_NEAR(all.rms, std::sqrt((a.rms * a.rms + b.rms * b.rms) / 2), 1e-12);
+    EXPECT_DOUBLE_EQ(all.p99, b.p99);
+}
+
+// Two renderings that miss the light by turns: where the truth is lit the pixel counts, and its noise is the
+// measure.
+TEST(ImageError, ScatterIsInTheTruthsNoiseOverAllThatIsLit) {
+    const CameraModel camera = quiet_camera();
+    const SensorNoise noise(camera, 0);
+    const ElectronImage dark = even(4, 0), truth = even(4, 1000), none = even(4, 0);
+    ElectronImage one = even(4, 0), other = even(4, 0);
+    one.data()[3] = 4000, other.data()[9] = 2000;
+    std::vector<double> scatter = lit_errors({one, other, truth, dark}, noise);
+    ASSERT_EQ(scatter.size(), 16u);
+    EXPECT_DOUBLE_EQ(scatter[3], 4000 / noise.sigma_e(1000, 0));
+    EXPECT_DOUBLE_EQ(scatter[9], 2000 / noise.sigma_e(1000, 0));
+    EXPECT_EQ(scatter[0], 0);
+    EXPECT_EQ(lit_errors({one, other, none, dark}, noise).size(), 2u);
+}
+
+TEST(ImageError, AFalseLightIsBrightWhereTheTruthIsDark) {
+    const CameraModel camera = quiet_camera();
+    const SensorNoise noise(camera, 0);
+    const ElectronImage dark = even(10, 30);
+    ElectronImage reference = even(10, 30), image = even(10, 30);
+    const auto both = [&](std::size_t i, double true_e, double seen_e) {
+        reference.data()[i] = static_cast<float>(true_e), image.data()[i] = static_cast<float>(seen_e);
+    };
+    // sigma: sqrt(30 + 100 + 1/12) = 11.41 e- in the dark, sqrt(129 + ...) = 15.14 at 99 e- of light.
+    both(0, 30, 30 + 58), both(1, 129, 129 + 77);  // above 57.0 and 75.7
+    EXPECT_EQ(false_lights(image, reference, dark, noise), 2u);
+    both(2, 30, 30 + 56), both(3, 129, 129 + 74);  // within five sigma
+    both(4, 30 + 101, 5000);                       // there is a light, if not so bright
+    both(5, 99, 0);                                // darkness is no light
+    both(6, 5000, 5000);                           // as it should be
+    EXPECT_EQ(false_lights(image, reference, dark, noise), 2u);
+    EXPECT_EQ(false_lights(reference, reference, dark, noise), 0u);
+}
+
 TEST(ImageError, WhatNoFrameShowsIsTakenOff) {
     ElectronImage image = even(3, 500);
     image.data()[4] = 20000;

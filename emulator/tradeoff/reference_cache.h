@@ -1,0 +1,32 @@
+#pragma once
+// Reference pictures kept on disk: one takes minutes.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "emulator/tradeoff/picture_judge.h"
+#include "render/vocabulary/pose.h"
+
+namespace hilcam {
+
+// All that a reference depends on, and more than that, as text: the limits, where the camera's body stands,
+// and the scenario at the reference's settings (scenario_listing.h: a file by its name, length and CRC-32; a
+// generated mesh by the generator's arguments). A key of the quality at its default is not in it, so that a
+// new one that the reference has no use for makes no other reference; kReferenceVersion stands for the
+// defaults.
+std::string reference_key(const ScenarioConfig& reference, const Pose& body, const ReferenceLimits& limits);
+
+// Raised when the same key would give another reference: the path tracer, the sensor's optics, a default.
+inline constexpr std::uint32_t kReferenceVersion = 1;
+
+// The file of that key in `folder`.
+std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& key);
+// What is kept there, bit by bit. None when there is no file, or it is not whole, or another key's or
+// version's.
+std::optional<ReferencePicture> kept_reference(const std::filesystem::path& file, const std::string& key);
+// A folder that cannot be written is no failure.
+void keep_reference(const std::filesystem::path& file, const std::string& key,
+                    const ReferencePicture& picture);
+
+}  // namespace hilcam
