@@ -49,8 +49,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     full_mask_.fill();
     const bool emission = radiance_model_->emits() &&
                           any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
-    const KeptScene::Settings kept_settings{static_cast<float>(quality.facets_behind_diffuse),
-                                            static_cast<float>(quality.kept_step_rad), lamps_.all().size(),
+    const KeptScene::Settings kept_settings{static_cast<float>(quality.kept_step_rad), lamps_.all().size(),
                                             emission};
     kept_ = std::make_unique<KeptScene>(objects_, bands_, kept_settings);
     // Rows of different instants sweep over more than a field, and draw a star several times that they are

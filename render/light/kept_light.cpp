@@ -81,8 +81,11 @@ void KeptLight::Workspace::reserve(const KeptLight& light) {
 }
 
 KeptLight::KeptLight(std::shared_ptr<const TransferTable> table, const std::vector<Material>& materials,
-                     const ColorBands& bands, float alpha_behind_diffuse, float step_rad)
-    : table_(std::move(table)), alpha_behind_diffuse_(alpha_behind_diffuse), step_rad_(step_rad) {
+                     const ColorBands& bands, float step_rad)
+    // A lobe's half width is about twice its alpha; sixty directions stand 0.32 rad apart.
+    : table_(std::move(table)),
+      least_alpha_(1.16f / std::sqrt(static_cast<float>(table_->directions()))),
+      step_rad_(step_rad) {
     for (const Material& material : materials) {
         albedos_.emplace_back(material);
         materials_.push_back(&material);
@@ -181,6 +184,7 @@ void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, 
         float received = 0;
         int rays = 0, lit = 0;
         Vec3f dir;
+        Vec3f normal{};  // of the points that face the source, by how much they receive; not unit
     };
     std::array<Asked, kBlock> asked;
     RayPacket rays;
@@ -225,6 +229,7 @@ void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, 
             }
             if (cosine * strength <= 0 || (!cone && dot(geometric, dir) <= 0)) continue;
             a.received += cosine * strength;
+            a.normal = a.normal + cosine * strength * normal;
             if (cosine * strength > most) most = cosine * strength, a.dir = dir;
             // Two points tell of a node's shadow.
             if (cone || a.rays == 2) continue;
@@ -244,7 +249,7 @@ void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, 
         }
         const float mean = a.received / static_cast<float>(table_->live_points(n));
         Workspace::Sender& sender = work.senders_[n];
-        send(n, a.dir, share * mean, sender);
+        send(n, a.dir, a.normal, share * mean, sender);
         if (source.kind == KeptSource::Kind::kGlow)
             sender.diffuse = PackedSpectrum(materials_[table_->nodes().nodes()[n].surface]->emission);
         if (cone && sender.alpha > 0) {
@@ -254,15 +259,13 @@ void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, 
     }
 }
 
-// received: irradiance, per unit of the source.
-void KeptLight::send(std::size_t n, Vec3f source_dir, float received, Workspace::Sender& sender) const {
+// facing: along the normal of what is lit; received: irradiance, per unit of the source.
+void KeptLight::send(std::size_t n, Vec3f source_dir, Vec3f facing, float received,
+                     Workspace::Sender& sender) const {
     const LightNode& node = table_->nodes().nodes()[n];
     sender = {};
     if (!(received > 0)) return;
-    Vec3f mean{};
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
-        if (table_->is_live(n, p)) mean = mean + unpack_normal(node.normal[p]);
-    const Vec3f normal = dot(mean, mean) > 1e-6f ? normalized(mean) : unpack_normal(node.normal[0]);
+    const Vec3f normal = normalized(facing);
     const float cosine = std::clamp(dot(normal, source_dir), 1e-3f, 1.0f);
     const Material& material = *materials_[node.surface];
     const MaterialAlbedo& albedo = albedos_[node.surface];
@@ -272,7 +275,7 @@ void KeptLight::send(std::size_t n, Vec3f source_dir, float received, Workspace:
     sender.normal = pack_normal(normal);
     sender.ni = cosine;
     if (!material.has_facets()) return;
-    sender.alpha = std::max(material.ggx_alpha, alpha_behind_diffuse_);
+    sender.alpha = std::max(material.ggx_alpha, least_alpha_);
     Spectrum normal_incidence = material.highlight;
     if (material.model == ReflectionModel::kDielectric)
         normal_incidence.bin.fill(schlick_normal_incidence(material.refractive_index));

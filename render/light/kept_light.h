@@ -12,8 +12,8 @@
 // frames stay functions of their commands. The light itself (eclipses, the Sun's distance, a lamp's level) is a factor
 // at the pixel.
 //
-// The approximation: facets that other surfaces see are at least as wide as the quality's facets_behind_diffuse; from
-// the second bounce on everything scatters as a diffuse surface of the same albedo; glass is clear.
+// The approximation: facets that other surfaces see are at least so wide that the directions find their light; from the
+// second bounce on everything scatters as a diffuse surface of the same albedo; glass is clear.
 
 #include <cstdint>
 #include <memory>
@@ -91,10 +91,9 @@ class KeptLight {
         std::vector<Spectrum> first_, now_;      // irradiance
     };
 
-    // materials: one per surface of the mesh. alpha_behind_diffuse: see above. step_rad: of the grid that sources are
-    // rounded to.
+    // materials: one per surface of the mesh. step_rad: of the grid that sources are rounded to.
     KeptLight(std::shared_ptr<const TransferTable> table, const std::vector<Material>& materials,
-              const ColorBands& bands, float alpha_behind_diffuse, float step_rad);
+              const ColorBands& bands, float step_rad);
 
     const TransferTable& table() const { return *table_; }
     float step_rad() const { return step_rad_; }
@@ -138,7 +137,7 @@ class KeptLight {
     std::shared_ptr<const TransferTable> table_;
     std::vector<MaterialAlbedo> albedos_;
     std::vector<const Material*> materials_;
-    float alpha_behind_diffuse_, step_rad_;
+    float least_alpha_, step_rad_;  // of facets that another surface sees
     // Local directions, component by component, grouped by the point that they belong to.
     std::vector<float> local_x_, local_y_, local_z_;
     std::vector<Spectrum> colors_;           // by node where there are textures; else empty
@@ -151,7 +150,7 @@ class KeptLight {
                      KeptTerm& term) const;
     void light_block(const KeptSource& source, const EmbreeScene& scene, std::size_t object, std::size_t first,
                      std::size_t last, Workspace& work, KeptTerm& term) const;
-    void send(std::size_t node, Vec3f source_dir, float received, Workspace::Sender& sender) const;
+    void send(std::size_t node, Vec3f source_dir, Vec3f facing, float received, Workspace::Sender& sender) const;
     void gather_first(Workspace& work, KeptTerm& term) const;
     float gather_again(Workspace& work) const;
     float seen_of_cone(const KeptSource& source, std::size_t node) const;

@@ -31,7 +31,7 @@ KeptScene::KeptScene(std::span<const ShownObject> objects, const ColorBands& ban
         if (!objects[i].transfer || objects[i].transfer->size() == 0) continue;
         Object& object = objects_[i];
         object.light = std::make_unique<KeptLight>(objects[i].transfer, objects[i].materials(), bands,
-                                                   settings.alpha_behind_diffuse, settings.step_rad);
+                                                   settings.step_rad);
         object.sun = object.light->make_term(Kind::kSun);
         for (KeptTerm& term : object.bodies) term = object.light->make_term(Kind::kCone);
         for (std::size_t lamp = 0; lamp < settings.lamps; ++lamp)

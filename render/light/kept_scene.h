@@ -20,7 +20,6 @@ namespace hilcam {
 class KeptScene {
   public:
     struct Settings {
-        float alpha_behind_diffuse = 0;
         float step_rad = 0;  // of the grid that sources are rounded to
         std::size_t lamps = 0;
         bool emission = false;

@@ -7,18 +7,6 @@
 #include "render/light/kept_scene.h"
 
 namespace hilcam {
-namespace {
-
-// A facet lobe over a surface that turns by `turn_rad` within the ray's width: slopes spread evenly over that have a
-// variance of its square over 12, and GGX's alpha is the root of twice a variance (Kaplanyan et al., HPG 2016: normals
-// are filtered in the space of slopes). So a curved mirror smaller than a pixel shines as all of it does, and not as
-// the one place that a ray meets.
-float widened(float alpha, float turn_rad) {
-    return std::min(1.0f, std::sqrt(alpha * alpha + turn_rad * turn_rad * (1.0f / 6)));
-}
-
-}  // namespace
-
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                  float alpha_least, RayWidth width, Vertex& vertex) {
     const auto k = static_cast<std::size_t>(lane);
@@ -65,10 +53,7 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     vertex.surface_number = triangle.surface;
     vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
 
-    const float alpha =
-        material.has_facets()
-            ? widened(std::max(material.ggx_alpha, alpha_least), triangle.curvature_m() * vertex.footprint_m)
-            : 0.0f;
+    const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     vertex.surface = {&material, alpha, material.base, material.highlight};
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];

@@ -13,35 +13,41 @@
 namespace hilcam {
 namespace {
 
-// --- keys: 16 bits for each coordinate of the cube, three for the way it faces, one for the side, twelve for the surface
+// --- keys: 15 bits for each coordinate of the cube, six for the way it faces, one for the side, twelve for the surface
 
-constexpr int kMostCubes = 65000;  // along an axis
+constexpr int kMostCubes = 32700;  // along an axis
 
 struct Cube {
     int x, y, z;
 };
 
+// A face of a cube about the normal and a ninth of that: 30 degrees wide, about. The slopes of crinkled foil that face
+// a light are others than those that face away.
 unsigned way_of(Vec3f normal) {
     const float x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
-    if (x >= y && x >= z) return normal.x >= 0 ? 0 : 1;
-    if (y >= z) return normal.y >= 0 ? 2 : 3;
-    return normal.z >= 0 ? 4 : 5;
+    const auto ninth = [](float u, float v, float most) {
+        const auto third = [most](float w) { return w < -most / 3 ? 0u : w < most / 3 ? 1u : 2u; };
+        return 3 * third(v) + third(u);
+    };
+    if (x >= y && x >= z) return (normal.x >= 0 ? 0 : 9) + ninth(normal.y, normal.z, x);
+    if (y >= z) return (normal.y >= 0 ? 18 : 27) + ninth(normal.x, normal.z, y);
+    return (normal.z >= 0 ? 36 : 45) + ninth(normal.x, normal.y, z);
 }
 
 std::uint64_t kind_of(const SurfaceSide& side) {
-    return way_of(side.geometric_normal) | static_cast<std::uint64_t>(side.back) << 3 |
-           static_cast<std::uint64_t>(side.surface & 0xFFFu) << 4;
+    return way_of(side.geometric_normal) | static_cast<std::uint64_t>(side.back) << 6 |
+           static_cast<std::uint64_t>(side.surface & 0xFFFu) << 7;
 }
 
 // Coordinates from -1 on, so that a cube's neighbours have keys.
 std::uint64_t key_of(Cube c, std::uint64_t kind) {
-    const auto part = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint16_t>(i + 1)); };
-    return kind << 48 | part(c.z) << 32 | part(c.y) << 16 | part(c.x);
+    const auto part = [](int i) { return static_cast<std::uint64_t>(i + 1) & 0x7FFFu; };
+    return kind << 45 | part(c.z) << 30 | part(c.y) << 15 | part(c.x);
 }
 
 Cube cube_of(std::uint64_t key) {
-    const auto part = [key](int shift) { return static_cast<int>(key >> shift & 0xFFFF) - 1; };
-    return {part(0), part(16), part(32)};
+    const auto part = [key](int shift) { return static_cast<int>(key >> shift & 0x7FFF) - 1; };
+    return {part(0), part(15), part(30)};
 }
 
 // Finalizer of SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
@@ -236,7 +242,7 @@ std::vector<CornerUse> corners_of(std::span<const Found> cells) {
         const Cube cube = cube_of(cells[c].key);
         for (int i = 0; i < 8; ++i)
             uses.push_back({key_of({cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)},
-                                   cells[c].key >> 48),
+                                   cells[c].key >> 45),
                             static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(i)});
     }
     std::sort(uses.begin(), uses.end(), [](const CornerUse& a, const CornerUse& b) {

@@ -2,8 +2,8 @@
 // Places on an object's surface where light is kept from frame to frame (light/kept_light.h).
 //
 // Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh, is the same side of
-// its triangles (so that the inside of a body thinner than a cube is no part of its outside) and faces one of six ways
-// (the greatest component of its normal) is a cell. Light
+// its triangles (so that the inside of a body thinner than a cube is no part of its outside) and faces one of 54 ways
+// (30 degrees wide) is a cell. Light
 // belongs to nodes, which are the corners of the cubes: a node stands for the cells of one kind that touch its
 // corner, by a few points on them. A place between has its cube's eight corners, weighted linearly, so that light
 // is continuous where the surface is. Corners that touch the same cells are one node: a flat wall has one layer.

@@ -43,18 +43,6 @@ float density_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
     return area > 0 ? std::sqrt(uv_area / area) : 0.0f;
 }
 
-// The greatest turn of the normals from corner to corner over the way between them, as bfloat16.
-std::uint16_t bend_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
-    float most = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-        const float way_m = length(mesh.vertices_m[b] - mesh.vertices_m[a]);
-        if (way_m > 0) most = std::max(most, length(mesh.normals[b] - mesh.normals[a]) / way_m);
-    }
-    constexpr float kMost_m = 1e6f;
-    return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(std::min(most, kMost_m)) >> 16);
-}
-
 }  // namespace
 
 std::uint32_t pack_normal(Vec3f n) {
@@ -94,7 +82,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
         };
         const bool flat =
             no_normals || std::any_of(mesh.triangles[i].begin(), mesh.triangles[i].end(), missing);
-        triangles[i].bend = flat ? PackedTriangle::kFlat : bend_of(mesh, mesh.triangles[i]);
+        triangles[i].flat = flat ? 1 : 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = mesh.triangles[i][k];
             triangles[i].corner_normals[k] = flat ? 0 : pack_normal(mesh.normals[vertex]);

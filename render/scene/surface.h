@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -34,16 +33,9 @@ inline Vec3f unpack_normal(std::uint32_t packed) {
 }
 
 struct PackedTriangle {
-    static constexpr std::uint16_t kFlat = 0xFFFF;
     std::array<std::uint32_t, 3> corner_normals;  // meaningless when flat
     std::uint16_t surface;
-    std::uint16_t bend;  // kFlat: the mesh has no normals; use the geometric one. Else the curvature, as bfloat16
-
-    bool is_flat() const { return bend == kFlat; }
-    // By how much its shading normal turns along it, at most [rad/m].
-    float curvature_m() const {
-        return is_flat() ? 0 : std::bit_cast<float>(static_cast<std::uint32_t>(bend) << 16);
-    }
+    std::uint16_t flat;  // 1: the mesh has no normals; use the geometric one
 };
 static_assert(sizeof(PackedTriangle) == 16);
 
@@ -65,7 +57,7 @@ struct ObjectSurfaces {
 
     // The shading normal at barycentric (u, v), body axes, unit; `geometric` where the mesh has none.
     static Vec3f normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) {
-        if (triangle.is_flat()) return geometric;
+        if (triangle.flat) return geometric;
         const Vec3f n = (1 - u - v) * unpack_normal(triangle.corner_normals[0]) +
                         u * unpack_normal(triangle.corner_normals[1]) +
                         v * unpack_normal(triangle.corner_normals[2]);

@@ -17,7 +17,17 @@ namespace {
 constexpr float kGolden = 0.61803399f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
-// What a direction meets, while it is being traced.
+// What a direction meets, while it is being traced: a node, whether it is nearer than half a cube, and which of the
+// node's points is next to the place; or one of these.
+struct Met {
+    static std::uint32_t pack(std::uint32_t node, bool close, std::size_t point) {
+        return node << 3 | static_cast<std::uint32_t>(close) << 2 | static_cast<std::uint32_t>(point);
+    }
+    static std::uint32_t node(std::uint32_t met) { return met >> 3; }
+    static bool is_close(std::uint32_t met) { return met >> 2 & 1u; }
+    static std::uint32_t point(std::uint32_t met) { return met & 3u; }
+};
+static_assert(LightNode::kPoints == 4);
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::uint32_t kDark = kFree - 1;
 constexpr std::uint32_t kBuried = kFree - 2;  // of a point that does not count
@@ -28,13 +38,6 @@ struct Ray {
     Vec3f origin_m, dir;
     int sheets = 0;  // of glass that it has passed
 };
-
-TransferTable::Entry entry_of(std::uint32_t node, std::uint32_t direction) {
-    TransferTable::Entry entry;
-    entry.node = node & 0xFFFFFFu;
-    entry.direction = direction & 0xFFu;
-    return entry;
-}
 
 // Traces a block of nodes.
 class Tracer {
@@ -126,7 +129,21 @@ class Tracer {
         const Vec3f normal{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
         const bool back = dot(normal, ray.dir) > 0;
         NodesAbout about;
-        out = nodes_.find(point_m, {back ? -normal : normal, surface, back}, about) && about.count > 0 ? about.nearest() : kDark;
+        out = kDark;
+        if (nodes_.find(point_m, {back ? -normal : normal, surface, back}, about) && about.count > 0) {
+            const std::uint32_t node = about.nearest();
+            out = Met::pack(node, hits.distance[k] < 0.5f * nodes_.cube_m(), next_point(nodes_.nodes()[node], point_m));
+        }
+    }
+
+    static std::size_t next_point(const LightNode& node, Vec3f place_m) {
+        std::size_t best = 0;
+        float least = kFarthest;
+        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+            const Vec3f way = node.point_m[p] - place_m;
+            if (dot(way, way) < least) least = dot(way, way), best = p;
+        }
+        return best;
     }
 
     void drop_buried(std::span<std::uint32_t> met, std::span<const float> distance) const {
@@ -157,94 +174,106 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
     std::vector<std::uint8_t> keeps;
     for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
     nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMostNodes / 2));
-    if (size() == 0) {
-        first_entry_.assign(1, 0);
-        return;
-    }
-    const std::vector<Vec3f> local = transfer_directions(directions_);
     for (std::size_t n = 0; n < size(); ++n) {
         // Turns that are far from those of the nodes beside.
         const float part = std::fmod(static_cast<float>(n % 4096) * kGolden, 1.0f);
         turns_.push_back({std::cos(2 * kPiF * part), std::sin(2 * kPiF * part)});
     }
-    EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
-    scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
-    const Tracer tracer(mesh, glass, nodes_, scene, local, turns_);
+    std::vector<Block> blocks = trace(mesh, glass, progress);
+    drop_dead_ends(blocks);
+    pack(blocks, numbers_of_open(blocks));
+}
 
-    // A block of nodes has lists of its own: memory for what is met, not for what could be.
-    constexpr std::size_t kBlock = 256;
-    struct Block {
-        std::vector<Entry> entries;
-        std::vector<std::uint32_t> counts;
-    };
+std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::span<const std::uint8_t> glass,
+                                                       const std::function<void(double)>& progress) {
+    const std::vector<Vec3f> local = transfer_directions(directions_);
     std::vector<Block> blocks((size() + kBlock - 1) / kBlock);
     free_.assign(size() * free_words(), 0);
     live_.assign(size(), 0);
+    if (blocks.empty()) return blocks;
+    EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
+    scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
+    const Tracer tracer(mesh, glass, nodes_, scene, local, turns_);
     std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
         const std::size_t first = b * kBlock, last = std::min(size(), first + kBlock);
         std::vector<std::uint32_t> met((last - first) * local.size());
         tracer.trace(first, last, met);
         for (std::size_t n = first; n < last; ++n) {
-            std::uint32_t count = 0;
+            const std::size_t before = blocks[b].links.size();
             for (std::size_t d = 0; d < local.size(); ++d) {
                 const std::uint32_t m = met[(n - first) * local.size() + d];
                 if (m == kBuried) continue;
                 live_[n] = static_cast<std::uint8_t>(live_[n] | 1u << point_of(static_cast<int>(d)));
                 if (m == kFree) free_[n * free_words() + d / 64] |= std::uint64_t{1} << (d % 64);
-                if (m == kFree || m == kDark) continue;
-                blocks[b].entries.push_back(entry_of(m, static_cast<std::uint32_t>(d)));
-                ++count;
+                if (m != kFree && m != kDark) blocks[b].links.push_back({m, static_cast<std::uint8_t>(d)});
             }
-            blocks[b].counts.push_back(count);
+            blocks[b].counts.push_back(blocks[b].links.size() - before);
         }
         const std::size_t now = done += 1;
         if (progress) progress(static_cast<double>(now) / static_cast<double>(blocks.size()));
     });
+    return blocks;
+}
 
-    // Light reaches a node that is free somewhere, or that meets one that light reaches.
+// visit(node, its links).
+void TransferTable::for_each_node(std::vector<Block>& blocks,
+                                  const std::function<void(std::size_t, std::span<Link>)>& visit) {
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < blocks[b].counts.size(); ++i) {
+            visit(b * kBlock + i, std::span(blocks[b].links).subspan(first, blocks[b].counts[i]));
+            first += blocks[b].counts[i];
+        }
+    }
+}
+
+// What is met at once beside a point that is buried is buried, too: the node's light is that of its other points.
+void TransferTable::drop_dead_ends(std::vector<Block>& blocks) {
+    for_each_node(blocks, [&](std::size_t, std::span<Link> links) {
+        for (Link& link : links)
+            if (Met::is_close(link.met) && !is_live(Met::node(link.met), Met::point(link.met))) link.met = kDark;
+    });
+}
+
+// New numbers for the nodes that light reaches: which are free somewhere, or meet one that light reaches.
+std::vector<std::uint32_t> TransferTable::numbers_of_open(std::vector<Block>& blocks) {
     std::vector<std::uint8_t> open(size());
     for (std::size_t n = 0; n < size(); ++n)
         for (std::size_t w = 0; w < free_words(); ++w) open[n] |= free_[n * free_words() + w] != 0;
     for (bool more = true; more;) {
         more = false;
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-            const Entry* entry = blocks[b].entries.data();
-            for (std::size_t i = 0; i < blocks[b].counts.size(); ++i) {
-                const std::size_t n = b * kBlock + i;
-                const Entry* const end = entry + blocks[b].counts[i];
-                if (!open[n] && std::any_of(entry, end, [&](Entry e) { return open[e.node] != 0; }))
-                    open[n] = 1, more = true;
-                entry = end;
-            }
-        }
+        for_each_node(blocks, [&](std::size_t n, std::span<Link> links) {
+            const auto leads_out = [&](const Link& l) { return l.met != kDark && open[Met::node(l.met)] != 0; };
+            if (!open[n] && std::any_of(links.begin(), links.end(), leads_out)) open[n] = 1, more = true;
+        });
     }
-    std::vector<std::uint32_t> number(size(), LightNodes::kClosed);
+    std::vector<std::uint32_t> numbers(size(), LightNodes::kClosed);
     std::uint32_t kept = 0;
     for (std::size_t n = 0; n < size(); ++n)
-        if (open[n] && live_[n] != 0) number[n] = kept++;
+        if (open[n] && live_[n] != 0) numbers[n] = kept++;
+    return numbers;
+}
 
+void TransferTable::pack(std::vector<Block>& blocks, std::span<const std::uint32_t> numbers) {
     first_entry_.push_back(0);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const Entry* entry = blocks[b].entries.data();
-        for (std::size_t i = 0; i < blocks[b].counts.size(); ++i) {
-            const std::size_t n = b * kBlock + i;
-            const Entry* const end = entry + blocks[b].counts[i];
-            if (number[n] != LightNodes::kClosed) {
-                for (const Entry* e = entry; e != end; ++e)
-                    if (number[e->node] != LightNodes::kClosed)
-                        entries_.push_back(entry_of(number[e->node], e->direction));
-                first_entry_.push_back(static_cast<std::uint32_t>(entries_.size()));
-                const std::size_t to = number[n];
-                live_[to] = live_[n], turns_[to] = turns_[n];
-                for (std::size_t w = 0; w < free_words(); ++w)
-                    free_[to * free_words() + w] = free_[n * free_words() + w];
-            }
-            entry = end;
+    for_each_node(blocks, [&](std::size_t n, std::span<Link> links) {
+        const std::size_t to = numbers[n];
+        if (to == LightNodes::kClosed) return;
+        for (const Link& link : links) {
+            const std::uint32_t node = link.met == kDark ? LightNodes::kClosed : numbers[Met::node(link.met)];
+            if (node == LightNodes::kClosed) continue;
+            Entry entry;
+            entry.node = node & 0xFFFFFFu;
+            entry.direction = link.direction;
+            entries_.push_back(entry);
         }
-        blocks[b] = {};
-    }
-    nodes_.keep(number);
+        first_entry_.push_back(static_cast<std::uint32_t>(entries_.size()));
+        live_[to] = live_[n], turns_[to] = turns_[n];
+        for (std::size_t w = 0; w < free_words(); ++w)
+            free_[to * free_words() + w] = free_[n * free_words() + w];
+    });
+    nodes_.keep(numbers);
     live_.resize(size()), turns_.resize(size()), free_.resize(size() * free_words());
     live_.shrink_to_fit(), turns_.shrink_to_fit(), free_.shrink_to_fit(), entries_.shrink_to_fit();
 }

@@ -83,6 +83,24 @@ class TransferTable {
     std::vector<std::uint8_t> live_;
     std::vector<Vec2f> turns_;
 
+    // While it is made: blocks of nodes, each with what its nodes meet, one after the other.
+    static constexpr std::size_t kBlock = 256;
+    struct Link {
+        std::uint32_t met;
+        std::uint8_t direction;
+    };
+    struct Block {
+        std::vector<Link> links;
+        std::vector<std::size_t> counts;  // by node
+    };
+    std::vector<Block> trace(const Mesh& mesh, std::span<const std::uint8_t> glass,
+                             const std::function<void(double)>& progress);
+    static void for_each_node(std::vector<Block>& blocks,
+                              const std::function<void(std::size_t, std::span<Link>)>& visit);
+    void drop_dead_ends(std::vector<Block>& blocks);
+    std::vector<std::uint32_t> numbers_of_open(std::vector<Block>& blocks);
+    void pack(std::vector<Block>& blocks, std::span<const std::uint32_t> numbers);
+
     std::size_t free_words() const { return (static_cast<std::size_t>(directions_) + 63) / 64; }
 };
 
