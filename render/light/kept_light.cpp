@@ -12,6 +12,7 @@
 #include "render/light/lamp_light.h"
 #include "render/scene/brdf_microfacet.h"
 #include "render/scene/surface.h"
+#include "render/vocabulary/clones.h"
 
 namespace hilcam {
 namespace {
@@ -55,6 +56,40 @@ std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_co
     return out;
 }
 
+// A lobe in a node's axes, and the sums of its weights.
+struct LobeQuery {
+    Vec3f normal, view, mirror;
+    float no, alpha;
+    float whole, kept;
+};
+
+// The weight of each direction: whole, of a lobe without Fresnel's term; kept, without what rays follow of a narrow
+// one. counts: 0 for directions that only fill up. n is a multiple of sixteen.
+HILCAM_CLONES
+void lobe_weights(const float* x, const float* y, const float* z, const float* counts, std::size_t n,
+                  LobeQuery& query, float* whole, float* kept) {
+    // A narrow lobe's tails begin 15 degrees from the mirror's direction and are whole at 30.
+    constexpr float kNone = 0.966f, kWhole = 0.866f;
+    const bool narrow = query.alpha < kNarrowestKept;
+    const Vec3f m = query.normal, v = query.view, r = query.mirror;
+    const float no = query.no, a2 = query.alpha * query.alpha;
+    const float masked_o = std::sqrt(no * no * (1 - a2) + a2);
+    for (std::size_t d = 0; d < n; ++d) {
+        const float ni = x[d] * m.x + y[d] * m.y + z[d] * m.z;
+        const float io = x[d] * v.x + y[d] * v.y + z[d] * v.z;
+        const float off = x[d] * r.x + y[d] * r.y + z[d] * r.z;
+        const float above = ni > 0 ? counts[d] : 0.0f, safe = std::max(ni, 1e-3f);
+        // As ggx_distribution() and ggx_visibility() (brdf_microfacet.h), without branches.
+        const float nh2 = std::min((no + ni) * (no + ni) / std::max(2 + 2 * io, 1e-6f), 1.0f);
+        const float t = nh2 * (a2 - 1) + 1;
+        const float masked_i = std::sqrt(safe * safe * (1 - a2) + a2);
+        whole[d] = above * a2 / (kPiF * t * t) * 0.5f / (safe * masked_o + no * masked_i);
+        const float tail = std::min(std::max((kNone - off) * (1 / (kNone - kWhole)), 0.0f), 1.0f);
+        kept[d] = narrow ? whole[d] * tail : whole[d];
+    }
+    for (std::size_t d = 0; d < n; ++d) query.whole += whole[d], query.kept += kept[d];
+}
+
 }  // namespace
 
 KeptSource KeptSource::rounded(float step_rad) const {
@@ -90,11 +125,10 @@ KeptLight::KeptLight(std::shared_ptr<const TransferTable> table, const std::vect
         albedos_.emplace_back(material);
         materials_.push_back(&material);
     }
-    // Grouped by the point that they belong to.
-    const std::vector<Vec3f> local = transfer_directions(table_->directions());
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
-        for (std::size_t d = p; d < local.size(); d += LightNode::kPoints)
-            local_x_.push_back(local[d].x), local_y_.push_back(local[d].y), local_z_.push_back(local[d].z);
+    for (const Vec3f d : transfer_directions(table_->directions()))
+        local_x_.push_back(d.x), local_y_.push_back(d.y), local_z_.push_back(d.z), counts_.push_back(1);
+    while (counts_.size() % kLanes != 0)
+        local_x_.push_back(0), local_y_.push_back(0), local_z_.push_back(1), counts_.push_back(0);
 
     const std::vector<LightNode>& nodes = table_->nodes().nodes();
     const bool textured = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.texture >= 0; });
@@ -128,10 +162,8 @@ std::size_t KeptLight::bytes() const {
            first_along_.size() * sizeof(std::uint32_t);
 }
 
-Vec3f KeptLight::local_dir(Vec3f dir, std::size_t node, std::size_t point) const {
-    const Vec3f l = Frame(unpack_normal(table_->nodes().nodes()[node].normal[point])).to_local(dir);
-    const Vec2f t = table_->turn(node);
-    return {t.x * l.x + t.y * l.y, t.x * l.y - t.y * l.x, l.z};
+KeptLight::Local KeptLight::local(std::size_t node) const {
+    return {Frame(unpack_normal(table_->nodes().nodes()[node].mean_normal)), table_->turn(node)};
 }
 
 // --- what nodes receive from the source, and send
@@ -293,17 +325,12 @@ void KeptLight::gather_first(Workspace& work, KeptTerm& term) const {
     // Of a lamp, seen from the object's middle: it differs by node, but little along one direction.
     const bool lamp = term.source.kind == KeptSource::Kind::kLamp && length(term.source.position_m) > 0;
     const Vec3f source_dir = lamp ? normalized(term.source.position_m) : term.source.dir;
-    const std::size_t per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
     tbb::parallel_for(Nodes(0, table_->size(), kBlock), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
-            const LightNode& node = table_->nodes().nodes()[n];
             const auto entries = table_->entries(n);
             Spectrum sum;
             if (!entries.empty()) {
-                std::array<Frame, LightNode::kPoints> frames = {
-                    Frame(unpack_normal(node.normal[0])), Frame(unpack_normal(node.normal[1])),
-                    Frame(unpack_normal(node.normal[2])), Frame(unpack_normal(node.normal[3]))};
-                const Vec2f t = table_->turn(n);
+                const Local axes = local(n);
                 PackedSpectrum* along = term.along.empty() || first_along_[n] == kNoLobe
                                             ? nullptr
                                             : term.along.data() + first_along_[n];
@@ -311,10 +338,8 @@ void KeptLight::gather_first(Workspace& work, KeptTerm& term) const {
                     const Workspace::Sender& from = work.senders_[e.node];
                     Spectrum radiance = from.diffuse.unpacked();
                     if (from.alpha > 0) {
-                        const auto point = TransferTable::point_of(static_cast<int>(e.direction));
-                        const std::size_t k = point * per_point + e.direction / LightNode::kPoints;
-                        const Vec3f dir = frames[point].to_world({t.x * local_x_[k] - t.y * local_y_[k],
-                                                                  t.y * local_x_[k] + t.x * local_y_[k], local_z_[k]});
+                        const std::size_t d = e.direction;
+                        const Vec3f dir = axes.body({local_x_[d], local_y_[d], local_z_[d]});
                         const float no = std::max(-dot(unpack_normal(from.normal), dir), 1e-2f);
                         const float io = -dot(dir, source_dir);
                         const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f));
@@ -358,19 +383,14 @@ float KeptLight::gather_again(Workspace& work) const {
 float KeptLight::seen_of_cone(const KeptSource& source, std::size_t n) const {
     const float half_angle = std::acos(std::clamp(source.cone_cosine, -1.0f, 1.0f));
     const float outside = std::cos(std::min(kPiF, half_angle + 0.45f));
-    const std::size_t per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
     float all = 0, free = 0;
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-        if (!table_->is_live(n, p)) continue;
-        const Vec3f axis = local_dir(source.dir, n, p);
-        for (std::size_t j = 0; j < per_point; ++j) {
-            const std::size_t k = p * per_point + j;
-            const float cosine = local_x_[k] * axis.x + local_y_[k] * axis.y + local_z_[k] * axis.z;
-            if (cosine <= outside) continue;
-            const float in = std::min(1.0f, (cosine - outside) / std::max(source.cone_cosine - outside, 1e-3f));
-            all += in * in;
-            if (table_->is_free(n, static_cast<int>(j * LightNode::kPoints + p))) free += in * in;
-        }
+    const Vec3f axis = local(n).dir(source.dir);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(table_->directions()); ++d) {
+        const float cosine = local_x_[d] * axis.x + local_y_[d] * axis.y + local_z_[d] * axis.z;
+        if (cosine <= outside || !table_->is_live(n, table_->point_of(d))) continue;
+        const float in = std::min(1.0f, (cosine - outside) / std::max(source.cone_cosine - outside, 1e-3f));
+        all += in * in;
+        if (table_->is_free(n, d)) free += in * in;
     }
     return all > 0 ? free / all : 0;
 }
@@ -379,66 +399,59 @@ float KeptLight::seen_of_cone(const KeptSource& source, std::size_t n) const {
 
 KeptLight::Lobe KeptLight::lobe(const KeptTerm* sun, std::uint32_t n, Vec3f normal, Vec3f view_dir,
                                 float alpha) const {
-    const auto per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
-    const float no = std::max(dot(normal, view_dir), 1e-2f);
-    const Vec3f mirror = reflect(view_dir, normal);
-    // A narrow lobe's tails begin 15 degrees from the mirror's direction and are whole at 30.
-    const bool narrow = alpha < kNarrowestKept;
-    constexpr float kNone = 0.966f, kWhole = 0.866f;
-    std::array<float, 256> weight;  // by direction
-    float even = 0, all = 0, free = 0;
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-        const bool live = table_->is_live(n, p);
-        const Vec3f m = local_dir(normal, n, p), v = local_dir(view_dir, n, p), r = local_dir(mirror, n, p);
-        for (std::size_t j = 0; j < per_point; ++j) {
-            const std::size_t k = p * per_point + j, d = j * LightNode::kPoints + p;
-            const float ni = local_x_[k] * m.x + local_y_[k] * m.y + local_z_[k] * m.z;
-            const float io = local_x_[k] * v.x + local_y_[k] * v.y + local_z_[k] * v.z;
-            const float inverse = 1 / std::sqrt(std::max(2 + 2 * io, 1e-6f));
-            const float nh = std::min((no + ni) * inverse, 1.0f);
-            const bool counts = live && ni > 0;
-            const float safe = std::max(ni, 1e-3f);
-            weight[d] = counts ? ggx_distribution(alpha, nh) * ggx_visibility(alpha, no, safe) : 0.0f;
-            even += weight[d];
-            if (table_->is_free(n, static_cast<int>(d))) free += weight[d];
-            if (narrow) {
-                const float off = local_x_[k] * r.x + local_y_[k] * r.y + local_z_[k] * r.z;
-                weight[d] *= std::clamp((kNone - off) * (1 / (kNone - kWhole)), 0.0f, 1.0f);
-            }
-            all += weight[d];
+    const Local axes = local(n);
+    LobeQuery query{axes.dir(normal), axes.dir(view_dir), axes.dir(reflect(view_dir, normal)),
+                    std::max(dot(normal, view_dir), 1e-2f), alpha, 0, 0};
+    alignas(64) std::array<float, kMostDirections> whole, kept;  // weights, by direction
+    lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), counts_.data(), counts_.size(), query,
+                 whole.data(), kept.data());
+    // Points that are buried do not count.
+    const std::size_t of_point = table_->directions_of_point();
+    for (std::size_t p = 0; p < LightNode::kPoints; ++p)
+        for (std::size_t d = p * of_point; !table_->is_live(n, p) && d < (p + 1) * of_point; ++d) {
+            query.whole -= whole[d], query.kept -= kept[d];
+            whole[d] = kept[d] = 0;
         }
-    }
     Lobe out;
-    if (!(even > 0)) return out;
+    if (!(query.whole > 0)) return out;
     // Sixty directions are too few for a sum over a lobe; for its tails they are enough.
-    if (narrow) all = static_cast<float>(table_->counted(n)) / kPiF;
-    const PackedSpectrum* along =
-        sun && first_along_[n] != kNoLobe ? sun->along.data() + first_along_[n] : nullptr;
+    const float all =
+        alpha < kNarrowestKept ? static_cast<float>(table_->counted(n)) / kPiF : std::max(query.kept, 1e-20f);
+    float met = 0;
+    for_each_met(n, [&](std::size_t d) { met += whole[d]; });
+    const PackedSpectrum* along = sun ? sun->along.data() + first_along_[n] : nullptr;
     float occupied = 0;
     for (const TransferTable::Entry e : table_->entries(n)) {
-        occupied += weight[e.direction];
-        if (along) out.kept += weight[e.direction] * (along++)->unpacked();
+        occupied += kept[e.direction];
+        if (along) out.kept += kept[e.direction] * (along++)->unpacked();
     }
     out.kept = (1 / all) * out.kept;
-    out.free = free / even;
+    out.free = std::clamp(1 - met / query.whole, 0.0f, 1.0f);
     out.occupied = occupied / all;
     return out;
 }
 
+// visit(direction) where a node's direction meets something, be it dark.
+template <class Visit>
+void KeptLight::for_each_met(std::size_t n, const Visit& visit) const {
+    const auto directions = static_cast<std::size_t>(table_->directions());
+    const std::span<const std::uint64_t> free = table_->free(n);
+    for (std::size_t w = 0; w < free.size(); ++w) {
+        const std::size_t bits = std::min<std::size_t>(64, directions - 64 * w);
+        std::uint64_t met = ~free[w] & (bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1);
+        for (; met != 0; met &= met - 1) visit(64 * w + static_cast<std::size_t>(std::countr_zero(met)));
+    }
+}
+
 bool KeptLight::is_near(std::uint32_t n, Vec3f dir) const {
     constexpr float kNear = 0.88f;  // 28 degrees: further than the next direction
-    const std::size_t per_point = static_cast<std::size_t>(table_->directions()) / LightNode::kPoints;
-    for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-        if (!table_->is_live(n, p)) continue;
-        const Vec3f l = local_dir(dir, n, p);
-        for (std::size_t j = 0; j < per_point; ++j) {
-            const std::size_t k = p * per_point + j;
-            if (local_x_[k] * l.x + local_y_[k] * l.y + local_z_[k] * l.z > kNear &&
-                !table_->is_free(n, static_cast<int>(j * LightNode::kPoints + p)))
-                return true;
-        }
-    }
-    return false;
+    const Vec3f l = local(n).dir(dir);
+    bool near = false;
+    for_each_met(n, [&](std::size_t d) {
+        near = near || (local_x_[d] * l.x + local_y_[d] * l.y + local_z_[d] * l.z > kNear &&
+                        table_->is_live(n, table_->point_of(d)));
+    });
+    return near;
 }
 
 }  // namespace hilcam

@@ -21,6 +21,7 @@
 
 #include "render/light/material_albedo.h"
 #include "render/light/sky_light.h"
+#include "render/scene/brdf_microfacet.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/lamp.h"
@@ -138,14 +139,29 @@ class KeptLight {
     std::vector<MaterialAlbedo> albedos_;
     std::vector<const Material*> materials_;
     float least_alpha_, step_rad_;  // of facets that another surface sees
-    // Local directions, component by component, grouped by the point that they belong to.
-    std::vector<float> local_x_, local_y_, local_z_;
+    // Local directions, component by component, and after them some that never count, to full vectors.
+    static constexpr std::size_t kMostDirections = 256, kLanes = 16;
+    std::vector<float> local_x_, local_y_, local_z_, counts_;
     std::vector<Spectrum> colors_;           // by node where there are textures; else empty
     std::vector<PackedSpectrum> white_;      // by node: albedo over pi
     std::vector<std::uint32_t> first_along_;  // by node: of its entries in KeptTerm::along
     std::size_t along_ = 0;
 
-    Vec3f local_dir(Vec3f body_dir, std::size_t node, std::size_t point) const;
+    // Node axes.
+    struct Local {
+        Frame frame;
+        Vec2f turn;
+        Vec3f dir(Vec3f body) const {
+            const Vec3f l = frame.to_local(body);
+            return {turn.x * l.x + turn.y * l.y, turn.x * l.y - turn.y * l.x, l.z};
+        }
+        Vec3f body(Vec3f l) const {
+            return frame.to_world({turn.x * l.x - turn.y * l.y, turn.y * l.x + turn.x * l.y, l.z});
+        }
+    };
+    Local local(std::size_t node) const;
+    template <class Visit>
+    void for_each_met(std::size_t node, const Visit& visit) const;
     void light_nodes(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,
                      KeptTerm& term) const;
     void light_block(const KeptSource& source, const EmbreeScene& scene, std::size_t object, std::size_t first,

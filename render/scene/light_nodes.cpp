@@ -301,6 +301,9 @@ class NodeMaker {
             add(node, static_cast<std::size_t>(i), cell.best[static_cast<std::size_t>(used[k]++ % cell.count)], color);
         }
         node.color = color / static_cast<float>(LightNode::kPoints);
+        Vec3f mean{};
+        for (const std::uint32_t normal : node.normal) mean = mean + unpack_normal(normal);
+        node.mean_normal = dot(mean, mean) > 1e-6f ? pack_normal(normalized(mean)) : node.normal[0];
         return node;
     }
 

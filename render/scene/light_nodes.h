@@ -48,6 +48,7 @@ struct LightNode {
     std::array<Vec3f, kPoints> point_m;
     std::array<std::uint32_t, kPoints> normal;     // packed (surface.h): the shading normal on this side
     std::array<std::uint32_t, kPoints> geometric;  // packed: the triangle's, on this side
+    std::uint32_t mean_normal = 0;                 // of the points, packed
     std::uint16_t surface = 0;
     Vec3f color{1, 1, 1};         // of the texture about there, linear RGB; 1 without
 };

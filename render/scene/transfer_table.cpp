@@ -69,10 +69,11 @@ class Tracer {
     void aim(std::size_t n, std::span<std::uint32_t> met, std::vector<Ray>& rays) const {
         const LightNode& node = nodes_.nodes()[n];
         rays.clear();
+        const Frame frame(unpack_normal(node.mean_normal));
+        const std::size_t of_point = local_.size() / LightNode::kPoints;
         for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-            const Frame frame(unpack_normal(node.normal[p]));
             const Vec3f geometric = unpack_normal(node.geometric[p]);
-            for (std::size_t d = p; d < local_.size(); d += LightNode::kPoints) {
+            for (std::size_t d = p * of_point; d < (p + 1) * of_point; ++d) {
                 const Vec3f l = local_[d];
                 const Vec2f t = turns_[n];
                 const Vec3f dir = frame.to_world({t.x * l.x - t.y * l.y, t.y * l.x + t.x * l.y, l.z});
@@ -147,11 +148,12 @@ class Tracer {
     }
 
     void drop_buried(std::span<std::uint32_t> met, std::span<const float> distance) const {
-        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
+        const std::size_t of_point = met.size() / LightNode::kPoints;
+        for (std::size_t first = 0; first < met.size(); first += of_point) {
             bool buried = true;
-            for (std::size_t d = p; d < met.size() && buried; d += LightNode::kPoints)
-                buried = met[d] != kFree && (met[d] == kDark || distance[d] < 0.5f * nodes_.cube_m());
-            for (std::size_t d = p; d < met.size() && buried; d += LightNode::kPoints) met[d] = kBuried;
+            for (std::size_t d = first; d < first + of_point; ++d)
+                buried = buried && met[d] != kFree && (met[d] == kDark || distance[d] < 0.5f * nodes_.cube_m());
+            if (buried) std::fill_n(met.begin() + static_cast<std::ptrdiff_t>(first), of_point, kBuried);
         }
     }
 };
@@ -160,11 +162,12 @@ class Tracer {
 
 std::vector<Vec3f> transfer_directions(int count) {
     std::vector<Vec3f> out;
-    for (int i = 0; i < count; ++i) {
-        const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-        const float r = std::sqrt(u), phi = 2 * kPiF * kGolden * static_cast<float>(i);
-        out.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)});
-    }
+    for (int point = 0; point < LightNode::kPoints; ++point)
+        for (int i = point; i < count; i += LightNode::kPoints) {
+            const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+            const float r = std::sqrt(u), phi = 2 * kPiF * kGolden * static_cast<float>(i);
+            out.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)});
+        }
     return out;
 }
 
@@ -204,7 +207,7 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
             for (std::size_t d = 0; d < local.size(); ++d) {
                 const std::uint32_t m = met[(n - first) * local.size() + d];
                 if (m == kBuried) continue;
-                live_[n] = static_cast<std::uint8_t>(live_[n] | 1u << point_of(static_cast<int>(d)));
+                live_[n] = static_cast<std::uint8_t>(live_[n] | 1u << point_of(d));
                 if (m == kFree) free_[n * free_words() + d / 64] |= std::uint64_t{1} << (d % 64);
                 if (m != kFree && m != kDark) blocks[b].links.push_back({m, static_cast<std::uint8_t>(d)});
             }

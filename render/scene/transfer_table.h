@@ -28,7 +28,8 @@ struct TransferSettings {
     std::size_t nodes = 400'000;  // about, before those that no light reaches are left out
 };
 
-// Local axes (z: the normal) of the directions, before a node's own turn.
+// The directions in local axes (z: the node's normal), before a node's own turn; those of a node's first point come
+// first, then those of its second, and so on.
 std::vector<Vec3f> transfer_directions(int count);
 
 class TransferTable {
@@ -54,11 +55,16 @@ class TransferTable {
         return {entries_.data() + first_entry_[node], first_entry_[node + 1] - first_entry_[node]};
     }
     std::size_t first_entry(std::size_t node) const { return first_entry_[node]; }
-    bool is_free(std::size_t node, int direction) const {
-        return free_[node * free_words() + static_cast<std::size_t>(direction) / 64] >> (direction % 64) & 1u;
+    // Bits by direction, 64 to a word: nothing is met.
+    std::span<const std::uint64_t> free(std::size_t node) const {
+        return {free_.data() + node * free_words(), free_words()};
+    }
+    bool is_free(std::size_t node, std::size_t direction) const {
+        return free(node)[direction / 64] >> (direction % 64) & 1u;
     }
     // A direction belongs to one of the node's points; those of buried points do not count.
-    static std::size_t point_of(int direction) { return static_cast<std::size_t>(direction) % LightNode::kPoints; }
+    std::size_t directions_of_point() const { return static_cast<std::size_t>(directions_) / LightNode::kPoints; }
+    std::size_t point_of(std::size_t direction) const { return direction / directions_of_point(); }
     bool is_live(std::size_t node, std::size_t point) const { return live_[node] >> point & 1u; }
     int live_points(std::size_t node) const { return std::popcount(live_[node]); }
     int counted(std::size_t node) const { return live_points(node) * directions_ / LightNode::kPoints; }
