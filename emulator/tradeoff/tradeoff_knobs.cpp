@@ -200,6 +200,10 @@ std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
         "quality.contribution_threshold=0.0001",
         "quality.sun_disk=true",
         "quality.facets_behind_diffuse=0",
+        // Not used; as they are by default, so that references do not depend on them.
+        fmt::format("quality.kept_directions={}", RenderQuality{}.kept_directions),
+        fmt::format("quality.kept_nodes={}", RenderQuality{}.kept_nodes),
+        fmt::format("quality.kept_step_deg={}", RenderQuality{}.kept_step_rad / kDegree_rad),
         "quality.lod_error_px=0",
         "quality.watertight=true",
         "quality.rays_across=512",

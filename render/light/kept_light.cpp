@@ -174,19 +174,12 @@ void KeptLight::solve(const KeptSource& source, const EmbreeScene& scene, std::s
     if (table_->size() == 0) return;
     light_nodes(source, scene, object, work, term);
     gather_first(work, term);
-    const auto most = [&](const std::vector<Spectrum>& of) {
-        return tbb::parallel_reduce(
-            Nodes(0, table_->size(), 4096), 0.0f,
-            [&](const Nodes& r, float m) {
-                for (std::size_t n = r.begin(); n < r.end(); ++n) m = std::max(m, largest(of[n]));
-                return m;
-            },
-            [](float a, float b) { return std::max(a, b); });
-    };
-    // White paint in a hollow keeps light for long; a thousandth of the brightest place is a tenth of the noise there.
-    const float enough = 1e-3f * most(work.first_);
+    // White paint in a hollow keeps light for long. What still changes then is less than the table's own error.
+    constexpr double kConverged = 2e-3;
     constexpr int kMostBounces = 64;
-    for (int bounce = 0; bounce < kMostBounces && gather_again(work) > enough; ++bounce) {
+    for (int bounce = 0; bounce < kMostBounces; ++bounce) {
+        const Progress step = gather_again(work);
+        if (step.change <= kConverged * step.light) break;
     }
     tbb::parallel_for(Nodes(0, table_->size(), kBlock), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
@@ -357,25 +350,28 @@ void KeptLight::gather_first(Workspace& work, KeptTerm& term) const {
     });
 }
 
-// One more bounce; gives the greatest change.
-float KeptLight::gather_again(Workspace& work) const {
+// One more bounce.
+KeptLight::Progress KeptLight::gather_again(Workspace& work) const {
     tbb::parallel_for(Nodes(0, table_->size(), 4096), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n)
             work.radiosity_[n] = PackedSpectrum(white_[n].unpacked() * work.now_[n]);
     });
-    return tbb::parallel_reduce(
-        Nodes(0, table_->size(), kBlock), 0.0f,
-        [&](const Nodes& r, float change) {
+    // Sums that do not depend on how the work was shared out.
+    return tbb::parallel_deterministic_reduce(
+        Nodes(0, table_->size(), kBlock), Progress{},
+        [&](const Nodes& r, Progress sum) {
             for (std::size_t n = r.begin(); n < r.end(); ++n) {
-                Spectrum sum;
-                for (const TransferTable::Entry e : table_->entries(n)) sum += work.radiosity_[e.node].unpacked();
-                const Spectrum next = work.first_[n] + (kPiF / static_cast<float>(table_->counted(n))) * sum;
-                for (int b = 0; b < kMaxBins; ++b) change = std::max(change, std::abs(next[b] - work.now_[n][b]));
+                Spectrum met;
+                for (const TransferTable::Entry e : table_->entries(n)) met += work.radiosity_[e.node].unpacked();
+                const Spectrum next = work.first_[n] + (kPiF / static_cast<float>(table_->counted(n))) * met;
+                for (int b = 0; b < kMaxBins; ++b)
+                    sum.change += static_cast<double>(std::abs(next[b] - work.now_[n][b])),
+                        sum.light += static_cast<double>(next[b]);
                 work.now_[n] = next;
             }
-            return change;
+            return sum;
         },
-        [](float a, float b) { return std::max(a, b); });
+        [](const Progress& a, const Progress& b) { return Progress{a.change + b.change, a.light + b.light}; });
 }
 
 // Of the directions in the cone, and of those beside it by falling weights, since sixty directions stand 20 degrees

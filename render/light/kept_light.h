@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "render/light/material_albedo.h"
-#include "render/light/sky_light.h"
 #include "render/scene/brdf_microfacet.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
@@ -34,7 +33,7 @@ namespace hilcam {
 // tails.
 inline constexpr float kNarrowestKept = 0.12f;
 // What is narrower than this is followed as a mirror, by one ray; else by four.
-inline constexpr float kNarrowestLobe = SkyLight::kLeastAlpha;
+inline constexpr float kNarrowestLobe = 0.03f;
 // The share of a narrow lobe that its ray does not stand for: facets turned by more than 11 degrees from the normal (GGX
 // as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
@@ -168,7 +167,10 @@ class KeptLight {
                      std::size_t last, Workspace& work, KeptTerm& term) const;
     void send(std::size_t node, Vec3f source_dir, Vec3f facing, float received, Workspace::Sender& sender) const;
     void gather_first(Workspace& work, KeptTerm& term) const;
-    float gather_again(Workspace& work) const;
+    struct Progress {
+        double change = 0, light = 0;  // sums over all nodes and bins
+    };
+    Progress gather_again(Workspace& work) const;
     float seen_of_cone(const KeptSource& source, std::size_t node) const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "render/light/lamp_light.h"
 #include "render/scene/brdf_microfacet.h"
@@ -41,16 +42,21 @@ KeptScene::KeptScene(std::span<const ShownObject> objects, const ColorBands& ban
     }
 }
 
-std::size_t KeptScene::bytes(std::size_t i) const {
+std::string KeptScene::describe(std::size_t i) const {
     const Object& object = objects_[i];
-    std::size_t sum = object.light->bytes();
-    const auto add = [&sum](const KeptTerm& term) {
-        sum += (term.irradiance.size() + term.along.size()) * sizeof(PackedSpectrum) + term.seen.size();
+    const TransferTable& table = object.light->table();
+    std::size_t bytes = object.light->bytes();
+    const auto add = [&bytes](const KeptTerm& term) {
+        bytes += (term.irradiance.size() + term.along.size()) * sizeof(PackedSpectrum) + term.seen.size();
     };
     add(object.sun), add(object.glow);
     for (const KeptTerm& term : object.bodies) add(term);
     for (const KeptTerm& term : object.lamps) add(term);
-    return sum;
+    std::ostringstream text;
+    text << table.size() << " places, " << 1e3f * table.nodes().cube_m() << " mm apart, " << table.directions()
+         << " directions each, of which " << table.entries() << " meet something; table "
+         << static_cast<double>(table.bytes()) * 1e-6 << " MB, light " << static_cast<double>(bytes) * 1e-6 << " MB";
+    return text.str();
 }
 
 void KeptScene::solve(const FrameView& frame, std::size_t i, const KeptSource& source, KeptTerm& term) {
@@ -141,7 +147,7 @@ Spectrum KeptScene::reflected(const FrameView& frame, const Vertex& at) const {
     Spectrum out = (1 / kPiF) * (albedo.base(no) * all);
     if (!at.surface.material->has_facets()) return textured ? tint(at.surface) * out : out;
     const Spectrum reflectance = albedo.lobe(no);
-    if (at.surface.alpha >= SkyLight::kLeastAlpha) {
+    if (at.surface.alpha >= kNarrowestLobe) {
         const Mat3f& axes = frame.world_from_body[at.object];
         KeptLight::Lobe lobe;
         if (found)
@@ -149,9 +155,8 @@ Spectrum KeptScene::reflected(const FrameView& frame, const Vertex& at) const {
                               to_body(axes, at.view_dir), at.surface.alpha);
         Spectrum radiance = (lobe.occupied / kPiF) * others;
         if (sunlit) radiance += sun * lobe.kept;
-        const Vec3f mirror = reflect(at.view_dir, at.normal);
         for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-            radiance += lobe.free * sky_.glossy(b, mirror, at.surface.alpha);
+            radiance += lobe.free * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha);
         out += reflectance * radiance;
     }
     return textured ? tint(at.surface) * out : out;

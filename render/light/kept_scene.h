@@ -8,6 +8,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "render/light/kept_light.h"
@@ -32,7 +33,8 @@ class KeptScene {
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
     const KeptLight& light(std::size_t object) const { return *objects_[object].light; }
-    std::size_t bytes(std::size_t object) const;
+    // What is kept on an object, for people.
+    std::string describe(std::size_t object) const;
 
     // Adds to the tile's pixels what vertices that keep light reflect of it; narrow lobes apart. Loop, any thread.
     void add_reflected(Tile& tile, std::span<const Vertex> vertices) const;

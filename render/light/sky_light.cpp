@@ -1,38 +1,31 @@
 #include "render/light/sky_light.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "render/scene/brdf_microfacet.h"
+#include "render/vocabulary/clones.h"
 
 namespace hilcam {
 namespace {
 
-// Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
-constexpr int kQuadrature = 64;
 constexpr float kGolden = 0.61803399f;
 
-struct Patch {
-    Vec3f dir;
-    Spectrum irradiance;  // on a surface that faces it
-};
-
-std::array<Patch, kQuadrature> patches_of(const Background& background, const BodyLamp& lamp) {
-    const Frame axis(to_float(lamp.world_dir));
-    const float each_sr = 2 * kPiF * lamp.one_minus_cosine / kQuadrature;
-    std::array<Patch, kQuadrature> out;
-    for (int i = 0; i < kQuadrature; ++i) {
-        const float below = (static_cast<float>(i) + 0.5f) / kQuadrature * lamp.one_minus_cosine;  // 1 - cos
-        const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * kGolden * static_cast<float>(i);
-        Patch& patch = out[static_cast<std::size_t>(i)];
-        patch.dir = axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
-        Spectrum weight;
-        weight.bin.fill(each_sr);
-        background.add_bodies({}, to_double(patch.dir), weight, patch.irradiance);
+// Weights of directions in a facet lobe: D V cos, brdf_microfacet.h, without branches.
+HILCAM_CLONES
+void lobe_weights(const float* x, const float* y, const float* z, std::size_t count, Vec3f normal, Vec3f view, float alpha,
+                  float* weight) {
+    const float no = std::max(dot(normal, view), 1e-2f), a2 = alpha * alpha;
+    const float masked_o = std::sqrt(no * no * (1 - a2) + a2);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float ni = std::max(x[i] * normal.x + y[i] * normal.y + z[i] * normal.z, 0.0f);
+        const float io = x[i] * view.x + y[i] * view.y + z[i] * view.z;
+        const float nh2 = std::min((no + ni) * (no + ni) / std::max(2 + 2 * io, 1e-6f), 1.0f);
+        const float t = nh2 * (a2 - 1) + 1;
+        const float masked_i = std::sqrt(ni * ni * (1 - a2) + a2);
+        // The patches' irradiance is across the way: their cosine belongs to the weight.
+        weight[i] = ni * a2 / (kPiF * t * t) * 0.5f / (std::max(ni, 1e-3f) * masked_o + no * masked_i);
     }
-    return out;
 }
 
 float sign(float x) { return x >= 0 ? 1.0f : -1.0f; }
@@ -75,69 +68,53 @@ void SkyLight::place(const Background& background) {
     for (const BodyLamp& lamp : background.lamps()) {
         const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
         if (count_ == kMostBodies || largest(lamp.most_over_sun) * solid_angle < kLeastOverSun) continue;
-        const std::array<Patch, kQuadrature> patches = patches_of(background, lamp);
+        Disk& disk = disks_[count_] = disk_of(background, lamp);
         Body& body = bodies_[count_];
         body = {to_float(lamp.world_dir), 1 - lamp.one_minus_cosine, {}};
-        for (const Patch& patch : patches)
-            body.irradiance_w_m2_um += std::max(0.0f, dot(patch.dir, body.world_dir)) * patch.irradiance;
+        const auto add_to = [&disk](Vec3f normal, Spectrum& sum) {
+            for (std::size_t i = 0; i < kPatches; ++i)
+                sum += std::max(0.0f, disk.x[i] * normal.x + disk.y[i] * normal.y + disk.z[i] * normal.z) *
+                       disk.irradiance[i];
+        };
+        add_to(body.world_dir, body.irradiance_w_m2_um);
         if (!(largest(body.irradiance_w_m2_um) > 0)) continue;
         DirectionMap& irradiance = irradiance_[count_];
-        tbb::parallel_for(0, static_cast<int>(irradiance.value.size()), [&](int i) {
-            const Vec3f normal = DirectionMap::direction(i);
-            Spectrum sum;
-            for (const Patch& patch : patches) sum += std::max(0.0f, dot(normal, patch.dir)) * patch.irradiance;
-            irradiance.value[static_cast<std::size_t>(i)] = sum;
-        });
-        std::array<ConeMap, kAlphas.size()>& glossy = glossy_[count_];
-        const Frame axis(body.world_dir);
-        const float half_angle = std::acos(std::clamp(body.cone_cosine, -1.0f, 1.0f));
-        for (std::size_t a = 0; a < kAlphas.size(); ++a)
-            // Beyond twenty times its alpha a lobe has 1 / 400 of its light.
-            glossy[a].reach_rad = std::min(kPiF, half_angle + 20 * kAlphas[a]);
-        tbb::parallel_for(0, static_cast<int>(glossy.size() * glossy[0].value.size()), [&](int i) {
-            const std::size_t a = static_cast<std::size_t>(i) / glossy[0].value.size();
-            const std::size_t k = static_cast<std::size_t>(i) % glossy[0].value.size();
-            const Vec3f mirror = glossy[a].direction(axis, static_cast<int>(k));
-            // No lobe is narrower than the patches lie apart.
-            const float alpha = std::max(kAlphas[a], 0.5f * half_angle / std::sqrt(static_cast<float>(kQuadrature)));
-            Spectrum sum;
-            for (const Patch& patch : patches) {
-                // Seen along the normal, all of the lobe is D / 4 d omega, which sums to 1 but for what goes below.
-                const float half = std::sqrt(std::max(0.0f, 0.5f + 0.5f * dot(mirror, patch.dir)));
-                sum += (0.25f * ggx_distribution(alpha, half)) * patch.irradiance;
-            }
-            glossy[a].value[k] = sum;
-        });
+        for (std::size_t i = 0; i < irradiance.value.size(); ++i) {
+            irradiance.value[i] = {};
+            add_to(DirectionMap::direction(static_cast<int>(i)), irradiance.value[i]);
+        }
         ++count_;
     }
 }
 
-Vec3f SkyLight::ConeMap::direction(const Frame& axis, int index) const {
-    const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
-    const float y = 2 * static_cast<float>(index / (kSteps + 1)) / kSteps - 1;
-    const float r = std::sqrt(x * x + y * y), angle = std::min(kPiF, r * reach_rad);
-    if (!(r > 0)) return axis.n;
-    const float sine = std::sin(angle) / r;
-    return axis.to_world({x * sine, y * sine, std::cos(angle)});
+// Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
+SkyLight::Disk SkyLight::disk_of(const Background& background, const BodyLamp& lamp) {
+    const Frame axis(to_float(lamp.world_dir));
+    Spectrum each_sr;
+    each_sr.bin.fill(2 * kPiF * lamp.one_minus_cosine / kPatches);
+    Disk out{};
+    for (std::size_t i = 0; i < kPatches; ++i) {
+        const float below = (static_cast<float>(i) + 0.5f) / kPatches * lamp.one_minus_cosine;  // 1 - cos
+        const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * kGolden * static_cast<float>(i);
+        const Vec3f dir = axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
+        out.x[i] = dir.x, out.y[i] = dir.y, out.z[i] = dir.z;
+        Spectrum weight = each_sr;
+        background.add_bodies({}, to_double(dir), weight, out.irradiance[i]);
+    }
+    // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half of that.
+    const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
+    out.least_alpha = half_angle / std::sqrt(static_cast<float>(kPatches));
+    return out;
 }
 
-Spectrum SkyLight::ConeMap::at(const Frame& axis, Vec3f dir) const {
-    const Vec3f local = axis.to_local(dir);
-    const float across = std::sqrt(local.x * local.x + local.y * local.y);
-    const float r = std::atan2(across, local.z) / reach_rad;
-    if (r >= 1) return {};
-    const float scale = across > 0 ? r / across : 0.0f;
-    const auto place = [](float v) { return std::clamp((0.5f * v + 0.5f) * kSteps, 0.0f, kSteps - 1e-3f); };
-    return interpolated(value, kSteps, place(local.x * scale), place(local.y * scale));
-}
-
-Spectrum SkyLight::glossy(std::size_t body, Vec3f world_dir, float alpha) const {
-    const std::array<ConeMap, kAlphas.size()>& maps = glossy_[body];
-    const Frame axis(bodies_[body].world_dir);
-    std::size_t i = 0;
-    while (i + 2 < kAlphas.size() && alpha > kAlphas[i + 1]) ++i;
-    const float t = std::clamp((alpha - kAlphas[i]) / (kAlphas[i + 1] - kAlphas[i]), 0.0f, 1.0f);
-    return (1 - t) * maps[i].at(axis, world_dir) + t * maps[i + 1].at(axis, world_dir);
+Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
+    const Disk& disk = disks_[body];
+    alignas(64) std::array<float, kPatches> weight;
+    lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), kPatches, normal, view_dir,
+                 std::max(alpha, disk.least_alpha), weight.data());
+    Spectrum sum;
+    for (std::size_t i = 0; i < kPatches; ++i) sum += weight[i] * disk.irradiance[i];
+    return sum;
 }
 
 }  // namespace hilcam

@@ -54,7 +54,7 @@ class TransferTable {
     std::span<const Entry> entries(std::size_t node) const {
         return {entries_.data() + first_entry_[node], first_entry_[node + 1] - first_entry_[node]};
     }
-    std::size_t first_entry(std::size_t node) const { return first_entry_[node]; }
+    std::size_t entries() const { return entries_.size(); }
     // Bits by direction, 64 to a word: nothing is met.
     std::span<const std::uint64_t> free(std::size_t node) const {
         return {free_.data() + node * free_words(), free_words()};
