@@ -32,7 +32,8 @@ Vec3f rounded_dir(Vec3f dir, float step_rad) {
     }
     // A face's edge of length 1 spans a right angle.
     const float cells = std::ceil(0.5f * kPiF / step_rad);
-    const auto middle = [cells](float v) { return (std::floor(v * cells) + 0.5f) / cells; };
+    // Shifted, so that the axes, where much points to, are not on the border of two cells.
+    const auto middle = [cells](float v) { return (std::floor(v * cells + 0.3f) + 0.2f) / cells; };
     x = std::clamp(middle(x), -1.0f, 1.0f), y = std::clamp(middle(y), -1.0f, 1.0f);
     const float z = 1 - std::abs(x) - std::abs(y);
     return normalized(z >= 0 ? Vec3f{x, y, z} : Vec3f{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z});
@@ -112,7 +113,7 @@ KeptSource KeptSource::rounded(float step_rad) const {
 
 void KeptLight::Workspace::reserve(const KeptLight& light) {
     const std::size_t nodes = std::max(light.table().size(), senders_.size());
-    senders_.resize(nodes), radiosity_.resize(nodes), first_.resize(nodes), now_.resize(nodes);
+    senders_.resize(nodes), radiosity_.resize(nodes), first_.resize(nodes), now_.resize(nodes), before_.resize(nodes);
 }
 
 KeptLight::KeptLight(std::shared_ptr<const TransferTable> table, const std::vector<Material>& materials,
@@ -174,13 +175,7 @@ void KeptLight::solve(const KeptSource& source, const EmbreeScene& scene, std::s
     if (table_->size() == 0) return;
     light_nodes(source, scene, object, work, term);
     gather_first(work, term);
-    // White paint in a hollow keeps light for long. What still changes then is less than the table's own error.
-    constexpr double kConverged = 2e-3;
-    constexpr int kMostBounces = 64;
-    for (int bounce = 0; bounce < kMostBounces; ++bounce) {
-        const Progress step = gather_again(work);
-        if (step.change <= kConverged * step.light) break;
-    }
+    bounce(work);
     tbb::parallel_for(Nodes(0, table_->size(), kBlock), [&](const Nodes& r) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             term.irradiance[n] = PackedSpectrum(work.now_[n]);
@@ -350,6 +345,26 @@ void KeptLight::gather_first(Workspace& work, KeptTerm& term) const {
     });
 }
 
+// Bounces until what is left is little, and that by its geometric series: white paint in a hollow keeps light for long.
+void KeptLight::bounce(Workspace& work) const {
+    constexpr int kMostBounces = 64;
+    constexpr double kLeft = 0.01, kMostRatio = 0.95;
+    double before = 0;
+    for (int i = 0; i < kMostBounces; ++i) {
+        const Progress step = gather_again(work);
+        const double ratio = before > 0 ? std::min(step.change / before, kMostRatio) : kMostRatio;
+        const double left = ratio / (1 - ratio);
+        before = step.change;
+        if (left * step.change > kLeft * step.light) continue;
+        tbb::parallel_for(Nodes(0, table_->size(), 4096), [&](const Nodes& r) {
+            for (std::size_t n = r.begin(); n < r.end(); ++n)
+                for (int b = 0; b < kMaxBins; ++b)
+                    work.now_[n][b] += static_cast<float>(left) * std::max(0.0f, work.now_[n][b] - work.before_[n][b]);
+        });
+        break;
+    }
+}
+
 // One more bounce.
 KeptLight::Progress KeptLight::gather_again(Workspace& work) const {
     tbb::parallel_for(Nodes(0, table_->size(), 4096), [&](const Nodes& r) {
@@ -367,6 +382,7 @@ KeptLight::Progress KeptLight::gather_again(Workspace& work) const {
                 for (int b = 0; b < kMaxBins; ++b)
                     sum.change += static_cast<double>(std::abs(next[b] - work.now_[n][b])),
                         sum.light += static_cast<double>(next[b]);
+                work.before_[n] = work.now_[n];
                 work.now_[n] = next;
             }
             return sum;

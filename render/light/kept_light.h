@@ -88,7 +88,7 @@ class KeptLight {
         };
         std::vector<Sender> senders_;
         std::vector<PackedSpectrum> radiosity_;  // over pi
-        std::vector<Spectrum> first_, now_;      // irradiance
+        std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
     };
 
     // materials: one per surface of the mesh. step_rad: of the grid that sources are rounded to.
@@ -170,6 +170,7 @@ class KeptLight {
     struct Progress {
         double change = 0, light = 0;  // sums over all nodes and bins
     };
+    void bounce(Workspace& work) const;
     Progress gather_again(Workspace& work) const;
     float seen_of_cone(const KeptSource& source, std::size_t node) const;
 };
