@@ -411,6 +411,7 @@ float KeptLight::seen_of_cone(const KeptSource& source, std::size_t n) const {
 
 KeptLight::Lobe KeptLight::lobe(const KeptTerm* sun, std::uint32_t n, Vec3f normal, Vec3f view_dir,
                                 float alpha) const {
+    if (all_free(n)) return {};
     const Local axes = local(n);
     LobeQuery query{axes.dir(normal), axes.dir(view_dir), axes.dir(reflect(view_dir, normal)),
                     std::max(dot(normal, view_dir), 1e-2f), alpha, 0, 0};
@@ -455,7 +456,14 @@ void KeptLight::for_each_met(std::size_t n, const Visit& visit) const {
     }
 }
 
+bool KeptLight::all_free(std::size_t n) const {
+    int free = 0;
+    for (const std::uint64_t word : table_->free(n)) free += std::popcount(word);
+    return free == table_->directions();
+}
+
 bool KeptLight::is_near(std::uint32_t n, Vec3f dir) const {
+    if (all_free(n)) return false;
     constexpr float kNear = 0.88f;  // 28 degrees: further than the next direction
     const Vec3f l = local(n).dir(dir);
     bool near = false;

@@ -159,6 +159,7 @@ class KeptLight {
         }
     };
     Local local(std::size_t node) const;
+    bool all_free(std::size_t node) const;
     template <class Visit>
     void for_each_met(std::size_t node, const Visit& visit) const;
     void light_nodes(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,

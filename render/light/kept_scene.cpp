@@ -94,34 +94,37 @@ void KeptScene::place(const FrameView& frame, const WorldSnapshot& world) {
     }
 }
 
-NodesAbout KeptScene::nodes_about(const FrameView& frame, const Vertex& at, bool& found) const {
+NodesAbout KeptScene::nodes_about(const FrameView& frame, const Vertex& at, bool& found,
+                                  LightNodes::Hint& hint) const {
     const Mat3f& axes = frame.world_from_body[at.object];
     const Object& object = objects_[at.object];
     NodesAbout about;
     found = object.light->table().nodes().find(
         to_body(axes, at.point_m - object.origin_m),
-        {to_body(axes, at.geometric_normal), at.surface_number, at.back}, about);
+        {to_body(axes, at.geometric_normal), at.surface_number, at.back}, about, hint);
     return about;
 }
 
 bool KeptScene::is_near(const FrameView& frame, const Vertex& at, Vec3f dir) const {
     if (objects_.size() > 1) return true;
     bool found = false;
-    const NodesAbout about = nodes_about(frame, at, found);
+    LightNodes::Hint hint;
+    const NodesAbout about = nodes_about(frame, at, found, hint);
     if (!found || about.count == 0) return true;
     return objects_[at.object].light->is_near(about.nearest(), to_body(frame.world_from_body[at.object], dir));
 }
 
 void KeptScene::add_reflected(Tile& tile, std::span<const Vertex> vertices) const {
+    LightNodes::Hint hint;
     for (const Vertex& at : vertices)
-        if (!at.surface.is_glass()) tile.pixels[at.pixel] += at.weight * reflected(tile.frame, at);
+        if (!at.surface.is_glass()) tile.pixels[at.pixel] += at.weight * reflected(tile.frame, at, hint);
 }
 
-Spectrum KeptScene::reflected(const FrameView& frame, const Vertex& at) const {
+Spectrum KeptScene::reflected(const FrameView& frame, const Vertex& at, LightNodes::Hint& hint) const {
     const Object& object = objects_[at.object];
     const KeptLight& light = *object.light;
     bool found = false;
-    const NodesAbout about = nodes_about(frame, at, found);
+    const NodesAbout about = nodes_about(frame, at, found, hint);
     // Found, but no light gets there.
     if (found && about.count == 0) return {};
 

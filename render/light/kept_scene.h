@@ -54,8 +54,8 @@ class KeptScene {
     SkyLight sky_;
 
     void solve(const FrameView& frame, std::size_t object, const KeptSource& source, KeptTerm& term);
-    Spectrum reflected(const FrameView& frame, const Vertex& at) const;
-    NodesAbout nodes_about(const FrameView& frame, const Vertex& at, bool& found) const;
+    Spectrum reflected(const FrameView& frame, const Vertex& at, LightNodes::Hint& hint) const;
+    NodesAbout nodes_about(const FrameView& frame, const Vertex& at, bool& found, LightNodes::Hint& hint) const;
 };
 
 }  // namespace hilcam

@@ -103,15 +103,23 @@ SkyLight::Disk SkyLight::disk_of(const Background& background, const BodyLamp& l
     }
     // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half of that.
     const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
+    out.half_angle = half_angle;
     out.least_alpha = half_angle / std::sqrt(static_cast<float>(kPatches));
     return out;
 }
 
 Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
     const Disk& disk = disks_[body];
+    const float width = std::max(alpha, disk.least_alpha);
+    // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of the disk has.
+    const float off = std::acos(std::clamp(dot(reflect(view_dir, normal), bodies_[body].world_dir), -1.0f, 1.0f));
+    const float limb = std::max(0.0f, off - disk.half_angle);
+    const float no = std::max(dot(normal, view_dir), 1e-2f);
+    constexpr float kNext_to_nothing_sr = 1e-2f;
+    if (ggx_distribution(width, std::cos(0.5f * limb)) * 0.5f / (no * width) < kNext_to_nothing_sr) return {};
     alignas(64) std::array<float, kPatches> weight;
     lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), kPatches, normal, view_dir,
-                 std::max(alpha, disk.least_alpha), weight.data());
+                 width, weight.data());
     Spectrum sum;
     for (std::size_t i = 0; i < kPatches; ++i) sum += weight[i] * disk.irradiance[i];
     return sum;

@@ -46,7 +46,7 @@ class SkyLight {
     struct Disk {
         alignas(64) std::array<float, kPatches> x, y, z;
         std::array<Spectrum, kPatches> irradiance;  // of each, on a surface that faces it
-        float least_alpha = 0;
+        float half_angle = 0, least_alpha = 0;
     };
 
     std::size_t count_ = 0;

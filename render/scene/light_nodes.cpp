@@ -402,13 +402,15 @@ const LightNodes::Cell* LightNodes::cell(std::uint64_t key) const {
     return nullptr;
 }
 
-bool LightNodes::find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about) const {
+bool LightNodes::find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about, Hint& hint) const {
     about.count = 0;
     if (slots_.empty()) return false;
     const std::uint64_t kind = kind_of(side);
     const Vec3f at = (point_m - corner_m_) / cube_m_;
     const Cube cube = Grid{corner_m_, cube_m_}.cube(point_m);
-    const Cell* found = cell(key_of(cube, kind));
+    const std::uint64_t key = key_of(cube, kind);
+    if (hint.of != this || hint.key != key) hint = {this, key, cell(key)};
+    const Cell* found = hint.cell;
     Cube taken = cube;
     // The surface can cut a corner off the cube that no point fell into, and a level of detail is a little beside
     // the mesh: then the nearest of the neighbours that share a face or an edge.

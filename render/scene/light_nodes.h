@@ -62,9 +62,19 @@ class LightNodes {
     // and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of threads.
     LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted);
 
+    // A cell that was found last: places that are looked up one after the other are mostly neighbours.
+    struct Hint {
+        const LightNodes* of = nullptr;
+        std::uint64_t key = 0;
+        const std::array<std::uint32_t, 8>* cell = nullptr;
+    };
     // A place in body axes. False where there are no cells: the place is off every surface by more than a cube. Loop,
     // any thread.
-    bool find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about) const;
+    bool find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about) const {
+        Hint none;
+        return find(point_m, side, about, none);
+    }
+    bool find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about, Hint& hint) const;
 
     const std::vector<LightNode>& nodes() const { return nodes_; }
     float cube_m() const { return cube_m_; }
