@@ -69,11 +69,15 @@ bool wants_kept_light(const ScenarioConfig& scenario) {
     return keeps(scenario.quality.render) || std::any_of(lower.begin(), lower.end(), keeps);
 }
 
-std::shared_ptr<const TransferTable> load_transfer(const SceneObject& object, const RenderQuality& quality) {
+std::shared_ptr<const TransferTable> load_transfer(const SceneObject& object,
+                                                   const ScenarioConfig& scenario) {
     std::vector<std::uint8_t> glass;
-    for (const Material& material : object.materials) glass.push_back(material.model == ReflectionModel::kGlass);
+    for (const Material& material : object.materials)
+        glass.push_back(material.model == ReflectionModel::kGlass);
+    const RenderQuality& quality = scenario.quality.render;
     const TransferSettings settings{static_cast<int>(quality.kept_directions),
-                                    static_cast<std::size_t>(quality.kept_nodes)};
+                                    static_cast<std::size_t>(quality.kept_nodes),
+                                    !scenario.lamps.empty() || models_of(scenario).radiance != "reflected"};
     return cached_transfer(object.mesh, glass, settings, cache_folder());
 }
 
@@ -85,7 +89,7 @@ SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioCon
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
     if (wants_levels_of_detail(scenario)) object.levels = cached_levels(object.mesh, cache_folder());
     object.materials = load_materials(object.mesh, config.materials, grid);
-    if (wants_kept_light(scenario)) object.transfer = load_transfer(object, scenario.quality.render);
+    if (wants_kept_light(scenario)) object.transfer = load_transfer(object, scenario);
     return object;
 }
 

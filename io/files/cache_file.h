@@ -1,6 +1,6 @@
 #pragma once
-// Files that keep on disk what takes long to make: numbers and lists of them as they lie in memory, for this machine
-// alone. Whoever reads one checks that it is what he wrote; a file that is not is made anew.
+// Files that keep on disk what takes long to make: numbers and lists of them as they lie in memory, for this
+// machine alone. Whoever reads one checks that it is what he wrote; a file that is not is made anew.
 
 #include <cstdint>
 #include <filesystem>
@@ -71,8 +71,8 @@ class CacheReader {
     }
 };
 
-// Writes a file beside first, then renames it: two programs may do this at once. A folder that cannot be written is no
-// failure.
+// Writes a file beside first, then renames it: two programs may do this at once. A folder that cannot be
+// written is no failure.
 void write_cache_file(const std::filesystem::path& file, const std::function<void(CacheWriter&)>& write);
 
 // FNV-1a (Fowler, Noll & Vo, 1991) over words, of all that a mesh is made of but its looks.

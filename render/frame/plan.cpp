@@ -121,8 +121,9 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
         add("object ", i + 1, " '", planned.names[i], "', ", planned.triangles[i], " triangles (level ",
             plan.level, "), ", plan.distance_m, " m away, ", plan.size_px, " px: ", reason(plan.use));
         if (f.kept)
-            add("  light between its parts: ",
-                f.kept->keeps(i) ? "kept, " + f.kept->describe(i) : std::string("random paths (nothing is kept)"));
+            add("  light between its parts: ", f.kept->keeps(i)
+                                                   ? "kept, " + f.kept->describe(i)
+                                                   : std::string("random paths (nothing is kept)"));
     }
     lines.push_back(sun_line(f, world));
     for (std::size_t i = 0; i < f.background->disks().size(); ++i) lines.push_back(body_line(f, i));

@@ -17,7 +17,8 @@ Fields fields(RenderQuality& q) {
         integer("kept_nodes", q.kept_nodes, {1000, 4'000'000},
                 "kept: places on an object, both sides, where light is kept"),
         number("kept_step_deg", q.kept_step_rad, kDegree_rad, {0.01, 10},
-               "kept: the grid that directions of the Sun and the bodies are rounded to, in an object's own axes"),
+               "kept: the grid that directions of the Sun and the bodies are rounded to, in an object's own "
+               "axes"),
         number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
                "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they "
                "are"),

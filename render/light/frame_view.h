@@ -33,7 +33,7 @@ struct FrameView {
     const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
-    const Lamps* lamps = nullptr;  // lamp_light.h; null: none
+    const Lamps* lamps = nullptr;     // lamp_light.h; null: none
     const KeptScene* kept = nullptr;  // kept_scene.h; null: the path model does without
     const ColorBands* bands = nullptr;
     const RayGenerator* rays = nullptr;

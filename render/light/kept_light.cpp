@@ -36,7 +36,8 @@ Vec3f rounded_dir(Vec3f dir, float step_rad) {
     const auto middle = [cells](float v) { return (std::floor(v * cells + 0.3f) + 0.2f) / cells; };
     x = std::clamp(middle(x), -1.0f, 1.0f), y = std::clamp(middle(y), -1.0f, 1.0f);
     const float z = 1 - std::abs(x) - std::abs(y);
-    return normalized(z >= 0 ? Vec3f{x, y, z} : Vec3f{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z});
+    return normalized(z >= 0 ? Vec3f{x, y, z}
+                             : Vec3f{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z});
 }
 
 float schlick_normal_incidence(float refractive_index) {
@@ -51,7 +52,8 @@ std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_co
     std::array<Vec3f, kConeDirections> out;
     for (int i = 0; i < kConeDirections; ++i) {
         const float below = (static_cast<float>(i) + 0.5f) / kConeDirections * (1 - cone_cosine);
-        const float r = std::sqrt(std::max(0.0f, below * (2 - below))), phi = 2 * kPiF * 0.61803399f * static_cast<float>(i);
+        const float r = std::sqrt(std::max(0.0f, below * (2 - below))),
+                    phi = 2 * kPiF * 0.61803399f * static_cast<float>(i);
         out[static_cast<std::size_t>(i)] = axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
     }
     return out;
@@ -64,8 +66,8 @@ struct LobeQuery {
     float whole, kept;
 };
 
-// The weight of each direction: whole, of a lobe without Fresnel's term; kept, without what rays follow of a narrow
-// one. counts: 0 for directions that only fill up. n is a multiple of sixteen.
+// The weight of each direction: whole, of a lobe without Fresnel's term; kept, without what rays follow of a
+// narrow one. counts: 0 for directions that only fill up. n is a multiple of sixteen.
 HILCAM_CLONES
 void lobe_weights(const float* x, const float* y, const float* z, const float* counts, std::size_t n,
                   LobeQuery& query, float* whole, float* kept) {
@@ -113,7 +115,8 @@ KeptSource KeptSource::rounded(float step_rad) const {
 
 void KeptLight::Workspace::reserve(const KeptLight& light) {
     const std::size_t nodes = std::max(light.table().size(), senders_.size());
-    senders_.resize(nodes), radiosity_.resize(nodes), first_.resize(nodes), now_.resize(nodes), before_.resize(nodes);
+    senders_.resize(nodes), radiosity_.resize(nodes), first_.resize(nodes), now_.resize(nodes),
+        before_.resize(nodes);
 }
 
 KeptLight::KeptLight(std::shared_ptr<const TransferTable> table, const std::vector<Material>& materials,
@@ -132,7 +135,8 @@ KeptLight::KeptLight(std::shared_ptr<const TransferTable> table, const std::vect
         local_x_.push_back(0), local_y_.push_back(0), local_z_.push_back(1), counts_.push_back(0);
 
     const std::vector<LightNode>& nodes = table_->nodes().nodes();
-    const bool textured = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.texture >= 0; });
+    const bool textured =
+        std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.texture >= 0; });
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const Material& material = *materials_[nodes[n].surface];
         Spectrum white = albedos_[nodes[n].surface].white();
@@ -189,8 +193,8 @@ void KeptLight::solve(const KeptSource& source, const EmbreeScene& scene, std::s
     });
 }
 
-void KeptLight::light_nodes(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,
-                            KeptTerm& term) const {
+void KeptLight::light_nodes(const KeptSource& source, const EmbreeScene& scene, std::size_t object,
+                            Workspace& work, KeptTerm& term) const {
     tbb::parallel_for(Nodes(0, table_->size(), kBlock), [&](const Nodes& r) {
         for (std::size_t first = r.begin(); first < r.end(); first += kBlock)
             light_block(source, scene, object, first, std::min(r.end(), first + kBlock), work, term);
@@ -202,7 +206,7 @@ void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, 
     // Of each node: how much its points would receive, rays that ask, and those that get through.
     struct Asked {
         float received = 0;
-        int rays = 0, lit = 0;
+        int points = 0, rays = 0, lit = 0;
         Vec3f dir;
         Vec3f normal{};  // of the points that face the source, by how much they receive; not unit
     };
@@ -227,6 +231,7 @@ void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, 
         float most = 0;
         for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
             if (!table_->is_live(n, p)) continue;
+            ++a.points;
             const Vec3f normal = unpack_normal(node.normal[p]), geometric = unpack_normal(node.geometric[p]);
             Vec3f dir = source.dir;
             float strength = 1, until_m = std::numeric_limits<float>::infinity();
@@ -267,7 +272,7 @@ void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, 
             share = seen_of_cone(source, n);
             term.seen[n] = static_cast<std::uint8_t>(std::lround(255 * share));
         }
-        const float mean = a.received / static_cast<float>(table_->live_points(n));
+        const float mean = a.points > 0 ? a.received / static_cast<float>(a.points) : 0;
         Workspace::Sender& sender = work.senders_[n];
         send(n, a.dir, a.normal, share * mean, sender);
         if (source.kind == KeptSource::Kind::kGlow)
@@ -301,10 +306,8 @@ void KeptLight::send(std::size_t n, Vec3f source_dir, Vec3f facing, float receiv
         normal_incidence.bin.fill(schlick_normal_incidence(material.refractive_index));
     else if (!colors_.empty())
         normal_incidence = normal_incidence * colors_[n];
-    Spectrum rest;
-    for (int b = 0; b < kMaxBins; ++b) rest[b] = 1 - normal_incidence[b];
     sender.lobe = PackedSpectrum(received * normal_incidence);
-    sender.grazing = PackedSpectrum(received * rest);
+    sender.received = received;
 }
 
 // --- between nodes
@@ -334,7 +337,10 @@ void KeptLight::gather_first(Workspace& work, KeptTerm& term) const {
                         const float nh = std::min((no + from.ni) * inverse, 1.0f), ih = 0.5f / inverse;
                         const float law =
                             ggx_distribution(from.alpha, nh) * ggx_visibility(from.alpha, no, from.ni);
-                        radiance += law * (from.lobe.unpacked() + schlick_weight(ih) * from.grazing.unpacked());
+                        // Schlick's term: F0 + (1 - F0) w, of what is received.
+                        const float grazing = schlick_weight(ih);
+                        radiance += (law * (1 - grazing)) * from.lobe.unpacked();
+                        for (float& bin : radiance.bin) bin += law * grazing * from.received;
                     }
                     if (along) *along++ = PackedSpectrum(radiance);
                     sum += radiance;
@@ -345,7 +351,8 @@ void KeptLight::gather_first(Workspace& work, KeptTerm& term) const {
     });
 }
 
-// Bounces until what is left is little, and that by its geometric series: white paint in a hollow keeps light for long.
+// Bounces until what is left is little, and that by its geometric series: white paint in a hollow keeps light
+// for long.
 void KeptLight::bounce(Workspace& work) const {
     constexpr int kMostBounces = 64;
     constexpr double kLeft = 0.01, kMostRatio = 0.95;
@@ -359,7 +366,8 @@ void KeptLight::bounce(Workspace& work) const {
         tbb::parallel_for(Nodes(0, table_->size(), 4096), [&](const Nodes& r) {
             for (std::size_t n = r.begin(); n < r.end(); ++n)
                 for (int b = 0; b < kMaxBins; ++b)
-                    work.now_[n][b] += static_cast<float>(left) * std::max(0.0f, work.now_[n][b] - work.before_[n][b]);
+                    work.now_[n][b] +=
+                        static_cast<float>(left) * std::max(0.0f, work.now_[n][b] - work.before_[n][b]);
         });
         break;
     }
@@ -377,7 +385,8 @@ KeptLight::Progress KeptLight::gather_again(Workspace& work) const {
         [&](const Nodes& r, Progress sum) {
             for (std::size_t n = r.begin(); n < r.end(); ++n) {
                 Spectrum met;
-                for (const TransferTable::Entry e : table_->entries(n)) met += work.radiosity_[e.node].unpacked();
+                for (const TransferTable::Entry e : table_->entries(n))
+                    met += work.radiosity_[e.node].unpacked();
                 const Spectrum next = work.first_[n] + (kPiF / static_cast<float>(table_->counted(n))) * met;
                 for (int b = 0; b < kMaxBins; ++b)
                     sum.change += static_cast<double>(std::abs(next[b] - work.now_[n][b])),
@@ -387,16 +396,23 @@ KeptLight::Progress KeptLight::gather_again(Workspace& work) const {
             }
             return sum;
         },
-        [](const Progress& a, const Progress& b) { return Progress{a.change + b.change, a.light + b.light}; });
+        [](const Progress& a, const Progress& b) {
+            return Progress{a.change + b.change, a.light + b.light};
+        });
 }
 
-// Of the directions in the cone, and of those beside it by falling weights, since sixty directions stand 20 degrees
-// apart.
+// Of the directions in the cone, and of those beside it by falling weights, since sixty directions stand 20
+// degrees apart.
 float KeptLight::seen_of_cone(const KeptSource& source, std::size_t n) const {
     const float half_angle = std::acos(std::clamp(source.cone_cosine, -1.0f, 1.0f));
-    const float outside = std::cos(std::min(kPiF, half_angle + 0.45f));
     float all = 0, free = 0;
     const Vec3f axis = local(n).dir(source.dir);
+    // So far beside it that there are half a dozen: of all directions, sin^2 of a cone's half angle times the
+    // cosine of its axis are in it.
+    constexpr float kEnough = 6, kLeastCosine = 0.25f, kSoft_rad = 0.05f;
+    const float share = kEnough / (static_cast<float>(table_->directions()) * std::max(axis.z, kLeastCosine));
+    const float outside =
+        std::cos(std::max(half_angle + kSoft_rad, std::asin(std::sqrt(std::min(share, 1.0f)))));
     for (std::size_t d = 0; d < static_cast<std::size_t>(table_->directions()); ++d) {
         const float cosine = local_x_[d] * axis.x + local_y_[d] * axis.y + local_z_[d] * axis.z;
         if (cosine <= outside || !table_->is_live(n, table_->point_of(d))) continue;
@@ -413,8 +429,13 @@ KeptLight::Lobe KeptLight::lobe(const KeptTerm* sun, std::uint32_t n, Vec3f norm
                                 float alpha) const {
     if (all_free(n)) return {};
     const Local axes = local(n);
-    LobeQuery query{axes.dir(normal), axes.dir(view_dir), axes.dir(reflect(view_dir, normal)),
-                    std::max(dot(normal, view_dir), 1e-2f), alpha, 0, 0};
+    LobeQuery query{axes.dir(normal),
+                    axes.dir(view_dir),
+                    axes.dir(reflect(view_dir, normal)),
+                    std::max(dot(normal, view_dir), 1e-2f),
+                    alpha,
+                    0,
+                    0};
     alignas(64) std::array<float, kMostDirections> whole, kept;  // weights, by direction
     lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), counts_.data(), counts_.size(), query,
                  whole.data(), kept.data());

@@ -53,9 +53,10 @@ std::string KeptScene::describe(std::size_t i) const {
     for (const KeptTerm& term : object.bodies) add(term);
     for (const KeptTerm& term : object.lamps) add(term);
     std::ostringstream text;
-    text << table.size() << " places, " << 1e3f * table.nodes().cube_m() << " mm apart, " << table.directions()
-         << " directions each, of which " << table.entries() << " meet something; table "
-         << static_cast<double>(table.bytes()) * 1e-6 << " MB, light " << static_cast<double>(bytes) * 1e-6 << " MB";
+    text << table.size() << " places, " << 1e3f * table.nodes().cube_m() << " mm apart, "
+         << table.directions() << " directions each, of which " << table.entries()
+         << " meet something; table " << static_cast<double>(table.bytes()) * 1e-6 << " MB, light "
+         << static_cast<double>(bytes) * 1e-6 << " MB";
     return text.str();
 }
 
@@ -74,13 +75,15 @@ void KeptScene::place(const FrameView& frame, const WorldSnapshot& world) {
         object.origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
         const Mat3f& axes = frame.world_from_body[i];
         if (largest(frame.background->sun_irradiance_w_m2_um()) > 0)
-            solve(frame, i, {.kind = Kind::kSun, .dir = to_body(axes, to_float(frame.background->sun_world_dir()))},
+            solve(frame, i,
+                  {.kind = Kind::kSun, .dir = to_body(axes, to_float(frame.background->sun_world_dir()))},
                   object.sun);
         for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
             const SkyLight::Body& body = sky_.bodies()[b];
-            solve(frame, i,
-                  {.kind = Kind::kCone, .dir = to_body(axes, body.world_dir), .cone_cosine = body.cone_cosine},
-                  object.bodies[b]);
+            solve(
+                frame, i,
+                {.kind = Kind::kCone, .dir = to_body(axes, body.light_dir), .cone_cosine = body.light_cosine},
+                object.bodies[b]);
         }
         if (frame.lamps)
             for (const PlacedLamp& lamp : frame.lamps->lit())
@@ -111,7 +114,8 @@ bool KeptScene::is_near(const FrameView& frame, const Vertex& at, Vec3f dir) con
     LightNodes::Hint hint;
     const NodesAbout about = nodes_about(frame, at, found, hint);
     if (!found || about.count == 0) return true;
-    return objects_[at.object].light->is_near(about.nearest(), to_body(frame.world_from_body[at.object], dir));
+    return objects_[at.object].light->is_near(about.nearest(),
+                                              to_body(frame.world_from_body[at.object], dir));
 }
 
 void KeptScene::add_reflected(Tile& tile, std::span<const Vertex> vertices) const {
@@ -159,7 +163,8 @@ Spectrum KeptScene::reflected(const FrameView& frame, const Vertex& at, LightNod
         Spectrum radiance = (lobe.occupied / kPiF) * others;
         if (sunlit) radiance += sun * lobe.kept;
         for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-            radiance += lobe.free * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha);
+            radiance +=
+                lobe.free * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(reflectance));
         out += reflectance * radiance;
     }
     return textured ? tint(at.surface) * out : out;

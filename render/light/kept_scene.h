@@ -1,9 +1,10 @@
 #pragma once
-// The kept light of all objects (kept_light.h) as one frame has it: brought up to where the sources are, and looked up
-// where a path meets a surface.
+// The kept light of all objects (kept_light.h) as one frame has it: brought up to where the sources are, and
+// looked up where a path meets a surface.
 //
-// Kept are the light between the parts of an object, and what of the bodies' light reaches it through its own parts.
-// The Sun and lamps shine on what a path meets by rays as ever. Not kept: light from one object to another, terrain.
+// Kept are the light between the parts of an object, and what of the bodies' light reaches it through its own
+// parts. The Sun and lamps shine on what a path meets by rays as ever. Not kept: light from one object to
+// another, terrain.
 
 #include <array>
 #include <memory>
@@ -36,7 +37,8 @@ class KeptScene {
     // What is kept on an object, for people.
     std::string describe(std::size_t object) const;
 
-    // Adds to the tile's pixels what vertices that keep light reflect of it; narrow lobes apart. Loop, any thread.
+    // Adds to the tile's pixels what vertices that keep light reflect of it; narrow lobes apart. Loop, any
+    // thread.
     void add_reflected(Tile& tile, std::span<const Vertex> vertices) const;
     // An object may stand in a direction (world, unit) from a vertex that keeps light. Loop, any thread.
     bool is_near(const FrameView& frame, const Vertex& at, Vec3f dir) const;
@@ -55,7 +57,8 @@ class KeptScene {
 
     void solve(const FrameView& frame, std::size_t object, const KeptSource& source, KeptTerm& term);
     Spectrum reflected(const FrameView& frame, const Vertex& at, LightNodes::Hint& hint) const;
-    NodesAbout nodes_about(const FrameView& frame, const Vertex& at, bool& found, LightNodes::Hint& hint) const;
+    NodesAbout nodes_about(const FrameView& frame, const Vertex& at, bool& found,
+                           LightNodes::Hint& hint) const;
 };
 
 }  // namespace hilcam

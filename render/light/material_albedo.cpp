@@ -16,10 +16,10 @@ Spectrum total(const Scatterer& at, float cosine) {
     for (int c = 0; c < kChoices; ++c)
         for (int i = 0; i < kGrid; ++i)
             for (int k = 0; k < kGrid; ++k) {
-                const BrdfSample sample =
-                    brdf_sample(at, normal, view,
-                                {(static_cast<float>(c) + 0.5f) / kChoices, (static_cast<float>(i) + 0.5f) / kGrid,
-                                 (static_cast<float>(k) + 0.5f) / kGrid});
+                const BrdfSample sample = brdf_sample(
+                    at, normal, view,
+                    {(static_cast<float>(c) + 0.5f) / kChoices, (static_cast<float>(i) + 0.5f) / kGrid,
+                     (static_cast<float>(k) + 0.5f) / kGrid});
                 if (sample.valid && !sample.transmits) sum += sample.weight;
             }
     return (1.0f / (kChoices * kGrid * kGrid)) * sum;
@@ -42,7 +42,8 @@ MaterialAlbedo::MaterialAlbedo(const Material& material) {
             for (int b = 0; b < kMaxBins; ++b) lobe_[k][b] = std::max(0.0f, all[b] - base_[k][b]);
         }
         // 2 cos d cos, by the trapezoid rule.
-        const float weight = (i == 0 || i == kSteps ? 1.0f : 2.0f) * static_cast<float>(i) / (kSteps * kSteps);
+        const float weight =
+            (i == 0 || i == kSteps ? 1.0f : 2.0f) * static_cast<float>(i) / (kSteps * kSteps);
         white_ += weight * (base_[k] + lobe_[k]);
     }
 }

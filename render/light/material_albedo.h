@@ -1,6 +1,6 @@
 #pragma once
-// How much a material reflects in all, by the cosine of the angle to its normal: what kept light (kept_light.h) needs
-// of a BRDF, as it knows light only by the irradiance that it makes.
+// How much a material reflects in all, by the cosine of the angle to its normal: what kept light
+// (kept_light.h) needs of a BRDF, as it knows light only by the irradiance that it makes.
 
 #include <array>
 
@@ -8,9 +8,9 @@
 
 namespace hilcam {
 
-// Directional albedos at equal steps of the cosine, linear between them; integrated from the material's own samples
-// (brdf.h), so for every model the same way: good to 1e-3. By reciprocity they hold for the direction to the light
-// under a wide sky's view and for the direction to the viewer under a wide sky.
+// Directional albedos at equal steps of the cosine, linear between them; integrated from the material's own
+// samples (brdf.h), so for every model the same way: good to 1e-3. By reciprocity they hold for the direction
+// to the light under a wide sky's view and for the direction to the viewer under a wide sky.
 class MaterialAlbedo {
   public:
     MaterialAlbedo() = default;

@@ -3,9 +3,9 @@
 // the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
 // lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
 //
-// With kept light (kept_scene.h) nothing is drawn at vertices that keep it: there a path ends, but for mirrors, lobes
-// too narrow to be kept, and glass, which fixed directions follow. What can add less than contribution_threshold is
-// left out.
+// With kept light (kept_scene.h) nothing is drawn at vertices that keep it: there a path ends, but for
+// mirrors, lobes too narrow to be kept, and glass, which fixed directions follow. What can add less than
+// contribution_threshold is left out.
 
 #include <algorithm>
 #include <array>
@@ -50,8 +50,8 @@ class TracedPaths final : public PathModel {
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.kept) {
-                Vertex* const others = std::partition(current_, current_ + count,
-                                                      [](const Vertex& v) { return v.keeps_light; });
+                Vertex* const others =
+                    std::partition(current_, current_ + count, [](const Vertex& v) { return v.keeps_light; });
                 keep = static_cast<std::size_t>(others - current_);
                 frame.radiance->add_light(tile, {current_, keep}, LampLight::kNone);
                 frame.kept->add_reflected(tile, {current_, keep});
@@ -104,20 +104,23 @@ class TracedPaths final : public PathModel {
             const float alpha_least = frame.alpha_behind_diffuse > 0
                                           ? (sample.diffuse ? frame.alpha_behind_diffuse : at.surface.alpha)
                                           : 0.0f;
-            next_[ray_count++] = {&at,  at.start(!sample.transmits), sample.dir, sample.density, alpha_least,
-                                  true, weight};
+            next_[ray_count++] = {
+                &at, at.start(!sample.transmits), sample.dir, sample.density, alpha_least, true, weight};
         }
         return ray_count;
     }
 
-    // Rays from a vertex that keeps light: a mirror's one direction, four of a narrow lobe, both of a sheet of glass.
+    // Rays from a vertex that keeps light: a mirror's one direction, four of a narrow lobe, both of a sheet
+    // of glass.
     void continue_kept(Tile& tile, const Vertex& at, std::size_t& ray_count) {
         const Scatterer& surface = at.surface;
         if (surface.is_glass()) {
             for (const int part : {0, 1}) {
                 const BrdfSample exact = brdf_exact(surface, at.normal, at.view_dir, part);
                 if (exact.valid)
-                    add_kept(tile, {&at, at.start(part == 0), exact.dir, 0, 0, true, at.weight * exact.weight}, ray_count);
+                    add_kept(tile,
+                             {&at, at.start(part == 0), exact.dir, 0, 0, true, at.weight * exact.weight},
+                             ray_count);
             }
             return;
         }
@@ -142,13 +145,20 @@ class TracedPaths final : public PathModel {
         const int count = at.depth == 1 ? kLobeRays : 1;
         const Frame local(at.normal);
         for (int i = 0; i < count; ++i) {
-            NextRay ray{&at, at.start(), mirror, 0, surface.alpha, false, (core / static_cast<float>(count)) * weight};
+            NextRay ray{&at,
+                        at.start(),
+                        mirror,
+                        0,
+                        surface.alpha,
+                        false,
+                        (core / static_cast<float>(count)) * weight};
             ray.meets_bodies = false;
             if (count > 1) {
                 const float u1 = core * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
                 const float u2 = std::fmod(0.25f * static_cast<float>(i) + 0.125f, 1.0f);
-                ray.dir = normalized(reflect(
-                    at.view_dir, local.to_world(sample_visible_normal(surface.alpha, local.to_local(at.view_dir), u1, u2))));
+                ray.dir = normalized(
+                    reflect(at.view_dir, local.to_world(sample_visible_normal(
+                                             surface.alpha, local.to_local(at.view_dir), u1, u2))));
             }
             add_kept(tile, ray, ray_count);
         }

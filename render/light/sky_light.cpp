@@ -13,8 +13,8 @@ constexpr float kGolden = 0.61803399f;
 
 // Weights of directions in a facet lobe: D V cos, brdf_microfacet.h, without branches.
 HILCAM_CLONES
-void lobe_weights(const float* x, const float* y, const float* z, std::size_t count, Vec3f normal, Vec3f view, float alpha,
-                  float* weight) {
+void lobe_weights(const float* x, const float* y, const float* z, std::size_t count, Vec3f normal, Vec3f view,
+                  float alpha, float* weight) {
     const float no = std::max(dot(normal, view), 1e-2f), a2 = alpha * alpha;
     const float masked_o = std::sqrt(no * no * (1 - a2) + a2);
     for (std::size_t i = 0; i < count; ++i) {
@@ -47,7 +47,8 @@ Vec3f SkyLight::DirectionMap::direction(int index) {
     const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
     const float y = 2 * static_cast<float>(index / (kSteps + 1)) / kSteps - 1;
     const float z = 1 - std::abs(x) - std::abs(y);
-    return normalized(z >= 0 ? Vec3f{x, y, z} : Vec3f{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z});
+    return normalized(z >= 0 ? Vec3f{x, y, z}
+                             : Vec3f{(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), z});
 }
 
 Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
@@ -70,7 +71,7 @@ void SkyLight::place(const Background& background) {
         if (count_ == kMostBodies || largest(lamp.most_over_sun) * solid_angle < kLeastOverSun) continue;
         Disk& disk = disks_[count_] = disk_of(background, lamp);
         Body& body = bodies_[count_];
-        body = {to_float(lamp.world_dir), 1 - lamp.one_minus_cosine, {}};
+        body = {to_float(lamp.world_dir), {}, 1, {}};
         const auto add_to = [&disk](Vec3f normal, Spectrum& sum) {
             for (std::size_t i = 0; i < kPatches; ++i)
                 sum += std::max(0.0f, disk.x[i] * normal.x + disk.y[i] * normal.y + disk.z[i] * normal.z) *
@@ -78,6 +79,7 @@ void SkyLight::place(const Background& background) {
         };
         add_to(body.world_dir, body.irradiance_w_m2_um);
         if (!(largest(body.irradiance_w_m2_um) > 0)) continue;
+        place_light(disk, body);
         DirectionMap& irradiance = irradiance_[count_];
         for (std::size_t i = 0; i < irradiance.value.size(); ++i) {
             irradiance.value[i] = {};
@@ -101,25 +103,48 @@ SkyLight::Disk SkyLight::disk_of(const Background& background, const BodyLamp& l
         Spectrum weight = each_sr;
         background.add_bodies({}, to_double(dir), weight, out.irradiance[i]);
     }
-    // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half of that.
+    // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half of
+    // that.
     const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
-    out.half_angle = half_angle;
+    out.cosine = std::cos(half_angle), out.sine = std::sin(half_angle);
     out.least_alpha = half_angle / std::sqrt(static_cast<float>(kPatches));
     return out;
 }
 
-Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
+// Middle and size of the even disk whose light has the same mean direction and spread: half angle is the root
+// of twice the mean square.
+void SkyLight::place_light(const Disk& disk, Body& body) {
+    Vec3f mean{};
+    float sum = 0, square = 0;
+    for (std::size_t i = 0; i < kPatches; ++i) {
+        const float light = largest(disk.irradiance[i]);
+        mean = mean + light * Vec3f{disk.x[i], disk.y[i], disk.z[i]};
+        sum += light;
+    }
+    body.light_dir = normalized(mean);
+    for (std::size_t i = 0; i < kPatches; ++i) {
+        const Vec3f off = Vec3f{disk.x[i], disk.y[i], disk.z[i]} - body.light_dir;
+        square += largest(disk.irradiance[i]) * dot(off, off);
+    }
+    body.light_cosine = std::max(-1.0f, 1 - square / sum);  // |off|^2 is 2 - 2 cos
+}
+
+Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
+                          float reflectance) const {
     const Disk& disk = disks_[body];
     const float width = std::max(alpha, disk.least_alpha);
-    // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of the disk has.
-    const float off = std::acos(std::clamp(dot(reflect(view_dir, normal), bodies_[body].world_dir), -1.0f, 1.0f));
-    const float limb = std::max(0.0f, off - disk.half_angle);
+    // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
+    // the disk has.
+    const float off = std::clamp(dot(reflect(view_dir, normal), bodies_[body].world_dir), -1.0f, 1.0f);
+    const float limb = off >= disk.cosine ? 1.0f : off * disk.cosine + std::sqrt(1 - off * off) * disk.sine;
     const float no = std::max(dot(normal, view_dir), 1e-2f);
-    constexpr float kNext_to_nothing_sr = 1e-2f;
-    if (ggx_distribution(width, std::cos(0.5f * limb)) * 0.5f / (no * width) < kNext_to_nothing_sr) return {};
+    constexpr float kNextToNothing = 1e-3f;  // of the irradiance, as radiance
+    if (reflectance * ggx_distribution(width, std::sqrt(0.5f + 0.5f * limb)) * 0.5f / (no * width) <
+        kNextToNothing)
+        return {};
     alignas(64) std::array<float, kPatches> weight;
-    lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), kPatches, normal, view_dir,
-                 width, weight.data());
+    lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), kPatches, normal, view_dir, width,
+                 weight.data());
     Spectrum sum;
     for (std::size_t i = 0; i < kPatches; ++i) sum += weight[i] * disk.irradiance[i];
     return sum;

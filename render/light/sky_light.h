@@ -1,6 +1,7 @@
 #pragma once
-// The light of the bodies (Earth, Moon, planets) on a surface without anything between: what a place with a free sky
-// has of it. Made once a frame from a quadrature over each body's disk, so nothing of it is left to chance.
+// The light of the bodies (Earth, Moon, planets) on a surface without anything between: what a place with a
+// free sky has of it. Made once a frame from a quadrature over each body's disk, so nothing of it is left to
+// chance.
 
 #include <array>
 #include <vector>
@@ -22,16 +23,21 @@ class SkyLight {
 
     struct Body {
         Vec3f world_dir;
-        float cone_cosine = 1;
+        // The cone that its light comes from, about: half a lit disk shines from its lit half.
+        Vec3f light_dir;
+        float light_cosine = 1;
         Spectrum irradiance_w_m2_um;  // on a surface that faces it
     };
     std::span<const Body> bodies() const { return {bodies_.data(), count_}; }
 
     // Irradiance [W m^-2 um^-1] on a surface with this normal. Loop, any thread.
-    Spectrum irradiance(std::size_t body, Vec3f world_normal) const { return irradiance_[body].at(world_normal); }
-    // Radiance that a facet lobe (GGX alpha) sends towards the viewer of it, Fresnel's term left out. Unit vectors,
-    // world. Lobes narrower than the patches lie apart are as wide as that.
-    Spectrum glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
+    Spectrum irradiance(std::size_t body, Vec3f world_normal) const {
+        return irradiance_[body].at(world_normal);
+    }
+    // Radiance that a facet lobe (GGX alpha) sends towards the viewer of it, Fresnel's term left out. Unit
+    // vectors, world. Lobes narrower than the patches lie apart are as wide as that. reflectance: what is not
+    // worth it with that is zero.
+    Spectrum glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha, float reflectance) const;
 
   private:
     // A function of the direction, on an octahedron's faces (Cigolle et al., JCGT 3(2), 2014); bilinear.
@@ -46,7 +52,8 @@ class SkyLight {
     struct Disk {
         alignas(64) std::array<float, kPatches> x, y, z;
         std::array<Spectrum, kPatches> irradiance;  // of each, on a surface that faces it
-        float half_angle = 0, least_alpha = 0;
+        float cosine = 1, sine = 0;                 // of its half angle
+        float least_alpha = 0;
     };
 
     std::size_t count_ = 0;
@@ -54,6 +61,7 @@ class SkyLight {
     std::array<DirectionMap, kMostBodies> irradiance_;
     std::array<Disk, kMostBodies> disks_;
 
+    static void place_light(const Disk& disk, Body& body);
     static Disk disk_of(const Background& background, const BodyLamp& lamp);
 };
 

@@ -5,228 +5,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <limits>
+#include <tuple>
 
 #include "render/scene/color_bands.h"
+#include "render/scene/light_cells.h"
 #include "render/scene/surface.h"
 
 namespace hilcam {
 namespace {
-
-// --- keys: 15 bits for each coordinate of the cube, six for the way it faces, one for the side, twelve for the surface
-
-constexpr int kMostCubes = 32700;  // along an axis
-
-struct Cube {
-    int x, y, z;
-};
-
-// A face of a cube about the normal and a ninth of that: 30 degrees wide, about. The slopes of crinkled foil that face
-// a light are others than those that face away.
-unsigned way_of(Vec3f normal) {
-    const float x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
-    const auto ninth = [](float u, float v, float most) {
-        const auto third = [most](float w) { return w < -most / 3 ? 0u : w < most / 3 ? 1u : 2u; };
-        return 3 * third(v) + third(u);
-    };
-    if (x >= y && x >= z) return (normal.x >= 0 ? 0 : 9) + ninth(normal.y, normal.z, x);
-    if (y >= z) return (normal.y >= 0 ? 18 : 27) + ninth(normal.x, normal.z, y);
-    return (normal.z >= 0 ? 36 : 45) + ninth(normal.x, normal.y, z);
-}
-
-std::uint64_t kind_of(const SurfaceSide& side) {
-    return way_of(side.geometric_normal) | static_cast<std::uint64_t>(side.back) << 6 |
-           static_cast<std::uint64_t>(side.surface & 0xFFFu) << 7;
-}
-
-// Coordinates from -1 on, so that a cube's neighbours have keys.
-std::uint64_t key_of(Cube c, std::uint64_t kind) {
-    const auto part = [](int i) { return static_cast<std::uint64_t>(i + 1) & 0x7FFFu; };
-    return kind << 45 | part(c.z) << 30 | part(c.y) << 15 | part(c.x);
-}
-
-Cube cube_of(std::uint64_t key) {
-    const auto part = [key](int shift) { return static_cast<int>(key >> shift & 0x7FFF) - 1; };
-    return {part(0), part(15), part(30)};
-}
-
-// Finalizer of SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
-std::uint64_t mixed(std::uint64_t x) {
-    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
-    x = (x ^ x >> 27) * 0x94D049BB133111EBu;
-    return x ^ x >> 31;
-}
-
-// --- points spread over triangles
-
-struct Corner {
-    Vec3f m;
-    std::uint32_t vertex;
-};
-
-// A triangle with its longest edge from b to c, and how many points are spread over it.
-struct Spread {
-    std::array<Corner, 3> corner;  // apex, b, c
-    int along = 1, across = 1;
-    float area_m2 = 0;
-    Vec3f normal;
-
-    Spread(const Mesh& mesh, std::size_t triangle, float step_m) {
-        const auto& t = mesh.triangles[triangle];
-        const auto at = [&](std::size_t i) { return Corner{mesh.vertices_m[t[i]], t[i]}; };
-        std::size_t apex = 0;
-        float longest = -1;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const float edge_m = length(at((i + 2) % 3).m - at((i + 1) % 3).m);
-            if (edge_m > longest) longest = edge_m, apex = i;
-        }
-        corner = {at(apex), at((apex + 1) % 3), at((apex + 2) % 3)};
-        const Vec3f twice = cross(corner[1].m - corner[0].m, corner[2].m - corner[0].m);
-        const float size = length(twice);
-        area_m2 = 0.5f * size;
-        if (!(size > 0) || !std::isfinite(size)) {
-            area_m2 = 0;
-            return;
-        }
-        normal = twice / size;
-        const float most = 4096;
-        along = static_cast<int>(std::clamp(std::ceil(longest / step_m), 1.0f, most));
-        across = static_cast<int>(std::clamp(std::ceil(size / longest / step_m), 1.0f, most));
-    }
-    int points() const { return along * across; }
-    // Weights of the corners of point i; equal areas (Turk, Graphics Gems, 1990, p. 24).
-    Vec3f weights(int i) const {
-        const float r1 = std::sqrt((static_cast<float>(i / along) + 0.5f) / static_cast<float>(across));
-        const float r2 = (static_cast<float>(i % along) + 0.5f) / static_cast<float>(along);
-        return {1 - r1, r1 * (1 - r2), r1 * r2};
-    }
-    Vec3f at(Vec3f w) const { return w.x * corner[0].m + w.y * corner[1].m + w.z * corner[2].m; }
-};
-
-struct Candidate {
-    float priority = 0;  // the smaller, the sooner it is taken
-    std::uint32_t triangle = 0;
-    std::uint32_t point = 0;
-    bool back = false;
-};
-
-// What is known of a cell while it is found: its area, and candidates for its points.
-struct Found {
-    std::uint64_t key = 0;
-    double area_m2 = 0;
-    int count = 0;
-    std::array<Candidate, LightNode::kPoints> best;
-
-    void add(const Candidate& candidate) {
-        const auto before = [](const Candidate& a, const Candidate& b) {
-            return std::tuple(a.priority, a.triangle, a.point) <
-                   std::tuple(b.priority, b.triangle, b.point);
-        };
-        auto end = best.begin() + count;
-        const auto place = std::upper_bound(best.begin(), end, candidate, before);
-        if (place == best.end()) return;
-        if (count < LightNode::kPoints) ++count, ++end;
-        std::move_backward(place, end - 1, end);
-        *place = candidate;
-    }
-    void add(const Found& other) {
-        area_m2 += other.area_m2;
-        for (int i = 0; i < other.count; ++i) add(other.best[static_cast<std::size_t>(i)]);
-    }
-};
-
-struct Grid {
-    Vec3f corner_m;
-    float cube_m;
-
-    Cube cube(Vec3f m) const {
-        const auto part = [this](float x) { return std::clamp(static_cast<int>(x / cube_m), 0, kMostCubes); };
-        return {part(m.x - corner_m.x), part(m.y - corner_m.y), part(m.z - corner_m.z)};
-    }
-};
-
-void merge_equal(std::vector<Found>& cells) {
-    std::stable_sort(cells.begin(), cells.end(), [](const Found& a, const Found& b) { return a.key < b.key; });
-    std::size_t out = 0;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (out > 0 && cells[out - 1].key == cells[i].key)
-            cells[out - 1].add(cells[i]);
-        else
-            cells[out++] = cells[i];
-    }
-    cells.resize(out);
-}
-
-// Runs of triangles, a fixed number of them: sums do not depend on how many threads there are.
-constexpr std::size_t kRuns = 256;
-
-std::vector<Found> find_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps, const Grid& grid) {
-    std::vector<std::vector<Found>> runs(kRuns);
-    tbb::parallel_for(std::size_t{0}, kRuns, [&](std::size_t run) {
-        std::vector<Found>& out = runs[run];
-        const std::size_t count = mesh.triangles.size();
-        for (std::size_t t = count * run / kRuns; t < count * (run + 1) / kRuns; ++t) {
-            const std::uint16_t surface = mesh.surface_of_triangle[t];
-            if (!keeps[surface]) continue;
-            const Spread spread(mesh, t, 0.5f * grid.cube_m);
-            if (!(spread.area_m2 > 0)) continue;
-            const float share = spread.area_m2 / static_cast<float>(spread.points());
-            for (int i = 0; i < spread.points(); ++i) {
-                const Cube cube = grid.cube(spread.at(spread.weights(i)));
-                const auto number = static_cast<std::uint32_t>(i);
-                // By area, without order: the least of -ln(u) / area (Efraimidis & Spirakis, Inf. Process. Lett.
-                // 97, 2006).
-                const float u = (static_cast<float>(mixed(t << 24 | number) >> 41) + 0.5f) * 0x1p-23f;
-                const float priority = -std::log(u) / share;
-                for (const bool back : {false, true}) {
-                    Found cell;
-                    cell.key = key_of(cube, kind_of({back ? -spread.normal : spread.normal, surface, back}));
-                    cell.area_m2 = share;
-                    cell.add(Candidate{priority, static_cast<std::uint32_t>(t), number, back});
-                    // Neighbours in a run are mostly of one cell.
-                    if (!out.empty() && out.back().key == cell.key)
-                        out.back().add(cell);
-                    else if (out.size() > 1 && out[out.size() - 2].key == cell.key)
-                        out[out.size() - 2].add(cell);
-                    else
-                        out.push_back(cell);
-                }
-            }
-        }
-        merge_equal(out);
-    });
-    std::vector<Found> all;
-    for (std::vector<Found>& run : runs) {
-        all.insert(all.end(), run.begin(), run.end());
-        run = {};
-    }
-    merge_equal(all);
-    return all;
-}
-
-struct Extent {
-    Vec3f least, most;
-    double area_m2 = 0;
-};
-
-Extent extent_of(const Mesh& mesh, std::span<const std::uint8_t> keeps) {
-    Extent e{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!keeps[mesh.surface_of_triangle[t]]) continue;
-        const auto& corners = mesh.triangles[t];
-        for (const std::uint32_t v : corners) {
-            const Vec3f p = mesh.vertices_m[v];
-            e.least = {std::min(e.least.x, p.x), std::min(e.least.y, p.y), std::min(e.least.z, p.z)};
-            e.most = {std::max(e.most.x, p.x), std::max(e.most.y, p.y), std::max(e.most.z, p.z)};
-        }
-        const Vec3f a = mesh.vertices_m[corners[0]];
-        e.area_m2 += 0.5 * static_cast<double>(length(
-                               cross(mesh.vertices_m[corners[1]] - a, mesh.vertices_m[corners[2]] - a)));
-    }
-    return e;
-}
-
-// --- nodes
 
 // The cells about a corner of the grid, and which corner of which cell's cube that is.
 struct CornerUse {
@@ -235,15 +22,15 @@ struct CornerUse {
     std::uint32_t corner;  // of the cell's cube: x + 2 y + 4 z
 };
 
-std::vector<CornerUse> corners_of(std::span<const Found> cells) {
+std::vector<CornerUse> corners_of(std::span<const FoundCell> cells) {
     std::vector<CornerUse> uses;
     uses.reserve(8 * cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const Cube cube = cube_of(cells[c].key);
         for (int i = 0; i < 8; ++i)
-            uses.push_back({key_of({cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)},
-                                   cells[c].key >> 45),
-                            static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(i)});
+            uses.push_back(
+                {key_of({cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)}, cells[c].key >> 45),
+                 static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(i)});
     }
     std::sort(uses.begin(), uses.end(), [](const CornerUse& a, const CornerUse& b) {
         return std::tuple(a.key, a.cell) < std::tuple(b.key, b.cell);
@@ -261,7 +48,7 @@ struct TextureReader {
     explicit TextureReader(const Mesh& m) : mesh(m) {
         for (const Texture& texture : m.textures) pictures.emplace_back(Texture(texture));
     }
-    Vec3f color(const Spread& spread, Vec3f w, std::uint16_t surface) const {
+    Vec3f color(const TriangleSpread& spread, Vec3f w, std::uint16_t surface) const {
         const int texture = mesh.surfaces[surface].base_color_texture;
         if (texture < 0 || mesh.uvs.empty()) return {1, 1, 1};
         const auto uv = [&](std::size_t i) { return mesh.uvs[spread.corner[i].vertex]; };
@@ -272,7 +59,7 @@ struct TextureReader {
 
 class NodeMaker {
   public:
-    NodeMaker(const Mesh& mesh, const Grid& grid, std::span<const Found> cells)
+    NodeMaker(const Mesh& mesh, const CubeGrid& grid, std::span<const FoundCell> cells)
         : mesh_(mesh), grid_(grid), cells_(cells), textures_(mesh) {
         float greatest = 0;
         for (const Vec3f v : mesh.vertices_m)
@@ -297,8 +84,9 @@ class NodeMaker {
             while (k + 1 < set.size() && set[k + 1] != LightNodes::kClosed &&
                    passed + cells_[set[k]].area_m2 <= at)
                 passed += cells_[set[k]].area_m2, ++k;
-            const Found& cell = cells_[set[k]];
-            add(node, static_cast<std::size_t>(i), cell.best[static_cast<std::size_t>(used[k]++ % cell.count)], color);
+            const FoundCell& cell = cells_[set[k]];
+            add(node, static_cast<std::size_t>(i),
+                cell.best[static_cast<std::size_t>(used[k]++ % cell.count)], color);
         }
         node.color = color / static_cast<float>(LightNode::kPoints);
         Vec3f mean{};
@@ -309,13 +97,13 @@ class NodeMaker {
 
   private:
     const Mesh& mesh_;
-    Grid grid_;
-    std::span<const Found> cells_;
+    CubeGrid grid_;
+    std::span<const FoundCell> cells_;
     TextureReader textures_;
     float above_m_ = 0;
 
-    void add(LightNode& node, std::size_t i, const Candidate& candidate, Vec3f& color) const {
-        const Spread spread(mesh_, candidate.triangle, 0.5f * grid_.cube_m);
+    void add(LightNode& node, std::size_t i, const CellPoint& candidate, Vec3f& color) const {
+        const TriangleSpread spread(mesh_, candidate.triangle, 0.5f * grid_.cube_m);
         const Vec3f w = spread.weights(static_cast<int>(candidate.point));
         const Vec3f geometric = candidate.back ? -spread.normal : spread.normal;
         Vec3f normal = geometric;
@@ -336,14 +124,14 @@ class NodeMaker {
 }  // namespace
 
 LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted) {
-    const Extent extent = extent_of(mesh, keeps);
+    const MeshExtent extent = extent_of(mesh, keeps);
     if (!(extent.area_m2 > 0) || !std::isfinite(extent.area_m2)) return;
     const Vec3f size = extent.most - extent.least;
     const float least_cube_m = std::max({size.x, size.y, size.z}) / (kMostCubes - 8);
     // Two sides; a wall that is aslant lies in half as many cubes again. Corrected by what is found.
     cube_m_ = std::max(least_cube_m,
                        static_cast<float>(std::sqrt(3 * extent.area_m2 / static_cast<double>(wanted))));
-    std::vector<Found> cells;
+    std::vector<FoundCell> cells;
     for (int attempt = 0; attempt < 4; ++attempt) {
         corner_m_ = extent.least - Vec3f{0.37f * cube_m_, 0.41f * cube_m_, 0.43f * cube_m_};
         cells = find_cells(mesh, keeps, {corner_m_, cube_m_});
@@ -366,8 +154,9 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
             group.set[count++] = uses[i].cell;
         groups.push_back(group);
     }
-    std::sort(groups.begin(), groups.end(),
-              [](const Group& a, const Group& b) { return std::tuple(a.set, a.first) < std::tuple(b.set, b.first); });
+    std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+        return std::tuple(a.set, a.first) < std::tuple(b.set, b.first);
+    });
     cells_.resize(cells.size());
     std::vector<CellSet> sets;
     for (const Group& group : groups) {
@@ -378,10 +167,11 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     }
     nodes_.resize(sets.size());
     const NodeMaker maker(mesh, {corner_m_, cube_m_}, cells);
-    tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t i) { nodes_[i] = maker.make(sets[i], i); });
+    tbb::parallel_for(std::size_t{0}, sets.size(),
+                      [&](std::size_t i) { nodes_[i] = maker.make(sets[i], i); });
 
     std::vector<std::uint64_t> keys;
-    for (const Found& cell : cells) keys.push_back(cell.key);
+    for (const FoundCell& cell : cells) keys.push_back(cell.key);
     index(keys);
 }
 
@@ -391,7 +181,7 @@ void LightNodes::index(std::span<const std::uint64_t> keys) {
     for (std::size_t i = 0; i < keys.size(); ++i) {
         std::size_t at = mixed(keys[i]) & mask;
         while (slots_[at].key != Slot::kNone) at = (at + 1) & mask;
-        slots_[at] = {keys[i], static_cast<std::uint32_t>(i)};
+        slots_[at] = {keys[i], static_cast<std::uint32_t>(i), 0};
     }
 }
 
@@ -407,13 +197,13 @@ bool LightNodes::find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about,
     if (slots_.empty()) return false;
     const std::uint64_t kind = kind_of(side);
     const Vec3f at = (point_m - corner_m_) / cube_m_;
-    const Cube cube = Grid{corner_m_, cube_m_}.cube(point_m);
+    const Cube cube = CubeGrid{corner_m_, cube_m_}.cube(point_m);
     const std::uint64_t key = key_of(cube, kind);
     if (hint.of != this || hint.key != key) hint = {this, key, cell(key)};
     const Cell* found = hint.cell;
     Cube taken = cube;
-    // The surface can cut a corner off the cube that no point fell into, and a level of detail is a little beside
-    // the mesh: then the nearest of the neighbours that share a face or an edge.
+    // The surface can cut a corner off the cube that no point fell into, and a level of detail is a little
+    // beside the mesh: then the nearest of the neighbours that share a face or an edge.
     if (!found) {
         float nearest = INFINITY;
         for (int i = 0; i < 27; ++i) {

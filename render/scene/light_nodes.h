@@ -1,31 +1,25 @@
 #pragma once
 // Places on an object's surface where light is kept from frame to frame (light/kept_light.h).
 //
-// Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh, is the same side of
-// its triangles (so that the inside of a body thinner than a cube is no part of its outside) and faces one of 54 ways
-// (30 degrees wide) is a cell. Light
-// belongs to nodes, which are the corners of the cubes: a node stands for the cells of one kind that touch its
-// corner, by a few points on them. A place between has its cube's eight corners, weighted linearly, so that light
-// is continuous where the surface is. Corners that touch the same cells are one node: a flat wall has one layer.
+// Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh, is the same
+// side of its triangles (so that the inside of a body thinner than a cube is no part of its outside) and
+// faces one of 54 ways (30 degrees wide) is a cell. Light belongs to nodes, which are the corners of the
+// cubes: a node stands for the cells of one kind that touch its corner, by a few points on them. A place
+// between has its cube's eight corners, weighted linearly, so that light is continuous where the surface is.
+// Corners that touch the same cells are one node: a flat wall has one layer.
 //
-// Nothing here depends on how the mesh is triangulated, so every level of detail finds its light in the same nodes.
-// What is finer than a cube is blurred: the size follows from how many nodes are wanted.
+// Nothing here depends on how the mesh is triangulated, so every level of detail finds its light in the same
+// nodes. What is finer than a cube is blurred: the size follows from how many nodes are wanted.
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "render/scene/light_cell_key.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
-
-// Where on an object's surface: what tells cells of a cube apart.
-struct SurfaceSide {
-    Vec3f geometric_normal;  // of this side, body axes
-    std::uint16_t surface = 0;
-    bool back = false;  // the triangle's own normal (right-handed) points to the other side
-};
 
 // The nodes about a place, with weights whose sum is 1.
 struct NodesAbout {
@@ -50,7 +44,8 @@ struct LightNode {
     std::array<std::uint32_t, kPoints> geometric;  // packed: the triangle's, on this side
     std::uint32_t mean_normal = 0;                 // of the points, packed
     std::uint16_t surface = 0;
-    Vec3f color{1, 1, 1};         // of the texture about there, linear RGB; 1 without
+    std::uint16_t unused = 0;
+    Vec3f color{1, 1, 1};  // of the texture about there, linear RGB; 1 without
 };
 
 class LightNodes {
@@ -58,8 +53,9 @@ class LightNodes {
     static constexpr std::uint32_t kClosed = ~std::uint32_t{0};
 
     LightNodes() = default;
-    // keeps: per surface of the mesh, whether light is kept on it. wanted: about so many nodes (between half and one
-    // and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of threads.
+    // keeps: per surface of the mesh, whether light is kept on it. wanted: about so many nodes (between half
+    // and one and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of
+    // threads.
     LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted);
 
     // A cell that was found last: places that are looked up one after the other are mostly neighbours.
@@ -68,8 +64,8 @@ class LightNodes {
         std::uint64_t key = 0;
         const std::array<std::uint32_t, 8>* cell = nullptr;
     };
-    // A place in body axes. False where there are no cells: the place is off every surface by more than a cube. Loop,
-    // any thread.
+    // A place in body axes. False where there are no cells: the place is off every surface by more than a
+    // cube. Loop, any thread.
     bool find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about) const {
         Hint none;
         return find(point_m, side, about, none);
@@ -87,6 +83,7 @@ class LightNodes {
     struct Slot {
         std::uint64_t key = kNone;
         std::uint32_t cell = 0;
+        std::uint32_t unused = 0;  // no byte of a file is left to chance
         static constexpr std::uint64_t kNone = ~std::uint64_t{0};
     };
     using Cell = std::array<std::uint32_t, 8>;  // nodes of its cube's corners: x + 2 y + 4 z

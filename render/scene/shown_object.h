@@ -14,7 +14,7 @@ struct ShownObject {
     std::string name;
     std::vector<std::shared_ptr<const ObjectSurfaces>> levels;  // the mesh itself first; shared by its like
     std::vector<double> error_m;                                // of each
-    std::shared_ptr<const TransferTable> transfer;              // null: no light is kept on it; shared by its like
+    std::shared_ptr<const TransferTable> transfer;  // null: no light is kept on it; shared by its like
 
     const std::vector<Material>& materials() const { return levels.front()->materials; }
     double radius_m() const { return levels.front()->radius_m; }

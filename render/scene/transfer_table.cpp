@@ -17,8 +17,8 @@ namespace {
 constexpr float kGolden = 0.61803399f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
-// What a direction meets, while it is being traced: a node, whether it is nearer than half a cube, and which of the
-// node's points is next to the place; or one of these.
+// What a direction meets, while it is being traced: a node, whether it is nearer than half a cube, and which
+// of the node's points is next to the place; or one of these.
 struct Met {
     static std::uint32_t pack(std::uint32_t node, bool close, std::size_t point) {
         return node << 3 | static_cast<std::uint32_t>(close) << 2 | static_cast<std::uint32_t>(point);
@@ -31,7 +31,8 @@ static_assert(LightNode::kPoints == 4);
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::uint32_t kDark = kFree - 1;
 constexpr std::uint32_t kBuried = kFree - 2;  // of a point that does not count
-constexpr std::uint32_t kTracing = kFree - 3;
+constexpr std::uint32_t kUnder = kFree - 3;   // below the surface at its point: does not count
+constexpr std::uint32_t kTracing = kFree - 4;
 
 struct Ray {
     std::size_t direction;
@@ -42,8 +43,8 @@ struct Ray {
 // Traces a block of nodes.
 class Tracer {
   public:
-    Tracer(const Mesh& mesh, std::span<const std::uint8_t> glass, const LightNodes& nodes, const EmbreeScene& scene,
-           std::span<const Vec3f> local, std::span<const Vec2f> turns)
+    Tracer(const Mesh& mesh, std::span<const std::uint8_t> glass, const LightNodes& nodes,
+           const EmbreeScene& scene, std::span<const Vec3f> local, std::span<const Vec2f> turns)
         : mesh_(mesh), glass_(glass), nodes_(nodes), scene_(scene), local_(local), turns_(turns) {}
 
     // met: by node and direction of the block.
@@ -77,7 +78,7 @@ class Tracer {
                 const Vec3f l = local_[d];
                 const Vec2f t = turns_[n];
                 const Vec3f dir = frame.to_world({t.x * l.x - t.y * l.y, t.y * l.x + t.x * l.y, l.z});
-                met[d] = kDark;
+                met[d] = kUnder;
                 if (dot(dir, geometric) <= 0) continue;
                 met[d] = kTracing;
                 rays.push_back({d, node.point_m[p], dir});
@@ -99,8 +100,8 @@ class Tracer {
                 }
                 scene_.intersect(packet, Coherence::kIncoherent, hits);
                 for (int i = 0; i < packet.count; ++i)
-                    meet(rays[first + static_cast<std::size_t>(i)], hits, static_cast<std::size_t>(i), met, distance,
-                         through);
+                    meet(rays[first + static_cast<std::size_t>(i)], hits, static_cast<std::size_t>(i), met,
+                         distance, through);
             }
             rays.swap(through);
         }
@@ -133,7 +134,8 @@ class Tracer {
         out = kDark;
         if (nodes_.find(point_m, {back ? -normal : normal, surface, back}, about) && about.count > 0) {
             const std::uint32_t node = about.nearest();
-            out = Met::pack(node, hits.distance[k] < 0.5f * nodes_.cube_m(), next_point(nodes_.nodes()[node], point_m));
+            out = Met::pack(node, hits.distance[k] < 0.5f * nodes_.cube_m(),
+                            next_point(nodes_.nodes()[node], point_m));
         }
     }
 
@@ -152,7 +154,8 @@ class Tracer {
         for (std::size_t first = 0; first < met.size(); first += of_point) {
             bool buried = true;
             for (std::size_t d = first; d < first + of_point; ++d)
-                buried = buried && met[d] != kFree && (met[d] == kDark || distance[d] < 0.5f * nodes_.cube_m());
+                buried =
+                    buried && met[d] != kFree && (met[d] == kDark || distance[d] < 0.5f * nodes_.cube_m());
             if (buried) std::fill_n(met.begin() + static_cast<std::ptrdiff_t>(first), of_point, kBuried);
         }
     }
@@ -184,7 +187,7 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
     }
     std::vector<Block> blocks = trace(mesh, glass, progress);
     drop_dead_ends(blocks);
-    pack(blocks, numbers_of_open(blocks));
+    pack(blocks, numbers_of_open(blocks, settings.enclosed));
 }
 
 std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::span<const std::uint8_t> glass,
@@ -192,7 +195,7 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
     const std::vector<Vec3f> local = transfer_directions(directions_);
     std::vector<Block> blocks((size() + kBlock - 1) / kBlock);
     free_.assign(size() * free_words(), 0);
-    live_.assign(size(), 0);
+    live_.assign(size(), 0), counted_.assign(size(), 0);
     if (blocks.empty()) return blocks;
     EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
     scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
@@ -208,6 +211,8 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
                 const std::uint32_t m = met[(n - first) * local.size() + d];
                 if (m == kBuried) continue;
                 live_[n] = static_cast<std::uint8_t>(live_[n] | 1u << point_of(d));
+                if (m == kUnder) continue;
+                ++counted_[n];
                 if (m == kFree) free_[n * free_words() + d / 64] |= std::uint64_t{1} << (d % 64);
                 if (m != kFree && m != kDark) blocks[b].links.push_back({m, static_cast<std::uint8_t>(d)});
             }
@@ -231,30 +236,34 @@ void TransferTable::for_each_node(std::vector<Block>& blocks,
     }
 }
 
-// What is met at once beside a point that is buried is buried, too: the node's light is that of its other points.
+// What is met at once beside a point that is buried is buried, too: the node's light is that of its other
+// points.
 void TransferTable::drop_dead_ends(std::vector<Block>& blocks) {
     for_each_node(blocks, [&](std::size_t, std::span<Link> links) {
         for (Link& link : links)
-            if (Met::is_close(link.met) && !is_live(Met::node(link.met), Met::point(link.met))) link.met = kDark;
+            if (Met::is_close(link.met) && !is_live(Met::node(link.met), Met::point(link.met)))
+                link.met = kDark;
     });
 }
 
 // New numbers for the nodes that light reaches: which are free somewhere, or meet one that light reaches.
-std::vector<std::uint32_t> TransferTable::numbers_of_open(std::vector<Block>& blocks) {
-    std::vector<std::uint8_t> open(size());
+std::vector<std::uint32_t> TransferTable::numbers_of_open(std::vector<Block>& blocks, bool enclosed) {
+    std::vector<std::uint8_t> open(size(), enclosed);
     for (std::size_t n = 0; n < size(); ++n)
         for (std::size_t w = 0; w < free_words(); ++w) open[n] |= free_[n * free_words() + w] != 0;
     for (bool more = true; more;) {
         more = false;
         for_each_node(blocks, [&](std::size_t n, std::span<Link> links) {
-            const auto leads_out = [&](const Link& l) { return l.met != kDark && open[Met::node(l.met)] != 0; };
+            const auto leads_out = [&](const Link& l) {
+                return l.met != kDark && open[Met::node(l.met)] != 0;
+            };
             if (!open[n] && std::any_of(links.begin(), links.end(), leads_out)) open[n] = 1, more = true;
         });
     }
     std::vector<std::uint32_t> numbers(size(), LightNodes::kClosed);
     std::uint32_t kept = 0;
     for (std::size_t n = 0; n < size(); ++n)
-        if (open[n] && live_[n] != 0) numbers[n] = kept++;
+        if (open[n] && counted_[n] != 0) numbers[n] = kept++;
     return numbers;
 }
 
@@ -272,31 +281,31 @@ void TransferTable::pack(std::vector<Block>& blocks, std::span<const std::uint32
             entries_.push_back(entry);
         }
         first_entry_.push_back(static_cast<std::uint32_t>(entries_.size()));
-        live_[to] = live_[n], turns_[to] = turns_[n];
+        live_[to] = live_[n], counted_[to] = counted_[n], turns_[to] = turns_[n];
         for (std::size_t w = 0; w < free_words(); ++w)
             free_[to * free_words() + w] = free_[n * free_words() + w];
     });
     nodes_.keep(numbers);
-    live_.resize(size()), turns_.resize(size()), free_.resize(size() * free_words());
-    live_.shrink_to_fit(), turns_.shrink_to_fit(), free_.shrink_to_fit(), entries_.shrink_to_fit();
+    live_.resize(size()), counted_.resize(size()), turns_.resize(size()), free_.resize(size() * free_words());
+    live_.shrink_to_fit(), counted_.shrink_to_fit(), turns_.shrink_to_fit(), free_.shrink_to_fit(), entries_.shrink_to_fit();
 }
 
 std::size_t TransferTable::bytes() const {
     return nodes_.bytes() + first_entry_.size() * sizeof(std::uint32_t) + entries_.size() * sizeof(Entry) +
-           free_.size() * sizeof(std::uint64_t) + live_.size() +
-           turns_.size() * sizeof(Vec2f);
+           free_.size() * sizeof(std::uint64_t) + live_.size() + counted_.size() * sizeof(std::uint16_t) + turns_.size() * sizeof(Vec2f);
 }
 
 bool TransferTable::is_whole() const {
     const std::size_t n = size();
-    if (directions_ < 4 || directions_ % LightNode::kPoints != 0 || directions_ > 256 || !nodes_.is_whole() || n > kMostNodes) return false;
+    if (directions_ < 4 || directions_ % LightNode::kPoints != 0 || directions_ > 256 || !nodes_.is_whole() ||
+        n > kMostNodes)
+        return false;
     if (first_entry_.size() != n + 1 || first_entry_.front() != 0 || first_entry_.back() != entries_.size() ||
-        free_.size() != n * free_words() || live_.size() != n || turns_.size() != n)
+        free_.size() != n * free_words() || live_.size() != n || counted_.size() != n || turns_.size() != n)
         return false;
     if (!std::is_sorted(first_entry_.begin(), first_entry_.end())) return false;
-    return std::all_of(entries_.begin(), entries_.end(), [&](Entry e) {
-        return e.node < n && static_cast<int>(e.direction) < directions_;
-    });
+    return std::all_of(entries_.begin(), entries_.end(),
+                       [&](Entry e) { return e.node < n && static_cast<int>(e.direction) < directions_; });
 }
 
 }  // namespace hilcam

@@ -1,15 +1,15 @@
 #pragma once
-// What each place on an object meets along fixed directions of its half sphere: traced once, kept for good, since it
-// is knowledge of the mesh and not of a frame (light/kept_light.h makes light of it).
+// What each place on an object meets along fixed directions of its half sphere: traced once, kept for good,
+// since it is knowledge of the mesh and not of a frame (light/kept_light.h makes light of it).
 //
-// The directions are the paper's sixty (Peng et al. 2011), or 16 or 256, but in equal shares of irradiance instead of
-// solid angle: a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179) projected up from the disk (Malley), turned
-// for each node by an angle of its own. A node's points share them in turn, so that a node sees what its whole
-// surface sees. Glass is passed. Each direction either is free, or meets another node, or ends in the dark: behind
-// the horizon of a rough place, or where nothing keeps light.
+// The directions are the paper's sixty (Peng et al. 2011), or 16 or 256, but in equal shares of irradiance
+// instead of solid angle: a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179) projected up from the
+// disk (Malley), turned for each node by an angle of its own. A node's points share them in turn, so that a
+// node sees what its whole surface sees. Glass is passed. Each direction either is free, or meets another
+// node, or ends in the dark: behind the horizon of a rough place, or where nothing keeps light.
 //
-// Nodes that no light can reach (the inside of a closed body) are left out; a point that sees nothing but what is
-// nearer than half a cube is buried and does not count.
+// Nodes that no light can reach (the inside of a closed body, if nothing shines there) are left out; a point
+// that sees nothing but what is nearer than half a cube is buried and does not count.
 
 #include <bit>
 #include <cstdint>
@@ -24,19 +24,20 @@
 namespace hilcam {
 
 struct TransferSettings {
-    int directions = 60;           // a multiple of LightNode::kPoints, 256 at most
-    std::size_t nodes = 400'000;  // about, before those that no light reaches are left out
+    int directions = 60;          // a multiple of LightNode::kPoints, 256 at most
+    std::size_t nodes = 100'000;  // about, before those that no light reaches are left out
+    bool enclosed = false;        // light can begin in closed rooms: lamps, materials that emit
 };
 
-// The directions in local axes (z: the node's normal), before a node's own turn; those of a node's first point come
-// first, then those of its second, and so on.
+// The directions in local axes (z: the node's normal), before a node's own turn; those of a node's first
+// point come first, then those of its second, and so on.
 std::vector<Vec3f> transfer_directions(int count);
 
 class TransferTable {
   public:
     TransferTable() = default;
-    // glass: per surface, whether it is. progress: told the share that is done, from any thread. Throws InputError when
-    // memory runs out. Owner thread, on oneTBB; the same on any number of threads.
+    // glass: per surface, whether it is. progress: told the share that is done, from any thread. Throws
+    // InputError when memory runs out. Owner thread, on oneTBB; the same on any number of threads.
     TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass, const TransferSettings& settings,
                   const std::function<void(double)>& progress = {});
 
@@ -63,11 +64,13 @@ class TransferTable {
         return free(node)[direction / 64] >> (direction % 64) & 1u;
     }
     // A direction belongs to one of the node's points; those of buried points do not count.
-    std::size_t directions_of_point() const { return static_cast<std::size_t>(directions_) / LightNode::kPoints; }
+    std::size_t directions_of_point() const {
+        return static_cast<std::size_t>(directions_) / LightNode::kPoints;
+    }
     std::size_t point_of(std::size_t direction) const { return direction / directions_of_point(); }
     bool is_live(std::size_t node, std::size_t point) const { return live_[node] >> point & 1u; }
-    int live_points(std::size_t node) const { return std::popcount(live_[node]); }
-    int counted(std::size_t node) const { return live_points(node) * directions_ / LightNode::kPoints; }
+    // Directions that count: of live points, and above the surface there.
+    int counted(std::size_t node) const { return counted_[node]; }
     // A direction's angle of turn about the normal, of this node [cos, sin].
     Vec2f turn(std::size_t node) const { return turns_[node]; }
 
@@ -76,7 +79,7 @@ class TransferTable {
     static void list(auto& self, Archive& archive) {
         LightNodes::list(self.nodes_, archive);
         archive(self.directions_), archive(self.first_entry_), archive(self.entries_), archive(self.free_),
-            archive(self.live_), archive(self.turns_);
+            archive(self.live_), archive(self.counted_), archive(self.turns_);
     }
     bool is_whole() const;
 
@@ -86,7 +89,8 @@ class TransferTable {
     std::vector<std::uint32_t> first_entry_;  // by node, and one more
     std::vector<Entry> entries_;
     std::vector<std::uint64_t> free_;
-    std::vector<std::uint8_t> live_;
+    std::vector<std::uint8_t> live_;  // bits by point
+    std::vector<std::uint16_t> counted_;
     std::vector<Vec2f> turns_;
 
     // While it is made: blocks of nodes, each with what its nodes meet, one after the other.
@@ -104,7 +108,7 @@ class TransferTable {
     static void for_each_node(std::vector<Block>& blocks,
                               const std::function<void(std::size_t, std::span<Link>)>& visit);
     void drop_dead_ends(std::vector<Block>& blocks);
-    std::vector<std::uint32_t> numbers_of_open(std::vector<Block>& blocks);
+    std::vector<std::uint32_t> numbers_of_open(std::vector<Block>& blocks, bool enclosed);
     void pack(std::vector<Block>& blocks, std::span<const std::uint32_t> numbers);
 
     std::size_t free_words() const { return (static_cast<std::size_t>(directions_) + 63) / 64; }

@@ -9,7 +9,6 @@
 namespace hilcam {
 namespace {
 
-
 TimeTai from_julian(double day, double fraction) {
     const double days = day - kEpochJulianDay;
     return {static_cast<std::int64_t>(std::llround(days)) * kDay_ns +

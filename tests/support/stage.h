@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/frame/renderer.h"
+#include "render/scene/transfer_table.h"
 #include "render/sky/body_light.h"
 #include "render/vocabulary/units.h"
 
@@ -104,6 +105,7 @@ class Stage {
     SpectralGrid grid{{0.5, 0.6, 0.7}};
     ImageGeometry geometry{32, 32, 4, 32, {}};
     RenderQuality quality;
+    TransferSettings kept{.nodes = 3000, .enclosed = true};
     Scene scene;
     WorldSnapshot world;
     RadianceImage radiance{40, 40, 2};
@@ -123,8 +125,12 @@ class Stage {
         scene.body(BodyId::kEarth) = {true, BodyLook(BodyId::kEarth, config, grid), {}};
     }
     void sun(Vec3d dir) { world.bodies.sun_world_m = kAstronomicalUnit_m * normalized(dir); }
-    // Turned half about x, so that the plate's +z faces the camera.
+    // Turned half about x, so that the plate's +z faces the camera. With path model `kept`, light is kept on
+    // it.
     void add(SceneObject object, Vec3d position, Vec3d rotation = {kPi, 0, 0}) {
+        if (quality.path_model == "kept")
+            object.transfer = std::make_shared<const TransferTable>(
+                object.mesh, std::vector<std::uint8_t>(object.mesh.surfaces.size()), kept);
         scene.objects.push_back(std::move(object));
         world.objects.push_back({position, from_rotation_vector(rotation)});
     }
