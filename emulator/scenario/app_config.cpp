@@ -78,6 +78,12 @@ FaultOrder order_of(const FaultConfig& f) {
     return order;
 }
 
+void validate(const QualityConfig& q) {
+    const std::int64_t n = q.render.kept_directions;
+    if (n != 16 && n != 60 && n != 256)
+        throw InputError("kept_directions: found " + std::to_string(n) + "; accepted: 16, 60, 256");
+}
+
 void validate(const FaultConfig& f) {
     if (const std::string_view reason = refusal_of(order_of(f)); !reason.empty())
         throw InputError(std::string(name_of(f.kind)) + ": " + std::string(reason) + "; it " +

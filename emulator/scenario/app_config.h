@@ -62,6 +62,7 @@ struct QualityConfig {
     double motion_error_px = 0.25;
 };
 Fields fields(QualityConfig& quality);
+void validate(const QualityConfig& quality);
 // How the radiance images of that quality are made.
 SensorSampling sampling_of(const QualityConfig& quality);
 

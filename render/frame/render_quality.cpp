@@ -15,7 +15,7 @@ Fields fields(RenderQuality& q) {
         integer("kept_directions", q.kept_directions, {16, 256},
                 "kept: directions that each place's light comes from, 16, 60 or 256"),
         integer("kept_nodes", q.kept_nodes, {1000, 4'000'000},
-                "kept: places on an object, both sides, where light is kept"),
+                "kept: about so many places on each make of object, where light is kept"),
         number("kept_step_deg", q.kept_step_rad, kDegree_rad, {0.01, 10},
                "kept: the grid that directions of the Sun and the bodies are rounded to, in an object's own "
                "axes"),

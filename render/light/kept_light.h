@@ -20,11 +20,11 @@
 #include <memory>
 #include <vector>
 
+#include "render/light/kept_source.h"
 #include "render/light/material_albedo.h"
 #include "render/scene/brdf_microfacet.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
-#include "render/scene/lamp.h"
 #include "render/scene/transfer_table.h"
 #include "render/vocabulary/packed_spectrum.h"
 
@@ -38,30 +38,6 @@ inline constexpr float kNarrowestLobe = 0.03f;
 // The share of a narrow lobe that its ray does not stand for: facets turned by more than 11 degrees from the
 // normal (GGX as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
-
-// A source in an object's own axes.
-struct KeptSource {
-    enum class Kind : std::uint8_t {
-        kNone,
-        kSun,   // a point far away; unit: 1 W m^-2 um^-1 across the way
-        kCone,  // a body's disk, of even radiance; the same unit on a surface that faces it
-        kLamp,  // a lamp; unit: intensity on its axis
-        kGlow   // what the materials emit
-    };
-    Kind kind = Kind::kNone;
-    Vec3f dir{};            // to it; unit. A lamp's axis
-    float cone_cosine = 1;  // of the cone's half angle
-    Vec3f position_m{};     // of a lamp
-    const LampBeam* beam = nullptr;
-
-    bool operator==(const KeptSource& o) const {
-        return kind == o.kind && dir == o.dir && cone_cosine == o.cone_cosine && position_m == o.position_m &&
-               beam == o.beam;
-    }
-    // At the middle of its cell of a grid of about `step_rad`, and of a hundredth of what is near for a
-    // lamp's place.
-    KeptSource rounded(float step_rad) const;
-};
 
 // What one source gives to every node, per unit of it.
 struct KeptTerm {

@@ -58,7 +58,7 @@ TEST(Plugin, ANameIsTakenOnceAndAnUnknownOneListsTheKnown) {
         FAIL();
     } catch (const InputError& error) {
         EXPECT_STREQ(error.what(),
-                     "quality.path_model: found 'pathh'; accepted: direct | distance | hemisphere | path");
+                     "quality.path_model: found 'pathh'; accepted: direct | distance | hemisphere | kept | path");
     }
 }
 

@@ -10,8 +10,10 @@
 
 #include "io/config/config_yaml.h"
 #include "io/files/brdf_file.h"
+#include "io/files/cache_file.h"
 #include "io/files/height_map_file.h"
 #include "io/files/mesh_level_cache.h"
+#include "io/files/transfer_cache.h"
 #include "render/scene/brdf.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
@@ -197,6 +199,52 @@ TEST_F(MaterialFiles, LevelsComeBackFromDiskAndABrokenFileIsMadeAnew) {
         EXPECT_EQ(cached_levels(mesh, folder_).back().mesh.triangles, made.back().mesh.triangles);
         EXPECT_EQ(std::filesystem::file_size(file), size);
     }
+}
+
+// The bytes of a table, as a file would have them.
+std::string bytes_of(const TransferTable& table, const std::filesystem::path& file) {
+    write_cache_file(file, [&](CacheWriter& out) { TransferTable::list(table, out); });
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST_F(MaterialFiles, TransferTablesComeBackFromDiskAndABrokenFileIsMadeAnew) {
+    // Two walls of a corner.
+    Mesh mesh;
+    mesh.surfaces.resize(1);
+    mesh.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {1, -1, 2}, {1, 1, 2}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+    mesh.surface_of_triangle.resize(4);
+    const std::vector<std::uint8_t> glass(1);
+    const TransferSettings settings{60, 1000, false};
+    const std::filesystem::path cache = folder_ / "cache";
+    const auto table = [&] {
+        return bytes_of(*cached_transfer(mesh, glass, settings, cache), folder_ / "table");
+    };
+    const std::string made = table();
+    EXPECT_GT(made.size(), 10'000u);
+    const auto file = std::filesystem::directory_iterator(cache)->path();
+    EXPECT_EQ(table(), made);
+    const auto size = std::filesystem::file_size(file);
+    for (const std::uintmax_t cut : {size - 1, size / 2, std::uintmax_t{40}, std::uintmax_t{0}}) {
+        std::filesystem::resize_file(file, cut);
+        EXPECT_EQ(table(), made);
+        EXPECT_EQ(std::filesystem::file_size(file), size);
+    }
+    // Bytes that lead out of the table: made anew, or the same table.
+    for (std::uintmax_t at = 0; at < size; at += size / 97) {
+        {
+            std::fstream broken(file, std::ios::in | std::ios::out | std::ios::binary);
+            broken.seekp(static_cast<std::streamoff>(at));
+            broken.write("\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 8);
+        }
+        EXPECT_TRUE(cached_transfer(mesh, glass, settings, cache)->is_whole()) << at;
+        std::filesystem::remove(file);
+        EXPECT_EQ(table(), made);
+    }
+    // Other settings have files of their own.
+    cached_transfer(mesh, glass, {16, 1000, false}, cache);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(cache), {}), 2);
 }
 
 }  // namespace
