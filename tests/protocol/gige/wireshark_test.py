@@ -104,11 +104,11 @@ class Dissected(CameraTest):
                 features.set("ChunkSelector", name)
                 features.set("ChunkEnable", True)
             features.set("EventSelector", "ExposureStart")
-            features.set("EventNotification", "On")
             client.write_register(g.MCRC, 2)
             client.write_register(g.MCTT, 300)
             ports, message_ports = [], []
             for extended in (False, True):
+                features.set("EventNotification", "On")
                 client.write_register(g.GVSP_CONFIG, 1 << 30 if extended else 0)
                 with g.MessageChannel(client, CLIENT) as messages, \
                         StreamReceiver(client, CLIENT, extended=extended) as stream:
@@ -123,8 +123,11 @@ class Dissected(CameraTest):
                         self.assertTrue(stream.take(1)[0].complete)
                     self.emulator.clear_faults()
                     features.execute("AcquisitionStop")
+                    # Whoever leaves has answered what was on its way.
+                    features.set("EventNotification", "Off")
+                    while messages.receive(0.4):
+                        pass
                     messages.close()
-            features.set("EventNotification", "Off")
             client.write_registers((g.ACTION_DEVICE_KEY, 5), (g.ACTION_GROUP_KEY, 6), (g.ACTION_GROUP_MASK, 7))
             client.command(g.ACTION, g.action_payload(5, 6, 7))
             client.write_register(g.GVCP_CONFIG, 2)
