@@ -129,7 +129,7 @@ void KeptLight::light_nodes(const KeptSource& source, const EmbreeScene& scene, 
 
 void KeptLight::light_block(const KeptSource& source, const EmbreeScene& scene, std::size_t object,
                             std::size_t first, std::size_t last, Workspace& work, KeptTerm& term) const {
-    // Of each node: how much its points would receive, rays that ask, and those that get through.
+    // What is asked of each node: how much its points would receive, rays sent, and rays that get through.
     struct Asked {
         float received = 0;
         int points = 0, rays = 0, lit = 0;
@@ -239,7 +239,7 @@ void KeptLight::send(std::size_t n, Vec3f source_dir, Vec3f facing, float receiv
 // --- between nodes
 
 void KeptLight::gather_first(Workspace& work, KeptTerm& term) const {
-    // Of a lamp, seen from the object's middle: it differs by node, but little along one direction.
+    // A lamp is taken as seen from the middle of the object: it differs by node, but little.
     const bool lamp = term.source.kind == KeptSource::Kind::kLamp && length(term.source.position_m) > 0;
     const Vec3f source_dir = lamp ? normalized(term.source.position_m) : term.source.dir;
     tbb::parallel_for(Nodes(0, table_->size(), kBlock), [&](const Nodes& r) {
@@ -327,8 +327,7 @@ KeptLight::Progress KeptLight::gather_again(Workspace& work) const {
         });
 }
 
-// Of the directions in the cone, and of those beside it by falling weights, since sixty directions stand 20
-// degrees apart.
+// This counts directions in the cone, and those beside it by falling weights.
 float KeptLight::seen_of_cone(const KeptSource& source, std::size_t n) const {
     const float half_angle = std::acos(std::clamp(source.cone_cosine, -1.0f, 1.0f));
     float all = 0, free = 0;

@@ -27,9 +27,9 @@ struct SceneObject {
     std::string name;
     // An earlier object whose mesh, materials and levels it has, too: the fields below are then empty.
     std::optional<std::size_t> like{};
-    Mesh mesh;                                      // body axes, metres
-    std::vector<Material> materials;                // one per surface of the mesh
-    std::vector<MeshLevel> levels;                  // coarser ones, from fine to coarse; may be empty
+    Mesh mesh;                                        // body axes, metres
+    std::vector<Material> materials;                  // one per surface of the mesh
+    std::vector<MeshLevel> levels;                    // coarser ones, from fine to coarse; may be empty
     std::shared_ptr<const TransferTable> transfer{};  // shared by its like; null: no light is kept on it
 };
 
