@@ -68,7 +68,9 @@ class TransferTable {
         return static_cast<std::size_t>(directions_) / LightNode::kPoints;
     }
     std::size_t point_of(std::size_t direction) const { return direction / directions_of_point(); }
-    bool is_live(std::size_t node, std::size_t point) const { return live_[node] >> point & 1u; }
+    bool is_live(std::size_t node, std::size_t point) const {
+        return (static_cast<unsigned>(live_[node]) >> point & 1u) != 0;
+    }
     // Directions that count: of live points, and above the surface there.
     int counted(std::size_t node) const { return counted_[node]; }
     // A direction's angle of turn about the normal, of this node [cos, sin].
