@@ -51,7 +51,7 @@ bool read(std::ifstream& in, void* to, std::size_t size) {
     return static_cast<bool>(in.read(static_cast<char*>(to), static_cast<std::streamsize>(size)));
 }
 
-// As large as the file says, which must be so long.
+// The image is as large as the file says, which must be so long.
 bool has_pictures(const Header& header, std::uintmax_t file_size) {
     constexpr std::int32_t kMost_px = 1 << 16;
     if (header.width < 1 || header.height < 1 || header.width > kMost_px || header.height > kMost_px)

@@ -9,9 +9,9 @@
 
 namespace hilcam {
 
-// The mesh's table from `folder`, made and written there if need be, with its progress in the log. A file
-// that is not whole, or of another mesh or other settings, is made anew; a folder that cannot be written is
-// no failure. glass: per surface of the mesh.
+// Returns the mesh's table from `folder`, made and written there if need be. A file that is not whole, or of
+// another mesh or other settings, is made anew; a folder that cannot be written is no failure. glass: per
+// surface of the mesh.
 std::shared_ptr<const TransferTable> cached_transfer(const Mesh& mesh, std::span<const std::uint8_t> glass,
                                                      const TransferSettings& settings,
                                                      const std::filesystem::path& folder);

@@ -33,7 +33,7 @@ void lobe_weights(const float* x, const float* y, const float* z, const float* c
         const float io = x[d] * v.x + y[d] * v.y + z[d] * v.z;
         const float off = x[d] * r.x + y[d] * r.y + z[d] * r.z;
         const float above = ni > 0 ? counts[d] : 0.0f, safe = std::max(ni, 1e-3f);
-        // As ggx_distribution() and ggx_visibility() (brdf_microfacet.h), without branches.
+        // This is ggx_distribution() and ggx_visibility() of brdf_microfacet.h, without branches.
         const float nh2 = std::min((no + ni) * (no + ni) / std::max(2 + 2 * io, 1e-6f), 1.0f);
         const float t = nh2 * (a2 - 1) + 1;
         const float masked_i = std::sqrt(safe * safe * (1 - a2) + a2);

@@ -16,11 +16,11 @@ class MaterialAlbedo {
     MaterialAlbedo() = default;
     explicit MaterialAlbedo(const Material& material);
 
-    // Of facets' single reflection; zero for materials without.
+    // This is what facets reflect at once; zero for materials without them.
     Spectrum lobe(float cosine) const { return at(lobe_, cosine); }
-    // Of all the rest, which goes everywhere.
+    // This is all the rest, which goes everywhere.
     Spectrum base(float cosine) const { return at(base_, cosine); }
-    // Of both, under light from everywhere.
+    // This is both together, under light from everywhere.
     const Spectrum& white() const { return white_; }
 
   private:

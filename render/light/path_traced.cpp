@@ -3,9 +3,9 @@
 // the balance heuristic (Veach & Guibas, SIGGRAPH 95). A path that can add less than contribution_threshold
 // lives on by chance, with the weight of those that do not (Russian roulette; Arvo & Kirk, SIGGRAPH 90).
 //
-// With kept light (kept_scene.h) nothing is drawn at vertices that keep it: there a path ends, but for
-// mirrors, lobes too narrow to be kept, and glass, which fixed directions follow. What can add less than
-// contribution_threshold is left out.
+// Where light is kept (kept_scene.h) nothing is drawn: a path ends there, but for mirrors, lobes too narrow
+// to be kept, and glass, which fixed directions follow. What can add less than contribution_threshold is left
+// out.
 
 #include <algorithm>
 #include <array>

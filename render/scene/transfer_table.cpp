@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -175,7 +174,7 @@ std::vector<Vec3f> transfer_directions(int count) {
 }
 
 TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass,
-                             const TransferSettings& settings, const std::function<void(double)>& progress)
+                             const TransferSettings& settings)
     : directions_(settings.directions) {
     std::vector<std::uint8_t> keeps;
     for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
@@ -185,13 +184,13 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
         const float part = std::fmod(static_cast<float>(n % 4096) * kGolden, 1.0f);
         turns_.push_back({std::cos(2 * kPiF * part), std::sin(2 * kPiF * part)});
     }
-    std::vector<Block> blocks = trace(mesh, glass, progress);
+    std::vector<Block> blocks = trace(mesh, glass);
     drop_dead_ends(blocks);
     pack(blocks, numbers_of_open(blocks, settings.enclosed));
 }
 
-std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::span<const std::uint8_t> glass,
-                                                       const std::function<void(double)>& progress) {
+std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh,
+                                                       std::span<const std::uint8_t> glass) {
     const std::vector<Vec3f> local = transfer_directions(directions_);
     std::vector<Block> blocks((size() + kBlock - 1) / kBlock);
     free_.assign(size() * free_words(), 0);
@@ -200,7 +199,6 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
     EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
     scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
     const Tracer tracer(mesh, glass, nodes_, scene, local, turns_);
-    std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
         const std::size_t first = b * kBlock, last = std::min(size(), first + kBlock);
         std::vector<std::uint32_t> met((last - first) * local.size());
@@ -218,8 +216,6 @@ std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::sp
             }
             blocks[b].counts.push_back(blocks[b].links.size() - before);
         }
-        const std::size_t now = done += 1;
-        if (progress) progress(static_cast<double>(now) / static_cast<double>(blocks.size()));
     });
     return blocks;
 }
@@ -287,12 +283,14 @@ void TransferTable::pack(std::vector<Block>& blocks, std::span<const std::uint32
     });
     nodes_.keep(numbers);
     live_.resize(size()), counted_.resize(size()), turns_.resize(size()), free_.resize(size() * free_words());
-    live_.shrink_to_fit(), counted_.shrink_to_fit(), turns_.shrink_to_fit(), free_.shrink_to_fit(), entries_.shrink_to_fit();
+    live_.shrink_to_fit(), counted_.shrink_to_fit(), turns_.shrink_to_fit(), free_.shrink_to_fit(),
+        entries_.shrink_to_fit();
 }
 
 std::size_t TransferTable::bytes() const {
     return nodes_.bytes() + first_entry_.size() * sizeof(std::uint32_t) + entries_.size() * sizeof(Entry) +
-           free_.size() * sizeof(std::uint64_t) + live_.size() + counted_.size() * sizeof(std::uint16_t) + turns_.size() * sizeof(Vec2f);
+           free_.size() * sizeof(std::uint64_t) + live_.size() + counted_.size() * sizeof(std::uint16_t) +
+           turns_.size() * sizeof(Vec2f);
 }
 
 bool TransferTable::is_whole() const {

@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "render/scene/light_nodes.h"
@@ -36,10 +35,9 @@ std::vector<Vec3f> transfer_directions(int count);
 class TransferTable {
   public:
     TransferTable() = default;
-    // glass: per surface, whether it is. progress: told the share that is done, from any thread. Throws
-    // InputError when memory runs out. Owner thread, on oneTBB; the same on any number of threads.
-    TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass, const TransferSettings& settings,
-                  const std::function<void(double)>& progress = {});
+    // glass: per surface, whether it is. Throws InputError when memory runs out. Owner thread, on oneTBB; the
+    // same on any number of threads.
+    TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass, const TransferSettings& settings);
 
     const LightNodes& nodes() const { return nodes_; }
     std::size_t size() const { return nodes_.nodes().size(); }
@@ -105,8 +103,7 @@ class TransferTable {
         std::vector<Link> links;
         std::vector<std::size_t> counts;  // by node
     };
-    std::vector<Block> trace(const Mesh& mesh, std::span<const std::uint8_t> glass,
-                             const std::function<void(double)>& progress);
+    std::vector<Block> trace(const Mesh& mesh, std::span<const std::uint8_t> glass);
     static void for_each_node(std::vector<Block>& blocks,
                               const std::function<void(std::size_t, std::span<Link>)>& visit);
     void drop_dead_ends(std::vector<Block>& blocks);
