@@ -77,7 +77,8 @@ TEST(KeptLight, ACornerIsAsRandomPathsHaveIt) {
         for (Stage* s : {&direct, &paths, &kept}) s->render();
         const double between = mean_of(paths) - mean_of(direct);
         EXPECT_GT(between, 0.05 * mean_of(direct));
-        // From the second bounce on facets are kept as paint: between rough metal walls that is an eighth too much.
+        // From the second bounce on facets are kept as paint: between rough metal walls that is an eighth too
+        // much.
         const double error = material.model == ReflectionModel::kMetal ? 0.14 : 0.015;
         EXPECT_NEAR((mean_of(kept) - mean_of(direct)) / between, 1, error);
     }
