@@ -57,8 +57,9 @@ TEST(Plugin, ANameIsTakenOnceAndAnUnknownOneListsTheKnown) {
         modules.paths.make("pathh");
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(),
-                     "quality.path_model: found 'pathh'; accepted: direct | distance | hemisphere | kept | path");
+        EXPECT_STREQ(
+            error.what(),
+            "quality.path_model: found 'pathh'; accepted: direct | distance | hemisphere | kept | path");
     }
 }
 
