@@ -69,16 +69,39 @@ bool wants_kept_light(const ScenarioConfig& scenario) {
     return keeps(scenario.quality.render) || std::any_of(lower.begin(), lower.end(), keeps);
 }
 
-std::shared_ptr<const TransferTable> load_transfer(const SceneObject& object,
+double area_of(const Mesh& mesh) {
+    double twice = 0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3f a = mesh.vertices_m[t[0]];
+        twice += static_cast<double>(length(cross(mesh.vertices_m[t[1]] - a, mesh.vertices_m[t[2]] - a)));
+    }
+    return std::isfinite(twice) ? 0.5 * twice : 0;
+}
+
+std::shared_ptr<const TransferTable> load_transfer(const SceneObject& object, std::size_t nodes,
                                                    const ScenarioConfig& scenario) {
     std::vector<std::uint8_t> glass;
     for (const Material& material : object.materials)
         glass.push_back(material.model == ReflectionModel::kGlass);
-    const RenderQuality& quality = scenario.quality.render;
-    const TransferSettings settings{static_cast<int>(quality.kept_directions),
-                                    static_cast<std::size_t>(quality.kept_nodes),
+    const TransferSettings settings{static_cast<int>(scenario.quality.render.kept_directions), nodes,
                                     !scenario.lamps.empty() || models_of(scenario).radiance != "reflected"};
     return cached_transfer(object.mesh, glass, settings, cache_folder());
+}
+
+// Objects share the places that light is kept at by their areas; each has some.
+void load_transfers(std::vector<SceneObject>& objects, const ScenarioConfig& scenario) {
+    if (!wants_kept_light(scenario)) return;
+    constexpr double kLeast = 1000;
+    std::vector<double> area_m2;
+    double all_m2 = 0;
+    for (const SceneObject& object : objects)
+        all_m2 += area_m2.emplace_back(object.like ? area_m2[*object.like] : area_of(object.mesh));
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (objects[i].like || !(area_m2[i] > 0)) continue;
+        const auto most = static_cast<double>(scenario.quality.render.kept_nodes);
+        const double nodes = std::max(std::min(kLeast, most), most * area_m2[i] / all_m2);
+        objects[i].transfer = load_transfer(objects[i], static_cast<std::size_t>(nodes), scenario);
+    }
 }
 
 SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
@@ -89,7 +112,6 @@ SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioCon
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
     if (wants_levels_of_detail(scenario)) object.levels = cached_levels(object.mesh, cache_folder());
     object.materials = load_materials(object.mesh, config.materials, grid);
-    if (wants_kept_light(scenario)) object.transfer = load_transfer(object, scenario);
     return object;
 }
 
@@ -126,9 +148,14 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
                 objects.emplace_back().like = make->second.first_part + k;
         }
         objects[i].name = config.name;
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-            objects[objects.size() - nodes.size() + k].name = config.name + "/" + nodes[k];
+        objects[i].turn_rate_rad_s = length(config.pose.rate_body_rad_s);
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            SceneObject& part = objects[objects.size() - nodes.size() + k];
+            part.name = config.name + "/" + nodes[k];
+            part.turn_rate_rad_s = objects[i].turn_rate_rad_s + std::abs(config.joints[k].rate_rad_s);
+        }
     }
+    load_transfers(objects, scenario);
     return objects;
 }
 

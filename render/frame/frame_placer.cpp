@@ -51,7 +51,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
                           any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
     const KeptScene::Settings kept_settings{static_cast<float>(quality.kept_step_rad), lamps_.all().size(),
                                             emission};
-    kept_ = std::make_unique<KeptScene>(objects_, bands_, kept_settings);
+    kept_ = std::make_unique<KeptScene>(objects_, embree_, bands_, kept_settings);
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     most_stars_ = rays_->is_still()

@@ -8,17 +8,17 @@ Fields fields(RenderQuality& q) {
         text("path_model", q.path_model, "kept | direct | hemisphere | path, or a plug-in's"),
         integer("max_depth", q.max_depth, {1, 64},
                 "surfaces that a light path may meet; 1: direct sunlight only"),
-        number(
-            "contribution_threshold", q.contribution_threshold, 1, {0, 1},
-            "a path whose largest weight falls below this ends (hemisphere), or lives on by chance (path)"),
+        number("contribution_threshold", q.contribution_threshold, 1, {0, 1},
+               "a path whose largest weight falls below this ends (hemisphere, kept), or lives on by chance "
+               "(path)"),
         flag("sun_disk", q.sun_disk, "sunlight from the whole disk: soft shadows, exact highlights"),
         integer("kept_directions", q.kept_directions, {16, 256},
                 "kept: directions that each place's light comes from, 16, 60 or 256"),
         integer("kept_nodes", q.kept_nodes, {1000, 4'000'000},
-                "kept: about so many places on each make of object, where light is kept"),
+                "kept: about so many places on all objects together, where light is kept"),
         number("kept_step_deg", q.kept_step_rad, kDegree_rad, {0.01, 10},
                "kept: the grid that directions of the Sun and the bodies are rounded to, in an object's own "
-               "axes"),
+               "axes; what turns faster than two steps a second has a wider one, to 10 degrees"),
         number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
                "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they "
                "are"),

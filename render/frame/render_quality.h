@@ -18,8 +18,8 @@ struct RenderQuality {
     double contribution_threshold = 1e-3;  // (f) see path_model.h
     bool sun_disk = false;              // (f) soft shadows and exact highlights; false: a point at its middle
     std::int64_t kept_directions = 60;  // kept light: 16, 60 or 256
-    std::int64_t kept_nodes = 100'000;  // about, of each make of object
-    double kept_step_rad = 0.5 * kDegree_rad;
+    std::int64_t kept_nodes = 100'000;  // about, of all objects together
+    double kept_step_rad = 1.0 * kDegree_rad;
     double facets_behind_diffuse = 0.4;  // least GGX alpha there; 0: as they are
     bool watertight = true;              // no ray slips through between two triangles
     double lod_error_px = 0.25;          // (f) of a coarser level of detail; 0: the mesh itself, always

@@ -1,20 +1,11 @@
 #pragma once
-// The light between the parts of one object, kept from frame to frame at its nodes (scene/light_nodes.h).
+// The light between the parts of an object, kept from frame to frame at its nodes (scene/light_nodes.h).
 //
 // For each source there is a term: the irradiance that reaches every node by way of other surfaces, all
-// bounces, for one unit of the source. It is found from the table of directions (scene/transfer_table.h):
-// what a node receives first is summed from what its directions meet, each seen from there as its own
-// reflection law says; then light goes on as from white, grey or coloured paint until it stays the same
-// (radiosity: Goral et al., SIGGRAPH 84), with the directions in place of form factors. No ray is traced but
-// those that ask which nodes a source shines on, and nothing is drawn by chance.
-//
-// A term depends on nothing but the table and the place of its source in the object's own axes, rounded to a
-// step: so frames stay functions of their commands. The light itself (eclipses, the Sun's distance, a lamp's
-// level) is a factor at the pixel.
-//
-// The approximation: facets that other surfaces see are at least so wide that the directions find their
-// light; from the second bounce on everything scatters as a diffuse surface of the same albedo; glass is
-// clear.
+// bounces, for one unit of the source (kept_solver.h finds it). A term depends on nothing but the tables, the
+// place of its source in the object's own axes, rounded to a step, and how near objects stand to each other,
+// rounded as well: so frames stay functions of their commands. The light itself (eclipses, the Sun's
+// distance, a lamp's level) is a factor at the pixel.
 
 #include <cstdint>
 #include <memory>
@@ -25,80 +16,116 @@
 #include "render/scene/brdf_microfacet.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
+#include "render/scene/shown_object.h"
 #include "render/scene/transfer_table.h"
 #include "render/vocabulary/packed_spectrum.h"
 
 namespace hilcam {
+
+class KeptLinks;
 
 // Facet lobes narrower than this (GGX alpha) fall between the directions: rays follow them, for all of the
 // lobe but its tails.
 inline constexpr float kNarrowestKept = 0.12f;
 // What is narrower than this is followed as a mirror, by one ray; else by four.
 inline constexpr float kNarrowestLobe = 0.03f;
+// Lists of directions are filled up to a multiple of this.
+inline constexpr std::size_t kDirectionLanes = 16;
 // The share of a narrow lobe that its ray does not stand for: facets turned by more than 11 degrees from the
 // normal (GGX as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
 
-// What one source gives to every node, per unit of it.
-struct KeptTerm {
-    KeptSource source;
+// What an object's materials reflect in all; objects of one make share it.
+struct KeptAlbedos {
+    // materials: one per surface. least_alpha: of facets as other surfaces see them.
+    KeptAlbedos(const std::vector<Material>& materials, float least_alpha);
+
+    std::vector<MaterialAlbedo> own, wide;  // by surface; the latter of facets as other surfaces see them
+};
+
+// A term that is solved: what one source gives to every node, per unit of it.
+struct KeptSolution {
     std::vector<PackedSpectrum> irradiance;  // by way of other surfaces
-    std::vector<PackedSpectrum> along;  // radiance along each entry of the nodes with facets; of the Sun only
-    std::vector<std::uint8_t> seen;     // share of a cone that is free, of 255
+    // Radiance along each entry of nodes with facets, and along each link; of the Sun only.
+    std::vector<PackedSpectrum> along, along_links;
+    std::vector<std::uint8_t> seen;  // share of a cone that is free, of 255
+
+    std::size_t bytes() const {
+        return (irradiance.size() + along.size() + along_links.size()) * sizeof(PackedSpectrum) + seen.size();
+    }
 };
 
 class KeptLight {
   public:
-    // What solving needs besides the result; one for all objects. Sized by reserve().
-    class Workspace {
-      public:
-        void reserve(const KeptLight& light);
-
-      private:
-        friend class KeptLight;
-        // What a node sends: radiance per unit of the source.
-        struct alignas(64) Sender {
-            PackedSpectrum diffuse;
-            PackedSpectrum lobe;   // of facets, at normal incidence
-            float received;        // irradiance
-            std::uint32_t normal;  // packed
-            float alpha;           // 0: no facets that shine
-            float ni;              // cosine of the source
-        };
-        std::vector<Sender> senders_;
-        std::vector<PackedSpectrum> radiosity_;  // over pi
-        std::vector<Spectrum> first_, now_,
-            before_;  // irradiance: of the first way, of all so far, a bounce ago
+    // A sphere that holds all nodes; body axes.
+    struct Bounds {
+        Vec3f middle_m;
+        float radius_m = 0;
+        bool is_met(Vec3f origin_m, Vec3f unit_dir) const {
+            const Vec3f way = middle_m - origin_m;
+            const float along = dot(way, unit_dir), outside = dot(way, way) - radius_m * radius_m;
+            return outside <= 0 || (along > 0 && along * along >= outside);
+        }
     };
 
-    // materials: one per surface of the mesh. step_rad: of the grid that sources are rounded to.
-    KeptLight(std::shared_ptr<const TransferTable> table, const std::vector<Material>& materials,
-              const ColorBands& bands, float step_rad);
+    // Facets that another surface sees are at least so wide (GGX alpha), for its directions to find them.
+    static float least_alpha(const TransferTable& table);
+    // The object has a table and outlives this. step_rad: of the grid that sources are rounded to.
+    KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedos> albedos, const ColorBands& bands,
+              float step_rad);
 
     const TransferTable& table() const { return *table_; }
+    const Bounds& bounds() const { return bounds_; }
     float step_rad() const { return step_rad_; }
-    // Memory for a term of such a source.
-    KeptTerm make_term(KeptSource::Kind kind) const;
-    // Solves the term for its source, which has been rounded. scene: the object is placed in it. On oneTBB.
-    // Loop: nothing is allocated.
-    void solve(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,
-               KeptTerm& term) const;
+    std::uint16_t surface_of(std::uint32_t triangle) const {
+        return shown_->levels.front()->triangles[triangle].surface;
+    }
+    bool is_glass(std::uint16_t surface) const {
+        return materials_[surface]->model == ReflectionModel::kGlass;
+    }
+    // All that it reflects, it reflects in a narrow lobe.
+    bool is_mirror(std::uint16_t surface) const {
+        const Material& m = *materials_[surface];
+        return m.ggx_alpha < kNarrowestKept &&
+               (m.model == ReflectionModel::kMetal || m.model == ReflectionModel::kMirror);
+    }
+    // A node's direction, body axes.
+    Vec3f direction(std::size_t node, std::size_t d) const {
+        return local(lobes_[node]).body({local_x_[d], local_y_[d], local_z_[d]});
+    }
+
+    // Makes room for what a source of this kind gives; its number. Owner thread.
+    std::size_t add_term(KeptSource::Kind kind);
+    KeptSolution make_solution(KeptSource::Kind kind) const;
+    // Takes a term's solution and gives back the one before. Loop, one thread.
+    void adopt(std::size_t term, KeptSolution& solution);
+    // What it meets of other objects, from now on; outlives this. Loop, one thread.
+    void adopt(const KeptLinks& links);
 
     // --- lookup. Loop, any thread.
 
-    const MaterialAlbedo& albedo(std::uint16_t surface) const { return albedos_[surface]; }
-    static Spectrum irradiance(const KeptTerm& term, const NodesAbout& about) {
+    const MaterialAlbedo& albedo(std::uint16_t surface) const { return albedos_->own[surface]; }
+    // By way of other surfaces, per unit of the source.
+    Spectrum irradiance(std::size_t term, const NodesAbout& about) const {
         Spectrum sum;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(about.count); ++i)
-            sum += about.weight[i] * term.irradiance[about.node[i]].unpacked();
+        for (std::size_t i = 0; i < about.count; ++i)
+            sum += about.weight[i] * irradiance_[about.node[i] * terms_.size() + term].unpacked();
         return sum;
     }
-    static float seen(const KeptTerm& term, const NodesAbout& about) {
+    // Share of a cone's light that comes without a way.
+    float seen(std::size_t term, const NodesAbout& about) const {
         float sum = 0;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(about.count); ++i)
-            sum += about.weight[i] * static_cast<float>(term.seen[about.node[i]]);
+        for (std::size_t i = 0; i < about.count; ++i)
+            sum += about.weight[i] * static_cast<float>(terms_[term].seen[about.node[i]]);
         return sum * (1 / 255.0f);
     }
+    // Asks for the memory of what irradiance() and lobe() read.
+    void prefetch(const NodesAbout& about) const {
+        for (std::size_t i = 0; i < about.count; ++i)
+            __builtin_prefetch(&irradiance_[about.node[i] * terms_.size()]);
+    }
+    void prefetch_lobe(std::uint32_t node) const { __builtin_prefetch(&lobes_[node]); }
+    void prefetch_along(std::size_t term, std::uint32_t node) const;
     // A facet lobe about a node's directions, or the tails of one that is narrow: what it finds of the kept
     // light along them. Shares are of what an even sky would give, Fresnel's term left out. normal, view_dir:
     // body axes, unit.
@@ -107,25 +134,44 @@ class KeptLight {
         float free = 1;      // share of the whole lobe that goes free
         float occupied = 0;  // share that meets a node
     };
-    Lobe lobe(const KeptTerm* sun, std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
+    static constexpr std::size_t kNoTerm = ~std::size_t{0};
+    Lobe lobe(std::size_t sun, std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
     // Whether anything stands near a direction from a node, within about 20 degrees.
     bool is_near(std::uint32_t node, Vec3f dir) const;
     std::size_t bytes() const;
 
   private:
+    friend class KeptSolver;
     static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
+    // What lookups of lobes read of a node, side by side.
+    struct alignas(32) LobeNode {
+        std::uint32_t normal;              // packed
+        std::array<std::int16_t, 2> turn;  // of 32767
+        std::uint32_t first_entry;
+        std::uint32_t first_along;  // of its entries in KeptSolution::along, kNoLobe: has no facets
+        std::uint64_t free;         // the first 64 directions
+        std::uint16_t entries, counted;
+        std::uint8_t live;  // bits by point
+        bool all_free;
+    };
+    static_assert(sizeof(LobeNode) == 32);
 
+    const ShownObject* shown_;
     std::shared_ptr<const TransferTable> table_;
-    std::vector<MaterialAlbedo> albedos_;
+    const KeptLinks* links_ = nullptr;
+    std::shared_ptr<const KeptAlbedos> albedos_;
     std::vector<const Material*> materials_;
-    float least_alpha_, step_rad_;  // of facets that another surface sees
+    Bounds bounds_;
+    float step_rad_;
     // Local directions, component by component, and after them some that never count, to full vectors.
-    static constexpr std::size_t kMostDirections = 256, kLanes = 16;
+    static constexpr std::size_t kMostDirections = 256;
     std::vector<float> local_x_, local_y_, local_z_, counts_;
-    std::vector<Spectrum> colors_;            // by node where there are textures; else empty
-    std::vector<PackedSpectrum> white_;       // by node: albedo over pi
-    std::vector<std::uint32_t> first_along_;  // by node: of its entries in KeptTerm::along
+    std::vector<Spectrum> colors_;       // by node where there are textures; else empty
+    std::vector<PackedSpectrum> white_;  // by node: albedo over pi
+    std::vector<LobeNode> lobes_;        // by node
     std::size_t along_ = 0;
+    std::vector<KeptSolution> terms_;         // their irradiance is in the next
+    std::vector<PackedSpectrum> irradiance_;  // by node and term
 
     // Node axes.
     struct Local {
@@ -139,23 +185,10 @@ class KeptLight {
             return frame.to_world({turn.x * l.x - turn.y * l.y, turn.y * l.x + turn.x * l.y, l.z});
         }
     };
-    Local local(std::size_t node) const;
-    bool all_free(std::size_t node) const;
+    static Local local(const LobeNode& node);
+    void describe_lobe(std::size_t node);
     template <class Visit>
     void for_each_met(std::size_t node, const Visit& visit) const;
-    void light_nodes(const KeptSource& source, const EmbreeScene& scene, std::size_t object, Workspace& work,
-                     KeptTerm& term) const;
-    void light_block(const KeptSource& source, const EmbreeScene& scene, std::size_t object,
-                     std::size_t first, std::size_t last, Workspace& work, KeptTerm& term) const;
-    void send(std::size_t node, Vec3f source_dir, Vec3f facing, float received,
-              Workspace::Sender& sender) const;
-    void gather_first(Workspace& work, KeptTerm& term) const;
-    struct Progress {
-        double change = 0, light = 0;  // sums over all nodes and bins
-    };
-    void bounce(Workspace& work) const;
-    Progress gather_again(Workspace& work) const;
-    float seen_of_cone(const KeptSource& source, std::size_t node) const;
 };
 
 }  // namespace hilcam

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "render/light/lamp_light.h"
 #include "render/scene/brdf_microfacet.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
@@ -23,151 +25,207 @@ Spectrum tint(const Scatterer& at) {
     return out;
 }
 
+// The grid for an object that turns: light is made anew twice a second at most, up to steps of 10 degrees,
+// which are worth 0.7 of the sensor's noise (docs/performance.md).
+float step_of(const ShownObject& object, float least_rad) {
+    constexpr float kSolve_s = 0.5f, kMost_rad = 0.175f;
+    return std::max(least_rad, std::min(kMost_rad, kSolve_s * static_cast<float>(object.turn_rate_rad_s)));
+}
+
 }  // namespace
 
-KeptScene::KeptScene(std::span<const ShownObject> objects, const ColorBands& bands, const Settings& settings)
-    : objects_(objects.size()) {
-    using Kind = KeptSource::Kind;
+KeptScene::KeptScene(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
+                     const Settings& settings)
+    : terms_{settings.lamps, settings.emission}, objects_(objects.size()) {
+    std::vector<KeptLight*> lights(objects.size());
+    std::map<const ObjectSurfaces*, std::shared_ptr<const KeptAlbedos>> albedos;  // by make
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (!objects[i].transfer || objects[i].transfer->size() == 0) continue;
-        Object& object = objects_[i];
-        object.light = std::make_unique<KeptLight>(objects[i].transfer, objects[i].materials(), bands,
-                                                   settings.step_rad);
-        object.sun = object.light->make_term(Kind::kSun);
-        for (KeptTerm& term : object.bodies) term = object.light->make_term(Kind::kCone);
-        for (std::size_t lamp = 0; lamp < settings.lamps; ++lamp)
-            object.lamps.push_back(object.light->make_term(Kind::kLamp));
-        if (settings.emission) object.glow = object.light->make_term(Kind::kGlow);
-        work_.reserve(*object.light);
+        std::shared_ptr<const KeptAlbedos>& of_make = albedos[objects[i].levels.front().get()];
+        if (!of_make)
+            of_make = std::make_shared<const KeptAlbedos>(objects[i].materials(),
+                                                          KeptLight::least_alpha(*objects[i].transfer));
+        objects_[i].light =
+            std::make_unique<KeptLight>(objects[i], of_make, bands, step_of(objects[i], settings.step_rad));
+        lights[i] = objects_[i].light.get();
+        for (std::size_t term = 0; term < terms_.count(); ++term) lights[i]->add_term(terms_.kind(term));
     }
+    lights_.assign(lights.begin(), lights.end());
+    updates_ = std::make_unique<KeptUpdates>(lights, scene, terms_);
+    for (KeptInputs* inputs : {&now_, &before_, &long_before_, &ahead_})
+        inputs->objects.resize(objects.size()), inputs->lamps.reserve(settings.lamps);
 }
 
 std::string KeptScene::describe(std::size_t i) const {
-    const Object& object = objects_[i];
-    const TransferTable& table = object.light->table();
-    std::size_t bytes = object.light->bytes();
-    const auto add = [&bytes](const KeptTerm& term) {
-        bytes += (term.irradiance.size() + term.along.size()) * sizeof(PackedSpectrum) + term.seen.size();
-    };
-    add(object.sun), add(object.glow);
-    for (const KeptTerm& term : object.bodies) add(term);
-    for (const KeptTerm& term : object.lamps) add(term);
+    const KeptLight& light = *objects_[i].light;
+    const TransferTable& table = light.table();
     std::ostringstream text;
     text << table.size() << " places, " << 1e3f * table.nodes().cube_m() << " mm apart, "
          << table.directions() << " directions each, of which " << table.entries()
-         << " meet something; table " << static_cast<double>(table.bytes()) * 1e-6 << " MB, light "
-         << static_cast<double>(bytes) * 1e-6 << " MB";
+         << " meet something; steps of " << light.step_rad() / static_cast<float>(kDegree_rad)
+         << " deg; table " << static_cast<double>(table.bytes()) * 1e-6 << " MB, light "
+         << static_cast<double>(light.bytes() + updates_->bytes(i)) * 1e-6 << " MB";
     return text.str();
 }
 
-void KeptScene::solve(const FrameView& frame, std::size_t i, const KeptSource& source, KeptTerm& term) {
-    const KeptSource rounded = source.rounded(objects_[i].light->step_rad());
-    if (rounded == term.source) return;
-    objects_[i].light->solve(rounded, *frame.scene, i, work_, term);
+void KeptScene::take_inputs(const FrameView& frame, const WorldSnapshot& world) {
+    std::copy(world.objects.begin(), world.objects.end(), now_.objects.begin());
+    now_.sun = largest(frame.background->sun_irradiance_w_m2_um()) > 0;
+    if (now_.sun) now_.sun_dir = to_float(frame.background->sun_world_dir());
+    now_.body_count = sky_.bodies().size();
+    for (std::size_t b = 0; b < now_.body_count; ++b)
+        now_.bodies[b] = {sky_.bodies()[b].light_dir, sky_.bodies()[b].light_cosine};
+    now_.lamps.clear();
+    if (frame.lamps)
+        for (const PlacedLamp& lamp : frame.lamps->lit())
+            now_.lamps.push_back(
+                {lamp.number, lamp.position_m + frame.rays_world_m, to_float(lamp.axis), lamp.beam});
 }
 
 void KeptScene::place(const FrameView& frame, const WorldSnapshot& world) {
-    using Kind = KeptSource::Kind;
     sky_.place(*frame.background);
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-        Object& object = objects_[i];
-        if (!object.light) continue;
-        object.origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
-        const Mat3f& axes = frame.world_from_body[i];
-        if (largest(frame.background->sun_irradiance_w_m2_um()) > 0)
-            solve(frame, i,
-                  {.kind = Kind::kSun, .dir = to_body(axes, to_float(frame.background->sun_world_dir()))},
-                  object.sun);
-        for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
-            const SkyLight::Body& body = sky_.bodies()[b];
-            solve(
-                frame, i,
-                {.kind = Kind::kCone, .dir = to_body(axes, body.light_dir), .cone_cosine = body.light_cosine},
-                object.bodies[b]);
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        objects_[i].origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
+    take_inputs(frame, world);
+    target_.set(now_, lights_, terms_);
+    updates_->bring_to(target_);
+    look_ahead();
+}
+
+// Has made what the next frames will need first, if everything moves on as it did.
+void KeptScene::look_ahead() {
+    if (frames_++ % kStride == 0) std::swap(long_before_, before_), before_ = now_;
+    const int past = kStride + (frames_ - 1) % kStride;  // frames since long_before_
+    if (frames_ <= 2 * kStride || updates_->is_busy()) return;
+    const auto differs = [&](int ahead) {
+        if (!KeptInputs::extrapolate(long_before_, now_, static_cast<double>(ahead) / past, ahead_))
+            return false;
+        ahead_target_.set(ahead_, lights_, terms_);
+        return !(ahead_target_ == target_);
+    };
+    // Mostly nothing takes a step for long; only where something does its first one is looked for.
+    constexpr int kFurthest = 128;
+    if (!differs(kFurthest)) return;
+    for (int ahead = 1; ahead <= kFurthest; ahead *= 2)
+        if (differs(ahead)) return updates_->look_ahead(ahead_target_);
+}
+
+// Something may stand in the mirror's direction.
+bool KeptScene::is_near(const FrameView& frame, const Place& place) const {
+    if (objects_.size() > 1 || !place.found || place.about.count == 0) return true;
+    const Vertex& at = *place.at;
+    return objects_[at.object].light->is_near(
+        place.nearest, to_body(frame.world_from_body[at.object], reflect(at.view_dir, at.normal)));
+}
+
+void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
+    std::array<Place, 32> places;
+    for (std::size_t next = 0; next < vertices.size();) {
+        std::size_t count = 0;
+        for (; next < vertices.size() && count < places.size(); ++next)
+            if (!vertices[next].surface.is_glass()) places[count++].at = &vertices[next];
+        const std::span<Place> block(places.data(), count);
+        find(tile.frame, block);
+        for (Place& place : block)
+            if (is_lit(place))
+                tile.pixels[place.at->pixel] += place.at->weight * reflect_diffuse(tile.frame, place);
+        for (const Place& place : block) {
+            Vertex& at = *place.at;
+            if (!at.surface.material->has_facets()) continue;
+            if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(tile.frame, place);
+            if (at.surface.alpha >= kNarrowestLobe && is_lit(place))
+                tile.pixels[at.pixel] += at.weight * reflect_lobe(tile.frame, place);
         }
-        if (frame.lamps)
-            for (const PlacedLamp& lamp : frame.lamps->lit())
-                solve(frame, i,
-                      {.kind = Kind::kLamp,
-                       .dir = to_body(axes, to_float(lamp.axis)),
-                       .position_m = to_body(axes, to_float(lamp.position_m) - object.origin_m),
-                       .beam = lamp.beam},
-                      object.lamps[lamp.number]);
-        if (!object.glow.irradiance.empty()) solve(frame, i, {.kind = Kind::kGlow}, object.glow);
     }
 }
 
-NodesAbout KeptScene::nodes_about(const FrameView& frame, const Vertex& at, bool& found,
-                                  LightNodes::Hint& hint) const {
-    const Mat3f& axes = frame.world_from_body[at.object];
-    const Object& object = objects_[at.object];
-    NodesAbout about;
-    found = object.light->table().nodes().find(
-        to_body(axes, at.point_m - object.origin_m),
-        {to_body(axes, at.geometric_normal), at.surface_number, at.back}, about, hint);
-    return about;
+void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
+    for (Place& place : places) {
+        const Vertex& at = *place.at;
+        const Mat3f& axes = frame.world_from_body[at.object];
+        const Object& object = objects_[at.object];
+        place.search = object.light->table().nodes().begin(
+            to_body(axes, at.point_m - object.origin_m),
+            {to_body(axes, at.geometric_normal), at.surface_number, at.back});
+    }
+    for (Place& place : places) objects_[place.at->object].light->table().nodes().open(place.search);
+    for (Place& place : places) {
+        const Vertex& at = *place.at;
+        const KeptLight& light = *objects_[at.object].light;
+        place.found = light.table().nodes().finish(place.search, place.about);
+        if (place.about.count == 0) continue;
+        place.nearest = place.about.nearest();
+        light.prefetch(place.about);
+        if (at.surface.material->has_facets()) light.prefetch_lobe(place.nearest);
+    }
 }
 
-bool KeptScene::is_near(const FrameView& frame, const Vertex& at, Vec3f dir) const {
-    if (objects_.size() > 1) return true;
-    bool found = false;
-    LightNodes::Hint hint;
-    const NodesAbout about = nodes_about(frame, at, found, hint);
-    if (!found || about.count == 0) return true;
-    return objects_[at.object].light->is_near(about.nearest(),
-                                              to_body(frame.world_from_body[at.object], dir));
-}
-
-void KeptScene::add_reflected(Tile& tile, std::span<const Vertex> vertices) const {
-    LightNodes::Hint hint;
-    for (const Vertex& at : vertices)
-        if (!at.surface.is_glass()) tile.pixels[at.pixel] += at.weight * reflected(tile.frame, at, hint);
-}
-
-Spectrum KeptScene::reflected(const FrameView& frame, const Vertex& at, LightNodes::Hint& hint) const {
+// This is what a surface reflects without its facets.
+Spectrum KeptScene::reflect_diffuse(const FrameView& frame, Place& place) const {
+    const Vertex& at = *place.at;
     const Object& object = objects_[at.object];
     const KeptLight& light = *object.light;
-    bool found = false;
-    const NodesAbout about = nodes_about(frame, at, found, hint);
-    // Found, but no light gets there.
-    if (found && about.count == 0) return {};
-
+    const NodesAbout& about = place.about;
     const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
     const bool sunlit = largest(sun) > 0;
-    // Irradiance: of all but the Sun by way of other surfaces, of the bodies without a way.
-    Spectrum others, sky;
+    if (at.surface.material->has_facets() && at.surface.alpha >= kNarrowestLobe && place.found)
+        light.prefetch_along(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, place.nearest);
+
+    place.others = {};
+    Spectrum sky;  // irradiance of the bodies without a way
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
-        const KeptTerm& term = object.bodies[b];
-        others += sky_.bodies()[b].irradiance_w_m2_um * KeptLight::irradiance(term, about);
-        sky += (found ? KeptLight::seen(term, about) : 1.0f) * sky_.irradiance(b, at.normal);
+        place.others += sky_.bodies()[b].irradiance_w_m2_um * light.irradiance(KeptTerms::kBodies + b, about);
+        sky +=
+            (place.found ? light.seen(KeptTerms::kBodies + b, about) : 1.0f) * sky_.irradiance(b, at.normal);
     }
     if (frame.lamps)
         for (const PlacedLamp& lamp : frame.lamps->lit())
-            others += lamp.intensity_w_sr_um * KeptLight::irradiance(object.lamps[lamp.number], about);
-    if (!object.glow.irradiance.empty()) others += KeptLight::irradiance(object.glow, about);
-    Spectrum all = others + sky;
-    if (sunlit) all += sun * KeptLight::irradiance(object.sun, about);
+            place.others += lamp.intensity_w_sr_um * light.irradiance(KeptTerms::kLamps + lamp.number, about);
+    if (terms_.emission) place.others += light.irradiance(terms_.glow(), about);
+    Spectrum all = place.others + sky;
+    if (sunlit) all += sun * light.irradiance(KeptTerms::kSun, about);
 
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
-    const MaterialAlbedo& albedo = light.albedo(at.surface_number);
-    const bool textured = at.surface.material->texture >= 0;
-    Spectrum out = (1 / kPiF) * (albedo.base(no) * all);
-    if (!at.surface.material->has_facets()) return textured ? tint(at.surface) * out : out;
-    const Spectrum reflectance = albedo.lobe(no);
-    if (at.surface.alpha >= kNarrowestLobe) {
+    const Spectrum out = (1 / kPiF) * (light.albedo(at.surface_number).base(no) * all);
+    return at.surface.material->texture >= 0 ? tint(at.surface) * out : out;
+}
+
+Spectrum KeptScene::reflect_lobe(const FrameView& frame, const Place& place) const {
+    const Vertex& at = *place.at;
+    const Object& object = objects_[at.object];
+    const KeptLight& light = *object.light;
+    const Spectrum& sun = frame.background->sun_irradiance_w_m2_um();
+    const bool sunlit = largest(sun) > 0;
+    const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
+    const Spectrum reflectance = light.albedo(at.surface_number).lobe(no);
+    KeptLight::Lobe lobe;
+    if (place.found) {
         const Mat3f& axes = frame.world_from_body[at.object];
-        KeptLight::Lobe lobe;
-        if (found)
-            lobe = light.lobe(sunlit ? &object.sun : nullptr, about.nearest(), to_body(axes, at.normal),
-                              to_body(axes, at.view_dir), at.surface.alpha);
-        Spectrum radiance = (lobe.occupied / kPiF) * others;
-        if (sunlit) radiance += sun * lobe.kept;
-        for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
-            radiance +=
-                lobe.free * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(reflectance));
-        out += reflectance * radiance;
+        lobe = light.lobe(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, place.nearest,
+                          to_body(axes, at.normal), to_body(axes, at.view_dir), at.surface.alpha);
     }
-    return textured ? tint(at.surface) * out : out;
+    Spectrum radiance = (lobe.occupied / kPiF) * place.others;
+    if (sunlit) radiance += sun * lobe.kept;
+    // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle.
+    const bool narrow = at.surface.alpha < kNarrowestKept;
+    float free = lobe.free;
+    if (narrow) free = at.mirrors_near ? tail_share(at.surface.alpha) * lobe.free : 1.0f;
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        radiance += free * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(reflectance));
+    const Spectrum out = reflectance * radiance;
+    return at.surface.material->texture >= 0 ? tint(at.surface) * out : out;
+}
+
+void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
+                                   Spectrum& radiance) const {
+    bool meets = false;
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
+        meets = meets || sky_.is_met(b, mirror);
+        radiance += weight * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(weight));
+    }
+    // Small bodies, and air.
+    if (!meets && frame.background->may_meet_body(mirror))
+        frame.background->add_bodies(at.start(), to_double(mirror), weight, radiance);
 }
 
 }  // namespace hilcam

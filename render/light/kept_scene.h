@@ -2,9 +2,9 @@
 // The kept light of all objects (kept_light.h) as one frame has it: brought up to where the sources are, and
 // looked up where a path meets a surface.
 //
-// Kept are the light between the parts of an object, and what of the bodies' light reaches it through its own
-// parts. The Sun and lamps shine on what a path meets by rays as ever. Not kept: light from one object to
-// another, terrain.
+// Kept are the light between the parts of an object and between objects that stand near each other, and what
+// of the bodies' light reaches them past their parts. The Sun and lamps shine on what a path meets by rays as
+// ever. Not kept: light of terrain, between objects far apart.
 
 #include <array>
 #include <memory>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "render/light/kept_light.h"
+#include "render/light/kept_updates.h"
 #include "render/light/sky_light.h"
 #include "render/light/tile.h"
 #include "render/scene/shown_object.h"
@@ -27,9 +27,11 @@ class KeptScene {
         bool emission = false;
     };
     // Light is kept on the objects that have a table. They outlive this. Owner thread.
-    KeptScene(std::span<const ShownObject> objects, const ColorBands& bands, const Settings& settings);
+    KeptScene(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
+              const Settings& settings);
 
-    // For a frame, after everything else is placed; solves for what has moved by a step. Loop.
+    // For a frame, after everything else is placed; solves for what has moved by a step, where that was not
+    // done ahead. Loop.
     void place(const FrameView& frame, const WorldSnapshot& world);
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
@@ -37,28 +39,46 @@ class KeptScene {
     // What is kept on an object, for people.
     std::string describe(std::size_t object) const;
 
-    // Adds to the tile's pixels what vertices that keep light reflect of it; narrow lobes apart. Loop, any
-    // thread.
-    void add_reflected(Tile& tile, std::span<const Vertex> vertices) const;
-    // An object may stand in a direction (world, unit) from a vertex that keeps light. Loop, any thread.
-    bool is_near(const FrameView& frame, const Vertex& at, Vec3f dir) const;
+    // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart; and notes
+    // which of those have something near in the mirror's direction. Loop, any thread.
+    void add_reflected(Tile& tile, std::span<Vertex> vertices) const;
+    // Adds what a lobe too narrow to be kept reflects of the bodies; mirror: its middle. Loop, any thread.
+    void add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
+                            Spectrum& radiance) const;
 
   private:
     struct Object {
         std::unique_ptr<KeptLight> light;
-        KeptTerm sun, glow;
-        std::array<KeptTerm, SkyLight::kMostBodies> bodies;
-        std::vector<KeptTerm> lamps;
         Vec3f origin_m;  // in ray space
     };
+    KeptTerms terms_;
     std::vector<Object> objects_;
-    KeptLight::Workspace work_;
+    std::vector<const KeptLight*> lights_;  // of them
+    std::unique_ptr<KeptUpdates> updates_;
     SkyLight sky_;
+    // How things stand now, some frames ago, and as far ahead; what that asks for.
+    static constexpr int kStride = 16;  // frames
+    KeptInputs now_, before_, long_before_, ahead_;
+    KeptTarget target_, ahead_target_;
+    int frames_ = 0;
 
-    void solve(const FrameView& frame, std::size_t object, const KeptSource& source, KeptTerm& term);
-    Spectrum reflected(const FrameView& frame, const Vertex& at, LightNodes::Hint& hint) const;
-    NodesAbout nodes_about(const FrameView& frame, const Vertex& at, bool& found,
-                           LightNodes::Hint& hint) const;
+    void take_inputs(const FrameView& frame, const WorldSnapshot& world);
+    void look_ahead();
+
+    // A vertex on its way through the lookup: many go together, so that none waits for memory.
+    struct Place {
+        Vertex* at;
+        LightNodes::Search search;
+        NodesAbout about;
+        std::uint32_t nearest;  // node, where there is one
+        bool found;
+        Spectrum others;  // irradiance of all but the Sun, by way of other surfaces
+    };
+    void find(const FrameView& frame, std::span<Place> places) const;
+    static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
+    bool is_near(const FrameView& frame, const Place& place) const;
+    Spectrum reflect_diffuse(const FrameView& frame, Place& place) const;
+    Spectrum reflect_lobe(const FrameView& frame, const Place& place) const;
 };
 
 }  // namespace hilcam

@@ -31,7 +31,7 @@ struct NextRay {
     float alpha_least;  // of the next vertex's facet lobe
     bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
     Spectrum weight;
-    bool meets_bodies = true;  // they have not been counted yet
+    bool whole_lobe = false;  // it stands for all of a narrow facet lobe about it
 
     // A lobe's ray stands for a cone of its density; an exact one goes on as it came.
     RayWidth width() const {
@@ -130,16 +130,16 @@ class TracedPaths final : public PathModel {
             at.weight * tile.frame.kept->light(at.object).albedo(at.surface_number).lobe(no);
         const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
         if (surface.alpha < kNarrowestLobe) {
-            const NextRay ray{&at, at.start(), mirror, 0, surface.alpha, surface.alpha == 0, weight};
+            const NextRay ray{&at, at.start(), mirror, 0, surface.alpha, surface.alpha == 0, weight, true};
             // What stands nowhere near is not looked for.
-            if (tile.frame.kept->is_near(tile.frame, at, mirror))
+            if (at.mirrors_near)
                 add_kept(tile, ray, ray_count);
             else if (dot(at.geometric_normal, mirror) > 0)
                 add_background(tile, ray);
             return;
         }
-        // The bodies in a lobe are kept_scene.h's; its rays look for what is near.
-        if (!tile.frame.kept->is_near(tile.frame, at, mirror)) return;
+        // Where nothing stands near, the bodies in a lobe are all there is, and kept_scene.h has them.
+        if (!at.mirrors_near) return;
         const float core = 1 - tail_share(surface.alpha);
         // Behind the first surface the lobe's middle stands for all of it: rays do not multiply.
         const int count = at.depth == 1 ? kLobeRays : 1;
@@ -152,7 +152,6 @@ class TracedPaths final : public PathModel {
                         surface.alpha,
                         false,
                         (core / static_cast<float>(count)) * weight};
-            ray.meets_bodies = false;
             if (count > 1) {
                 const float u1 = core * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
                 const float u2 = std::fmod(0.25f * static_cast<float>(i) + 0.125f, 1.0f);
@@ -214,10 +213,14 @@ class TracedPaths final : public PathModel {
 
     // The share of the light that next-event estimation has not counted.
     static void add_background(Tile& tile, const NextRay& ray) {
-        if (!ray.meets_bodies) return;
         const FrameView& frame = tile.frame;
         const Background& background = *frame.background;
         Spectrum& pixel = tile.pixels[ray.from->pixel];
+        if (ray.whole_lobe) {
+            frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.weight, pixel);
+            if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), ray.weight, pixel);
+            return;
+        }
         const bool exact = ray.density == 0;
         const float lamps = exact ? 0 : lamp_density(frame, *ray.from, ray.dir);
         Spectrum weight = exact ? ray.weight : (ray.density / (ray.density + lamps)) * ray.weight;

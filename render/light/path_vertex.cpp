@@ -7,6 +7,18 @@
 #include "render/light/kept_scene.h"
 
 namespace hilcam {
+
+void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+        if (hits.object[k] == HitPacket::kMiss) continue;
+        const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+        __builtin_prefetch(&object.triangles[hits.triangle[k]]);
+        if (object.corner_uvs.empty()) continue;
+        __builtin_prefetch(&object.corner_uvs[hits.triangle[k]]);
+        __builtin_prefetch(&object.uv_per_m[hits.triangle[k]]);
+    }
+}
+
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                  float alpha_least, RayWidth width, Vertex& vertex) {
     const auto k = static_cast<std::size_t>(lane);
@@ -52,6 +64,7 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     vertex.object = hits.object[k];
     vertex.surface_number = triangle.surface;
     vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
+    vertex.mirrors_near = true;
 
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     vertex.surface = {&material, alpha, material.base, material.highlight};

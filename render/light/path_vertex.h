@@ -23,6 +23,7 @@ struct Vertex {
     std::uint16_t surface_number;  // of the object's mesh
     bool back;                     // the side that its triangle's own normal points away from
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
+    bool mirrors_near;             // where that, something may stand in the mirror's direction
     Spectrum weight;
     Scatterer surface;
 
@@ -41,5 +42,7 @@ struct RayWidth {
 };
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                  float alpha_least, RayWidth width, Vertex& vertex);
+// Asks for the memory that make_vertex() reads, of all lanes that met an object.
+void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count);
 
 }  // namespace hilcam

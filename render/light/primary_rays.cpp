@@ -168,6 +168,7 @@ class PrimaryRays {
         if (objects) {
             frame_.scene->intersect(rays_, Coherence::kCoherent, hits_);
             tile_.stats.primary_rays += static_cast<std::uint64_t>(rays_.count);
+            prefetch_vertices(frame_, hits_, rays_.count);
         } else {
             hits_.object.fill(HitPacket::kMiss);
         }

@@ -11,21 +11,25 @@ namespace {
 
 constexpr float kGolden = 0.61803399f;
 
-// Weights of directions in a facet lobe: D V cos, brdf_microfacet.h, without branches.
+// Weights of directions in a facet lobe: D V cos.
 HILCAM_CLONES
 void lobe_weights(const float* x, const float* y, const float* z, std::size_t count, Vec3f normal, Vec3f view,
                   float alpha, float* weight) {
-    const float no = std::max(dot(normal, view), 1e-2f), a2 = alpha * alpha;
-    const float masked_o = std::sqrt(no * no * (1 - a2) + a2);
+    const GgxLobe law(alpha, std::max(dot(normal, view), 1e-2f));
     for (std::size_t i = 0; i < count; ++i) {
         const float ni = std::max(x[i] * normal.x + y[i] * normal.y + z[i] * normal.z, 0.0f);
         const float io = x[i] * view.x + y[i] * view.y + z[i] * view.z;
-        const float nh2 = std::min((no + ni) * (no + ni) / std::max(2 + 2 * io, 1e-6f), 1.0f);
-        const float t = nh2 * (a2 - 1) + 1;
-        const float masked_i = std::sqrt(ni * ni * (1 - a2) + a2);
         // The patches' irradiance is across the way: their cosine belongs to the weight.
-        weight[i] = ni * a2 / (kPiF * t * t) * 0.5f / (std::max(ni, 1e-3f) * masked_o + no * masked_i);
+        weight[i] = ni * law.at(std::max(ni, 1e-3f), io);
     }
+}
+
+// Direction i of count, evenly on a cone.
+Vec3f spiral(Vec3f axis, float one_minus_cosine, std::size_t i, std::size_t count) {
+    const float below =
+        (static_cast<float>(i) + 0.5f) / static_cast<float>(count) * one_minus_cosine;  // 1 - cos
+    const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * kGolden * static_cast<float>(i);
+    return Frame(axis).to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
 float sign(float x) { return x >= 0 ? 1.0f : -1.0f; }
@@ -65,11 +69,13 @@ Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
 }
 
 void SkyLight::place(const Background& background) {
+    background_ = &background;
     count_ = 0;
     for (const BodyLamp& lamp : background.lamps()) {
         const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
         if (count_ == kMostBodies || largest(lamp.most_over_sun) * solid_angle < kLeastOverSun) continue;
-        Disk& disk = disks_[count_] = disk_of(background, lamp);
+        place_disks(background, lamp, disks_[count_]);
+        const Disk& disk = disks_[count_].of.back();
         Body& body = bodies_[count_];
         body = {to_float(lamp.world_dir), {}, 1, {}};
         const auto add_to = [&disk](Vec3f normal, Spectrum& sum) {
@@ -90,24 +96,77 @@ void SkyLight::place(const Background& background) {
 }
 
 // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
-SkyLight::Disk SkyLight::disk_of(const Background& background, const BodyLamp& lamp) {
-    const Frame axis(to_float(lamp.world_dir));
+void SkyLight::place_disks(const Background& background, const BodyLamp& lamp, Disks& disks) {
+    const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
+    disks.cosine = std::cos(half_angle), disks.sine = std::sin(half_angle);
+    disks.half_angle_rad = half_angle;
+    Disk& whole = disks.of.back();
+    const Vec3f axis = to_float(lamp.world_dir);
     Spectrum each_sr;
     each_sr.bin.fill(2 * kPiF * lamp.one_minus_cosine / kPatches);
-    Disk out{};
     for (std::size_t i = 0; i < kPatches; ++i) {
-        const float below = (static_cast<float>(i) + 0.5f) / kPatches * lamp.one_minus_cosine;  // 1 - cos
-        const float r = std::sqrt(below * (2 - below)), phi = 2 * kPiF * kGolden * static_cast<float>(i);
-        const Vec3f dir = axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
-        out.x[i] = dir.x, out.y[i] = dir.y, out.z[i] = dir.z;
+        const Vec3f dir = spiral(axis, lamp.one_minus_cosine, i, kPatches);
+        whole.x[i] = dir.x, whole.y[i] = dir.y, whole.z[i] = dir.z;
+        whole.irradiance[i] = {};
         Spectrum weight = each_sr;
-        background.add_bodies({}, to_double(dir), weight, out.irradiance[i]);
+        background.add_bodies({}, to_double(dir), weight, whole.irradiance[i]);
     }
-    // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half of
-    // that.
-    const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
-    out.cosine = std::cos(half_angle), out.sine = std::sin(half_angle);
-    out.least_alpha = half_angle / std::sqrt(static_cast<float>(kPatches));
+    for (std::size_t k = 0; k < kParts.size(); ++k) {
+        // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half
+        // of that.
+        disks.of[k].least_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
+        if (kParts[k] < kPatches) place_parts(whole, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
+    }
+}
+
+// Each patch's light goes to the nearest of fewer, which stand in the middle of what they have of it.
+void SkyLight::place_parts(const Disk& whole, Vec3f axis, float one_minus_cosine, std::size_t count,
+                           Disk& out) {
+    std::array<Vec3f, kPatches> seed, middle{};
+    for (std::size_t k = 0; k < count; ++k)
+        seed[k] = spiral(axis, one_minus_cosine, k, count), out.irradiance[k] = {};
+    for (std::size_t i = 0; i < kPatches; ++i) {
+        const Vec3f dir{whole.x[i], whole.y[i], whole.z[i]};
+        std::size_t best = 0;
+        for (std::size_t k = 1; k < count; ++k)
+            if (dot(seed[k], dir) > dot(seed[best], dir)) best = k;
+        out.irradiance[best] += whole.irradiance[i];
+        middle[best] = middle[best] + largest(whole.irradiance[i]) * dir;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vec3f dir = dot(middle[k], middle[k]) > 0 ? normalized(middle[k]) : seed[k];
+        out.x[k] = dir.x, out.y[k] = dir.y, out.z[k] = dir.z;
+    }
+}
+
+// By a lobe that is narrow against the disk: what it sees of the disk has one radiance, and the limb cuts off
+// the rest as a straight line does.
+Spectrum SkyLight::past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
+    const Disks& disks = disks_[body];
+    const Vec3f axis = bodies_[body].world_dir, mirror = normalized(reflect(view_dir, normal));
+    const float cosine = std::clamp(dot(mirror, axis), -1.0f, 1.0f);
+    const Vec3f across = mirror - cosine * axis;
+    const float sine = length(across);
+    const Vec3f way = sine > 1e-6f ? across / sine : Frame(axis).t;
+    // Along the great circle from the disk's middle through the mirror's direction.
+    const auto at = [&](float angle) { return std::cos(angle) * axis + std::sin(angle) * way; };
+    const float outside = std::acos(cosine) - disks.half_angle_rad;
+    const Vec3f limb = at(disks.half_angle_rad);
+    if (outside > 0 && (alpha == 0 || dot(limb, normal) <= 0)) return {};
+    // GGX slopes along one axis: density a^2 / (2 (a^2 + s^2)^1.5) (Heitz, JCGT 3(2), 2014, sec. 5,
+    // integrated over the other axis).
+    float share = 1;
+    if (alpha > 0) {
+        const float nh = std::min(dot(normalized(limb + view_dir), normal), 1.0f);
+        const float slope = std::sqrt(std::max(1 / std::max(nh * nh, 1e-6f) - 1, 0.0f));
+        share = 0.5f + std::copysign(0.5f, -outside) * slope / std::sqrt(slope * slope + alpha * alpha);
+    }
+    // Past the limb the lobe sees it about as deep as it is away.
+    const float depth = std::clamp(outside, 0.01f * disks.half_angle_rad, disks.half_angle_rad);
+    const Vec3f seen = outside > 0 ? at(disks.half_angle_rad - depth) : mirror;
+    Spectrum weight, out;
+    weight.bin.fill(share);
+    background_->add_bodies({}, to_double(seen), weight, out);
     return out;
 }
 
@@ -131,22 +190,31 @@ void SkyLight::place_light(const Disk& disk, Body& body) {
 
 Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
                           float reflectance) const {
-    const Disk& disk = disks_[body];
-    const float width = std::max(alpha, disk.least_alpha);
+    const Disks& disks = disks_[body];
+    // So many parts that facets' alpha is what they lie apart; else all.
+    std::size_t k = 0;
+    while (k + 1 < kParts.size() && alpha < 2 * disks.of[k].least_alpha) ++k;
+    const Disk& disk = disks.of[k];
+    const std::size_t count = kParts[k];
     // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
     // the disk has.
     const float off = std::clamp(dot(reflect(view_dir, normal), bodies_[body].world_dir), -1.0f, 1.0f);
-    const float limb = off >= disk.cosine ? 1.0f : off * disk.cosine + std::sqrt(1 - off * off) * disk.sine;
+    // Two parts' distance past the limb a narrow lobe's tail is even over a part, and the disk is no half of
+    // the sky.
+    if (alpha < disk.least_alpha && off > std::cos(disks.half_angle_rad + 4 * disk.least_alpha))
+        return past_limb(body, normal, view_dir, alpha);
+    const float limb =
+        off >= disks.cosine ? 1.0f : off * disks.cosine + std::sqrt(1 - off * off) * disks.sine;
     const float no = std::max(dot(normal, view_dir), 1e-2f);
     constexpr float kNextToNothing = 1e-3f;  // of the irradiance, as radiance
-    if (reflectance * ggx_distribution(width, std::sqrt(0.5f + 0.5f * limb)) * 0.5f / (no * width) <
+    if (reflectance * ggx_distribution(alpha, std::sqrt(0.5f + 0.5f * limb)) * 0.5f /
+            (no * std::max(alpha, 1e-4f)) <
         kNextToNothing)
         return {};
     alignas(64) std::array<float, kPatches> weight;
-    lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), kPatches, normal, view_dir, width,
-                 weight.data());
+    lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), count, normal, view_dir, alpha, weight.data());
     Spectrum sum;
-    for (std::size_t i = 0; i < kPatches; ++i) sum += weight[i] * disk.irradiance[i];
+    for (std::size_t i = 0; i < count; ++i) sum += weight[i] * disk.irradiance[i];
     return sum;
 }
 

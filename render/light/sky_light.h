@@ -30,13 +30,16 @@ class SkyLight {
     };
     std::span<const Body> bodies() const { return {bodies_.data(), count_}; }
 
+    // Its disk lies in this direction.
+    bool is_met(std::size_t body, Vec3f world_dir) const {
+        return dot(bodies_[body].world_dir, world_dir) >= disks_[body].cosine;
+    }
     // Irradiance [W m^-2 um^-1] on a surface with this normal. Loop, any thread.
     Spectrum irradiance(std::size_t body, Vec3f world_normal) const {
         return irradiance_[body].at(world_normal);
     }
-    // Radiance that a facet lobe (GGX alpha) sends towards the viewer of it, Fresnel's term left out. Unit
-    // vectors, world. Lobes narrower than the patches lie apart are as wide as that. reflectance: what is not
-    // worth it with that is zero.
+    // Radiance that a facet lobe (GGX alpha; 0: a mirror) sends towards the viewer of it, Fresnel's term left
+    // out. Unit vectors, world. reflectance: what is not worth it with that is zero.
     Spectrum glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha, float reflectance) const;
 
   private:
@@ -47,22 +50,30 @@ class SkyLight {
         static Vec3f direction(int index);
         Spectrum at(Vec3f dir) const;
     };
-    // A body's disk in parts of equal solid angle.
+    // A body's disk in parts of equal solid angle; and in fewer, for lobes that are wide against them.
     static constexpr std::size_t kPatches = 64;
+    static constexpr std::array<std::size_t, 3> kParts = {4, 16, kPatches};
     struct Disk {
         alignas(64) std::array<float, kPatches> x, y, z;
         std::array<Spectrum, kPatches> irradiance;  // of each, on a surface that faces it
-        float cosine = 1, sine = 0;                 // of its half angle
         float least_alpha = 0;
     };
+    struct Disks {
+        std::array<Disk, kParts.size()> of;  // by kParts
+        float cosine = 1, sine = 0, half_angle_rad = 0;
+    };
 
+    const Background* background_ = nullptr;
     std::size_t count_ = 0;
     std::array<Body, kMostBodies> bodies_;
     std::array<DirectionMap, kMostBodies> irradiance_;
-    std::array<Disk, kMostBodies> disks_;
+    std::array<Disks, kMostBodies> disks_;
 
+    Spectrum past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);
-    static Disk disk_of(const Background& background, const BodyLamp& lamp);
+    static void place_disks(const Background& background, const BodyLamp& lamp, Disks& disks);
+    static void place_parts(const Disk& whole, Vec3f axis, float one_minus_cosine, std::size_t count,
+                            Disk& out);
 };
 
 }  // namespace hilcam

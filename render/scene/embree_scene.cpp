@@ -109,6 +109,23 @@ std::uint32_t blocked_in(RTCScene scene, const RayPacket& rays) {
     return blocked;
 }
 
+void met_in(RTCScene scene, const RayPacket& rays, Coherence coherence, RTCRayHit16& query, HitPacket& hits) {
+    alignas(64) int valid[kPacketSize];
+    set_valid(rays.count, valid);
+    copy_rays(rays, query.ray);
+    std::memset(query.hit.geomID, 0xFF, sizeof(query.hit.geomID));
+    std::memset(query.hit.instID[0], 0xFF, sizeof(query.hit.instID[0]));
+    intersect_16(valid, scene, coherence, query);
+    static_assert(HitPacket::kMiss == RTC_INVALID_GEOMETRY_ID);
+    std::memcpy(hits.distance.data(), query.ray.tfar, sizeof(query.ray.tfar));
+    std::memcpy(hits.u.data(), query.hit.u, sizeof(query.hit.u));
+    std::memcpy(hits.v.data(), query.hit.v, sizeof(query.hit.v));
+    std::memcpy(hits.normal_x.data(), query.hit.Ng_x, sizeof(query.hit.Ng_x));
+    std::memcpy(hits.normal_y.data(), query.hit.Ng_y, sizeof(query.hit.Ng_y));
+    std::memcpy(hits.normal_z.data(), query.hit.Ng_z, sizeof(query.hit.Ng_z));
+    std::memcpy(hits.triangle.data(), query.hit.primID, sizeof(query.hit.primID));
+}
+
 }  // namespace
 
 // An object whose instance has to be told its scene anew.
@@ -239,24 +256,19 @@ void EmbreeScene::adopt(std::size_t object, PreparedMesh& mesh) {
 
 void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const {
     if (implementation_->recorded) implementation_->recorded->push_back({rays, coherence, false});
-    alignas(64) int valid[kPacketSize];
-    set_valid(rays.count, valid);
     RTCRayHit16 query;
-    copy_rays(rays, query.ray);
-    std::memset(query.hit.geomID, 0xFF, sizeof(query.hit.geomID));
-    std::memset(query.hit.instID[0], 0xFF, sizeof(query.hit.instID[0]));
-    intersect_16(valid, implementation_->top, coherence, query);
-    static_assert(HitPacket::kMiss == RTC_INVALID_GEOMETRY_ID);
-    std::memcpy(hits.distance.data(), query.ray.tfar, sizeof(query.ray.tfar));
-    std::memcpy(hits.u.data(), query.hit.u, sizeof(query.hit.u));
-    std::memcpy(hits.v.data(), query.hit.v, sizeof(query.hit.v));
-    std::memcpy(hits.normal_x.data(), query.hit.Ng_x, sizeof(query.hit.Ng_x));
-    std::memcpy(hits.normal_y.data(), query.hit.Ng_y, sizeof(query.hit.Ng_y));
-    std::memcpy(hits.normal_z.data(), query.hit.Ng_z, sizeof(query.hit.Ng_z));
-    std::memcpy(hits.triangle.data(), query.hit.primID, sizeof(query.hit.primID));
+    met_in(implementation_->top, rays, coherence, query, hits);
     for (std::size_t i = 0; i < kPacketSize; ++i)
         hits.object[i] =
             query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? HitPacket::kMiss : query.hit.instID[0][i];
+}
+
+void EmbreeScene::intersect_with(std::size_t object, const RayPacket& rays, HitPacket& hits) const {
+    RTCRayHit16 query;
+    met_in(implementation_->levels[object].front(), rays, Coherence::kIncoherent, query, hits);
+    for (std::size_t i = 0; i < kPacketSize; ++i)
+        hits.object[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? HitPacket::kMiss
+                                                                        : static_cast<std::uint32_t>(object);
 }
 
 std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
@@ -265,7 +277,7 @@ std::uint32_t EmbreeScene::occluded(const RayPacket& rays) const {
 }
 
 std::uint32_t EmbreeScene::occluded_by(std::size_t object, const RayPacket& rays) const {
-    return blocked_in(implementation_->levels[object][implementation_->shown[object]], rays);
+    return blocked_in(implementation_->levels[object].front(), rays);
 }
 
 void EmbreeScene::start_recording() {

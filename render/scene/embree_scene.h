@@ -83,7 +83,9 @@ class EmbreeScene {
     void intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const;
     // Bit i set: something lies between nearest and farthest of ray i.
     std::uint32_t occluded(const RayPacket& rays) const;
-    // The same of one object alone, at the level it is placed at; rays in its own axes, from its origin.
+    // The same of one object alone, its first level; rays in its own axes, from its origin. Any thread, at
+    // any time but while adopt() runs.
+    void intersect_with(std::size_t object, const RayPacket& rays, HitPacket& hits) const;
     std::uint32_t occluded_by(std::size_t object, const RayPacket& rays) const;
 
     // For measurements: keeps a copy of every packet that is traced from now on, by any thread.

@@ -95,10 +95,16 @@ struct MeshExtent {
     double area_m2 = 0;
 };
 
-// Of the surfaces that keep light.
+// Only surfaces that keep light have a part in it.
 MeshExtent extent_of(const Mesh& mesh, std::span<const std::uint8_t> keeps);
 // In the order of their keys. On oneTBB; the same on any number of threads.
 std::vector<FoundCell> find_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps,
                                   const CubeGrid& grid);
+
+// Draws the cells' points anew where they are hidden, each with the chance that it is seen: most of a panel
+// may lie under tiles, and what is seen of it is the gaps. A cell that is hidden all over keeps what it had.
+// above_m: how far off the surface points are.
+void prefer_open_points(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
+                        float above_m, const Openness& openness, std::vector<FoundCell>& cells);
 
 }  // namespace hilcam

@@ -57,16 +57,19 @@ struct TextureReader {
     }
 };
 
+// How far above the surface points are: as rays leave it in path_vertex.cpp, with room for the triangles' own
+// rounding.
+float above_of(const Mesh& mesh) {
+    float greatest = 0;
+    for (const Vec3f v : mesh.vertices_m)
+        greatest = std::max({greatest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return 32 * std::numeric_limits<float>::epsilon() * greatest;
+}
+
 class NodeMaker {
   public:
     NodeMaker(const Mesh& mesh, const CubeGrid& grid, std::span<const FoundCell> cells)
-        : mesh_(mesh), grid_(grid), cells_(cells), textures_(mesh) {
-        float greatest = 0;
-        for (const Vec3f v : mesh.vertices_m)
-            greatest = std::max({greatest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-        // As rays leave surfaces in path_vertex.cpp, with room for the triangles' own rounding.
-        above_m_ = 32 * std::numeric_limits<float>::epsilon() * greatest;
-    }
+        : mesh_(mesh), grid_(grid), cells_(cells), textures_(mesh), above_m_(above_of(mesh)) {}
 
     LightNode make(const CellSet& set, std::uint64_t seed) const {
         LightNode node;
@@ -100,7 +103,7 @@ class NodeMaker {
     CubeGrid grid_;
     std::span<const FoundCell> cells_;
     TextureReader textures_;
-    float above_m_ = 0;
+    float above_m_;
 
     void add(LightNode& node, std::size_t i, const CellPoint& candidate, Vec3f& color) const {
         const TriangleSpread spread(mesh_, candidate.triangle, 0.5f * grid_.cube_m);
@@ -123,7 +126,8 @@ class NodeMaker {
 
 }  // namespace
 
-LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted) {
+LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,
+                       const Openness& openness) {
     const MeshExtent extent = extent_of(mesh, keeps);
     if (!(extent.area_m2 > 0) || !std::isfinite(extent.area_m2)) return;
     const Vec3f size = extent.most - extent.least;
@@ -139,6 +143,8 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
         if (ratio > 0.6 && ratio < 1.3) break;
         cube_m_ = std::max(least_cube_m, cube_m_ * static_cast<float>(std::sqrt(ratio)));
     }
+
+    prefer_open_points(mesh, keeps, {corner_m_, cube_m_}, above_of(mesh), openness, cells);
 
     const std::vector<CornerUse> uses = corners_of(cells);
     struct Group {
@@ -157,14 +163,15 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
         return std::tuple(a.set, a.first) < std::tuple(b.set, b.first);
     });
-    cells_.resize(cells.size());
+    std::vector<std::array<std::uint32_t, 8>> corners(cells.size());
     std::vector<CellSet> sets;
     for (const Group& group : groups) {
         if (sets.empty() || sets.back() != group.set) sets.push_back(group.set);
         const std::uint64_t key = uses[group.first].key;
         for (std::size_t i = group.first; i < uses.size() && uses[i].key == key; ++i)
-            cells_[uses[i].cell][uses[i].corner] = static_cast<std::uint32_t>(sets.size() - 1);
+            corners[uses[i].cell][uses[i].corner] = static_cast<std::uint32_t>(sets.size() - 1);
     }
+    cells_ = std::vector<Cell>(corners.begin(), corners.end());
     nodes_.resize(sets.size());
     const NodeMaker maker(mesh, {corner_m_, cube_m_}, cells);
     tbb::parallel_for(std::size_t{0}, sets.size(),
@@ -192,53 +199,69 @@ const LightNodes::Cell* LightNodes::cell(std::uint64_t key) const {
     return nullptr;
 }
 
-bool LightNodes::find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about, Hint& hint) const {
-    about.count = 0;
-    if (slots_.empty()) return false;
-    const std::uint64_t kind = kind_of(side);
-    const Vec3f at = (point_m - corner_m_) / cube_m_;
-    const Cube cube = CubeGrid{corner_m_, cube_m_}.cube(point_m);
-    const std::uint64_t key = key_of(cube, kind);
-    if (hint.of != this || hint.key != key) hint = {this, key, cell(key)};
-    const Cell* found = hint.cell;
-    Cube taken = cube;
+LightNodes::Search LightNodes::begin(Vec3f point_m, const SurfaceSide& side) const {
+    Search search;
+    search.at = (point_m - corner_m_) / cube_m_;
+    search.cube = CubeGrid{corner_m_, cube_m_}.cube(point_m);
+    search.key = key_of(search.cube, kind_of(side));
+    if (!slots_.empty()) __builtin_prefetch(&slots_[mixed(search.key) & (slots_.size() - 1)]);
+    return search;
+}
+
+void LightNodes::open(Search& search) const {
+    if (slots_.empty()) return;
+    search.cell = cell(search.key);
     // The surface can cut a corner off the cube that no point fell into, and a level of detail is a little
     // beside the mesh: then the nearest of the neighbours that share a face or an edge.
-    if (!found) {
-        float nearest = INFINITY;
-        for (int i = 0; i < 27; ++i) {
-            const Cube near{cube.x + i % 3 - 1, cube.y + i / 3 % 3 - 1, cube.z + i / 9 - 1};
-            const auto beyond = [](float x, int c) {
-                return std::max({static_cast<float>(c) - x, x - static_cast<float>(c + 1), 0.0f});
-            };
-            const Vec3f off{beyond(at.x, near.x), beyond(at.y, near.y), beyond(at.z, near.z)};
-            if (dot(off, off) >= nearest) continue;
-            const Cell* candidate = cell(key_of(near, kind));
-            if (candidate) found = candidate, taken = near, nearest = dot(off, off);
-        }
-        if (!found) return false;
+    if (!search.cell) take_neighbour(search);
+    if (search.cell) __builtin_prefetch(search.cell);
+}
+
+void LightNodes::take_neighbour(Search& search) const {
+    float nearest = INFINITY;
+    const Cube cube = search.cube;
+    for (int i = 0; i < 27; ++i) {
+        const Cube near{cube.x + i % 3 - 1, cube.y + i / 3 % 3 - 1, cube.z + i / 9 - 1};
+        const auto beyond = [](float x, int c) {
+            return std::max({static_cast<float>(c) - x, x - static_cast<float>(c + 1), 0.0f});
+        };
+        const Vec3f off{beyond(search.at.x, near.x), beyond(search.at.y, near.y),
+                        beyond(search.at.z, near.z)};
+        if (dot(off, off) >= nearest) continue;
+        const Cell* candidate = cell(key_of(near, search.key >> 45));
+        if (candidate) search.cell = candidate, search.cube = near, nearest = dot(off, off);
     }
+}
+
+bool LightNodes::finish(const Search& search, NodesAbout& about) const {
+    about.count = 0;
+    if (!search.cell) return false;
+    const Cell& cell = *search.cell;
     const auto share = [](float x, int c) { return std::clamp(x - static_cast<float>(c), 0.0f, 1.0f); };
-    const Vec3f t{share(at.x, taken.x), share(at.y, taken.y), share(at.z, taken.z)};
+    const Vec3f t{share(search.at.x, search.cube.x), share(search.at.y, search.cube.y),
+                  share(search.at.z, search.cube.z)};
+    const std::array<float, 2> x{1 - t.x, t.x}, y{1 - t.y, t.y}, z{1 - t.z, t.z};
+    std::array<float, Cell::kNone + 1> weight{};
+    for (std::size_t i = 0; i < 8; ++i) weight[cell.corner(i)] += x[i & 1] * y[i >> 1 & 1] * z[i >> 2];
     float sum = 0;
-    for (std::size_t i = 0; i < 8; ++i) {
-        const std::uint32_t node = (*found)[i];
-        const float weight = (i & 1 ? t.x : 1 - t.x) * (i & 2 ? t.y : 1 - t.y) * (i & 4 ? t.z : 1 - t.z);
-        if (node == kClosed || !(weight > 0)) continue;
-        sum += weight;
-        int k = 0;
-        while (k < about.count && about.node[static_cast<std::size_t>(k)] != node) ++k;
-        const auto place = static_cast<std::size_t>(k);
-        if (k == about.count) {
-            about.node[place] = node;
-            about.weight[place] = weight;
-            ++about.count;
-        } else {
-            about.weight[place] += weight;
-        }
-    }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(about.count); ++i) about.weight[i] /= sum;
+    for (std::size_t i = 0; i < cell.count; ++i) sum += weight[i];
+    if (!(sum > 0)) return true;
+    about.count = cell.count;
+    for (std::size_t i = 0; i < cell.count; ++i)
+        about.node[i] = cell.node[i], about.weight[i] = weight[i] / sum;
     return true;
+}
+
+LightNodes::Cell::Cell(const std::array<std::uint32_t, 8>& of_corner) {
+    for (std::size_t i = 0; i < of_corner.size(); ++i) {
+        unsigned place = kNone;
+        if (of_corner[i] != kClosed) {
+            place = static_cast<unsigned>(std::find(node.begin(), node.begin() + count, of_corner[i]) -
+                                          node.begin());
+            if (place == count) node[count++] = of_corner[i];
+        }
+        corners |= place << (4 * i);
+    }
 }
 
 void LightNodes::keep(std::span<const std::uint32_t> new_number) {
@@ -248,9 +271,12 @@ void LightNodes::keep(std::span<const std::uint32_t> new_number) {
     for (std::size_t i = 0; i < nodes_.size(); ++i)
         if (new_number[i] != kClosed) kept[new_number[i]] = nodes_[i];
     nodes_ = std::move(kept);
-    for (Cell& cell : cells_)
-        for (std::uint32_t& node : cell)
-            if (node != kClosed) node = new_number[node];
+    for (Cell& cell : cells_) {
+        std::array<std::uint32_t, 8> of_corner;
+        for (std::size_t i = 0; i < of_corner.size(); ++i)
+            of_corner[i] = cell.corner(i) == Cell::kNone ? kClosed : new_number[cell.node[cell.corner(i)]];
+        cell = Cell(of_corner);
+    }
 }
 
 std::size_t LightNodes::bytes() const {
@@ -266,9 +292,13 @@ bool LightNodes::is_whole() const {
         ++used;
     }
     if (!slots_.empty() && used == slots_.size()) return false;  // a search would not end
-    for (const Cell& cell : cells_)
-        for (const std::uint32_t node : cell)
-            if (node != kClosed && node >= nodes_.size()) return false;
+    for (const Cell& cell : cells_) {
+        if (cell.count > 8) return false;
+        for (std::size_t i = 0; i < 8; ++i)
+            if (cell.corner(i) != Cell::kNone && cell.corner(i) >= cell.count) return false;
+        for (std::size_t i = 0; i < cell.count; ++i)
+            if (cell.node[i] >= nodes_.size()) return false;
+    }
     return true;
 }
 

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,12 +26,12 @@ namespace hilcam {
 struct NodesAbout {
     std::array<std::uint32_t, 8> node;
     std::array<float, 8> weight;
-    int count = 0;  // 0: the place is closed in, no light comes there
+    std::size_t count = 0;  // 0: the place is closed in, no light comes there
 
     // The one with the greatest weight; count > 0.
     std::uint32_t nearest() const {
         std::size_t best = 0;
-        for (std::size_t i = 1; i < static_cast<std::size_t>(count); ++i)
+        for (std::size_t i = 1; i < count; ++i)
             if (weight[i] > weight[best]) best = i;
         return node[best];
     }
@@ -48,6 +49,9 @@ struct LightNode {
     Vec3f color{1, 1, 1};  // of the texture about there, linear RGB; 1 without
 };
 
+// The share of what a place just above a surface sees that is further away than within_m. Any thread.
+using Openness = std::function<float(Vec3f point_m, Vec3f geometric_normal, float within_m)>;
+
 class LightNodes {
   public:
     static constexpr std::uint32_t kClosed = ~std::uint32_t{0};
@@ -56,21 +60,38 @@ class LightNodes {
     // keeps: per surface of the mesh, whether light is kept on it. wanted: about so many nodes (between half
     // and one and a half of that, small meshes apart). Owner thread, on oneTBB; the same on any number of
     // threads.
-    LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted);
+    LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, std::size_t wanted,
+               const Openness& openness);
 
-    // A cell that was found last: places that are looked up one after the other are mostly neighbours.
-    struct Hint {
-        const LightNodes* of = nullptr;
-        std::uint64_t key = 0;
-        const std::array<std::uint32_t, 8>* cell = nullptr;
+    // The nodes of a cell's cube, each once, and which of them its corners are.
+    struct Cell {
+        static constexpr unsigned kNone = 8;
+        std::array<std::uint32_t, 8> node{};
+        std::uint32_t count = 0;
+        std::uint32_t corners = 0;  // four bits each: x + 2 y + 4 z; kNone: closed
+
+        Cell() = default;
+        explicit Cell(const std::array<std::uint32_t, 8>& of_corner);
+        unsigned corner(std::size_t i) const { return corners >> (4 * i) & 0xFu; }
     };
-    // A place in body axes. False where there are no cells: the place is off every surface by more than a
-    // cube. Loop, any thread.
+    // A search for a place in body axes, in steps: each asks for the memory that the next one reads, so that
+    // who looks up many places takes every step for all of them. Loop, any thread.
+    struct Search {
+        Vec3f at{};  // in cubes
+        Cube cube{};
+        std::uint64_t key = 0;
+        const Cell* cell = nullptr;
+    };
+    Search begin(Vec3f point_m, const SurfaceSide& side) const;
+    void open(Search& search) const;
+    // False where there are no cells: the place is off every surface by more than a cube.
+    bool finish(const Search& search, NodesAbout& about) const;
+    // All steps in one.
     bool find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about) const {
-        Hint none;
-        return find(point_m, side, about, none);
+        Search search = begin(point_m, side);
+        open(search);
+        return finish(search, about);
     }
-    bool find(Vec3f point_m, const SurfaceSide& side, NodesAbout& about, Hint& hint) const;
 
     const std::vector<LightNode>& nodes() const { return nodes_; }
     float cube_m() const { return cube_m_; }
@@ -86,7 +107,6 @@ class LightNodes {
         std::uint32_t unused = 0;  // no byte of a file is left to chance
         static constexpr std::uint64_t kNone = ~std::uint64_t{0};
     };
-    using Cell = std::array<std::uint32_t, 8>;  // nodes of its cube's corners: x + 2 y + 4 z
     template <class Archive>
     static void list(auto& self, Archive& archive) {
         archive(self.corner_m_), archive(self.cube_m_), archive(self.slots_), archive(self.cells_),
@@ -103,6 +123,7 @@ class LightNodes {
     std::vector<LightNode> nodes_;
 
     const Cell* cell(std::uint64_t key) const;
+    void take_neighbour(Search& search) const;
     void index(std::span<const std::uint64_t> keys);
 };
 

@@ -42,11 +42,13 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         if (object.like) {
             objects.push_back(objects[*object.like]);
             objects.back().name = object.name;
+            objects.back().turn_rate_rad_s = object.turn_rate_rad_s;
             continue;
         }
         ShownObject& out = objects.emplace_back();
         out.name = object.name;
         out.transfer = std::move(object.transfer);
+        out.turn_rate_rad_s = object.turn_rate_rad_s;
         std::vector<MipTexture> pictures;
         for (Texture& texture : object.mesh.textures) pictures.emplace_back(std::move(texture));
         const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));

@@ -15,6 +15,7 @@ struct ShownObject {
     std::vector<std::shared_ptr<const ObjectSurfaces>> levels;  // the mesh itself first; shared by its like
     std::vector<double> error_m;                                // of each
     std::shared_ptr<const TransferTable> transfer;  // null: no light is kept on it; shared by its like
+    double turn_rate_rad_s = 0;
 
     const std::vector<Material>& materials() const { return levels.front()->materials; }
     double radius_m() const { return levels.front()->radius_m; }

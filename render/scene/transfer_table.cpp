@@ -160,6 +160,23 @@ class Tracer {
     }
 };
 
+// By sixteen directions; glass is clear.
+float openness(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene, Vec3f point_m,
+               Vec3f normal, float within_m) {
+    static const std::vector<Vec3f> kDirections = transfer_directions(kPacketSize);
+    const Frame frame(normal);
+    RayPacket rays;
+    HitPacket hits;
+    rays.count = kPacketSize;
+    for (std::size_t i = 0; i < kPacketSize; ++i)
+        rays.set(static_cast<int>(i), point_m, frame.to_world(kDirections[i]), 0, within_m);
+    scene.intersect(rays, Coherence::kIncoherent, hits);
+    int open = 0;
+    for (std::size_t i = 0; i < kPacketSize; ++i)
+        open += hits.object[i] == HitPacket::kMiss || glass[mesh.surface_of_triangle[hits.triangle[i]]];
+    return static_cast<float>(open) / kPacketSize;
+}
+
 }  // namespace
 
 std::vector<Vec3f> transfer_directions(int count) {
@@ -178,26 +195,29 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
     : directions_(settings.directions) {
     std::vector<std::uint8_t> keeps;
     for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
-    nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMostNodes / 2));
+    EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
+    scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
+    nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMostNodes / 2),
+                        [&](Vec3f point_m, Vec3f normal, float within_m) {
+                            return openness(mesh, glass, scene, point_m, normal, within_m);
+                        });
     for (std::size_t n = 0; n < size(); ++n) {
         // Turns that are far from those of the nodes beside.
         const float part = std::fmod(static_cast<float>(n % 4096) * kGolden, 1.0f);
         turns_.push_back({std::cos(2 * kPiF * part), std::sin(2 * kPiF * part)});
     }
-    std::vector<Block> blocks = trace(mesh, glass);
+    std::vector<Block> blocks = trace(mesh, glass, scene);
     drop_dead_ends(blocks);
     pack(blocks, numbers_of_open(blocks, settings.enclosed));
 }
 
-std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh,
-                                                       std::span<const std::uint8_t> glass) {
+std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::span<const std::uint8_t> glass,
+                                                       const EmbreeScene& scene) {
     const std::vector<Vec3f> local = transfer_directions(directions_);
     std::vector<Block> blocks((size() + kBlock - 1) / kBlock);
     free_.assign(size() * free_words(), 0);
     live_.assign(size(), 0), counted_.assign(size(), 0);
     if (blocks.empty()) return blocks;
-    EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
-    scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
     const Tracer tracer(mesh, glass, nodes_, scene, local, turns_);
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
         const std::size_t first = b * kBlock, last = std::min(size(), first + kBlock);

@@ -32,6 +32,8 @@ struct TransferSettings {
 // point come first, then those of its second, and so on.
 std::vector<Vec3f> transfer_directions(int count);
 
+class EmbreeScene;
+
 class TransferTable {
   public:
     TransferTable() = default;
@@ -53,6 +55,8 @@ class TransferTable {
     std::span<const Entry> entries(std::size_t node) const {
         return {entries_.data() + first_entry_[node], first_entry_[node + 1] - first_entry_[node]};
     }
+    std::uint32_t first_entry(std::size_t node) const { return first_entry_[node]; }
+    const Entry* entry(std::size_t number) const { return entries_.data() + number; }
     std::size_t entries() const { return entries_.size(); }
     // Bits by direction, 64 to a word: nothing is met.
     std::span<const std::uint64_t> free(std::size_t node) const {
@@ -103,7 +107,7 @@ class TransferTable {
         std::vector<Link> links;
         std::vector<std::size_t> counts;  // by node
     };
-    std::vector<Block> trace(const Mesh& mesh, std::span<const std::uint8_t> glass);
+    std::vector<Block> trace(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene);
     static void for_each_node(std::vector<Block>& blocks,
                               const std::function<void(std::size_t, std::span<Link>)>& visit);
     void drop_dead_ends(std::vector<Block>& blocks);

@@ -11,12 +11,6 @@
 namespace hilcam {
 namespace {
 
-double mean_of(const Stage& s) {
-    double sum = 0;
-    for (const float value : s.radiance.plane(0)) sum += static_cast<double>(value);
-    return sum / static_cast<double>(s.radiance.plane(0).size());
-}
-
 // All bounces in a closed box, so that walls of every reflectance are as bright as the black body; a wall of
 // 0.9 sends light ten times around.
 TEST(KeptLight, AFurnaceIsWhiteInside) {
@@ -40,8 +34,7 @@ TEST(KeptLight, AnIntegratingSphereHasAllBounces) {
     s.world.lamps.resize(1);
     s.world.lamps[0] = {middle_m, {0, 0, 1}, 1};
     s.render();
-    EXPECT_NEAR(mean_of(s) / (kWhite / kPi * static_cast<double>(kIntensity_w_sr_um) / (1 - kWhite)), 1,
-                0.01);
+    EXPECT_NEAR(s.mean() / (kWhite / kPi * static_cast<double>(kIntensity_w_sr_um) / (1 - kWhite)), 1, 0.01);
 }
 
 // A floor at z = 0 and a wall of the same size that stands on its edge, both two metres wide.
@@ -75,12 +68,12 @@ TEST(KeptLight, ACornerIsAsRandomPathsHaveIt) {
               kept = corner_stage("kept", material, 2);
         paths.quality.facets_behind_diffuse = 0;
         for (Stage* s : {&direct, &paths, &kept}) s->render();
-        const double between = mean_of(paths) - mean_of(direct);
-        EXPECT_GT(between, 0.05 * mean_of(direct));
+        const double between = paths.mean() - direct.mean();
+        EXPECT_GT(between, 0.05 * direct.mean());
         // From the second bounce on facets are kept as paint: between rough metal walls that is an eighth too
         // much.
         const double error = material.model == ReflectionModel::kMetal ? 0.14 : 0.015;
-        EXPECT_NEAR((mean_of(kept) - mean_of(direct)) / between, 1, error);
+        EXPECT_NEAR((kept.mean() - direct.mean()) / between, 1, error);
     }
 }
 
@@ -118,11 +111,86 @@ TEST(KeptLight, EarthshineIsHiddenByTheObjectsOwnParts) {
         s.world.bodies[BodyId::kEarth].world_m = {9e6, 0, -7e6};
         s.sun({-0.5, 0, 1});
         s.render();
-        return mean_of(s);
+        return s.mean();
     };
     const double paths = light("path", 8);
     EXPECT_GT(paths, 0);
     EXPECT_NEAR(light("kept", 2) / paths, 1, 0.06);
+}
+
+// Polished metal beside the Earth's limb: the tails of its lobe, narrow against the disk, reach over it.
+TEST(KeptLight, PolishedMetalSeesTheEarthPastItsLimb) {
+    const auto light = [](const char* model, int samples, double tilt_rad) {
+        Stage s;
+        s.quality.path_model = model;
+        s.quality.max_depth = 2;
+        s.quality.contribution_threshold = 0;
+        s.quality.samples_per_axis = samples;
+        s.quality.rays_across = 0;
+        s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
+        MaterialConfig metal = lambert(0.8);
+        metal.model = ReflectionModel::kMetal;
+        metal.roughness = 0.15;  // alpha 0.0225
+        s.camera(16, 0.05);
+        s.add(plate(metal, s.grid), {0, 0, 4}, {kPi + tilt_rad, 0, 0});
+        s.earth(0.3);
+        // Behind the camera, 70 degrees of half angle; lit from above.
+        s.world.bodies[BodyId::kEarth].world_m = {0, 0, -6.7875e6};
+        s.sun({0, 0.2, 1});
+        s.render();
+        return s.mean();
+    };
+    const double inside = light("kept", 2, 0.3);
+    EXPECT_GT(inside, 0);
+    // The mirror's direction leaves the disk at a tilt of 35 degrees.
+    for (const double tilt_deg : {30.0, 34.0, 36.0, 38.0, 42.0}) {
+        const double tilt_rad = tilt_deg * kDegree_rad, paths = light("path", 16, tilt_rad);
+        EXPECT_NEAR(light("kept", 2, tilt_rad) / inside, paths / inside, 0.03) << tilt_deg;
+    }
+}
+
+// A white floor under tiles that cover most of it, a hair above: what is seen of it are the gaps, and those
+// have their light.
+TEST(KeptLight, TheGapsBetweenTilesAreLit) {
+    const auto stage = [](const char* model, float above_m) {
+        Stage s;
+        s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
+        s.quality.path_model = model;
+        s.quality.samples_per_axis = 8;
+        s.quality.contribution_threshold = 0;
+        s.quality.rays_across = 0;
+        s.kept.nodes = 300;
+        s.camera(64, 0.3);
+        std::vector<Vec3f> v = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+        std::vector<std::array<std::uint32_t, 3>> t = {{0, 1, 2}, {0, 2, 3}};
+        constexpr int kTiles = 16;
+        for (int i = 0; i < kTiles * kTiles; ++i) {
+            const float step = 2.0f / kTiles, x = -1 + step * static_cast<float>(i % kTiles),
+                        y = -1 + step * static_cast<float>(i / kTiles), w = 0.9f * step, z = above_m;
+            const auto n = static_cast<std::uint32_t>(v.size());
+            for (const Vec3f corner :
+                 {Vec3f{x, y, z}, Vec3f{x + w, y, z}, Vec3f{x + w, y + w, z}, Vec3f{x, y + w, z}})
+                v.push_back(corner);
+            t.push_back({n, n + 1, n + 2}), t.push_back({n, n + 2, n + 3});
+        }
+        SceneObject tiled = object_of(v, t, lambert(0.8), s.grid);
+        tiled.mesh.surfaces.resize(2);
+        std::fill(tiled.mesh.surface_of_triangle.begin() + 2, tiled.mesh.surface_of_triangle.end(),
+                  std::uint16_t{1});
+        tiled.materials.push_back(make_material(lambert(0), s.grid));
+        s.add(std::move(tiled), {0, 0, 4});
+        s.earth(0.3);
+        s.world.bodies[BodyId::kEarth].world_m = {0, 0, -9e6};
+        s.sun({0, 0.2, 1});
+        s.render();
+        return s.mean();
+    };
+    // Points under the tiles' edges count, too, as far as they see out.
+    for (const auto& [above_m, error] : {std::pair(2e-4f, 0.05), std::pair(2e-3f, 0.35)}) {
+        const double paths = stage("path", above_m);
+        EXPECT_GT(paths, 0);
+        EXPECT_NEAR(stage("kept", above_m) / paths, 1, error);
+    }
 }
 
 // Inside a closed body there is no light to keep, unless lamps may be there; outside everything is free.

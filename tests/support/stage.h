@@ -176,6 +176,12 @@ class Stage {
         out.centroid_px = {out.centroid_px.x / out.irradiance, out.centroid_px.y / out.irradiance};
         return out;
     }
+    // The mean of all pixels, in the first bin.
+    double mean() const {
+        double sum = 0;
+        for (const float value : radiance.plane(0)) sum += static_cast<double>(value);
+        return sum / static_cast<double>(radiance.plane(0).size());
+    }
     float middle(int bin = 0) const { return radiance.row(20, bin)[20]; }
 };
 

@@ -53,14 +53,14 @@ TEST_F(LadderTest, WhatCannotChangeBetweenFramesIsRefused) {
 // Levels of detail bound a shape, not its brightness: a quarter of a pixel dimmed foil by 1 %
 // (docs/performance.md).
 TEST(QualityLadder, NoShippedQualityDrawsCoarserMeshes) {
-    for (const std::string name : {"reference.yaml", "balanced.yaml", "realtime.yaml"})
+    for (const std::string name : {"reference.yaml", "still.yaml", "balanced.yaml", "realtime.yaml"})
         EXPECT_EQ(shipped(name).lod_error_px, 0) << name;
 }
 
 // Every step is a real one, none is better than the one before in anything, and the last is the least there
 // is.
 TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
-    for (const std::string name : {"reference.yaml", "balanced.yaml", "realtime.yaml"}) {
+    for (const std::string name : {"reference.yaml", "still.yaml", "balanced.yaml", "realtime.yaml"}) {
         RenderQuality last = shipped(name);
         last.noise_budget = name == "reference.yaml" ? 0.1 : 0;
         const std::vector<RenderQuality> levels = built_in_levels(last);

@@ -1,0 +1,79 @@
+#pragma once
+// Solves kept light (kept_light.h) for a source, over objects that stand near each other together.
+//
+// What a node receives first is summed from what its directions meet (scene/transfer_table.h, kept_links.h),
+// each seen from there as its own reflection law says; then light goes on as from white, grey or coloured
+// paint until it stays the same (radiosity: Goral et al., SIGGRAPH 84), with the directions in place of form
+// factors. No ray is traced but those that ask which nodes a source shines on, and nothing is drawn by
+// chance.
+//
+// The approximation: facets that other surfaces see are at least so wide that the directions find their
+// light; from the second bounce on everything scatters as a diffuse surface of the same albedo; glass is
+// clear.
+
+#include <span>
+#include <vector>
+
+#include "render/light/kept_light.h"
+#include "render/light/kept_links.h"
+
+namespace hilcam {
+
+class KeptSolver {
+  public:
+    // An object of a group: what it meets of the others, the source in its own axes, and where the result
+    // goes.
+    struct Member {
+        std::size_t object;
+        const KeptLinks* links;
+        KeptSource source;
+        KeptSolution* out;
+    };
+
+    // lights: of all objects, by number; null where none is kept; they outlive this. Owner thread.
+    KeptSolver(std::span<const KeptLight* const> lights, const EmbreeScene& scene);
+
+    const EmbreeScene& scene() const { return scene_; }
+    std::span<const KeptLight* const> lights() const { return lights_; }
+    // Of its workspace, an object's share.
+    std::size_t bytes(std::size_t object) const {
+        return lights_[object]->table().size() * (sizeof(Sender) + 4 * sizeof(Spectrum));
+    }
+    // One term. On oneTBB. Nothing is allocated but by links that are more than ever before.
+    void solve(std::span<const Member> group);
+
+  private:
+    // What a node sends: radiance per unit of the source.
+    struct alignas(64) Sender {
+        PackedSpectrum diffuse;
+        PackedSpectrum lobe;   // of facets, at normal incidence
+        float received;        // irradiance
+        std::uint32_t normal;  // packed
+        float alpha;           // 0: no facets that shine
+        float ni;              // cosine of the source
+    };
+    struct Progress {
+        double change = 0, light = 0;  // weighed sums over all nodes and bins
+    };
+
+    std::vector<const KeptLight*> lights_;
+    const EmbreeScene& scene_;
+    std::vector<std::size_t> base_;  // by object: of its nodes in what follows
+    std::vector<Sender> senders_;
+    std::vector<Spectrum> radiosity_;             // over pi
+    std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
+
+    void light_nodes(const Member& member);
+    void light_block(const Member& member, std::size_t first, std::size_t last);
+    std::uint32_t blocked(const Member& member, const RayPacket& rays) const;
+    void send(const KeptLight& light, std::size_t node, Vec3f source_dir, Vec3f facing, float received,
+              Sender& sender) const;
+    static void widen(const MaterialAlbedo& albedo, const KeptSource& source, float received, Sender& sender);
+    static float seen_of_cone(const Member& member, const KeptLight& light, std::size_t node);
+    void gather_first(const Member& member, std::span<const Member> group);
+    void bounce(std::span<const Member> group);
+    Progress gather_again(const Member& member);
+    void store(const Member& member);
+};
+
+}  // namespace hilcam

@@ -1,0 +1,141 @@
+#include "render/light/kept_updates.h"
+
+#include <sys/resource.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace hilcam {
+
+KeptUpdates::KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& scene, const KeptTerms& terms)
+    : lights_(lights.begin(), lights.end()),
+      terms_(terms),
+      solver_(std::vector<const KeptLight*>(lights.begin(), lights.end()), scene),
+      links_(lights.size()) {
+    const std::size_t count = lights.size();
+    stage_.links.resize(count), stage_.has_links.resize(count);
+    stage_.solutions.resize(count);
+    stage_.has_solution.assign(count, std::vector<std::uint8_t>(terms_.count()));
+    for (KeptTarget* target : {&shown_, &stage_.target}) {
+        target->near.resize(count), target->group.resize(count);
+        target->sources.assign(count, std::vector<KeptSource>(terms_.count()));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!lights_[i]) continue;
+        order_.push_back(i);
+        lights_[i]->adopt(links_[i]);
+        for (std::size_t t = 0; t < terms_.count(); ++t)
+            stage_.solutions[i].push_back(lights_[i]->make_solution(terms_.kind(t)));
+    }
+    members_.reserve(count);
+    if (!order_.empty()) thread_ = std::thread([this] { work(); });
+}
+
+KeptUpdates::~KeptUpdates() {
+    if (!thread_.joinable()) return;
+    wait();
+    state_.store(State::kStop), state_.notify_one();
+    thread_.join();
+}
+
+void KeptUpdates::bring_to(const KeptTarget& target) {
+    if (target == shown_) return;
+    wait();
+    prepare(target);
+    adopt();
+}
+
+void KeptUpdates::look_ahead(const KeptTarget& target) {
+    if (is_busy() || target == shown_ || target == stage_.target) return;
+    wanted_ = target;
+    state_.store(State::kAsked, std::memory_order_release), state_.notify_one();
+}
+
+void KeptUpdates::wait() {
+    for (State state; (state = state_.load(std::memory_order_acquire)) == State::kAsked;) state_.wait(state);
+}
+
+void KeptUpdates::work() {
+    // Frames come first; and one core of those that they leave is enough.
+    setpriority(PRIO_PROCESS, 0, 10);
+    tbb::task_arena alone(1, 1);
+    while (true) {
+        state_.wait(State::kIdle);
+        if (state_.load(std::memory_order_acquire) == State::kStop) return;
+        alone.execute([this] { prepare(wanted_); });
+        state_.store(State::kIdle, std::memory_order_release), state_.notify_one();
+    }
+}
+
+// Fills the stage with what the target has and the lights have not; what it holds already and is asked for
+// stays.
+void KeptUpdates::prepare(const KeptTarget& target) {
+    prepare_links(target);
+    std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(target.group[a], a) < std::pair(target.group[b], b);
+    });
+    for (std::size_t first = 0, last = 0; first < order_.size(); first = last) {
+        while (last < order_.size() && target.group[order_[last]] == target.group[order_[first]]) ++last;
+        for (std::size_t t = 0; t < terms_.count(); ++t)
+            prepare_group(target, t, {order_.data() + first, last - first});
+    }
+    stage_.target = target;
+}
+
+void KeptUpdates::prepare_links(const KeptTarget& target) {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        if (!lights_[i]) continue;
+        const bool wanted = target.near[i] != shown_.near[i];
+        if (wanted == (stage_.has_links[i] != 0) && (!wanted || stage_.target.near[i] == target.near[i]))
+            continue;
+        if (wanted) stage_.links[i].make(target.near[i], i, solver_.lights(), solver_.scene());
+        stage_.has_links[i] = wanted;
+        // Solutions by way of other links are worth nothing.
+        for (std::vector<std::uint8_t>& has : stage_.has_solution) std::fill(has.begin(), has.end(), 0);
+    }
+}
+
+void KeptUpdates::prepare_group(const KeptTarget& target, std::size_t term,
+                                std::span<const std::size_t> group) {
+    members_.clear();
+    bool differs = false, staged = true, shines = false;
+    for (const std::size_t i : group) {
+        const KeptSource& source = target.sources[i][term];
+        members_.push_back(
+            {i, stage_.has_links[i] ? &stage_.links[i] : &links_[i], source, &stage_.solutions[i][term]});
+        differs = differs || stage_.has_links[i] || source != shown_.sources[i][term];
+        staged = staged && stage_.has_solution[i][term] && source == stage_.target.sources[i][term];
+        shines = shines || source.kind != KeptSource::Kind::kNone;
+    }
+    if (staged && differs) return;
+    for (const KeptSolver::Member& member : members_)
+        stage_.has_solution[member.object][term] = differs && shines;
+    // What does not shine stays as it was: its level is zero.
+    if (differs && shines) solver_.solve(members_);
+}
+
+std::size_t KeptUpdates::bytes(std::size_t i) const {
+    std::size_t bytes = solver_.bytes(i) + stage_.links[i].bytes();
+    for (const KeptSolution& solution : stage_.solutions[i]) bytes += solution.bytes();
+    return bytes;
+}
+
+void KeptUpdates::adopt() {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        if (!lights_[i]) continue;
+        if (stage_.has_links[i]) {
+            std::swap(links_[i], stage_.links[i]);
+            lights_[i]->adopt(links_[i]);
+            stage_.has_links[i] = false;
+        }
+        for (std::size_t t = 0; t < terms_.count(); ++t)
+            if (stage_.has_solution[i][t]) {
+                lights_[i]->adopt(t, stage_.solutions[i][t]);
+                stage_.has_solution[i][t] = false;
+            }
+    }
+    shown_ = stage_.target;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,65 @@
+#pragma once
+// Brings kept light up to where the sources are: at once where a frame needs it, and ahead of time, on a
+// thread of its own, where it can be told what the next frames will need. What is kept for a target is the
+// same either way.
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "render/light/kept_solver.h"
+#include "render/light/kept_target.h"
+
+namespace hilcam {
+
+class KeptUpdates {
+  public:
+    // lights: by object, null where none is kept; with the terms in their order. All outlive this. Owner
+    // thread.
+    KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& scene, const KeptTerms& terms);
+    ~KeptUpdates();
+    KeptUpdates(const KeptUpdates&) = delete;
+    KeptUpdates& operator=(const KeptUpdates&) = delete;
+
+    // The lights have what the target asks for when this returns. Loop; waits for the thread where that is at
+    // work.
+    void bring_to(const KeptTarget& target);
+    // Asks the thread for what will be needed; does nothing while it is at work. Loop.
+    void look_ahead(const KeptTarget& target);
+    // Of what is made and not taken yet, and of the work, an object's share.
+    std::size_t bytes(std::size_t object) const;
+    bool is_busy() const { return state_.load(std::memory_order_acquire) != State::kIdle; }
+
+  private:
+    // What has been made and not been taken: links by object, solutions by object and term.
+    struct Stage {
+        KeptTarget target;
+        std::vector<KeptLinks> links;
+        std::vector<std::vector<KeptSolution>> solutions;
+        std::vector<std::uint8_t> has_links;
+        std::vector<std::vector<std::uint8_t>> has_solution;
+    };
+    enum class State : int { kIdle, kAsked, kStop };
+
+    std::vector<KeptLight*> lights_;
+    KeptTerms terms_;
+    KeptSolver solver_;
+    KeptTarget shown_;
+    std::vector<KeptLinks> links_;  // shown
+    Stage stage_;
+    KeptTarget wanted_;
+    std::vector<std::size_t> order_;  // objects that keep light, by their groups
+    std::vector<KeptSolver::Member> members_;
+    std::atomic<State> state_{State::kIdle};
+    std::thread thread_;
+
+    void prepare(const KeptTarget& target);
+    void prepare_links(const KeptTarget& target);
+    void prepare_group(const KeptTarget& target, std::size_t term, std::span<const std::size_t> group);
+    void adopt();
+    void wait();
+    void work();
+};
+
+}  // namespace hilcam
