@@ -239,16 +239,26 @@ class GStreamer(CameraTest):
         def three_frames(*properties):
             return subprocess.run(["gst-launch-1.0", "-q", "aravissrc", f"camera-name={self.address}", *properties, "num-buffers=3",
                                    "!", "fakesink"], capture_output=True, text=True, timeout=60)
-        def control(*words):
-            run("arv-tool", "-a", self.address, "control", *words)
+        def control(mode, *words):
+            """Once more where a busy machine lets arv-tool give up: it waits for an answer by the clock."""
+            def is_done():
+                run("arv-tool", "-a", self.address, "control", *words)
+                return mode in run("arv-tool", "-a", self.address, "control", "AcquisitionMode")
+            self.eventually(f"{' '.join(words)} is taken", is_done)
         for set_back, properties in ((("UserSetSelector=Default", "UserSetLoad"), ()), (("AcquisitionMode=Continuous",), ()),
                                      ((), ("features=AcquisitionMode=Continuous",))):
-            control("AcquisitionMode=SingleFrame")
+            control("SingleFrame", "AcquisitionMode=SingleFrame")
             self.assertNotEqual(three_frames().returncode, 0)
             if set_back:
-                control(*set_back)
-            result = three_frames(*properties)
-            self.assertEqual(result.returncode, 0, result.stderr)
+                control("Continuous", *set_back)
+            for _ in range(4):  # see pictures()
+                result = three_frames(*properties)
+                if result.returncode == 0:
+                    break
+            words = f"{set_back or properties}: {result.stderr}{self.emulator.log()}"
+            if result.returncode != 0 and too_busy():
+                self.skipTest(f"{too_busy()}: {words}")
+            self.assertEqual(result.returncode, 0, words)
 
     def pictures(self, caps, picture_bytes, number=8):
         """So many of aravissrc's pictures, and the words of gst-launch.
