@@ -75,7 +75,7 @@ std::string governor_lines(const ScenarioConfig& s) {
         fmt::format("governor: {} may take {:.4g} ms; quality level 0 is as configured\n",
                     s.loop.prefer == LoopPreference::kLatency ? "a frame" : "each of a frame's two stages",
                     1e3 * s.loop.frame_budget_s);
-    RenderQuality last = s.quality.render;
+    RenderQuality last = render_quality_of(s);
     int number = 0;
     for (const RenderQuality& level : lower_levels(s)) {
         const std::string what = difference(last, level);

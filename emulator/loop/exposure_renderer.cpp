@@ -78,7 +78,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ScenarioConfig& s, 
       focal_length_px_(s.camera.focal_length_m / s.camera.pitch_m),
       oversampling_(static_cast<double>(s.quality.oversampling)),
       jitter_(s.camera.jitter, static_cast<std::uint64_t>(s.seed), parse_utc(s.time_utc)),
-      noise_(s.camera, grid, sampling_of(s.quality)),
+      noise_(s.camera, grid, sampling_of(s)),
       bins_(static_cast<std::size_t>(grid.size())) {
     if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
         motion_ = MotionQuality::kFast;

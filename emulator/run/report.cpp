@@ -66,7 +66,7 @@ json strikes_report(const CameraStation& station) {
 }
 
 json quality_report(CameraStation& station) {
-    const RenderQuality& quality = station.scenario().quality.render;
+    const RenderQuality quality = render_quality_of(station.scenario());
     const LoopCounters& counters = station.loop().counters();
     json frames_at_level = json::array();
     for (std::size_t i = 0; i <= lower_levels(station.scenario()).size(); ++i)

@@ -51,7 +51,7 @@ void StillCamera::look_from(const Pose& body) {
 
 SensorChain& StillCamera::chain() {
     if (!chain_) {
-        chain_.emplace(scenario_.camera, grid_, sampling_of(scenario_.quality),
+        chain_.emplace(scenario_.camera, grid_, sampling_of(scenario_),
                        load_detector_pictures(scenario_.camera));
         const auto [array_width, array_height] = array_size(scenario_.camera);
         electrons_ = ElectronImage(array_width, array_height);

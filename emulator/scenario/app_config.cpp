@@ -298,16 +298,27 @@ std::string governor_off(const ScenarioConfig& s) {
     return "";
 }
 
+RenderQuality render_quality_of(const ScenarioConfig& s) {
+    RenderQuality quality = s.quality.render;
+    const bool straight = s.camera.projection == Projection::kRectilinear && s.camera.distortion.empty();
+    if (!straight || models_of(s).rays.model != "pinhole" || s.has_terrain || quality.noise_budget > 0)
+        quality.visibility = "rays";
+    return quality;
+}
+
 std::vector<RenderQuality> lower_levels(const ScenarioConfig& s) {
     if (!governor_off(s).empty()) return {};
-    if (s.loop.levels.empty()) return built_in_levels(s.quality.render);
+    const RenderQuality first = render_quality_of(s);
+    if (s.loop.levels.empty()) return built_in_levels(first);
     std::vector<RenderQuality> levels;
-    for (const QualityLevelConfig& level : s.loop.levels) levels.push_back(applied(s.quality.render, level));
+    for (const QualityLevelConfig& level : s.loop.levels) levels.push_back(applied(first, level));
     return levels;
 }
 
 SensorSampling sampling_of(const ScenarioConfig& s) {
-    SensorSampling sampling = sampling_of(s.quality);
+    QualityConfig quality = s.quality;
+    quality.render = render_quality_of(s);
+    SensorSampling sampling = sampling_of(quality);
     std::vector<RayGrid>& others = sampling.other_grids;
     for (const RenderQuality& level : lower_levels(s)) {
         const RayGrid grid = ray_grid_of(level);

@@ -180,6 +180,9 @@ ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t in
 std::string governor_off(const ScenarioConfig& scenario);
 // The qualities below the configured one that it may choose; none when it does not run.
 std::vector<RenderQuality> lower_levels(const ScenarioConfig& scenario);
+// The scenario's quality as its first camera can have it: a visibility buffer needs a lens that leaves
+// straight lines straight, rows of one instant, no terrain and no noise budget.
+RenderQuality render_quality_of(const ScenarioConfig& scenario);
 // How the radiance images of all of them are made.
 SensorSampling sampling_of(const ScenarioConfig& scenario);
 

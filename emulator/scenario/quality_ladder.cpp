@@ -123,7 +123,8 @@ std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
 }
 
 RayGrid ray_grid_of(const RenderQuality& q) {
-    return q.noise_budget > 0 ? kScatteredRays : static_cast<RayGrid>(q.samples_per_axis);
+    if (q.noise_budget > 0) return kScatteredRays;
+    return static_cast<RayGrid>(q.visibility == "buffer" ? kVisibilitySamplesAcross : q.samples_per_axis);
 }
 
 }  // namespace hilcam

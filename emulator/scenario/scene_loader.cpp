@@ -223,7 +223,7 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
     for (const PluginConfig& plugin : scenario.plugins) plugins.push_back(plugin.file);
     load_plugins(plugins, modules);
     return std::make_unique<Renderer>(load_scene(scenario, grid, modules), grid, geometry,
-                                      scenario.quality.render, models_of(scenario), modules,
+                                      render_quality_of(scenario), models_of(scenario), modules,
                                       lower_levels(scenario));
 }
 

@@ -58,6 +58,10 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
                       ? std::min(stars_.size(), stars_.most_within(2 * half_field_rad(geometry)))
                       : stars_.size();
 
+    if (quality.visibility == "buffer" && !terrain_) {
+        seen_.reserve(objects_.size());
+        visibility_ = std::make_unique<VisibilityBuffer>(geometry, visibility_room());
+    }
     frame_.scene = &embree_;
     frame_.objects = &shown_;
     frame_.world_from_body.resize(objects_.size());
@@ -73,6 +77,18 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.has_glass =
         any_material(objects_, [](const Material& m) { return m.model == ReflectionModel::kGlass; });
     frame_.has_emission = emission;
+}
+
+// What is shown in more triangles is for rays: they hardly cost more for more.
+VisibilityBuffer::Room FramePlacer::visibility_room() const {
+    constexpr std::size_t kMostTriangles = 8'000'000;
+    VisibilityBuffer::Room room{objects_.size(), 0, 0};
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+        const MeshView mesh = embree_.mesh(i, 0);
+        room.vertices = std::min(kMostTriangles, room.vertices + mesh.vertices_m.size());
+        room.triangles = std::min(kMostTriangles, room.triangles + mesh.triangles.size());
+    }
+    return room;
 }
 
 void FramePlacer::set_paths(const PathModel& paths) {
@@ -131,6 +147,7 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
                  {world_.time, world_.camera, world_.rows_velocity_m_s, world_.camera_rate_rad_s});
     place_objects();
     place_background();
+    place_visibility();
     if (frame_.kept) kept_->place(frame_, world_);
 }
 
@@ -169,6 +186,17 @@ void FramePlacer::place_background() {
         frame_.body_boxes[i] = bounds(body.world_dir, body.cone_cosine);
     }
     frame_.sun_box = bounds(background_.sun_camera_dir(), background_.sun_disk_cosine());
+}
+
+void FramePlacer::place_visibility() {
+    frame_.visibility = nullptr;
+    if (!visibility_ || !rays_->linear()) return;
+    seen_.clear();
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        if (plans_[i].use == ObjectUse::kMesh)
+            seen_.push_back(
+                {static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i], embree_.mesh(i, levels_[i])});
+    if (visibility_->place(world_.camera, seen_)) frame_.visibility = visibility_.get();
 }
 
 MovingFrame FramePlacer::moving() const {

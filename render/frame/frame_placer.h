@@ -18,6 +18,7 @@
 #include "render/light/path_model.h"
 #include "render/light/radiance_model.h"
 #include "render/light/screen_mask.h"
+#include "render/light/visibility_buffer.h"
 #include "render/scene/background.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
@@ -94,6 +95,8 @@ class FramePlacer {
     Background background_;
     std::unique_ptr<KeptScene> kept_;
     ScreenMask object_mask_, full_mask_;
+    std::unique_ptr<VisibilityBuffer> visibility_;  // null: rays
+    std::vector<VisibilityBuffer::Shown> seen_;
     std::unique_ptr<RayGenerator> rays_;
     std::unique_ptr<RadianceModel> radiance_model_;
     std::unique_ptr<ShownTerrain> terrain_;
@@ -106,6 +109,8 @@ class FramePlacer {
     void choose_levels();
     void place_objects();
     void place_background();
+    void place_visibility();
+    VisibilityBuffer::Room visibility_room() const;
 };
 
 }  // namespace hilcam

@@ -31,19 +31,23 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
                          std::span<const RenderQuality> levels)
     : width_(geometry.padded_width()), height_(geometry.padded_height()) {
     int most_tiles = 0;
-    bool budget = false;
+    bool budget = false, buffer = false;
     for (const RenderQuality& quality : levels) {
-        const int edge_px = tile_edge_px(static_cast<int>(quality.samples_per_axis));
+        // The visibility buffer's samples cost no memory of a path model's.
+        const bool rays = quality.visibility == "rays";
+        const int edge_px = tile_edge_px(rays ? static_cast<int>(quality.samples_per_axis) : 1);
         const std::size_t set = path_set(modules, quality.path_model);
         for (const auto& model : path_sets_[set].models)
             model->reserve_depth(static_cast<int>(quality.max_depth));
         levels_.push_back(
             {quality, set, edge_px, (width_ + edge_px - 1) / edge_px, (height_ + edge_px - 1) / edge_px});
         most_tiles = std::max(most_tiles, levels_.back().tiles_across * levels_.back().tiles_down);
+        buffer = buffer || !rays;
         budget = budget || quality.noise_budget > 0;
     }
     tile_stats_.resize(static_cast<std::size_t>(most_tiles));
     tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMostSamples));
+    if (buffer) seen_.resize(slots());
     for (std::size_t i = 0; budget && i < slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
 }
@@ -97,25 +101,31 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
 
 void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot,
                              TileStats& stats, RadianceImage& radiance) {
-    const int n = placer.samples_in(box);
-    const int edge = tile_edge_px(n);
+    int n = placer.samples_in(box);
+    VisibilityTile* seen = nullptr;
+    if (quality().visibility == "buffer" && n <= kVisibilitySamplesAcross) {
+        n = kVisibilitySamplesAcross;
+        if (placer.frame().visibility) seen = &seen_[slot];
+    }
+    const int edge = tile_edge_px(seen ? 1 : n);
     const bool once = quality().noise_budget == 0;
     for (int y = box.y0; y < box.y1; y += edge)
         for (int x = box.x0; x < box.x1; x += edge) {
             const PixelBox part{x, y, std::min(x + edge, box.x1), std::min(y + edge, box.y1)};
             if (once)
-                trace_once(placer.frame(), part, n, slot, stats, radiance);
+                trace_once(placer.frame(), part, n, slot, seen, stats, radiance);
             else
                 trace_to_budget(placer.frame(), part, n, slot, stats, radiance);
         }
 }
 
 void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
-                             TileStats& stats, RadianceImage& radiance) {
+                             VisibilityTile* seen, TileStats& stats, RadianceImage& radiance) {
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
     Tile tile{frame, box, n, pixels, stats};
+    tile.seen = seen;
     paths()[slot]->trace(tile);
     write(pixels, 1 / static_cast<float>(n * n), box, frame.bins, radiance);
 }

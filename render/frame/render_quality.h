@@ -13,6 +13,7 @@ namespace hilcam {
 // Every value here is a named choice of the user. Those marked (f) may change from frame to frame.
 struct RenderQuality {
     std::int64_t samples_per_axis = 1;     // (f) n: a regular n x n grid of rays in each pixel
+    std::string visibility = "rays";       // or "buffer": sixteen samples a pixel where it can
     std::string path_model = "path";       // (f)
     std::int64_t max_depth = 2;            // (f) 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // (f) see path_model.h

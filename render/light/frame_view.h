@@ -23,6 +23,7 @@ namespace hilcam {
 class KeptScene;
 class Lamps;
 class RadianceModel;
+class VisibilityBuffer;
 
 // Constant while a frame's tiles are traced.
 struct FrameView {
@@ -31,6 +32,8 @@ struct FrameView {
     std::vector<Mat3f> world_from_body;                           // per object
     std::vector<std::uint8_t> is_point;       // per object: drawn as a point, the camera's rays pass it
     const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
+    const VisibilityBuffer* visibility =
+        nullptr;  // visibility_buffer.h; null: rays find what the camera sees
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
     const Lamps* lamps = nullptr;     // lamp_light.h; null: none

@@ -1,7 +1,7 @@
 #include <array>
 
 #include "render/light/path_models.h"
-#include "render/light/primary_rays.h"
+#include "render/light/primary_vertices.h"
 #include "render/light/radiance_model.h"
 
 namespace hilcam {
@@ -10,8 +10,9 @@ namespace {
 class DirectPaths final : public PathModel {
   public:
     void trace(Tile& tile) override {
-        const std::size_t count = trace_primary_rays(tile, vertices_);
-        tile.frame.radiance->add_light(tile, {vertices_.data(), count}, LampLight::kNone);
+        PrimaryVertices seen(tile);
+        while (const std::size_t count = seen.next(vertices_))
+            tile.frame.radiance->add_light(tile, {vertices_.data(), count}, LampLight::kNone);
     }
 
   private:

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "render/light/path_models.h"
-#include "render/light/primary_rays.h"
+#include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/radiance_model.h"
 #include "render/scene/brdf_microfacet.h"
@@ -74,9 +74,9 @@ const float kSolidAngle = [] {
 class HemispherePaths final : public PathModel {
   public:
     void trace(Tile& tile) override {
-        const std::size_t count = trace_primary_rays(tile, first_);
         reserve_depth(tile.frame.max_depth);
-        follow(tile, {first_.data(), count});
+        PrimaryVertices seen(tile);
+        while (const std::size_t count = seen.next(first_)) follow(tile, {first_.data(), count});
     }
     // A level of children per depth.
     void reserve_depth(int max_depth) override {

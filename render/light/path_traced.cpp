@@ -14,7 +14,7 @@
 
 #include "render/light/kept_scene.h"
 #include "render/light/path_models.h"
-#include "render/light/primary_rays.h"
+#include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/radiance_model.h"
 #include "render/scene/brdf_microfacet.h"
@@ -45,8 +45,24 @@ class TracedPaths final : public PathModel {
     explicit TracedPaths(bool kept) : kept_(kept) {}
 
     void trace(Tile& tile) override {
+        PrimaryVertices seen(tile);
+        while (const std::size_t count = seen.next({current_, kMost})) trace_on(tile, count);
+    }
+
+    bool samples_lobes() const override { return true; }
+    bool uses_kept_light() const override { return kept_; }
+
+  private:
+    bool kept_;
+    static constexpr auto kMost = static_cast<std::size_t>(kMostSamples);
+    static constexpr int kLobeRays = 4;  // of a narrow lobe at the first surface
+    std::array<Vertex, kLobeRays * kMost> a_, b_;
+    std::array<NextRay, kLobeRays * kMost> next_;
+    Vertex* current_ = a_.data();
+    Vertex* following_ = b_.data();
+
+    void trace_on(Tile& tile, std::size_t count) {
         const FrameView& frame = tile.frame;
-        std::size_t count = trace_primary_rays(tile, {current_, kMost});
         for (int depth = 1; count > 0; ++depth) {
             std::size_t keep = 0;
             if (frame.kept) {
@@ -63,18 +79,6 @@ class TracedPaths final : public PathModel {
             count = follow(tile, choose(tile, keep, count, rays, last), last);
         }
     }
-
-    bool samples_lobes() const override { return true; }
-    bool uses_kept_light() const override { return kept_; }
-
-  private:
-    bool kept_;
-    static constexpr auto kMost = static_cast<std::size_t>(kMostSamples);
-    static constexpr int kLobeRays = 4;  // of a narrow lobe at the first surface
-    std::array<Vertex, kLobeRays * kMost> a_, b_;
-    std::array<NextRay, kLobeRays * kMost> next_;
-    Vertex* current_ = a_.data();
-    Vertex* following_ = b_.data();
 
     // At the last surface only exact directions go on: no lamp has been counted in them.
     std::size_t choose(Tile& tile, std::size_t first, std::size_t count, std::size_t ray_count, bool last) {

@@ -32,26 +32,31 @@ class PrimaryRays {
         }
     }
 
-    std::size_t trace() {
-        const int n = tile_.samples_per_axis;
-        const float step = 1.0f / static_cast<float>(n);
+    // uncovered: samples of each pixel that see no object, of kVisibilitySamples; null: rays find the
+    // objects.
+    std::size_t trace(const std::uint8_t* uncovered) {
+        uncovered_ = uncovered;
         // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
         static_assert(ScreenMask::kBlock_px == 4);
         const PixelBox& box = tile_.box;
         for (int by = box.y0; by < box.y1; by += 4)
             for (int bx = box.x0; bx < box.x1; bx += 4) {
-                const bool objects = frame_.object_mask->at(bx, by);
+                const bool objects = !uncovered_ && frame_.object_mask->at(bx, by);
                 if (!objects && !bodies_ && !sun_) continue;
                 rays_.count = 0;
                 for (int y = by; y < std::min(by + 4, box.y1); ++y)
                     for (int x = bx; x < std::min(bx + 4, box.x1); ++x) {
-                        if (!tile_.wants(x, y)) continue;
+                        if (!wants(x, y)) continue;
                         x_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(x - box.x0);
                         y_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(y - box.y0);
                         ++rays_.count;
                     }
                 if (rays_.count == 0) continue;
                 if (tile_.scattered) choose_sequences();
+                const bool even = uncovered_ && is_even(bx, by);
+                const int n = even ? 1 : tile_.samples_per_axis;
+                ray_weight_ = even ? kVisibilitySamples : 1;
+                const float step = 1.0f / static_cast<float>(n);
                 for (int s = 0; s < n * n; ++s) {
                     const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
                     if (tile_.scattered)
@@ -69,6 +74,8 @@ class PrimaryRays {
     Tile& tile_;
     const FrameView& frame_;
     std::span<Vertex> vertices_;
+    const std::uint8_t* uncovered_ = nullptr;
+    float ray_weight_ = 1;
     bool bodies_, sun_;
     const LinearRays* linear_;
     bool plain_;        // the one body in view is done sixteen rays at a time
@@ -82,6 +89,34 @@ class PrimaryRays {
     std::array<std::uint32_t, kPacketSize> word_x_{}, word_y_{};  // of their sequences
     std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
     std::size_t count_ = 0;
+
+    // Nothing of a block of 4 x 4 pixels is near the rim of a body or of its air, or near the Sun: one ray
+    // tells of all of a pixel.
+    bool is_even(int x, int y) const {
+        if (frame_.background->camera_in_air() || !linear_) return false;
+        if (frame_.sun_box.overlaps({x, y, x + 4, y + 4})) return false;
+        const float at_x = static_cast<float>(x - tile_.box.x0) + 2,
+                    at_y = static_cast<float>(y - tile_.box.y0) + 2;
+        const Vec3d dir = normalized(corner_ + static_cast<double>(at_x) * linear_->right +
+                                     static_cast<double>(at_y) * linear_->down);
+        const double block_rad = 3 / frame_.geometry.focal_length_px;  // its middle to its corners
+        for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
+            const PlacedBody& body = frame_.background->disks()[i];
+            const double radius_rad = std::acos(body.cone_cosine);
+            const double from_middle_rad = std::acos(std::clamp(dot(dir, body.world_dir), -1.0, 1.0));
+            // The Earth is flat by a third of a hundredth, and its air a hundredth high.
+            constexpr double kWithin = 0.97;
+            if (from_middle_rad + block_rad > kWithin * radius_rad &&
+                from_middle_rad - block_rad < radius_rad)
+                return false;
+        }
+        return true;
+    }
+
+    bool wants(int x, int y) const {
+        if (!uncovered_) return tile_.wants(x, y);
+        return uncovered_[(y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0] != 0;
+    }
 
     // The packet's samples, all at the same place of their pixels.
     void center(float dx, float dy) {
@@ -150,14 +185,13 @@ class PrimaryRays {
         return !frame_.background->hides_seen(dir, length(point - frame_.camera_m));
     }
 
-    void add_backdrop(std::size_t k, float sun_cosine, Spectrum& pixel) const {
+    void add_backdrop(std::size_t k, float sun_cosine, Spectrum weight, Spectrum& pixel) const {
         if (plain_) {
             if (sun_cosine > EarthRays::kMiss)
-                return frame_.background->add_plain_at(sun_cosine, weight_, pixel);
-            if (sun_) frame_.background->add_sun_disk(exact_dir(k), weight_, pixel);
+                return frame_.background->add_plain_at(sun_cosine, weight, pixel);
+            if (sun_) frame_.background->add_sun_disk(exact_dir(k), weight, pixel);
             return;
         }
-        Spectrum weight = weight_;
         const Vec3d dir = exact_dir(k);
         if (bodies_ && frame_.background->add_bodies_seen(dir, weight, pixel)) return;
         if (sun_) frame_.background->add_sun_disk(dir, weight, pixel);
@@ -187,7 +221,8 @@ class PrimaryRays {
                     tile_.stats.covered_px += 1.0 / (tile_.samples_per_axis * tile_.samples_per_axis);
                 add_vertex(i, pixel, sample);
             } else if (bodies_ || sun_) {
-                add_backdrop(k, sun_cosine[k], tile_.pixels[pixel]);
+                const float share = uncovered_ ? uncovered_[pixel] * (1.0f / kVisibilitySamples) : 1.0f;
+                add_backdrop(k, sun_cosine[k], (share * ray_weight_) * weight_, tile_.pixels[pixel]);
             }
         }
     }
@@ -208,18 +243,25 @@ class PrimaryRays {
         vertex.depth = 1;
         vertex.weight = weight_;
         ++count_;
-        if (!frame_.background->camera_in_air()) return;
-        const double distance_m = length(to_double(vertex.point_m) - frame_.camera_m);
-        const Atmosphere::Sight sight = frame_.background->air_before(exact_dir(k), distance_m);
-        tile_.pixels[pixel] += weight_ * sight.radiance_sr;
-        vertex.weight = weight_ * sight.transmittance;
+        add_air_before(tile_, exact_dir(k), vertex);
     }
 };
 
 }  // namespace
 
-std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {
-    return PrimaryRays(tile, vertices).trace();
+void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex) {
+    const FrameView& frame = tile.frame;
+    if (!frame.background->camera_in_air()) return;
+    const double distance_m = length(to_double(vertex.point_m) - frame.camera_m);
+    const Atmosphere::Sight sight = frame.background->air_before(dir, distance_m);
+    tile.pixels[vertex.pixel] += vertex.weight * sight.radiance_sr;
+    vertex.weight = vertex.weight * sight.transmittance;
 }
+
+std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {
+    return PrimaryRays(tile, vertices).trace(nullptr);
+}
+
+void add_backdrop(Tile& tile, const std::uint8_t* uncovered) { PrimaryRays(tile, {}).trace(uncovered); }
 
 }  // namespace hilcam

@@ -8,6 +8,7 @@
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
 #include "render/light/ray_counts.h"
+#include "render/light/visibility_raster.h"
 #include "render/vocabulary/pixel_box.h"
 
 namespace hilcam {
@@ -35,6 +36,8 @@ struct Tile {
     bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
     std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
     const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
+    // Memory for what the frame's visibility buffer finds; null: rays find what the camera sees.
+    VisibilityTile* seen = nullptr;
 
     bool wants(int x, int y) const {
         return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];

@@ -126,6 +126,15 @@ void met_in(RTCScene scene, const RayPacket& rays, Coherence coherence, RTCRayHi
     std::memcpy(hits.triangle.data(), query.hit.primID, sizeof(query.hit.primID));
 }
 
+// The copy of a mesh that its scene keeps.
+MeshView view_of(RTCScene scene, const Mesh& mesh) {
+    const RTCGeometry geometry = rtcGetGeometry(scene, 0);
+    const void* vertices = rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    const void* triangles = rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0);
+    return {{static_cast<const Vec3f*>(vertices), mesh.vertices_m.size()},
+            {static_cast<const std::array<std::uint32_t, 3>*>(triangles), mesh.triangles.size()}};
+}
+
 }  // namespace
 
 // An object whose instance has to be told its scene anew.
@@ -136,6 +145,7 @@ struct EmbreeScene::Implementation {
     RTCScene top = nullptr;
     bool watertight = true;
     std::vector<std::vector<RTCScene>> levels;  // per object
+    std::vector<std::vector<MeshView>> meshes;  // of them, where Embree keeps them
     std::vector<std::size_t> shown;             // level of each
     std::vector<RTCGeometry> instances;
 
@@ -199,6 +209,7 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool
     std::map<const Mesh*, RTCScene> built;
     for (const std::vector<const Mesh*>& meshes : objects) {
         std::vector<RTCScene>& scenes = my.levels.emplace_back();
+        std::vector<MeshView>& views = my.meshes.emplace_back();
         for (const Mesh* mesh : meshes) {
             RTCScene& scene = built[mesh];
             if (scene)
@@ -206,6 +217,7 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool
             else
                 scene = my.build(*mesh);
             scenes.push_back(scene);
+            views.push_back(view_of(scene, *mesh));
         }
         my.shown.push_back(0);
         RTCGeometry instance = rtcNewGeometry(my.device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -251,7 +263,12 @@ void EmbreeScene::adopt(std::size_t object, PreparedMesh& mesh) {
     void* const replaced = first;
     first = static_cast<RTCScene>(mesh.scene_);
     mesh.scene_ = replaced;
+    implementation_->meshes[object].front() = {};
     implementation_->shown[object] = kNoLevel;
+}
+
+MeshView EmbreeScene::mesh(std::size_t object, std::size_t level) const {
+    return implementation_->meshes[object][level];
 }
 
 void EmbreeScene::intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const {

@@ -47,6 +47,12 @@ struct alignas(64) HitPacket {
 // Whether the rays of a packet run side by side (from the camera, to the Sun) or anywhere.
 enum class Coherence { kCoherent, kIncoherent };
 
+// A mesh's shape, in the object's axes.
+struct MeshView {
+    std::span<const Vec3f> vertices_m;
+    std::span<const std::array<std::uint32_t, 3>> triangles;
+};
+
 // A mesh with its tree, made beside a scene.
 class PreparedMesh {
   public:
@@ -78,6 +84,9 @@ class EmbreeScene {
     // Puts it in the place of the object's first level, from the next place() on; `mesh` then holds what was
     // there. Loop, one thread.
     void adopt(std::size_t object, PreparedMesh& mesh);
+
+    // The copy that is kept of a mesh; nothing after adopt(). Any thread.
+    MeshView mesh(std::size_t object, std::size_t level) const;
 
     // Any thread between two place(). No allocation.
     void intersect(const RayPacket& rays, Coherence coherence, HitPacket& hits) const;

@@ -6,19 +6,21 @@
 #include <array>
 
 #include "render/frame/plugin.h"
-#include "render/light/primary_rays.h"
+#include "render/light/primary_vertices.h"
 
 namespace {
 
 class DistancePaths final : public hilcam::PathModel {
   public:
     void trace(hilcam::Tile& tile) override {
-        const std::size_t count = hilcam::trace_primary_rays(tile, vertices_);
-        for (const hilcam::Vertex& at : std::span(vertices_.data(), count)) {
-            const auto distance_m =
-                static_cast<float>(length(hilcam::to_double(at.point_m) - tile.frame.camera_m));
-            for (int b = 0; b < tile.frame.bins; ++b) tile.pixels[at.pixel][b] += distance_m;
-        }
+        hilcam::PrimaryVertices seen(tile);
+        while (const std::size_t count = seen.next(vertices_))
+            for (const hilcam::Vertex& at : std::span(vertices_.data(), count)) {
+                const auto distance_m =
+                    static_cast<float>(length(hilcam::to_double(at.point_m) - tile.frame.camera_m));
+                for (int b = 0; b < tile.frame.bins; ++b)
+                    tile.pixels[at.pixel][b] += at.weight[b] * distance_m;
+            }
     }
 
   private:

@@ -1,0 +1,44 @@
+#pragma once
+// What the camera sees of a tile, as vertices: by rays (primary_rays.h), or out of the frame's visibility
+// buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the weight of so
+// many samples.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "render/light/path_model.h"
+
+namespace hilcam {
+
+class PrimaryVertices {
+  public:
+    explicit PrimaryVertices(Tile& tile) : tile_(tile) {}
+
+    // Writes the next vertices, PathModel::kMostSamples at a time at most, and adds the background to the
+    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMostSamples. Loop, any thread.
+    std::size_t next(std::span<Vertex> vertices);
+
+  private:
+    // A triangle in a pixel.
+    struct Fragment {
+        std::uint32_t id;
+        std::uint16_t samples;  // a bit each
+        std::uint16_t pixel;    // in the tile
+    };
+    Tile& tile_;
+    bool begun_ = false, ended_ = false;
+    PixelBox part_{};    // of the tile, as the buffer has it
+    int x_ = 0, y_ = 0;  // the next pixel there
+    std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;
+    std::array<Fragment, 2 * kPacketSize> fragments_;
+    std::size_t fragment_count_ = 0;
+
+    std::size_t next_fragments(std::span<Vertex> vertices);
+    bool open_next_part();
+    void take_pixel(int x, int y);
+    void leave_to_body(HitPacket& hits, std::size_t k, Vec3f origin, Vec3d dir);
+    std::size_t make_vertices(std::span<Vertex> vertices);
+};
+
+}  // namespace hilcam

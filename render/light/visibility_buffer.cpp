@@ -1,0 +1,302 @@
+#include "render/light/visibility_buffer.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kRun = 512;            // triangles that are looked at between two visits of the tiles
+constexpr std::size_t kVertexRun = 1 << 14;  // vertices that a task projects
+constexpr std::uint32_t kBlocksAtOnce = 32;  // that a group takes for itself
+
+// The farthest left, right, up and down that the picture reaches, as slopes.
+struct Slopes {
+    double left, right, top, bottom;
+};
+Slopes slopes_of(const ImageGeometry& g) {
+    const Vec2d center{g.center_px().x + g.guard_px, g.center_px().y + g.guard_px};
+    return {-center.x / g.focal_length_px, (g.padded_width() - center.x) / g.focal_length_px,
+            -center.y / g.focal_length_px, (g.padded_height() - center.y) / g.focal_length_px};
+}
+
+ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_body, Vec3d origin_m,
+                               double radius_m, double depth_origin_m) {
+    const auto single = [](double v) { return static_cast<float>(v); };
+    ScreenProjection p;
+    p.axes = {to_float(camera_from_body.x), to_float(camera_from_body.y), to_float(camera_from_body.z)};
+    p.distance = single(origin_m.z);
+    p.beyond_origin = single(origin_m.z - depth_origin_m);
+    p.focal_px = single(g.focal_length_px);
+    p.depth_origin = single(depth_origin_m);
+    p.eye = to_float(transposed(camera_from_body) * (-1.0 * origin_m));
+    const Vec2d center{g.center_px().x + g.guard_px, g.center_px().y + g.guard_px};
+    if (origin_m.z > 2 * radius_m) {
+        // From where the body's origin is seen: what is left is small, and keeps its digits.
+        const double lean_x = origin_m.x / origin_m.z, lean_y = origin_m.y / origin_m.z;
+        p.offset_x = single(center.x + g.focal_length_px * lean_x), p.lean_x = single(-lean_x);
+        p.offset_y = single(center.y + g.focal_length_px * lean_y), p.lean_y = single(-lean_y);
+    } else {
+        p.offset_x = single(center.x), p.start_x = single(origin_m.x);
+        p.offset_y = single(center.y), p.start_y = single(origin_m.y);
+    }
+    return p;
+}
+
+}  // namespace
+
+VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Room& room)
+    : geometry_(geometry),
+      room_(room),
+      tiles_across_((geometry.padded_width() + kVisibilityTile_px - 1) / kVisibilityTile_px),
+      tiles_down_((geometry.padded_height() + kVisibilityTile_px - 1) / kVisibilityTile_px) {
+    const auto tiles = static_cast<std::size_t>(tiles_across_ * tiles_down_);
+    placed_.reserve(room.objects);
+    for (std::vector<float>* of : {&x_, &y_, &depth_}) of->resize(room.vertices);
+    first_.resize(tiles * kGroups);
+    // Most triangles are met by one tile or none; of a block's sixteen places half are taken.
+    constexpr std::size_t kLeast = 1 << 16;  // for few that fill the screen many times
+    const std::size_t blocks = room.triangles / 4 + 32 * tiles + kLeast;
+    blocks_.resize(blocks);
+    heads_.resize(blocks);
+}
+
+bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
+    const Mat3d camera_from_world = transposed(to_matrix(camera.world_from_body));
+    placed_.clear();
+    triangle_count_ = 0;
+    std::size_t vertices = 0;
+    depth_origin_m_ = 0;
+    for (const Shown& object : shown) {
+        if (placed_.size() == room_.objects) return false;
+        const Vec3d offset_m = object.pose.position_world_m - camera.position_world_m;
+        placed_.push_back({object,
+                           vertices,
+                           triangle_count_,
+                           camera_from_world * to_matrix(object.pose.world_from_body),
+                           camera_from_world * offset_m,
+                           {}});
+        vertices += object.mesh.vertices_m.size();
+        triangle_count_ += object.mesh.triangles.size();
+        if (vertices > room_.vertices || triangle_count_ > room_.triangles) return false;
+        const double near_m = std::max(length(offset_m), object.radius_m);
+        if (depth_origin_m_ == 0 || near_m < depth_origin_m_) depth_origin_m_ = near_m;
+    }
+    for (Placed& object : placed_)
+        object.projection = projection_of(geometry_, object.camera_from_body, object.origin_camera_m,
+                                          object.shown.radius_m, depth_origin_m_);
+    return true;
+}
+
+ScreenVertices VisibilityBuffer::vertices_of(const Placed& placed) const {
+    return {x_.data() + placed.first_vertex, y_.data() + placed.first_vertex,
+            depth_.data() + placed.first_vertex};
+}
+
+void VisibilityBuffer::project() {
+    for (const Placed& object : placed_) {
+        const std::span<const Vec3f> all = object.shown.mesh.vertices_m;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, all.size(), kVertexRun), [&](const auto& part) {
+            const std::size_t i = object.first_vertex + part.begin();
+            project_vertices(all.subspan(part.begin(), part.size()), object.projection,
+                             {x_.data() + i, y_.data() + i, depth_.data() + i});
+        });
+    }
+}
+
+// Puts one group of triangles into the tiles that may see them.
+class VisibilityBuffer::Sorter {
+  public:
+    Sorter(VisibilityBuffer& buffer, std::size_t group) : my_(buffer), group_(group) {}
+
+    // Triangles from begin to end, as all objects' are counted. False: out of room.
+    bool sort(std::size_t begin, std::size_t end) {
+        auto object =
+            std::upper_bound(my_.placed_.begin(), my_.placed_.end(), begin,
+                             [](std::size_t at, const Placed& placed) { return at < placed.first_triangle; });
+        for (--object; object != my_.placed_.end() && object->first_triangle < end; ++object) {
+            const std::size_t count = object->shown.mesh.triangles.size();
+            const std::size_t from = std::max(begin, object->first_triangle) - object->first_triangle;
+            const std::size_t to = std::min(end - object->first_triangle, count);
+            for (std::size_t first = from; first < to; first += kRun)
+                if (!sort_run(*object, first, std::min(kRun, to - first))) return false;
+        }
+        return true;
+    }
+
+  private:
+    VisibilityBuffer& my_;
+    std::size_t group_;
+    std::uint32_t next_ = 0, end_ = 0;  // blocks of its own
+    std::array<TileRange, kRun> ranges_;
+
+    bool sort_run(const Placed& object, std::size_t first, std::size_t count) {
+        const std::span<const TriangleCorners> triangles = object.shown.mesh.triangles.subspan(first, count);
+        const std::size_t found =
+            find_tiles(my_.vertices_of(object), triangles, static_cast<std::uint32_t>(first),
+                       my_.geometry_.padded_width(), my_.geometry_.padded_height(), ranges_.data());
+        const auto placed = static_cast<std::uint32_t>(&object - my_.placed_.data());
+        for (std::size_t i = 0; i < found; ++i) {
+            TileRange& range = ranges_[i];
+            const bool cut = range.x1 < 0;
+            if (cut && !my_.bounds_of_cut(my_.corners_camera_m(object, range.triangle), range)) continue;
+            for (int y = range.y0; y <= range.y1; ++y)
+                for (int x = range.x0; x <= range.x1; ++x)
+                    if (!add(static_cast<std::size_t>(y * my_.tiles_across_ + x), placed, range.triangle,
+                             cut))
+                        return false;
+        }
+        return true;
+    }
+
+    bool add(std::size_t tile, std::uint32_t placed, std::uint32_t triangle, bool cut) {
+        std::uint32_t& first = my_.first_[tile * kGroups + group_];
+        if (first == kNoBlock || cut || my_.heads_[first].cut || my_.heads_[first].placed != placed ||
+            my_.heads_[first].count == kTrianglesAtOnce) {
+            if (next_ == end_) {
+                next_ = my_.used_.fetch_add(kBlocksAtOnce);
+                end_ = next_ + kBlocksAtOnce;
+            }
+            if (next_ >= my_.heads_.size()) return false;
+            my_.heads_[next_] = {first, placed, 0, cut};
+            my_.blocks_[next_].triangles.fill(0);
+            first = next_++;
+        }
+        my_.blocks_[first].triangles[my_.heads_[first].count++] = triangle;
+        return true;
+    }
+};
+
+bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown) {
+    std::fill(first_.begin(), first_.end(), kNoBlock);
+    used_ = 1;
+    if (!take(camera, shown)) return false;
+    project();
+    std::atomic<bool> room = true;
+    tbb::parallel_for(std::size_t{0}, kGroups, [&](std::size_t group) {
+        const std::size_t begin = triangle_count_ * group / kGroups;
+        const std::size_t end = triangle_count_ * (group + 1) / kGroups;
+        if (begin < end && !Sorter(*this, group).sort(begin, end)) room = false;
+    });
+    // What groups have taken and not used depends on chance: whether there is room must not.
+    return room && used_ + kGroups * kBlocksAtOnce <= heads_.size();
+}
+
+std::array<Vec3d, 3> VisibilityBuffer::corners_camera_m(const Placed& placed, std::uint32_t triangle) const {
+    std::array<Vec3d, 3> out;
+    const TriangleCorners& corners = placed.shown.mesh.triangles[triangle];
+    for (std::size_t i = 0; i < 3; ++i)
+        out[i] = placed.camera_from_body * to_double(placed.shown.mesh.vertices_m[corners[i]]) +
+                 placed.origin_camera_m;
+    return out;
+}
+
+// The tiles of what of a triangle is before the camera. False: it is behind it, or beside the picture.
+bool VisibilityBuffer::bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const {
+    const Slopes slopes = slopes_of(geometry_);
+    const auto all = [&](auto&& says) { return std::all_of(corners_m.begin(), corners_m.end(), says); };
+    if (all([](Vec3d p) { return p.z <= 0; }) || all([&](Vec3d p) { return p.x < slopes.left * p.z; }) ||
+        all([&](Vec3d p) { return p.x > slopes.right * p.z; }) ||
+        all([&](Vec3d p) { return p.y < slopes.top * p.z; }) ||
+        all([&](Vec3d p) { return p.y > slopes.bottom * p.z; }))
+        return false;
+    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+    const auto grow = [&](Vec3d p) {
+        const double x = (p.x / p.z - slopes.left) * geometry_.focal_length_px;
+        const double y = (p.y / p.z - slopes.top) * geometry_.focal_length_px;
+        x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+    };
+    double reach = 0;
+    for (const Vec3d& p : corners_m) reach = std::max(reach, length(p));
+    const double near_m = 1e-9 * reach;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d& p = corners_m[i];
+        const Vec3d& q = corners_m[(i + 1) % 3];
+        if (p.z >= near_m) grow(p);
+        if ((p.z < near_m) == (q.z < near_m)) continue;
+        Vec3d at = p + (near_m - p.z) / (q.z - p.z) * (q - p);
+        at.z = near_m;
+        grow(at);
+    }
+    const auto tile = [](double px, int tiles) {
+        return static_cast<std::int16_t>(std::clamp(px / kVisibilityTile_px, 0.0, tiles - 1.0));
+    };
+    range.x0 = tile(x0 - 1, tiles_across_), range.x1 = tile(x1 + 1, tiles_across_);
+    range.y0 = tile(y0 - 1, tiles_down_), range.y1 = tile(y1 + 1, tiles_down_);
+    return true;
+}
+
+// Edges are planes through the camera: no corner is ever divided by its depth.
+void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,
+                                  TriangleSetup& setup) const {
+    const std::array<Vec3d, 3> p = corners_camera_m(placed, triangle);
+    const Slopes slopes = slopes_of(geometry_);
+    const double pixel = 1 / geometry_.focal_length_px;
+    const Vec3d corner{slopes.left + x_px * pixel, slopes.top + y_px * pixel, 1};
+    const double volume = dot(p[0], cross(p[1], p[2]));
+    setup.count = 1;
+    setup.x0[0] = setup.y0[0] = 0;
+    setup.y1[0] = kVisibilityTile_px - 1;
+    setup.x1[0] = volume == 0 ? -1 : kVisibilityTile_px - 1;
+    setup.least_depth[0] = -1, setup.most_depth[0] = 1e30f;
+    setup.id[0] = static_cast<std::uint32_t>(placed.first_triangle) + triangle;
+    if (volume == 0) return;
+    Vec3d sum;
+    for (std::size_t i = 0; i < 3; ++i) {
+        // Shares of the corners, times a ray's depth.
+        const Vec3d edge = cross(p[(i + 1) % 3], p[(i + 2) % 3]) / volume;
+        sum = sum + edge;
+        const Vec3d plane{edge.x * pixel, edge.y * pixel, dot(edge, corner)};
+        const double greatest = std::max({std::abs(plane.x), std::abs(plane.y), std::abs(plane.z), 1e-300});
+        setup.a[i][0] = static_cast<float>(plane.x / greatest);
+        setup.b[i][0] = static_cast<float>(plane.y / greatest);
+        setup.c[i][0] = static_cast<float>(plane.z / greatest) + 0.0f;
+        setup.flip[i][0] = 0x80000000u;
+    }
+    setup.depth_x[0] = static_cast<float>(depth_origin_m_ * sum.x * pixel);
+    setup.depth_y[0] = static_cast<float>(depth_origin_m_ * sum.y * pixel);
+    setup.depth[0] = static_cast<float>(depth_origin_m_ * dot(sum, corner) - 1);
+}
+
+bool VisibilityBuffer::may_see(int x_px, int y_px) const {
+    const std::uint32_t* first = &first_[tile_index(x_px, y_px) * kGroups];
+    return std::any_of(first, first + kGroups, [](std::uint32_t block) { return block != kNoBlock; });
+}
+
+bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
+    if (!may_see(x_px, y_px)) return false;
+    tile.clear();
+    const std::uint32_t* first = &first_[tile_index(x_px, y_px) * kGroups];
+    TriangleSetup setup;
+    for (std::size_t group = 0; group < kGroups; ++group)
+        for (std::uint32_t block = first[group]; block != kNoBlock; block = heads_[block].next) {
+            const BlockHead& head = heads_[block];
+            const Placed& placed = placed_[head.placed];
+            if (head.cut)
+                set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);
+            else
+                set_up_triangles({vertices_of(placed), placed.shown.mesh.vertices_m.data(),
+                                  placed.shown.mesh.triangles.data(), &placed.projection,
+                                  static_cast<std::uint32_t>(placed.first_triangle)},
+                                 blocks_[block].triangles, head.count, x_px, y_px, setup);
+            fill_tile(setup, tile);
+        }
+    return true;
+}
+
+VisibilityBuffer::Seen VisibilityBuffer::seen(std::uint32_t id) const {
+    std::size_t object = 0;
+    if (placed_.size() > 1) {
+        const auto after = std::upper_bound(
+            placed_.begin(), placed_.end(), id,
+            [](std::uint32_t at, const Placed& placed) { return at < placed.first_triangle; });
+        object = static_cast<std::size_t>(after - placed_.begin()) - 1;
+    }
+    const Placed& placed = placed_[object];
+    return {&placed.shown, id - static_cast<std::uint32_t>(placed.first_triangle)};
+}
+
+}  // namespace hilcam

@@ -1,0 +1,106 @@
+#pragma once
+// Which triangle each of sixteen samples in every pixel sees, for a pinhole camera at one instant: what rays
+// would find, for less than one ray a pixel costs. Triangles are projected and sorted into tiles of the
+// screen once a frame; tiles are filled one by one, when they are shaded.
+//
+// Not modelled: lenses that bend straight lines, rows of different instants. Such frames are for rays, and so
+// is a frame that shows more triangles than there is memory for: place() says no.
+//
+// Precision: places on the screen are good to a thousandth of a pixel, also of objects that are far against
+// their size; depth to a few 1e-7 of the distance, or of the object where that is smaller. A triangle through
+// the camera's plane is cut by exact homogeneous edges (Olano & Greer, Graphics Hardware 1997).
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/light/visibility_raster.h"
+#include "render/scene/embree_scene.h"
+#include "render/vocabulary/image_geometry.h"
+#include "render/vocabulary/pixel_box.h"
+#include "render/vocabulary/pose.h"
+
+namespace hilcam {
+
+class VisibilityBuffer {
+  public:
+    // The most that a frame may show.
+    struct Room {
+        std::size_t objects = 0, vertices = 0, triangles = 0;
+    };
+    // Owner thread.
+    VisibilityBuffer(const ImageGeometry& geometry, const Room& room);
+
+    // An object as a frame shows it.
+    struct Shown {
+        std::uint32_t object;
+        Pose pose;
+        double radius_m;
+        MeshView mesh;  // outlives the frame
+    };
+    // Sorts the triangles of a frame. False: there is no room for them. Loop.
+    bool place(const Pose& camera, std::span<const Shown> shown);
+
+    // Finds what a tile's samples see; x and y of its corner are multiples of kVisibilityTile_px. False:
+    // nothing. Loop, any thread.
+    bool fill(int x_px, int y_px, VisibilityTile& tile) const;
+    bool may_see(int x_px, int y_px) const;
+
+    // What an id of a tile stands for.
+    struct Seen {
+        const Shown* shown;
+        std::uint32_t triangle;
+    };
+    Seen seen(std::uint32_t id) const;
+
+  private:
+    static constexpr std::size_t kGroups = 64;  // of triangles: sorted side by side
+    static constexpr std::uint32_t kNoBlock = 0;
+
+    // Up to sixteen triangles of an object that a tile may see.
+    struct alignas(64) Block {
+        std::array<std::uint32_t, kTrianglesAtOnce> triangles;
+    };
+    struct BlockHead {
+        std::uint32_t next = kNoBlock;
+        std::uint32_t placed = 0;  // index of the object
+        std::uint16_t count = 0;
+        bool cut = false;  // one triangle, not wholly on the screen
+    };
+    struct Placed {
+        Shown shown;
+        std::size_t first_vertex, first_triangle;
+        Mat3d camera_from_body;
+        Vec3d origin_camera_m;
+        ScreenProjection projection;
+    };
+    class Sorter;
+
+    ImageGeometry geometry_;
+    Room room_;
+    int tiles_across_, tiles_down_;
+    std::vector<Placed> placed_;
+    double depth_origin_m_ = 1;
+    std::size_t triangle_count_ = 0;
+    std::vector<float> x_, y_, depth_;  // of all vertices
+    std::vector<std::uint32_t> first_;  // block by tile and group
+    std::vector<Block> blocks_;
+    std::vector<BlockHead> heads_;
+    std::atomic<std::uint32_t> used_{1};
+
+    bool take(const Pose& camera, std::span<const Shown> shown);
+    void project();
+    ScreenVertices vertices_of(const Placed& placed) const;
+    std::array<Vec3d, 3> corners_camera_m(const Placed& placed, std::uint32_t triangle) const;
+    bool bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const;
+    void set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,
+                    TriangleSetup& setup) const;
+    std::size_t tile_index(int x_px, int y_px) const {
+        return static_cast<std::size_t>(y_px / kVisibilityTile_px * tiles_across_ +
+                                        x_px / kVisibilityTile_px);
+    }
+};
+
+}  // namespace hilcam

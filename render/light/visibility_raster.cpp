@@ -1,0 +1,341 @@
+#include "render/light/visibility_raster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/light/visibility_raster.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace hilcam {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::CappedTag<float, kTrianglesAtOnce>;
+using Ints = hn::RebindToSigned<Floats>;
+using V = hn::Vec<Floats>;
+using I = hn::Vec<Ints>;
+// One sum and one product after the other, never fused: every width must round alike.
+template <class T>
+HWY_INLINE T times_plus(T a, T b, T c) {
+    return hn::Add(hn::Mul(a, b), c);
+}
+
+constexpr int kSide_px = kVisibilityTile_px;
+constexpr float kFarBeside_px = 16384;  // where floats still tell a thousandth of a pixel
+
+void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, ScreenPlaces out) {
+    const Floats d;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto number = [&](float value) { return hn::Set(d, value); };
+    const auto project_some = [&](V x, V y, V z, float* to_x, float* to_y, float* to_depth) {
+        const auto row = [&](Vec3f r) {
+            return times_plus(number(r.z), z, times_plus(number(r.y), y, hn::Mul(number(r.x), x)));
+        };
+        const V across = row(p.axes.x), down = row(p.axes.y), ahead = row(p.axes.z);
+        const V z_m = hn::Add(ahead, number(p.distance));
+        const V inverse = hn::Div(number(1), z_m);
+        const V scale = hn::Mul(number(p.focal_px), inverse);
+        const auto place = [&](V q, float lean, float start, float offset) {
+            const V shifted = hn::Add(times_plus(number(lean), ahead, q), number(start));
+            return times_plus(shifted, scale, number(offset));
+        };
+        const V sx = place(across, p.lean_x, p.start_x, p.offset_x);
+        const V sy = place(down, p.lean_y, p.start_y, p.offset_y);
+        const auto shown = hn::And(
+            hn::Gt(z_m, number(0)),
+            hn::And(hn::Lt(hn::Abs(sx), number(kFarBeside_px)), hn::Lt(hn::Abs(sy), number(kFarBeside_px))));
+        hn::StoreU(hn::IfThenElse(shown, sx, number(std::numeric_limits<float>::quiet_NaN())), d, to_x);
+        hn::StoreU(sy, d, to_y);
+        hn::StoreU(hn::Neg(hn::Mul(hn::Add(ahead, number(p.beyond_origin)), inverse)), d, to_depth);
+    };
+    const auto* in = reinterpret_cast<const float*>(vertices_m.data());
+    std::size_t i = 0;
+    V x, y, z;
+    for (; i + lanes <= vertices_m.size(); i += lanes) {
+        hn::LoadInterleaved3(d, in + 3 * i, x, y, z);
+        project_some(x, y, z, out.x + i, out.y + i, out.depth + i);
+    }
+    if (i == vertices_m.size()) return;
+    HWY_ALIGN float rest[3 * kTrianglesAtOnce] = {}, results[3][kTrianglesAtOnce];
+    std::copy(in + 3 * i, in + 3 * vertices_m.size(), rest);
+    hn::LoadInterleaved3(d, rest, x, y, z);
+    project_some(x, y, z, results[0], results[1], results[2]);
+    const std::size_t count = vertices_m.size() - i;
+    std::copy_n(results[0], count, out.x + i);
+    std::copy_n(results[1], count, out.y + i);
+    std::copy_n(results[2], count, out.depth + i);
+}
+
+// The corners of triangles, of which `numbers` are the first words.
+struct Corners {
+    V x[3], y[3];
+    I at[3];
+};
+HWY_INLINE Corners corners_of(ScreenVertices v, const TriangleCorners* triangles, I numbers) {
+    const Floats d;
+    const Ints di;
+    const auto* words = reinterpret_cast<const std::int32_t*>(triangles);
+    const I first = hn::Add(hn::Add(numbers, numbers), numbers);
+    Corners out;
+    for (int k = 0; k < 3; ++k) {
+        out.at[k] = hn::GatherIndex(di, words, hn::Add(first, hn::Set(di, k)));
+        out.x[k] = hn::GatherIndex(d, v.x, out.at[k]);
+        out.y[k] = hn::GatherIndex(d, v.y, out.at[k]);
+    }
+    return out;
+}
+HWY_INLINE V least(const V* of) { return hn::Min(hn::Min(of[0], of[1]), of[2]); }
+HWY_INLINE V most(const V* of) { return hn::Max(hn::Max(of[0], of[1]), of[2]); }
+
+std::size_t tiles(ScreenVertices vertices, std::span<const TriangleCorners> triangles, std::uint32_t first,
+                  int width_px, int height_px, TileRange* ranges) {
+    const Floats d;
+    const Ints di;
+    const std::size_t lanes = hn::Lanes(d);
+    const V zero = hn::Zero(d);
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < triangles.size(); t += lanes) {
+        const I last = hn::Set(di, static_cast<std::int32_t>(triangles.size() - 1));
+        const I numbers = hn::Min(hn::Iota(di, static_cast<std::int32_t>(t)), last);
+        const Corners c = corners_of(vertices, triangles.data(), numbers);
+        const V sum = hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2]);
+        const auto unknown = hn::IsNaN(sum);
+        const V x0 = least(c.x), x1 = most(c.x), y0 = least(c.y), y1 = most(c.y);
+        // No sample between least and greatest, in one of the axes: seen by none.
+        const auto none = [&](V from, V to) {
+            const V four = hn::Set(d, 4), half = hn::Set(d, 0.5f);
+            return hn::Gt(hn::Ceil(hn::Sub(hn::Mul(four, from), half)),
+                          hn::Floor(hn::Sub(hn::Mul(four, to), half)));
+        };
+        const V right = hn::Set(d, static_cast<float>(width_px)),
+                low = hn::Set(d, static_cast<float>(height_px));
+        const auto missed = hn::Or(
+            hn::Or(none(x0, x1), none(y0, y1)),
+            hn::Or(hn::Or(hn::Lt(x1, zero), hn::Lt(y1, zero)), hn::Or(hn::Ge(x0, right), hn::Ge(y0, low))));
+        HWY_ALIGN std::int32_t box[4][kTrianglesAtOnce];
+        const auto tile_of = [&](V at, V end) {
+            const V inside = hn::Min(hn::Max(at, zero), hn::Sub(end, hn::Set(d, 1)));
+            return hn::ShiftRight<4>(hn::ConvertTo(di, inside));
+        };
+        static_assert(kSide_px == 16);
+        hn::Store(tile_of(x0, right), di, box[0]), hn::Store(tile_of(x1, right), di, box[1]);
+        hn::Store(tile_of(y0, low), di, box[2]), hn::Store(tile_of(y1, low), di, box[3]);
+        std::uint8_t not_known[8] = {}, not_met[8] = {};
+        hn::StoreMaskBits(d, unknown, not_known), hn::StoreMaskBits(d, missed, not_met);
+        const unsigned unknown_bits = not_known[0] | unsigned{not_known[1]} << 8;
+        const unsigned missed_bits = not_met[0] | unsigned{not_met[1]} << 8;
+        const auto n = static_cast<unsigned>(std::min(lanes, triangles.size() - t));
+        for (unsigned rest = (unknown_bits | ~missed_bits) & ((1u << n) - 1); rest; rest &= rest - 1) {
+            const auto k = static_cast<std::size_t>(__builtin_ctz(rest));
+            TileRange& out = ranges[count++];
+            out.triangle = first + static_cast<std::uint32_t>(t + k);
+            out.x0 = static_cast<std::int16_t>(box[0][k]), out.x1 = static_cast<std::int16_t>(box[1][k]);
+            out.y0 = static_cast<std::int16_t>(box[2][k]), out.y1 = static_cast<std::int16_t>(box[3][k]);
+            if (unknown_bits >> k & 1u) out.x1 = -1;
+        }
+    }
+    return count;
+}
+
+// Of depth on the screen: with n the plane's normal, 1 / z = n . ray / n . corner.
+struct Slopes {
+    V x, y;
+};
+HWY_INLINE Slopes slopes_of(const ScreenMesh& mesh, const Corners& c) {
+    const Floats d;
+    const Ints di;
+    const ScreenProjection& p = *mesh.projection;
+    const auto* floats = reinterpret_cast<const float*>(mesh.vertices_m);
+    const auto number = [&](float value) { return hn::Set(d, value); };
+    V at[3][3];  // corner, axis
+    for (std::size_t i = 0; i < 3; ++i) {
+        const I first = hn::Add(hn::Add(c.at[i], c.at[i]), c.at[i]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            at[i][axis] =
+                hn::GatherIndex(d, floats, hn::Add(first, hn::Set(di, static_cast<std::int32_t>(axis))));
+    }
+    V e1[3], e2[3], from_eye[3], n[3];
+    const float eye[3] = {p.eye.x, p.eye.y, p.eye.z};
+    for (std::size_t i = 0; i < 3; ++i) {
+        e1[i] = hn::Sub(at[1][i], at[0][i]), e2[i] = hn::Sub(at[2][i], at[0][i]);
+        from_eye[i] = hn::Sub(at[0][i], number(eye[i]));
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = hn::Sub(hn::Mul(e1[j], e2[k]), hn::Mul(e1[k], e2[j]));
+    }
+    const auto along = [&](V x, V y, V z) {
+        return times_plus(z, n[2], times_plus(y, n[1], hn::Mul(x, n[0])));
+    };
+    const auto row = [&](Vec3f r) { return along(number(r.x), number(r.y), number(r.z)); };
+    const V scale =
+        hn::Div(number(p.depth_origin / p.focal_px), along(from_eye[0], from_eye[1], from_eye[2]));
+    return {hn::Mul(row(p.axes.x), scale), hn::Mul(row(p.axes.y), scale)};
+}
+
+void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
+            std::size_t count, int tile_x_px, int tile_y_px, TriangleSetup& s) {
+    const Floats d;
+    const Ints di;
+    const std::size_t lanes = hn::Lanes(d);
+    const V zero = hn::Zero(d), left = hn::Set(d, static_cast<float>(tile_x_px)),
+            top = hn::Set(d, static_cast<float>(tile_y_px));
+    const I sign = hn::Set(di, std::numeric_limits<std::int32_t>::min());
+    s.count = count;
+    for (std::size_t k = 0; k < count; k += lanes) {
+        const I number = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(numbers.data()) + k);
+        Corners c = corners_of(mesh.vertices, mesh.triangles, number);
+        V depth[3];
+        for (int i = 0; i < 3; ++i) {
+            c.x[i] = hn::Sub(c.x[i], left), c.y[i] = hn::Sub(c.y[i], top);
+            depth[i] = hn::GatherIndex(d, mesh.vertices.depth, c.at[i]);
+        }
+        const V ux = hn::Sub(c.x[1], c.x[0]), uy = hn::Sub(c.y[1], c.y[0]);
+        const V vx = hn::Sub(c.x[2], c.x[0]), vy = hn::Sub(c.y[2], c.y[0]);
+        const V area = hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx));
+        const auto left_turn = hn::Gt(area, zero);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            // Both triangles of an edge take it in one order: the same numbers, to the last bit.
+            const auto swap =
+                hn::Or(hn::Lt(c.x[j], c.x[i]), hn::And(hn::Eq(c.x[j], c.x[i]), hn::Lt(c.y[j], c.y[i])));
+            const V px = hn::IfThenElse(swap, c.x[j], c.x[i]), py = hn::IfThenElse(swap, c.y[j], c.y[i]);
+            const V qx = hn::IfThenElse(swap, c.x[i], c.x[j]), qy = hn::IfThenElse(swap, c.y[i], c.y[j]);
+            const V a = hn::Sub(py, qy), b = hn::Sub(qx, px);
+            // 0 -: never minus zero, so that sums with it are not, either.
+            const V e = hn::Sub(zero, times_plus(a, px, hn::Mul(b, py)));
+            hn::Store(a, d, s.a[i].data() + k), hn::Store(b, d, s.b[i].data() + k),
+                hn::Store(e, d, s.c[i].data() + k);
+            const auto inside_above = hn::Xor(left_turn, swap);
+            hn::Store(hn::IfThenElseZero(hn::RebindMask(di, inside_above), sign), di,
+                      reinterpret_cast<std::int32_t*>(s.flip[i].data()) + k);
+        }
+        const Slopes slopes = slopes_of(mesh, c);
+        const V gx = slopes.x, gy = slopes.y;
+        hn::Store(gx, d, s.depth_x.data() + k), hn::Store(gy, d, s.depth_y.data() + k);
+        hn::Store(hn::Sub(depth[0], times_plus(gx, c.x[0], hn::Mul(gy, c.y[0]))), d, s.depth.data() + k);
+        hn::Store(least(depth), d, s.least_depth.data() + k),
+            hn::Store(most(depth), d, s.most_depth.data() + k);
+        const V last = hn::Set(d, kSide_px - 1);
+        const auto pixel = [&](V at) { return hn::ConvertTo(di, hn::Min(hn::Max(at, zero), last)); };
+        const auto flat = hn::RebindMask(di, hn::Eq(area, zero));
+        hn::Store(pixel(least(c.x)), di, s.x0.data() + k);
+        hn::Store(hn::IfThenElse(flat, hn::Set(di, -1), pixel(most(c.x))), di, s.x1.data() + k);
+        hn::Store(pixel(least(c.y)), di, s.y0.data() + k), hn::Store(pixel(most(c.y)), di, s.y1.data() + k);
+        hn::Store(hn::Add(number, hn::Set(di, static_cast<std::int32_t>(mesh.first_id))), di,
+                  reinterpret_cast<std::int32_t*>(s.id.data()) + k);
+    }
+}
+
+struct SamplePlaces {
+    HWY_ALIGN float x[kSide_px][kVisibilitySamples];
+    HWY_ALIGN float y[kSide_px][kVisibilitySamples];
+    constexpr SamplePlaces() : x(), y() {
+        for (int p = 0; p < kSide_px; ++p)
+            for (int i = 0; i < kVisibilitySamples; ++i)
+                x[p][i] = static_cast<float>(p) + sample_x(i), y[p][i] = static_cast<float>(p) + sample_y(i);
+    }
+};
+constexpr SamplePlaces kPlaces;
+
+// The pixels of a row that a triangle can meet, a little wider.
+struct Span {
+    int from, to;
+};
+Span span_of_row(const TriangleSetup& s, std::size_t k, int row) {
+    constexpr float kMargin_px = 0.01f;  // for rounding
+    const auto top = static_cast<float>(row);
+    float from = static_cast<float>(s.x0[k]), to = static_cast<float>(s.x1[k]) + 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float side = s.flip[i][k] != 0 ? 1.0f : -1.0f;
+        const float a = side * s.a[i][k], b = side * s.b[i][k], c = side * s.c[i][k];
+        const float greatest = c + std::max(b * top, b * (top + 1));
+        if (a > 0)
+            from = std::max(from, -greatest / a - kMargin_px);
+        else if (a < 0)
+            to = std::min(to, greatest / -a + kMargin_px);
+    }
+    // Not yet integers: they may lie far outside.
+    from = std::clamp(from, static_cast<float>(s.x0[k]), static_cast<float>(kSide_px));
+    to = std::clamp(to, -1.0f, static_cast<float>(s.x1[k]));
+    return {static_cast<int>(from), static_cast<int>(std::floor(to))};
+}
+
+void fill(const TriangleSetup& s, VisibilityTile& tile) {
+    const Floats d;
+    const Ints di;
+    constexpr std::size_t lanes = hn::MaxLanes(d);
+    for (std::size_t k = 0; k < s.count; ++k) {
+        const int x0 = s.x0[k], x1 = s.x1[k];
+        if (x1 < x0) continue;
+        const V a0 = hn::Set(d, s.a[0][k]), a1 = hn::Set(d, s.a[1][k]), a2 = hn::Set(d, s.a[2][k]);
+        const V b0 = hn::Set(d, s.b[0][k]), b1 = hn::Set(d, s.b[1][k]), b2 = hn::Set(d, s.b[2][k]);
+        const V c0 = hn::Set(d, s.c[0][k]), c1 = hn::Set(d, s.c[1][k]), c2 = hn::Set(d, s.c[2][k]);
+        const auto flip = [&](std::size_t i) { return hn::Set(di, static_cast<std::int32_t>(s.flip[i][k])); };
+        const I f0 = flip(0), f1 = flip(1), f2 = flip(2);
+        const V gx = hn::Set(d, s.depth_x[k]), gy = hn::Set(d, s.depth_y[k]), g = hn::Set(d, s.depth[k]);
+        const V near_most = hn::Set(d, s.most_depth[k]), far_most = hn::Set(d, s.least_depth[k]);
+        const I id = hn::Set(di, static_cast<std::int32_t>(s.id[k]));
+        for (int row = s.y0[k]; row <= s.y1[k]; ++row) {
+            Span span{x0, x1};
+            if (x1 - x0 > 3) span = span_of_row(s, k, row);
+            for (std::size_t sample = 0; sample < kVisibilitySamples; sample += lanes) {
+                const V y = hn::Load(d, &kPlaces.y[row][sample]);
+                const V r0 = times_plus(b0, y, c0), r1 = times_plus(b1, y, c1), r2 = times_plus(b2, y, c2);
+                const V rg = times_plus(gy, y, g);
+                const auto at =
+                    static_cast<std::size_t>(row * kSide_px + span.from) * kVisibilitySamples + sample;
+                float* depth = tile.depth.data() + at;
+                auto* ids = reinterpret_cast<std::int32_t*>(tile.id.data()) + at;
+                for (int px = span.from; px <= span.to;
+                     ++px, depth += kVisibilitySamples, ids += kVisibilitySamples) {
+                    const V x = hn::Load(d, &kPlaces.x[px][sample]);
+                    const auto side = [&](V a, V r, I f) {
+                        return hn::Xor(hn::BitCast(di, times_plus(a, x, r)), f);
+                    };
+                    const I all = hn::And(hn::And(side(a0, r0, f0), side(a1, r1, f1)), side(a2, r2, f2));
+                    const auto inside = hn::RebindMask(d, hn::Lt(all, hn::Zero(di)));
+                    const V z = hn::Min(hn::Max(times_plus(gx, x, rg), far_most), near_most);
+                    const auto seen = hn::And(inside, hn::Gt(z, hn::Load(d, depth)));
+                    if (hn::AllFalse(d, seen)) continue;
+                    hn::BlendedStore(z, seen, d, depth);
+                    hn::BlendedStore(id, hn::RebindMask(di, seen), di, ids);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hilcam
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hilcam {
+
+HWY_EXPORT(project);
+HWY_EXPORT(tiles);
+HWY_EXPORT(set_up);
+HWY_EXPORT(fill);
+
+void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection& projection,
+                      ScreenPlaces out) {
+    HWY_DYNAMIC_DISPATCH(project)(vertices_m, projection, out);
+}
+std::size_t find_tiles(ScreenVertices vertices, std::span<const TriangleCorners> triangles,
+                       std::uint32_t first, int width_px, int height_px, TileRange* ranges) {
+    if (triangles.empty()) return 0;
+    return HWY_DYNAMIC_DISPATCH(tiles)(vertices, triangles, first, width_px, height_px, ranges);
+}
+void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
+                      std::size_t count, int tile_x_px, int tile_y_px, TriangleSetup& setup) {
+    HWY_DYNAMIC_DISPATCH(set_up)(mesh, numbers, count, tile_x_px, tile_y_px, setup);
+}
+void fill_tile(const TriangleSetup& setup, VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(fill)(setup, tile); }
+
+}  // namespace hilcam
+#endif

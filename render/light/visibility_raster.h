@@ -1,0 +1,105 @@
+#pragma once
+// The loops of the visibility buffer (visibility_buffer.h) that touch every vertex, triangle and sample. They
+// are compiled for several widths of vectors, and the widest that the processor has runs; all of them give
+// the same results, bit by bit. Loop, any thread.
+//
+// Samples stand on a regular grid of 4 x 4 in each pixel: of sixteen places the ones with the least error.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+inline constexpr int kVisibilityTile_px = 16;  // edge
+inline constexpr int kVisibilitySamplesAcross = 4;  // a pixel, and down it
+inline constexpr int kVisibilitySamples = kVisibilitySamplesAcross * kVisibilitySamplesAcross;
+inline constexpr std::size_t kTrianglesAtOnce = 16;
+
+// Where samples lie in their pixel: sample i at ((i % 4 + 0.5) / 4, (i / 4 + 0.5) / 4).
+constexpr float sample_x(int sample) { return (static_cast<float>(sample % 4) + 0.5f) / 4; }
+constexpr float sample_y(int sample) { return (static_cast<float>(sample / 4) + 0.5f) / 4; }
+
+// How vertices of one object come to the screen. x = offset_x + focal (p.x + lean_x p.z + start_x) / z with
+// p = axes * vertex and z = p.z + distance; y alike. Depth is (depth_origin - z) / z: linear on the screen,
+// greater is nearer.
+struct ScreenProjection {
+    Mat3f axes;                             // camera from body
+    float distance = 0, beyond_origin = 0;  // of the body's origin [m]; that less depth_origin
+    float focal_px = 0, depth_origin = 0;
+    Vec3f eye;  // the camera from the body's origin, body axes [m]
+    float offset_x = 0, offset_y = 0, lean_x = 0, lean_y = 0, start_x = 0, start_y = 0;
+};
+
+// On the screen [padded px]. x is NaN where a vertex is not before the camera, or far beside the picture.
+struct ScreenVertices {
+    const float* x;
+    const float* y;
+    const float* depth;
+};
+struct ScreenPlaces {
+    float* x;
+    float* y;
+    float* depth;
+};
+void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection& projection,
+                      ScreenPlaces out);
+
+// Tiles that a triangle may be seen in, from x0 to x1 and y0 to y1.
+struct TileRange {
+    std::uint32_t triangle;
+    std::int16_t x0, x1, y0, y1;  // x1 < 0: a corner is not on the screen, nothing is known
+};
+using TriangleCorners = std::array<std::uint32_t, 3>;
+// Those that triangles cover a sample of, at most. first: number of the first triangle. Returns how many were
+// written; ranges holds as many as there are triangles.
+std::size_t find_tiles(ScreenVertices vertices, std::span<const TriangleCorners> triangles,
+                       std::uint32_t first, int width_px, int height_px, TileRange* ranges);
+
+// Sixteen triangles ready for a tile. A sample at (x, y) from the tile's corner is inside where the sign bit
+// of a x + b y + c, flipped by `flip`, is set for all three edges. Two triangles that share an edge have the
+// same a, b, c and opposite flips: no sample is lost or met twice.
+struct alignas(64) TriangleSetup {
+    std::array<std::array<float, kTrianglesAtOnce>, 3> a, b, c;
+    std::array<std::array<std::uint32_t, kTrianglesAtOnce>, 3> flip;
+    std::array<float, kTrianglesAtOnce> depth_x, depth_y, depth, least_depth, most_depth;
+    std::array<std::int32_t, kTrianglesAtOnce> x0, x1, y0, y1;  // pixels of the tile; x1 < x0: none
+    std::array<std::uint32_t, kTrianglesAtOnce> id;
+    std::size_t count = 0;
+};
+// A mesh and where its vertices are on the screen.
+struct ScreenMesh {
+    ScreenVertices vertices;
+    const Vec3f* vertices_m;
+    const TriangleCorners* triangles;
+    const ScreenProjection* projection;
+    std::uint32_t first_id;  // of its first triangle
+};
+// numbers: of triangles; what is beyond count must be a triangle, too. Slopes of depth are those of the
+// triangle's plane in space: on the screen thin ones have none that could be trusted, and parts lie tenths of
+// a millimetre above each other.
+void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
+                      std::size_t count, int tile_x_px, int tile_y_px, TriangleSetup& setup);
+
+// What each sample of a tile sees: the nearest triangle.
+struct alignas(64) VisibilityTile {
+    static constexpr std::uint32_t kNothing = ~std::uint32_t{0};
+    static constexpr std::size_t kSize =
+        std::size_t{kVisibilityTile_px} * kVisibilityTile_px * kVisibilitySamples;
+    std::array<float, kSize> depth;
+    std::array<std::uint32_t, kSize> id;
+
+    void clear() {
+        depth.fill(-2);  // behind everything
+        id.fill(kNothing);
+    }
+    const std::uint32_t* ids(int x, int y) const {
+        return &id[static_cast<std::size_t>((y * kVisibilityTile_px + x) * kVisibilitySamples)];
+    }
+};
+void fill_tile(const TriangleSetup& setup, VisibilityTile& tile);
+
+}  // namespace hilcam

@@ -1,0 +1,182 @@
+#include "render/light/visibility_buffer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include "render/scene/brdf_microfacet.h"
+
+namespace hilcam {
+namespace {
+
+// A camera that looks along its +z, and what it sees by the buffer and by rays through the same samples.
+struct Sight {
+    ImageGeometry geometry;
+    Pose camera;
+    std::vector<Mesh> meshes;
+    std::vector<Pose> poses;
+    std::unique_ptr<EmbreeScene> embree;
+    std::unique_ptr<VisibilityBuffer> buffer;
+
+    Sight(int width_px, int height_px, double focal_px) {
+        geometry.width_px = width_px, geometry.height_px = height_px, geometry.guard_px = 3;
+        geometry.focal_length_px = focal_px;
+    }
+    void add(Mesh mesh, const Pose& pose) { meshes.push_back(std::move(mesh)), poses.push_back(pose); }
+
+    bool place() {
+        std::vector<std::vector<const Mesh*>> levels;
+        VisibilityBuffer::Room room{meshes.size(), 0, 0};
+        for (const Mesh& mesh : meshes) {
+            levels.push_back({&mesh});
+            room.vertices += mesh.vertices_m.size(), room.triangles += mesh.triangles.size();
+        }
+        embree = std::make_unique<EmbreeScene>(levels, true);
+        embree->place(poses, std::vector<std::size_t>(meshes.size()), camera.position_world_m);
+        buffer = std::make_unique<VisibilityBuffer>(geometry, room);
+        std::vector<VisibilityBuffer::Shown> shown;
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            double radius_m = 0;
+            for (const Vec3f& v : meshes[i].vertices_m)
+                radius_m = std::max(radius_m, static_cast<double>(length(v)));
+            shown.push_back({static_cast<std::uint32_t>(i), poses[i], radius_m, embree->mesh(i, 0)});
+        }
+        return buffer->place(camera, shown);
+    }
+
+    struct Count {
+        int samples = 0, seen_by_both = 0, only_buffer = 0, only_rays = 0, other_triangle = 0;
+    };
+    Count compare() const {
+        Count count;
+        const Mat3d world_from_camera = to_matrix(camera.world_from_body);
+        VisibilityTile tile;
+        for (int ty = 0; ty < geometry.padded_height(); ty += kVisibilityTile_px)
+            for (int tx = 0; tx < geometry.padded_width(); tx += kVisibilityTile_px) {
+                if (!buffer->fill(tx, ty, tile)) tile.clear();
+                const int x1 = std::min(tx + kVisibilityTile_px, geometry.padded_width());
+                const int y1 = std::min(ty + kVisibilityTile_px, geometry.padded_height());
+                for (int y = ty; y < y1; ++y)
+                    for (int x = tx; x < x1; ++x) add_pixel(tile.ids(x - tx, y - ty), x, y, world_from_camera, count);
+            }
+        return count;
+    }
+
+  private:
+    void add_pixel(const std::uint32_t* ids, int x, int y, const Mat3d& world_from_camera, Count& count) const {
+        RayPacket rays;
+        HitPacket hits;
+        rays.count = kVisibilitySamples;
+        for (int i = 0; i < kVisibilitySamples; ++i) {
+            const Vec3d dir = world_from_camera *
+                              geometry.direction_camera(x + static_cast<double>(sample_x(i)) - geometry.guard_px,
+                                                        y + static_cast<double>(sample_y(i)) - geometry.guard_px);
+            rays.set(i, {}, to_float(dir), 0, std::numeric_limits<float>::infinity());
+        }
+        embree->intersect(rays, Coherence::kIncoherent, hits);
+        for (std::size_t i = 0; i < kVisibilitySamples; ++i) {
+            ++count.samples;
+            const bool by_rays = hits.object[i] != HitPacket::kMiss;
+            const bool by_buffer = ids[i] != VisibilityTile::kNothing;
+            if (by_rays && by_buffer) {
+                ++count.seen_by_both;
+                const VisibilityBuffer::Seen seen = buffer->seen(ids[i]);
+                if (seen.triangle != hits.triangle[i] || seen.shown->object != hits.object[i])
+                    ++count.other_triangle;
+            } else if (by_rays) {
+                ++count.only_rays;
+            } else if (by_buffer) {
+                ++count.only_buffer;
+            }
+        }
+    }
+};
+
+Mesh sphere(float radius_m, int rings) {
+    Mesh mesh;
+    const int across = 2 * rings;
+    for (int i = 0; i <= rings; ++i)
+        for (int j = 0; j < across; ++j) {
+            const float theta = static_cast<float>(i) * kPiF / static_cast<float>(rings);
+            const float phi = static_cast<float>(j) * 2 * kPiF / static_cast<float>(across);
+            mesh.vertices_m.push_back(radius_m * Vec3f{std::sin(theta) * std::cos(phi),
+                                                       std::sin(theta) * std::sin(phi), std::cos(theta)});
+        }
+    const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(i * across + j % across); };
+    for (int i = 0; i < rings; ++i)
+        for (int j = 0; j < across; ++j) {
+            mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    mesh.surface_of_triangle.resize(mesh.triangles.size());
+    return mesh;
+}
+
+// Triangles anywhere in a cube, of all sizes.
+Mesh debris(int count, float size_m, unsigned seed) {
+    Mesh mesh;
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<float> place(-size_m, size_m);
+    for (int i = 0; i < count; ++i) {
+        const Vec3f at{place(engine), place(engine), place(engine)};
+        const float scale = std::exp2(-8.0f * std::abs(place(engine)) / size_m);
+        for (int k = 0; k < 3; ++k)
+            mesh.vertices_m.push_back(at + scale * Vec3f{place(engine), place(engine), place(engine)});
+        const auto n = static_cast<std::uint32_t>(3 * i);
+        mesh.triangles.push_back({n, n + 1, n + 2});
+    }
+    mesh.surface_of_triangle.resize(mesh.triangles.size());
+    return mesh;
+}
+
+Pose turned(Vec3d position_m) {
+    return {position_m, normalized(Quat{0.7, 0.2, -0.5, 0.3})};
+}
+
+// A sphere's triangles share all their edges: where it is seen, no sample is lost between two of them.
+TEST(VisibilityBuffer, SeesWhatRaysSee) {
+    Sight sight(200, 150, 300);
+    sight.add(sphere(1, 100), turned({0.1, -0.05, 4}));
+    ASSERT_TRUE(sight.place());
+    const Sight::Count count = sight.compare();
+    EXPECT_GT(count.seen_by_both, 100'000);
+    EXPECT_LE(count.only_rays + count.only_buffer, 3);
+    EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
+}
+
+TEST(VisibilityBuffer, SeesTrianglesOfAllSizesInFrontOfEachOther) {
+    Sight sight(200, 150, 300);
+    sight.add(debris(2000, 3, 1), turned({0, 0, 8}));
+    sight.add(debris(2000, 3, 2), turned({2, 1, 9}));
+    ASSERT_TRUE(sight.place());
+    const Sight::Count count = sight.compare();
+    EXPECT_GT(count.seen_by_both, 100'000);
+    EXPECT_LT(count.only_rays + count.only_buffer, 1e-4 * count.seen_by_both);
+    EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
+}
+
+// The camera is among the triangles: some go through its plane.
+TEST(VisibilityBuffer, CutsWhatGoesThroughTheCamerasPlane) {
+    Sight sight(200, 150, 100);
+    sight.add(debris(3000, 3, 3), turned({0, 0, 0.5}));
+    ASSERT_TRUE(sight.place());
+    const Sight::Count count = sight.compare();
+    EXPECT_GT(count.seen_by_both, 100'000);
+    EXPECT_LT(count.only_rays + count.only_buffer, 1e-4 * count.seen_by_both);
+    EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
+}
+
+// From inside there is no way out.
+TEST(VisibilityBuffer, LosesNoSampleInsideASphere) {
+    Sight sight(200, 150, 60);
+    sight.add(sphere(1, 200), turned({0.3, 0.1, 0.2}));
+    ASSERT_TRUE(sight.place());
+    const Sight::Count count = sight.compare();
+    EXPECT_LE(count.samples - count.seen_by_both, 2);
+}
+
+}  // namespace
+}  // namespace hilcam
