@@ -19,13 +19,11 @@ void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count)
     }
 }
 
-bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
-                 float alpha_least, RayWidth width, Vertex& vertex) {
+bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
     const Mat3f& world_from_body = frame.world_from_body[hits.object[k]];
     const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
-    const Material& material = object.materials[triangle.surface];
 
     Vec3f geometric_raw{hits.normal_x[k], hits.normal_y[k], hits.normal_z[k]};
     float squared = dot(geometric_raw, geometric_raw);
@@ -38,19 +36,35 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
         squared = dot(geometric_raw, geometric_raw);
     }
     const Vec3f geometric_body = geometric_raw / std::sqrt(squared);
-    const float u = hits.u[k];
-    const float v = hits.v[k];
 
-    vertex.view_dir = -normalized(dir);
+    lie.view_dir = -normalized(dir);
     Vec3f geometric = world_from_body * geometric_body;
-    Vec3f normal = world_from_body * object.normal_at(triangle, u, v, geometric_body);
-    vertex.back = dot(geometric, vertex.view_dir) < 0;
-    if (vertex.back) geometric = -geometric;
+    Vec3f normal = world_from_body * object.normal_at(triangle, hits.u[k], hits.v[k], geometric_body);
+    lie.back = dot(geometric, lie.view_dir) < 0;
+    if (lie.back) geometric = -geometric;
     if (dot(normal, geometric) < 0) normal = -normal;
     // A smoothed normal that leans away from the viewer would make the surface vanish.
-    if (dot(normal, vertex.view_dir) <= 1e-4f) normal = geometric;
-    vertex.geometric_normal = geometric;
-    vertex.normal = normal;
+    if (dot(normal, lie.view_dir) <= 1e-4f) normal = geometric;
+    lie.geometric_normal = geometric;
+    lie.normal = normal;
+    return true;
+}
+
+bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
+                 float alpha_least, RayWidth width, Vertex& vertex) {
+    Lie lie;
+    if (!find_lie(frame, hits, lane, dir, lie)) return false;
+    const auto k = static_cast<std::size_t>(lane);
+    const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
+    const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
+    const Material& material = object.materials[triangle.surface];
+    const float u = hits.u[k];
+    const float v = hits.v[k];
+    vertex.view_dir = lie.view_dir;
+    vertex.geometric_normal = lie.geometric_normal;
+    vertex.normal = lie.normal;
+    vertex.back = lie.back;
+    vertex.facets = nullptr;
 
     vertex.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
     vertex.point_m = origin_m + hits.distance[k] * dir;
@@ -73,7 +87,7 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
         const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];
         // The footprint is longer where the surface is seen aslant; its shorter side decides up to a factor
         // of four.
-        const float slant = 1 / std::max(0.25f, dot(geometric, vertex.view_dir));
+        const float slant = 1 / std::max(0.25f, dot(vertex.geometric_normal, vertex.view_dir));
         const float footprint = vertex.footprint_m * std::sqrt(slant) * object.uv_per_m[hits.triangle[k]];
         const Spectrum scale = frame.bands->spectrum(
             texture.sample((1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,

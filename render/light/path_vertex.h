@@ -9,6 +9,15 @@
 
 namespace hilcam {
 
+// A vertex that many samples of a pixel see may be a crumpled thing: its parts that lean otherwise.
+struct Facet {
+    Vec3f geometric_normal;  // as a vertex's
+    Vec3f normal;
+    Vec3f start_m;      // where rays that leave it begin, ray space
+    float samples = 0;  // of the pixel, that see it
+    const Facet* next = nullptr;
+};
+
 struct Vertex {
     std::uint32_t pixel;     // in the tile
     std::uint16_t sample;    // in the pixel
@@ -24,6 +33,8 @@ struct Vertex {
     bool back;                     // the side that its triangle's own normal points away from
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     bool mirrors_near;             // where that, something may stand in the mirror's direction
+    float weight_samples;          // samples of the pixel that see it, where it is not one ray's
+    const Facet* facets;           // the vertex's own among them; null: it is one
     Spectrum weight;
     Scatterer surface;
 
@@ -33,9 +44,18 @@ struct Vertex {
     }
 };
 
+// How a surface lies that a ray meets.
+struct Lie {
+    Vec3f geometric_normal, normal, view_dir;  // as a vertex's
+    bool back;
+};
+// Of a lane that met an object. False where there is nothing to see: a triangle without an area. Loop, any
+// thread.
+bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie);
+
 // Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's.
-// The facet lobe is at least `alpha_least` wide. False where there is nothing to see: a triangle without an
-// area. Loop, any thread. footprint_m: width of the ray where it began, spread_rad: by how much it widens.
+// The facet lobe is at least `alpha_least` wide. False where there is nothing to see. Loop, any thread.
+// footprint_m: width of the ray where it began, spread_rad: by how much it widens.
 struct RayWidth {
     float footprint_m = 0;
     float spread_rad = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/light/kept_light.h"
 #include "render/light/primary_rays.h"
 #include "render/light/visibility_buffer.h"
 #include "render/vocabulary/check.h"
@@ -35,7 +36,8 @@ Meeting meet(Vec3f a, Vec3f b, Vec3f c, Vec3f origin, Vec3f dir) {
     return {dot(at, dir) / dot(dir, dir), u, v, cross(e1, e2)};
 }
 
-// The middle of some samples, from their pixel's corner.
+// Where to look for what some samples see, from their pixel's corner: at the one next to their middle. The
+// middle itself may see something else.
 Vec2f middle_of(std::uint32_t samples) {
     float x = 0, y = 0;
     for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
@@ -43,8 +45,23 @@ Vec2f middle_of(std::uint32_t samples) {
         x += sample_x(i), y += sample_y(i);
     }
     const float share = 1 / static_cast<float>(std::popcount(samples));
-    return {share * x, share * y};
+    x *= share, y *= share;
+    if (samples == 0xFFFFu) return {x, y};
+    float least = 2;
+    int nearest = 0;
+    for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
+        const int i = std::countr_zero(rest);
+        const float dx = sample_x(i) - x, dy = sample_y(i) - y;
+        if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = i;
+    }
+    return {sample_x(nearest), sample_y(nearest)};
 }
+
+// How far two facets may lean against each other to be one vertex: its kept light and its mirrored rays are
+// those of one of them.
+constexpr float kLeansAlike = 0.94f;          // cosine
+constexpr float kLeansAlikeNarrow = 0.9998f;  // of surfaces with narrow lobes
+constexpr float kSame = 0.999998f;
 
 }  // namespace
 
@@ -64,7 +81,9 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
         y_ = part_.y1;
     }
     std::size_t count = 0;
-    while (count + kPacketSize <= vertices.size()) {
+    facet_count_ = 0;
+    while (count + kPacketSize <= vertices.size() &&
+           facet_count_ + 2 * kPacketSize <= SeenMemory::kMostFacets) {
         while (fragment_count_ < kPacketSize && (y_ < part_.y1 || open_next_part())) {
             take_pixel(x_, y_);
             if (++x_ == part_.x1) x_ = part_.x0, ++y_;
@@ -74,7 +93,7 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
             if (!std::exchange(ended_, true)) add_backdrop(tile_, uncovered_.data());
             break;
         }
-        count += make_vertices(vertices.subspan(count));
+        count = make_vertices(vertices, count);
     }
     return count;
 }
@@ -90,14 +109,14 @@ bool PrimaryVertices::open_next_part() {
             y_ = part_.y1;
             return false;
         }
-        if (!tile_.frame.visibility->fill(x, y, *tile_.seen)) continue;
+        if (!tile_.frame.visibility->fill(x, y, tile_.seen->samples)) continue;
         x_ = x, y_ = y;
         return true;
     }
 }
 
 void PrimaryVertices::take_pixel(int x, int y) {
-    const std::uint32_t* ids = tile_.seen->ids(x - part_.x0, y - part_.y0);
+    const std::uint32_t* ids = tile_.seen->samples.ids(x - part_.x0, y - part_.y0);
     const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
     std::uint32_t rest = 0;
     for (std::uint32_t i = 0; i < kVisibilitySamples; ++i)
@@ -105,6 +124,7 @@ void PrimaryVertices::take_pixel(int x, int y) {
     const int covered = std::popcount(rest);
     uncovered_[static_cast<std::size_t>(pixel)] = static_cast<std::uint8_t>(kVisibilitySamples - covered);
     tile_.stats.covered_px += covered * (1.0 / kVisibilitySamples);
+    const std::size_t first = fragment_count_;
     while (rest != 0) {
         const std::uint32_t id = ids[std::countr_zero(rest)];
         std::uint32_t same = 0;
@@ -113,6 +133,12 @@ void PrimaryVertices::take_pixel(int x, int y) {
                                          static_cast<std::uint16_t>(pixel)};
         rest &= ~same;
     }
+    // The greatest first: others join it.
+    std::sort(fragments_.begin() + first, fragments_.begin() + fragment_count_,
+              [](const Fragment& a, const Fragment& b) {
+                  const int more = std::popcount(a.samples), less = std::popcount(b.samples);
+                  return more != less ? more > less : a.samples < b.samples;
+              });
 }
 
 // A body stands before what the samples see: they see the body.
@@ -126,7 +152,32 @@ void PrimaryVertices::leave_to_body(HitPacket& hits, std::size_t k, Vec3f origin
     uncovered = static_cast<std::uint8_t>(uncovered + samples);
 }
 
-std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices) {
+// The vertex among those of the same pixel that a fragment is part of; null: none.
+Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
+                              std::uint16_t surface, const Lie& lie) {
+    for (auto vertex = so_far.rbegin(); vertex != so_far.rend() && vertex->pixel == pixel; ++vertex) {
+        if (vertex->object != object || vertex->surface_number != surface || vertex->back != lie.back)
+            continue;
+        const bool narrow = vertex->surface.material->has_facets() && vertex->surface.alpha < kNarrowestKept;
+        if (dot(vertex->normal, lie.normal) > (narrow ? kLeansAlikeNarrow : kLeansAlike)) return &*vertex;
+    }
+    return nullptr;
+}
+
+void PrimaryVertices::add_facet(Vertex& vertex, const Lie& lie, Vec3f start_m, float samples) {
+    const auto add = [&](Vec3f geometric_normal, Vec3f normal, Vec3f from_m, float of) {
+        Facet& facet = tile_.seen->facets[facet_count_++];
+        facet = {geometric_normal, normal, from_m, of, vertex.facets};
+        vertex.facets = &facet;
+    };
+    if (!vertex.facets) {
+        if (dot(vertex.normal, lie.normal) > kSame) return;
+        add(vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples);
+    }
+    add(lie.geometric_normal, lie.normal, start_m, samples);
+}
+
+std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size_t count) {
     const FrameView& frame = tile_.frame;
     const LinearRays& rays = *frame.rays->linear();
     const Vec3d corner = rays.corner + tile_.box.x0 * rays.right + tile_.box.y0 * rays.down;
@@ -158,21 +209,35 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices) {
     }
     prefetch_vertices(frame, hits, n);
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
-    std::size_t count = 0;
+    const float from_m =
+        frame.start_before_m > 0 ? static_cast<float>(length(frame.start_at_m - frame.camera_m)) : 0.0f;
     for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
         if (hits.object[k] == HitPacket::kMiss) continue;
         const Fragment& fragment = fragments_[k];
+        const auto samples = static_cast<float>(std::popcount(std::uint32_t{fragment.samples}));
+        const Vec3f dir = to_float(dirs[k]);
+        Lie lie;
+        if (!find_lie(frame, hits, static_cast<int>(k), dir, lie)) continue;
+        const std::uint16_t surface = (*frame.objects)[hits.object[k]]->triangles[hits.triangle[k]].surface;
+        Vertex* const joined = join(vertices.first(count), fragment.pixel, hits.object[k], surface, lie);
+        if (joined) {
+            const Vec3f start_m =
+                origins[k] + hits.distance[k] * dir + joined->offset_m * lie.geometric_normal;
+            add_facet(*joined, lie, start_m, samples);
+            // Alike in all bins, but for the air before it.
+            joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
+            joined->weight_samples += samples;
+            continue;
+        }
         Vertex& vertex = vertices[count];
-        const float from_m =
-            frame.start_before_m > 0 ? static_cast<float>(length(frame.start_at_m - frame.camera_m)) : 0.0f;
-        if (!make_vertex(frame, hits, static_cast<int>(k), origins[k], to_float(dirs[k]), 0,
+        if (!make_vertex(frame, hits, static_cast<int>(k), origins[k], dir, 0,
                          {pixel_rad * from_m, pixel_rad}, vertex))
             continue;
         vertex.pixel = fragment.pixel;
         vertex.sample = static_cast<std::uint16_t>(std::countr_zero(std::uint32_t{fragment.samples}));
         vertex.depth = 1;
-        const auto share = static_cast<float>(std::popcount(std::uint32_t{fragment.samples}));
-        std::fill_n(vertex.weight.bin.begin(), frame.bins, share);
+        vertex.weight_samples = samples;
+        std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         add_air_before(tile_, dirs[k], vertex);
         ++count;
     }

@@ -32,13 +32,16 @@ class PrimaryVertices {
     int x_ = 0, y_ = 0;  // the next pixel there
     std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;
     std::array<Fragment, 2 * kPacketSize> fragments_;
-    std::size_t fragment_count_ = 0;
+    std::size_t fragment_count_ = 0, facet_count_ = 0;
 
     std::size_t next_fragments(std::span<Vertex> vertices);
     bool open_next_part();
     void take_pixel(int x, int y);
     void leave_to_body(HitPacket& hits, std::size_t k, Vec3f origin, Vec3d dir);
-    std::size_t make_vertices(std::span<Vertex> vertices);
+    std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
+    static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
+                        std::uint16_t surface, const Lie& lie);
+    void add_facet(Vertex& vertex, const Lie& lie, Vec3f start_m, float samples);
 };
 
 }  // namespace hilcam

@@ -47,6 +47,29 @@ struct LitBy {
     Vec3f dir;
 };
 
+// What a crumpled vertex reflects of a light that has irradiance 1, with the vertex's weight; seen from there
+// or not as its brightest facet is.
+struct FacetLight {
+    Spectrum reflected;
+    const Facet* brightest = nullptr;
+};
+FacetLight sunlit_facets(const Vertex& at, Vec3f dir, bool sun_is_disk) {
+    FacetLight out;
+    Scatterer surface = at.surface;
+    if (!sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
+    BrdfSum sum(surface, dot(at.view_dir, dir));
+    float samples = 0, most = 0;
+    for (const Facet* facet = at.facets; facet; facet = facet->next) {
+        samples += facet->samples;
+        const float ni = dot(facet->normal, dir);
+        if (ni <= 0 || dot(facet->geometric_normal, dir) <= 0) continue;
+        sum.add(facet->samples * ni, std::max(dot(facet->normal, at.view_dir), 1e-4f), ni);
+        if (facet->samples * ni > most) most = facet->samples * ni, out.brightest = facet;
+    }
+    out.reflected = (1 / samples) * (at.weight * sum.value());
+    return out;
+}
+
 void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
@@ -76,6 +99,11 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
             const float r = std::sqrt(u1 * sine_squared);
             dir = normalized(axis.to_world({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)}));
             light = light * background.sun_disk().relative_radiance(std::sqrt(1 - u1));
+        }
+        if (at.facets) {
+            const FacetLight sum = sunlit_facets(at, dir, frame.sun_is_disk);
+            if (sum.brightest) shadow.add(sum.brightest->start_m, dir, {&at, light * sum.reflected, dir});
+            continue;
         }
         const float ni = dot(at.normal, dir);
         if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;

@@ -31,8 +31,6 @@ ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_
     p.distance = single(origin_m.z);
     p.beyond_origin = single(origin_m.z - depth_origin_m);
     p.focal_px = single(g.focal_length_px);
-    p.depth_origin = single(depth_origin_m);
-    p.eye = to_float(transposed(camera_from_body) * (-1.0 * origin_m));
     const Vec2d center{g.center_px().x + g.guard_px, g.center_px().y + g.guard_px};
     if (origin_m.z > 2 * radius_m) {
         // From where the body's origin is seen: what is left is small, and keeps its digits.
@@ -55,7 +53,7 @@ VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Room& ro
       tiles_down_((geometry.padded_height() + kVisibilityTile_px - 1) / kVisibilityTile_px) {
     const auto tiles = static_cast<std::size_t>(tiles_across_ * tiles_down_);
     placed_.reserve(room.objects);
-    for (std::vector<float>* of : {&x_, &y_, &depth_}) of->resize(room.vertices);
+    vertices_.resize(room.vertices);
     first_.resize(tiles * kGroups);
     // Most triangles are met by one tile or none; of a block's sixteen places half are taken.
     constexpr std::size_t kLeast = 1 << 16;  // for few that fill the screen many times
@@ -91,18 +89,12 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
     return true;
 }
 
-ScreenVertices VisibilityBuffer::vertices_of(const Placed& placed) const {
-    return {x_.data() + placed.first_vertex, y_.data() + placed.first_vertex,
-            depth_.data() + placed.first_vertex};
-}
-
 void VisibilityBuffer::project() {
     for (const Placed& object : placed_) {
         const std::span<const Vec3f> all = object.shown.mesh.vertices_m;
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, all.size(), kVertexRun), [&](const auto& part) {
             const std::size_t i = object.first_vertex + part.begin();
-            project_vertices(all.subspan(part.begin(), part.size()), object.projection,
-                             {x_.data() + i, y_.data() + i, depth_.data() + i});
+            project_vertices(all.subspan(part.begin(), part.size()), object.projection, vertices_.data() + i);
         });
     }
 }
@@ -136,7 +128,7 @@ class VisibilityBuffer::Sorter {
     bool sort_run(const Placed& object, std::size_t first, std::size_t count) {
         const std::span<const TriangleCorners> triangles = object.shown.mesh.triangles.subspan(first, count);
         const std::size_t found =
-            find_tiles(my_.vertices_of(object), triangles, static_cast<std::uint32_t>(first),
+            find_tiles(&my_.vertices_[object.first_vertex], triangles, static_cast<std::uint32_t>(first),
                        my_.geometry_.padded_width(), my_.geometry_.padded_height(), ranges_.data());
         const auto placed = static_cast<std::uint32_t>(&object - my_.placed_.data());
         for (std::size_t i = 0; i < found; ++i) {
@@ -278,8 +270,7 @@ bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
             if (head.cut)
                 set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);
             else
-                set_up_triangles({vertices_of(placed), placed.shown.mesh.vertices_m.data(),
-                                  placed.shown.mesh.triangles.data(), &placed.projection,
+                set_up_triangles({&vertices_[placed.first_vertex], placed.shown.mesh.triangles.data(),
                                   static_cast<std::uint32_t>(placed.first_triangle)},
                                  blocks_[block].triangles, head.count, x_px, y_px, setup);
             fill_tile(setup, tile);

@@ -84,15 +84,14 @@ class VisibilityBuffer {
     std::vector<Placed> placed_;
     double depth_origin_m_ = 1;
     std::size_t triangle_count_ = 0;
-    std::vector<float> x_, y_, depth_;  // of all vertices
-    std::vector<std::uint32_t> first_;  // block by tile and group
+    std::vector<ScreenVertex> vertices_;  // of all objects
+    std::vector<std::uint32_t> first_;    // block by tile and group
     std::vector<Block> blocks_;
     std::vector<BlockHead> heads_;
     std::atomic<std::uint32_t> used_{1};
 
     bool take(const Pose& camera, std::span<const Shown> shown);
     void project();
-    ScreenVertices vertices_of(const Placed& placed) const;
     std::array<Vec3d, 3> corners_camera_m(const Placed& placed, std::uint32_t triangle) const;
     bool bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const;
     void set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,

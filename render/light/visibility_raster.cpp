@@ -27,11 +27,11 @@ HWY_INLINE T times_plus(T a, T b, T c) {
 constexpr int kSide_px = kVisibilityTile_px;
 constexpr float kFarBeside_px = 16384;  // where floats still tell a thousandth of a pixel
 
-void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, ScreenPlaces out) {
+void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, ScreenVertex* out) {
     const Floats d;
     const std::size_t lanes = hn::Lanes(d);
     const auto number = [&](float value) { return hn::Set(d, value); };
-    const auto project_some = [&](V x, V y, V z, float* to_x, float* to_y, float* to_depth) {
+    const auto project_some = [&](V x, V y, V z, float* to) {
         const auto row = [&](Vec3f r) {
             return times_plus(number(r.z), z, times_plus(number(r.y), y, hn::Mul(number(r.x), x)));
         };
@@ -48,60 +48,63 @@ void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, Scree
         const auto shown = hn::And(
             hn::Gt(z_m, number(0)),
             hn::And(hn::Lt(hn::Abs(sx), number(kFarBeside_px)), hn::Lt(hn::Abs(sy), number(kFarBeside_px))));
-        hn::StoreU(hn::IfThenElse(shown, sx, number(std::numeric_limits<float>::quiet_NaN())), d, to_x);
-        hn::StoreU(sy, d, to_y);
-        hn::StoreU(hn::Neg(hn::Mul(hn::Add(ahead, number(p.beyond_origin)), inverse)), d, to_depth);
+        hn::StoreInterleaved4(hn::IfThenElse(shown, sx, number(std::numeric_limits<float>::quiet_NaN())), sy,
+                              hn::Neg(hn::Mul(hn::Add(ahead, number(p.beyond_origin)), inverse)), hn::Zero(d),
+                              d, to);
     };
     const auto* in = reinterpret_cast<const float*>(vertices_m.data());
     std::size_t i = 0;
     V x, y, z;
     for (; i + lanes <= vertices_m.size(); i += lanes) {
         hn::LoadInterleaved3(d, in + 3 * i, x, y, z);
-        project_some(x, y, z, out.x + i, out.y + i, out.depth + i);
+        project_some(x, y, z, &out[i].x);
     }
     if (i == vertices_m.size()) return;
-    HWY_ALIGN float rest[3 * kTrianglesAtOnce] = {}, results[3][kTrianglesAtOnce];
+    HWY_ALIGN float rest[3 * kTrianglesAtOnce] = {};
+    HWY_ALIGN ScreenVertex results[kTrianglesAtOnce];
     std::copy(in + 3 * i, in + 3 * vertices_m.size(), rest);
     hn::LoadInterleaved3(d, rest, x, y, z);
-    project_some(x, y, z, results[0], results[1], results[2]);
-    const std::size_t count = vertices_m.size() - i;
-    std::copy_n(results[0], count, out.x + i);
-    std::copy_n(results[1], count, out.y + i);
-    std::copy_n(results[2], count, out.depth + i);
+    project_some(x, y, z, &results[0].x);
+    std::copy_n(results, vertices_m.size() - i, out + i);
 }
 
-// The corners of triangles, of which `numbers` are the first words.
+// The corners of some triangles.
 struct Corners {
-    V x[3], y[3];
-    I at[3];
+    V x[3], y[3], depth[3];
 };
-HWY_INLINE Corners corners_of(ScreenVertices v, const TriangleCorners* triangles, I numbers) {
+// number_of(k): of triangle k.
+template <class NumberOf>
+HWY_INLINE Corners corners_of(const ScreenVertex* vertices, const TriangleCorners* triangles,
+                              const NumberOf& number_of) {
     const Floats d;
-    const Ints di;
-    const auto* words = reinterpret_cast<const std::int32_t*>(triangles);
-    const I first = hn::Add(hn::Add(numbers, numbers), numbers);
-    Corners out;
-    for (int k = 0; k < 3; ++k) {
-        out.at[k] = hn::GatherIndex(di, words, hn::Add(first, hn::Set(di, k)));
-        out.x[k] = hn::GatherIndex(d, v.x, out.at[k]);
-        out.y[k] = hn::GatherIndex(d, v.y, out.at[k]);
+    const hn::Full128<float> one;
+    const std::size_t lanes = hn::Lanes(d);
+    HWY_ALIGN ScreenVertex at[3][kTrianglesAtOnce];
+    for (std::size_t k = 0; k < lanes; ++k) {
+        const TriangleCorners& corners = triangles[number_of(k)];
+        for (std::size_t i = 0; i < 3; ++i)
+            hn::Store(hn::Load(one, &vertices[corners[i]].x), one, &at[i][k].x);
     }
+    Corners out;
+    V unused;
+    for (std::size_t i = 0; i < 3; ++i)
+        hn::LoadInterleaved4(d, &at[i][0].x, out.x[i], out.y[i], out.depth[i], unused);
     return out;
 }
 HWY_INLINE V least(const V* of) { return hn::Min(hn::Min(of[0], of[1]), of[2]); }
 HWY_INLINE V most(const V* of) { return hn::Max(hn::Max(of[0], of[1]), of[2]); }
 
-std::size_t tiles(ScreenVertices vertices, std::span<const TriangleCorners> triangles, std::uint32_t first,
-                  int width_px, int height_px, TileRange* ranges) {
+std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
+                  std::uint32_t first, int width_px, int height_px, TileRange* ranges) {
     const Floats d;
     const Ints di;
     const std::size_t lanes = hn::Lanes(d);
     const V zero = hn::Zero(d);
     std::size_t count = 0;
     for (std::size_t t = 0; t < triangles.size(); t += lanes) {
-        const I last = hn::Set(di, static_cast<std::int32_t>(triangles.size() - 1));
-        const I numbers = hn::Min(hn::Iota(di, static_cast<std::int32_t>(t)), last);
-        const Corners c = corners_of(vertices, triangles.data(), numbers);
+        const std::size_t last = triangles.size() - 1;
+        const Corners c =
+            corners_of(vertices, triangles.data(), [&](std::size_t k) { return std::min(t + k, last); });
         const V sum = hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2]);
         const auto unknown = hn::IsNaN(sum);
         const V x0 = least(c.x), x1 = most(c.x), y0 = least(c.y), y1 = most(c.y);
@@ -141,42 +144,6 @@ std::size_t tiles(ScreenVertices vertices, std::span<const TriangleCorners> tria
     return count;
 }
 
-// Of depth on the screen: with n the plane's normal, 1 / z = n . ray / n . corner.
-struct Slopes {
-    V x, y;
-};
-HWY_INLINE Slopes slopes_of(const ScreenMesh& mesh, const Corners& c) {
-    const Floats d;
-    const Ints di;
-    const ScreenProjection& p = *mesh.projection;
-    const auto* floats = reinterpret_cast<const float*>(mesh.vertices_m);
-    const auto number = [&](float value) { return hn::Set(d, value); };
-    V at[3][3];  // corner, axis
-    for (std::size_t i = 0; i < 3; ++i) {
-        const I first = hn::Add(hn::Add(c.at[i], c.at[i]), c.at[i]);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            at[i][axis] =
-                hn::GatherIndex(d, floats, hn::Add(first, hn::Set(di, static_cast<std::int32_t>(axis))));
-    }
-    V e1[3], e2[3], from_eye[3], n[3];
-    const float eye[3] = {p.eye.x, p.eye.y, p.eye.z};
-    for (std::size_t i = 0; i < 3; ++i) {
-        e1[i] = hn::Sub(at[1][i], at[0][i]), e2[i] = hn::Sub(at[2][i], at[0][i]);
-        from_eye[i] = hn::Sub(at[0][i], number(eye[i]));
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        n[i] = hn::Sub(hn::Mul(e1[j], e2[k]), hn::Mul(e1[k], e2[j]));
-    }
-    const auto along = [&](V x, V y, V z) {
-        return times_plus(z, n[2], times_plus(y, n[1], hn::Mul(x, n[0])));
-    };
-    const auto row = [&](Vec3f r) { return along(number(r.x), number(r.y), number(r.z)); };
-    const V scale =
-        hn::Div(number(p.depth_origin / p.focal_px), along(from_eye[0], from_eye[1], from_eye[2]));
-    return {hn::Mul(row(p.axes.x), scale), hn::Mul(row(p.axes.y), scale)};
-}
-
 void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
             std::size_t count, int tile_x_px, int tile_y_px, TriangleSetup& s) {
     const Floats d;
@@ -188,11 +155,9 @@ void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAt
     s.count = count;
     for (std::size_t k = 0; k < count; k += lanes) {
         const I number = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(numbers.data()) + k);
-        Corners c = corners_of(mesh.vertices, mesh.triangles, number);
-        V depth[3];
+        Corners c = corners_of(mesh.vertices, mesh.triangles, [&](std::size_t i) { return numbers[k + i]; });
         for (int i = 0; i < 3; ++i) {
             c.x[i] = hn::Sub(c.x[i], left), c.y[i] = hn::Sub(c.y[i], top);
-            depth[i] = hn::GatherIndex(d, mesh.vertices.depth, c.at[i]);
         }
         const V ux = hn::Sub(c.x[1], c.x[0]), uy = hn::Sub(c.y[1], c.y[0]);
         const V vx = hn::Sub(c.x[2], c.x[0]), vy = hn::Sub(c.y[2], c.y[0]);
@@ -214,12 +179,14 @@ void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAt
             hn::Store(hn::IfThenElseZero(hn::RebindMask(di, inside_above), sign), di,
                       reinterpret_cast<std::int32_t*>(s.flip[i].data()) + k);
         }
-        const Slopes slopes = slopes_of(mesh, c);
-        const V gx = slopes.x, gy = slopes.y;
+        const V inverse = hn::Div(hn::Set(d, 1), area);
+        const V du = hn::Sub(c.depth[1], c.depth[0]), dv = hn::Sub(c.depth[2], c.depth[0]);
+        const V gx = hn::Mul(hn::Sub(hn::Mul(du, vy), hn::Mul(dv, uy)), inverse);
+        const V gy = hn::Mul(hn::Sub(hn::Mul(dv, ux), hn::Mul(du, vx)), inverse);
         hn::Store(gx, d, s.depth_x.data() + k), hn::Store(gy, d, s.depth_y.data() + k);
-        hn::Store(hn::Sub(depth[0], times_plus(gx, c.x[0], hn::Mul(gy, c.y[0]))), d, s.depth.data() + k);
-        hn::Store(least(depth), d, s.least_depth.data() + k),
-            hn::Store(most(depth), d, s.most_depth.data() + k);
+        hn::Store(hn::Sub(c.depth[0], times_plus(gx, c.x[0], hn::Mul(gy, c.y[0]))), d, s.depth.data() + k);
+        hn::Store(least(c.depth), d, s.least_depth.data() + k),
+            hn::Store(most(c.depth), d, s.most_depth.data() + k);
         const V last = hn::Set(d, kSide_px - 1);
         const auto pixel = [&](V at) { return hn::ConvertTo(di, hn::Min(hn::Max(at, zero), last)); };
         const auto flat = hn::RebindMask(di, hn::Eq(area, zero));
@@ -323,10 +290,10 @@ HWY_EXPORT(set_up);
 HWY_EXPORT(fill);
 
 void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection& projection,
-                      ScreenPlaces out) {
+                      ScreenVertex* out) {
     HWY_DYNAMIC_DISPATCH(project)(vertices_m, projection, out);
 }
-std::size_t find_tiles(ScreenVertices vertices, std::span<const TriangleCorners> triangles,
+std::size_t find_tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                        std::uint32_t first, int width_px, int height_px, TileRange* ranges) {
     if (triangles.empty()) return 0;
     return HWY_DYNAMIC_DISPATCH(tiles)(vertices, triangles, first, width_px, height_px, ranges);

@@ -14,7 +14,7 @@
 
 namespace hilcam {
 
-inline constexpr int kVisibilityTile_px = 16;  // edge
+inline constexpr int kVisibilityTile_px = 16;       // edge
 inline constexpr int kVisibilitySamplesAcross = 4;  // a pixel, and down it
 inline constexpr int kVisibilitySamples = kVisibilitySamplesAcross * kVisibilitySamplesAcross;
 inline constexpr std::size_t kTrianglesAtOnce = 16;
@@ -29,24 +29,16 @@ constexpr float sample_y(int sample) { return (static_cast<float>(sample / 4) + 
 struct ScreenProjection {
     Mat3f axes;                             // camera from body
     float distance = 0, beyond_origin = 0;  // of the body's origin [m]; that less depth_origin
-    float focal_px = 0, depth_origin = 0;
-    Vec3f eye;  // the camera from the body's origin, body axes [m]
+    float focal_px = 0;
     float offset_x = 0, offset_y = 0, lean_x = 0, lean_y = 0, start_x = 0, start_y = 0;
 };
 
 // On the screen [padded px]. x is NaN where a vertex is not before the camera, or far beside the picture.
-struct ScreenVertices {
-    const float* x;
-    const float* y;
-    const float* depth;
-};
-struct ScreenPlaces {
-    float* x;
-    float* y;
-    float* depth;
+struct alignas(16) ScreenVertex {
+    float x, y, depth, unused;
 };
 void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection& projection,
-                      ScreenPlaces out);
+                      ScreenVertex* out);
 
 // Tiles that a triangle may be seen in, from x0 to x1 and y0 to y1.
 struct TileRange {
@@ -56,7 +48,7 @@ struct TileRange {
 using TriangleCorners = std::array<std::uint32_t, 3>;
 // Those that triangles cover a sample of, at most. first: number of the first triangle. Returns how many were
 // written; ranges holds as many as there are triangles.
-std::size_t find_tiles(ScreenVertices vertices, std::span<const TriangleCorners> triangles,
+std::size_t find_tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                        std::uint32_t first, int width_px, int height_px, TileRange* ranges);
 
 // Sixteen triangles ready for a tile. A sample at (x, y) from the tile's corner is inside where the sign bit
@@ -72,15 +64,11 @@ struct alignas(64) TriangleSetup {
 };
 // A mesh and where its vertices are on the screen.
 struct ScreenMesh {
-    ScreenVertices vertices;
-    const Vec3f* vertices_m;
+    const ScreenVertex* vertices;
     const TriangleCorners* triangles;
-    const ScreenProjection* projection;
     std::uint32_t first_id;  // of its first triangle
 };
-// numbers: of triangles; what is beyond count must be a triangle, too. Slopes of depth are those of the
-// triangle's plane in space: on the screen thin ones have none that could be trusted, and parts lie tenths of
-// a millimetre above each other.
+// numbers: of triangles; what is beyond count must be a triangle, too.
 void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
                       std::size_t count, int tile_x_px, int tile_y_px, TriangleSetup& setup);
 

@@ -136,6 +136,34 @@ Spectrum brdf_value(const Scatterer& at, Cosines c) {
     return {};
 }
 
+void BrdfSum::add(float weight, float no, float ni) {
+    const Material& m = *at_.material;
+    switch (m.model) {
+        case Model::kLambert:
+            below_ += weight / kPiF;
+            return;
+        case Model::kMirror:
+        case Model::kMetal:
+        case Model::kDielectric: {
+            const Cosines c{no, ni, io_};
+            below_ += weight * below_facets(m.facets, no, ni);
+            if (at_.alpha > 0)
+                lobe_ += weight * ggx_distribution(at_.alpha, half_vector(c).nh) *
+                         ggx_visibility(at_.alpha, no, ni);
+            return;
+        }
+        default:
+            other_ += weight * brdf_value(at_, {no, ni, io_});
+    }
+}
+
+Spectrum BrdfSum::value() const {
+    Spectrum f = other_ + below_ * at_.base;
+    // What facets reflect depends on the angle between viewer and light alone.
+    if (lobe_ > 0) f += lobe_ * fresnel(at_, half_vector({1, 1, io_}).ih);
+    return f;
+}
+
 float brdf_density(const Scatterer& at, Cosines c) {
     if (!(c.no > 0 && c.ni > 0) || !at.has_lobes()) return 0;
     const float top = highlight_chance(at, c.no);

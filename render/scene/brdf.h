@@ -49,6 +49,21 @@ struct BrdfSample {
 
 // f for light from above the surface (no, ni > 0); zero otherwise.
 Spectrum brdf_value(const Scatterer& at, Cosines c);
+// The light that facets of one material reflect from one direction to one viewer, together: sums of
+// weight * f, where facets differ in how they lean. io: between viewer and light, the same for all.
+class BrdfSum {
+  public:
+    BrdfSum(const Scatterer& at, float io) : at_(at), io_(io) {}
+    // no, ni > 0.
+    void add(float weight, float no, float ni);
+    Spectrum value() const;
+
+  private:
+    const Scatterer& at_;
+    float io_, lobe_ = 0, below_ = 0;
+    Spectrum other_;
+};
+
 // Density of sample() for a direction, exact parts left out.
 float brdf_density(const Scatterer& at, Cosines c);
 // A direction in proportion to f cos, about. u: three uniform numbers.
