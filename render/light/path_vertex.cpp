@@ -54,6 +54,12 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
                  float alpha_least, RayWidth width, Vertex& vertex) {
     Lie lie;
     if (!find_lie(frame, hits, lane, dir, lie)) return false;
+    make_vertex(frame, hits, lane, lie, origin_m, dir, alpha_least, width, vertex);
+    return true;
+}
+
+void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                 Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex) {
     const auto k = static_cast<std::size_t>(lane);
     const ObjectSurfaces& object = *(*frame.objects)[hits.object[k]];
     const PackedTriangle& triangle = object.triangles[hits.triangle[k]];
@@ -64,6 +70,7 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
     vertex.geometric_normal = lie.geometric_normal;
     vertex.normal = lie.normal;
     vertex.back = lie.back;
+    vertex.weight_samples = 1;
     vertex.facets = nullptr;
 
     vertex.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
@@ -98,7 +105,6 @@ bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f 
         vertex.surface.base = vertex.surface.base * scale;
         if (shiny) vertex.surface.highlight = vertex.surface.highlight * scale;
     }
-    return true;
 }
 
 }  // namespace hilcam

@@ -62,6 +62,9 @@ struct RayWidth {
 };
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                  float alpha_least, RayWidth width, Vertex& vertex);
+// The same where it is known how the surface lies.
+void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const Lie& lie, Vec3f origin_m,
+                 Vec3f dir, float alpha_least, RayWidth width, Vertex& vertex);
 // Asks for the memory that make_vertex() reads, of all lanes that met an object.
 void prefetch_vertices(const FrameView& frame, const HitPacket& hits, int count);
 

@@ -1,5 +1,7 @@
 #include "render/light/primary_vertices.h"
 
+#include <hwy/highway.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,28 +15,7 @@
 namespace hilcam {
 namespace {
 
-// Where a ray through the middle of some samples meets a triangle that they see.
-struct Meeting {
-    float distance, u, v;
-    Vec3f normal;  // of twice the triangle's area
-};
-
-// Moeller & Trumbore (J. Graphics Tools 2(1), 1997), kept to the triangle: the samples' middle may lie beside
-// it by a rounding, and a triangle seen from its edge has no place of its own.
-Meeting meet(Vec3f a, Vec3f b, Vec3f c, Vec3f origin, Vec3f dir) {
-    const Vec3f e1 = b - a, e2 = c - a, from_a = origin - a;
-    const Vec3f p = cross(dir, e2), q = cross(from_a, e1);
-    const float volume = dot(e1, p);
-    float u = dot(from_a, p) / volume, v = dot(dir, q) / volume;
-    if (!(std::isfinite(u) && std::isfinite(v))) u = v = 1.0f / 3;
-    u = std::clamp(u, 0.0f, 1.0f), v = std::clamp(v, 0.0f, 1.0f);
-    if (u + v > 1) {
-        const float sum = u + v;
-        u /= sum, v /= sum;
-    }
-    const Vec3f at = u * e1 + v * e2 - from_a;
-    return {dot(at, dir) / dot(dir, dir), u, v, cross(e1, e2)};
-}
+namespace hn = hwy::HWY_NAMESPACE;
 
 // Where to look for what some samples see, from their pixel's corner: at the one next to their middle. The
 // middle itself may see something else.
@@ -62,6 +43,19 @@ Vec2f middle_of(std::uint32_t samples) {
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // of surfaces with narrow lobes
 constexpr float kSame = 0.999998f;
+
+// A bit for each of a pixel's samples that sees it.
+std::uint32_t equal_ids(const std::uint32_t* ids, std::uint32_t id) {
+    const hn::Full128<std::uint32_t> d;
+    const auto wanted = hn::Set(d, id);
+    std::uint32_t same = 0;
+    for (std::size_t i = 0; i < kVisibilitySamples; i += 4) {
+        std::uint8_t bits[8];
+        hn::StoreMaskBits(d, hn::Eq(hn::Load(d, ids + i), wanted), bits);
+        same |= std::uint32_t{bits[0]} << i;
+    }
+    return same;
+}
 
 }  // namespace
 
@@ -118,21 +112,18 @@ bool PrimaryVertices::open_next_part() {
 void PrimaryVertices::take_pixel(int x, int y) {
     const std::uint32_t* ids = tile_.seen->samples.ids(x - part_.x0, y - part_.y0);
     const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
-    std::uint32_t rest = 0;
-    for (std::uint32_t i = 0; i < kVisibilitySamples; ++i)
-        rest |= (ids[i] != VisibilityTile::kNothing ? 1u : 0u) << i;
+    std::uint32_t rest = 0xFFFFu & ~equal_ids(ids, VisibilityTile::kNothing);
     const int covered = std::popcount(rest);
     uncovered_[static_cast<std::size_t>(pixel)] = static_cast<std::uint8_t>(kVisibilitySamples - covered);
     tile_.stats.covered_px += covered * (1.0 / kVisibilitySamples);
     const std::size_t first = fragment_count_;
     while (rest != 0) {
-        const std::uint32_t id = ids[std::countr_zero(rest)];
-        std::uint32_t same = 0;
-        for (std::uint32_t i = 0; i < kVisibilitySamples; ++i) same |= (ids[i] == id ? 1u : 0u) << i;
-        fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(same),
+        const std::uint32_t same = equal_ids(ids, ids[std::countr_zero(rest)]);
+        fragments_[fragment_count_++] = {ids[std::countr_zero(rest)], static_cast<std::uint16_t>(same),
                                          static_cast<std::uint16_t>(pixel)};
         rest &= ~same;
     }
+    if (fragment_count_ - first < 2) return;
     // The greatest first: others join it.
     std::sort(fragments_.begin() + first, fragments_.begin() + fragment_count_,
               [](const Fragment& a, const Fragment& b) {
@@ -141,15 +132,14 @@ void PrimaryVertices::take_pixel(int x, int y) {
               });
 }
 
-// A body stands before what the samples see: they see the body.
-void PrimaryVertices::leave_to_body(HitPacket& hits, std::size_t k, Vec3f origin, Vec3d dir) {
+// Whether a body stands before what the samples see: they see the body then.
+bool PrimaryVertices::leave_to_body(std::size_t k) {
     const FrameView& frame = tile_.frame;
-    const Vec3d point = to_double(origin) + static_cast<double>(hits.distance[k]) * dir;
-    if (!frame.background->hides_seen(normalized(dir), length(point - frame.camera_m))) return;
-    hits.object[k] = HitPacket::kMiss;
-    const auto samples = static_cast<std::uint8_t>(std::popcount(std::uint32_t{fragments_[k].samples}));
+    const Vec3d point = to_double(origins_[k]) + static_cast<double>(hits_.distance[k]) * dirs_[k];
+    if (!frame.background->hides_seen(normalized(dirs_[k]), length(point - frame.camera_m))) return false;
     std::uint8_t& uncovered = uncovered_[fragments_[k].pixel];
-    uncovered = static_cast<std::uint8_t>(uncovered + samples);
+    uncovered = static_cast<std::uint8_t>(uncovered + std::popcount(std::uint32_t{fragments_[k].samples}));
+    return true;
 }
 
 // The vertex among those of the same pixel that a fragment is part of; null: none.
@@ -177,72 +167,84 @@ void PrimaryVertices::add_facet(Vertex& vertex, const Lie& lie, Vec3f start_m, f
     add(lie.geometric_normal, lie.normal, start_m, samples);
 }
 
-std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size_t count) {
+// The first fragments, as many as are of one object.
+std::size_t PrimaryVertices::look_at_fragments() {
     const FrameView& frame = tile_.frame;
     const LinearRays& rays = *frame.rays->linear();
     const Vec3d corner = rays.corner + tile_.box.x0 * rays.right + tile_.box.y0 * rays.down;
     const int width = tile_.box.x1 - tile_.box.x0;
-    const auto n = static_cast<int>(std::min<std::size_t>(kPacketSize, fragment_count_));
-    HitPacket hits;
-    std::array<Vec3d, kPacketSize> dirs;
-    std::array<Vec3f, kPacketSize> origins;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
-        const Fragment& fragment = fragments_[k];
-        const Vec2f at = middle_of(fragment.samples);
-        dirs[k] = corner +
-                  static_cast<double>(static_cast<float>(fragment.pixel % width) + at.x) * rays.right +
-                  static_cast<double>(static_cast<float>(fragment.pixel / width) + at.y) * rays.down;
-        origins[k] =
-            frame.start_before_m > 0 ? frame.start_of(normalized(dirs[k])) : to_float(frame.camera_m);
+    const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
+    const Vec3f body_m = to_float(shown.pose.position_world_m - frame.rays_world_m);
+    std::size_t n = 0;
+    for (; n < std::min<std::size_t>(kPacketSize, fragment_count_); ++n) {
+        const Fragment& fragment = fragments_[n];
         const VisibilityBuffer::Seen seen = frame.visibility->seen(fragment.id);
-        const Mat3f body_from_world = transposed(frame.world_from_body[seen.shown->object]);
-        const Vec3f body_m = to_float(seen.shown->pose.position_world_m - frame.rays_world_m);
-        const TriangleCorners& corners = seen.shown->mesh.triangles[seen.triangle];
-        const std::span<const Vec3f> points_m = seen.shown->mesh.vertices_m;
-        const Meeting met =
-            meet(points_m[corners[0]], points_m[corners[1]], points_m[corners[2]],
-                 body_from_world * (origins[k] - body_m), body_from_world * to_float(dirs[k]));
-        hits.object[k] = seen.shown->object, hits.triangle[k] = seen.triangle;
-        hits.distance[k] = met.distance, hits.u[k] = met.u, hits.v[k] = met.v;
-        hits.normal_x[k] = met.normal.x, hits.normal_y[k] = met.normal.y, hits.normal_z[k] = met.normal.z;
-        if (frame.bodies_may_hide) leave_to_body(hits, k, origins[k], dirs[k]);
+        if (seen.shown != &shown) break;
+        const Vec2f at = middle_of(fragment.samples);
+        dirs_[n] = corner +
+                   static_cast<double>(static_cast<float>(fragment.pixel % width) + at.x) * rays.right +
+                   static_cast<double>(static_cast<float>(fragment.pixel / width) + at.y) * rays.down;
+        origins_[n] =
+            frame.start_before_m > 0 ? frame.start_of(normalized(dirs_[n])) : to_float(frame.camera_m);
+        packet_.triangle[n] = seen.triangle;
+        packet_.dir.set(n, to_float(dirs_[n]));
+        packet_.origin.set(n, origins_[n] - body_m);
     }
-    prefetch_vertices(frame, hits, n);
+    for (std::size_t k = n; k < kPacketSize; ++k) packet_.triangle[k] = packet_.triangle[0];
+    packet_.count = n;
+    const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
+    find_lies({shown.mesh.vertices_m.data(), shown.mesh.triangles.data(), surfaces.triangles.data(),
+               frame.world_from_body[shown.object]},
+              packet_);
+    hits_.object.fill(shown.object);
+    hits_.triangle = packet_.triangle;
+    hits_.distance = packet_.distance, hits_.u = packet_.u, hits_.v = packet_.v;
+    hits_.normal_x = packet_.body_normal.x, hits_.normal_y = packet_.body_normal.y;
+    hits_.normal_z = packet_.body_normal.z;
+    return n;
+}
+
+std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size_t count) {
+    const FrameView& frame = tile_.frame;
+    const std::size_t n = look_at_fragments();
     const float pixel_rad = 1 / static_cast<float>(frame.geometry.focal_length_px);
     const float from_m =
         frame.start_before_m > 0 ? static_cast<float>(length(frame.start_at_m - frame.camera_m)) : 0.0f;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
-        if (hits.object[k] == HitPacket::kMiss) continue;
+    const std::vector<PackedTriangle>& triangles = (*frame.objects)[hits_.object[0]]->triangles;
+    for (std::size_t k = 0; k < n; ++k) {
+        if (frame.bodies_may_hide && leave_to_body(k)) continue;
         const Fragment& fragment = fragments_[k];
         const auto samples = static_cast<float>(std::popcount(std::uint32_t{fragment.samples}));
-        const Vec3f dir = to_float(dirs[k]);
-        Lie lie;
-        if (!find_lie(frame, hits, static_cast<int>(k), dir, lie)) continue;
-        const std::uint16_t surface = (*frame.objects)[hits.object[k]]->triangles[hits.triangle[k]].surface;
-        Vertex* const joined = join(vertices.first(count), fragment.pixel, hits.object[k], surface, lie);
+        const Vec3f dir = packet_.dir.at(k);
+        Lie lie{packet_.geometric.at(k), packet_.normal.at(k), packet_.view_dir.at(k), packet_.back[k] != 0};
+        // Too small for its square: by itself.
+        if (lie.geometric_normal == Vec3f{} && !find_lie(frame, hits_, static_cast<int>(k), dir, lie))
+            continue;
+        Vertex* const joined = join(vertices.first(count), fragment.pixel, hits_.object[k],
+                                    triangles[hits_.triangle[k]].surface, lie);
         if (joined) {
             const Vec3f start_m =
-                origins[k] + hits.distance[k] * dir + joined->offset_m * lie.geometric_normal;
+                origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
             add_facet(*joined, lie, start_m, samples);
             // Alike in all bins, but for the air before it.
             joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
             joined->weight_samples += samples;
             continue;
         }
-        Vertex& vertex = vertices[count];
-        if (!make_vertex(frame, hits, static_cast<int>(k), origins[k], dir, 0,
-                         {pixel_rad * from_m, pixel_rad}, vertex))
-            continue;
+        Vertex& vertex = vertices[count++];
+        make_vertex(frame, hits_, static_cast<int>(k), lie, origins_[k], dir, 0,
+                    {pixel_rad * from_m, pixel_rad}, vertex);
         vertex.pixel = fragment.pixel;
         vertex.sample = static_cast<std::uint16_t>(std::countr_zero(std::uint32_t{fragment.samples}));
         vertex.depth = 1;
-        vertex.weight_samples = samples;
+        vertex.weight = {};
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
-        add_air_before(tile_, dirs[k], vertex);
-        ++count;
+        vertex.weight_samples = samples;
+        add_air_before(tile_, dirs_[k], vertex);
     }
-    std::copy(fragments_.begin() + n, fragments_.begin() + fragment_count_, fragments_.begin());
-    fragment_count_ -= static_cast<std::size_t>(n);
+    std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
+              fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());
+    fragment_count_ -= n;
     return count;
 }
 

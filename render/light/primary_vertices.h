@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "render/light/fragment_packet.h"
 #include "render/light/path_model.h"
 
 namespace hilcam {
@@ -33,11 +34,17 @@ class PrimaryVertices {
     std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;
     std::array<Fragment, 2 * kPacketSize> fragments_;
     std::size_t fragment_count_ = 0, facet_count_ = 0;
+    // Of the packet that is looked at.
+    FragmentPacket packet_;
+    HitPacket hits_;
+    std::array<Vec3d, kPacketSize> dirs_;
+    std::array<Vec3f, kPacketSize> origins_;
 
     std::size_t next_fragments(std::span<Vertex> vertices);
     bool open_next_part();
     void take_pixel(int x, int y);
-    void leave_to_body(HitPacket& hits, std::size_t k, Vec3f origin, Vec3d dir);
+    bool leave_to_body(std::size_t k);
+    std::size_t look_at_fragments();
     std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
                         std::uint16_t surface, const Lie& lie);
