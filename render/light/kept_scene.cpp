@@ -118,23 +118,67 @@ bool KeptScene::is_near(const FrameView& frame, const Place& place) const {
         place.nearest, to_body(frame.world_from_body[at.object], reflect(at.view_dir, at.normal)));
 }
 
+namespace {
+
+// Of four pixels that the camera sees side by side: kept light is too smooth to differ.
+std::uint32_t quad_of(const Tile& tile, const Vertex& at) {
+    const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
+    return at.pixel / width / 2 * width + at.pixel % width / 2;
+}
+bool is_alike(const Vertex& a, const Vertex& b) {
+    constexpr float kSameLobe = 0.9998f;  // a degree, of lobes that are seven wide at least
+    return a.object == b.object && a.surface_number == b.surface_number && a.back == b.back &&
+           a.surface.material->texture < 0 && dot(a.normal, b.normal) > kSameLobe;
+}
+
+}  // namespace
+
+// The place whose light a vertex shares; null: it needs its own.
+KeptScene::Place* KeptScene::shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) {
+    if (!tile.seen || at.depth != 1) return nullptr;
+    const std::uint32_t quad = quad_of(tile, at);
+    for (auto place = places.rbegin(); place != places.rend(); ++place) {
+        if (place->at->depth != 1 || quad_of(tile, *place->at) != quad) return nullptr;
+        if (is_alike(*place->at, at)) return &*place;
+    }
+    return nullptr;
+}
+
 void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
+    constexpr std::size_t kMostSharing = 128;
     std::array<Place, 32> places;
+    struct Use {
+        Vertex* at;
+        Place* place;
+    };
+    std::array<Use, kMostSharing> uses;
     for (std::size_t next = 0; next < vertices.size();) {
-        std::size_t count = 0;
-        for (; next < vertices.size() && count < places.size(); ++next)
-            if (!vertices[next].surface.is_glass()) places[count++].at = &vertices[next];
+        std::size_t count = 0, used = 0;
+        for (; next < vertices.size() && count < places.size() && used < uses.size(); ++next) {
+            Vertex& at = vertices[next];
+            if (at.surface.is_glass()) continue;
+            Place* place = shared_place(tile, {places.data(), count}, at);
+            if (!place) place = &places[count++], place->at = &at;
+            uses[used++] = {&at, place};
+        }
         const std::span<Place> block(places.data(), count);
         find(tile.frame, block);
         for (Place& place : block)
-            if (is_lit(place))
-                tile.pixels[place.at->pixel] += place.at->weight * reflect_diffuse(tile.frame, place);
-        for (const Place& place : block) {
+            if (is_lit(place)) place.diffuse = reflect_diffuse(tile.frame, place);
+        for (Place& place : block) {
             Vertex& at = *place.at;
+            place.lobe = {};
             if (!at.surface.material->has_facets()) continue;
             if (at.surface.alpha < kNarrowestKept) at.mirrors_near = is_near(tile.frame, place);
             if (at.surface.alpha >= kNarrowestLobe && is_lit(place))
-                tile.pixels[at.pixel] += at.weight * reflect_lobe(tile.frame, place);
+                place.lobe = reflect_lobe(tile.frame, place);
+        }
+        for (const Use& use : std::span(uses.data(), used)) {
+            use.at->mirrors_near = use.place->at->mirrors_near;
+            if (!is_lit(*use.place)) continue;
+            Spectrum& pixel = tile.pixels[use.at->pixel];
+            pixel += use.at->weight * use.place->diffuse;
+            if (use.at->surface.material->has_facets()) pixel += use.at->weight * use.place->lobe;
         }
     }
 }

@@ -72,16 +72,13 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
                      tile_.samples_per_axis == kVisibilitySamplesAcross);
         uncovered_.fill(kVisibilitySamples);
         part_ = {box.x0 - kVisibilityTile_px, box.y0, box.x0, box.y0};
-        y_ = part_.y1;
     }
     std::size_t count = 0;
     facet_count_ = 0;
     while (count + kPacketSize <= vertices.size() &&
            facet_count_ + 2 * kPacketSize <= SeenMemory::kMostFacets) {
-        while (fragment_count_ < kPacketSize && (y_ < part_.y1 || open_next_part())) {
-            take_pixel(x_, y_);
-            if (++x_ == part_.x1) x_ = part_.x0, ++y_;
-        }
+        while (fragment_count_ < kPacketSize && (next_pixel_ < kPartPixels || open_next_part()))
+            take_next_pixel();
         if (fragment_count_ == 0) {
             // Whatever comes last, the background comes once.
             if (!std::exchange(ended_, true)) add_backdrop(tile_, uncovered_.data());
@@ -99,14 +96,19 @@ bool PrimaryVertices::open_next_part() {
     for (;; x += kVisibilityTile_px) {
         if (x >= box.x1) x = box.x0, y += kVisibilityTile_px;
         part_ = {x, y, std::min(x + kVisibilityTile_px, box.x1), std::min(y + kVisibilityTile_px, box.y1)};
-        if (y >= box.y1) {
-            y_ = part_.y1;
-            return false;
-        }
+        if (y >= box.y1) return false;
         if (!tile_.frame.visibility->fill(x, y, tile_.seen->samples)) continue;
-        x_ = x, y_ = y;
+        next_pixel_ = 0;
         return true;
     }
+}
+
+// Four neighbours after each other: they may share what changes slowly (KeptScene::add_reflected()).
+void PrimaryVertices::take_next_pixel() {
+    constexpr int kPairs = kVisibilityTile_px / 2;
+    const int i = next_pixel_++, pair = i / 4;
+    const int x = part_.x0 + 2 * (pair % kPairs) + i % 2, y = part_.y0 + 2 * (pair / kPairs) + i / 2 % 2;
+    if (x < part_.x1 && y < part_.y1) take_pixel(x, y);
 }
 
 void PrimaryVertices::take_pixel(int x, int y) {

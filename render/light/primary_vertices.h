@@ -29,8 +29,9 @@ class PrimaryVertices {
     };
     Tile& tile_;
     bool begun_ = false, ended_ = false;
-    PixelBox part_{};    // of the tile, as the buffer has it
-    int x_ = 0, y_ = 0;  // the next pixel there
+    PixelBox part_{};  // of the tile, as the buffer has it
+    static constexpr int kPartPixels = kVisibilityTile_px * kVisibilityTile_px;
+    int next_pixel_ = kPartPixels;  // there
     std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;
     std::array<Fragment, 2 * kPacketSize> fragments_;
     std::size_t fragment_count_ = 0, facet_count_ = 0;
@@ -42,6 +43,7 @@ class PrimaryVertices {
 
     std::size_t next_fragments(std::span<Vertex> vertices);
     bool open_next_part();
+    void take_next_pixel();
     void take_pixel(int x, int y);
     bool leave_to_body(std::size_t k);
     std::size_t look_at_fragments();
