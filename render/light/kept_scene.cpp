@@ -125,21 +125,25 @@ std::uint32_t quad_of(const Tile& tile, const Vertex& at) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     return at.pixel / width / 2 * width + at.pixel % width / 2;
 }
-bool is_alike(const Vertex& a, const Vertex& b) {
+// near_m: what lies so close together is lit alike.
+bool is_alike(const Vertex& a, const Vertex& b, float near_m) {
     constexpr float kSameLobe = 0.9998f;  // a degree, of lobes that are seven wide at least
+    const Vec3f apart_m = a.point_m - b.point_m;
     return a.object == b.object && a.surface_number == b.surface_number && a.back == b.back &&
-           a.surface.material->texture < 0 && dot(a.normal, b.normal) > kSameLobe;
+           a.surface.material->texture < 0 && dot(a.normal, b.normal) > kSameLobe &&
+           dot(apart_m, apart_m) < near_m * near_m;
 }
 
 }  // namespace
 
 // The place whose light a vertex shares; null: it needs its own.
-KeptScene::Place* KeptScene::shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) {
+KeptScene::Place* KeptScene::shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const {
     if (!tile.seen || at.depth != 1) return nullptr;
+    const float near_m = 0.5f * objects_[at.object].light->table().nodes().cube_m();
     const std::uint32_t quad = quad_of(tile, at);
     for (auto place = places.rbegin(); place != places.rend(); ++place) {
         if (place->at->depth != 1 || quad_of(tile, *place->at) != quad) return nullptr;
-        if (is_alike(*place->at, at)) return &*place;
+        if (is_alike(*place->at, at, near_m)) return &*place;
     }
     return nullptr;
 }

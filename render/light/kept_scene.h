@@ -75,7 +75,7 @@ class KeptScene {
         Spectrum others;         // irradiance of all but the Sun, by way of other surfaces
         Spectrum diffuse, lobe;  // radiance that is reflected to the viewer
     };
-    static Place* shared_place(const Tile& tile, std::span<Place> places, const Vertex& at);
+    Place* shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const;
     void find(const FrameView& frame, std::span<Place> places) const;
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
     bool is_near(const FrameView& frame, const Place& place) const;

@@ -89,6 +89,7 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
 
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     vertex.surface = {&material, alpha, material.base, material.highlight};
+    vertex.facet_alpha = alpha;
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];
         const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];

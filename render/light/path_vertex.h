@@ -34,6 +34,7 @@ struct Vertex {
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     bool mirrors_near;             // where that, something may stand in the mirror's direction
     float weight_samples;          // samples of the pixel that see it, where it is not one ray's
+    float facet_alpha;             // of the lobes of its facets
     const Facet* facets;           // the vertex's own among them; null: it is one
     Spectrum weight;
     Scatterer surface;

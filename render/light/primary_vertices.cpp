@@ -44,6 +44,8 @@ constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // of surfaces with narrow lobes
 constexpr float kSame = 0.999998f;
 
+constexpr std::size_t kMostFacetsAtOnce = 4 * kPacketSize;
+
 // A bit for each of a pixel's samples that sees it.
 std::uint32_t equal_ids(const std::uint32_t* ids, std::uint32_t id) {
     const hn::Full128<std::uint32_t> d;
@@ -76,7 +78,7 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
     std::size_t count = 0;
     facet_count_ = 0;
     while (count + kPacketSize <= vertices.size() &&
-           facet_count_ + 2 * kPacketSize <= SeenMemory::kMostFacets) {
+           facet_count_ + kMostFacetsAtOnce <= SeenMemory::kMostFacets) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < kPartPixels || open_next_part()))
             take_next_pixel();
         if (fragment_count_ == 0) {
@@ -156,17 +158,49 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
     return nullptr;
 }
 
-void PrimaryVertices::add_facet(Vertex& vertex, const Lie& lie, Vec3f start_m, float samples) {
-    const auto add = [&](Vec3f geometric_normal, Vec3f normal, Vec3f from_m, float of) {
-        Facet& facet = tile_.seen->facets[facet_count_++];
-        facet = {geometric_normal, normal, from_m, of, vertex.facets};
-        vertex.facets = &facet;
-    };
-    if (!vertex.facets) {
-        if (dot(vertex.normal, lie.normal) > kSame) return;
-        add(vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples);
+void PrimaryVertices::add_facet(Vertex& vertex, const Facet& facet) {
+    Facet& added = tile_.seen->facets[facet_count_++];
+    added = facet;
+    added.next = vertex.facets;
+    vertex.facets = &added;
+}
+
+// A level of detail is flat where the mesh is wrinkled: four facets lean as the wrinkles did. With slopes of
+// a normal distribution, of alpha^2 / 2 in each axis (Beckmann's; Walter et al., EGSR 2007), the points at
+// alpha along two axes have its mean and its covariance (Julier & Uhlmann, Proc. IEEE 92(3), 2004).
+void PrimaryVertices::add_wrinkles(Vertex& vertex, const Facet& flat, float slope) {
+    const Frame local(flat.normal);
+    std::array<Facet, 4> leaning;
+    float sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const float along = i % 2 == 0 ? slope : -slope;
+        Facet& facet = leaning[i];
+        facet = flat;
+        facet.normal = normalized(local.to_world(i < 2 ? Vec3f{along, 0, 1} : Vec3f{0, along, 1}));
+        facet.geometric_normal = facet.normal;
+        facet.samples = std::max(0.0f, dot(facet.normal, vertex.view_dir));
+        sum += facet.samples;
     }
-    add(lie.geometric_normal, lie.normal, start_m, samples);
+    if (!(sum > 0)) return add_facet(vertex, flat);
+    for (Facet& facet : leaning) {
+        facet.samples *= flat.samples / sum;
+        add_facet(vertex, facet);
+    }
+}
+
+void PrimaryVertices::add_to(Vertex& vertex, const Facet& facet, bool first) {
+    const ObjectSurfaces& object = *(*tile_.frame.objects)[vertex.object];
+    const float slope = object.flattened_alpha.empty() ? 0.0f : object.flattened_alpha[vertex.surface_number];
+    if (slope > 0) {
+        const float alpha = vertex.surface.alpha;
+        if (first) vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - slope * slope));
+        return add_wrinkles(vertex, facet, slope);
+    }
+    if (first || (!vertex.facets && dot(vertex.normal, facet.normal) > kSame)) return;
+    if (!vertex.facets)
+        add_facet(vertex,
+                  {vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, nullptr});
+    add_facet(vertex, facet);
 }
 
 // The first fragments, as many as are of one object.
@@ -227,7 +261,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         if (joined) {
             const Vec3f start_m =
                 origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
-            add_facet(*joined, lie, start_m, samples);
+            add_to(*joined, {lie.geometric_normal, lie.normal, start_m, samples, nullptr}, false);
             // Alike in all bins, but for the air before it.
             joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
             joined->weight_samples += samples;
@@ -243,6 +277,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
         add_air_before(tile_, dirs_[k], vertex);
+        add_to(vertex, {lie.geometric_normal, lie.normal, vertex.start(), samples, nullptr}, true);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());

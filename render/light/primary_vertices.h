@@ -50,7 +50,9 @@ class PrimaryVertices {
     std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
                         std::uint16_t surface, const Lie& lie);
-    void add_facet(Vertex& vertex, const Lie& lie, Vec3f start_m, float samples);
+    void add_facet(Vertex& vertex, const Facet& facet);
+    void add_wrinkles(Vertex& vertex, const Facet& flat, float slope);
+    void add_to(Vertex& vertex, const Facet& facet, bool first);
 };
 
 }  // namespace hilcam

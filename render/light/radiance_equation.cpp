@@ -56,6 +56,7 @@ struct FacetLight {
 FacetLight sunlit_facets(const Vertex& at, Vec3f dir, bool sun_is_disk) {
     FacetLight out;
     Scatterer surface = at.surface;
+    surface.alpha = at.facet_alpha;
     if (!sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
     BrdfSum sum(surface, dot(at.view_dir, dir));
     float samples = 0, most = 0;

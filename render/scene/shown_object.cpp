@@ -55,8 +55,10 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         out.levels.push_back(std::make_shared<const ObjectSurfaces>(object.mesh, object.materials, textures));
         out.error_m.push_back(0);
         for (const MeshLevel& level : object.levels) {
-            out.levels.push_back(std::make_shared<const ObjectSurfaces>(
-                level.mesh, widened(object.materials, level.flattened_alpha), textures));
+            auto surfaces = std::make_shared<ObjectSurfaces>(
+                level.mesh, widened(object.materials, level.flattened_alpha), textures);
+            surfaces->flattened_alpha = level.flattened_alpha;
+            out.levels.push_back(std::move(surfaces));
             out.error_m.push_back(level.error_m);
         }
     }

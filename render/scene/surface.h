@@ -50,6 +50,9 @@ struct ObjectSurfaces {
     std::vector<float>
         uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
     std::vector<Material> materials;
+    // Of a level of detail, by surface: the slopes that it has flattened, as a GGX alpha; materials have it
+    // in theirs. Empty: none.
+    std::vector<float> flattened_alpha;
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;

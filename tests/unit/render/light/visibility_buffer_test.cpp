@@ -1,6 +1,8 @@
 #include "render/light/visibility_buffer.h"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <limits>
@@ -201,6 +203,55 @@ TEST(VisibilityBuffer, LosesNoSampleInsideASphere) {
     ASSERT_TRUE(sight.place());
     const Sight::Count count = sight.compare();
     EXPECT_LE(count.samples - count.seen_by_both, 2);
+}
+
+// What all samples see.
+std::vector<std::uint32_t> ids_of(const Sight& sight) {
+    std::vector<std::uint32_t> ids;
+    VisibilityTile tile;
+    for (int y = 0; y < sight.geometry.padded_height(); y += kVisibilityTile_px)
+        for (int x = 0; x < sight.geometry.padded_width(); x += kVisibilityTile_px) {
+            if (!sight.buffer->fill(x, y, tile)) tile.clear();
+            ids.insert(ids.end(), tile.id.begin(), tile.id.end());
+        }
+    return ids;
+}
+
+// Vectors of another width than this processor's are for other processors: their frames must be these.
+TEST(VisibilityBuffer, SeesTheSameWithVectorsOfAnyWidth) {
+    Sight sight(200, 150, 300);
+    sight.add(debris(1501, 3, 5), turned({0, 0, 8}));
+    sight.add(sphere(1, 50), turned({0.3, 0.1, 1.2}));
+    ASSERT_TRUE(sight.place());
+    const std::vector<std::uint32_t> widest = ids_of(sight);
+    for (const std::int64_t width : {HWY_AVX2, HWY_SSE4}) {
+        hwy::DisableTargets(~width);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        EXPECT_TRUE(sight.place());
+        EXPECT_EQ(ids_of(sight), widest) << hwy::TargetName(width);
+    }
+    hwy::DisableTargets(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+// A processor's threads sort triangles in any order.
+TEST(VisibilityBuffer, SeesTheSameOnAnyNumberOfThreads) {
+    Sight sight(200, 150, 300);
+    sight.add(debris(4000, 3, 6), turned({0, 0, 8}));
+    ASSERT_TRUE(sight.place());
+    const std::vector<std::uint32_t> several = ids_of(sight);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    ASSERT_TRUE(sight.place());
+    EXPECT_EQ(ids_of(sight), several);
+}
+
+TEST(VisibilityBuffer, SaysWhenAFrameShowsMoreThanThereIsRoomFor) {
+    Sight sight(64, 48, 300);
+    sight.add(sphere(1, 20), turned({0, 0, 4}));
+    ASSERT_TRUE(sight.place());
+    VisibilityBuffer small(sight.geometry, {1, 1000, 100});
+    const VisibilityBuffer::Shown shown{0, sight.poses[0], 1, sight.embree->mesh(0, 0)};
+    EXPECT_FALSE(small.place(sight.camera, {&shown, 1}));
 }
 
 }  // namespace

@@ -1,0 +1,130 @@
+// Pictures out of the visibility buffer against pictures out of rays through the same sixteen places of each
+// pixel.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/stage.h"
+
+namespace hilcam {
+namespace {
+
+struct Difference {
+    double mean = 0;      // of the pictures' means, as a fraction
+    double greatest = 0;  // of a pixel, against the brightest
+    double covered = 0;   // of the shares that objects cover
+};
+Difference difference_from_rays(Stage& s) {
+    s.quality.rays_across = 0;  // small objects would ask for more
+    s.quality.samples_per_axis = 4;
+    s.quality.visibility = "rays";
+    s.render();
+    const RadianceImage rays = std::move(s.radiance);
+    const RenderStats by_rays = s.stats;
+    s.radiance = RadianceImage(rays.width(), rays.height(), rays.planes());
+    s.quality.samples_per_axis = 1;
+    s.quality.visibility = "buffer";
+    s.render();
+    EXPECT_EQ(s.stats.primary_rays, 0u);
+    Difference out;
+    double sum_rays = 0, sum_buffer = 0, brightest = 0;
+    for (int y = 0; y < rays.height(); ++y)
+        for (int x = 0; x < rays.width(); ++x) {
+            const double a = rays.row(y, 0)[static_cast<std::size_t>(x)];
+            const double b = s.radiance.row(y, 0)[static_cast<std::size_t>(x)];
+            sum_rays += a, sum_buffer += b, brightest = std::max(brightest, a);
+            out.greatest = std::max(out.greatest, std::abs(a - b));
+        }
+    EXPECT_GT(brightest, 0);
+    out.mean = sum_buffer / sum_rays - 1;
+    out.greatest /= brightest;
+    out.covered = s.stats.coverage - by_rays.coverage;
+    return out;
+}
+
+// Flat faces that lie open: each has one radiance, and nothing is left but which sample sees which.
+TEST(Visibility, ACubeIsWhatRaysSee) {
+    Stage s;
+    s.quality.path_model = "direct";
+    s.sun({0.3, 0.5, -1});
+    s.add(cube(lambert(0.5), s.grid), {0.2, -0.1, 3}, {0.4, 0.7, -0.2});
+    const Difference d = difference_from_rays(s);
+    EXPECT_NEAR(d.covered, 0, 1e-6);
+    EXPECT_LT(std::abs(d.mean), 1e-6);
+    EXPECT_LT(d.greatest, 1e-5);
+}
+
+// What is far against its size keeps its digits.
+TEST(Visibility, ACubeIsWhatRaysSeeFromATenThousandTimesItsSize) {
+    Stage s;
+    s.quality.path_model = "direct";
+    s.geometry.focal_length_px = 32e4;
+    s.sun({0.3, 0.5, -1});
+    s.add(cube(lambert(0.5), s.grid), {0.2, -0.1, 3e4}, {0.4, 0.7, -0.2});
+    const Difference d = difference_from_rays(s);
+    EXPECT_NEAR(d.covered, 0, 1e-4);
+    EXPECT_LT(std::abs(d.mean), 1e-3);
+    EXPECT_LT(d.greatest, 0.13);  // two samples of an edge
+}
+
+// Facets of one material that lean otherwise.
+TEST(Visibility, ASphereIsWhatRaysSee) {
+    for (const ReflectionModel model : {ReflectionModel::kLambert, ReflectionModel::kMetal}) {
+        Stage s;
+        s.quality.path_model = "direct";
+        s.sun({0.8, 0.3, -1});
+        MaterialConfig material = lambert(0.5);
+        material.model = model;
+        material.roughness = 0.5;
+        s.geometry.focal_length_px = 320;  // a vertex has one direction to the viewer
+        s.add(sphere(200, material, s.grid), {0, 0, 30});
+        const Difference d = difference_from_rays(s);
+        EXPECT_NEAR(d.covered, 0, 1e-4);
+        EXPECT_LT(std::abs(d.mean), 2e-3);
+        EXPECT_LT(d.greatest, 0.02);
+    }
+}
+
+// The rim of the Earth and what stands before it.
+TEST(Visibility, TheEarthBehindACubeIsWhatRaysSee) {
+    Stage s;
+    s.quality.path_model = "direct";
+    s.earth(0.3);
+    s.world.bodies[BodyId::kEarth].world_m = {9e6, 0, 3e7};
+    s.sun({0.3, 0.5, -1});
+    s.add(cube(lambert(0.5), s.grid), {0.2, -0.1, 3}, {0.4, 0.7, -0.2});
+    const Difference d = difference_from_rays(s);
+    EXPECT_LT(std::abs(d.mean), 1e-3);
+    EXPECT_LT(d.greatest, 0.02);
+}
+
+// With kept light four pixels share what changes slowly.
+TEST(Visibility, KeptLightIsWhatRaysSee) {
+    Stage s;
+    s.quality.path_model = "kept";
+    s.sun({0.3, -0.5, -1});
+    const std::vector<Vec3f> corner = {{-1, -1, 0}, {1, -1, 0},  {1, 1, 0},
+                                       {-1, 1, 0},  {-1, 1, -2}, {1, 1, -2}};
+    s.add(object_of(corner, {{0, 1, 2}, {0, 2, 3}, {3, 2, 5}, {3, 5, 4}}, lambert(0.8), s.grid), {0, 0, 4},
+          {0, 0.2, 0});
+    const Difference d = difference_from_rays(s);
+    EXPECT_LT(std::abs(d.mean), 1e-3);
+    EXPECT_LT(d.greatest, 0.05);
+}
+
+// A frame with more triangles than there is room for, or no room at all, is for rays: terrain, lenses that
+// bend lines.
+TEST(Visibility, ALensThatBendsLinesIsForRays) {
+    Stage s;
+    s.quality.path_model = "direct";
+    s.quality.visibility = "buffer";
+    s.geometry.distortion.k1 = 0.1;
+    s.add(cube(lambert(0.5), s.grid), {0, 0, 3});
+    s.render();
+    EXPECT_GT(s.stats.primary_rays, 0u);
+}
+
+}  // namespace
+}  // namespace hilcam
