@@ -110,7 +110,7 @@ void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& pat
 // levels wear down: by a fifth of that light for a foil at 0.05 px (docs/performance.md). There it is the
 // mesh itself.
 void FramePlacer::choose_levels() {
-    constexpr double kBacklit_cosine = -0.5;  // of the phase angle: 120 degrees
+    constexpr double kBacklit_cosine = -0.7;  // of the phase angle: 134 degrees
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const Vec3d to_camera_m = world_.camera.position_world_m - world_.objects[i].position_world_m;
         const double nearest_m = length(to_camera_m) - radii_m_[i];

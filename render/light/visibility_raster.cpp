@@ -94,6 +94,21 @@ HWY_INLINE Corners corners_of(const ScreenVertex* vertices, const TriangleCorner
 HWY_INLINE V least(const V* of) { return hn::Min(hn::Min(of[0], of[1]), of[2]); }
 HWY_INLINE V most(const V* of) { return hn::Max(hn::Max(of[0], of[1]), of[2]); }
 
+// Whether a place is beside a triangle, and not by rounding.
+HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y) {
+    const Floats d;
+    V side[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        side[i] = hn::Sub(hn::Mul(hn::Sub(c.x[j], c.x[i]), hn::Sub(y, c.y[i])),
+                          hn::Mul(hn::Sub(c.y[j], c.y[i]), hn::Sub(x, c.x[i])));
+    }
+    constexpr float kPlace_px = 1e-3f;  // ten times what corners are rounded by
+    const V size = hn::Add(hn::Sub(most(c.x), least(c.x)), hn::Sub(most(c.y), least(c.y)));
+    const V margin = hn::Mul(size, hn::Set(d, kPlace_px));
+    return hn::And(hn::Lt(least(side), hn::Neg(margin)), hn::Gt(most(side), margin));
+}
+
 std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
                   std::uint32_t first, int width_px, int height_px, TileRange* ranges) {
     const Floats d;
@@ -109,16 +124,19 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
         const auto unknown = hn::IsNaN(sum);
         const V x0 = least(c.x), x1 = most(c.x), y0 = least(c.y), y1 = most(c.y);
         // No sample between least and greatest, in one of the axes: seen by none.
-        const auto none = [&](V from, V to) {
-            const V four = hn::Set(d, 4), half = hn::Set(d, 0.5f);
-            return hn::Gt(hn::Ceil(hn::Sub(hn::Mul(four, from), half)),
-                          hn::Floor(hn::Sub(hn::Mul(four, to), half)));
-        };
+        const V four = hn::Set(d, 4), half = hn::Set(d, 0.5f);
+        const auto from = [&](V at) { return hn::Ceil(hn::Sub(hn::Mul(four, at), half)); };
+        const auto to = [&](V at) { return hn::Floor(hn::Sub(hn::Mul(four, at), half)); };
+        const V from_x = from(x0), to_x = to(x1), from_y = from(y0), to_y = to(y1);
+        const auto none = hn::Or(hn::Gt(from_x, to_x), hn::Gt(from_y, to_y));
+        // Of crumpled things most triangles have one there, and beside them.
+        const auto one = hn::And(hn::Eq(from_x, to_x), hn::Eq(from_y, to_y));
+        const auto beside = hn::And(
+            one, is_beside(c, hn::Div(hn::Add(from_x, half), four), hn::Div(hn::Add(from_y, half), four)));
         const V right = hn::Set(d, static_cast<float>(width_px)),
                 low = hn::Set(d, static_cast<float>(height_px));
-        const auto missed = hn::Or(
-            hn::Or(none(x0, x1), none(y0, y1)),
-            hn::Or(hn::Or(hn::Lt(x1, zero), hn::Lt(y1, zero)), hn::Or(hn::Ge(x0, right), hn::Ge(y0, low))));
+        const auto missed = hn::Or(hn::Or(none, beside), hn::Or(hn::Or(hn::Lt(x1, zero), hn::Lt(y1, zero)),
+                                                                hn::Or(hn::Ge(x0, right), hn::Ge(y0, low))));
         HWY_ALIGN std::int32_t box[4][kTrianglesAtOnce];
         const auto tile_of = [&](V at, V end) {
             const V inside = hn::Min(hn::Max(at, zero), hn::Sub(end, hn::Set(d, 1)));
