@@ -8,7 +8,7 @@
 #include "emulator/characterise/characterise_setup.h"
 #include "emulator/tradeoff/structural_similarity.h"
 #include "emulator/world/clock.h"
-#include "render/light/screen_bounds.h"
+#include "render/visibility/screen_bounds.h"
 
 namespace hilcam {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/light/point_field.h"
-#include "render/light/screen_bounds.h"
+#include "render/visibility/screen_bounds.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

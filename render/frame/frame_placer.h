@@ -17,8 +17,6 @@
 #include "render/light/lamp_light.h"
 #include "render/light/path_model.h"
 #include "render/light/radiance_model.h"
-#include "render/light/screen_mask.h"
-#include "render/light/visibility_buffer.h"
 #include "render/scene/background.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
@@ -26,6 +24,8 @@
 #include "render/scene/shown_object.h"
 #include "render/scene/shown_terrain.h"
 #include "render/sky/star_sky.h"
+#include "render/visibility/screen_mask.h"
+#include "render/visibility/visibility_buffer.h"
 
 namespace hilcam {
 

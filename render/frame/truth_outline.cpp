@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "render/frame/truth_probe.h"
-#include "render/light/screen_bounds.h"
+#include "render/visibility/screen_bounds.h"
 
 namespace hilcam {
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "render/light/ray_generator.h"
-#include "render/light/screen_mask.h"
 #include "render/scene/background.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/surface.h"
+#include "render/visibility/screen_mask.h"
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/random.h"

@@ -9,7 +9,7 @@
 
 #include "render/light/kept_light.h"
 #include "render/light/primary_rays.h"
-#include "render/light/visibility_buffer.h"
+#include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "render/light/fragment_packet.h"
 #include "render/light/path_model.h"
+#include "render/visibility/fragment_packet.h"
 
 namespace hilcam {
 

@@ -8,7 +8,7 @@
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
 #include "render/light/ray_counts.h"
-#include "render/light/visibility_raster.h"
+#include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/pixel_box.h"
 
 namespace hilcam {

@@ -23,7 +23,7 @@ ROOMS = (
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/truth", "io/commands",
     "io/files", "io/config", "io/contract", "io/system",
     "sensor/measure", "sensor",
-    "render/frame", "render/light", "render/scene", "render/sky", "render/vocabulary",
+    "render/frame", "render/light", "render/visibility", "render/scene", "render/sky", "render/vocabulary",
 )
 MOST_FILES = 50
 # The sections of the data sheet name each other, so the sensor's stages stay side by side.
@@ -42,6 +42,8 @@ ONLY_IN = {
     "google": {"io/vizard/vizard_message.cpp"},
     "vizard.pb": {"io/vizard/vizard_message.cpp"},
     "zmq": {"io/vizard/commands_vizard.cpp"},
+    "hwy": {"render/light/primary_vertices.cpp", "render/visibility/fragment_packet.cpp",
+            "render/visibility/visibility_raster.cpp"},
     "libusb": {"io/commands/command_link_usb.cpp", "io/commands/commands_usb.cpp", "io/commands/usb_device.cpp"},
     "erfa": {"render/sky/bodies.cpp", "render/sky/earth_frames.cpp", "render/sky/stars.cpp", "render/vocabulary/time.cpp",
              "render/vocabulary/time_system.cpp"},

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "render/light/screen_mask.h"
 #include "render/scene/surface.h"
 #include "render/scene/triangle_order.h"
+#include "render/visibility/screen_mask.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/stage.h"
 

@@ -1,4 +1,4 @@
-#include "render/light/fragment_packet.h"
+#include "render/visibility/fragment_packet.h"
 
 #include <gtest/gtest.h>
 

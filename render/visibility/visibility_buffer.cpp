@@ -1,4 +1,4 @@
-#include "render/light/visibility_buffer.h"
+#include "render/visibility/visibility_buffer.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,7 +1,7 @@
-#include "render/light/fragment_packet.h"
+#include "render/visibility/fragment_packet.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/light/fragment_packet.cpp"
+#define HWY_TARGET_INCLUDE "render/visibility/fragment_packet.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -16,8 +16,8 @@
 #include <span>
 #include <vector>
 
-#include "render/light/visibility_raster.h"
 #include "render/scene/embree_scene.h"
+#include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/pose.h"

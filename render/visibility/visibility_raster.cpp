@@ -1,11 +1,11 @@
-#include "render/light/visibility_raster.h"
+#include "render/visibility/visibility_raster.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/light/visibility_raster.cpp"
+#define HWY_TARGET_INCLUDE "render/visibility/visibility_raster.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,4 +1,4 @@
-#include "render/light/visibility_buffer.h"
+#include "render/visibility/visibility_buffer.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>

@@ -1,4 +1,4 @@
-#include "render/light/screen_bounds.h"
+#include "render/visibility/screen_bounds.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/light/screen_mask.h"
+#include "render/visibility/screen_mask.h"
 
 #include <algorithm>
 #include <cmath>

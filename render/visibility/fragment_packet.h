@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 
-#include "render/light/visibility_raster.h"
 #include "render/scene/surface.h"
+#include "render/visibility/visibility_raster.h"
 
 namespace hilcam {
 
