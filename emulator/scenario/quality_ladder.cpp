@@ -124,7 +124,7 @@ std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
 
 RayGrid ray_grid_of(const RenderQuality& q) {
     if (q.noise_budget > 0) return kScatteredRays;
-    return static_cast<RayGrid>(q.visibility == "buffer" ? kVisibilitySamplesAcross : q.samples_per_axis);
+    return static_cast<RayGrid>(q.uses_buffer() ? kVisibilitySamplesAcross : q.samples_per_axis);
 }
 
 }  // namespace hilcam

@@ -58,7 +58,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
                       ? std::min(stars_.size(), stars_.most_within(2 * half_field_rad(geometry)))
                       : stars_.size();
 
-    if (quality.visibility == "buffer" && !terrain_) {
+    if (quality.uses_buffer() && !terrain_) {
         seen_.reserve(objects_.size());
         visibility_ = std::make_unique<VisibilityBuffer>(geometry, visibility_room());
     }
@@ -102,6 +102,7 @@ void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& pat
     frame_.max_depth = static_cast<int>(quality.max_depth);
     frame_.contribution_threshold = static_cast<float>(quality.contribution_threshold);
     frame_.sun_is_disk = quality.sun_disk;
+    uses_visibility_ = quality.uses_buffer();
     set_paths(paths);
 }
 
@@ -154,7 +155,7 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
                  {world_.time, world_.camera, world_.rows_velocity_m_s, world_.camera_rate_rad_s});
     place_objects();
     place_background();
-    place_visibility();
+    frame_.visibility = nullptr;
     if (frame_.kept) kept_->place(frame_, world_);
 }
 
@@ -196,8 +197,7 @@ void FramePlacer::place_background() {
 }
 
 void FramePlacer::place_visibility() {
-    frame_.visibility = nullptr;
-    if (!visibility_ || !rays_->linear()) return;
+    if (!visibility_ || !uses_visibility_ || !rays_->linear()) return;
     seen_.clear();
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh)

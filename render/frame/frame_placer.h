@@ -39,6 +39,9 @@ class FramePlacer {
 
     // What of the quality may change, from the next place() on; with its path model. Loop.
     void set_quality(const RenderQuality& quality, const PathModel& paths);
+    // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
+    // buffer. Loop.
+    void place_visibility();
     // For a path model that is only tried (render_bench.h), too.
     void set_paths(const PathModel& paths);
     // Loop; nothing is allocated after the first call.
@@ -97,6 +100,7 @@ class FramePlacer {
     ScreenMask object_mask_, full_mask_;
     std::unique_ptr<VisibilityBuffer> visibility_;  // null: rays
     std::vector<VisibilityBuffer::Shown> seen_;
+    bool uses_visibility_ = false;
     std::unique_ptr<RayGenerator> rays_;
     std::unique_ptr<RadianceModel> radiance_model_;
     std::unique_ptr<ShownTerrain> terrain_;
@@ -109,7 +113,6 @@ class FramePlacer {
     void choose_levels();
     void place_objects();
     void place_background();
-    void place_visibility();
     VisibilityBuffer::Room visibility_room() const;
 };
 

@@ -34,7 +34,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     bool budget = false, buffer = false;
     for (const RenderQuality& quality : levels) {
         // The visibility buffer's samples cost no memory of a path model's.
-        const bool rays = quality.visibility == "rays";
+        const bool rays = !quality.uses_buffer();
         const int edge_px = tile_edge_px(rays ? static_cast<int>(quality.samples_per_axis) : 1);
         const std::size_t set = path_set(modules, quality.path_model);
         for (const auto& model : path_sets_[set].models)
@@ -103,7 +103,7 @@ void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std
                              TileStats& stats, RadianceImage& radiance) {
     int n = placer.samples_in(box);
     SeenMemory* seen = nullptr;
-    if (quality().visibility == "buffer" && n <= kVisibilitySamplesAcross) {
+    if (quality().uses_buffer() && n <= kVisibilitySamplesAcross) {
         n = kVisibilitySamplesAcross;
         if (placer.frame().visibility) seen = &seen_[slot];
     }

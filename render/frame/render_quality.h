@@ -29,6 +29,9 @@ struct RenderQuality {
     std::int64_t point_samples = 96;  // of an object of few pixels, along one axis of its little picture
     double noise_budget = 0;          // (f) see adaptive_sampler.h; 0: a pixel is sampled once
     std::int64_t most_passes = 16;    // over a pixel, with a noise budget
+
+    // A noise budget is for rays.
+    bool uses_buffer() const { return visibility == "buffer" && noise_budget == 0; }
 };
 Fields fields(RenderQuality& quality);
 

@@ -92,6 +92,7 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
                  radiance.planes() == my.placer.frame().bins);
     const auto start = Clock::now();
     my.placer.place(world, key);
+    my.placer.place_visibility();
     stats.setup_ms = ms_since(start);
 
     const auto traced = Clock::now();
@@ -165,6 +166,7 @@ std::uint64_t Renderer::rays_outside_air() const {
 double Renderer::floor_ms(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
     my.placer.place(world, {});
+    my.placer.place_visibility();
     return bare_rays_ms(my.placer, my.tracer);
 }
 
@@ -172,6 +174,7 @@ std::vector<PathModelSpeed> Renderer::path_model_speeds(const WorldSnapshot& wor
                                                         int runs) {
     Implementation& my = *implementation_;
     my.placer.place(world, {});
+    my.placer.place_visibility();
     return hilcam::path_model_speeds(my.placer, my.tracer, modules, runs);
 }
 

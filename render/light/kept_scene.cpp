@@ -120,7 +120,7 @@ bool KeptScene::is_near(const FrameView& frame, const Place& place) const {
 
 namespace {
 
-// Of four pixels that the camera sees side by side: kept light is too smooth to differ.
+// Numbers the square of four pixels that a vertex is seen in: kept light is too smooth to differ there.
 std::uint32_t quad_of(const Tile& tile, const Vertex& at) {
     const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
     return at.pixel / width / 2 * width + at.pixel % width / 2;

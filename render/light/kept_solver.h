@@ -35,7 +35,7 @@ class KeptSolver {
 
     const EmbreeScene& scene() const { return scene_; }
     std::span<const KeptLight* const> lights() const { return lights_; }
-    // Of its workspace, an object's share.
+    // Returns an object's share of the workspace.
     std::size_t bytes(std::size_t object) const {
         return lights_[object]->table().size() * (sizeof(Sender) + 4 * sizeof(Spectrum));
     }

@@ -128,7 +128,7 @@ class HemispherePaths final : public PathModel {
             const BrdfSample sample = brdf_exact(surface, at.normal, at.view_dir, part);
             if (!sample.valid || (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0)) continue;
             const Spectrum weight = share * (at.weight * sample.weight);
-            if (largest(weight) >= least)
+            if (at.importance(weight) >= least)
                 rays_[count++] = {at.start(!sample.transmits), sample.dir, weight, true, !narrow};
         }
         // At the last surface only exact directions go on, to the background.
@@ -140,7 +140,7 @@ class HemispherePaths final : public PathModel {
             const Cosines c{no, direction.z, dot(at.view_dir, dir)};
             const Spectrum weight = (kSolidAngle * direction.z) * (at.weight * brdf_value(surface, c));
             // All directions together against the threshold.
-            if (static_cast<float>(kDirections) * largest(weight) >= least && largest(weight) > 0)
+            if (static_cast<float>(kDirections) * at.importance(weight) >= least && largest(weight) > 0)
                 rays_[count++] = {at.start(), dir, weight, false, false};
         }
         return count;
@@ -176,6 +176,7 @@ class HemispherePaths final : public PathModel {
                 vertex.pixel = at.pixel, vertex.sample = at.sample;
                 vertex.depth = static_cast<std::uint16_t>(at.depth + 1);
                 vertex.weight = ray.weight;
+                vertex.weight_samples = at.weight_samples;
                 ++found;
             }
         }

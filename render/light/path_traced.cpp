@@ -95,7 +95,7 @@ class TracedPaths final : public PathModel {
                 (!sample.transmits && dot(at.geometric_normal, sample.dir) <= 0))
                 continue;
             Spectrum weight = at.weight * sample.weight;
-            const float most = largest(weight);
+            const float most = at.importance(weight);
             if (!(most > 0)) continue;
             if (most < least) {
                 const float chance = most / least;
@@ -171,7 +171,7 @@ class TracedPaths final : public PathModel {
         const bool leaves = dot(ray.from->geometric_normal, ray.dir) > 0;
         const bool through = ray.from->surface.is_glass();
         if ((leaves || through) && ray_count < next_.size() &&
-            largest(ray.weight) >= tile.frame.contribution_threshold)
+            ray.from->importance(ray.weight) >= tile.frame.contribution_threshold)
             next_[ray_count++] = ray;
     }
 
@@ -208,6 +208,7 @@ class TracedPaths final : public PathModel {
                 vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
                 vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
                 vertex.weight = ray.weight;
+                vertex.weight_samples = ray.from->weight_samples;
                 ++found;
             }
         }

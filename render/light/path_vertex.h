@@ -39,6 +39,8 @@ struct Vertex {
     Spectrum weight;
     Scatterer surface;
 
+    // What thresholds are held against: the largest weight of one of the samples that a ray stands for.
+    float importance(const Spectrum& of) const { return largest(of) / weight_samples; }
     // Where a ray begins that leaves to this side: above the surface, or below it through glass.
     Vec3f start(bool above = true) const {
         return point_m + (above ? offset_m : -offset_m) * geometric_normal;
@@ -50,8 +52,8 @@ struct Lie {
     Vec3f geometric_normal, normal, view_dir;  // as a vertex's
     bool back;
 };
-// Of a lane that met an object. False where there is nothing to see: a triangle without an area. Loop, any
-// thread.
+// Finds it for a lane that met an object. False where there is nothing to see: a triangle without an area.
+// Loop, any thread.
 bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie);
 
 // Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's.

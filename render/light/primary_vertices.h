@@ -35,7 +35,7 @@ class PrimaryVertices {
     std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;
     std::array<Fragment, 2 * kPacketSize> fragments_;
     std::size_t fragment_count_ = 0, facet_count_ = 0;
-    // Of the packet that is looked at.
+    // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.
     FragmentPacket packet_;
     HitPacket hits_;
     std::array<Vec3d, kPacketSize> dirs_;

@@ -30,7 +30,7 @@ bool is_weighed(const FrameView& frame, const Vertex& at) {
 // stands over the surface's horizon.
 bool lamp_counts(const FrameView& frame, const Vertex& at, const BodyLamp& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
-    if (largest(at.weight) * largest(lamp.most_over_sun) * solid_angle < frame.contribution_threshold)
+    if (at.importance(at.weight) * largest(lamp.most_over_sun) * solid_angle < frame.contribution_threshold)
         return false;
     return dot(at.geometric_normal, to_float(lamp.world_dir)) >= -std::sqrt(lamp.cone_sine_squared);
 }
@@ -101,19 +101,19 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
             dir = normalized(axis.to_world({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)}));
             light = light * background.sun_disk().relative_radiance(std::sqrt(1 - u1));
         }
+        const float ni = dot(at.normal, dir);
+        const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
+        // Narrow lobes are better found by their own samples (Veach & Guibas, SIGGRAPH 95, balance
+        // heuristic).
+        if (frame.sun_is_disk && is_weighed(frame, at))
+            share = disk_density / (disk_density + brdf_density(at.surface, c));
         if (at.facets) {
             const FacetLight sum = sunlit_facets(at, dir, frame.sun_is_disk);
-            if (sum.brightest) shadow.add(sum.brightest->start_m, dir, {&at, light * sum.reflected, dir});
+            if (sum.brightest)
+                shadow.add(sum.brightest->start_m, dir, {&at, share * (light * sum.reflected), dir});
             continue;
         }
-        const float ni = dot(at.normal, dir);
         if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
-        const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
-        if (frame.sun_is_disk) {
-            // Narrow lobes are better found by their own samples (Veach & Guibas, SIGGRAPH 95, balance
-            // heuristic).
-            if (is_weighed(frame, at)) share = disk_density / (disk_density + brdf_density(at.surface, c));
-        }
         Scatterer surface = at.surface;
         if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
         const Spectrum weight = (ni * share) * (at.weight * light * brdf_value(surface, c));

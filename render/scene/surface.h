@@ -50,8 +50,8 @@ struct ObjectSurfaces {
     std::vector<float>
         uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
     std::vector<Material> materials;
-    // Of a level of detail, by surface: the slopes that it has flattened, as a GGX alpha; materials have it
-    // in theirs. Empty: none.
+    // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
+    // have them, too. The mesh itself has flattened none: empty.
     std::vector<float> flattened_alpha;
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hilcam {
 namespace {
@@ -253,18 +254,13 @@ void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, 
     setup.depth[0] = static_cast<float>(depth_origin_m_ * dot(sum, corner) - 1);
 }
 
-bool VisibilityBuffer::may_see(int x_px, int y_px) const {
-    const std::uint32_t* first = &first_[tile_index(x_px, y_px) * kGroups];
-    return std::any_of(first, first + kGroups, [](std::uint32_t block) { return block != kNoBlock; });
-}
-
 bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
-    if (!may_see(x_px, y_px)) return false;
-    tile.clear();
     const std::uint32_t* first = &first_[tile_index(x_px, y_px) * kGroups];
     TriangleSetup setup;
+    bool any = false;
     for (std::size_t group = 0; group < kGroups; ++group)
         for (std::uint32_t block = first[group]; block != kNoBlock; block = heads_[block].next) {
+            if (!std::exchange(any, true)) tile.clear();
             const BlockHead& head = heads_[block];
             const Placed& placed = placed_[head.placed];
             if (head.cut)
@@ -275,7 +271,7 @@ bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
                                  blocks_[block].triangles, head.count, x_px, y_px, setup);
             fill_tile(setup, tile);
         }
-    return true;
+    return any;
 }
 
 VisibilityBuffer::Seen VisibilityBuffer::seen(std::uint32_t id) const {

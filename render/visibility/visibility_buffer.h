@@ -46,7 +46,6 @@ class VisibilityBuffer {
     // Finds what a tile's samples see; x and y of its corner are multiples of kVisibilityTile_px. False:
     // nothing. Loop, any thread.
     bool fill(int x_px, int y_px, VisibilityTile& tile) const;
-    bool may_see(int x_px, int y_px) const;
 
     // What an id of a tile stands for.
     struct Seen {

@@ -150,10 +150,8 @@ TEST(VisibilityBuffer, SeesWhatRaysSee) {
     EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
 }
 
-TEST(VisibilityBuffer, SeesTrianglesOfAllSizesInFrontOfEachOther) {
-    Sight sight(200, 150, 300);
-    sight.add(debris(2000, 3, 1), turned({0, 0, 8}));
-    sight.add(debris(2000, 3, 2), turned({2, 1, 9}));
+// Rounding may decide a sample on an edge, or one where two triangles cross.
+void expect_same(Sight& sight) {
     ASSERT_TRUE(sight.place());
     const Sight::Count count = sight.compare();
     EXPECT_GT(count.seen_by_both, 100'000);
@@ -161,15 +159,18 @@ TEST(VisibilityBuffer, SeesTrianglesOfAllSizesInFrontOfEachOther) {
     EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
 }
 
+TEST(VisibilityBuffer, SeesTrianglesOfAllSizesInFrontOfEachOther) {
+    Sight sight(200, 150, 300);
+    sight.add(debris(2000, 3, 1), turned({0, 0, 8}));
+    sight.add(debris(2000, 3, 2), turned({2, 1, 9}));
+    expect_same(sight);
+}
+
 // The camera is among the triangles: some go through its plane.
 TEST(VisibilityBuffer, CutsWhatGoesThroughTheCamerasPlane) {
     Sight sight(200, 150, 100);
     sight.add(debris(3000, 3, 3), turned({0, 0, 0.5}));
-    ASSERT_TRUE(sight.place());
-    const Sight::Count count = sight.compare();
-    EXPECT_GT(count.seen_by_both, 100'000);
-    EXPECT_LT(count.only_rays + count.only_buffer, 1e-4 * count.seen_by_both);
-    EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
+    expect_same(sight);
 }
 
 // Bars of 2 mm, 0.4 mm above a panel that is seen aslant from 50 m: long triangles of a twentieth of a pixel.
