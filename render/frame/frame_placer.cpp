@@ -106,21 +106,14 @@ void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& pat
     set_paths(paths);
 }
 
-// The coarsest level whose error stays below the quality's share of a pixel where the object is nearest. With
-// the Sun behind it an object shows what little of it still faces the Sun, rims of wrinkles first, which
-// levels wear down: by a fifth of that light for a foil at 0.05 px (docs/performance.md). There it is the
-// mesh itself.
+// The coarsest level whose error stays below the quality's share of a pixel where the object is nearest.
 void FramePlacer::choose_levels() {
-    constexpr double kBacklit_cosine = -0.7;  // of the phase angle: 134 degrees
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const Vec3d to_camera_m = world_.camera.position_world_m - world_.objects[i].position_world_m;
         const double nearest_m = length(to_camera_m) - radii_m_[i];
-        const bool backlit =
-            dot(to_camera_m, background_.sun_world_dir()) < kBacklit_cosine * length(to_camera_m);
         const double error_m = lod_error_px_ * std::max(0.0, nearest_m) / frame_.geometry.focal_length_px;
         std::size_t level = 0;
-        while (!backlit && level + 1 < objects_[i].levels.size() && objects_[i].error_m[level + 1] <= error_m)
-            ++level;
+        while (level + 1 < objects_[i].levels.size() && objects_[i].error_m[level + 1] <= error_m) ++level;
         levels_[i] = level;
         shown_[i] = objects_[i].levels[level].get();
     }

@@ -165,36 +165,39 @@ void PrimaryVertices::add_facet(Vertex& vertex, const Facet& facet) {
     vertex.facets = &added;
 }
 
-// A level of detail is flat where the mesh is wrinkled: four facets lean as the wrinkles did. With slopes of
-// a normal distribution, of alpha^2 / 2 in each axis (Beckmann's; Walter et al., EGSR 2007), the points at
-// alpha along two axes have its mean and its covariance (Julier & Uhlmann, Proc. IEEE 92(3), 2004).
-void PrimaryVertices::add_wrinkles(Vertex& vertex, const Facet& flat, float slope) {
-    const Frame local(flat.normal);
-    std::array<Facet, 4> leaning;
+// A level of detail is flat where the mesh is wrinkled: its facets lean as the wrinkles did, and are seen as
+// they are. False: none of them is.
+bool PrimaryVertices::add_flattened(Vertex& vertex, const Facet& flat, const LevelFacets& facets) {
+    const Mat3f& world_from_body = tile_.frame.world_from_body[vertex.object];
+    std::array<Facet, LevelFacets::kMost> leaning;
+    std::size_t count = 0;
     float sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const float along = i % 2 == 0 ? slope : -slope;
-        Facet& facet = leaning[i];
+    for (; count < LevelFacets::kMost; ++count) {
+        const LevelFacets::Facet part = facets.at(count);
+        if (part.share == 0) break;
+        const Vec3f lean = world_from_body * part.lean;
+        Facet& facet = leaning[count];
         facet = flat;
-        facet.normal = normalized(local.to_world(i < 2 ? Vec3f{along, 0, 1} : Vec3f{0, along, 1}));
+        facet.normal = normalized(vertex.back ? flat.normal - lean : flat.normal + lean);
         facet.geometric_normal = facet.normal;
-        facet.samples = std::max(0.0f, dot(facet.normal, vertex.view_dir));
+        facet.samples = part.share * std::max(0.0f, dot(facet.normal, vertex.view_dir));
         sum += facet.samples;
     }
-    if (!(sum > 0)) return add_facet(vertex, flat);
-    for (Facet& facet : leaning) {
+    if (!(sum > 0)) return false;
+    for (Facet& facet : std::span(leaning).first(count)) {
         facet.samples *= flat.samples / sum;
-        add_facet(vertex, facet);
+        if (facet.samples > 0) add_facet(vertex, facet);
     }
+    return true;
 }
 
-void PrimaryVertices::add_to(Vertex& vertex, const Facet& facet, bool first) {
+void PrimaryVertices::add_to(Vertex& vertex, const Facet& facet, std::uint32_t triangle, bool first) {
     const ObjectSurfaces& object = *(*tile_.frame.objects)[vertex.object];
-    const float slope = object.flattened_alpha.empty() ? 0.0f : object.flattened_alpha[vertex.surface_number];
-    if (slope > 0) {
-        const float alpha = vertex.surface.alpha;
+    if (!object.facets.empty()) {
+        const float alpha = vertex.surface.alpha, slope = object.flattened_alpha[vertex.surface_number];
         if (first) vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - slope * slope));
-        return add_wrinkles(vertex, facet, slope);
+        if (!add_flattened(vertex, facet, object.facets[triangle])) add_facet(vertex, facet);
+        return;
     }
     if (first || (!vertex.facets && dot(vertex.normal, facet.normal) > kSame)) return;
     if (!vertex.facets)
@@ -261,7 +264,8 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         if (joined) {
             const Vec3f start_m =
                 origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
-            add_to(*joined, {lie.geometric_normal, lie.normal, start_m, samples, nullptr}, false);
+            add_to(*joined, {lie.geometric_normal, lie.normal, start_m, samples, nullptr}, hits_.triangle[k],
+                   false);
             // Alike in all bins, but for the air before it.
             joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
             joined->weight_samples += samples;
@@ -277,7 +281,8 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
         add_air_before(tile_, dirs_[k], vertex);
-        add_to(vertex, {lie.geometric_normal, lie.normal, vertex.start(), samples, nullptr}, true);
+        add_to(vertex, {lie.geometric_normal, lie.normal, vertex.start(), samples, nullptr},
+               hits_.triangle[k], true);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());

@@ -51,8 +51,8 @@ class PrimaryVertices {
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
                         std::uint16_t surface, const Lie& lie);
     void add_facet(Vertex& vertex, const Facet& facet);
-    void add_wrinkles(Vertex& vertex, const Facet& flat, float slope);
-    void add_to(Vertex& vertex, const Facet& facet, bool first);
+    bool add_flattened(Vertex& vertex, const Facet& flat, const LevelFacets& facets);
+    void add_to(Vertex& vertex, const Facet& facet, std::uint32_t triangle, bool first);
 };
 
 }  // namespace hilcam

@@ -8,6 +8,8 @@
 #include <limits>
 #include <span>
 
+#include "render/scene/triangle_order.h"
+
 namespace hilcam {
 namespace {
 
@@ -34,11 +36,6 @@ Submesh submesh_of(const Mesh& mesh, std::span<const std::uint32_t> triangles,
         }
     for (const std::uint32_t v : out.vertices) scratch[v] = kNone;
     return out;
-}
-
-Vec3d area_vector(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
-    const Vec3d a = to_double(mesh.vertices_m[t[0]]);
-    return 0.5 * cross(to_double(mesh.vertices_m[t[1]]) - a, to_double(mesh.vertices_m[t[2]]) - a);
 }
 
 double area_of(const Mesh& mesh, std::uint16_t surface) {
@@ -176,11 +173,13 @@ std::vector<MeshLevel> coarser_levels(const Mesh& mesh) {
     for (double error_m = size / 65536; error_m < size / 32; error_m *= 4) {
         const Mesh& finer = levels.empty() ? mesh : levels.back().mesh;
         if (finer.triangles.size() < kSmallMesh) break;
-        MeshLevel level{simplified(finer, static_cast<float>(error_m)), error_m, {}};
+        MeshLevel level{simplified(finer, static_cast<float>(error_m)), error_m, {}, {}};
         // Errors of levels made from levels add up.
         if (!levels.empty()) level.error_m += levels.back().error_m;
         if (level.mesh.triangles.empty()) break;
         if (10 * level.mesh.triangles.size() > 6 * finer.triangles.size()) continue;
+        order_triangles(level.mesh);
+        level.facets = facets_of(mesh, level.mesh, level.error_m);
         for (std::size_t s = 0; s < mesh.surfaces.size(); ++s)
             level.flattened_alpha.push_back(
                 flattened_alpha(areas[s], area_of(level.mesh, static_cast<std::uint16_t>(s))));

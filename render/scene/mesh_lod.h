@@ -5,19 +5,23 @@
 // Surfaces are simplified one by one and their borders stay, so that materials keep their areas: a level
 // never loses a solar cell, it only has no needless triangles in it. Wrinkles wider than the pixels that a
 // level is made for stay too. What a level loses besides its shape is the scatter of the normals of wrinkles
-// that it flattens: MeshLevel::flattened_alpha gives it back as roughness.
+// that it flattens: MeshLevel::facets keep it by triangle, MeshLevel::flattened_alpha as roughness of a whole
+// surface.
 
 #include <vector>
 
+#include "render/scene/level_facets.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
 
 struct MeshLevel {
-    Mesh mesh;           // textures left empty: they are the first level's
+    Mesh
+        mesh;  // textures left empty: they are the first level's; triangles in their order (triangle_order.h)
     double error_m = 0;  // no point of the mesh is farther from the level, about
     // Per surface: GGX alpha of the facets that the level has flattened; adds to a material's by squares.
     std::vector<float> flattened_alpha;
+    std::vector<LevelFacets> facets;  // by triangle
 };
 
 // From fine to coarse, error growing fourfold; a level is kept where it saves two fifths of the triangles.

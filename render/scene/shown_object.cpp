@@ -28,10 +28,7 @@ std::vector<std::vector<const Mesh*>> ordered_meshes(Scene& scene) {
         std::vector<const Mesh*>& meshes = objects.emplace_back();
         order_triangles(object.mesh);
         meshes.push_back(&object.mesh);
-        for (MeshLevel& level : object.levels) {
-            order_triangles(level.mesh);
-            meshes.push_back(&level.mesh);
-        }
+        for (MeshLevel& level : object.levels) meshes.push_back(&level.mesh);
     }
     return objects;
 }
@@ -54,10 +51,11 @@ std::vector<ShownObject> shown_objects(Scene& scene) {
         const auto textures = std::make_shared<const std::vector<MipTexture>>(std::move(pictures));
         out.levels.push_back(std::make_shared<const ObjectSurfaces>(object.mesh, object.materials, textures));
         out.error_m.push_back(0);
-        for (const MeshLevel& level : object.levels) {
+        for (MeshLevel& level : object.levels) {
             auto surfaces = std::make_shared<ObjectSurfaces>(
                 level.mesh, widened(object.materials, level.flattened_alpha), textures);
             surfaces->flattened_alpha = level.flattened_alpha;
+            surfaces->facets = std::move(level.facets);
             out.levels.push_back(std::move(surfaces));
             out.error_m.push_back(level.error_m);
         }

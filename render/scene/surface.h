@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/scene/color_bands.h"
+#include "render/scene/level_facets.h"
 #include "render/scene/scene.h"
 
 namespace hilcam {
@@ -53,6 +54,7 @@ struct ObjectSurfaces {
     // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
     // have them, too. The mesh itself has flattened none: empty.
     std::vector<float> flattened_alpha;
+    std::vector<LevelFacets> facets;  // of a level's triangles; of the mesh itself: empty
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;

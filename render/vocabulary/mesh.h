@@ -39,4 +39,11 @@ struct Mesh {
     std::vector<Texture> textures;
 };
 
+// The area of a triangle [m^2] along its normal; corners counterclockwise where it is seen from.
+inline Vec3d area_vector(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+    const Vec3d a = to_double(mesh.vertices_m[triangle[0]]);
+    return 0.5 *
+           cross(to_double(mesh.vertices_m[triangle[1]]) - a, to_double(mesh.vertices_m[triangle[2]]) - a);
+}
+
 }  // namespace hilcam

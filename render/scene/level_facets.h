@@ -1,0 +1,53 @@
+#pragma once
+// How the parts of a mesh lean that a triangle of a coarser level stands for. A level is flat where the mesh
+// is wrinkled, and wrinkles are seen by how they lean long before they are by their shape: so a level's
+// triangle keeps up to four of their normals, each with its share of their area.
+//
+// The parts of the mesh belong to the triangle of the same surface that is nearest to them and faces as they
+// do. Their normals are divided twice across the axis in which they scatter most, at their mean (as colours
+// are by Wu, ACM Trans. Graphics 10(4), 1991), which keeps their mean and most of their scatter; what is
+// left over within the four groups is not kept. Parts do not hide each other.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/vocabulary/mesh.h"
+
+namespace hilcam {
+
+class LevelFacets {
+  public:
+    static constexpr std::size_t kMost = 4;
+    struct Facet {
+        Vec3f lean;   // added to the level's own normal there, before it is made a unit vector; body axes
+        float share;  // of the area of all; 0: there are no more
+    };
+    static LevelFacets of(const std::array<Facet, kMost>& facets);
+    static LevelFacets flat() { return of({Facet{{}, 1}}); }
+
+    Facet at(std::size_t i) const {
+        constexpr float kUnit = 1 / kLean;
+        const Packed& p = packed_[i];
+        return {{kUnit * static_cast<float>(p.x), kUnit * static_cast<float>(p.y),
+                 kUnit * static_cast<float>(p.z)},
+                static_cast<float>(p.share) * (1 / kAll)};
+    }
+    // It leans as its own normals do.
+    bool is_flat() const { return packed_[1].share == 0; }
+
+  private:
+    static constexpr float kLean = 16383, kAll = 65535;  // units of a lean (2 at most), and of a share
+    struct Packed {
+        std::int16_t x, y, z;
+        std::uint16_t share;
+    };
+    std::array<Packed, kMost> packed_{};
+};
+static_assert(sizeof(LevelFacets) == 32);
+
+// One for each triangle of the level. error_m: how far the level is from the mesh, about. Owner thread; some
+// seconds per million triangles of the mesh.
+std::vector<LevelFacets> facets_of(const Mesh& mesh, const Mesh& level, double error_m);
+
+}  // namespace hilcam
