@@ -14,12 +14,17 @@ void fill_zero(RadianceImage& radiance, const PixelBox& box) {
 // share: factor on the pixels' values.
 void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, int bins,
            RadianceImage& radiance) {
+    // Some pixels at a time: a tile's, bin by bin, would pass through the nearest cache once a bin.
+    constexpr int kTogether = 16;
     const int width = box.x1 - box.x0;
-    for (int b = 0; b < bins; ++b)
-        for (int y = box.y0; y < box.y1; ++y) {
-            float* out = radiance.row(y, b).data() + box.x0;
-            const Spectrum* in = pixels.data() + (y - box.y0) * width;
-            for (int x = 0; x < width; ++x) out[x] = share * in[x][b];
+    for (int y = box.y0; y < box.y1; ++y)
+        for (int x = 0; x < width; x += kTogether) {
+            const Spectrum* in = pixels.data() + (y - box.y0) * width + x;
+            const int count = std::min(kTogether, width - x);
+            for (int b = 0; b < bins; ++b) {
+                float* out = radiance.row(y, b).data() + box.x0 + x;
+                for (int i = 0; i < count; ++i) out[i] = share * in[i][b];
+            }
         }
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "render/light/kept_light.h"
 #include "render/light/primary_rays.h"
@@ -17,9 +18,9 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Where to look for what some samples see, from their pixel's corner: at the one next to their middle. The
-// middle itself may see something else.
-Vec2f middle_of(std::uint32_t samples) {
+// Where to look for what some samples see: at the one next to their middle. The middle itself may see
+// something else.
+std::uint8_t nearest_to_middle(std::uint32_t samples) {
     float x = 0, y = 0;
     for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
         const int i = std::countr_zero(rest);
@@ -27,7 +28,6 @@ Vec2f middle_of(std::uint32_t samples) {
     }
     const float share = 1 / static_cast<float>(std::popcount(samples));
     x *= share, y *= share;
-    if (samples == 0xFFFFu) return {x, y};
     float least = 2;
     int nearest = 0;
     for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
@@ -35,7 +35,19 @@ Vec2f middle_of(std::uint32_t samples) {
         const float dx = sample_x(i) - x, dy = sample_y(i) - y;
         if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = i;
     }
-    return {sample_x(nearest), sample_y(nearest)};
+    return static_cast<std::uint8_t>(nearest);
+}
+const std::vector<std::uint8_t> kNearestToMiddle = [] {
+    std::vector<std::uint8_t> out(0x10000u);
+    for (std::uint32_t samples = 1; samples < out.size(); ++samples)
+        out[samples] = nearest_to_middle(samples);
+    return out;
+}();
+// From the pixel's corner.
+Vec2f middle_of(std::uint16_t samples) {
+    if (samples == 0xFFFFu) return {0.5f, 0.5f};
+    const int i = kNearestToMiddle[samples];
+    return {sample_x(i), sample_y(i)};
 }
 
 // How far two facets may lean against each other to be one vertex: its kept light and its mirrored rays are
@@ -158,52 +170,72 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
     return nullptr;
 }
 
-void PrimaryVertices::add_facet(Vertex& vertex, const Facet& facet) {
-    Facet& added = tile_.seen->facets[facet_count_++];
-    added = facet;
+Facets& PrimaryVertices::add_facets(Vertex& vertex) {
+    Facets& added = tile_.seen->facets[facet_count_++];
+    added.samples = {};
+    added.count = 0;
     added.next = vertex.facets;
     vertex.facets = &added;
+    return added;
+}
+
+void PrimaryVertices::add_facet(Vertex& vertex, const Part& part) {
+    const bool room = vertex.facets && vertex.facets->count < Facets::kMost;
+    Facets& to = room ? *vertex.facets : add_facets(vertex);
+    const std::size_t i = to.count++;
+    to.geometric_normal.set(i, part.geometric_normal);
+    to.normal.set(i, part.normal);
+    to.start_m.set(i, part.start_m);
+    to.samples[i] = part.samples;
 }
 
 // A level of detail is flat where the mesh is wrinkled: its facets lean as the wrinkles did, and are seen as
 // they are. False: none of them is.
-bool PrimaryVertices::add_flattened(Vertex& vertex, const Facet& flat, const LevelFacets& facets) {
+bool PrimaryVertices::add_flattened(Vertex& vertex, const Part& flat, const LevelFacets& leaning) {
     const Mat3f& world_from_body = tile_.frame.world_from_body[vertex.object];
-    std::array<Facet, LevelFacets::kMost> leaning;
-    std::size_t count = 0;
-    float sum = 0;
-    for (; count < LevelFacets::kMost; ++count) {
-        const LevelFacets::Facet part = facets.at(count);
-        if (part.share == 0) break;
-        const Vec3f lean = world_from_body * part.lean;
-        Facet& facet = leaning[count];
-        facet = flat;
-        facet.normal = normalized(vertex.back ? flat.normal - lean : flat.normal + lean);
-        facet.geometric_normal = facet.normal;
-        facet.samples = part.share * std::max(0.0f, dot(facet.normal, vertex.view_dir));
-        sum += facet.samples;
+    const float side = vertex.back ? -1.0f : 1.0f;
+    const LevelFacets::Leans lean = leaning.leans();
+    const LevelFacets::Floats share = leaning.shares();
+    Facets::Vectors normal;
+    Facets::Floats samples;
+    for (std::size_t i = 0; i < Facets::kMost; ++i) {
+        const auto along = [&](Vec3f row) {
+            return side * (row.x * lean.x[i] + row.y * lean.y[i] + row.z * lean.z[i]);
+        };
+        const float x = flat.normal.x + along(world_from_body.x),
+                    y = flat.normal.y + along(world_from_body.y),
+                    z = flat.normal.z + along(world_from_body.z);
+        const float inverse = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-12f));
+        normal.x[i] = inverse * x, normal.y[i] = inverse * y, normal.z[i] = inverse * z;
+        const float no = normal.x[i] * vertex.view_dir.x + normal.y[i] * vertex.view_dir.y +
+                         normal.z[i] * vertex.view_dir.z;
+        samples[i] = share[i] * std::max(0.0f, no);
     }
+    const float sum = (samples[0] + samples[1]) + (samples[2] + samples[3]);
     if (!(sum > 0)) return false;
-    for (Facet& facet : std::span(leaning).first(count)) {
-        facet.samples *= flat.samples / sum;
-        if (facet.samples > 0) add_facet(vertex, facet);
-    }
+    Facets& to = add_facets(vertex);
+    to.count = Facets::kMost;
+    to.geometric_normal = to.normal = normal;
+    to.start_m.x.fill(flat.start_m.x), to.start_m.y.fill(flat.start_m.y), to.start_m.z.fill(flat.start_m.z);
+    const float each = flat.samples / sum;
+    for (std::size_t i = 0; i < Facets::kMost; ++i) to.samples[i] = each * samples[i];
     return true;
 }
 
-void PrimaryVertices::add_to(Vertex& vertex, const Facet& facet, std::uint32_t triangle, bool first) {
+// Facets are made where there is more than one, and of what a level has flattened: its own lobe is wider than
+// theirs.
+void PrimaryVertices::add_to(Vertex& vertex, const Part& part, std::uint32_t triangle, bool first) {
     const ObjectSurfaces& object = *(*tile_.frame.objects)[vertex.object];
-    if (!object.facets.empty()) {
-        const float alpha = vertex.surface.alpha, slope = object.flattened_alpha[vertex.surface_number];
-        if (first) vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - slope * slope));
-        if (!add_flattened(vertex, facet, object.facets[triangle])) add_facet(vertex, facet);
+    const float flattened = object.facets.empty() ? 0.0f : object.flattened_alpha[vertex.surface_number];
+    if (first && flattened > 0)
+        vertex.facet_alpha =
+            std::sqrt(std::max(0.0f, vertex.surface.alpha * vertex.surface.alpha - flattened * flattened));
+    const bool leans = !object.facets.empty() && !object.facets[triangle].is_flat();
+    if (!leans && flattened == 0 && !vertex.facets && (first || dot(vertex.normal, part.normal) > kSame))
         return;
-    }
-    if (first || (!vertex.facets && dot(vertex.normal, facet.normal) > kSame)) return;
-    if (!vertex.facets)
-        add_facet(vertex,
-                  {vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, nullptr});
-    add_facet(vertex, facet);
+    if (!first && !vertex.facets)
+        add_facet(vertex, {vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples});
+    if (!leans || !add_flattened(vertex, part, object.facets[triangle])) add_facet(vertex, part);
 }
 
 // The first fragments, as many as are of one object.
@@ -214,6 +246,7 @@ std::size_t PrimaryVertices::look_at_fragments() {
     const int width = tile_.box.x1 - tile_.box.x0;
     const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
     const Vec3f body_m = to_float(shown.pose.position_world_m - frame.rays_world_m);
+    const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
     std::size_t n = 0;
     for (; n < std::min<std::size_t>(kPacketSize, fragment_count_); ++n) {
         const Fragment& fragment = fragments_[n];
@@ -226,12 +259,12 @@ std::size_t PrimaryVertices::look_at_fragments() {
         origins_[n] =
             frame.start_before_m > 0 ? frame.start_of(normalized(dirs_[n])) : to_float(frame.camera_m);
         packet_.triangle[n] = seen.triangle;
+        if (!surfaces.facets.empty()) __builtin_prefetch(&surfaces.facets[seen.triangle]);
         packet_.dir.set(n, to_float(dirs_[n]));
         packet_.origin.set(n, origins_[n] - body_m);
     }
     for (std::size_t k = n; k < kPacketSize; ++k) packet_.triangle[k] = packet_.triangle[0];
     packet_.count = n;
-    const ObjectSurfaces& surfaces = *(*frame.objects)[shown.object];
     find_lies({shown.mesh.vertices_m.data(), shown.mesh.triangles.data(), surfaces.triangles.data(),
                frame.world_from_body[shown.object]},
               packet_);
@@ -264,8 +297,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         if (joined) {
             const Vec3f start_m =
                 origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
-            add_to(*joined, {lie.geometric_normal, lie.normal, start_m, samples, nullptr}, hits_.triangle[k],
-                   false);
+            add_to(*joined, {lie.geometric_normal, lie.normal, start_m, samples}, hits_.triangle[k], false);
             // Alike in all bins, but for the air before it.
             joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
             joined->weight_samples += samples;
@@ -281,8 +313,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
         add_air_before(tile_, dirs_[k], vertex);
-        add_to(vertex, {lie.geometric_normal, lie.normal, vertex.start(), samples, nullptr},
-               hits_.triangle[k], true);
+        add_to(vertex, {lie.geometric_normal, lie.normal, vertex.start(), samples}, hits_.triangle[k], true);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());

@@ -50,9 +50,15 @@ class PrimaryVertices {
     std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
                         std::uint16_t surface, const Lie& lie);
-    void add_facet(Vertex& vertex, const Facet& facet);
-    bool add_flattened(Vertex& vertex, const Facet& flat, const LevelFacets& facets);
-    void add_to(Vertex& vertex, const Facet& facet, std::uint32_t triangle, bool first);
+    // A part of a vertex, as a facet of it.
+    struct Part {
+        Vec3f geometric_normal, normal, start_m;
+        float samples;
+    };
+    Facets& add_facets(Vertex& vertex);
+    void add_facet(Vertex& vertex, const Part& part);
+    bool add_flattened(Vertex& vertex, const Part& flat, const LevelFacets& leaning);
+    void add_to(Vertex& vertex, const Part& part, std::uint32_t triangle, bool first);
 };
 
 }  // namespace hilcam

@@ -51,7 +51,8 @@ struct LitBy {
 // or not as its brightest facet is.
 struct FacetLight {
     Spectrum reflected;
-    const Facet* brightest = nullptr;
+    Vec3f start_m;     // of a ray from the brightest
+    bool none = true;  // of them is lit
 };
 FacetLight sunlit_facets(const Vertex& at, Vec3f dir, bool sun_is_disk) {
     FacetLight out;
@@ -60,12 +61,21 @@ FacetLight sunlit_facets(const Vertex& at, Vec3f dir, bool sun_is_disk) {
     if (!sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
     BrdfSum sum(surface, dot(at.view_dir, dir));
     float samples = 0, most = 0;
-    for (const Facet* facet = at.facets; facet; facet = facet->next) {
-        samples += facet->samples;
-        const float ni = dot(facet->normal, dir);
-        if (ni <= 0 || dot(facet->geometric_normal, dir) <= 0) continue;
-        sum.add(facet->samples * ni, std::max(dot(facet->normal, at.view_dir), 1e-4f), ni);
-        if (facet->samples * ni > most) most = facet->samples * ni, out.brightest = facet;
+    for (const Facets* facets = at.facets; facets; facets = facets->next) {
+        Facets::Floats ni = facets->normal.dots(dir), no = facets->normal.dots(at.view_dir), weight;
+        const Facets::Floats above = facets->geometric_normal.dots(dir);
+        for (std::size_t i = 0; i < Facets::kMost; ++i) {
+            weight[i] = std::min(above[i], ni[i]) > 0 ? facets->samples[i] * ni[i] : 0.0f;
+            ni[i] = std::max(ni[i], 1e-6f), no[i] = std::max(no[i], 1e-4f);
+        }
+        samples += (facets->samples[0] + facets->samples[1]) + (facets->samples[2] + facets->samples[3]);
+        const auto brightest = std::max_element(weight.begin(), weight.end());
+        if (!(*brightest > 0)) continue;
+        sum.add(weight, no, ni);
+        if (*brightest <= most) continue;
+        most = *brightest;
+        out.start_m = facets->start_m.at(static_cast<std::size_t>(brightest - weight.begin()));
+        out.none = false;
     }
     out.reflected = (1 / samples) * (at.weight * sum.value());
     return out;
@@ -109,8 +119,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
             share = disk_density / (disk_density + brdf_density(at.surface, c));
         if (at.facets) {
             const FacetLight sum = sunlit_facets(at, dir, frame.sun_is_disk);
-            if (sum.brightest)
-                shadow.add(sum.brightest->start_m, dir, {&at, share * (light * sum.reflected), dir});
+            if (!sum.none) shadow.add(sum.start_m, dir, {&at, share * (light * sum.reflected), dir});
             continue;
         }
         if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;

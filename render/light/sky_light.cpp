@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "render/scene/brdf_microfacet.h"
 #include "render/vocabulary/clones.h"
@@ -10,6 +11,7 @@ namespace hilcam {
 namespace {
 
 constexpr float kGolden = 0.61803399f;
+constexpr std::size_t kLanes = 16;
 
 // Weights of directions in a facet lobe: D V cos.
 HILCAM_CLONES
@@ -21,6 +23,28 @@ void lobe_weights(const float* x, const float* y, const float* z, std::size_t co
         const float io = x[i] * view.x + y[i] * view.y + z[i] * view.z;
         // The patches' irradiance is across the way: their cosine belongs to the weight.
         weight[i] = ni * law.at(std::max(ni, 1e-3f), io);
+    }
+}
+
+// Sums of weight times value, bin by bin: sixteen sums side by side, so that every width of vectors adds in
+// the same order. count: a multiple of sixteen.
+HILCAM_CLONES
+void weighted_sums(const float* weights, const float* values, std::size_t stride, std::size_t count,
+                   Spectrum& sums) {
+    using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
+    for (int b = 0; b < kMaxBins; ++b, values += stride) {
+        Lanes sum = {};
+        for (std::size_t i = 0; i < count; i += kLanes) {
+            Lanes weight, value;
+            std::memcpy(&weight, weights + i, sizeof weight);
+            std::memcpy(&value, values + i, sizeof value);
+            sum += weight * value;
+        }
+        std::array<float, kLanes> part;
+        std::memcpy(part.data(), &sum, sizeof part);
+        for (std::size_t half = kLanes / 2; half > 0; half /= 2)
+            for (std::size_t i = 0; i < half; ++i) part[i] += part[i + half];
+        sums[b] = part[0];
     }
 }
 
@@ -116,6 +140,9 @@ void SkyLight::place_disks(const Background& background, const BodyLamp& lamp, D
         // of that.
         disks.of[k].least_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
         if (kParts[k] < kPatches) place_parts(whole, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
+        for (std::size_t b = 0; b < kMaxBins; ++b)
+            for (std::size_t i = 0; i < kParts[k]; ++i)
+                disks.of[k].by_bin[b][i] = disks.of[k].irradiance[i][static_cast<int>(b)];
     }
 }
 
@@ -195,7 +222,8 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
     std::size_t k = 0;
     while (k + 1 < kParts.size() && alpha < 2 * disks.of[k].least_alpha) ++k;
     const Disk& disk = disks.of[k];
-    const std::size_t count = kParts[k];
+    // Those beyond its own shine with nothing.
+    const std::size_t count = std::max(kParts[k], kLanes);
     // The lobe at the limb that is nearest to the mirror's direction: where it has next to nothing, all of
     // the disk has.
     const float off = std::clamp(dot(reflect(view_dir, normal), bodies_[body].world_dir), -1.0f, 1.0f);
@@ -214,7 +242,7 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
     alignas(64) std::array<float, kPatches> weight;
     lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), count, normal, view_dir, alpha, weight.data());
     Spectrum sum;
-    for (std::size_t i = 0; i < count; ++i) sum += weight[i] * disk.irradiance[i];
+    weighted_sums(weight.data(), disk.by_bin[0].data(), kPatches, count, sum);
     return sum;
 }
 

@@ -54,8 +54,9 @@ class SkyLight {
     static constexpr std::size_t kPatches = 64;
     static constexpr std::array<std::size_t, 3> kParts = {4, 16, kPatches};
     struct Disk {
-        alignas(64) std::array<float, kPatches> x, y, z;
-        std::array<Spectrum, kPatches> irradiance;  // of each, on a surface that faces it
+        alignas(64) std::array<float, kPatches> x{}, y{}, z{};
+        std::array<Spectrum, kPatches> irradiance{};  // of each, on a surface that faces it
+        alignas(64) std::array<std::array<float, kPatches>, kMaxBins> by_bin{};  // the same
         float least_alpha = 0;
     };
     struct Disks {

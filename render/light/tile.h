@@ -28,9 +28,9 @@ struct TileStats : RayCounts {
 
 // Memory for what a frame's visibility buffer finds in a tile.
 struct SeenMemory {
-    static constexpr std::size_t kMostFacets = 4096;
+    static constexpr std::size_t kMostFacets = 4096;  // fours of them
     VisibilityTile samples;
-    std::array<Facet, kMostFacets> facets;
+    std::array<Facets, kMostFacets> facets;
 };
 
 struct Tile {

@@ -136,25 +136,31 @@ Spectrum brdf_value(const Scatterer& at, Cosines c) {
     return {};
 }
 
-void BrdfSum::add(float weight, float no, float ni) {
+void BrdfSum::add(const Four& weight, const Four& no, const Four& ni) {
     const Material& m = *at_.material;
-    switch (m.model) {
-        case Model::kLambert:
-            below_ += weight / kPiF;
-            return;
-        case Model::kMirror:
-        case Model::kMetal:
-        case Model::kDielectric: {
-            const Cosines c{no, ni, io_};
-            below_ += weight * below_facets(m.facets, no, ni);
-            if (at_.alpha > 0)
-                lobe_ += weight * ggx_distribution(at_.alpha, half_vector(c).nh) *
-                         ggx_visibility(at_.alpha, no, ni);
-            return;
-        }
-        default:
-            other_ += weight * brdf_value(at_, {no, ni, io_});
+    const auto sum = [](const Four& of) { return (of[0] + of[1]) + (of[2] + of[3]); };
+    if (m.model == Model::kLambert) {
+        below_ += sum(weight) / kPiF;
+        return;
     }
+    if (!m.has_facets()) {
+        for (std::size_t i = 0; i < weight.size(); ++i)
+            if (weight[i] > 0) other_ += weight[i] * brdf_value(at_, {no[i], ni[i], io_});
+        return;
+    }
+    Four part;
+    if (m.facets.average < 0.9999f) {
+        for (std::size_t i = 0; i < weight.size(); ++i)
+            part[i] = weight[i] * below_facets(m.facets, no[i], ni[i]);
+        below_ += sum(part);
+    }
+    if (!(at_.alpha > 0)) return;
+    const float over_half = 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f));
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        const float nh = std::min((no[i] + ni[i]) * over_half, 1.0f);
+        part[i] = weight[i] * ggx_distribution(at_.alpha, nh) * ggx_visibility(at_.alpha, no[i], ni[i]);
+    }
+    lobe_ += sum(part);
 }
 
 Spectrum BrdfSum::value() const {

@@ -54,8 +54,9 @@ Spectrum brdf_value(const Scatterer& at, Cosines c);
 class BrdfSum {
   public:
     BrdfSum(const Scatterer& at, float io) : at_(at), io_(io) {}
-    // no, ni > 0.
-    void add(float weight, float no, float ni);
+    // Four facets at a time. no, ni > 0; of a facet that adds nothing the weight is zero.
+    using Four = std::array<float, 4>;
+    void add(const Four& weight, const Four& no, const Four& ni);
     Spectrum value() const;
 
   private:

@@ -124,9 +124,11 @@ LevelFacets LevelFacets::of(const std::array<Facet, kMost>& facets) {
     const auto whole = [](float lean) {
         return static_cast<std::int16_t>(std::lround(std::clamp(lean, -2.0f, 2.0f) * kLean));
     };
-    for (std::size_t i = 0; i < kMost; ++i)
-        out.packed_[i] = {whole(facets[i].lean.x), whole(facets[i].lean.y), whole(facets[i].lean.z),
-                          static_cast<std::uint16_t>(std::lround(facets[i].share * kAll))};
+    for (std::size_t i = 0; i < kMost; ++i) {
+        out.x_[i] = whole(facets[i].lean.x), out.y_[i] = whole(facets[i].lean.y);
+        out.z_[i] = whole(facets[i].lean.z);
+        out.share_[i] = static_cast<std::uint16_t>(std::lround(facets[i].share * kAll));
+    }
     return out;
 }
 

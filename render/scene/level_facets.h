@@ -24,25 +24,34 @@ class LevelFacets {
         float share;  // of the area of all; 0: there are no more
     };
     static LevelFacets of(const std::array<Facet, kMost>& facets);
+    // Leans nowhere.
     static LevelFacets flat() { return of({Facet{{}, 1}}); }
 
-    Facet at(std::size_t i) const {
-        constexpr float kUnit = 1 / kLean;
-        const Packed& p = packed_[i];
-        return {{kUnit * static_cast<float>(p.x), kUnit * static_cast<float>(p.y),
-                 kUnit * static_cast<float>(p.z)},
-                static_cast<float>(p.share) * (1 / kAll)};
+    using Floats = std::array<float, kMost>;
+    struct Leans {
+        Floats x, y, z;
+    };
+    Leans leans() const {
+        Leans out;
+        for (std::size_t i = 0; i < kMost; ++i) {
+            out.x[i] = static_cast<float>(x_[i]) * (1 / kLean);
+            out.y[i] = static_cast<float>(y_[i]) * (1 / kLean);
+            out.z[i] = static_cast<float>(z_[i]) * (1 / kLean);
+        }
+        return out;
+    }
+    Floats shares() const {
+        Floats out;
+        for (std::size_t i = 0; i < kMost; ++i) out[i] = static_cast<float>(share_[i]) * (1 / kAll);
+        return out;
     }
     // It leans as its own normals do.
-    bool is_flat() const { return packed_[1].share == 0; }
+    bool is_flat() const { return share_[1] == 0; }
 
   private:
     static constexpr float kLean = 16383, kAll = 65535;  // units of a lean (2 at most), and of a share
-    struct Packed {
-        std::int16_t x, y, z;
-        std::uint16_t share;
-    };
-    std::array<Packed, kMost> packed_{};
+    std::array<std::int16_t, kMost> x_{}, y_{}, z_{};
+    std::array<std::uint16_t, kMost> share_{};
 };
 static_assert(sizeof(LevelFacets) == 32);
 

@@ -74,7 +74,7 @@ float flattened_alpha(double area, double level_area) {
 // kTurnOfNormal_rad along it, if that is more.
 std::size_t triangles_for_shading(const Mesh& mesh, std::span<const std::uint32_t> triangles,
                                   double error_m) {
-    constexpr double kTurnOfNormal_rad = 0.1, kPixelOverError = 4;
+    constexpr double kTurnOfNormal_rad = 0.1, kPixelOverError = 400;
     if (mesh.normals.empty()) return 0;
     double count = 0;
     for (const std::uint32_t t : triangles) {
@@ -170,7 +170,7 @@ std::vector<MeshLevel> coarser_levels(const Mesh& mesh) {
     for (std::size_t s = 0; s < mesh.surfaces.size(); ++s)
         areas.push_back(area_of(mesh, static_cast<std::uint16_t>(s)));
     const double size = size_m(mesh);
-    for (double error_m = size / 65536; error_m < size / 32; error_m *= 4) {
+    for (double error_m = size / 65536; error_m < size / 32; error_m *= 2) {
         const Mesh& finer = levels.empty() ? mesh : levels.back().mesh;
         if (finer.triangles.size() < kSmallMesh) break;
         MeshLevel level{simplified(finer, static_cast<float>(error_m)), error_m, {}, {}};
