@@ -10,9 +10,10 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kRun = 512;            // triangles that are looked at between two visits of the tiles
-constexpr std::size_t kVertexRun = 1 << 14;  // vertices that a task projects
-constexpr std::uint32_t kBlocksAtOnce = 32;  // that a group takes for itself
+constexpr std::size_t kRun = 512;             // triangles that are looked at between two visits of the tiles
+constexpr std::size_t kVertexRun = 1 << 14;   // vertices that a task projects
+constexpr std::uint32_t kBlocksAtOnce = 32;   // that a group takes for itself
+constexpr std::size_t kBlocksTogether = 256;  // of a tile, that are put in order
 
 // The farthest left, right, up and down that the picture reaches, as slopes.
 struct Slopes {
@@ -138,14 +139,13 @@ class VisibilityBuffer::Sorter {
             if (cut && !my_.bounds_of_cut(my_.corners_camera_m(object, range.triangle), range)) continue;
             for (int y = range.y0; y <= range.y1; ++y)
                 for (int x = range.x0; x <= range.x1; ++x)
-                    if (!add(static_cast<std::size_t>(y * my_.tiles_across_ + x), placed, range.triangle,
-                             cut))
+                    if (!add(static_cast<std::size_t>(y * my_.tiles_across_ + x), placed, range, cut))
                         return false;
         }
         return true;
     }
 
-    bool add(std::size_t tile, std::uint32_t placed, std::uint32_t triangle, bool cut) {
+    bool add(std::size_t tile, std::uint32_t placed, const TileRange& range, bool cut) {
         std::uint32_t& first = my_.first_[tile * kGroups + group_];
         if (first == kNoBlock || cut || my_.heads_[first].cut || my_.heads_[first].placed != placed ||
             my_.heads_[first].count == kTrianglesAtOnce) {
@@ -154,11 +154,13 @@ class VisibilityBuffer::Sorter {
                 end_ = next_ + kBlocksAtOnce;
             }
             if (next_ >= my_.heads_.size()) return false;
-            my_.heads_[next_] = {first, placed, 0, cut};
+            my_.heads_[next_] = {first, placed, 0, cut, range.nearest};
             my_.blocks_[next_].triangles.fill(0);
             first = next_++;
         }
-        my_.blocks_[first].triangles[my_.heads_[first].count++] = triangle;
+        BlockHead& head = my_.heads_[first];
+        my_.blocks_[first].triangles[head.count++] = range.triangle;
+        head.nearest = std::max(head.nearest, range.nearest);
         return true;
     }
 };
@@ -256,22 +258,47 @@ void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, 
 
 bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
     const std::uint32_t* first = &first_[tile_index(x_px, y_px) * kGroups];
-    TriangleSetup setup;
+    std::array<NearBlock, kBlocksTogether> blocks;
+    std::size_t count = 0;
     bool any = false;
+    const auto fill_those = [&] {
+        if (!std::exchange(any, true)) tile.clear();
+        fill_blocks(std::span(blocks).first(std::exchange(count, 0)), x_px, y_px, tile);
+    };
     for (std::size_t group = 0; group < kGroups; ++group)
         for (std::uint32_t block = first[group]; block != kNoBlock; block = heads_[block].next) {
-            if (!std::exchange(any, true)) tile.clear();
-            const BlockHead& head = heads_[block];
-            const Placed& placed = placed_[head.placed];
-            if (head.cut)
-                set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);
-            else
-                set_up_triangles({&vertices_[placed.first_vertex], placed.shown.mesh.triangles.data(),
-                                  static_cast<std::uint32_t>(placed.first_triangle)},
-                                 blocks_[block].triangles, head.count, x_px, y_px, setup);
-            fill_tile(setup, tile);
+            blocks[count] = {heads_[block].nearest, static_cast<std::uint32_t>(count), block};
+            if (++count == blocks.size()) fill_those();
         }
+    if (count > 0) fill_those();
     return any;
+}
+
+// From near to far, so that what is hidden is found to be so before it is looked at.
+void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px,
+                                   VisibilityTile& tile) const {
+    std::sort(blocks.begin(), blocks.end(), [](const NearBlock& a, const NearBlock& b) {
+        return a.nearest != b.nearest ? a.nearest > b.nearest : a.order < b.order;
+    });
+    constexpr std::size_t kTriangles = 64;  // between two looks at what is hidden
+    TriangleSetup setup;
+    std::size_t filled = 0;
+    for (const auto& [nearest, order, block] : blocks) {
+        const BlockHead& head = heads_[block];
+        if (nearest <= *std::min_element(tile.farthest.begin(), tile.farthest.end())) break;
+        const Placed& placed = placed_[head.placed];
+        if (head.cut)
+            set_up_cut(placed, blocks_[block].triangles[0], x_px, y_px, setup);
+        else
+            set_up_triangles({&vertices_[placed.first_vertex], placed.shown.mesh.triangles.data(),
+                              static_cast<std::uint32_t>(placed.first_triangle)},
+                             blocks_[block].triangles, head.count, x_px, y_px, setup);
+        fill_tile(setup, tile);
+        filled += head.count;
+        if (filled < kTriangles) continue;
+        find_farthest(tile);
+        filled = 0;
+    }
 }
 
 VisibilityBuffer::Seen VisibilityBuffer::seen(std::uint32_t id) const {

@@ -66,7 +66,13 @@ class VisibilityBuffer {
         std::uint32_t next = kNoBlock;
         std::uint32_t placed = 0;  // index of the object
         std::uint16_t count = 0;
-        bool cut = false;  // one triangle, not wholly on the screen
+        bool cut = false;   // one triangle, not wholly on the screen
+        float nearest = 0;  // the greatest depth of all
+    };
+    // A block to be filled into a tile. The order is that of the groups: blocks' numbers depend on chance.
+    struct NearBlock {
+        float nearest;
+        std::uint32_t order, block;
     };
     struct Placed {
         Shown shown;
@@ -95,6 +101,7 @@ class VisibilityBuffer {
     bool bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const;
     void set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,
                     TriangleSetup& setup) const;
+    void fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px, VisibilityTile& tile) const;
     std::size_t tile_index(int x_px, int y_px) const {
         return static_cast<std::size_t>(y_px / kVisibilityTile_px * tiles_across_ +
                                         x_px / kVisibilityTile_px);

@@ -138,6 +138,8 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
         const auto missed = hn::Or(hn::Or(none, beside), hn::Or(hn::Or(hn::Lt(x1, zero), hn::Lt(y1, zero)),
                                                                 hn::Or(hn::Ge(x0, right), hn::Ge(y0, low))));
         HWY_ALIGN std::int32_t box[4][kTrianglesAtOnce];
+        HWY_ALIGN float nearest[kTrianglesAtOnce];
+        hn::Store(most(c.depth), d, nearest);
         const auto tile_of = [&](V at, V end) {
             const V inside = hn::Min(hn::Max(at, zero), hn::Sub(end, hn::Set(d, 1)));
             return hn::ShiftRight<4>(hn::ConvertTo(di, inside));
@@ -156,7 +158,8 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
             out.triangle = first + static_cast<std::uint32_t>(t + k);
             out.x0 = static_cast<std::int16_t>(box[0][k]), out.x1 = static_cast<std::int16_t>(box[1][k]);
             out.y0 = static_cast<std::int16_t>(box[2][k]), out.y1 = static_cast<std::int16_t>(box[3][k]);
-            if (unknown_bits >> k & 1u) out.x1 = -1;
+            out.nearest = nearest[k];
+            if (unknown_bits >> k & 1u) out.x1 = -1, out.nearest = std::numeric_limits<float>::infinity();
         }
     }
     return count;
@@ -250,13 +253,39 @@ Span span_of_row(const TriangleSetup& s, std::size_t k, int row) {
     return {static_cast<int>(from), static_cast<int>(std::floor(to))};
 }
 
+// Whether all that a triangle may cover is nearer.
+bool is_hidden(const TriangleSetup& s, std::size_t k, const VisibilityTile& tile) {
+    constexpr int kHalf = kSide_px / 2;
+    const float nearest = s.most_depth[k];
+    for (int j = s.y0[k] / kHalf; j <= s.y1[k] / kHalf; ++j)
+        for (int i = s.x0[k] / kHalf; i <= s.x1[k] / kHalf; ++i)
+            if (nearest > tile.farthest[static_cast<std::size_t>(2 * j + i)]) return false;
+    return true;
+}
+
+void farthest(VisibilityTile& tile) {
+    const Floats d;
+    constexpr std::size_t lanes = hn::MaxLanes(d);
+    constexpr int kHalf = kSide_px / 2;
+    constexpr std::size_t kRun = kHalf * kVisibilitySamples;  // of half a row
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+        V least = hn::Set(d, std::numeric_limits<float>::infinity());
+        for (std::size_t row = 0; row < kHalf; ++row) {
+            const float* depth =
+                tile.depth.data() + (quarter / 2 * kHalf + row) * 2 * kRun + quarter % 2 * kRun;
+            for (std::size_t i = 0; i < kRun; i += lanes) least = hn::Min(least, hn::Load(d, depth + i));
+        }
+        tile.farthest[quarter] = hn::GetLane(hn::MinOfLanes(d, least));
+    }
+}
+
 void fill(const TriangleSetup& s, VisibilityTile& tile) {
     const Floats d;
     const Ints di;
     constexpr std::size_t lanes = hn::MaxLanes(d);
     for (std::size_t k = 0; k < s.count; ++k) {
         const int x0 = s.x0[k], x1 = s.x1[k];
-        if (x1 < x0) continue;
+        if (x1 < x0 || is_hidden(s, k, tile)) continue;
         const V a0 = hn::Set(d, s.a[0][k]), a1 = hn::Set(d, s.a[1][k]), a2 = hn::Set(d, s.a[2][k]);
         const V b0 = hn::Set(d, s.b[0][k]), b1 = hn::Set(d, s.b[1][k]), b2 = hn::Set(d, s.b[2][k]);
         const V c0 = hn::Set(d, s.c[0][k]), c1 = hn::Set(d, s.c[1][k]), c2 = hn::Set(d, s.c[2][k]);
@@ -306,6 +335,7 @@ HWY_EXPORT(project);
 HWY_EXPORT(tiles);
 HWY_EXPORT(set_up);
 HWY_EXPORT(fill);
+HWY_EXPORT(farthest);
 
 void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection& projection,
                       ScreenVertex* out) {
@@ -321,6 +351,7 @@ void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kT
     HWY_DYNAMIC_DISPATCH(set_up)(mesh, numbers, count, tile_x_px, tile_y_px, setup);
 }
 void fill_tile(const TriangleSetup& setup, VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(fill)(setup, tile); }
+void find_farthest(VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(farthest)(tile); }
 
 }  // namespace hilcam
 #endif

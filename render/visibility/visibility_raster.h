@@ -44,6 +44,7 @@ void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection&
 struct TileRange {
     std::uint32_t triangle;
     std::int16_t x0, x1, y0, y1;  // x1 < 0: a corner is not on the screen, nothing is known
+    float nearest;                // its greatest depth
 };
 using TriangleCorners = std::array<std::uint32_t, 3>;
 // Those that triangles cover a sample of, at most. first: number of the first triangle. Returns how many were
@@ -77,17 +78,22 @@ struct alignas(64) VisibilityTile {
     static constexpr std::uint32_t kNothing = ~std::uint32_t{0};
     static constexpr std::size_t kSize =
         std::size_t{kVisibilityTile_px} * kVisibilityTile_px * kVisibilitySamples;
+    static constexpr float kBehindAll = -2;
     std::array<float, kSize> depth;
     std::array<std::uint32_t, kSize> id;
+    // The least depth in each quarter when find_farthest() looked last: what is behind that is hidden.
+    std::array<float, 4> farthest;
 
     void clear() {
-        depth.fill(-2);  // behind everything
+        depth.fill(kBehindAll);
         id.fill(kNothing);
+        farthest.fill(kBehindAll);
     }
     const std::uint32_t* ids(int x, int y) const {
         return &id[static_cast<std::size_t>((y * kVisibilityTile_px + x) * kVisibilitySamples)];
     }
 };
 void fill_tile(const TriangleSetup& setup, VisibilityTile& tile);
+void find_farthest(VisibilityTile& tile);
 
 }  // namespace hilcam
