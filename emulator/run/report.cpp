@@ -71,7 +71,8 @@ json quality_report(CameraStation& station) {
     json frames_at_level = json::array();
     for (std::size_t i = 0; i <= lower_levels(station.scenario()).size(); ++i)
         frames_at_level.push_back(counters.frames_at_level[i].load());
-    json report = {{"samples_per_axis", quality.samples_per_axis},
+    json report = {{"visibility", quality.visibility},
+                   {"samples_per_axis", quality.samples_per_axis},
                    {"max_depth", quality.max_depth},
                    {"contribution_threshold", quality.contribution_threshold},
                    {"rays_outside_atmosphere", station.renderer().rays_outside_air()},

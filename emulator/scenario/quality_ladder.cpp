@@ -11,6 +11,7 @@ namespace hilcam {
 Fields fields(QualityLevelConfig& l) {
     const std::map<std::string, bool*> may_change = {
         {"samples_per_axis", &l.has_samples_per_axis},
+        {"visibility", &l.has_visibility},
         {"path_model", &l.has_path_model},
         {"max_depth", &l.has_max_depth},
         {"contribution_threshold", &l.has_contribution_threshold},
@@ -53,6 +54,8 @@ void validate(const LoopConfig& l) {
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& l) {
     RenderQuality q = configured;
     if (l.has_samples_per_axis) q.samples_per_axis = l.values.samples_per_axis;
+    // A buffer that the quality has not is not there to be chosen.
+    if (l.has_visibility && configured.uses_buffer()) q.visibility = l.values.visibility;
     if (l.has_path_model) q.path_model = l.values.path_model;
     if (l.has_max_depth) q.max_depth = l.values.max_depth;
     if (l.has_contribution_threshold) q.contribution_threshold = l.values.contribution_threshold;
@@ -70,6 +73,7 @@ std::string difference(const RenderQuality& from, const RenderQuality& to) {
     const auto tell_number = [&](const char* key, double before, double after) {
         if (before < after || after < before) tell(key, plain(after));
     };
+    if (from.visibility != to.visibility) tell("visibility", to.visibility);
     if (from.path_model != to.path_model) tell("path_model", to.path_model);
     tell_number("max_depth", static_cast<double>(from.max_depth), static_cast<double>(to.max_depth));
     tell_number("samples_per_axis", static_cast<double>(from.samples_per_axis),
@@ -89,6 +93,7 @@ struct Limits {
     double contribution_threshold, lod_error_px;
     double budget_factor;  // on the noise budget; 0: none any more
     bool direct;
+    bool rays;
 };
 
 RenderQuality limited(const RenderQuality& from, const RenderQuality& configured, const Limits& to) {
@@ -100,17 +105,16 @@ RenderQuality limited(const RenderQuality& from, const RenderQuality& configured
     q.noise_budget = to.budget_factor * configured.noise_budget;
     q.sun_disk = false;
     if (to.direct) q.path_model = "direct";
+    if (to.rays) q.visibility = "rays";
     return q;
 }
 
 }  // namespace
 
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
-    const Limits steps[] = {{2, 3, 0.005, 0.25, 2, false},
-                            {1, 2, 0.5, 0.5, 4, false},
-                            {1, 2, 0.5, 1, 0, false},
-                            {1, 1, 1, 1, 0, false},
-                            {1, 1, 1, 2, 0, true}};
+    const Limits steps[] = {{2, 3, 0.005, 0.25, 2, false, false}, {1, 2, 0.5, 0.5, 4, false, false},
+                            {1, 2, 0.5, 1, 0, false, false},      {1, 1, 1, 1, 0, false, false},
+                            {1, 1, 1, 2, 0, true, false},         {1, 1, 1, 2, 0, true, true}};
     std::vector<RenderQuality> levels;
     RenderQuality last = configured;
     for (const Limits& step : steps) {

@@ -18,7 +18,7 @@ namespace hilcam {
 // Keys that are not given are as in `quality`.
 struct QualityLevelConfig {
     RenderQuality values;
-    bool has_samples_per_axis = false, has_path_model = false, has_max_depth = false,
+    bool has_samples_per_axis = false, has_visibility = false, has_path_model = false, has_max_depth = false,
          has_contribution_threshold = false, has_sun_disk = false, has_lod_error_px = false,
          has_noise_budget = false;
 };

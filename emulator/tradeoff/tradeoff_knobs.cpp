@@ -28,10 +28,11 @@ const std::vector<KnobRow>& knob_rows() {
     static const std::vector<KnobRow> rows = {
         {"path model",
          "quality.path_model",
-         {"direct", "hemisphere", "path"},
+         {"direct", "kept", "hemisphere", "path"},
          Needs::kSurfaces,
          KnobRole::kPathModel},
         {"depth", "quality.max_depth", {"1", "2", "3", "4", "6"}, Needs::kSurfaces, KnobRole::kDepth},
+        {"visibility", "quality.visibility", {"rays", "buffer"}, Needs::kMeshes},
         {"samples per axis", "quality.samples_per_axis", {"1", "2", "3", "4"}},
         {"noise budget", "quality.noise_budget", {"0", "2", "1", "0.5", "0.3"}, Needs::kSurfaces},
         {"contribution threshold",

@@ -71,6 +71,7 @@ class FrameTracer {
     PixelNoise noise_;
     // By slot.
     std::vector<std::vector<Spectrum>> tile_pixels_;
+    std::vector<FacetList> facets_;
     std::vector<SeenMemory> seen_;                            // none where rays see
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile

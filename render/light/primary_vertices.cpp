@@ -54,7 +54,6 @@ Vec2f middle_of(std::uint16_t samples) {
 // those of one of them.
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // of surfaces with narrow lobes
-constexpr float kSame = 0.999998f;
 
 constexpr std::size_t kMostFacetsAtOnce = 4 * kPacketSize;
 
@@ -88,9 +87,8 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
         part_ = {box.x0 - kVisibilityTile_px, box.y0, box.x0, box.y0};
     }
     std::size_t count = 0;
-    facet_count_ = 0;
-    while (count + kPacketSize <= vertices.size() &&
-           facet_count_ + kMostFacetsAtOnce <= SeenMemory::kMostFacets) {
+    tile_.facets->clear();
+    while (count + kPacketSize <= vertices.size() && tile_.facets->room() >= kMostFacetsAtOnce) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < kPartPixels || open_next_part()))
             take_next_pixel();
         if (fragment_count_ == 0) {
@@ -170,74 +168,6 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
     return nullptr;
 }
 
-Facets& PrimaryVertices::add_facets(Vertex& vertex) {
-    Facets& added = tile_.seen->facets[facet_count_++];
-    added.samples = {};
-    added.count = 0;
-    added.next = vertex.facets;
-    vertex.facets = &added;
-    return added;
-}
-
-void PrimaryVertices::add_facet(Vertex& vertex, const Part& part) {
-    const bool room = vertex.facets && vertex.facets->count < Facets::kMost;
-    Facets& to = room ? *vertex.facets : add_facets(vertex);
-    const std::size_t i = to.count++;
-    to.geometric_normal.set(i, part.geometric_normal);
-    to.normal.set(i, part.normal);
-    to.start_m.set(i, part.start_m);
-    to.samples[i] = part.samples;
-}
-
-// A level of detail is flat where the mesh is wrinkled: its facets lean as the wrinkles did, and are seen as
-// they are. False: none of them is.
-bool PrimaryVertices::add_flattened(Vertex& vertex, const Part& flat, const LevelFacets& leaning) {
-    const Mat3f& world_from_body = tile_.frame.world_from_body[vertex.object];
-    const float side = vertex.back ? -1.0f : 1.0f;
-    const LevelFacets::Leans lean = leaning.leans();
-    const LevelFacets::Floats share = leaning.shares();
-    Facets::Vectors normal;
-    Facets::Floats samples;
-    for (std::size_t i = 0; i < Facets::kMost; ++i) {
-        const auto along = [&](Vec3f row) {
-            return side * (row.x * lean.x[i] + row.y * lean.y[i] + row.z * lean.z[i]);
-        };
-        const float x = flat.normal.x + along(world_from_body.x),
-                    y = flat.normal.y + along(world_from_body.y),
-                    z = flat.normal.z + along(world_from_body.z);
-        const float inverse = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-12f));
-        normal.x[i] = inverse * x, normal.y[i] = inverse * y, normal.z[i] = inverse * z;
-        const float no = normal.x[i] * vertex.view_dir.x + normal.y[i] * vertex.view_dir.y +
-                         normal.z[i] * vertex.view_dir.z;
-        samples[i] = share[i] * std::max(0.0f, no);
-    }
-    const float sum = (samples[0] + samples[1]) + (samples[2] + samples[3]);
-    if (!(sum > 0)) return false;
-    Facets& to = add_facets(vertex);
-    to.count = Facets::kMost;
-    to.geometric_normal = to.normal = normal;
-    to.start_m.x.fill(flat.start_m.x), to.start_m.y.fill(flat.start_m.y), to.start_m.z.fill(flat.start_m.z);
-    const float each = flat.samples / sum;
-    for (std::size_t i = 0; i < Facets::kMost; ++i) to.samples[i] = each * samples[i];
-    return true;
-}
-
-// Facets are made where there is more than one, and of what a level has flattened: its own lobe is wider than
-// theirs.
-void PrimaryVertices::add_to(Vertex& vertex, const Part& part, std::uint32_t triangle, bool first) {
-    const ObjectSurfaces& object = *(*tile_.frame.objects)[vertex.object];
-    const float flattened = object.facets.empty() ? 0.0f : object.flattened_alpha[vertex.surface_number];
-    if (first && flattened > 0)
-        vertex.facet_alpha =
-            std::sqrt(std::max(0.0f, vertex.surface.alpha * vertex.surface.alpha - flattened * flattened));
-    const bool leans = !object.facets.empty() && !object.facets[triangle].is_flat();
-    if (!leans && flattened == 0 && !vertex.facets && (first || dot(vertex.normal, part.normal) > kSame))
-        return;
-    if (!first && !vertex.facets)
-        add_facet(vertex, {vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples});
-    if (!leans || !add_flattened(vertex, part, object.facets[triangle])) add_facet(vertex, part);
-}
-
 // The first fragments, as many as are of one object.
 std::size_t PrimaryVertices::look_at_fragments() {
     const FrameView& frame = tile_.frame;
@@ -297,7 +227,8 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         if (joined) {
             const Vec3f start_m =
                 origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
-            add_to(*joined, {lie.geometric_normal, lie.normal, start_m, samples}, hits_.triangle[k], false);
+            tile_.facets->add(frame, {lie.geometric_normal, lie.normal, start_m, samples}, hits_.triangle[k],
+                              false, *joined);
             // Alike in all bins, but for the air before it.
             joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
             joined->weight_samples += samples;
@@ -313,7 +244,8 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
         add_air_before(tile_, dirs_[k], vertex);
-        add_to(vertex, {lie.geometric_normal, lie.normal, vertex.start(), samples}, hits_.triangle[k], true);
+        tile_.facets->add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
+                          hits_.triangle[k], true, vertex);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());

@@ -34,7 +34,7 @@ class PrimaryVertices {
     int next_pixel_ = kPartPixels;  // there
     std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;
     std::array<Fragment, 2 * kPacketSize> fragments_;
-    std::size_t fragment_count_ = 0, facet_count_ = 0;
+    std::size_t fragment_count_ = 0;
     // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.
     FragmentPacket packet_;
     HitPacket hits_;
@@ -50,15 +50,6 @@ class PrimaryVertices {
     std::size_t make_vertices(std::span<Vertex> vertices, std::size_t count);
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
                         std::uint16_t surface, const Lie& lie);
-    // A part of a vertex, as a facet of it.
-    struct Part {
-        Vec3f geometric_normal, normal, start_m;
-        float samples;
-    };
-    Facets& add_facets(Vertex& vertex);
-    void add_facet(Vertex& vertex, const Part& part);
-    bool add_flattened(Vertex& vertex, const Part& flat, const LevelFacets& leaning);
-    void add_to(Vertex& vertex, const Part& part, std::uint32_t triangle, bool first);
 };
 
 }  // namespace hilcam

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "render/light/facet_list.h"
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
 #include "render/light/ray_counts.h"
@@ -28,9 +29,7 @@ struct TileStats : RayCounts {
 
 // Memory for what a frame's visibility buffer finds in a tile.
 struct SeenMemory {
-    static constexpr std::size_t kMostFacets = 4096;  // fours of them
     VisibilityTile samples;
-    std::array<Facets, kMostFacets> facets;
 };
 
 struct Tile {
@@ -44,6 +43,7 @@ struct Tile {
     std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
     const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
     SeenMemory* seen = nullptr;            // null: rays find what the camera sees
+    FacetList* facets = nullptr;           // null: levels of detail reflect the Sun as their own normals do
 
     bool wants(int x, int y) const {
         return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];

@@ -69,31 +69,6 @@ float flattened_alpha(double area, double level_area) {
     return static_cast<float>(std::min(1.0, std::sqrt(2 * (area / level_area - 1))));
 }
 
-// Wrinkles are seen by their normals long before they are by their shape. A level is looked at with pixels of
-// about four times its error, so an edge may be that long; or as long as the normal turns by
-// kTurnOfNormal_rad along it, if that is more.
-std::size_t triangles_for_shading(const Mesh& mesh, std::span<const std::uint32_t> triangles,
-                                  double error_m) {
-    constexpr double kTurnOfNormal_rad = 0.1, kPixelOverError = 400;
-    if (mesh.normals.empty()) return 0;
-    double count = 0;
-    for (const std::uint32_t t : triangles) {
-        const auto& corners = mesh.triangles[t];
-        double per_m = 0;  // turn of the normal along the edges
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
-            const double edge_m = length(to_double(mesh.vertices_m[a]) - to_double(mesh.vertices_m[b]));
-            const double turn = length(to_double(mesh.normals[a]) - to_double(mesh.normals[b]));
-            if (edge_m > 0) per_m = std::max(per_m, turn / edge_m);
-        }
-        if (per_m <= 0) continue;
-        const double edge_m = std::max(kPixelOverError * error_m, kTurnOfNormal_rad / per_m);
-        constexpr double kEquilateral = 0.4330127;  // area over the square of the edge
-        count += std::min(1.0, length(area_vector(mesh, corners)) / (kEquilateral * edge_m * edge_m));
-    }
-    return static_cast<std::size_t>(count);
-}
-
 // meshoptimizer asks each triangle at a vertex about each other one there: a fan of 100,000 takes it a
 // minute. What has so many stays as it is.
 bool is_crowded(std::span<const unsigned> indices, std::span<const Vec3f> positions) {
@@ -119,17 +94,14 @@ Mesh simplified(const Mesh& mesh, float error_m) {
         std::vector<Vec3f> positions;
         for (const std::uint32_t v : part.vertices) positions.push_back(mesh.vertices_m[v]);
         const bool faceted = weld_facets(part, positions);
-        const std::size_t fewest =
-            std::min(part.indices.size() / 3, triangles_for_shading(mesh, by_surface[s], error_m));
         const float scale = meshopt_simplifyScale(&positions[0].x, positions.size(), sizeof(Vec3f));
         std::vector<unsigned> kept = part.indices;
         // Down to nothing if the error allows it: what is smaller than the error does not matter.
         std::size_t count = kept.size();
         if (!is_crowded(part.indices, positions))
             count = scale > 0 ? meshopt_simplify(kept.data(), part.indices.data(), part.indices.size(),
-                                                 &positions[0].x, positions.size(), sizeof(Vec3f),
-                                                 std::max<std::size_t>(3, 3 * fewest), error_m / scale,
-                                                 meshopt_SimplifyLockBorder)
+                                                 &positions[0].x, positions.size(), sizeof(Vec3f), 3,
+                                                 error_m / scale, meshopt_SimplifyLockBorder)
                               : 0;
         std::vector<std::uint32_t> place(part.vertices.size(), std::numeric_limits<std::uint32_t>::max());
         for (std::size_t i = 0; i + 2 < count; i += 3) {

@@ -3,10 +3,9 @@
 // (meshoptimizer; quadric error of Garland & Heckbert, SIGGRAPH 97).
 //
 // Surfaces are simplified one by one and their borders stay, so that materials keep their areas: a level
-// never loses a solar cell, it only has no needless triangles in it. Wrinkles wider than the pixels that a
-// level is made for stay too. What a level loses besides its shape is the scatter of the normals of wrinkles
-// that it flattens: MeshLevel::facets keep it by triangle, MeshLevel::flattened_alpha as roughness of a whole
-// surface.
+// never loses a solar cell, it only has no needless triangles in it. How the wrinkles leaned that a level has
+// flattened is kept triangle by triangle, for what the camera sees (level_facets.h), and as roughness of a
+// whole surface, for everything else.
 
 #include <vector>
 
@@ -16,15 +15,14 @@
 namespace hilcam {
 
 struct MeshLevel {
-    Mesh
-        mesh;  // textures left empty: they are the first level's; triangles in their order (triangle_order.h)
+    Mesh mesh;           // textures left empty: they are the first level's. Triangles are in order
     double error_m = 0;  // no point of the mesh is farther from the level, about
     // Per surface: GGX alpha of the facets that the level has flattened; adds to a material's by squares.
     std::vector<float> flattened_alpha;
     std::vector<LevelFacets> facets;  // by triangle
 };
 
-// From fine to coarse, error growing fourfold; a level is kept where it saves two fifths of the triangles.
+// From fine to coarse, error growing twofold; a level is kept where it saves two fifths of the triangles.
 // Empty for small meshes. Owner thread; some seconds per million triangles.
 std::vector<MeshLevel> coarser_levels(const Mesh& mesh);
 

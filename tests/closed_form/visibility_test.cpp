@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/scene/mesh_lod.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {
@@ -112,6 +113,60 @@ TEST(Visibility, KeptLightIsWhatRaysSee) {
     const Difference d = difference_from_rays(s);
     EXPECT_LT(std::abs(d.mean), 1e-3);
     EXPECT_LT(d.greatest, 0.05);
+}
+
+// A plate of 2 m in waves of 0.1 m that are 0.2 steep, as foil has them.
+SceneObject foil(const MaterialConfig& material, const SpectralGrid& grid) {
+    constexpr int kSteps = 400;
+    constexpr double kHigh_m = 3e-3, k_rad_m = 60;
+    std::vector<Vec3f> v;
+    std::vector<std::array<std::uint32_t, 3>> t;
+    for (int j = 0; j <= kSteps; ++j)
+        for (int i = 0; i <= kSteps; ++i) {
+            const double x = 2.0 * i / kSteps - 1, y = 2.0 * j / kSteps - 1;
+            v.push_back(to_float({x, y, kHigh_m * (std::sin(k_rad_m * x) + std::sin(k_rad_m * y + x))}));
+        }
+    const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (kSteps + 1) + i); };
+    for (int j = 0; j < kSteps; ++j)
+        for (int i = 0; i < kSteps; ++i) {
+            t.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+            t.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    return object_of(v, t, material, grid);
+}
+double sum_of(const RadianceImage& radiance) {
+    double sum = 0;
+    for (int y = 0; y < radiance.height(); ++y)
+        for (const float value : radiance.row(y, 0)) sum += static_cast<double>(value);
+    return sum;
+}
+
+// Some hundred triangles instead of 320,000.
+TEST(Visibility, LevelsOfDetailKeepTheLightOfWrinkles) {
+    MaterialConfig metal = lambert(0.9);
+    metal.model = ReflectionModel::kMetal;
+    metal.roughness = 0.4;
+    for (const MaterialConfig& material : {lambert(0.5), metal})
+        for (const Vec3d& sun : {Vec3d{0.3, 0.2, -1}, Vec3d{1, 0.3, -0.5}})
+            for (const char* visibility : {"rays", "buffer"}) {
+                Stage s;
+                s.quality.path_model = "direct";
+                s.quality.visibility = visibility;
+                s.quality.rays_across = 0;
+                s.quality.samples_per_axis = 4;
+                s.geometry.focal_length_px = 160;
+                s.sun(sun);
+                SceneObject object = foil(material, s.grid);
+                object.levels = coarser_levels(object.mesh);
+                ASSERT_LT(object.levels.back().mesh.triangles.size(), 3000u);
+                s.add(object, {0, 0, 15}, {kPi - 0.3, 0.2, 0});
+                s.quality.lod_error_px = 0;
+                s.render();
+                const double mesh = sum_of(s.radiance);
+                s.quality.lod_error_px = 16;
+                s.render();
+                EXPECT_NEAR(sum_of(s.radiance) / mesh, 1, 0.01) << visibility << " " << sun.x;
+            }
 }
 
 // A frame with more triangles than there is room for, or no room at all, is for rays: terrain, lenses that

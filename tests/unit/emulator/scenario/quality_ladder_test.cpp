@@ -50,11 +50,15 @@ TEST_F(LadderTest, WhatCannotChangeBetweenFramesIsRefused) {
     EXPECT_THROW(loop(many + "]\n"), InputError);
 }
 
-// Levels of detail bound a shape, not its brightness: a quarter of a pixel dimmed foil by 1 %
-// (docs/performance.md).
-TEST(QualityLadder, NoShippedQualityDrawsCoarserMeshes) {
-    for (const std::string name : {"reference.yaml", "still.yaml", "balanced.yaml", "realtime.yaml"})
-        EXPECT_EQ(shipped(name).lod_error_px, 0) << name;
+TEST(QualityLadder, ALevelMayLeaveTheBufferAndNotTakeOne) {
+    QualityLevelConfig rays, buffer;
+    rays.values.visibility = "rays", rays.has_visibility = true;
+    buffer.values.visibility = "buffer", buffer.has_visibility = true;
+    RenderQuality base = shipped("realtime.yaml");
+    ASSERT_TRUE(base.uses_buffer());
+    EXPECT_EQ(difference(base, applied(base, rays)), "visibility rays");
+    base.visibility = "rays";
+    EXPECT_EQ(difference(base, applied(base, buffer)), "");
 }
 
 // Every step is a real one, none is better than the one before in anything, and the last is the least there
@@ -79,6 +83,7 @@ TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
             last = q;
         }
         EXPECT_EQ(last.path_model, "direct");
+        EXPECT_EQ(last.visibility, "rays");
         EXPECT_TRUE(built_in_levels(last).empty());
     }
 }
