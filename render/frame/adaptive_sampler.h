@@ -50,6 +50,7 @@ class AdaptiveSampler {
   private:
     static constexpr auto kMost = static_cast<std::size_t>(PathModel::kMostSamples);
 
+    FacetList facets_;
     std::vector<Spectrum> pass_, mean_;
     // Of the passes' means [e-].
     std::array<float, kMost> mean_e_, squares_e2_;

@@ -36,7 +36,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
                          std::span<const RenderQuality> levels)
     : width_(geometry.padded_width()), height_(geometry.padded_height()) {
     int most_tiles = 0;
-    bool budget = false, buffer = false, levels_of_detail = false;
+    bool budget = false, buffer = false;
     for (const RenderQuality& quality : levels) {
         // The visibility buffer's samples cost no memory of a path model's.
         const bool rays = !quality.uses_buffer();
@@ -48,13 +48,12 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
             {quality, set, edge_px, (width_ + edge_px - 1) / edge_px, (height_ + edge_px - 1) / edge_px});
         most_tiles = std::max(most_tiles, levels_.back().tiles_across * levels_.back().tiles_down);
         buffer = buffer || !rays;
-        levels_of_detail = levels_of_detail || quality.lod_error_px > 0;
         budget = budget || quality.noise_budget > 0;
     }
     tile_stats_.resize(static_cast<std::size_t>(most_tiles));
     tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMostSamples));
     if (buffer) seen_.resize(slots());
-    if (buffer || levels_of_detail) facets_.resize(slots());
+    facets_.resize(slots());
     for (std::size_t i = 0; budget && i < slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
 }
@@ -131,9 +130,8 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
-    Tile tile{frame, box, n, pixels, stats};
+    Tile tile{frame, box, n, pixels, stats, facets_[slot]};
     tile.seen = seen;
-    tile.facets = facets_.empty() ? nullptr : &facets_[slot];
     paths()[slot]->trace(tile);
     write(pixels, 1 / static_cast<float>(n * n), box, frame.bins, radiance);
 }

@@ -34,6 +34,7 @@ class ObjectProbe {
     FrameView view_;
     Mat3d world_from_view_;
     std::vector<Spectrum> tile_, picture_;
+    std::unique_ptr<FacetList> facets_ = std::make_unique<FacetList>();
 
     void aim(const FrameView& frame, const WorldSnapshot& world, std::size_t i, double distance_m,
              double radius_m);

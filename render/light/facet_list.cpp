@@ -3,79 +3,145 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/vocabulary/clones.h"
+
 namespace hilcam {
 namespace {
 
 constexpr float kSame = 0.999998f;  // cosine
 
+// Facets side by side, those that one flattened facet stands for next to each other.
+struct Lanes {
+    using Floats = BrdfSum::Lanes;
+    // A normal, how the lane leans against it (body axes), and its share of the area.
+    Floats x, y, z, lean_x, lean_y, lean_z, share;
+    Floats no, ni, seen;  // cosines, above zero; the part of the share that the viewer sees
+    std::size_t count = 0;
+
+    void put(Vec3f normal, Vec3f lean, float part) {
+        x[count] = normal.x, y[count] = normal.y, z[count] = normal.z;
+        lean_x[count] = lean.x, lean_y[count] = lean.y, lean_z[count] = lean.z;
+        share[count++] = part;
+    }
+};
+
+HILCAM_CLONES void look_at(Lanes& lanes, const Mat3f& world_from_body, Vec3f view, Vec3f dir) {
+    const Mat3f m = world_from_body;
+    for (std::size_t i = 0; i < lanes.x.size(); ++i) {
+        const float lx = lanes.lean_x[i], ly = lanes.lean_y[i], lz = lanes.lean_z[i];
+        const float x = lanes.x[i] + (m.x.x * lx + m.x.y * ly + m.x.z * lz);
+        const float y = lanes.y[i] + (m.y.x * lx + m.y.y * ly + m.y.z * lz);
+        const float z = lanes.z[i] + (m.z.x * lx + m.z.y * ly + m.z.z * lz);
+        const float inverse = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-12f));
+        const float no = inverse * (x * view.x + y * view.y + z * view.z);
+        lanes.seen[i] = lanes.share[i] * std::max(no, 0.0f);
+        lanes.no[i] = std::max(no, 1e-4f);
+        lanes.ni[i] = std::max(inverse * (x * dir.x + y * dir.y + z * dir.z), 0.0f);
+    }
+}
+
+// The facets of a vertex on their way through the lanes.
+class Reflection {
+  public:
+    Reflection(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir)
+        : world_from_body_(frame.world_from_body[at.object]),
+          at_(at),
+          dir_(dir),
+          sum_(surface, dot(at.view_dir, dir)) {}
+
+    FacetLight of_all() {
+        for (const Facet* facet = at_.facets; facet; facet = facet->next) {
+            if (lanes_.count + LevelFacets::kMost > lanes_.x.size()) reflect();
+            put(*facet);
+        }
+        reflect();
+        light_.reflected = (1 / samples_) * (at_.weight * sum_.value());
+        return light_;
+    }
+
+  private:
+    const Mat3f& world_from_body_;
+    const Vertex& at_;
+    Vec3f dir_;
+    BrdfSum sum_;
+    Lanes lanes_;
+    struct Group {
+        const Facet* facet;
+        std::size_t first, count;
+    };
+    std::array<Group, BrdfSum::kLanes> groups_;
+    std::size_t group_count_ = 0;
+    float samples_ = 0, most_ = 0;
+    FacetLight light_;
+
+    void put(const Facet& facet) {
+        samples_ += facet.samples;
+        const std::size_t first = lanes_.count;
+        if (facet.flattened) {
+            const LevelFacets::Leans lean = facet.flattened->leans();
+            const LevelFacets::Floats share = facet.flattened->shares();
+            const float side = at_.back ? -1.0f : 1.0f;
+            for (std::size_t i = 0; i < LevelFacets::kMost; ++i)
+                lanes_.put(facet.normal, side * Vec3f{lean.x[i], lean.y[i], lean.z[i]}, share[i]);
+        } else {
+            if (dot(facet.geometric_normal, dir_) <= 0) return;
+            lanes_.put(facet.normal, {}, 1);
+        }
+        groups_[group_count_++] = {&facet, first, lanes_.count - first};
+    }
+
+    void reflect() {
+        if (lanes_.count == 0) return;
+        while (lanes_.count < lanes_.x.size()) lanes_.put(at_.normal, {}, 0);
+        look_at(lanes_, world_from_body_, at_.view_dir, dir_);
+        Lanes::Floats weight{};
+        for (const Group& group : std::span(groups_).first(group_count_)) {
+            float seen = 0, lit = 0;
+            for (std::size_t i = group.first; i < group.first + group.count; ++i) seen += lanes_.seen[i];
+            // What leans away from the viewer as a whole is seen as it lies itself.
+            const bool hidden = !(seen > 0);
+            const float each = group.facet->samples / (hidden ? 1 : seen);
+            for (std::size_t i = group.first; i < group.first + group.count; ++i)
+                lit += weight[i] = each * (hidden ? lanes_.share[i] : lanes_.seen[i]) * lanes_.ni[i];
+            if (lit <= most_) continue;
+            most_ = lit;
+            light_.start_m = group.facet->start_m;
+            light_.none = false;
+        }
+        sum_.add(weight, lanes_.no, lanes_.ni);
+        lanes_.count = group_count_ = 0;
+    }
+};
+
 }  // namespace
 
-Facets& FacetList::open(Vertex& vertex) {
-    Facets& added = facets_[count_++];
-    added.samples = {};
-    added.count = 0;
+void FacetList::push(const Facet& facet, Vertex& vertex) {
+    Facet& added = facets_[count_++];
+    added = facet;
     added.next = vertex.facets;
     vertex.facets = &added;
-    return added;
 }
 
-void FacetList::add_part(const Part& part, Vertex& vertex) {
-    const bool room = vertex.facets && vertex.facets->count < Facets::kMost;
-    Facets& to = room ? *vertex.facets : open(vertex);
-    const std::size_t i = to.count++;
-    to.geometric_normal.set(i, part.geometric_normal);
-    to.normal.set(i, part.normal);
-    to.start_m.set(i, part.start_m);
-    to.samples[i] = part.samples;
-}
-
-// A level of detail is flat where the mesh is wrinkled: its facets lean as the wrinkles did, and are seen as
-// they are. False: none of them is.
-bool FacetList::add_flattened(const FrameView& frame, const Part& flat, const LevelFacets& leaning,
-                              Vertex& vertex) {
-    const Mat3f& world_from_body = frame.world_from_body[vertex.object];
-    const float side = vertex.back ? -1.0f : 1.0f;
-    const LevelFacets::Leans lean = leaning.leans();
-    const LevelFacets::Floats share = leaning.shares();
-    Facets::Vectors normal;
-    Facets::Floats samples;
-    for (std::size_t i = 0; i < Facets::kMost; ++i) {
-        const auto along = [&](Vec3f row) {
-            return side * (row.x * lean.x[i] + row.y * lean.y[i] + row.z * lean.z[i]);
-        };
-        const float x = flat.normal.x + along(world_from_body.x),
-                    y = flat.normal.y + along(world_from_body.y),
-                    z = flat.normal.z + along(world_from_body.z);
-        const float inverse = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-12f));
-        normal.x[i] = inverse * x, normal.y[i] = inverse * y, normal.z[i] = inverse * z;
-        const float no = normal.x[i] * vertex.view_dir.x + normal.y[i] * vertex.view_dir.y +
-                         normal.z[i] * vertex.view_dir.z;
-        samples[i] = share[i] * std::max(0.0f, no);
-    }
-    const float sum = (samples[0] + samples[1]) + (samples[2] + samples[3]);
-    if (!(sum > 0)) return false;
-    Facets& to = open(vertex);
-    to.count = Facets::kMost;
-    to.geometric_normal = to.normal = normal;
-    to.start_m.x.fill(flat.start_m.x), to.start_m.y.fill(flat.start_m.y), to.start_m.z.fill(flat.start_m.z);
-    const float each = flat.samples / sum;
-    for (std::size_t i = 0; i < Facets::kMost; ++i) to.samples[i] = each * samples[i];
-    return true;
-}
-
-void FacetList::add(const FrameView& frame, const Part& part, std::uint32_t triangle, bool first,
-                    Vertex& vertex) {
+void FacetList::add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first, Vertex& vertex) {
     const ObjectSurfaces& object = *(*frame.objects)[vertex.object];
-    const float flattened = object.facets.empty() ? 0.0f : object.flattened_alpha[vertex.surface_number];
-    if (first && flattened > 0)
-        vertex.facet_alpha =
-            std::sqrt(std::max(0.0f, vertex.surface.alpha * vertex.surface.alpha - flattened * flattened));
-    const bool leans = !object.facets.empty() && !object.facets[triangle].is_flat();
-    if (!leans && flattened == 0 && !vertex.facets && (first || dot(vertex.normal, part.normal) > kSame))
-        return;
+    float flattened = 0;
+    if (!object.facets.empty()) {
+        flattened = object.flattened_alpha[vertex.surface_number];
+        if (!object.facets[triangle].is_flat()) part.flattened = &object.facets[triangle];
+        const float alpha = vertex.surface.alpha;
+        if (first) vertex.facet_alpha = std::sqrt(std::max(0.0f, alpha * alpha - flattened * flattened));
+    }
+    const bool alike = first || dot(vertex.normal, part.normal) > kSame;
+    if (alike && !part.flattened && flattened == 0 && !vertex.facets) return;
     if (!first && !vertex.facets)
-        add_part({vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples}, vertex);
-    if (!leans || !add_flattened(frame, part, object.facets[triangle], vertex)) add_part(part, vertex);
+        push(
+            {vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, nullptr, nullptr},
+            vertex);
+    push(part, vertex);
+}
+
+FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir) {
+    return Reflection(frame, at, surface, dir).of_all();
 }
 
 }  // namespace hilcam

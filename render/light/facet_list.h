@@ -12,26 +12,28 @@ namespace hilcam {
 class FacetList {
   public:
     void clear() { count_ = 0; }
-    // So many more calls of add() have a place.
-    std::size_t room() const { return kMost - count_; }
+    // So many calls of add() have a place; each takes two at most, as a vertex's own part comes late.
+    std::size_t room() const { return (kMost - count_) / 2; }
 
-    struct Part {
-        Vec3f geometric_normal, normal, start_m;  // as a vertex's
-        float samples;
-    };
     // Adds a part to a vertex, whose own is the first. Facets are made where there is more than one, and of
     // what a level has flattened: its own lobe is wider than theirs. Loop, any thread.
-    void add(const FrameView& frame, const Part& part, std::uint32_t triangle, bool first, Vertex& vertex);
+    void add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first, Vertex& vertex);
 
   private:
-    // Four facets each. A vertex and what joins it take two at most: its own part comes late.
     static constexpr std::size_t kMost = 4096;
-    std::array<Facets, kMost> facets_;
+    std::array<Facet, kMost> facets_;
     std::size_t count_ = 0;
 
-    Facets& open(Vertex& vertex);
-    void add_part(const Part& part, Vertex& vertex);
-    bool add_flattened(const FrameView& frame, const Part& flat, const LevelFacets& leaning, Vertex& vertex);
+    void push(const Facet& facet, Vertex& vertex);
 };
+
+// What the facets of a vertex reflect of a light that has irradiance 1, with the vertex's weight.
+struct FacetLight {
+    Spectrum reflected;
+    Vec3f start_m{};   // of a ray from the one that is lit the most
+    bool none = true;  // of them is lit
+};
+// dir: towards the light, unit. surface: with the facets' own alpha. Loop, any thread.
+FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir);
 
 }  // namespace hilcam

@@ -9,26 +9,13 @@
 
 namespace hilcam {
 
-// A vertex that many samples of a pixel see may be a crumpled thing: its parts that lean otherwise, side by
-// side for loops that are vectors.
-struct alignas(16) Facets {
-    static constexpr std::size_t kMost = 4;
-    using Floats = std::array<float, kMost>;
-    struct Vectors {
-        Floats x, y, z;
-        Vec3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
-        void set(std::size_t i, Vec3f v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
-        Floats dots(Vec3f v) const {
-            Floats out;
-            for (std::size_t i = 0; i < kMost; ++i) out[i] = x[i] * v.x + y[i] * v.y + z[i] * v.z;
-            return out;
-        }
-    };
-    Vectors geometric_normal, normal;  // as a vertex's
-    Vectors start_m;                   // where rays that leave a facet begin, ray space
-    Floats samples{};                  // of the pixel, that see it
-    std::size_t count = 0;
-    const Facets* next = nullptr;
+// A vertex that many samples of a pixel see may be a crumpled thing: a part of it, which leans otherwise.
+struct Facet {
+    Vec3f geometric_normal, normal;  // as a vertex's
+    Vec3f start_m;                   // where rays that leave it begin, ray space
+    float samples;                   // of the pixel, that see it
+    const LevelFacets* flattened;    // what it stands for in the mesh; null: itself
+    const Facet* next;
 };
 
 struct Vertex {
@@ -48,7 +35,7 @@ struct Vertex {
     bool mirrors_near;             // where that, something may stand in the mirror's direction
     float weight_samples;          // samples of the pixel that see it, where it is not one ray's
     float facet_alpha;             // of the lobes of its facets
-    Facets* facets;                // the vertex's own among them; null: it is one
+    const Facet* facets;           // the vertex's own among them; null: it is one
     Spectrum weight;
     Scatterer surface;
 

@@ -242,9 +242,9 @@ class PrimaryRays {
         vertex.sample = sample;
         vertex.depth = 1;
         vertex.weight = weight_;
-        if (tile_.facets)
-            tile_.facets->add(frame_, {vertex.geometric_normal, vertex.normal, vertex.start(), 1},
-                              hits_.triangle[k], true, vertex);
+        tile_.facets.add(frame_,
+                         {vertex.geometric_normal, vertex.normal, vertex.start(), 1, nullptr, nullptr},
+                         hits_.triangle[k], true, vertex);
         ++count_;
         add_air_before(tile_, exact_dir(k), vertex);
     }
@@ -262,7 +262,7 @@ void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex) {
 }
 
 std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {
-    if (tile.facets) tile.facets->clear();
+    tile.facets.clear();
     return PrimaryRays(tile, vertices).trace(nullptr);
 }
 

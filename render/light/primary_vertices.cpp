@@ -55,8 +55,6 @@ Vec2f middle_of(std::uint16_t samples) {
 constexpr float kLeansAlike = 0.94f;          // cosine
 constexpr float kLeansAlikeNarrow = 0.9998f;  // of surfaces with narrow lobes
 
-constexpr std::size_t kMostFacetsAtOnce = 4 * kPacketSize;
-
 // A bit for each of a pixel's samples that sees it.
 std::uint32_t equal_ids(const std::uint32_t* ids, std::uint32_t id) {
     const hn::Full128<std::uint32_t> d;
@@ -87,8 +85,8 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
         part_ = {box.x0 - kVisibilityTile_px, box.y0, box.x0, box.y0};
     }
     std::size_t count = 0;
-    tile_.facets->clear();
-    while (count + kPacketSize <= vertices.size() && tile_.facets->room() >= kMostFacetsAtOnce) {
+    tile_.facets.clear();
+    while (count + kPacketSize <= vertices.size() && tile_.facets.room() >= 2 * kPacketSize) {
         while (fragment_count_ < kPacketSize && (next_pixel_ < kPartPixels || open_next_part()))
             take_next_pixel();
         if (fragment_count_ == 0) {
@@ -227,8 +225,8 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         if (joined) {
             const Vec3f start_m =
                 origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
-            tile_.facets->add(frame, {lie.geometric_normal, lie.normal, start_m, samples}, hits_.triangle[k],
-                              false, *joined);
+            tile_.facets.add(frame, {lie.geometric_normal, lie.normal, start_m, samples, nullptr, nullptr},
+                             hits_.triangle[k], false, *joined);
             // Alike in all bins, but for the air before it.
             joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
             joined->weight_samples += samples;
@@ -244,8 +242,8 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
         add_air_before(tile_, dirs_[k], vertex);
-        tile_.facets->add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
-                          hits_.triangle[k], true, vertex);
+        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples, nullptr, nullptr},
+                         hits_.triangle[k], true, vertex);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/light/facet_list.h"
 #include "render/light/lamp_light.h"
 #include "render/light/shadow_rays.h"
 #include "render/scene/brdf_microfacet.h"
@@ -47,40 +48,6 @@ struct LitBy {
     Vec3f dir;
 };
 
-// What a crumpled vertex reflects of a light that has irradiance 1, with the vertex's weight; seen from there
-// or not as its brightest facet is.
-struct FacetLight {
-    Spectrum reflected;
-    Vec3f start_m;     // of a ray from the brightest
-    bool none = true;  // of them is lit
-};
-FacetLight sunlit_facets(const Vertex& at, Vec3f dir, bool sun_is_disk) {
-    FacetLight out;
-    Scatterer surface = at.surface;
-    surface.alpha = at.facet_alpha;
-    if (!sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
-    BrdfSum sum(surface, dot(at.view_dir, dir));
-    float samples = 0, most = 0;
-    for (const Facets* facets = at.facets; facets; facets = facets->next) {
-        Facets::Floats ni = facets->normal.dots(dir), no = facets->normal.dots(at.view_dir), weight;
-        const Facets::Floats above = facets->geometric_normal.dots(dir);
-        for (std::size_t i = 0; i < Facets::kMost; ++i) {
-            weight[i] = std::min(above[i], ni[i]) > 0 ? facets->samples[i] * ni[i] : 0.0f;
-            ni[i] = std::max(ni[i], 1e-6f), no[i] = std::max(no[i], 1e-4f);
-        }
-        samples += (facets->samples[0] + facets->samples[1]) + (facets->samples[2] + facets->samples[3]);
-        const auto brightest = std::max_element(weight.begin(), weight.end());
-        if (!(*brightest > 0)) continue;
-        sum.add(weight, no, ni);
-        if (*brightest <= most) continue;
-        most = *brightest;
-        out.start_m = facets->start_m.at(static_cast<std::size_t>(brightest - weight.begin()));
-        out.none = false;
-    }
-    out.reflected = (1 / samples) * (at.weight * sum.value());
-    return out;
-}
-
 void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
@@ -118,7 +85,10 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
         if (frame.sun_is_disk && is_weighed(frame, at))
             share = disk_density / (disk_density + brdf_density(at.surface, c));
         if (at.facets) {
-            const FacetLight sum = sunlit_facets(at, dir, frame.sun_is_disk);
+            Scatterer surface = at.surface;
+            surface.alpha = at.facet_alpha;
+            if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
+            const FacetLight sum = lit_facets(frame, at, surface, dir);
             if (!sum.none) shadow.add(sum.start_m, dir, {&at, share * (light * sum.reflected), dir});
             continue;
         }

@@ -38,12 +38,12 @@ struct Tile {
     int samples_per_axis;        // n: an n x n grid of rays in each pixel
     std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
     TileStats& stats;
+    FacetList& facets;  // of what is seen
     // Of a pass over pixels that are sampled more than once (adaptive_sampler.h).
     bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
     std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
     const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
     SeenMemory* seen = nullptr;            // null: rays find what the camera sees
-    FacetList* facets = nullptr;           // null: levels of detail reflect the Sun as their own normals do
 
     bool wants(int x, int y) const {
         return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];

@@ -7,6 +7,7 @@
 #include "render/scene/brdf_microfacet.h"
 #include "render/scene/brdf_regolith.h"
 #include "render/scene/brdf_table.h"
+#include "render/vocabulary/clones.h"
 
 namespace hilcam {
 namespace {
@@ -136,11 +137,37 @@ Spectrum brdf_value(const Scatterer& at, Cosines c) {
     return {};
 }
 
-void BrdfSum::add(const Four& weight, const Four& no, const Four& ni) {
+namespace {
+
+// Halves are added to each other: one order for every width of vectors.
+float sum_of(BrdfSum::Lanes lanes) {
+    for (std::size_t half = lanes.size() / 2; half > 0; half /= 2)
+        for (std::size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+    return lanes[0];
+}
+
+// weight times below_facets(), and times D V of a lobe.
+HILCAM_CLONES void reflect_below(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
+                                 const BrdfSum::Lanes& ni, const LobeAlbedo& e, BrdfSum::Lanes& out) {
+    const float share = 1 / (kPiF * (1 - e.average));
+    for (std::size_t i = 0; i < weight.size(); ++i)
+        out[i] = weight[i] * ((1 - e(no[i])) * (1 - e(ni[i])) * share);
+}
+HILCAM_CLONES void reflect_lobe(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
+                                const BrdfSum::Lanes& ni, float alpha, float over_half, BrdfSum::Lanes& out) {
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        const float nh = std::min((no[i] + ni[i]) * over_half, 1.0f);
+        const float lobe = ggx_distribution(alpha, nh) * ggx_visibility(alpha, no[i], std::max(ni[i], 1e-6f));
+        out[i] = weight[i] * lobe;
+    }
+}
+
+}  // namespace
+
+void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni) {
     const Material& m = *at_.material;
-    const auto sum = [](const Four& of) { return (of[0] + of[1]) + (of[2] + of[3]); };
     if (m.model == Model::kLambert) {
-        below_ += sum(weight) / kPiF;
+        below_ += sum_of(weight) / kPiF;
         return;
     }
     if (!m.has_facets()) {
@@ -148,19 +175,14 @@ void BrdfSum::add(const Four& weight, const Four& no, const Four& ni) {
             if (weight[i] > 0) other_ += weight[i] * brdf_value(at_, {no[i], ni[i], io_});
         return;
     }
-    Four part;
+    Lanes part;
     if (m.facets.average < 0.9999f) {
-        for (std::size_t i = 0; i < weight.size(); ++i)
-            part[i] = weight[i] * below_facets(m.facets, no[i], ni[i]);
-        below_ += sum(part);
+        reflect_below(weight, no, ni, m.facets, part);
+        below_ += sum_of(part);
     }
     if (!(at_.alpha > 0)) return;
-    const float over_half = 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f));
-    for (std::size_t i = 0; i < weight.size(); ++i) {
-        const float nh = std::min((no[i] + ni[i]) * over_half, 1.0f);
-        part[i] = weight[i] * ggx_distribution(at_.alpha, nh) * ggx_visibility(at_.alpha, no[i], ni[i]);
-    }
-    lobe_ += sum(part);
+    reflect_lobe(weight, no, ni, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), part);
+    lobe_ += sum_of(part);
 }
 
 Spectrum BrdfSum::value() const {

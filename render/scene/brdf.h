@@ -54,9 +54,10 @@ Spectrum brdf_value(const Scatterer& at, Cosines c);
 class BrdfSum {
   public:
     BrdfSum(const Scatterer& at, float io) : at_(at), io_(io) {}
-    // Four facets at a time. no, ni > 0; of a facet that adds nothing the weight is zero.
-    using Four = std::array<float, 4>;
-    void add(const Four& weight, const Four& no, const Four& ni);
+    static constexpr std::size_t kLanes = 16;
+    using Lanes = std::array<float, kLanes>;
+    // Sixteen facets at a time. no > 0; of a facet that adds nothing the weight is zero, else ni > 0.
+    void add(const Lanes& weight, const Lanes& no, const Lanes& ni);
     Spectrum value() const;
 
   private:
