@@ -15,12 +15,14 @@ struct Lanes {
     using Floats = BrdfSum::Lanes;
     // A normal, how the lane leans against it (body axes), and its share of the area.
     Floats x, y, z, lean_x, lean_y, lean_z, share;
+    Floats rougher;       // square of the alpha that its normals scatter by
     Floats no, ni, seen;  // cosines, above zero; the part of the share that the viewer sees
     std::size_t count = 0;
 
-    void put(Vec3f normal, Vec3f lean, float part) {
+    void put(Vec3f normal, Vec3f lean, float part, float alpha) {
         x[count] = normal.x, y[count] = normal.y, z[count] = normal.z;
         lean_x[count] = lean.x, lean_y[count] = lean.y, lean_z[count] = lean.z;
+        rougher[count] = alpha * alpha;
         share[count++] = part;
     }
 };
@@ -82,17 +84,18 @@ class Reflection {
             const LevelFacets::Floats share = facet.flattened->shares();
             const float side = at_.back ? -1.0f : 1.0f;
             for (std::size_t i = 0; i < LevelFacets::kMost; ++i)
-                lanes_.put(facet.normal, side * Vec3f{lean.x[i], lean.y[i], lean.z[i]}, share[i]);
+                lanes_.put(facet.normal, side * Vec3f{lean.x[i], lean.y[i], lean.z[i]}, share[i],
+                           facet.flattened->alpha());
         } else {
             if (dot(facet.geometric_normal, dir_) <= 0) return;
-            lanes_.put(facet.normal, {}, 1);
+            lanes_.put(facet.normal, {}, 1, 0);
         }
         groups_[group_count_++] = {&facet, first, lanes_.count - first};
     }
 
     void reflect() {
         if (lanes_.count == 0) return;
-        while (lanes_.count < lanes_.x.size()) lanes_.put(at_.normal, {}, 0);
+        while (lanes_.count < lanes_.x.size()) lanes_.put(at_.normal, {}, 0, 0);
         look_at(lanes_, world_from_body_, at_.view_dir, dir_);
         Lanes::Floats weight{};
         for (const Group& group : std::span(groups_).first(group_count_)) {
@@ -108,7 +111,7 @@ class Reflection {
             light_.start_m = group.facet->start_m;
             light_.none = false;
         }
-        sum_.add(weight, lanes_.no, lanes_.ni);
+        sum_.add(weight, lanes_.no, lanes_.ni, lanes_.rougher);
         lanes_.count = group_count_ = 0;
     }
 };

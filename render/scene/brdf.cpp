@@ -154,17 +154,24 @@ HILCAM_CLONES void reflect_below(const BrdfSum::Lanes& weight, const BrdfSum::La
         out[i] = weight[i] * ((1 - e(no[i])) * (1 - e(ni[i])) * share);
 }
 HILCAM_CLONES void reflect_lobe(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
-                                const BrdfSum::Lanes& ni, float alpha, float over_half, BrdfSum::Lanes& out) {
+                                const BrdfSum::Lanes& ni, const BrdfSum::Lanes& rougher, float alpha,
+                                float over_half, BrdfSum::Lanes& out) {
     for (std::size_t i = 0; i < weight.size(); ++i) {
         const float nh = std::min((no[i] + ni[i]) * over_half, 1.0f);
-        const float lobe = ggx_distribution(alpha, nh) * ggx_visibility(alpha, no[i], std::max(ni[i], 1e-6f));
+        // Slopes s of density a^2 / (pi (a^2 + s^2)^2) that are scattered by r: to the first order the
+        // density changes by r (4 s^2 - 2 a^2) / (a^2 + s^2)^2 of itself. A lobe whose a^2 grows by 4 r a^2 /
+        // (2 a^2 + s^2) does so at its middle and in its tails, which hardly change.
+        const float both = alpha * alpha + rougher[i], slope = (1 - nh * nh) / (nh * nh);
+        const float wider =
+            std::min(std::sqrt(alpha * alpha + rougher[i] * 4 * both / (2 * both + slope)), 1.0f);
+        const float lobe = ggx_distribution(wider, nh) * ggx_visibility(wider, no[i], std::max(ni[i], 1e-6f));
         out[i] = weight[i] * lobe;
     }
 }
 
 }  // namespace
 
-void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni) {
+void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher) {
     const Material& m = *at_.material;
     if (m.model == Model::kLambert) {
         below_ += sum_of(weight) / kPiF;
@@ -181,7 +188,7 @@ void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni) {
         below_ += sum_of(part);
     }
     if (!(at_.alpha > 0)) return;
-    reflect_lobe(weight, no, ni, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), part);
+    reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), part);
     lobe_ += sum_of(part);
 }
 

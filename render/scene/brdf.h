@@ -57,7 +57,8 @@ class BrdfSum {
     static constexpr std::size_t kLanes = 16;
     using Lanes = std::array<float, kLanes>;
     // Sixteen facets at a time. no > 0; of a facet that adds nothing the weight is zero, else ni > 0.
-    void add(const Lanes& weight, const Lanes& no, const Lanes& ni);
+    // rougher: square of a GGX alpha that a facet's lobe is wider by.
+    void add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher);
     Spectrum value() const;
 
   private:

@@ -56,10 +56,10 @@ struct Group {
     std::span<Part> parts;
     double area = 0;
     Vec3d mean;
-    Mat3d scatter{};  // covariance
+    Mat3d scatter{{}, {}, {}};  // covariance
 };
 Group group_of(std::span<Part> parts) {
-    Group g{parts, 0, {}, {}};
+    Group g{parts, 0, {}, {{}, {}, {}}};
     for (const Part& p : parts) {
         const double a = static_cast<double>(p.area);
         g.area += a, g.mean = g.mean + a * to_double(p.lean);
@@ -112,22 +112,33 @@ LevelFacets facets_of_parts(std::span<Part> parts) {
     const std::size_t two = divide(all, halves);
     for (std::size_t i = 0; i < two; ++i) count += divide(halves[i], std::span(groups).subspan(count, 2));
     std::array<LevelFacets::Facet, LevelFacets::kMost> facets{};
-    for (std::size_t i = 0; i < count; ++i)
-        facets[i] = {to_float(groups[i].mean), static_cast<float>(groups[i].area / all.area)};
-    return LevelFacets::of(facets);
+    double variance = 0;  // within the groups, of both axes together: alpha squared (Beckmann's)
+    for (std::size_t i = 0; i < count; ++i) {
+        const Group& g = groups[i];
+        const double share = g.area / all.area;
+        facets[i] = {to_float(g.mean), static_cast<float>(share)};
+        variance += share * (g.scatter.x.x + g.scatter.y.y + g.scatter.z.z);
+    }
+    if (count == 1 && variance < kApart * kApart && length(groups[0].mean) < kApart)
+        return LevelFacets::flat();
+    return LevelFacets::of(facets, static_cast<float>(std::sqrt(variance)));
 }
 
 }  // namespace
 
-LevelFacets LevelFacets::of(const std::array<Facet, kMost>& facets) {
+LevelFacets LevelFacets::of(const std::array<Facet, kMost>& facets, float alpha) {
     LevelFacets out;
+    out.alpha_ = alpha;
     const auto whole = [](float lean) {
         return static_cast<std::int16_t>(std::lround(std::clamp(lean, -2.0f, 2.0f) * kLean));
     };
     for (std::size_t i = 0; i < kMost; ++i) {
         out.x_[i] = whole(facets[i].lean.x), out.y_[i] = whole(facets[i].lean.y);
         out.z_[i] = whole(facets[i].lean.z);
-        out.share_[i] = static_cast<std::uint16_t>(std::lround(facets[i].share * kAll));
+        // A facet that is there stays there.
+        out.share_[i] = facets[i].share > 0
+                            ? static_cast<std::uint8_t>(std::max(1L, std::lround(facets[i].share * kAll)))
+                            : std::uint8_t{0};
     }
     return out;
 }

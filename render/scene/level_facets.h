@@ -6,7 +6,7 @@
 // The parts of the mesh belong to the triangle of the same surface that is nearest to them and faces as they
 // do. Their normals are divided twice across the axis in which they scatter most, at their mean (as colours
 // are by Wu, ACM Trans. Graphics 10(4), 1991), which keeps their mean and most of their scatter; what is
-// left over within the four groups is not kept. Parts do not hide each other.
+// left over within the four groups is kept as roughness. Parts do not hide each other.
 
 #include <array>
 #include <cstdint>
@@ -23,9 +23,10 @@ class LevelFacets {
         Vec3f lean;   // added to the level's own normal there, before it is made a unit vector; body axes
         float share;  // of the area of all; 0: there are no more
     };
-    static LevelFacets of(const std::array<Facet, kMost>& facets);
+    // alpha: GGX's, of how normals scatter about the facets' own.
+    static LevelFacets of(const std::array<Facet, kMost>& facets, float alpha);
     // Leans nowhere.
-    static LevelFacets flat() { return of({Facet{{}, 1}}); }
+    static LevelFacets flat() { return of({Facet{{}, 1}}, 0); }
 
     using Floats = std::array<float, kMost>;
     struct Leans {
@@ -45,13 +46,15 @@ class LevelFacets {
         for (std::size_t i = 0; i < kMost; ++i) out[i] = static_cast<float>(share_[i]) * (1 / kAll);
         return out;
     }
+    float alpha() const { return alpha_; }
     // It leans as its own normals do.
-    bool is_flat() const { return share_[1] == 0; }
+    bool is_flat() const { return share_[1] == 0 && alpha_ == 0 && x_[0] == 0 && y_[0] == 0 && z_[0] == 0; }
 
   private:
-    static constexpr float kLean = 16383, kAll = 65535;  // units of a lean (2 at most), and of a share
+    static constexpr float kLean = 16383, kAll = 255;  // units of a lean (2 at most), and of a share
     std::array<std::int16_t, kMost> x_{}, y_{}, z_{};
-    std::array<std::uint16_t, kMost> share_{};
+    std::array<std::uint8_t, kMost> share_{};
+    float alpha_ = 0;
 };
 static_assert(sizeof(LevelFacets) == 32);
 

@@ -117,7 +117,7 @@ TEST(Visibility, KeptLightIsWhatRaysSee) {
 
 // A plate of 2 m in waves of 0.1 m that are 0.2 steep, as foil has them.
 SceneObject foil(const MaterialConfig& material, const SpectralGrid& grid) {
-    constexpr int kSteps = 400;
+    constexpr int kSteps = 200;
     constexpr double kHigh_m = 3e-3, k_rad_m = 60;
     std::vector<Vec3f> v;
     std::vector<std::array<std::uint32_t, 3>> t;
@@ -141,12 +141,14 @@ double sum_of(const RadianceImage& radiance) {
     return sum;
 }
 
-// Some hundred triangles instead of 320,000.
+// Some hundred triangles instead of 80,000.
 TEST(Visibility, LevelsOfDetailKeepTheLightOfWrinkles) {
     MaterialConfig metal = lambert(0.9);
     metal.model = ReflectionModel::kMetal;
     metal.roughness = 0.4;
-    for (const MaterialConfig& material : {lambert(0.5), metal})
+    for (const MaterialConfig& material : {lambert(0.5), metal}) {
+        // Four normals and their scatter are all that is kept of each triangle's waves.
+        const double within = material.model == ReflectionModel::kMetal ? 0.05 : 0.005;
         for (const Vec3d& sun : {Vec3d{0.3, 0.2, -1}, Vec3d{1, 0.3, -0.5}})
             for (const char* visibility : {"rays", "buffer"}) {
                 Stage s;
@@ -165,8 +167,9 @@ TEST(Visibility, LevelsOfDetailKeepTheLightOfWrinkles) {
                 const double mesh = sum_of(s.radiance);
                 s.quality.lod_error_px = 16;
                 s.render();
-                EXPECT_NEAR(sum_of(s.radiance) / mesh, 1, 0.01) << visibility << " " << sun.x;
+                EXPECT_NEAR(sum_of(s.radiance) / mesh, 1, within) << visibility << " " << sun.x;
             }
+    }
 }
 
 // A frame with more triangles than there is room for, or no room at all, is for rays: terrain, lenses that

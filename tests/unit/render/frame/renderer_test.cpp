@@ -219,7 +219,7 @@ TEST(Renderer, AnObjectLikeAnotherLooksAsOneWithItsOwnMesh) {
         Stage s;
         s.quality.lod_error_px = lod_error_px;
         SceneObject detailed = cube(lambert(0.5), s.grid);
-        detailed.levels = {{sphere(8, lambert(0.5), s.grid).mesh, 0.05, {0}}};
+        detailed.levels = {{sphere(8, lambert(0.5), s.grid).mesh, 0.05, {0}, {}}};
         s.add(plate(lambert(0.2), s.grid), {0, 0, 9});
         s.add(detailed, {-1, 0, 6}, {0.3, 0.4, 0});
         s.add(detailed, {1, 0.5, 5}, {1, 0, 2});

@@ -8,6 +8,7 @@
 
 #include "render/scene/closest_triangle.h"
 #include "render/scene/mesh_lod.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
@@ -114,14 +115,15 @@ TEST(LevelFacets, TheOtherSideOfASheetIsNotItsOwn) {
     EXPECT_TRUE(facets[3].is_flat());
 }
 
-TEST(LevelFacets, LeansAndSharesKeepFourDigits) {
-    const LevelFacets f = LevelFacets::of({{{{0.25f, -1.5f, 2}, 0.75f}, {{-2, 0, 1e-3f}, 0.25f}}});
+TEST(LevelFacets, LeansKeepFourDigitsAndSharesTwo) {
+    const LevelFacets f = LevelFacets::of({{{{0.25f, -1.5f, 2}, 0.75f}, {{-2, 0, 1e-3f}, 0.25f}}}, 0.125f);
     EXPECT_NEAR(f.leans().x[0], 0.25f, 1e-4f);
     EXPECT_NEAR(f.leans().y[0], -1.5f, 1e-4f);
     EXPECT_NEAR(f.leans().z[0], 2, 1e-4f);
     EXPECT_NEAR(f.leans().x[1], -2, 1e-4f);
-    EXPECT_NEAR(f.shares()[0], 0.75f, 1e-4f);
-    EXPECT_NEAR(f.shares()[1], 0.25f, 1e-4f);
+    EXPECT_NEAR(f.shares()[0], 0.75f, 2e-3f);
+    EXPECT_NEAR(f.shares()[1], 0.25f, 2e-3f);
+    EXPECT_EQ(f.alpha(), 0.125f);
     EXPECT_EQ(f.shares()[2], 0);
 }
 
