@@ -4,7 +4,7 @@
 
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
-#include "io/files/image_file.h"
+#include "io/pictures/image_file.h"
 #include "sensor/published_frame.h"
 
 namespace hilcam {

@@ -15,7 +15,7 @@
 #include "io/files/mesh_cache.h"
 #include "io/files/mesh_file.h"
 #include "io/files/mesh_level_cache.h"
-#include "io/files/picture_file.h"
+#include "io/pictures/picture_file.h"
 #include "io/files/transfer_cache.h"
 #include "render/frame/plugin.h"
 #include "render/scene/brdf_table.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "io/files/image_file.h"
+#include "io/pictures/image_file.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

@@ -12,7 +12,7 @@
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/world/clock.h"
 #include "io/config/config_yaml.h"
-#include "io/files/image_file.h"
+#include "io/pictures/image_file.h"
 #include "render/vocabulary/check.h"
 #include "tests/support/files.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "io/files/gltf_webp.h"
-#include "io/files/image_file.h"
+#include "io/pictures/image_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"

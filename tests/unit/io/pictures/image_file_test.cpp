@@ -4,14 +4,30 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/files/image_file.h"
-#include "io/files/picture_file.h"
+#include "io/pictures/image_file.h"
+#include "io/pictures/picture_codecs.h"
+#include "io/pictures/picture_file.h"
 #include "tests/support/files.h"
 
 namespace hilcam {
 namespace {
 
 using testing::HasSubstr;
+
+using namespace std::string_literals;
+
+// TIFF 6.0: one pixel, a 32-bit float, little-endian.
+std::string float_tiff(const std::string& number) {
+    std::string out = "II*\0\x0C\0\0\0"s + number + "\x08\0"s;
+    const auto add = [&out](int tag, char value) {
+        out += {static_cast<char>(tag & 255), static_cast<char>(tag >> 8), 3, 0, 1, 0, 0, 0, value, 0, 0, 0};
+    };
+    // Width, height, bits, compression (none), black is zero, where the number is, how long, a float.
+    for (const auto& [tag, value] : std::vector<std::pair<int, char>>{
+             {256, 1}, {257, 1}, {258, 32}, {259, 1}, {262, 1}, {273, 8}, {279, 4}, {339, 3}})
+        add(tag, value);
+    return out + "\0\0\0\0"s;
+}
 
 class PixelMapTest : public FilesTest {};
 
@@ -32,15 +48,19 @@ TEST_F(PixelMapTest, WhatIsNoMapIsRefusedByName) {
     write("text.tiff", "not a picture");
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "text.tiff", false); }),
                 HasSubstr("does not decode"));
-    // A picture with three channels: a PPM of one pixel.
-    write("color.ppm", std::string("P6\n1 1\n255\n") + "abc");
-    EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "color.ppm", false); }),
-                HasSubstr("has 3 channels; accepted: one"));
-    // A PFM of one negative number.
-    write("negative.pfm", std::string("Pf\n1 1\n-1.0\n") + std::string("\x00\x00\x80\xbf", 4));
-    EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "negative.pfm", false); }),
+    EXPECT_THAT(error_of([&] { read_pixel_map(write("grey.pgm", "P5\n1 1\n255\na"), false); }),
+                HasSubstr("grey.pgm: does not decode; accepted: PNG, JPEG, TIFF, BMP, WebP"));
+    const std::vector<std::uint8_t> color = {1, 2, 3};
+    write("color.png", encode_png({color, 1, 1, SampleKind::kRgb8}));
+    EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "color.png", false); }),
+                HasSubstr("color.png: has 3 channels; accepted: one"));
+    const auto negative = write("negative.tiff", float_tiff("\x00\x00\x80\xbf"s));
+    EXPECT_THAT(error_of([&] { read_pixel_map(negative, false); }),
                 HasSubstr("pixel (0, 0) is -1.000000; accepted: finite, not negative"));
-    EXPECT_EQ(read_pixel_map(folder_ / "negative.pfm", true).row(0)[0], -1.0f);
+    EXPECT_EQ(read_pixel_map(negative, true).row(0)[0], -1.0f);
+    const auto nothing = write("nothing.tiff", float_tiff("\x00\x00\xc0\x7f"s));
+    EXPECT_THAT(error_of([&] { read_pixel_map(nothing, true); }),
+                HasSubstr("pixel (0, 0) is nan; accepted: finite"));
 }
 
 // A picture of 6 x 5 px about a frame of 2 x 1 px, two px from its left and top.

@@ -1,4 +1,4 @@
-#include "io/files/image_file.h"
+#include "io/pictures/image_file.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -11,11 +11,11 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/pictures/picture_codecs.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -78,35 +78,13 @@ void write_frame(const std::filesystem::path& file, const DnImage& frame) {
     if (kind != ".png" && kind != ".tiff" && kind != ".tif")
         throw InputError(file.string() + ": found the ending " + in_quotes(kind) +
                          "; accepted for frames: .png .tiff .raw");
-    const cv::Mat picture(frame.height(), frame.width(), CV_16UC1, const_cast<std::uint16_t*>(frame.data()));
-    // In memory first: the libraries print what goes wrong with a file, and leave its beginning behind.
-    std::vector<std::uint8_t> bytes;
-    bool encoded = false;
-    try {
-        // Level 1: frames are noise in the low bits, harder compression costs time and gains nothing.
-        encoded = cv::imencode(kind, picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
-    } catch (const cv::Exception&) {
-    }
-    if (!encoded) throw DeviceError(file.string() + ": cannot be encoded");
-    write_file(file, bytes);
-}
-
-std::string encode_png(std::span<std::uint8_t> samples, int width, int height, PngSamples kind) {
-    const bool rgb = kind == PngSamples::kRgb8;
-    if (rgb)  // OpenCV has blue first
-        for (std::size_t i = 0; i + 2 < samples.size(); i += 3) std::swap(samples[i], samples[i + 2]);
-    const cv::Mat picture(height, width,
-                          rgb                           ? CV_8UC3
-                          : kind == PngSamples::kGray16 ? CV_16UC1
-                                                        : CV_8UC1,
-                          samples.data());
-    std::vector<std::uint8_t> png;
-    try {
-        if (!cv::imencode(".png", picture, png, {cv::IMWRITE_PNG_COMPRESSION, 1})) return {};
-    } catch (const cv::Exception&) {
-        return {};
-    }
-    return {png.begin(), png.end()};
+    const PictureSamples samples{{reinterpret_cast<const std::uint8_t*>(frame.data()), 2 * frame.pixels()},
+                                 frame.width(),
+                                 frame.height(),
+                                 SampleKind::kGray16};
+    const std::string bytes = kind == ".png" ? encode_png(samples) : encode_tiff(samples);
+    if (bytes.empty()) throw DeviceError(file.string() + ": cannot be encoded");
+    write_file(file, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
 void write_raw(const std::filesystem::path& file, const DnImage& frame, const PixelLayout& layout) {

@@ -16,10 +16,6 @@ namespace hilcam {
 // Frames as they are: DN, right-aligned in 16 bits. The kind follows from the ending, .png or .tiff.
 // InputError for another ending, DeviceError when the file cannot be written: then there is none.
 void write_frame(const std::filesystem::path& file, const DnImage& frame);
-// A PNG in memory, of rows without padding: 16-bit numbers little-endian, colours as red, green, blue. Empty
-// when it cannot be made.
-enum class PngSamples { kGray8, kGray16, kRgb8 };
-std::string encode_png(std::span<std::uint8_t> samples, int width, int height, PngSamples kind);
 // The bytes of a camera's memory, row after row without a header. DeviceError as before.
 void write_raw(const std::filesystem::path& file, const DnImage& frame, const PixelLayout& layout);
 // One 32-bit float channel per bin, named "L_0.450_0.550um" [W m^-2 sr^-1 um^-1], or "electrons" [e-].
