@@ -15,6 +15,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <sstream>
 
 #include "io/files/gltf_webp.h"
 #include "io/files/mesh_guard.h"
@@ -321,8 +322,10 @@ void require_few(const aiScene& scene, const std::filesystem::path& file) {
 
 // A word of a list with blanks between its words.
 bool has_word(std::string_view list, std::string_view word) {
-    const std::string all = " " + std::string(list) + " ";
-    return all.find(" " + std::string(word) + " ") != std::string::npos;
+    std::istringstream words{std::string(list)};
+    for (std::string one; words >> one;)
+        if (one == word) return true;
+    return false;
 }
 
 // Leaves the one importer that is for this kind of file. assimp has fifty, and gives contents that none of a

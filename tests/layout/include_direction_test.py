@@ -40,7 +40,7 @@ ONLY_IN = {
     "tiff": {"io/pictures/tiff_codec.cpp"},
     "webp": {"io/pictures/webp_codec.cpp"},
     "stb": {"io/pictures/bmp_codec.cpp"},
-    "OpenEXR": {"io/pictures/image_file.cpp", "io/truth/truth_files.cpp"},
+    "OpenEXR": {"io/pictures/exr_file.cpp", "io/truth/truth_files.cpp"},
     "zlib": {"io/gige/device/gige_zip.cpp", "io/system/crc32.cpp"},
     "httplib": {"io/preview/sink_preview.cpp"},
     "google": {"io/vizard/vizard_message.cpp"},

@@ -231,7 +231,7 @@ class CameraMaps : public FilesTest {};
 TEST_F(CameraMaps, AreReadFromTheirFiles) {
     DnImage gain(64, 64);
     for (std::uint16_t& v : gain.all()) v = 1;
-    write_frame(folder_ / "gain.tiff", gain);
+    write_numbers(folder_ / "gain.tiff", gain);
     CameraModel c;
     c.fixed_pattern.prnu_map = folder_ / "gain.tiff";
     const DetectorPictures pictures = load_detector_pictures(c);

@@ -54,7 +54,7 @@ class PictureFile : public FilesTest {};
 
 TEST_F(PictureFile, SizesOfWrittenPicturesAreRead) {
     for (const char* name : {"a.png", "a.tiff"}) {
-        write_frame(folder_ / name, DnImage(31, 17));
+        write_numbers(folder_ / name, DnImage(31, 17));
         EXPECT_EQ(size_of(read_input_file(folder_ / name, picture_kind())), "31 x 17") << name;
         const Texture texture = read_picture(folder_ / name);
         EXPECT_EQ(texture.width, 31);
