@@ -70,6 +70,9 @@ class Pictures(unittest.TestCase):
         self.assertTrue((numpy.array(picture).ravel() == dn).all())
         notes = json.loads(picture.tag_v2[270])
         self.assertEqual(notes["seed"], 7)
+        manual = (SOURCE / "docs/pictures.md").read_text()
+        for key in notes:
+            self.assertIn(f"`{key}`", manual)
         self.assertEqual(notes["unit"], "DN")
         self.assertAlmostEqual(math.hypot(*notes["attitude_wxyz"]), 1)
         self.assertEqual(picture.tag_v2[306], notes["time_utc"][:19].replace("-", ":").replace("T", " "))
