@@ -38,7 +38,8 @@ namespace hilcam {
 namespace {
 
 struct Options {
-    std::filesystem::path config, out, report, truth;
+    std::filesystem::path config, out, report;
+    RenderFiles files;
     std::vector<std::string> overrides;
     double duration_s = 0, time_offset_s = 0;
     std::uint64_t frames = 0;
@@ -59,6 +60,18 @@ std::optional<tbb::global_control> limit_threads(const ScenarioConfig& scenario)
         limit.emplace(tbb::global_control::max_allowed_parallelism,
                       static_cast<std::size_t>(scenario.threads));
     return limit;
+}
+
+void warn_if_said(const std::string& line) {
+    if (!line.empty()) spdlog::warn("{}", line);
+}
+
+void warn_of_dark_pictures(const ScenarioConfig& scenario) {
+    for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
+        const ScenarioConfig own = scenario_of_camera(scenario, i);
+        if (own.outputs.has_files)
+            warn_if_said(dark_picture_warning(own.outputs.files, own.camera.frame_bits()));
+    }
 }
 
 void tell_seed(const std::string& line) {
@@ -96,6 +109,7 @@ int run(const Options& o) {
     spdlog::info("loading {}", scenario.name);
     const auto whole = in_memory(scenario, [&] { return std::make_unique<Emulator>(scenario, limits); });
     Emulator& emulator = *whole;
+    warn_of_dark_pictures(scenario);
     emulator.run([&] {
         const PreviewConfig& preview = scenario.outputs.preview;
         if (scenario.outputs.has_preview)
@@ -125,7 +139,10 @@ int render(const Options& o) {
     const auto threads = limit_threads(scenario);
     tell_seed(settle_seed(scenario));
     return in_memory(scenario, [&] {
-        render_to_file(scenario, o.stage, o.time_offset_s, o.out, o.truth);
+        render_to_files(scenario, o.stage, o.time_offset_s, o.files);
+        if (o.stage == RenderStage::kFrame && o.files.view.empty())
+            warn_if_said(dark_picture_warning(o.files.out, scenario.camera.frame_bits(),
+                                              "--view FILE.png writes one to look at"));
         return 0;
     });
 }
@@ -304,11 +321,14 @@ int run_command_line(int argc, char** argv) {
     render_app->add_option("--stage", o.stage, "radiance, electrons or frame")
         ->transform(CLI::CheckedTransformer(stages));
     render_app
-        ->add_option("--out", o.out,
-                     "FILE.exr for radiance and electrons, FILE.png, .tiff or .raw for a frame")
+        ->add_option("--out", o.files.out,
+                     "FILE.exr for radiance and electrons (.fits, too), FILE.png, .tiff, .fits or .raw for a "
+                     "frame")
         ->required();
+    render_app->add_option("--view", o.files.view,
+                           "also write the frame as an 8-bit PNG to look at (docs/pictures.md)");
     render_app->add_option("--time-offset-s", o.time_offset_s, "seconds after the scenario's start");
-    render_app->add_option("--truth", o.truth,
+    render_app->add_option("--truth", o.files.truth,
                            "also write what the picture shows to this folder (docs/truth.md)");
     render_app->callback([&] { action = [&] { return render(o); }; });
 

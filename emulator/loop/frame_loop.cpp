@@ -227,6 +227,7 @@ void FrameLoop::render_into(Slot& slot) {
     const ExposureRenderer::Result result = exposures_.render(
         world_, moment, {seed_, record.id}, slot.radiance, slot.points, slot.exposure, truth);
     const ShownCommand& shown = result.shown;
+    record.camera = exposures_.middle_world().camera;
     record.pose_sequence = shown.sequence;
     record.pose_time = shown.time;
     // Latency is that of a command in the first frame that shows it.

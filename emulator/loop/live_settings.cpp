@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/system/wire_format.h"
+
 namespace hilcam {
 
 namespace {
@@ -16,22 +18,12 @@ const SimulatedClock& machine_clock() {
     return clock;
 }
 
-// The first two letters of the pattern's first two rows, if that is all of it: what clients call Bayer.
-std::string bayer_of(const ColorFilterArrayConfig& filters) {
-    const std::string& p = filters.pattern;  // "RG GB"
-    if (p.size() != 5 || p[2] != ' ') return {};
-    const std::string pattern = p.substr(0, 2) + p.substr(3, 2);
-    for (const char* known : {"RGGB", "GRBG", "GBRG", "BGGR"})
-        if (pattern == known) return pattern;
-    return {};
-}
-
 CameraLimits limits_of(const CameraModel& c, const LiveSettings::Mode& mode) {
     const auto [width, height] = array_size(c);
     CameraLimits limits;
     limits.width = width, limits.height = height;
     limits.bits = c.frame_bits();
-    limits.color_pattern = bayer_of(c.color_filter);
+    limits.color_pattern = bayer_pattern_of(c.color_filter.pattern);
     limits.least_exposure_s = c.exposure_range_s[0], limits.most_exposure_s = c.exposure_range_s[1];
     limits.least_gain_db = c.gain_range_db[0], limits.most_gain_db = c.gain_range_db[1];
     limits.least_frame_rate_hz = c.frame_rate_range_hz[0];

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulator/recording/recorder.h"
+#include "emulator/run/picture_run.h"
 #include "emulator/run/status.h"
 #include "emulator/run/truth_source.h"
 #include "emulator/scenario/initial_world.h"
@@ -64,7 +65,7 @@ void CameraStation::make_sinks() {
                                                     settings_.settings().frame_rate_hz, context));
     if (o.has_files)
         sinks_.push_back(
-            std::make_unique<FilesSink>(o.files, width, height, scenario_.camera.pixel_layout()));
+            std::make_unique<FilesSink>(o.files, width, height, picture_run_of(scenario_, number_)));
     if (o.has_preview)
         sinks_.push_back(std::make_unique<PreviewSink>(o.preview, context, [this] { return status(); }));
 }

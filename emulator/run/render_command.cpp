@@ -1,19 +1,25 @@
 #include "emulator/run/render_command.h"
 
+#include <algorithm>
 #include <optional>
 
+#include "emulator/run/picture_run.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
-#include "io/files/image_file.h"
+#include "io/pictures/image_file.h"
 #include "sensor/published_frame.h"
 
 namespace hilcam {
 namespace {
 
 // The first frame that the camera would take.
-FrameRecord record_of(const ScenarioConfig& s, const Exposure& exposure) {
+FrameRecord record_of(const ScenarioConfig& s, const StillCamera& camera) {
+    const Exposure& exposure = camera.exposure();
     FrameRecord record;
     record.id = 1;
+    record.exposure_mid = camera.time();
+    record.camera = camera.shown_camera();
+    record.black_level_dn = exposure.black_level_dn.value_or(s.camera.offset_dn);
     record.exposure_s = exposure.exposure_s;
     record.gain_db = exposure.gain_db;
     record.bits = s.camera.frame_bits();
@@ -40,36 +46,58 @@ FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer) {
 }
 
 void write_truth(const std::filesystem::path& folder, const ScenarioConfig& s, const SpectralGrid& grid,
-                 const FrameTruth& truth, FrameRecord record) {
-    record.exposure_mid = truth.time;
+                 const FrameTruth& truth, const FrameRecord& record) {
     const TruthDocument document(truth_source(s, grid, 1));
     TruthFiles(folder).write(truth, record.id, document.line(truth, record), document.legend(truth));
 }
 
+// Before minutes of rendering.
+void check_names(RenderStage stage, const RenderFiles& files) {
+    const auto is_one_of = [&](std::initializer_list<const char*> endings) {
+        return std::any_of(endings.begin(), endings.end(),
+                           [&](const char* ending) { return files.out.extension() == ending; });
+    };
+    const bool fits = stage == RenderStage::kRadiance ? is_one_of({".exr"})
+                      : stage == RenderStage::kElectrons
+                          ? is_one_of({".exr", ".fits", ".fit"})
+                          : is_one_of({".png", ".tiff", ".tif", ".fits", ".fit", ".raw"});
+    if (!fits)
+        throw InputError(files.out.string() +
+                         ": accepted: .exr for radiance, .exr or .fits for electrons, .png, .tiff, .fits or "
+                         ".raw for a frame");
+    if (files.view.empty()) return;
+    if (stage != RenderStage::kFrame)
+        throw InputError("--view " + files.view.string() + ": shows a frame; accepted with --stage frame");
+    if (files.view.extension() != ".png")
+        throw InputError("--view " + files.view.string() + ": accepted: .png");
+    if (files.view.lexically_normal() == files.out.lexically_normal())
+        throw InputError("--view " + files.view.string() + ": is the file of --out; accepted: another one");
+}
+
 }  // namespace
 
-void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
-                    const std::filesystem::path& out, const std::filesystem::path& truth_folder) {
-    const bool exr = out.extension() == ".exr";
-    if (exr == (stage == RenderStage::kFrame))
-        throw InputError(out.string() +
-                         ": accepted: .exr for radiance and electrons, .png, .tiff or .raw for a frame");
+void render_to_files(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
+                     const RenderFiles& files) {
+    check_names(stage, files);
     StillCamera camera(scenario, time_offset_s);
+    PictureWriter writer(picture_run_of(scenario, 1));
     const RandomKey key{static_cast<std::uint64_t>(scenario.seed), 1};
     std::optional<FrameTruth> truth;
-    if (!truth_folder.empty()) truth = empty_truth(scenario, camera.renderer());
+    if (!files.truth.empty()) truth = empty_truth(scenario, camera.renderer());
     const RadianceImage& radiance = camera.render(key, truth ? &*truth : nullptr);
-    if (truth)
-        write_truth(truth_folder, scenario, camera.grid(), *truth, record_of(scenario, camera.exposure()));
+    const FrameRecord record = record_of(scenario, camera);
+    if (truth) write_truth(files.truth, scenario, camera.grid(), *truth, record);
+    const auto oversampling = static_cast<int>(scenario.quality.oversampling);
     if (stage == RenderStage::kRadiance)
-        return write_radiance_exr(out, radiance, camera.grid(),
-                                  frame_in_radiance(scenario.camera, camera.renderer().geometry(),
-                                                    static_cast<int>(scenario.quality.oversampling)));
+        return writer.write_radiance(
+            files.out, radiance,
+            frame_in_radiance(scenario.camera, camera.renderer().geometry(), oversampling), oversampling,
+            record);
     const ElectronImage& electrons = camera.expose();
-    if (stage == RenderStage::kElectrons) return write_electrons_exr(out, electrons);
+    if (stage == RenderStage::kElectrons) return writer.write_electrons(files.out, electrons, record);
     const DnImage& frame = camera.digitise(key);
-    if (out.extension() == ".raw") return write_raw(out, frame, scenario.camera.pixel_layout());
-    write_frame(out, frame);
+    writer.write_frame(files.out, frame, record);
+    if (!files.view.empty()) writer.write_view(files.view, frame, record);
 }
 
 }  // namespace hilcam

@@ -9,10 +9,15 @@ namespace hilcam {
 
 enum class RenderStage { kRadiance, kElectrons, kFrame };
 
-// Writes radiance or mean electrons as .exr, the frame as .png, .tiff or .raw. Throws InputError,
-// DeviceError.
-// truth: a folder for what the picture shows, with all layers unless outputs.truth says which; empty: none.
-void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
-                    const std::filesystem::path& out, const std::filesystem::path& truth = {});
+struct RenderFiles {
+    std::filesystem::path out;  // radiance .exr; mean electrons .exr, .fits; a frame .png, .tiff, .fits, .raw
+    std::filesystem::path view;   // a frame's picture to look at, .png; empty: none
+    std::filesystem::path truth;  // a folder for what the picture shows, with all layers unless outputs.truth
+                                  // says which; empty: none
+};
+
+// Throws InputError, DeviceError; names of files that cannot be, before anything is rendered.
+void render_to_files(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
+                     const RenderFiles& files);
 
 }  // namespace hilcam

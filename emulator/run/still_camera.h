@@ -31,6 +31,9 @@ class StillCamera {
 
     const SpectralGrid& grid() const { return grid_; }
     const Exposure& exposure() const { return exposure_; }
+    TimeTai time() const { return time_; }
+    // Where the camera was in the last rendering, pointing jitter in it.
+    const Pose& shown_camera() const { return exposures_.middle_world().camera; }
     // Where everything is at mid-exposure, pointing jitter apart.
     const WorldSnapshot& world() const { return snapshot_; }
     Renderer& renderer() { return *renderer_; }

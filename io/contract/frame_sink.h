@@ -3,11 +3,13 @@
 // frame.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "render/vocabulary/image.h"
+#include "render/vocabulary/pose.h"
 #include "render/vocabulary/time.h"
 
 namespace hilcam {
@@ -29,6 +31,8 @@ struct FrameRecord {
         0;  // bits of the faults that strike it (fault.h), those of packets apart; and above
     std::uint32_t quality_level = 0;  // 0: as configured
     bool reverse_x = false, reverse_y = false;
+    // Of the camera at mid-exposure, its pointing jitter in it; none: the shutter stayed closed.
+    std::optional<Pose> camera;
     std::int64_t command_arrival_monotonic_ns =
         0;  // when that command arrived; 0 when no new one came since the last frame
 };

@@ -5,18 +5,21 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/BaseImporter.h>
 #include <algorithm>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <deque>
 #include <map>
+#include <memory>
 #include <new>
 #include <optional>
+#include <sstream>
 
 #include "io/files/gltf_webp.h"
 #include "io/files/mesh_guard.h"
-#include "io/files/picture_file.h"
+#include "io/pictures/picture_file.h"
 #include "io/system/confined.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -317,8 +320,31 @@ void require_few(const aiScene& scene, const std::filesystem::path& file) {
     allow_more(kBytesPerTriangle * triangles, 1e-6 * static_cast<double>(triangles));
 }
 
+// A word of a list with blanks between its words.
+bool has_word(std::string_view list, std::string_view word) {
+    std::istringstream words{std::string(list)};
+    for (std::string one; words >> one;)
+        if (one == word) return true;
+    return false;
+}
+
+// Leaves the one importer that is for this kind of file. assimp has fifty, and gives contents that none of a
+// file's ending takes to whichever knows them: a file of any kind would be read under a name of ours.
+void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
+    const std::string_view ending = std::string_view(kind).substr(1);
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        const aiImporterDesc& about = *importer.GetImporterInfo(i);
+        // Of glTF 1 and 2, which have the same endings.
+        const bool is_old = std::string_view(about.mName) == "glTF Importer";
+        if (has_word(about.mFileExtensions, ending) && !is_old) continue;
+        const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
+        importer.UnregisterLoader(other.get());
+    }
+}
+
 const aiScene& read_scene(Assimp::Importer& importer, const Source& source,
                           const std::filesystem::path& file) {
+    keep_importer_of(std::filesystem::path(source.path).extension().string(), importer);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     auto* const files = new MeshFiles(source.path, source.bytes);  // the importer's from the next line on
     importer.SetIOHandler(files);

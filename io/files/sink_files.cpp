@@ -1,30 +1,46 @@
 #include "io/files/sink_files.h"
 
 #include <array>
-#include <cstdio>
 
-#include "io/files/image_file.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
 
 namespace {
 
-constexpr std::array<const char*, 3> kEndings = {"png", "tiff", "raw"};  // by format
+const char* ending_of(FilesConfig::Format format) {
+    constexpr std::array<const char*, 4> kEndings = {".png", ".tiff", ".raw", ".fits"};
+    return kEndings[static_cast<std::size_t>(format)];
+}
 
 }  // namespace
 
 Fields fields(FilesConfig& c) {
     return {
         path("folder", c.folder, "made when missing"),
-        choice("format", c.format, {"png", "tiff", "raw"},
-               "kind of picture; raw: the camera's memory, packed as it says"),
+        choice("format", c.format, {"png", "tiff", "raw", "fits"},
+               "kind of picture (docs/pictures.md); raw: the camera's memory, packed as it says"),
+        text("name", c.name,
+             "of each file: %08d or {frame:8} is the frame's number; {camera}, {camera_name}, {time_tai_ns}"),
+        flag("view", c.view, "beside each frame NAME.view.png, 8 bits, to look at"),
         integer("every_nth", c.every_nth, {1, 1e9}, "write every n-th frame only"),
     };
 }
 
-FilesSink::FilesSink(const FilesConfig& config, int width, int height, const PixelLayout& layout)
-    : config_(config), layout_(layout), mailbox_(width, height, 8) {}
+void validate(const FilesConfig& c) { FileNamePattern(c.name, ending_of(c.format)); }
+
+std::string dark_picture_warning(const FilesConfig& c, int bits) {
+    if (c.view) return {};
+    return dark_picture_warning(c.folder / ("*" + std::string(ending_of(c.format))), bits,
+                                "outputs.files.view: true writes pictures to look at beside them");
+}
+
+FilesSink::FilesSink(const FilesConfig& config, int width, int height, const PictureRun& run)
+    : config_(config),
+      names_(config.name, ending_of(config.format)),
+      camera_{run.camera, run.model.name},
+      writer_(run),
+      mailbox_(width, height, 8) {}
 
 void FilesSink::start() {
     std::error_code error;
@@ -42,14 +58,8 @@ void FilesSink::publish(const DnImage& frame, const FrameRecord& record) noexcep
 
 void FilesSink::run() {
     while (const FrameMailbox::Item* item = mailbox_.wait()) {
-        char name[64];
-        std::snprintf(name, sizeof name, "frame_%08llu.%s", static_cast<unsigned long long>(item->record.id),
-                      kEndings[static_cast<std::size_t>(config_.format)]);
         try {
-            if (config_.format == FilesConfig::Format::kRaw)
-                write_raw(config_.folder / name, item->frame, layout_);
-            else
-                write_frame(config_.folder / name, item->frame);
+            write(*item);
             written_.fetch_add(1);
         } catch (const std::exception& error) {
             const std::lock_guard lock(mutex_);
@@ -57,6 +67,12 @@ void FilesSink::run() {
         }
         mailbox_.done();
     }
+}
+
+void FilesSink::write(const FrameMailbox::Item& item) {
+    const std::string stem = names_.stem(item.record, camera_);
+    writer_.write_frame(config_.folder / (stem + names_.ending()), item.frame, item.record);
+    if (config_.view) writer_.write_view(config_.folder / (stem + ".view.png"), item.frame, item.record);
 }
 
 void FilesSink::stop() noexcept {

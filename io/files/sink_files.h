@@ -1,7 +1,7 @@
 #pragma once
-// Frames as files in a folder, "frame_00000001.png", 16 bits right-aligned; or ".raw", the bytes of the
-// camera's memory. A frame that cannot be written leaves no file; the next is tried all the same, as a disk
-// may be emptied.
+// Frames as files in a folder, "frame_00000001.png", each with what it says of itself (image_file.h), and
+// beside it, where that is asked for, a picture to look at, "frame_00000001.view.png". A frame that cannot be
+// written leaves no file; the next is tried all the same, as a disk may be emptied.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,21 +9,28 @@
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/files/file_name_pattern.h"
+#include "io/pictures/image_file.h"
 #include "render/vocabulary/config_field.h"
-#include "sensor/packing.h"
 
 namespace hilcam {
 
 struct FilesConfig {
-    enum class Format { kPng, kTiff, kRaw } format = Format::kPng;
+    enum class Format { kPng, kTiff, kRaw, kFits } format = Format::kPng;
     std::filesystem::path folder = "frames";
+    std::string name = "frame_%08d";  // file_name_pattern.h
+    bool view = false;
     std::int64_t every_nth = 1;
 };
 Fields fields(FilesConfig& config);
+void validate(const FilesConfig& config);
+// What is to be said of the pictures before they are written: that they are dark in a viewer; or empty.
+std::string dark_picture_warning(const FilesConfig& config, int bits);
 
 class FilesSink : public FrameSink {
   public:
-    FilesSink(const FilesConfig& config, int width, int height, const PixelLayout& layout);
+    // The largest frame's size.
+    FilesSink(const FilesConfig& config, int width, int height, const PictureRun& run);
     ~FilesSink() override { stop(); }
 
     void start() override;
@@ -35,9 +42,12 @@ class FilesSink : public FrameSink {
 
   private:
     void run();
+    void write(const FrameMailbox::Item& item);
 
     FilesConfig config_;
-    PixelLayout layout_;
+    FileNamePattern names_;
+    FileNamePattern::Camera camera_;
+    PictureWriter writer_;
     FrameMailbox mailbox_;
     std::thread thread_;
     std::uint64_t offered_ = 0;

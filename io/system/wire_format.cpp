@@ -241,6 +241,14 @@ void write_yuyv(const Source& s, BayerPattern pattern, std::span<std::uint16_t> 
 
 }  // namespace
 
+std::string bayer_pattern_of(std::string_view rows) {
+    if (rows.size() != 5 || rows[2] != ' ') return {};
+    const std::string pattern = std::string(rows.substr(0, 2)) + std::string(rows.substr(3, 2));
+    for (const char* known : {"RGGB", "GRBG", "GBRG", "BGGR"})
+        if (pattern == known) return pattern;
+    return {};
+}
+
 BayerPattern shifted(BayerPattern pattern, int offset_x, int offset_y) {
     if (pattern.empty()) return pattern;
     // In kPatterns' order a column further swaps 0 with 1 and 2 with 3, a row further 0 with 3 and 1 with 2.
@@ -315,6 +323,17 @@ void write_wire(const DnImage& frame, const Crop& crop, int bits, WireFormat for
     if (layout.packing != Packing::kNone) return write_packed(source, layout, row.data(), out);
     if (layout.container_bits == 8) return write_bytes(source, out.data());
     write_words(source, row.data(), out.data());
+}
+
+void interpolate_colors(const DnImage& mosaic, BayerPattern pattern, std::span<std::uint16_t> row,
+                        std::span<std::uint16_t> out) {
+    const Crop all{0, 0, mosaic.width(), mosaic.height()};
+    const Source source{mosaic, all, Shift(16, 16)};
+    HILCAM_CHECK(row.size() >= 3 * source.width() + 8 && out.size() == 3 * mosaic.pixels());
+    std::uint16_t* to = out.data();
+    each_block(source, pattern, row, [&to](const Block& c) {
+        for (std::size_t i = 0; i < c.pixels; ++i, to += 3) to[0] = c.r[i], to[1] = c.g[i], to[2] = c.b[i];
+    });
 }
 
 }  // namespace hilcam

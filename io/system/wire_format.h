@@ -39,6 +39,8 @@ enum class WireFormat : std::uint8_t {
 
 // Where a window begins decides the phase of its mosaic: "RGGB", "GRBG", "GBRG", "BGGR"; empty: no filters.
 using BayerPattern = std::string_view;
+// Of a colour filter array's rows, "RG GB"; empty when it is none of the four.
+std::string bayer_pattern_of(std::string_view rows);
 // The pattern as seen from an offset.
 BayerPattern shifted(BayerPattern pattern, int offset_x, int offset_y);
 
@@ -59,5 +61,9 @@ struct Crop {
 // numbers. `pattern` is the crop's own. Any thread; no allocation.
 void write_wire(const DnImage& frame, const Crop& crop, int bits, WireFormat format, BayerPattern pattern,
                 std::span<std::uint16_t> row, std::span<std::uint8_t> out);
+// Red, green and blue of each pixel of a mosaic, as write_wire() interpolates them, in all their bits. `row`:
+// as there; out: three for each pixel. Any thread; no allocation.
+void interpolate_colors(const DnImage& mosaic, BayerPattern pattern, std::span<std::uint16_t> row,
+                        std::span<std::uint16_t> out);
 
 }  // namespace hilcam

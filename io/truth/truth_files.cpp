@@ -7,9 +7,12 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fcntl.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 
+#include "io/pictures/image_file.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -86,6 +89,31 @@ void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
     }
 }
 
+std::uint16_t mask_number(std::uint32_t id) {
+    constexpr std::uint32_t kFirstBody = 60'000;
+    if (id < kFirstBody) return static_cast<std::uint16_t>(id);
+    const bool is_body = id >= kFirstBodyId && id - kFirstBodyId < 65'535 - kFirstBody;
+    return static_cast<std::uint16_t>(is_body ? kFirstBody + (id - kFirstBodyId) : 65'535);
+}
+
+void write_object_mask(const std::filesystem::path& file, const FrameTruth& truth,
+                       std::span<const std::string> legend) {
+    const IdImage& ids = truth.layers.object;
+    DnImage mask(truth.raster.width_px, truth.raster.height_px);
+    std::transform(ids.data(), ids.data() + mask.pixels(), mask.data(), mask_number);
+    std::string names;
+    for (const std::string& line : legend) {
+        std::uint32_t id = 0;
+        const auto read = std::from_chars(line.data(), line.data() + line.size(), id);
+        names.append(names.empty() ? "" : "; ").append(std::to_string(mask_number(id)));
+        names.append(read.ptr, line.data() + line.size());
+    }
+    write_numbers(file, mask,
+                  {{"time_utc", "", format_utc(truth.time), ""},
+                   {"time_tai_ns", "", truth.time.ns, ""},
+                   {"object.names", "", names, ""}});
+}
+
 TruthFiles::TruthFiles(const std::filesystem::path& folder) : folder_(folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -117,9 +145,10 @@ void TruthFiles::write(const FrameTruth& truth, std::uint64_t frame, std::string
                        std::span<const std::string> legend) {
     add_line(line);
     if (!truth.wishes.layers()) return;
-    char name[64];
-    std::snprintf(name, sizeof name, "truth_%08llu.exr", static_cast<unsigned long long>(frame));
-    write_truth_exr(folder_ / name, truth, legend);
+    char stem[64];
+    std::snprintf(stem, sizeof stem, "truth_%08llu", static_cast<unsigned long long>(frame));
+    write_truth_exr(folder_ / (stem + std::string(".exr")), truth, legend);
+    if (truth.wishes.object) write_object_mask(folder_ / (stem + std::string(".object.png")), truth, legend);
 }
 
 }  // namespace hilcam

@@ -1,5 +1,6 @@
 #pragma once
-// Truth as files in a folder: truth.jsonl, a line for each frame, and truth_00000001.exr with the layers.
+// Truth as files in a folder: truth.jsonl, a line for each frame, truth_00000001.exr with the layers, and the
+// object layer once more as truth_00000001.object.png, 16 bits, for readers without OpenEXR.
 //
 // Channels of the picture, all 32 bit: object.ID (unsigned whole numbers), range.D, depth.Z, normal.X Y Z,
 // position.X Y Z. Its header has each layer's unit ("range.unit") and the numbers' names ("object.names").
@@ -17,6 +18,14 @@ namespace hilcam {
 // Only the layers that were asked for. DeviceError when it cannot be written; then there is no file.
 void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
                      std::span<const std::string> legend);
+
+// The object layer as a mask: objects have their numbers, bodies 60000 and their NAIF number (60399 is the
+// Earth), the sky 0; the PNG's text "object.names" has them: "1 target; 60399 earth". An object beyond 59999
+// is 65535.
+void write_object_mask(const std::filesystem::path& file, const FrameTruth& truth,
+                       std::span<const std::string> legend);
+// What stands for an id in it.
+std::uint16_t mask_number(std::uint32_t id);
 
 class TruthFiles {
   public:

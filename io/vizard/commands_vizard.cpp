@@ -7,7 +7,7 @@
 #include <thread>
 #include <zmq.hpp>
 
-#include "io/files/image_file.h"
+#include "io/pictures/picture_codecs.h"
 #include "io/system/fd.h"
 #include "io/system/monotonic.h"
 #include "io/system/wire_format.h"
@@ -212,10 +212,10 @@ VizardConversation::Picture VizardReceiver::encoded(const VizardCameraPart& came
     std::vector<std::uint16_t> row(3 * static_cast<std::size_t>(frame.width()) + 8);
     std::vector<std::uint8_t> samples(wire_bytes(frame.pixels(), format));
     write_wire(frame, all, camera.sink->record().bits, format, camera.color_pattern, row, samples);
-    const PngSamples kind = color                          ? PngSamples::kRgb8
-                            : format == WireFormat::kMono8 ? PngSamples::kGray8
-                                                           : PngSamples::kGray16;
-    std::string png = encode_png(samples, frame.width(), frame.height(), kind);
+    const SampleKind kind = color                          ? SampleKind::kRgb8
+                            : format == WireFormat::kMono8 ? SampleKind::kGray8
+                                                           : SampleKind::kGray16;
+    std::string png = encode_png({samples, frame.width(), frame.height(), kind});
     return {std::move(png), "it cannot be encoded as PNG"};
 }
 

@@ -47,18 +47,20 @@ TimeTai parse_utc(std::string_view text) {
     return *time;
 }
 
-std::string format_utc(TimeTai time) {
+std::string format_utc(TimeTai time, int decimals) {
     const JulianDate tt = julian_tt(time);
     double tai1, tai2, utc1, utc2;
     int year, month, day, clock[4];
     if (eraTttai(tt.day, tt.fraction, &tai1, &tai2) < 0 || eraTaiutc(tai1, tai2, &utc1, &utc2) < 0 ||
-        eraD2dtf("UTC", 3, utc1, utc2, &year, &month, &day, clock) < 0)
+        eraD2dtf("UTC", decimals, utc1, utc2, &year, &month, &day, clock) < 0)
         return "(no UTC date)";
     std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", year, month, day, clock[0],
-                  clock[1], clock[2], clock[3]);
+    std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d.%0*dZ", year, month, day, clock[0],
+                  clock[1], clock[2], decimals, clock[3]);
     return text.data();
 }
+
+std::string format_utc(TimeTai time) { return format_utc(time, 3); }
 
 JulianDate julian_tt(TimeTai time) {
     // TT = TAI + 32.184 s, exact by definition.

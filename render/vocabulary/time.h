@@ -32,6 +32,8 @@ inline std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); 
 TimeTai parse_utc(std::string_view text);
 // "2026-03-20T06:00:00.000Z"
 std::string format_utc(TimeTai time);
+// The same rounded to so many decimals of a second, from 1 to 9.
+std::string format_utc(TimeTai time, int decimals);
 
 // Two-part Julian dates as ERFA takes them.
 struct JulianDate {

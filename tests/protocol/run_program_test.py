@@ -175,7 +175,7 @@ class Pictures(unittest.TestCase):
             self.assertIn("each run draws its own noise", hilcam("check", scenario).stdout)
 
             def picture(*more):
-                file = pathlib.Path(folder) / "frame.png"
+                file = pathlib.Path(folder) / "frame.raw"
                 result = hilcam("render", scenario, "--out", file, *more)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 return file.read_bytes(), result.stderr

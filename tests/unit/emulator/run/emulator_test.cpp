@@ -12,7 +12,7 @@
 #include "emulator/scenario/scene_loader.h"
 #include "emulator/world/clock.h"
 #include "io/config/config_yaml.h"
-#include "io/files/image_file.h"
+#include "io/pictures/image_file.h"
 #include "render/vocabulary/check.h"
 #include "tests/support/files.h"
 
@@ -231,7 +231,7 @@ class CameraMaps : public FilesTest {};
 TEST_F(CameraMaps, AreReadFromTheirFiles) {
     DnImage gain(64, 64);
     for (std::uint16_t& v : gain.all()) v = 1;
-    write_frame(folder_ / "gain.tiff", gain);
+    write_numbers(folder_ / "gain.tiff", gain);
     CameraModel c;
     c.fixed_pattern.prnu_map = folder_ / "gain.tiff";
     const DetectorPictures pictures = load_detector_pictures(c);

@@ -56,10 +56,12 @@ TEST_F(RenderToFile, EveryStageAndTheTruthPutTheFrameAtTheSamePlace) {
                                                     "objects.0.pose.position_m=[0.05, -0.03, 4]",
                                                     "quality.oversampling=" + std::to_string(oversampling)};
         const ScenarioConfig s = load_scenario(file, overrides);
-        render_to_file(s, RenderStage::kRadiance, 0, folder_ / "radiance.exr", folder_ / "truth");
-        render_to_file(s, RenderStage::kElectrons, 0, folder_ / "electrons.exr");
-        const Picture radiance = read(folder_ / "radiance.exr", "L_0.500_0.700um"),
-                      electrons = read(folder_ / "electrons.exr", "electrons"),
+        render_to_files(s, RenderStage::kRadiance, 0,
+                        {.out = folder_ / "radiance.exr", .view = {}, .truth = folder_ / "truth"});
+        render_to_files(s, RenderStage::kElectrons, 0,
+                        {.out = folder_ / "electrons.exr", .view = {}, .truth = {}});
+        const Picture radiance = read(folder_ / "radiance.exr", "Y"),
+                      electrons = read(folder_ / "electrons.exr", "Y"),
                       object = read(folder_ / "truth" / "truth_00000001.exr", "object.ID");
         const Imath::Box2i frame({0, 0}, {66, 65});
         for (const Imath::Box2i& window : {electrons.display, electrons.data, object.display, object.data})

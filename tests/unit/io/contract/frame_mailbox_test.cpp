@@ -72,7 +72,7 @@ TEST_F(SinkRoom, OutputsThatDoNotRunHaveAlwaysRoom) {
     sinks.push_back(std::make_unique<V4l2Sink>(v4l2, kWidth, kHeight, 10, context));
     sinks.push_back(std::make_unique<UvcSink>(UvcConfig{}, kWidth, kHeight, context));
     sinks.push_back(
-        std::make_unique<FilesSink>(FilesConfig{.folder = folder_ / "out"}, kWidth, kHeight, PixelLayout{}));
+        std::make_unique<FilesSink>(FilesConfig{.folder = folder_ / "out"}, kWidth, kHeight, PictureRun{}));
     EXPECT_THROW(sinks[1]->start(), DeviceError);
     Published p;
     for (const auto& sink : sinks) {
@@ -86,7 +86,7 @@ TEST_F(SinkRoom, OutputsThatDoNotRunHaveAlwaysRoom) {
 }
 
 TEST_F(SinkRoom, WhoWaitsForRoomLosesNoFile) {
-    FilesSink sink({.folder = folder_ / "out"}, kWidth, kHeight, PixelLayout{});
+    FilesSink sink({.folder = folder_ / "out"}, kWidth, kHeight, PictureRun{});
     sink.start();
     Published p;
     for (p.record.id = 1; p.record.id <= 40; ++p.record.id) {

@@ -18,17 +18,17 @@ namespace {
 
 using testing::HasSubstr;
 
-const SpectralGrid kGrid({0.45, 0.55, 0.65});
+const SpectralGrid kAirGrid({0.45, 0.55, 0.65});
 constexpr double kGround_m = kEarthEquatorialRadius_m;
 
 class AtmosphereFiles : public FilesTest {
   protected:
     std::string table_error(const std::filesystem::path& file) {
-        return error_of([&] { read_atmosphere(file, kGrid); });
+        return error_of([&] { read_atmosphere(file, kAirGrid); });
     }
 };
 
-const std::string kHeader =
+const std::string kAirHeader =
     "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,wavelength_um,tau_1,tau_2,path_radiance_sr,sky_"
     "irradiance\n";
 
@@ -51,8 +51,8 @@ Ray ray_to_ground(double sun_deg, double view_deg, double azimuth_deg) {
 // points.
 TEST_F(AtmosphereFiles, ATableSaysWhatItWasMadeFrom) {
     AtmosphereConfig config;
-    const auto truth = make_precomputed_atmosphere({config, kGrid});
-    std::string text = kHeader;
+    const auto truth = make_precomputed_atmosphere({config, kAirGrid});
+    std::string text = kAirHeader;
     for (int sun = 0; sun <= 70; sun += 10)
         for (int view = 0; view <= 70; view += 10)
             for (int azimuth = 0; azimuth <= 180; azimuth += 20) {
@@ -67,8 +67,8 @@ TEST_F(AtmosphereFiles, ATableSaysWhatItWasMadeFrom) {
                             std::to_string(sight.radiance_sr[bin]) + "," +
                             std::to_string(truth->sky_irradiance(ground, ray.sun)[bin]) + "\n";
             }
-    AtmosphereTable table = read_atmosphere(write("t.csv", text), kGrid);
-    const auto air = make_table_atmosphere({config, kGrid, &table});
+    AtmosphereTable table = read_atmosphere(write("t.csv", text), kAirGrid);
+    const auto air = make_table_atmosphere({config, kAirGrid, &table});
     for (const auto& [sun, view, azimuth] :
          {std::array{20.0, 30.0, 40.0}, {15.0, 35.0, 70.0}, {62.0, 48.0, 110.0}}) {
         const Ray ray = ray_to_ground(sun, view, azimuth);
@@ -98,24 +98,24 @@ TEST_F(AtmosphereFiles, ATableSaysWhatItWasMadeFrom) {
 
 TEST_F(AtmosphereFiles, WhatATableLacksIsNamed) {
     const std::string rows = "10,0,0,800,0.45,0.8,0.9,0.02,0.1\n10,0,0,800,0.65,0.8,0.9,0.02,0.1\n";
-    EXPECT_EQ(table_error(write("good.csv", kHeader + rows)), "no error");
+    EXPECT_EQ(table_error(write("good.csv", kAirHeader + rows)), "no error");
     EXPECT_THAT(table_error(folder_ / "none.csv"), HasSubstr("none.csv: cannot be read"));
     EXPECT_THAT(table_error(write("a.csv", "angle,tau\n1,2\n")), HasSubstr("a.csv:1: found 'angle,tau'"));
-    EXPECT_THAT(table_error(write("b.csv", kHeader + rows + "20,0,0,800,0.45,0.8\n")),
+    EXPECT_THAT(table_error(write("b.csv", kAirHeader + rows + "20,0,0,800,0.45,0.8\n")),
                 HasSubstr("b.csv:4: found 6 columns"));
-    EXPECT_THAT(table_error(write("c.csv", kHeader + rows + "95,0,0,800,0.45,0.8,0.9,0.02,0.1\n")),
+    EXPECT_THAT(table_error(write("c.csv", kAirHeader + rows + "95,0,0,800,0.45,0.8,0.9,0.02,0.1\n")),
                 HasSubstr("c.csv:4: sun_zenith_deg: found '95'; accepted: a number from 0 to 90"));
-    EXPECT_THAT(table_error(write("d.csv", kHeader + rows + "20,0,0,800,0.45,1.2,0.9,0.02,0.1\n")),
+    EXPECT_THAT(table_error(write("d.csv", kAirHeader + rows + "20,0,0,800,0.45,1.2,0.9,0.02,0.1\n")),
                 HasSubstr("d.csv:4: a transmittance is not within 0 to 1: tau_1 1.2"));
     EXPECT_THAT(
-        table_error(
-            write("e.csv",
-                  kHeader + rows + "20,30,0,800,0.45,0.8,0.9,0.02,0.1\n20,30,0,800,0.65,0.8,0.9,0.02,0.1\n")),
+        table_error(write(
+            "e.csv",
+            kAirHeader + rows + "20,30,0,800,0.45,0.8,0.9,0.02,0.1\n20,30,0,800,0.65,0.8,0.9,0.02,0.1\n")),
         HasSubstr(
             "e.csv: has no geometry sun_zenith_deg 10, view_zenith_deg 30, azimuth_deg 0, height_km 800"));
     EXPECT_THAT(
-        table_error(
-            write("f.csv", kHeader + "10,0,0,800,0.45,0.8,0.9,0.02,0.1\n10,0,0,800,0.60,0.8,0.9,0.02,0.1\n")),
+        table_error(write(
+            "f.csv", kAirHeader + "10,0,0,800,0.45,0.8,0.9,0.02,0.1\n10,0,0,800,0.60,0.8,0.9,0.02,0.1\n")),
         HasSubstr("the curve reaches from 0.450 to 0.600 um"));
 }
 
@@ -139,7 +139,7 @@ TEST_F(AtmosphereFiles, AModtranRunGivesItsQuantitiesBack) {
     write("tape7.scn", run);
     const auto index = write(
         "runs.csv", "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,file\n60,20,90,800,tape7.scn\n");
-    const AtmosphereTable table = read_atmosphere(index, kGrid);
+    const AtmosphereTable table = read_atmosphere(index, kAirGrid);
     ASSERT_EQ(table.cells.size(), 1u);
     EXPECT_NEAR(table.cells[0].tau_1[0], tau_1, 1e-4);
     EXPECT_NEAR(table.cells[0].tau_2[1], tau_2, 1e-5);

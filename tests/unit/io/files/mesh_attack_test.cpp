@@ -149,5 +149,32 @@ TEST_F(MeshAttack, AGlbMayHaveItsBufferAsText) {
     EXPECT_EQ(load_mesh(write("m.glb", glb(chunk("JSON", text, text.size())))).triangles.size(), 1u);
 }
 
+// Whole meshes of one triangle, or what a file of the kind begins with. assimp has an importer for each.
+TEST_F(MeshAttack, ContentsOfOtherKindsAreReadByNoOtherImporter) {
+    const std::vector<std::pair<const char*, std::string>> foreign = {
+        {"AC3D",
+         "AC3Db\nMATERIAL \"m\" rgb 1 1 1  amb 1 1 1  emis 0 0 0  spec 0 0 0  shi 0  trans 0\nOBJECT world\n"
+         "kids 1\nOBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x20\nmat 0\nrefs 3\n0 0 0\n"
+         "1 0 0\n2 0 0\nkids 0\n"},
+        {"OFF", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+        {"X", "xof 0303txt 0032\nMesh m {\n3;\n0;0;0;,\n1;0;0;,\n0;1;0;;\n1;\n3;0,1,2;;\n}\n"},
+        {"COLLADA", "<?xml version=\"1.0\"?>\n<COLLADA version=\"1.4.1\"></COLLADA>\n"},
+        {"LWO", "FORM\0\0\0\x0CLWO2PNTS\0\0\0\0"s},
+        {"MD3", "IDP3\x0F\0\0\0"s + std::string(100, '\0')},
+        {"MD5", "MD5Version 10\ncommandline \"\"\nnumJoints 0\nnumMeshes 0\n"},
+        {"3DS", "MM\x0E\0\0\0\x02\0\x0A\0\0\0\x03\0\0\0"s},
+        {"BLENDER", "BLENDER-v279REND\0\0\0\0"s},
+    };
+    for (const char* ending : {".glb", ".gltf", ".obj", ".stl", ".ply"})
+        for (const auto& [kind, contents] : foreign) {
+            const auto file = write(std::string("m") + ending, contents);
+            const std::string error = error_of([&] { load_mesh(file); });
+            EXPECT_THAT(error, testing::AnyOf(testing::HasSubstr("does not parse: "),
+                                              testing::HasSubstr("holds no triangle")))
+                << kind << " as " << ending;
+            EXPECT_THAT(error, testing::Not(testing::HasSubstr(kind + ": "s))) << ending;
+        }
+}
+
 }  // namespace
 }  // namespace hilcam

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "io/files/gltf_webp.h"
-#include "io/files/image_file.h"
+#include "io/pictures/image_file.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
@@ -78,7 +78,7 @@ TEST_F(Files, ATexturesNameAndItsDecoderPrintNothing) {
     const auto mesh =
         write("t.obj", "mtllib t.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
     EXPECT_THAT(mesh_error(mesh), HasSubstr("texture ' [31m.png' of material 'a' is missing"));
-    write_frame(folder_ / "whole.png", DnImage(64, 64));
+    write_numbers(folder_ / "whole.png", DnImage(64, 64));
     std::ifstream in(folder_ / "whole.png", std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(in), {}};
     bytes[bytes.find("IDAT") + 20] ^= 0x55;
@@ -110,15 +110,15 @@ TEST_F(Files, FramesKeepTheirBitsOnDisk) {
     DnImage frame(3, 2);
     const std::uint16_t values[] = {0, 1, 4095, 65535, 256, 77};
     std::copy(std::begin(values), std::end(values), frame.all().begin());
-    write_frame(folder_ / "f.png", frame);
+    write_numbers(folder_ / "f.png", frame);
     // Signature, then IHDR says 16 bits grey.
     std::ifstream in(folder_ / "f.png", std::ios::binary);
     std::string head(26, 0);
     in.read(head.data(), 26);
     EXPECT_EQ(head[24], 16);
     EXPECT_EQ(head[25], 0);
-    EXPECT_THROW(write_frame(folder_ / "f.jpg", frame), InputError);
-    EXPECT_THROW(write_frame(folder_ / "no" / "f.png", frame), DeviceError);
+    EXPECT_THROW(write_numbers(folder_ / "f.jpg", frame), InputError);
+    EXPECT_THROW(write_numbers(folder_ / "no" / "f.png", frame), DeviceError);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <set>
 #include <thread>
 
 #include "tests/support/files.h"
@@ -28,7 +29,7 @@ class FilesSinkTest : public FilesTest {
 };
 
 TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginnings) {
-    const std::array<const char*, 3> endings = {"png", "tiff", "raw"};
+    const std::array<const char*, 4> endings = {"png", "tiff", "raw", "fits"};
     for (std::size_t i = 0; i < endings.size(); ++i) {
         const std::string ending = std::string(".") + endings[i];
         FilesConfig config;
@@ -37,7 +38,7 @@ TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginni
         fill_up("frame_00000002" + ending);
         fill_up("frame_00000003" + ending);
         testing::internal::CaptureStderr();
-        FilesSink sink(config, 8, 4, PixelLayout{});
+        FilesSink sink(config, 8, 4, PictureRun{});
         sink.start();
         publish(sink, 4);
         sink.stop();
@@ -53,6 +54,33 @@ TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginni
         for (const char* id : {"2", "3"})
             EXPECT_FALSE(std::filesystem::is_symlink(folder_ / ("frame_0000000" + (id + ending))));
     }
+}
+
+TEST_F(FilesSinkTest, FilesAreNamedByThePatternAndAViewLiesBesideEach) {
+    FilesConfig config;
+    config.folder = folder_;
+    config.name = "cam{camera}_%03d.png";
+    config.view = true;
+    FilesSink sink(config, 8, 4, PictureRun{});
+    sink.start();
+    publish(sink, 2);
+    sink.stop();
+    EXPECT_EQ(sink.report().fault, "");
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+        names.insert(entry.path().filename().string());
+    EXPECT_EQ(names, (std::set<std::string>{"cam1_001.png", "cam1_001.view.png", "cam1_002.png",
+                                            "cam1_002.view.png"}));
+}
+
+TEST(FilesConfig, ANameThatOverwritesItselfIsRefused) {
+    FilesConfig config;
+    config.name = "frame.png";
+    EXPECT_THROW(validate(config), InputError);
+    config.name = "frame_%d.png";
+    EXPECT_NO_THROW(validate(config));
+    config.format = FilesConfig::Format::kFits;
+    EXPECT_THROW(validate(config), InputError);
 }
 
 }  // namespace

@@ -17,8 +17,8 @@
 #include "io/files/leap_seconds_file.h"
 #include "io/files/mesh_file.h"
 #include "io/files/oem_file.h"
-#include "io/files/picture_file.h"
 #include "io/files/tle_file.h"
+#include "io/pictures/picture_file.h"
 #include "tests/support/files.h"
 #include "tests/support/limits.h"
 

@@ -19,6 +19,7 @@
 #include <thread>
 
 #include "io/contract/fault.h"
+#include "io/pictures/picture_file.h"
 #include "io/truth/sink_truth.h"
 #include "tests/support/files.h"
 #include "tests/support/gvsp_receiver.h"
@@ -266,6 +267,26 @@ TEST_F(TruthOut, LayersAreChannelsOfOnePicture) {
     EXPECT_EQ(depth[2 * 8 + 5], 3.5f);
     EXPECT_TRUE(std::isinf(depth[0]));
     EXPECT_EQ(normal_z[2 * 8 + 5], -1);
+
+    const std::filesystem::path file = folder_ / "truth" / "truth_00000012.object.png";
+    const PixelMap mask = read_pixel_map(file, false);
+    EXPECT_EQ(mask.width(), 8);
+    EXPECT_EQ(mask.row(2)[5], 1);
+    EXPECT_EQ(mask.row(2)[4], 0);
+    EXPECT_NE(read_input_file(file, picture_kind())
+                  .find(std::string("object.names\0"
+                                    "1 target",
+                                    21)),
+              std::string::npos);
+}
+
+TEST(ObjectMask, BodiesHaveNumbersOfSixteenBits) {
+    EXPECT_EQ(mask_number(kSkyId), 0);
+    EXPECT_EQ(mask_number(59'999), 59'999);
+    EXPECT_EQ(mask_number(60'000), 65'535);
+    EXPECT_EQ(mask_number(kSunId), 60'010);
+    EXPECT_EQ(mask_number(truth_id(BodyId::kEarth)), 60'399);
+    EXPECT_EQ(mask_number(kFirstBodyId + 7'000), 65'535);
 }
 
 TEST_F(TruthOut, AFolderThatCannotBeMadeIsToldAtTheStart) {

@@ -1,4 +1,4 @@
-#include "io/files/picture_size.h"
+#include "io/pictures/picture_size.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -95,41 +95,18 @@ PictureSize tiff_size(const Opening& h) {
     return out;
 }
 
-// Netpbm's formats (ppm(5)) and the float maps derived from them: a letter P and a kind, then width and
-// height as words, with comments from # to the line's end.
-PictureSize netpbm_size(const Opening& h) {
-    std::uint64_t at = 2;
-    const auto number = [&] {
-        for (bool comment = false; at < h.size(); ++at) {
-            const std::uint8_t c = h.byte(at);
-            comment = comment ? c != '\n' : c == '#';
-            if (!comment && c != ' ' && c != '\t' && c != '\r' && c != '\n') break;
-        }
-        std::uint64_t value = 0;
-        for (; h.byte(at) >= '0' && h.byte(at) <= '9'; ++at)
-            value = std::min<std::uint64_t>(10 * value + (h.byte(at) - '0'), 1u << 31);
-        return value;
-    };
-    PictureSize out;
-    out.width = number(), out.height = number();
-    return out;
-}
-
 }  // namespace
 
 std::optional<PictureSize> picture_size(std::span<const std::uint8_t> bytes) {
     const Opening h(bytes);
     PictureSize size;
-    if (h.has(0, "\x89PNG\r\n\x1a\n")) size = png_size(h);
-    if (h.has(0, "BM")) size = bmp_size(h);
-    if (h.has(0, "RIFF") && h.has(8, "WEBP")) size = webp_size(h);
-    if (h.has(0, "\xFF\xD8")) size = jpeg_size(h);
+    if (h.has(0, "\x89PNG\r\n\x1a\n")) size = png_size(h), size.kind = PictureKind::kPng;
+    if (h.has(0, "BM")) size = bmp_size(h), size.kind = PictureKind::kBmp;
+    if (h.has(0, "RIFF") && h.has(8, "WEBP")) size = webp_size(h), size.kind = PictureKind::kWebp;
+    if (h.has(0, "\xFF\xD8")) size = jpeg_size(h), size.kind = PictureKind::kJpeg;
     if (h.has(0, "II*") || h.has(0, "II+") || h.has(0, std::string_view("MM\0*", 4)) ||
         h.has(0, std::string_view("MM\0+", 4)))
-        size = tiff_size(h);
-    if (h.byte(0) == 'P' &&
-        std::string_view("123456Ff").find(static_cast<char>(h.byte(1))) != std::string_view::npos)
-        size = netpbm_size(h);
+        size = tiff_size(h), size.kind = PictureKind::kTiff;
     if (size.width == 0 || size.height == 0) return {};
     return size;
 }

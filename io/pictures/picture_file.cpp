@@ -1,71 +1,64 @@
-#include "io/files/picture_file.h"
+#include "io/pictures/picture_file.h"
 
 #include <algorithm>
 #include <cmath>
-#include <new>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 #include <vector>
 
-#include "io/files/kept_stderr.h"
-#include "io/files/picture_size.h"
+#include "io/pictures/picture_codecs.h"
+#include "io/pictures/picture_size.h"
 #include "io/system/confined.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
 namespace {
 
-constexpr const char* kAccepted = "PNG, JPEG, TIFF, BMP, WebP";
+// What a pixel may take while it is decoded and copied: its colours twice, a strip of it as it is stored, and
+// what progressive JPEG and lossless WebP keep of all of it.
+constexpr std::uint64_t kBytesPerPixel = 16;
 
-void require_size(std::span<const std::uint8_t> bytes, const std::string& what, std::uint64_t bytes_px) {
+PictureKind require_size(PictureBytes bytes) {
     const std::optional<PictureSize> size = picture_size(bytes);
-    if (!size) throw InputError(what + " does not decode; accepted: " + kAccepted);
-    // Divided, since a TIFF may claim 2^64.
-    if (size->width > kMostPicturePixels / size->height)
-        throw InputError(what + " has " + std::to_string(size->width) + " x " + std::to_string(size->height) +
-                         " pixels; accepted: at most " + std::to_string(kMostPicturePixels) +
-                         ", as 16384 x 16384");
+    if (!size) throw undecodable("");
+    require_few_pixels(size->width, size->height);
     // 0.3 us a pixel is ten times what PNG takes, the slowest of them.
     const std::uint64_t pixels = size->width * size->height;
-    allow_more(bytes_px * pixels, 3e-7 * static_cast<double>(pixels));
+    allow_more(kBytesPerPixel * pixels, 3e-7 * static_cast<double>(pixels));
+    return size->kind;
 }
 
-// bytes_px: what a pixel takes while it is decoded and copied.
-cv::Mat decode(std::span<const std::uint8_t> bytes, int flags, const std::string& what,
-               std::uint64_t bytes_px) {
-    require_size(bytes, what, bytes_px);
-    cv::Mat picture;
-    const KeptStderr printed;
-    try {
-        const cv::Mat file(1, static_cast<int>(bytes.size()), CV_8UC1,
-                           const_cast<std::uint8_t*>(bytes.data()));
-        picture = cv::imdecode(file, flags);
-    } catch (const cv::Exception& error) {
-        if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
+Texture decode_colors(PictureBytes bytes) {
+    switch (require_size(bytes)) {
+        case PictureKind::kPng:
+            return decode_png(bytes);
+        case PictureKind::kJpeg:
+            return decode_jpeg(bytes);
+        case PictureKind::kTiff:
+            return decode_tiff(bytes);
+        case PictureKind::kBmp:
+            return decode_bmp(bytes);
+        case PictureKind::kWebp:
+            return decode_webp(bytes);
     }
-    if (picture.empty()) {
-        const std::string why = printed.first_line();
-        throw InputError(what + " does not decode" + (why.empty() ? "" : " (" + why + ")") +
-                         "; accepted: " + kAccepted);
-    }
-    return picture;
+    throw undecodable("");
 }
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
+PictureBytes bytes_of(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 void write_numbers(const std::string& bytes, const std::string& name, bool any_sign, ConfinedOutput& out) {
-    // Up to 8 bytes as it is, 4 as numbers.
-    const cv::Mat picture = decode(bytes_of(bytes), cv::IMREAD_UNCHANGED, name + ":", 12);
-    if (picture.channels() != 1)
-        throw InputError(name + ": has " + std::to_string(picture.channels()) + " channels; accepted: one");
-    cv::Mat numbers;
-    picture.convertTo(numbers, CV_32F);
-    out.value(numbers.cols);
-    out.value(numbers.rows);
-    for (int y = 0; y < numbers.rows; ++y) {
-        const std::span<const float> row(numbers.ptr<float>(y), static_cast<std::size_t>(numbers.cols));
+    const PixelMap numbers = [&] {
+        try {
+            return decode_numbers(bytes_of(bytes));
+        } catch (const PictureFault& fault) {
+            throw InputError(name + ": " + fault.what());
+        }
+    }();
+    out.value(numbers.width());
+    out.value(numbers.height());
+    for (int y = 0; y < numbers.height(); ++y) {
+        const std::span<const float> row = numbers.row(y);
         for (std::size_t x = 0; x < row.size(); ++x)
             if (!std::isfinite(row[x]) || (!any_sign && row[x] < 0))
                 throw InputError(name + ": pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") is " +
@@ -87,22 +80,23 @@ ConfinedResult confine(const std::filesystem::path& file,
 }  // namespace
 
 const InputKind& picture_kind() {
-    static const InputKind kind{std::uintmax_t{1} << 30, kAccepted};
+    static const InputKind kind{std::uintmax_t{1} << 30, kPictureKinds};
     return kind;
 }
 
+PixelMap decode_numbers(PictureBytes bytes) {
+    const PictureKind kind = require_size(bytes);
+    if (kind == PictureKind::kPng) return decode_png_numbers(bytes);
+    if (kind == PictureKind::kTiff) return decode_tiff_numbers(bytes);
+    throw PictureFault("is a picture of colours; accepted: TIFF or PNG of one channel");
+}
+
 Texture decode_texture(std::span<const std::uint8_t> bytes, const std::string& what) {
-    const cv::Mat picture = decode(bytes, cv::IMREAD_COLOR, what, 8);
-    Texture texture{{}, picture.cols, picture.rows, {}};
-    texture.texels.resize(picture.total());
-    auto to = texture.texels.begin();
-    for (int y = 0; y < picture.rows; ++y) {
-        const auto* const row = picture.ptr<cv::Vec3b>(y);
-        to = std::transform(row, row + picture.cols, to, [](const cv::Vec3b& bgr) {
-            return std::array<std::uint8_t, 3>{bgr[2], bgr[1], bgr[0]};
-        });
+    try {
+        return decode_colors(bytes);
+    } catch (const PictureFault& fault) {
+        throw InputError(what + " " + fault.what());
     }
-    return texture;
 }
 
 Texture read_picture(const std::filesystem::path& file) {

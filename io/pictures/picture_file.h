@@ -15,21 +15,20 @@
 
 namespace hilcam {
 
-// A picture of 16384 x 16384 has so many, a map of 21600 x 10800 fewer: 0.8 GB of colours.
-inline constexpr std::uint64_t kMostPicturePixels = std::uint64_t{1} << 28;
-
 // What picture files are opened as.
 const InputKind& picture_kind();
 
 // An 8-bit colour picture as a texture. InputError when it is too large or does not decode.
 Texture read_picture(const std::filesystem::path& file);
-// A number for each pixel: TIFF or PNG of one channel, 8 or 16 bits or 32-bit float. InputError when it is
-// missing, too large, does not decode, has several channels or a value that is negative (unless any_sign) or
-// not a number.
+// A number for each pixel: TIFF of one channel (whole numbers of 8 to 32 bits, floats), or PNG of one channel
+// (8 or 16 bits). InputError when it is missing, too large, does not decode, has several channels or a value
+// that is negative (unless any_sign) or not a number.
 PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign);
 
 // Decodes here, without a child of its own: for what runs in one. `what` begins messages. The texture has no
 // name.
 Texture decode_texture(std::span<const std::uint8_t> bytes, const std::string& what);
+// The same of a map of numbers, of any sign and finite or not. PictureFault of picture_codecs.h.
+PixelMap decode_numbers(std::span<const std::uint8_t> bytes);
 
 }  // namespace hilcam

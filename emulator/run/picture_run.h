@@ -1,0 +1,12 @@
+#pragma once
+// What the pictures of one of the scenario's cameras say of the run (io/pictures/picture_notes.h).
+
+#include "emulator/scenario/app_config.h"
+#include "io/pictures/picture_notes.h"
+
+namespace hilcam {
+
+// The scenario as the camera of that number has it, from 1 (scenario_of_camera()).
+PictureRun picture_run_of(const ScenarioConfig& scenario, std::size_t number);
+
+}  // namespace hilcam

@@ -1,0 +1,50 @@
+#pragma once
+// Names of a run's pictures by a pattern: "frame_%08d" or "{camera_name}_{frame:6}".
+//
+//   %d, %6d, %06d   the frame's number, with zeros up to so many digits
+//   {frame}, {frame:6}   the same
+//   {camera}        the camera's number on the bench, from 1
+//   {camera_name}   its model, what is no letter, digit, dot or dash as _
+//   {time_tai_ns}   of mid-exposure, TAI since 1970
+//   %%, {{, }}      %, {, }
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/contract/frame_sink.h"
+
+namespace hilcam {
+
+class FileNamePattern {
+  public:
+    // ending: with its dot; a pattern that ends in it names whole files, to others it is added. Throws
+    // InputError for another ending of a picture, a field that is none of these, a folder in the name, and a
+    // pattern without the frame's number, as each frame would be written over the one before.
+    FileNamePattern(std::string_view pattern, std::string_view ending);
+
+    struct Camera {
+        std::int64_t number = 1;
+        std::string name;
+    };
+    // Without the ending.
+    std::string stem(const FrameRecord& record, const Camera& camera) const;
+    const std::string& ending() const { return ending_; }
+
+  private:
+    enum class Kind { kText, kFrame, kCamera, kCameraName, kTime };
+    struct Piece {
+        Kind kind = Kind::kText;
+        std::string text;
+        std::size_t digits = 1;
+    };
+    std::vector<Piece> pieces_;
+    std::string ending_;
+
+    void parse(std::string_view pattern);
+    void add_text(std::string_view text);
+    void add_field(std::string_view field);
+};
+
+}  // namespace hilcam

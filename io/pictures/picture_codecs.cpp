@@ -1,0 +1,34 @@
+#include "io/pictures/picture_codecs.h"
+
+#include "io/pictures/picture_size.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+
+PictureFault undecodable(const std::string& reason) {
+    const std::string why = reason.empty() ? std::string() : " (" + shortened(reason) + ")";
+    return PictureFault("does not decode" + why + "; accepted: " + kPictureKinds);
+}
+
+void require_few_pixels(std::uint64_t width, std::uint64_t height) {
+    if (width == 0 || height == 0) throw undecodable("it has no pixels");
+    // Divided, since a TIFF may claim 2^64.
+    if (width > kMostPicturePixels / height)
+        throw PictureFault("has " + std::to_string(width) + " x " + std::to_string(height) +
+                           " pixels; accepted: at most " + std::to_string(kMostPicturePixels) +
+                           ", as 16384 x 16384");
+}
+
+Texture blank_texture(std::uint64_t width, std::uint64_t height) {
+    require_few_pixels(width, height);
+    Texture texture{{}, static_cast<int>(width), static_cast<int>(height), {}};
+    texture.texels.resize(width * height);
+    return texture;
+}
+
+std::span<std::uint8_t> bytes_of(Texture& texture) {
+    static_assert(sizeof(texture.texels[0]) == 3);
+    return {reinterpret_cast<std::uint8_t*>(texture.texels.data()), 3 * texture.texels.size()};
+}
+
+}  // namespace hilcam

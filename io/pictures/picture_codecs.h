@@ -1,0 +1,77 @@
+#pragma once
+// Pictures and their bytes: one source for each kind, over the library that the kind has. Sizes are bounded
+// before memory is taken; what a library says of bytes that it cannot decode is kept and not printed.
+//
+//   PNG   libpng         colours as they are stored (gAMA, iCCP and sRGB are not applied), 16 bits cut to 8
+//   JPEG  libjpeg-turbo  grey and colour of 8 bits; its EXIF orientation is not applied
+//   TIFF  libtiff        the first page
+//   WebP  libwebp        one picture, no animation
+//   BMP   stb_image      without run lengths
+//
+// An alpha channel is left out.
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/vocabulary/mesh.h"
+#include "sensor/fixed_pattern.h"
+
+namespace hilcam {
+
+using PictureBytes = std::span<const std::uint8_t>;
+
+inline constexpr const char* kPictureKinds = "PNG, JPEG, TIFF, BMP, WebP";
+
+// Why a picture is not taken: the rest of a sentence that begins with its name.
+class PictureFault : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+// "does not decode (libpng: bad CRC); accepted: ..."; reason may be empty.
+[[nodiscard]] PictureFault undecodable(const std::string& reason);
+
+// PictureFault when a picture would have more than kMostPicturePixels pixels, or none.
+void require_few_pixels(std::uint64_t width, std::uint64_t height);
+// A black texture of that size, which is required to be one of few pixels.
+Texture blank_texture(std::uint64_t width, std::uint64_t height);
+// Its memory as bytes: red, green, blue.
+std::span<std::uint8_t> bytes_of(Texture& texture);
+
+// All throw PictureFault. Any thread.
+Texture decode_png(PictureBytes bytes);
+Texture decode_jpeg(PictureBytes bytes);
+Texture decode_tiff(PictureBytes bytes);
+Texture decode_webp(PictureBytes bytes);
+Texture decode_bmp(PictureBytes bytes);
+// A number for each pixel, of pictures of one channel: PNG to 16 bits, TIFF of 8 to 32 bits or of floats.
+PixelMap decode_png_numbers(PictureBytes bytes);
+PixelMap decode_tiff_numbers(PictureBytes bytes);
+
+enum class SampleKind { kGray8, kGray16, kRgb8 };
+// Rows without padding; 16-bit numbers as the machine has them, colours as red, green, blue.
+struct PictureSamples {
+    PictureBytes bytes;
+    int width = 0, height = 0;
+    SampleKind kind = SampleKind::kGray8;
+};
+
+// Texts of a PNG in their order: a keyword of 1 to 79 Latin letters, and UTF-8. gamma: of the samples, 2.2 as
+// a rule; 0: unsaid.
+struct PngNotes {
+    std::vector<std::pair<std::string, std::string>> texts;
+    double gamma = 0;
+};
+// Empty when it cannot be made. Any thread.
+std::string encode_png(const PictureSamples& picture, const PngNotes& notes = {});
+
+// Empty fields are left out. date_time: "2026:03:20 06:00:00".
+struct TiffNotes {
+    std::string description, software, model, date_time;
+};
+std::string encode_tiff(const PictureSamples& picture, const TiffNotes& notes = {});
+
+}  // namespace hilcam
