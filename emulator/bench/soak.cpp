@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "emulator/bench/pilot.h"
-#include "emulator/bench/resident_memory.h"
+#include "io/system/resident_memory.h"
 #include "emulator/run/emulator.h"
 
 namespace hilcam {

@@ -1,7 +1,10 @@
 #include "emulator/run/render_command.h"
 
+#include <spdlog/spdlog.h>
+
 #include <optional>
 
+#include "emulator/recording/run_seed.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
 #include "io/files/image_file.h"
@@ -39,28 +42,54 @@ FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer) {
     return truth;
 }
 
-void write_truth(const std::filesystem::path& folder, const ScenarioConfig& s, const SpectralGrid& grid,
-                 const FrameTruth& truth, FrameRecord record) {
+void write_truth(const PictureTruthFiles& files, const TruthSource& source, const FrameTruth& truth,
+                 FrameRecord record) {
     record.exposure_mid = truth.time;
-    const TruthDocument document(truth_source(s, grid, 1));
-    TruthFiles(folder).write(truth, record.id, document.line(truth, record), document.legend(truth));
+    const TruthDocument document(source);
+    write_picture_truth(files, document.header() + '\n' + document.line(truth, record) + '\n', truth,
+                        document.legend(truth));
+}
+
+// What would be lost: a frame of a run, or the labels of another picture. A picture that is rendered again is
+// not.
+void require_unused(const RenderFiles& files) {
+    if (files.overwrite) return;
+    std::error_code error;
+    const auto refuse = [](const std::filesystem::path& file, const char* what) {
+        throw InputError(file.string() + ": is " + what + "; accepted: another name, or --overwrite");
+    };
+    const RunFolder run = run_folder(FilesConfig{});
+    if (is_of_run(files.out.filename().string(), run) && std::filesystem::exists(files.out, error))
+        refuse(files.out, "a frame of a run");
+    if (files.truth.empty()) return;
+    const PictureTruthFiles truth = picture_truth_files(files.truth, files.out);
+    for (const std::filesystem::path& file : {truth.lines, truth.layers})
+        if (std::filesystem::exists(file, error))
+            refuse(file, "the truth of a picture that is there already");
 }
 
 }  // namespace
 
-void render_to_file(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
-                    const std::filesystem::path& out, const std::filesystem::path& truth_folder) {
+void render_to_file(const ScenarioConfig& bench, RenderStage stage, double time_offset_s,
+                    const RenderFiles& files, std::size_t number) {
+    const ScenarioConfig scenario = scenario_of_camera(bench, number - 1);
+    const std::filesystem::path& out = files.out;
     const bool exr = out.extension() == ".exr";
     if (exr == (stage == RenderStage::kFrame))
         throw InputError(out.string() +
                          ": accepted: .exr for radiance and electrons, .png, .tiff or .raw for a frame");
+    require_unused(files);
     StillCamera camera(scenario, time_offset_s);
-    const RandomKey key{static_cast<std::uint64_t>(scenario.seed), 1};
+    for (const LoadedObject& object : camera.objects())
+        for (const std::string& warning : warnings_of(object)) spdlog::warn("{}", warning);
+    const RandomKey key{seed_of_camera(scenario, number - 1), 1};
     std::optional<FrameTruth> truth;
-    if (!truth_folder.empty()) truth = empty_truth(scenario, camera.renderer());
+    if (!files.truth.empty()) truth = empty_truth(scenario, camera.renderer());
     const RadianceImage& radiance = camera.render(key, truth ? &*truth : nullptr);
     if (truth)
-        write_truth(truth_folder, scenario, camera.grid(), *truth, record_of(scenario, camera.exposure()));
+        write_truth(picture_truth_files(files.truth, out),
+                    truth_source(scenario, camera.grid(), number, drawn_run_id()), *truth,
+                    record_of(scenario, camera.exposure()));
     if (stage == RenderStage::kRadiance)
         return write_radiance_exr(out, radiance, camera.grid(),
                                   frame_in_radiance(scenario.camera, camera.renderer().geometry(),

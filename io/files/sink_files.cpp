@@ -20,18 +20,22 @@ Fields fields(FilesConfig& c) {
         choice("format", c.format, {"png", "tiff", "raw"},
                "kind of picture; raw: the camera's memory, packed as it says"),
         integer("every_nth", c.every_nth, {1, 1e9}, "write every n-th frame only"),
+        flag("overwrite", c.overwrite,
+             "a folder that holds another run's frames: false: is refused; true: they are removed first"),
     };
 }
 
+RunFolder run_folder(const FilesConfig& c) {
+    return {.key = "outputs.files", .folder = c.folder, .stem = "frame", .overwrite = c.overwrite};
+}
+
 FilesSink::FilesSink(const FilesConfig& config, int width, int height, const PixelLayout& layout)
-    : config_(config), layout_(layout), mailbox_(width, height, 8) {}
+    : config_(config), layout_(layout), mailbox_(width, height, 8) {
+    require_unused(run_folder(config_));
+}
 
 void FilesSink::start() {
-    std::error_code error;
-    std::filesystem::create_directories(config_.folder, error);
-    if (error)
-        throw DeviceError("outputs.files.folder " + config_.folder.string() +
-                          " cannot be made: " + error.message());
+    claim(run_folder(config_));
     mailbox_.open();
     thread_ = std::thread([this] { run(); });
 }

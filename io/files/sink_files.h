@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/contract/run_folder.h"
 #include "render/vocabulary/config_field.h"
 #include "sensor/packing.h"
 
@@ -18,11 +19,15 @@ struct FilesConfig {
     enum class Format { kPng, kTiff, kRaw } format = Format::kPng;
     std::filesystem::path folder = "frames";
     std::int64_t every_nth = 1;
+    bool overwrite = false;
 };
+// What of it must not be mixed with another run.
+RunFolder run_folder(const FilesConfig& config);
 Fields fields(FilesConfig& config);
 
 class FilesSink : public FrameSink {
   public:
+    // Throws InputError when the folder holds another run's frames.
     FilesSink(const FilesConfig& config, int width, int height, const PixelLayout& layout);
     ~FilesSink() override { stop(); }
 

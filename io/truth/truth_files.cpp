@@ -9,6 +9,8 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <fstream>
 
 #include "render/vocabulary/check.h"
 
@@ -86,13 +88,12 @@ void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
     }
 }
 
-TruthFiles::TruthFiles(const std::filesystem::path& folder) : folder_(folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw DeviceError(folder.string() + " cannot be made: " + error.message());
-    const std::filesystem::path file = folder / "truth.jsonl";
-    lines_ = Fd(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666));
-    if (!lines_) throw DeviceError(file.string() + " cannot be written");
+// O_EXCL: of two runs that begin at once, one gets the file.
+TruthFiles::TruthFiles(const std::filesystem::path& folder, std::string_view header) : folder_(folder) {
+    const std::filesystem::path file = folder / kTruthLines;
+    lines_ = Fd(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
+    if (!lines_) throw DeviceError(file.string() + " cannot be written: " + std::strerror(errno));
+    add_line(header);
 }
 
 // All of it or nothing: what is begun and does not fit is taken back.
@@ -110,7 +111,7 @@ void TruthFiles::add_line(std::string_view line) {
         return;
     }
     [[maybe_unused]] const int cut = ftruncate(lines_.get(), lines_bytes_);
-    throw DeviceError((folder_ / "truth.jsonl").string() + " cannot be written; is the disk full?");
+    throw DeviceError((folder_ / kTruthLines).string() + " cannot be written; is the disk full?");
 }
 
 void TruthFiles::write(const FrameTruth& truth, std::uint64_t frame, std::string_view line,
@@ -120,6 +121,24 @@ void TruthFiles::write(const FrameTruth& truth, std::uint64_t frame, std::string
     char name[64];
     std::snprintf(name, sizeof name, "truth_%08llu.exr", static_cast<unsigned long long>(frame));
     write_truth_exr(folder_ / name, truth, legend);
+}
+
+PictureTruthFiles picture_truth_files(const std::filesystem::path& folder,
+                                      const std::filesystem::path& picture) {
+    const std::string name = picture.stem().string();
+    return {folder / (name + ".truth.jsonl"), folder / (name + ".truth.exr")};
+}
+
+void write_picture_truth(const PictureTruthFiles& files, std::string_view text, const FrameTruth& truth,
+                         std::span<const std::string> legend) {
+    std::error_code error;
+    const std::filesystem::path folder = files.lines.parent_path();
+    std::filesystem::create_directories(folder, error);
+    if (error) throw DeviceError(folder.string() + " cannot be made: " + error.message());
+    std::ofstream out(files.lines, std::ios::binary);
+    out << text;
+    if (!out.flush()) throw DeviceError(files.lines.string() + " cannot be written");
+    if (truth.wishes.layers()) write_truth_exr(files.layers, truth, legend);
 }
 
 }  // namespace hilcam

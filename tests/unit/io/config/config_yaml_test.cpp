@@ -124,7 +124,7 @@ TEST(ConfigYaml, WrongValuesNameFoundAndAccepted) {
     EXPECT_THAT(error_of("- a\n"), HasSubstr("accepted: a mapping of keys"));
     EXPECT_THAT(error_of("name: x\ninner: {exposure_ms: 900}\n"),
                 HasSubstr("test.yaml:2:8: inner: exposure_ms is above"));
-    EXPECT_THAT(error_of("name: x\ninner: missing.yaml\n"), HasSubstr("missing.yaml: cannot be read"));
+    EXPECT_THAT(error_of("name: x\ninner: missing.yaml\n"), HasSubstr("missing.yaml: no such file"));
 }
 
 TEST(ConfigYaml, OverridesReplaceAndAreChecked) {

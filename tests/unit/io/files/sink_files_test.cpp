@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <set>
 #include <thread>
 
 #include "tests/support/files.h"
@@ -34,11 +35,12 @@ TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginni
         FilesConfig config;
         config.folder = folder_;
         config.format = static_cast<FilesConfig::Format>(i);
-        fill_up("frame_00000002" + ending);
-        fill_up("frame_00000003" + ending);
+        config.overwrite = i > 0;
         testing::internal::CaptureStderr();
         FilesSink sink(config, 8, 4, PixelLayout{});
         sink.start();
+        fill_up("frame_00000002" + ending);
+        fill_up("frame_00000003" + ending);
         publish(sink, 4);
         sink.stop();
         EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -53,6 +55,45 @@ TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginni
         for (const char* id : {"2", "3"})
             EXPECT_FALSE(std::filesystem::is_symlink(folder_ / ("frame_0000000" + (id + ending))));
     }
+}
+
+TEST_F(FilesSinkTest, AnotherRunsFramesAreRefusedOrReplacedAsAWhole) {
+    FilesConfig config;
+    config.folder = folder_ / "frames";
+    const auto run = [&](std::uint64_t last) {
+        FilesSink sink(config, 8, 4, PixelLayout{});
+        sink.start();
+        publish(sink, last);
+        sink.stop();
+    };
+    run(5);
+    write("frames/notes.txt", "mine");
+    write("frames/frame_1.png", "mine, too");
+    EXPECT_EQ(
+        error_of([&] { run(2); }),
+        "outputs.files.folder: found '" + config.folder.string() +
+            "', which holds 5 files of another run ('frame_00000001.png' is the first); accepted: an empty "
+            "folder, another folder, or outputs.files.overwrite: true, which replaces all of them");
+    config.format = FilesConfig::Format::kTiff;
+    EXPECT_THAT(error_of([&] { run(2); }), HasSubstr("holds 5 files of another run"));
+    config.overwrite = true;
+    run(2);
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(config.folder))
+        names.insert(entry.path().filename());
+    EXPECT_THAT(names, testing::ElementsAre("frame_00000001.tiff", "frame_00000002.tiff", "frame_1.png",
+                                            "notes.txt"));
+}
+
+TEST_F(FilesSinkTest, OfTwoRunsThatAreMadeBeforeEitherBeginsTheSecondIsRefused) {
+    FilesConfig config;
+    config.folder = folder_ / "frames";
+    FilesSink first(config, 8, 4, PixelLayout{}), second(config, 8, 4, PixelLayout{});
+    first.start();
+    publish(first, 1);
+    first.stop();
+    EXPECT_THAT(error_of([&] { second.start(); }),
+                HasSubstr("holds a file of another run ('frame_00000001.png')"));
 }
 
 }  // namespace
