@@ -65,8 +65,8 @@ std::optional<tbb::global_control> limit_threads(const ScenarioConfig& scenario)
     return limit;
 }
 
-void tell_warnings(const ScenarioConfig& scenario) {
-    for (const std::string& warning : warnings_of(scenario)) spdlog::warn("{}", warning);
+void tell(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) spdlog::warn("{}", warning);
 }
 
 void tell_seed(const std::string& line) {
@@ -101,7 +101,10 @@ int run(const Options& o) {
     limits.seconds = o.duration_s;
     limits.frames = o.frames;
     tell_seed(settle_seed(scenario, limits.replay));
-    if (limits.replay.empty()) tell_warnings(scenario);
+    if (limits.replay.empty()) {
+        tell(idle_warnings(scenario));
+        tell(place_warnings(scenario));
+    }
     spdlog::info("loading {}", scenario.name);
     const auto whole = in_memory(scenario, [&] { return std::make_unique<Emulator>(scenario, limits); });
     Emulator& emulator = *whole;
@@ -140,7 +143,7 @@ int render(const Options& o) {
     const auto threads = limit_threads(scenario);
     require_camera(o, scenario);
     tell_seed(settle_seed(scenario));
-    tell_warnings(scenario);
+    tell(place_warnings(scenario));
     if (o.camera == 0 && !scenario.more_cameras.empty())
         spdlog::info("camera 1 of {}; --camera N for another", 1 + scenario.more_cameras.size());
     return in_memory(scenario, [&] {

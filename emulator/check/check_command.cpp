@@ -167,7 +167,8 @@ CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {
     out.scenario = s.name;
     out.time = parse_utc(s.time_utc);
     out.cameras = 1 + s.more_cameras.size();
-    out.warnings = warnings_of(s);
+    out.warnings = idle_warnings(s);
+    for (std::string& warning : place_warnings(s)) out.warnings.push_back(std::move(warning));
     const Pose first_camera = snapshot_at(s, out.time, out.time).camera;
     std::vector<std::string> idle_rules;  // the same for every camera
     // One after the other: the scene of each is large.

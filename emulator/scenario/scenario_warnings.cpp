@@ -98,10 +98,15 @@ void look_at_places(const ScenarioConfig& bench, Lines& out) {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const ScenarioConfig& scenario) {
+std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
     Lines out;
     look_at_lockstep(scenario, out);
     look_at_faults(scenario, out);
+    return out;
+}
+
+std::vector<std::string> place_warnings(const ScenarioConfig& scenario) {
+    Lines out;
     look_at_places(scenario, out);
     return out;
 }

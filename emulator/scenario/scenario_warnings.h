@@ -9,8 +9,10 @@
 
 namespace hilcam {
 
-// A line each: lockstep in which nobody can ask for a frame, faults that no output or port can show, a camera
-// that begins inside a body. Throws InputError where the scenario's motions cannot be had.
-std::vector<std::string> warnings_of(const ScenarioConfig& scenario);
+// A line each. What a run will not do: lockstep in which nobody can ask for a frame, faults that no output or
+// port can show.
+std::vector<std::string> idle_warnings(const ScenarioConfig& scenario);
+// Cameras that begin inside a body. Throws InputError where the scenario's motions cannot be had.
+std::vector<std::string> place_warnings(const ScenarioConfig& scenario);
 
 }  // namespace hilcam

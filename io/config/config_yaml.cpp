@@ -282,8 +282,10 @@ class Reader {
                     if (f.where) *f.where = where(place, node) + (place.command_line ? "" : ": " + path);
                 },
                 [&](const ChoiceField& f) {
-                    const auto word =
-                        std::find(f.words.begin(), f.words.end(), node.IsScalar() ? node.Scalar() : "");
+                    // free-run is as good as free_run.
+                    std::string given = node.IsScalar() ? node.Scalar() : "";
+                    std::replace(given.begin(), given.end(), '-', '_');
+                    const auto word = std::find(f.words.begin(), f.words.end(), given);
                     if (word == f.words.end()) {
                         std::string words;
                         for (const std::string& w : f.words) words += (words.empty() ? "" : " | ") + w;

@@ -62,7 +62,7 @@ class CheckScenario : public PlateTest {
     }
     // A sphere of one metre radius as a file.
     void write_sphere() {
-        const Mesh mesh = sphere(32, lambert(0.5), SpectralGrid({0.5, 0.7})).mesh;
+        const Mesh mesh = sphere(64, lambert(0.5), SpectralGrid({0.5, 0.7})).mesh;
         std::ofstream out(folder_ / "sphere.obj");
         for (const Vec3f& v : mesh.vertices_m) out << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
         for (const auto& t : mesh.triangles)
@@ -200,7 +200,7 @@ TEST_F(CheckScenario, WhatThisMachineLacksIsSaid) {
 
 // The mean over the lit part of a rendered Lambert sphere's disk is what is expected of it.
 TEST_F(CheckScenario, ASphereIsAsBrightAsExpected) {
-    for (const char* place : {"[0, 0, 30]", "[0, 20, 22]", "[0, -14, 26]"}) {
+    for (const char* place : {"[0, 0, 60]", "[0, 40, 44]", "[0, -28, 52]"}) {
         const ScenarioConfig s = ball(place);
         const CheckReport report = check_scenario(s);
         const SeenObject& seen = report.reports.at(0).sight.objects.at(0);
