@@ -137,7 +137,8 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
     idle_rules.clear();
     for (const LoadedObject& object : station->objects())
-        for (std::string& warning : warnings_of(object)) idle_rules.push_back(std::move(warning));
+        if (std::string warning = warning_of(object); !warning.empty())
+            idle_rules.push_back(std::move(warning));
     return report;
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 // No spacecraft is as long, but the file of one in millimetres is.
 constexpr double kLongest_m = 500;
+// Of a constellation most are elsewhere.
+constexpr std::size_t kMostTold = 10;
 // Less of the Sun than this is an eclipse, less of the disk lit than this is its night side.
 constexpr double kDark = 0.02;
 
@@ -91,10 +93,19 @@ bool shows_light(const ScenarioConfig& s, const FirstSight& sight) {
 
 std::vector<std::string> judge(const ScenarioConfig& s, const CameraReport& camera) {
     std::vector<std::string> out;
+    std::size_t left = 0;
     for (const SeenObject& o : camera.sight.objects) {
-        judge_place(o, camera, out);
-        judge_light(s, o, camera, out);
+        std::vector<std::string> own;
+        judge_place(o, camera, own);
+        judge_light(s, o, camera, own);
+        if (out.size() < kMostTold)
+            out.insert(out.end(), own.begin(), own.end());
+        else
+            left += own.empty() ? 0 : 1;
     }
+    if (left > 0)
+        out.push_back(
+            fmt::format("and {} more objects have warnings: --json tells where each of them is", left));
     if (!shows_light(s, camera.sight))
         out.push_back("nothing that is lit is in the picture: it will be black");
     if (camera.share_in_bins < 0.5)

@@ -1,6 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "emulator/check/check_report.h"
 #include "render/vocabulary/quoted.h"
@@ -8,6 +8,7 @@
 namespace hilcam {
 namespace {
 
+constexpr std::size_t kMostObjects = 50;
 constexpr std::size_t kMostSurfaces = 20;  // that are listed; `hilcam mesh` has all
 
 std::string place_text(const SeenObject& o) {
@@ -68,7 +69,10 @@ void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
     if (cameras > 1) out += fmt::format("camera {} of {}\n", c.number, cameras);
     out += "first instant\n";
     const FirstSight& sight = c.sight;
-    for (std::size_t i = 0; i < sight.objects.size(); ++i) add_object(sight.objects[i], i + 1, c.sheet, out);
+    for (std::size_t i = 0; i < std::min(sight.objects.size(), kMostObjects); ++i)
+        add_object(sight.objects[i], i + 1, c.sheet, out);
+    if (sight.objects.size() > kMostObjects)
+        out += fmt::format("  and {} more objects: --json has them\n", sight.objects.size() - kMostObjects);
     out += fmt::format(
         "  Sun         {:.4g} au away, {:.1f} deg off the boresight: ({:.3f}, {:.3f}, {:.3f}) in camera axes "
         "(right, "

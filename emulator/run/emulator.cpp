@@ -64,7 +64,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     }
     if (limits.outputs)
         for (const LoadedObject& object : first().objects())
-            for (const std::string& warning : warnings_of(object)) spdlog::warn("{}", warning);
+            if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
     // Loading took its time; the simulation starts now.
     clock_start_ns_ = monotonic_ns();
     clock_.restart(parse_utc(scenario.time_utc), clock_start_ns_);

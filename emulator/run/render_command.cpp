@@ -81,7 +81,7 @@ void render_to_file(const ScenarioConfig& bench, RenderStage stage, double time_
     require_unused(files);
     StillCamera camera(scenario, time_offset_s);
     for (const LoadedObject& object : camera.objects())
-        for (const std::string& warning : warnings_of(object)) spdlog::warn("{}", warning);
+        if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
     const RandomKey key{seed_of_camera(scenario, number - 1), 1};
     std::optional<FrameTruth> truth;
     if (!files.truth.empty()) truth = empty_truth(scenario, camera.renderer());

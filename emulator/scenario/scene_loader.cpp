@@ -245,26 +245,24 @@ double LoadedObject::mean_reflectance() const {
     return area_m2 > 0 ? sum_m2 / area_m2 : 0;
 }
 
-std::vector<std::string> warnings_of(const LoadedObject& object) {
-    std::vector<std::string> names, lines;
-    std::string list;
+std::string warning_of(const LoadedObject& object) {
+    if (object.idle_rules.empty()) return {};
+    std::vector<std::string> names;
+    std::string surfaces, rules;
     for (const LoadedSurface& surface : object.surfaces) {
+        if (surface.triangles == 0) continue;
         names.push_back(surface.name);
-        if (list.size() < 400) list += (list.empty() ? "" : ", ") + in_quotes(surface.name);
+        if (surfaces.size() < 400) surfaces += (surfaces.empty() ? "" : ", ") + in_quotes(surface.name);
     }
     for (const std::string& rule : object.idle_rules) {
-        std::string line =
-            "object '" + object.name + "': the material rule " + in_quotes(rule) + " has no effect: ";
-        const auto exact = std::find(names.begin(), names.end(), rule);
-        if (const std::string nearest = nearest_of(rule, names); exact != names.end())
-            line += "a rule before it takes that surface";
-        else if (!nearest.empty())
-            line += "no surface has that name; the nearest is " + in_quotes(nearest);
-        else
-            line += "no surface is left that has that name";
-        lines.push_back(line + "; the mesh's surfaces: " + list);
+        rules += (rules.empty() ? "" : ", ") + in_quotes(rule);
+        if (std::find(names.begin(), names.end(), rule) != names.end())
+            rules += " (a rule before it takes that surface)";
+        else if (const std::string nearest = nearest_of(rule, names); !nearest.empty())
+            rules += " (the nearest is " + in_quotes(nearest) + ")";
     }
-    return lines;
+    return "object '" + object.name + "': no surface takes its material rules for " + rules +
+           "; the mesh's surfaces: " + surfaces;
 }
 
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,

@@ -25,8 +25,8 @@ struct LoadedObject {
 
     double mean_reflectance() const;  // by area
 };
-// A line for each rule that has no effect: the surfaces that there are, and the nearest of them.
-std::vector<std::string> warnings_of(const LoadedObject& object);
+// Which of its rules have no effect, the surfaces that there are, and the nearest of them; empty: all have one.
+std::string warning_of(const LoadedObject& object);
 
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
 // found: gets the objects in their order; null: nobody wants to know.

@@ -102,7 +102,7 @@ constexpr Mistake kMistakes[] = {
      "unknown key; nearest known key: origin"},
     {"CameraInTheEarth", 3, "seed: 1", "", "camera 1 begins inside the body 'earth'"},
     {"RuleForNoSurface", 23, "    materials: {surfaces: [{name: gold, material: {}}]}", "",
-     "the material rule 'gold' has no effect"},
+     "no surface takes its material rules for 'gold'"},
     {"LockstepForNobody", 24, "mode: lockstep", "", "nobody can ask for a frame"},
     {"FaultForNobody", 24, "faults: [{kind: packet_drop}]", "", "that takes outputs.gige"},
     {"Millimetres", 22, "    mesh: plate.obj\n    scale: 10000", "", "the file is probably in millimetres"},
