@@ -101,7 +101,7 @@ std::vector<std::string> judge(const ScenarioConfig& s, const CameraReport& came
         if (out.size() < kMostTold)
             out.insert(out.end(), own.begin(), own.end());
         else
-            left += own.empty() ? 0 : 1;
+            left += own.empty() ? 0u : 1u;
     }
     if (left > 0)
         out.push_back(

@@ -62,7 +62,7 @@ class CheckScenario : public PlateTest {
     }
     // A sphere of one metre radius as a file.
     void write_sphere() {
-        const Mesh mesh = sphere(64, lambert(0.5), SpectralGrid({0.5, 0.7})).mesh;
+        const Mesh mesh = sphere(32, lambert(0.5), SpectralGrid({0.5, 0.7})).mesh;
         std::ofstream out(folder_ / "sphere.obj");
         for (const Vec3f& v : mesh.vertices_m) out << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
         for (const auto& t : mesh.triangles)
