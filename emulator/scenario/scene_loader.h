@@ -25,7 +25,7 @@ struct LoadedObject {
 
     double mean_reflectance() const;  // by area
 };
-// Which of its rules have no effect, the surfaces that there are, and the nearest of them; empty: all have one.
+// Which of its rules have no effect, and the surfaces that there are; empty: all have one.
 std::string warning_of(const LoadedObject& object);
 
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
