@@ -18,6 +18,7 @@
 #include "emulator/check/check_command.h"
 #include "emulator/check/doctor.h"
 #include "emulator/check/doctor_facts.h"
+#include "emulator/check/mesh_survey.h"
 #include "emulator/recording/program_version.h"
 #include "emulator/recording/recording_text.h"
 #include "emulator/recording/run_seed.h"
@@ -25,7 +26,9 @@
 #include "emulator/run/log_setup.h"
 #include "emulator/run/render_command.h"
 #include "emulator/run/report.h"
+#include "emulator/scenario/scenario_warnings.h"
 #include "emulator/scenario/scene_loader.h"
+#include "emulator/send/choice_option.h"
 #include "emulator/send/send_command.h"
 #include "emulator/tradeoff/error_bench.h"
 #include "emulator/tradeoff/tradeoff_report.h"
@@ -47,7 +50,8 @@ struct Options {
     SoakOptions soak;
     ErrorBenchOptions error_bench;
     TradeoffOptions tradeoff;
-    bool json = false, sensor = false, error = false;
+    bool json = false, sensor = false, error = false, overwrite = false;
+    std::size_t camera = 0;  // from 1; 0: not told
     RunLimits run;
     std::uint16_t preview_port = 0;  // 0: as the scenario says
     RenderStage stage = RenderStage::kFrame;
@@ -72,6 +76,10 @@ void warn_of_dark_pictures(const ScenarioConfig& scenario) {
         if (own.outputs.has_files)
             warn_if_said(dark_picture_warning(own.outputs.files, own.camera.frame_bits()));
     }
+}
+
+void tell(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) spdlog::warn("{}", warning);
 }
 
 void tell_seed(const std::string& line) {
@@ -106,6 +114,10 @@ int run(const Options& o) {
     limits.seconds = o.duration_s;
     limits.frames = o.frames;
     tell_seed(settle_seed(scenario, limits.replay));
+    if (limits.replay.empty()) {
+        tell(idle_warnings(scenario));
+        tell(place_warnings(scenario));
+    }
     spdlog::info("loading {}", scenario.name);
     const auto whole = in_memory(scenario, [&] { return std::make_unique<Emulator>(scenario, limits); });
     Emulator& emulator = *whole;
@@ -134,14 +146,28 @@ int list_of_recording(const Options& o) {
     return 0;
 }
 
+void require_camera(const Options& o, const ScenarioConfig& scenario) {
+    const std::size_t cameras = 1 + scenario.more_cameras.size();
+    if (o.camera > cameras)
+        throw InputError(fmt::format("--camera: found {}; accepted: 1 to {}", o.camera, cameras));
+}
+
 int render(const Options& o) {
     ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     const auto threads = limit_threads(scenario);
+    require_camera(o, scenario);
     tell_seed(settle_seed(scenario));
+    tell(place_warnings(scenario));
+    if (o.camera == 0 && !scenario.more_cameras.empty())
+        spdlog::info("camera 1 of {}; --camera N for another", 1 + scenario.more_cameras.size());
     return in_memory(scenario, [&] {
-        render_to_files(scenario, o.stage, o.time_offset_s, o.files);
-        if (o.stage == RenderStage::kFrame && o.files.view.empty())
-            warn_if_said(dark_picture_warning(o.files.out, scenario.camera.frame_bits(),
+        const std::size_t camera = std::max<std::size_t>(1, o.camera);
+        RenderFiles files = o.files;
+        files.overwrite = o.overwrite;
+        render_to_files(scenario, o.stage, o.time_offset_s, files, camera);
+        if (o.stage == RenderStage::kFrame && files.view.empty())
+            warn_if_said(dark_picture_warning(files.out,
+                                              scenario_of_camera(scenario, camera - 1).camera.frame_bits(),
                                               "--view FILE.png writes one to look at"));
         return 0;
     });
@@ -149,11 +175,19 @@ int render(const Options& o) {
 
 int check(const Options& o) {
     if (is_camera_file(o.config)) {
-        fmt::print("{}", check_camera(o.config, o.overrides));
+        fmt::print("{}", check_camera(o.config, o.overrides, o.json));
         return 0;
     }
     const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
-    fmt::print("{}", in_memory(scenario, [&] { return check_scenario(scenario); }));
+    require_camera(o, scenario);
+    const CheckReport report = in_memory(scenario, [&] { return check_scenario(scenario, o.camera); });
+    fmt::print("{}", o.json ? to_json(report) : to_text(report));
+    return 0;
+}
+
+int survey(const Options& o) {
+    const MeshSurvey found = survey_mesh(load_mesh_contents(o.config), o.config.string());
+    fmt::print("{}", o.json ? to_json(found) : to_text(found));
     return 0;
 }
 
@@ -279,6 +313,11 @@ void add_config(CLI::App* command, Options& o) {
         ->allow_extra_args(false);
 }
 
+void add_camera(CLI::App* command, Options& o) {
+    command->add_option("--camera", o.camera, "which of the scenario's cameras, from 1")
+        ->check(CLI::Range(std::size_t{1}, kMostCameras));
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -315,11 +354,11 @@ int run_command_line(int argc, char** argv) {
 
     CLI::App* render_app = app.add_subcommand("render", "one picture of the first instant");
     add_config(render_app, o);
-    const std::map<std::string, RenderStage> stages = {{"radiance", RenderStage::kRadiance},
-                                                       {"electrons", RenderStage::kElectrons},
-                                                       {"frame", RenderStage::kFrame}};
-    render_app->add_option("--stage", o.stage, "radiance, electrons or frame")
-        ->transform(CLI::CheckedTransformer(stages));
+    add_choice<RenderStage>(*render_app, "--stage", o.stage,
+                            {{"radiance", RenderStage::kRadiance},
+                             {"electrons", RenderStage::kElectrons},
+                             {"frame", RenderStage::kFrame}},
+                            "how far light goes: to the lens, into the pixels, out of the converter");
     render_app
         ->add_option("--out", o.files.out,
                      "FILE.exr for radiance and electrons (.fits, too), FILE.png, .tiff, .fits or .raw for a "
@@ -328,14 +367,26 @@ int run_command_line(int argc, char** argv) {
     render_app->add_option("--view", o.files.view,
                            "also write the frame as an 8-bit PNG to look at (docs/pictures.md)");
     render_app->add_option("--time-offset-s", o.time_offset_s, "seconds after the scenario's start");
-    render_app->add_option("--truth", o.files.truth,
-                           "also write what the picture shows to this folder (docs/truth.md)");
+    render_app->add_option(
+        "--truth", o.files.truth,
+        "also write what the picture shows to this folder, named after it (docs/truth.md)");
+    add_camera(render_app, o);
+    render_app->add_flag("--overwrite", o.overwrite,
+                         "replace a run's frame, or a truth that is there already");
     render_app->callback([&] { action = [&] { return render(o); }; });
 
     CLI::App* check_app = app.add_subcommand(
         "check", "validate a scenario and say what it needs; of a camera's file, print its data sheet");
     add_config(check_app, o);
+    add_camera(check_app, o);
+    check_app->add_flag("--json", o.json, "machine-readable");
     check_app->callback([&] { action = [&] { return check(o); }; });
+
+    CLI::App* mesh_app =
+        app.add_subcommand("mesh", "how large a mesh file is, what it is made of, what is wrong with it");
+    mesh_app->add_option("file", o.config, "GLB, glTF, OBJ, STL or PLY file")->required();
+    mesh_app->add_flag("--json", o.json, "machine-readable");
+    mesh_app->callback([&] { action = [&] { return survey(o); }; });
 
     CLI::App* bench_app =
         app.add_subcommand("bench", "measure how fast a scenario runs here, or how far off its frames are");
@@ -459,6 +510,10 @@ int run_command_line(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        if (const std::string what = unknown_subcommand(app); !what.empty()) {
+            fmt::print(stderr, "hilcam: {}\n", what);
+            return 2;
+        }
         // What the library says quotes the command line.
         std::ostringstream help, problem;
         const int status = app.exit(error, help, problem);

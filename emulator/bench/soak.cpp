@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "emulator/bench/pilot.h"
-#include "emulator/bench/resident_memory.h"
 #include "emulator/run/emulator.h"
+#include "io/system/resident_memory.h"
 
 namespace hilcam {
 namespace {

@@ -3,6 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 
+#include <algorithm>
+
 #include "emulator/check/camera_sheet.h"
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/shutter_timing.h"
@@ -10,9 +12,11 @@
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
+#include "emulator/scenario/scenario_warnings.h"
 #include "emulator/scenario/scene_loader.h"
 #include "io/config/config_yaml.h"
-#include "render/vocabulary/quoted.h"
+#include "io/system/net_interface.h"
+#include "io/system/resident_memory.h"
 
 namespace hilcam {
 namespace {
@@ -48,12 +52,12 @@ std::string truth_line(const ScenarioConfig& s) {
                            wishes.visibility ? "visibility" : "",
                            wishes.visibility && wishes.layers() ? ", " : "", wishes.layers() ? "layers" : "");
     if (wishes.stars) out += "; stars in view";
-    return "  " + out + "\n";
+    return out;
 }
 
 std::string seed_line(const ScenarioConfig& s) {
-    if (!s.has_seed) return "seed: none, so each run draws its own noise, and says its seed\n";
-    return fmt::format("seed: {}, so every run has the same noise in the same frame\n", s.seed);
+    if (!s.has_seed) return "seed: none, so each run draws its own noise, and says its seed";
+    return fmt::format("seed: {}, so every run has the same noise in the same frame", s.seed);
 }
 
 std::string loop_line(const ScenarioConfig& s) {
@@ -64,66 +68,123 @@ std::string loop_line(const ScenarioConfig& s) {
     if (w.priority > 0) out += fmt::format("; real-time priority {}", w.priority);
     if (!w.cores.empty()) out += fmt::format("; on cores {}", fmt::join(w.cores, ", "));
     if (w.lock_memory) out += "; memory locked";
-    return out + "\n";
+    return out;
 }
 
 // Which levels the governor may choose, or why there is none.
-std::string governor_lines(const ScenarioConfig& s) {
+std::vector<std::string> governor_lines(const ScenarioConfig& s) {
     const std::string off = governor_off(s);
-    if (!off.empty()) return "governor off (" + off + ")\n";
-    std::string out =
-        fmt::format("governor: {} may take {:.4g} ms; quality level 0 is as configured\n",
+    if (!off.empty()) return {"governor off (" + off + ")"};
+    std::vector<std::string> out = {
+        fmt::format("governor: {} may take {:.4g} ms; quality level 0 is as configured",
                     s.loop.prefer == LoopPreference::kLatency ? "a frame" : "each of a frame's two stages",
-                    1e3 * s.loop.frame_budget_s);
+                    1e3 * s.loop.frame_budget_s)};
     RenderQuality last = render_quality_of(s);
     int number = 0;
     for (const RenderQuality& level : lower_levels(s)) {
         const std::string what = difference(last, level);
-        out += fmt::format("  level {}: {}\n", ++number, what.empty() ? "as the one before" : what);
+        out.push_back(fmt::format("  level {}: {}", ++number, what.empty() ? "as the one before" : what));
         last = level;
     }
     return out;
 }
 
 // Makes of a camera what a run makes before it opens ports and devices, and as a run makes it: what is wrong
-// with any of it is said. GigE Vision's interface is the machine's, not the scenario's: `hilcam doctor` and
-// the run look for it.
+// with any of it is said. What the machine may not have at the moment is a warning: GigE Vision's interface,
+// and folders that are free.
 std::unique_ptr<CameraStation> make_station(const ScenarioConfig& s, std::size_t index,
                                             const SpectralGrid& grid) {
     ScenarioConfig own = scenario_of_camera(s, index);
     own.outputs.has_gige = false;
+    own.outputs.files.overwrite = own.outputs.truth.overwrite = true;
     auto station = std::make_unique<CameraStation>(own, index + 1, RunLimits{});
     station->load(grid);
     return station;
+}
+
+// What a run would refuse on this machine now.
+std::vector<std::string> machine_warnings(const OutputsConfig& o) {
+    std::vector<std::string> out;
+    if (o.has_gige) try {
+            const NetInterface interface = find_interface(o.gige.interface);
+            if (o.gige.packet_bytes > interface.mtu_bytes)
+                out.push_back(fmt::format("outputs.gige.packet_bytes is {}, and the interface {} carries {}",
+                                          o.gige.packet_bytes, interface.name, interface.mtu_bytes));
+        } catch (const InputError& error) {
+            out.push_back(std::string("outputs.gige: ") + error.what());
+        }
+    const auto look = [&](const RunFolder& folder) {
+        if (folder.overwrite) return;
+        if (std::string used = used_by_another_run(folder); !used.empty()) out.push_back(std::move(used));
+    };
+    if (o.has_files) look(run_folder(o.files));
+    if (o.has_truth && !o.truth.folder.empty()) look(run_folder(o.truth));
+    return out;
+}
+
+CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const SpectralGrid& grid,
+                       const Pose& first_camera, std::vector<std::string>& idle_rules) {
+    const ScenarioConfig s = scenario_of_camera(bench, index);
+    const std::unique_ptr<CameraStation> station = make_station(bench, index, grid);
+    const TimeTai time = parse_utc(s.time_utc);
+    CameraReport report;
+    report.number = index + 1;
+    report.sheet = camera_sheet(s.camera);
+    report.share_in_bins = share_in_bins(s.camera, grid);
+    report.plan = station->renderer().explain_plan(snapshot_at(s, time, time));
+    report.sight = first_sight(*station, report.sheet, first_camera);
+    report.plan.push_back(motion_line(s, station->renderer(), grid));
+    if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
+    idle_rules.clear();
+    for (const LoadedObject& object : station->objects())
+        if (std::string warning = warning_of(object); !warning.empty())
+            idle_rules.push_back(std::move(warning));
+    return report;
+}
+
+// Cameras are named where there are several.
+void add_warnings(std::vector<std::string> warnings, std::size_t number, std::size_t cameras,
+                  std::vector<std::string>& out) {
+    for (std::string& warning : warnings)
+        out.push_back(cameras > 1 ? fmt::format("camera {}: {}", number, warning) : std::move(warning));
 }
 
 }  // namespace
 
 bool is_camera_file(const std::filesystem::path& file) { return has_top_level_key(file, "pitch_um"); }
 
-std::string check_camera(const std::filesystem::path& file, std::span<const std::string> overrides) {
+std::string check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
+                         bool json) {
     CameraModel camera;
     read_config(file, section_of(camera), overrides);
     draw_fixed_pattern(camera, load_detector_pictures(camera));  // throws when a map does not fit
-    return to_text(camera_sheet(camera));
+    const CameraSheet sheet = camera_sheet(camera);
+    return json ? to_json(sheet) : to_text(sheet);
 }
 
-std::string check_scenario(const ScenarioConfig& s) {
+CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {
     const SpectralGrid grid(s.spectrum_edges_um);
-    const TimeTai time = parse_utc(s.time_utc);
+    CheckReport out;
+    out.scenario = s.name;
+    out.time = parse_utc(s.time_utc);
+    out.cameras = 1 + s.more_cameras.size();
+    out.warnings = idle_warnings(s);
+    for (std::string& warning : place_warnings(s)) out.warnings.push_back(std::move(warning));
+    const Pose first_camera = snapshot_at(s, out.time, out.time).camera;
+    std::vector<std::string> idle_rules;  // the same for every camera
     // One after the other: the scene of each is large.
-    for (std::size_t i = s.more_cameras.size(); i > 0; --i) make_station(s, i, grid);
-    const std::unique_ptr<CameraStation> first = make_station(s, 0, grid);
-    Renderer& renderer = first->renderer();
-    const WorldSnapshot world = snapshot_at(s, time, time);
-    std::string out = to_text(camera_sheet(s.camera)) +
-                      fmt::format(
-                          "scenario {} at {}\n  its bins have {:.1f} % of the camera's photo-electrons of "
-                          "sunlight\nplan\n",
-                          harmless(s.name), format_utc(time), 100 * share_in_bins(s.camera, grid));
-    for (const std::string& line : renderer.explain_plan(world)) out += "  " + harmless(line) + "\n";
-    return out + "  " + motion_line(s, renderer, grid) + "\n" + truth_line(s) + seed_line(s) + loop_line(s) +
-           governor_lines(s);
+    for (std::size_t i = 0; i < out.cameras; ++i) {
+        if (camera != 0 && camera != i + 1) continue;
+        out.reports.push_back(report_of(s, i, grid, first_camera, idle_rules));
+        const ScenarioConfig own = scenario_of_camera(s, i);
+        add_warnings(judge(own, out.reports.back()), i + 1, out.cameras, out.warnings);
+        add_warnings(machine_warnings(own.outputs), i + 1, out.cameras, out.warnings);
+        out.memory_mb = std::max(out.memory_mb, ResidentMemory().megabytes());
+    }
+    out.warnings.insert(out.warnings.end(), idle_rules.begin(), idle_rules.end());
+    out.run = {seed_line(s), loop_line(s)};
+    for (std::string& line : governor_lines(s)) out.run.push_back(std::move(line));
+    return out;
 }
 
 }  // namespace hilcam

@@ -4,16 +4,19 @@
 #include <span>
 #include <string>
 
+#include "emulator/check/check_report.h"
 #include "emulator/scenario/app_config.h"
 
 namespace hilcam {
 
-// Loads everything the scenario names; the text says what was found. Throws InputError, DeviceError.
-std::string check_scenario(const ScenarioConfig& scenario);
+// Loads everything the scenario names, camera after camera. camera: the one to look at, from 1; 0: all.
+// Nothing is rendered. Throws InputError, DeviceError.
+CheckReport check_scenario(const ScenarioConfig& scenario, std::size_t camera = 0);
 
 // A camera's file alone, told by its key pitch_um.
 bool is_camera_file(const std::filesystem::path& file);
 // Its data sheet. Throws InputError.
-std::string check_camera(const std::filesystem::path& file, std::span<const std::string> overrides);
+std::string check_camera(const std::filesystem::path& file, std::span<const std::string> overrides,
+                         bool json = false);
 
 }  // namespace hilcam

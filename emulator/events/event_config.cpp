@@ -89,7 +89,7 @@ void validate(const EventConfig& e) {
     if (count != 1)
         throw InputError("an event has one of 'at_s', 'at_utc', 'at_frame', 'after' and 'when'; found " +
                          std::to_string(count));
-    if (e.has_at_utc) parse_utc(e.at_utc);
+    if (e.has_at_utc) at_key("at_utc", [&] { parse_utc(e.at_utc); });
     if (e.every_s > 0 && !e.has_at_s && !e.has_at_utc)
         throw InputError("'every_s' goes with 'at_s' or 'at_utc'");
     if (e.delay_s > 0 && !e.has_after) throw InputError("'delay_s' goes with 'after'");

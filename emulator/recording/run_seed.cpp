@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
 #include <optional>
 
@@ -14,14 +15,15 @@
 namespace hilcam {
 namespace {
 
-// Below 2^52, so that the seed is in the key's range and a whole number to whoever reads the report (JSON).
-std::int64_t drawn_seed() {
+std::uint64_t drawn_bits() {
     std::uint64_t bits = 0;
     if (getentropy(&bits, sizeof bits) != 0)
-        throw DeviceError(std::string("no random numbers from the kernel: ") + std::strerror(errno) +
-                          "; 'seed' in the scenario does without");
-    return static_cast<std::int64_t>(bits >> 12);
+        throw DeviceError(std::string("no random numbers from the kernel: ") + std::strerror(errno));
+    return bits;
 }
+
+// Below 2^52, so that the seed is in the key's range and a whole number to whoever reads the report (JSON).
+std::int64_t drawn_seed() { return static_cast<std::int64_t>(drawn_bits() >> 12); }
 
 std::optional<std::int64_t> recorded_seed(const std::filesystem::path& recording) {
     const std::string text = listed_value(RecordingReader(recording).header().scenario, "seed");
@@ -32,6 +34,12 @@ std::optional<std::int64_t> recorded_seed(const std::filesystem::path& recording
 }
 
 }  // namespace
+
+std::string drawn_run_id() {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(drawn_bits()));
+    return text;
+}
 
 std::string settle_seed(ScenarioConfig& scenario, const std::filesystem::path& replayed) {
     if (scenario.has_seed) return {};

@@ -17,4 +17,8 @@ namespace hilcam {
 // recording cannot be read, DeviceError when the kernel has no random numbers.
 std::string settle_seed(ScenarioConfig& scenario, const std::filesystem::path& replayed = {});
 
+// Returns 16 hexadecimal digits from the kernel: a name for a run that no other run has. DeviceError as
+// above.
+std::string drawn_run_id();
+
 }  // namespace hilcam

@@ -9,7 +9,6 @@
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
-#include "emulator/scenario/scene_loader.h"
 
 namespace hilcam {
 namespace {
@@ -24,11 +23,6 @@ GovernorSettings governor_of(const ScenarioConfig& scenario) {
     return {scenario.loop.frame_budget_s * 1e3, 1 + lower_levels(scenario).size()};
 }
 
-// Cameras of one bench draw different noise.
-std::uint64_t seed_of(const ScenarioConfig& scenario, std::size_t number) {
-    return static_cast<std::uint64_t>(scenario.seed) + (number - 1) * 0x9E3779B97F4A7C15u;
-}
-
 }  // namespace
 
 CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number, const RunLimits& limits)
@@ -36,7 +30,7 @@ CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number,
       number_(number),
       limits_(limits),
       settings_(scenario_.camera, mode_of(scenario_)),
-      faults_(seed_of(scenario_, number)),
+      faults_(seed_of_camera(scenario_, number - 1)),
       timed_faults_(scenario_.faults) {
     settings_.on_missed_trigger([this](std::int64_t monotonic_ns) {
         for (const auto& sink : sinks_) sink->happened({CameraEvent::Kind::kTriggerMissed, 0, monotonic_ns});
@@ -77,7 +71,7 @@ std::string CameraStation::status() const {
 void CameraStation::load(const SpectralGrid& grid) {
     const ImageGeometry geometry = geometry_of(scenario_.camera, static_cast<int>(scenario_.quality.guard_px),
                                                static_cast<int>(scenario_.quality.oversampling));
-    renderer_ = load_renderer(scenario_, grid, geometry);
+    renderer_ = load_renderer(scenario_, grid, geometry, &objects_);
     chain_ = std::make_unique<SensorChain>(scenario_.camera, grid, sampling_of(scenario_),
                                            load_detector_pictures(scenario_.camera));
     const TimeTai start = parse_utc(scenario_.time_utc);
@@ -87,7 +81,7 @@ void CameraStation::load(const SpectralGrid& grid) {
     renderer_->require_air(snapshot_at(scenario_, start, start));
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
     if (limits_.outputs && scenario_.outputs.has_truth) {
-        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_);
+        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id);
         truth_ = truth.get();
         sinks_.push_back(std::move(truth));
     }
@@ -96,7 +90,7 @@ void CameraStation::load(const SpectralGrid& grid) {
 void CameraStation::prepare(SimulatedClock& clock, const PoseWatch& poses) {
     serve_faults(0);
     loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario_.camera, *world_, settings_, faults_,
-                                        clock, sinks(), seed_of(scenario_, number_),
+                                        clock, sinks(), seed_of_camera(scenario_, number_ - 1),
                                         LoopLimits{limits_.frames, limits_.warm_up, limits_.paced,
                                                    governor_of(scenario_), scenario_.loop.prefer},
                                         &poses);

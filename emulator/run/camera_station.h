@@ -12,6 +12,7 @@
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/frame_loop.h"
 #include "emulator/scenario/app_config.h"
+#include "emulator/scenario/scene_loader.h"
 #include "io/contract/command_receiver.h"
 
 namespace hilcam {
@@ -28,6 +29,7 @@ struct RunLimits {
     std::filesystem::path record{}, replay{};
     bool replay_fast = false;   // not by the recording's times
     bool replay_force = false;  // of another program or scenario
+    std::string run_id{};       // what the truth of its frames is labelled with; empty: the emulator draws it
 };
 
 class CameraStation {
@@ -63,6 +65,8 @@ class CameraStation {
     FrameLoop& loop() { return *loop_; }
     const FrameLoop& loop() const { return *loop_; }
     Renderer& renderer() { return *renderer_; }
+    // What was found when they were loaded, in the scenario's order.
+    const std::vector<LoadedObject>& objects() const { return objects_; }
     SensorChain& chain() { return *chain_; }
     WorldState& world() { return *world_; }
     LiveSettings& settings() { return settings_; }
@@ -94,6 +98,7 @@ class CameraStation {
     const std::vector<std::unique_ptr<CommandReceiver>>* receivers_ = nullptr;  // the bench's
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::set<const FrameSink*> told_faults_;
+    std::vector<LoadedObject> objects_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;

@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "emulator/recording/recording_header.h"
+#include "emulator/recording/run_seed.h"
 
 namespace hilcam {
 namespace {
@@ -45,6 +46,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
       clock_(parse_utc(scenario.time_utc), monotonic_ns(), scenario.mode == CameraMode::kLockstep,
              scenario.clock),
       poses_(scenario.commands.poses, scenario.mode == CameraMode::kLockstep) {
+    if (limits_.run_id.empty()) limits_.run_id = drawn_run_id();
     prepare_recording();
     const RealTime& wishes = scenario.loop.real_time;
     require_rights(wishes);
@@ -52,7 +54,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
         threads_.emplace(tbb::global_control::max_allowed_parallelism, wishes.cores.size());
     std::vector<CommandedCamera> bench;
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
-        stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits));
+        stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits_));
         bench.push_back({nullptr, &stations_.back()->settings(), &stations_.back()->faults()});
     }
     for (std::size_t i = 0; i < stations_.size(); ++i) {
@@ -60,6 +62,9 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
         stations_[i]->set_receivers(receivers_);
         bench[i].world = &stations_[i]->world();
     }
+    if (limits.outputs)
+        for (const LoadedObject& object : first().objects())
+            if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
     // Loading took its time; the simulation starts now.
     clock_start_ns_ = monotonic_ns();
     clock_.restart(parse_utc(scenario.time_utc), clock_start_ns_);

@@ -41,6 +41,8 @@ class Emulator {
     const SimulatedClock& clock() const { return clock_; }
     const PoseWatch& poses() const { return poses_; }
     double seconds() const { return seconds_; }
+    // As truth and report have it, and no other run.
+    const std::string& run_id() const { return limits_.run_id; }
     CommandReport command_report() const;
     // Null: nothing is recorded.
     const Recorder* recorder() const { return recorder_.get(); }

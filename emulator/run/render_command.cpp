@@ -1,8 +1,11 @@
 #include "emulator/run/render_command.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <optional>
 
+#include "emulator/recording/run_seed.h"
 #include "emulator/run/picture_run.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
@@ -45,10 +48,30 @@ FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer) {
     return truth;
 }
 
-void write_truth(const std::filesystem::path& folder, const ScenarioConfig& s, const SpectralGrid& grid,
-                 const FrameTruth& truth, const FrameRecord& record) {
-    const TruthDocument document(truth_source(s, grid, 1));
-    TruthFiles(folder).write(truth, record.id, document.line(truth, record), document.legend(truth));
+void write_truth(const PictureTruthFiles& files, const TruthSource& source, const FrameTruth& truth,
+                 const FrameRecord& record) {
+    const TruthDocument document(source);
+    write_picture_truth(files, document.header() + '\n' + document.line(truth, record) + '\n', truth,
+                        document.legend(truth));
+}
+
+// What would be lost: a frame of a run, or the labels of another picture. A picture that is rendered again is
+// not.
+void require_unused(const RenderFiles& files) {
+    if (files.overwrite) return;
+    std::error_code error;
+    const auto refuse = [](const std::filesystem::path& file, const char* what) {
+        throw InputError(file.string() + ": is " + what + "; accepted: another name, or --overwrite");
+    };
+    const RunFolder run = run_folder(FilesConfig{});
+    for (const std::filesystem::path& file : {files.out, files.view})
+        if (run.is_own(file.filename().string()) && std::filesystem::exists(file, error))
+            refuse(file, "a frame of a run");
+    if (files.truth.empty()) return;
+    const PictureTruthFiles truth = picture_truth_files(files.truth, files.out);
+    for (const std::filesystem::path& file : {truth.lines, truth.layers, truth.mask})
+        if (std::filesystem::exists(file, error))
+            refuse(file, "the truth of a picture that is there already");
 }
 
 // Before minutes of rendering.
@@ -76,17 +99,23 @@ void check_names(RenderStage stage, const RenderFiles& files) {
 
 }  // namespace
 
-void render_to_files(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
-                     const RenderFiles& files) {
+void render_to_files(const ScenarioConfig& bench, RenderStage stage, double time_offset_s,
+                     const RenderFiles& files, std::size_t number) {
+    const ScenarioConfig scenario = scenario_of_camera(bench, number - 1);
     check_names(stage, files);
+    require_unused(files);
     StillCamera camera(scenario, time_offset_s);
-    PictureWriter writer(picture_run_of(scenario, 1));
-    const RandomKey key{static_cast<std::uint64_t>(scenario.seed), 1};
+    for (const LoadedObject& object : camera.objects())
+        if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
+    PictureWriter writer(picture_run_of(scenario, number));
+    const RandomKey key{seed_of_camera(scenario, number - 1), 1};
     std::optional<FrameTruth> truth;
     if (!files.truth.empty()) truth = empty_truth(scenario, camera.renderer());
     const RadianceImage& radiance = camera.render(key, truth ? &*truth : nullptr);
     const FrameRecord record = record_of(scenario, camera);
-    if (truth) write_truth(files.truth, scenario, camera.grid(), *truth, record);
+    if (truth)
+        write_truth(picture_truth_files(files.truth, files.out),
+                    truth_source(scenario, camera.grid(), number, drawn_run_id()), *truth, record);
     const auto oversampling = static_cast<int>(scenario.quality.oversampling);
     if (stage == RenderStage::kRadiance)
         return writer.write_radiance(

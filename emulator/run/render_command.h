@@ -1,6 +1,7 @@
 #pragma once
 // `hilcam render`: one picture of the scenario's first instant, at any stage of the chain.
 
+#include <cstddef>
 #include <filesystem>
 
 #include "emulator/scenario/app_config.h"
@@ -11,13 +12,16 @@ enum class RenderStage { kRadiance, kElectrons, kFrame };
 
 struct RenderFiles {
     std::filesystem::path out;  // radiance .exr; mean electrons .exr, .fits; a frame .png, .tiff, .fits, .raw
-    std::filesystem::path view;   // a frame's picture to look at, .png; empty: none
-    std::filesystem::path truth;  // a folder for what the picture shows, with all layers unless outputs.truth
-                                  // says which; empty: none
+    std::filesystem::path view{};  // a frame's picture to look at, .png; empty: none
+    // A folder for what the picture shows, in files that are named after it, with all layers unless
+    // outputs.truth says which; empty: none.
+    std::filesystem::path truth{};
+    bool overwrite = false;  // a run's frame, or the truth of another picture
 };
 
-// Throws InputError, DeviceError; names of files that cannot be, before anything is rendered.
+// Writes what the camera of that number, from 1, sees first. Throws InputError, DeviceError; names of files
+// that cannot be, before anything is rendered.
 void render_to_files(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
-                     const RenderFiles& files);
+                     const RenderFiles& files, std::size_t camera = 1);
 
 }  // namespace hilcam

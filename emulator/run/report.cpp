@@ -119,6 +119,7 @@ json run_report(const Emulator& emulator) {
     json report = camera_report(emulator.first(), emulator.seconds());
     const CommandReport commands = emulator.command_report();
     report["scenario"] = emulator.first().scenario().name;
+    report["run"] = emulator.run_id();
     report["seed"] = emulator.first().scenario().seed;
     report["seconds"] = rounded(emulator.seconds());
     report["commands"] = {

@@ -4,7 +4,6 @@
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
-#include "emulator/scenario/scene_loader.h"
 #include "emulator/world/clock.h"
 
 namespace hilcam {
@@ -26,7 +25,7 @@ Exposure first_exposure(const CameraModel& camera) {
 StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
     : scenario_(scenario),
       grid_(scenario.spectrum_edges_um),
-      renderer_(load_renderer(scenario, grid_, image_geometry(scenario))),
+      renderer_(load_renderer(scenario, grid_, image_geometry(scenario), &objects_)),
       time_(parse_utc(scenario.time_utc) + static_cast<std::int64_t>(time_offset_s * 1e9)),
       snapshot_(snapshot_at(scenario, parse_utc(scenario.time_utc), time_)),
       world_(initial_motions(scenario, parse_utc(scenario.time_utc)), scenario.origin, joints_of(scenario),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/loop/exposure_renderer.h"
+#include "emulator/scenario/scene_loader.h"
 #include "sensor/chain.h"
 
 namespace hilcam {
@@ -37,6 +38,7 @@ class StillCamera {
     // Where everything is at mid-exposure, pointing jitter apart.
     const WorldSnapshot& world() const { return snapshot_; }
     Renderer& renderer() { return *renderer_; }
+    const std::vector<LoadedObject>& objects() const { return objects_; }
     const Renderer& renderer() const { return *renderer_; }
 
   private:
@@ -45,6 +47,7 @@ class StillCamera {
 
     ScenarioConfig scenario_;
     SpectralGrid grid_;
+    std::vector<LoadedObject> objects_;
     std::unique_ptr<Renderer> renderer_;
     TimeTai time_;
     WorldSnapshot snapshot_;

@@ -1,10 +1,14 @@
 #include "emulator/run/truth_source.h"
 
+#include "emulator/recording/program_version.h"
+
 namespace hilcam {
 
 // The renderer's objects: the scenario's, then all their turning parts, then the terrain (scene_loader.cpp).
-TruthSource truth_source(const ScenarioConfig& s, const SpectralGrid& grid, std::size_t number) {
+TruthSource truth_source(const ScenarioConfig& s, const SpectralGrid& grid, std::size_t number,
+                         const std::string& run_id) {
     TruthSource source;
+    source.run = {run_id, s.name, s.seed, std::string(kProgramVersion)};
     source.camera = static_cast<int>(number);
     source.model = s.camera;
     source.oversampling = static_cast<int>(s.quality.oversampling);
@@ -36,8 +40,9 @@ FrameTruth make_truth(const ScenarioConfig& s, const Renderer& renderer, const T
 }
 
 std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& s, const SpectralGrid& grid,
-                                           std::size_t number, const Renderer& renderer) {
-    return std::make_unique<TruthSink>(s.outputs.truth, truth_source(s, grid, number),
+                                           std::size_t number, const Renderer& renderer,
+                                           const std::string& run_id) {
+    return std::make_unique<TruthSink>(s.outputs.truth, truth_source(s, grid, number, run_id),
                                        [&] { return make_truth(s, renderer, truth_wishes(s)); });
 }
 

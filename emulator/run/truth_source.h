@@ -11,8 +11,9 @@
 
 namespace hilcam {
 
-// number: of the camera that the scenario is about, from 1.
-TruthSource truth_source(const ScenarioConfig& scenario, const SpectralGrid& grid, std::size_t number);
+// run_id: no other run's; empty: of none. number: of the camera that the scenario is about, from 1.
+TruthSource truth_source(const ScenarioConfig& scenario, const SpectralGrid& grid, std::size_t number,
+                         const std::string& run_id);
 // Of outputs.truth, whether or not it is given.
 TruthWishes truth_wishes(const ScenarioConfig& scenario);
 // A record for any frame of the camera. Owner thread.
@@ -20,6 +21,7 @@ FrameTruth make_truth(const ScenarioConfig& scenario, const Renderer& renderer, 
 
 // The output outputs.truth; what the scenario is about is loaded. Throws InputError.
 std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& scenario, const SpectralGrid& grid,
-                                           std::size_t number, const Renderer& renderer);
+                                           std::size_t number, const Renderer& renderer,
+                                           const std::string& run_id = {});
 
 }  // namespace hilcam

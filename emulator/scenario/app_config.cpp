@@ -142,6 +142,10 @@ ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t in
     return own;
 }
 
+std::uint64_t seed_of_camera(const ScenarioConfig& scenario, std::size_t index) {
+    return static_cast<std::uint64_t>(scenario.seed) + index * 0x9E3779B97F4A7C15u;
+}
+
 EventWorld event_world(const ScenarioConfig& s) {
     EventWorld world;
     for (const ObjectConfig& object : s.objects) world.objects.push_back(object.name);
@@ -251,11 +255,12 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
     const bool own = rays.model == "pinhole" || rays.model == "rolling" || rays.model == "pushbroom";
     if (!own) return;
     if (rays.model != expected)
-        throw InputError("rays.model: found " + in_quotes(rays.model) + "; the camera's shutter asks for '" +
-                         expected + "' (leave 'rays' out, or change camera.shutter.kind)");
+        throw KeyError("rays.model", "found " + in_quotes(rays.model) + "; the camera's shutter asks for '" +
+                                         expected + "' (leave 'rays' out, or change camera.shutter.kind)");
     if (expected != "pinhole" && std::abs(rays.line_time_s - shutter.line_time_s) > 1e-12)
-        throw InputError("rays.line_time_us: found " + plain(rays.line_time_s * 1e6) +
-                         "; camera.shutter.line_time_us is " + plain(shutter.line_time_s * 1e6));
+        throw KeyError("rays.line_time_us", "found " + plain(rays.line_time_s * 1e6) +
+                                                "; camera.shutter.line_time_us is " +
+                                                plain(shutter.line_time_s * 1e6));
 }
 
 // A picture that is asked for is one frame of a world that waits for it, seen from where the message says.
@@ -338,22 +343,25 @@ RenderModels models_of(const ScenarioConfig& s) {
 }
 
 void validate(const ScenarioConfig& s) {
-    parse_utc(s.time_utc);
+    at_key("time_utc", [&] { parse_utc(s.time_utc); });
     SpectralGrid grid(s.spectrum_edges_um);
     if (s.has_camera_pose && s.has_camera_motion)
-        throw InputError("a scenario has either 'camera_pose' or 'camera_motion'; found both");
+        throw KeyError("camera_motion", "a scenario has either 'camera_pose' or 'camera_motion'; found both");
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
     if (s.more_cameras.size() > kMostCameras - 1)
         throw InputError("more_cameras: found " + std::to_string(s.more_cameras.size()) +
                          "; accepted: at most " + std::to_string(kMostCameras - 1));
-    for (const CameraConfig& c : s.more_cameras)
-        if (c.thing > static_cast<std::int64_t>(s.objects.size()))
-            throw InputError("more_cameras: on: found " + std::to_string(c.thing) + "; accepted: 0 to " +
-                             std::to_string(s.objects.size()) + ", the number of objects");
-    for (const EventConfig& event : s.events)
-        if (event.camera > static_cast<std::int64_t>(1 + s.more_cameras.size()))
-            throw InputError("events: camera: found " + std::to_string(event.camera) + "; accepted: 0 to " +
-                             std::to_string(1 + s.more_cameras.size()));
+    for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
+        if (const std::int64_t on = s.more_cameras[i].thing; on > static_cast<std::int64_t>(s.objects.size()))
+            throw KeyError("more_cameras." + std::to_string(i) + ".on",
+                           "found " + std::to_string(on) + "; accepted: 0 to " +
+                               std::to_string(s.objects.size()) + ", the number of objects");
+    for (std::size_t i = 0; i < s.events.size(); ++i)
+        if (const std::int64_t camera = s.events[i].camera;
+            camera > static_cast<std::int64_t>(1 + s.more_cameras.size()))
+            throw KeyError("events." + std::to_string(i) + ".camera",
+                           "found " + std::to_string(camera) + "; accepted: 0 to " +
+                               std::to_string(1 + s.more_cameras.size()));
     const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
     lamp_mounts(s);
     check_folders(s);

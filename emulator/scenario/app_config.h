@@ -174,6 +174,8 @@ VizardBench vizard_bench(const ScenarioConfig& scenario);
 
 // The scenario as one of its cameras has it, counted from 0.
 ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index);
+// The seed of its noise: cameras of one bench draw different noise.
+std::uint64_t seed_of_camera(const ScenarioConfig& scenario, std::size_t index);
 
 // Why the governor does not run, or empty: it has no budget, or frames must not depend on how fast the
 // machine is.

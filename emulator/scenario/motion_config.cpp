@@ -59,6 +59,7 @@ void validate(const KeplerConfig& k) {
             "found a 'semi_major_axis_km' that does not go with 'eccentricity'; accepted: above 0 with 0 to "
             "below "
             "1, below 0 with above 1");
+    if (!k.epoch_utc.empty()) at_key("epoch_utc", [&] { parse_utc(k.epoch_utc); });
 }
 
 Fields fields(TleConfig& t) {
@@ -122,6 +123,15 @@ void validate(const MotionConfig& m) {
         if (!given) throw InputError(std::string("has no '") + key + "'; kind " + kind + " needs it");
     };
     using Kind = MotionConfig::Kind;
+    const auto forbid = [](bool given, const char* key) {
+        if (given)
+            throw KeyError(key, std::string("has no effect: kind is not ") + key +
+                                    "; accepted: kind: " + key + ", or no '" + key + "'");
+    };
+    forbid(!m.keyframes.empty() && m.kind != Kind::kKeyframes, "keyframes");
+    forbid(m.has_kepler && m.kind != Kind::kKepler, "kepler");
+    forbid(m.has_tle && m.kind != Kind::kTle, "tle");
+    forbid(m.has_oem && m.kind != Kind::kOem, "oem");
     if (m.kind == Kind::kKeyframes) need(!m.keyframes.empty(), "keyframes", "keyframes");
     if (m.kind == Kind::kKepler) need(m.has_kepler, "kepler", "kepler");
     if (m.kind == Kind::kTle) need(m.has_tle, "tle", "tle");

@@ -8,20 +8,66 @@ namespace hilcam {
 Fields fields(PoseConfig& p) {
     return {
         vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "in the world"),
-        choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
-               "quaternion: attitude_wxyz; look_at: +z to a point, -y near up; nadir: +z to the Earth's "
-               "centre, +y south"),
-        quaternion("attitude_wxyz", p.world_from_body, "turns body axes into world axes, scalar first"),
-        vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the world"),
-        vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the world"),
-        vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "in the world"),
-        vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "about the body axes"),
+        optional(choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
+                        "quaternion: attitude_wxyz; look_at: +z to a point, -y near up; nadir: +z to the "
+                        "Earth's centre, +y south; with look_at_m or up it is look_at"),
+                 p.has_attitude),
+        optional(
+            quaternion("attitude_wxyz", p.world_from_body, "turns body axes into world axes, scalar first"),
+            p.has_quaternion),
+        optional(vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the world"), p.has_look_at),
+        optional(vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the world"), p.has_up),
+        optional(vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "in the world"), p.has_velocity),
+        optional(vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "about the body axes"),
+                 p.has_rate),
     };
+}
+
+PoseConfig::Attitude attitude_of(const PoseConfig& p) {
+    if (!p.has_attitude && (p.has_look_at || p.has_up)) return PoseConfig::Attitude::kLookAt;
+    return p.attitude;
+}
+
+namespace {
+
+void refuse_idle_key(const char* key, const std::string& attitude, const std::string& needed) {
+    throw KeyError(key, "has no effect with " + attitude + "; accepted: attitude: " + needed + ", or no '" +
+                            key + "' (--set takes 'null' for a key that the file gives)");
+}
+
+void check_look_at(const PoseConfig& p) {
+    const Vec3d along = p.look_at_m - p.position_m;
+    if (!(length(along) > 0))
+        throw KeyError("look_at_m", "is where it stands, position_m; accepted: another point to look at");
+    if (!(length(p.up) > 0))
+        throw KeyError("up", "found a vector without a direction; accepted: one that is not 0");
+    if (!(length(cross(along, p.up)) > 1e-9 * length(along) * length(p.up)))
+        throw KeyError(
+            "up",
+            "lies along the line of sight from position_m to look_at_m, so that nothing says which "
+            "way is up in the picture; accepted: any other direction");
+}
+
+}  // namespace
+
+void validate(const PoseConfig& p) {
+    using Attitude = PoseConfig::Attitude;
+    const Attitude attitude = attitude_of(p);
+    const std::string named = !p.has_attitude                 ? "look_at_m and up"
+                              : attitude == Attitude::kNadir  ? "attitude: nadir"
+                              : attitude == Attitude::kLookAt ? "attitude: look_at"
+                                                              : "attitude: quaternion";
+    if (p.has_quaternion && attitude != Attitude::kQuaternion)
+        refuse_idle_key("attitude_wxyz", named, "quaternion");
+    if (p.has_look_at && attitude != Attitude::kLookAt) refuse_idle_key("look_at_m", named, "look_at");
+    if (p.has_up && attitude != Attitude::kLookAt) refuse_idle_key("up", named, "look_at");
+    if (attitude == Attitude::kLookAt) check_look_at(p);
 }
 
 Motion initial_motion(const PoseConfig& p, TimeTai time, const Bodies& bodies) {
     Quat attitude = p.world_from_body;
-    if (p.attitude == PoseConfig::Attitude::kLookAt) attitude = look_along(p.look_at_m - p.position_m, p.up);
+    if (attitude_of(p) == PoseConfig::Attitude::kLookAt)
+        attitude = look_along(p.look_at_m - p.position_m, p.up);
     // +z down, +y along -north: then +x = y x z points east.
     if (p.attitude == PoseConfig::Attitude::kNadir)
         attitude = look_along(bodies.earth().world_m - p.position_m, Vec3d{0, 0, 1});
@@ -61,7 +107,7 @@ void validate(const JointConfig& j) {
 Fields fields(ObjectConfig& o) {
     return {
         required(text("name", o.name, "for messages")),
-        optional(path("mesh", o.mesh, "GLB, glTF, OBJ, STL or PLY file in metres"), o.has_mesh),
+        optional(path("mesh", o.mesh, o.mesh_where, "GLB, glTF, OBJ, STL or PLY file in metres"), o.has_mesh),
         optional(section("generate", o.generate, "a mesh made at first use and cached, instead of a file"),
                  o.has_generate),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
@@ -77,7 +123,8 @@ void validate(const ObjectConfig& o) {
     if (o.has_mesh == o.has_generate)
         throw InputError("an object has either 'mesh' or 'generate'; found " +
                          std::string(o.has_mesh ? "both" : "neither"));
-    if (o.has_pose && o.has_motion) throw InputError("an object has either 'pose' or 'motion'; found both");
+    if (o.has_pose && o.has_motion)
+        throw KeyError("motion", "an object has either 'pose' or 'motion'; found both");
 }
 
 Fields fields(PlaceConfig& p) {
@@ -92,7 +139,11 @@ Fields fields(PlaceConfig& p) {
 }
 
 void validate(const TerrainConfig& t) {
-    if (t.has_pose && t.has_place) throw InputError("terrain has either 'pose' or 'place'; found both");
+    if (t.has_pose && t.has_place)
+        throw KeyError("place", "terrain has either 'pose' or 'place'; found both");
+    for (const auto& [key, given] :
+         {std::pair{"velocity_m_s", t.pose.has_velocity}, {"rate_deg_s", t.pose.has_rate}})
+        if (given) throw KeyError(std::string("pose.") + key, "has no effect: terrain stays where it is");
 }
 
 Fields fields(TerrainConfig& t) {

@@ -24,8 +24,13 @@ struct PoseConfig {
     Vec3d up{0, 0, 1};
     Vec3d velocity_m_s;
     Vec3d rate_body_rad_s;
+    bool has_attitude = false, has_quaternion = false, has_look_at = false, has_up = false;
+    bool has_velocity = false, has_rate = false;
 };
 Fields fields(PoseConfig& pose);
+void validate(const PoseConfig& pose);
+// As it is named, or as the other keys mean it: `look_at_m` and `up` mean look_at.
+PoseConfig::Attitude attitude_of(const PoseConfig& pose);
 // The motion that a pose config describes at an instant. Throws InputError when look_at is not defined.
 Motion initial_motion(const PoseConfig& pose, TimeTai time, const Bodies& bodies);
 
@@ -56,6 +61,7 @@ void validate(const JointConfig& joint);
 struct ObjectConfig {
     std::string name;
     std::filesystem::path mesh;
+    std::string mesh_where;  // the key's place in the scenario
     GeneratedMeshConfig generate;
     double scale = 1;
     PoseConfig pose;

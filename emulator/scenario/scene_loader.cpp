@@ -9,6 +9,7 @@
 
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/scenario_listing.h"
+#include "io/config/config_advice.h"
 #include "io/files/atmosphere_file.h"
 #include "io/files/brdf_file.h"
 #include "io/files/catalogue_file.h"
@@ -18,9 +19,11 @@
 #include "io/files/transfer_cache.h"
 #include "io/pictures/picture_file.h"
 #include "render/frame/plugin.h"
+#include "render/scene/brdf.h"
 #include "render/scene/brdf_table.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -55,6 +58,49 @@ std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, c
         materials.back().texture = surface.base_color_texture;
     }
     return materials;
+}
+
+// As material.h has it for light from 45 degrees, without textures' colours.
+double reflectance_of(const Material& material, const SpectralGrid& grid) {
+    constexpr float kCosine = 0.7f;
+    const Scatterer at{&material, material.ggx_alpha, material.base, material.highlight};
+    return std::min(1.0, static_cast<double>(brdf_albedo(at, kCosine, grid.size())));
+}
+
+template <class F>
+Vec3d by_component(Vec3d a, Vec3d b, const F& f) {
+    return {f(a.x, b.x), f(a.y, b.y), f(a.z, b.z)};
+}
+
+// Adds a mesh, scaled, with its materials, to what was found of the object that it is or is a part of.
+void tell(const Mesh& mesh, const std::vector<Material>& materials, const ObjectConfig& config,
+          const SpectralGrid& grid, LoadedObject& out) {
+    const bool first = out.surfaces.empty();
+    if (first)
+        for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
+            const SurfaceConfig* rule = find_surface(config.materials.surfaces, mesh.surfaces[i].name);
+            out.surfaces.push_back(
+                {mesh.surfaces[i].name, 0, 0, rule ? rule->name : "", reflectance_of(materials[i], grid)});
+        }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        std::array<Vec3d, 3> corner;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corner[k] = to_double(mesh.vertices_m[mesh.triangles[i][k]]);
+            if (out.triangles == 0 && k == 0) out.least_m = out.most_m = corner[k];
+            out.least_m =
+                by_component(out.least_m, corner[k], [](double a, double b) { return std::min(a, b); });
+            out.most_m =
+                by_component(out.most_m, corner[k], [](double a, double b) { return std::max(a, b); });
+        }
+        LoadedSurface& surface = out.surfaces[mesh.surface_of_triangle[i]];
+        ++surface.triangles, ++out.triangles;
+        surface.area_m2 += 0.5 * length(cross(corner[1] - corner[0], corner[2] - corner[0]));
+    }
+    if (!first) return;
+    for (const SurfaceConfig& rule : config.materials.surfaces)
+        if (std::none_of(out.surfaces.begin(), out.surfaces.end(),
+                         [&](const LoadedSurface& surface) { return surface.rule == rule.name; }))
+            out.idle_rules.push_back(rule.name);
 }
 
 bool wants_levels_of_detail(const ScenarioConfig& scenario) {
@@ -105,13 +151,14 @@ void load_transfers(std::vector<SceneObject>& objects, const ScenarioConfig& sce
 }
 
 SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
-                        const SpectralGrid& grid) {
+                        const SpectralGrid& grid, LoadedObject& found) {
     SceneObject object;
     object.mesh = std::move(mesh);
     const auto scale = static_cast<float>(config.scale);
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
     if (wants_levels_of_detail(scenario)) object.levels = cached_levels(object.mesh, cache_folder());
     object.materials = load_materials(object.mesh, config.materials, grid);
+    tell(object.mesh, object.materials, config, grid, found);
     return object;
 }
 
@@ -123,9 +170,22 @@ std::string make_of(const ObjectConfig& config, const std::filesystem::path& mes
     return make + section_listing(section_of(materials));
 }
 
+// What is wrong with a mesh file stands where the scenario names it.
+std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem::path& file,
+                              const std::vector<std::string>& nodes) {
+    try {
+        return load_mesh_parts(file, nodes);
+    } catch (const InputError& error) {
+        if (config.mesh_where.empty()) throw;
+        throw InputError(config.mesh_where + ": " + error.what());
+    }
+}
+
 // The objects in their order, then all their turning parts: as WorldState places them. The first of a make is
 // loaded, the others are like it.
-std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const SpectralGrid& grid) {
+std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const SpectralGrid& grid,
+                                      std::vector<LoadedObject>& found) {
+    found.assign(scenario.objects.size(), {});
     std::vector<SceneObject> objects(scenario.objects.size());
     struct Loaded {
         std::size_t object, first_part;
@@ -138,15 +198,17 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
         std::vector<std::string> nodes;
         for (const JointConfig& joint : config.joints) nodes.push_back(joint.node);
         if (is_new) {
-            std::vector<Mesh> meshes = load_mesh_parts(file, nodes);
-            objects[i] = make_object(std::move(meshes.front()), config, scenario, grid);
+            std::vector<Mesh> meshes = load_meshes(config, file, nodes);
+            objects[i] = make_object(std::move(meshes.front()), config, scenario, grid, found[i]);
             for (std::size_t k = 1; k < meshes.size(); ++k)
-                objects.push_back(make_object(std::move(meshes[k]), config, scenario, grid));
+                objects.push_back(make_object(std::move(meshes[k]), config, scenario, grid, found[i]));
         } else {
             objects[i].like = make->second.object;
             for (std::size_t k = 0; k < nodes.size(); ++k)
                 objects.emplace_back().like = make->second.first_part + k;
+            found[i] = found[make->second.object];
         }
+        found[i].name = config.name;
         objects[i].name = config.name;
         objects[i].turn_rate_rad_s = length(config.pose.rate_body_rad_s);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -176,9 +238,38 @@ void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
 
 }  // namespace
 
-Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules) {
+double LoadedObject::mean_reflectance() const {
+    double area_m2 = 0, sum_m2 = 0;
+    for (const LoadedSurface& surface : surfaces)
+        area_m2 += surface.area_m2, sum_m2 += surface.area_m2 * surface.reflectance;
+    return area_m2 > 0 ? sum_m2 / area_m2 : 0;
+}
+
+std::string warning_of(const LoadedObject& object) {
+    if (object.idle_rules.empty()) return {};
+    std::vector<std::string> names;
+    std::string surfaces, rules;
+    for (const LoadedSurface& surface : object.surfaces) {
+        if (surface.triangles == 0) continue;
+        names.push_back(surface.name);
+        if (surfaces.size() < 400) surfaces += (surfaces.empty() ? "" : ", ") + in_quotes(surface.name);
+    }
+    for (const std::string& rule : object.idle_rules) {
+        rules += (rules.empty() ? "" : ", ") + in_quotes(rule);
+        if (std::find(names.begin(), names.end(), rule) != names.end())
+            rules += " (a rule before it takes that surface)";
+        else if (const std::string nearest = nearest_of(rule, names); !nearest.empty())
+            rules += " (the nearest is " + in_quotes(nearest) + ")";
+    }
+    return "object '" + object.name + "': no surface takes its material rules for " + rules +
+           "; the mesh's surfaces: " + surfaces;
+}
+
+Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,
+                 std::vector<LoadedObject>* found) {
     Scene scene;
-    scene.objects = load_objects(scenario, grid);
+    std::vector<LoadedObject> objects;
+    scene.objects = load_objects(scenario, grid, found ? *found : objects);
     const TimeTai time = parse_utc(scenario.time_utc);
     if (scenario.has_terrain) {
         const TerrainConfig& t = scenario.terrain;
@@ -216,13 +307,13 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
 }
 
 std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
-                                        const ImageGeometry& geometry) {
+                                        const ImageGeometry& geometry, std::vector<LoadedObject>* found) {
     require_room(grid, geometry);
     Modules modules;
     std::vector<std::filesystem::path> plugins;
     for (const PluginConfig& plugin : scenario.plugins) plugins.push_back(plugin.file);
     load_plugins(plugins, modules);
-    return std::make_unique<Renderer>(load_scene(scenario, grid, modules), grid, geometry,
+    return std::make_unique<Renderer>(load_scene(scenario, grid, modules, found), grid, geometry,
                                       render_quality_of(scenario), models_of(scenario), modules,
                                       lower_levels(scenario));
 }

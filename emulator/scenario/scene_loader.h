@@ -8,11 +8,34 @@
 
 namespace hilcam {
 
+// What was found when an object was loaded, for people: its mesh with all its parts, in its own axes.
+struct LoadedSurface {
+    std::string name;
+    std::size_t triangles = 0;
+    double area_m2 = 0;
+    std::string rule;        // of the object's materials that it took; empty: the mesh's own look
+    double reflectance = 0;  // share of sunlight that comes back in all directions, about
+};
+struct LoadedObject {
+    std::string name;
+    Vec3d least_m, most_m;
+    std::size_t triangles = 0;
+    std::vector<LoadedSurface> surfaces;
+    std::vector<std::string> idle_rules;  // of its materials: no surface takes them
+
+    double mean_reflectance() const;  // by area
+};
+// Which of its rules have no effect, and the surfaces that there are; empty: all have one.
+std::string warning_of(const LoadedObject& object);
+
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
-Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules);
+// found: gets the objects in their order; null: nobody wants to know.
+Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,
+                 std::vector<LoadedObject>* found = nullptr);
 // The same, ready to render.
 std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
-                                        const ImageGeometry& geometry);
+                                        const ImageGeometry& geometry,
+                                        std::vector<LoadedObject>* found = nullptr);
 
 // What the maps of the camera's fixed_pattern hold.
 DetectorPictures load_detector_pictures(const CameraModel& camera);

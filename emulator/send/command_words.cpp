@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "emulator/send/choice_option.h"
 #include "io/contract/fault.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -74,7 +75,7 @@ void add_pose(CLI::App& app, const Take& take) {
     CLI::Option* attitude = pose->add_option("--attitude", o->attitude, "w x y z, body to world");
     CLI::Option* look =
         pose->add_option("--look-at-m", o->look_at_m, "x y z, instead of an attitude")->excludes(attitude);
-    pose->add_option("--up", o->up, "x y z, for --look-at-m");
+    pose->add_option("--up", o->up, "x y z, for --look-at-m")->needs(look);
     pose->add_option("--velocity-m-s", o->velocity_m_s, "x y z in the world");
     pose->add_option("--at-utc", o->utc, "simulated time it is true at; left out: on arrival");
     pose->add_option("--rate-deg-s", o->rate_deg_s, "x y z about the body axes");
@@ -198,9 +199,9 @@ void add_mode(CLI::App& app, const Take& take) {
     };
     CLI::App* mode = app.add_subcommand("mode", "what starts a frame: the frame rate, or triggers");
     const auto o = std::make_shared<Options>();
-    mode->add_option("mode", o->mode, "free-run or triggered")
+    mode->add_option("mode", o->mode, "free_run or triggered")
         ->required()
-        ->check(CLI::IsMember({"free-run", "triggered"}));
+        ->check(CLI::IsMember({"free_run", "free-run", "triggered"}));
     mode->add_option("--burst-frames", o->burst_frames, "frames of each trigger; left out: as it is")
         ->check(CLI::Range(1, 65535));
     on(mode, take, [=] {
@@ -278,7 +279,12 @@ Command command_of_words(const std::string& words) {
     app.set_help_flag();
     Command command;
     add_command_words(app, [&](const Command& c) { command = c; });
-    app.parse(words, false);
+    try {
+        app.parse(words, false);
+    } catch (const CLI::ParseError&) {
+        if (const std::string what = unknown_subcommand(app); !what.empty()) throw InputError(what);
+        throw;
+    }
     return command;
 }
 

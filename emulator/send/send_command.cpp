@@ -2,8 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <chrono>
 #include <memory>
 
+#include "emulator/send/choice_option.h"
 #include "emulator/send/command_words.h"
 #include "emulator/send/send_clock.h"
 #include "emulator/send/send_fly.h"
@@ -25,6 +27,14 @@ struct SendOptions {
     std::filesystem::path script;
 };
 
+// Reports name the command that a frame shows by its sequence number, and 0 is none: so a program that sends
+// one command and ends takes a number from the nanoseconds. It lies far from that of the program before it,
+// so that nothing in between is counted as lost (sequence_window.h). cFS's 14 bits are too few for that.
+std::uint32_t sequence_by_clock(Dialect dialect) {
+    if (dialect == Dialect::kCfs) return 0;
+    return static_cast<std::uint32_t>(std::chrono::system_clock::now().time_since_epoch().count() | 1);
+}
+
 int print(const Acknowledgement& a) {
     const bool good = a.status == CommandStatus::kAccepted;
     fmt::print("{} simulated time {}\n", text_of(a), format_utc(a.simulated_time));
@@ -35,6 +45,7 @@ int send_one(const SendOptions& o) {
     if (const auto* clock = std::get_if<ClockCommand>(&o.command)) return send_clock(o.target, *clock);
     CommandSender sender(o.target.endpoint, o.target.dialect);
     sender.address(o.target.camera);
+    sender.begin_at(sequence_by_clock(o.target.dialect.dialect));
     return print(sender.send(o.command, o.target.timeout_ms));
 }
 
@@ -67,9 +78,8 @@ void add_target(CLI::App& send, SendTarget& target) {
                     "where the emulator listens: ADDRESS:PORT (UDP), tcp:ADDRESS:PORT, unix:PATH, "
                     "usb:VENDOR:PRODUCT[:SERIAL]")
         ->capture_default_str();
-    const std::map<std::string, Dialect> dialects = {{"hilcam", Dialect::kHilcam}, {"cfs", Dialect::kCfs}};
-    send.add_option("--dialect", target.dialect.dialect, "hilcam or cfs, as the emulator's")
-        ->transform(CLI::CheckedTransformer(dialects));
+    add_choice<Dialect>(send, "--dialect", target.dialect.dialect,
+                        {{"hilcam", Dialect::kHilcam}, {"cfs", Dialect::kCfs}}, "as the emulator's");
     send.add_option("--camera", target.camera,
                     "which camera settings, triggers and faults are for, from 1; 0: every one");
     send.add_option("--timeout-ms", target.timeout_ms, "wait for an acknowledgement")

@@ -98,7 +98,7 @@ std::string_view meaning_of(CommandStatus status) {
             return "beyond commands.poses.horizon_s from simulated time, or in lockstep not after the last "
                    "frame";
         case CommandStatus::kBusy:
-            return "the frame before is still being exposed, or too many are waiting";
+            return "the trigger's time has passed, the frame before is still exposed, or too many wait";
         case CommandStatus::kNotNow:
             return "the camera's mode, or the clock's, has no use for it";
         case CommandStatus::kTimeBackwards:
@@ -106,6 +106,17 @@ std::string_view meaning_of(CommandStatus status) {
         default:
             return name_of(status);
     }
+}
+
+std::string_view meaning_of(CommandStatus status, const Command& command) {
+    if (status != CommandStatus::kNotNow) return meaning_of(status);
+    if (std::holds_alternative<ExposeCommand>(command))
+        return "no trigger is taken in free_run ('hilcam send mode triggered') or when stopped ('... start')";
+    if (std::holds_alternative<TriggerModeCommand>(command))
+        return "in lockstep each 'expose' takes a frame, and nothing else does";
+    if (std::holds_alternative<ClockCommand>(command))
+        return "in lockstep time goes from frame to frame; else 'hilcam send clock pause' before a step";
+    return meaning_of(status);
 }
 
 }  // namespace hilcam

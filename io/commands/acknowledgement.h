@@ -44,5 +44,7 @@ std::string_view name_of(CommandStatus status);
 std::string text_of(const Acknowledgement& a);
 // Why, in a line: what refusals give as their reason where the command itself is well formed.
 std::string_view meaning_of(CommandStatus status);
+// The same of a command, with what helps.
+std::string_view meaning_of(CommandStatus status, const Command& command);
 
 }  // namespace hilcam

@@ -105,7 +105,8 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
     if (decoded.status == CommandStatus::kAccepted) {
         out.status = perform(decoded, packet, arrival_ns, sender, notes);
         if (out.status != CommandStatus::kAccepted || notes.tell_sender)
-            out.reason = notes.tell_sender ? name_of(CommandStatus::kTimeBackwards) : meaning_of(out.status);
+            out.reason = notes.tell_sender ? name_of(CommandStatus::kTimeBackwards)
+                                           : meaning_of(out.status, decoded.command);
         if (const auto* ping = std::get_if<PingCommand>(&decoded.command)) out.token = ping->token;
     }
     const std::uint64_t went_back = notes.went_back ? 1 : 0;

@@ -1,12 +1,14 @@
 #pragma once
 // What a sender's sequence numbers say of packets lost, doubled or late. Pure.
 
+#include <algorithm>
 #include <cstdint>
 
 namespace hilcam {
 
 // Remembers the 64 numbers up to the newest. `bits`: how many of a number travel; it wraps after that. A
-// number further back than that, or 0 out of turn, is a sender that begins anew, from which nothing is lost.
+// number further back than that, 0 out of turn, or one so far ahead that no line loses as many, is a sender
+// that begins anew, from which nothing is lost.
 class SequenceWindow {
   public:
     explicit SequenceWindow(int bits = 32) : mask_(bits >= 32 ? 0xFFFFFFFFu : (1u << bits) - 1) {}
@@ -40,8 +42,10 @@ inline SequenceWindow::Finding SequenceWindow::take(std::uint32_t sequence) {
         seen_ |= bit;
         return {known ? Kind::kDuplicate : Kind::kLate};
     }
-    // Half of all numbers lie ahead; the rest are too old to be late.
-    if (seen_ != 0 && !anew && ahead <= mask_ / 2) {
+    // Half of all numbers lie ahead; the rest are too old to be late. What begins by the clock lands
+    // anywhere.
+    constexpr std::uint32_t kMostLost = 1u << 20;
+    if (seen_ != 0 && !anew && ahead <= std::min(mask_ / 2, kMostLost)) {
         newest_ = sequence;
         seen_ = (ahead < 64 ? seen_ << ahead : 0) | 1;
         return ahead == 1 ? Finding{Kind::kNext} : Finding{Kind::kGap, ahead - 1};

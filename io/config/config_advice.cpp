@@ -30,22 +30,31 @@ bool ends_in_unit(std::string_view key) {
     return at != std::string_view::npos && key.size() - at - 1 <= 3;
 }
 
+constexpr std::size_t kMostSlips = 3;
+
 }  // namespace
 
+std::string nearest_of(std::string_view word, std::span<const std::string> known) {
+    const std::string* nearest = nullptr;
+    std::size_t least = kMostSlips + 1;
+    for (const std::string& candidate : known) {
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < least) least = distance, nearest = &candidate;
+    }
+    return nearest ? *nearest : std::string();
+}
+
 std::string advice_for(std::string_view key, const Fields& known) {
-    const Field* nearest = nullptr;
-    std::size_t least = std::string_view::npos;
+    std::vector<std::string> keys;
+    std::string list;
     for (const Field& field : known) {
         if (field.key != key && ends_in_unit(key) && ends_in_unit(field.key) && stem(field.key) == stem(key))
             return "; its unit here is another: " + field.key;
-        const std::size_t distance = edit_distance(key, field.key);
-        if (distance < least) least = distance, nearest = &field;
+        keys.push_back(field.key);
+        list += " " + field.key;
     }
-    std::string text;
-    if (nearest && least <= 3) text = "; nearest known key: " + nearest->key;
-    text += "; known keys:";
-    for (const Field& field : known) text += " " + field.key;
-    return text;
+    const std::string nearest = nearest_of(key, keys);
+    return (nearest.empty() ? "" : "; nearest known key: " + nearest) + "; known keys:" + list;
 }
 
 }  // namespace hilcam

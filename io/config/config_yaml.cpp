@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
+#include <sstream>
 
 #include "io/config/config_advice.h"
 #include "io/config/config_manual.h"
@@ -20,6 +22,9 @@ namespace {
 
 const InputKind kYamlFile{4u << 20, "a YAML file"};
 constexpr int kDeepest = 16;
+// The library has the same words for each of these.
+constexpr const char* kYamlRules =
+    " (tabs are not allowed; a space comes after the colon; the keys of one mapping begin in one column)";
 
 // Where a value stands: in a file, or on the command line.
 struct Place {
@@ -76,7 +81,8 @@ class Reader {
             node = YAML::Load(std::string(text));
         } catch (const YAML::Exception& error) {
             throw InputError(place.name + ":" + std::to_string(error.mark.line + 1) + ":" +
-                             std::to_string(error.mark.column + 1) + ": not YAML: " + shortened(error.msg));
+                             std::to_string(error.mark.column + 1) + ": not YAML: " + shortened(error.msg) +
+                             kYamlRules);
         }
         if (!node.IsMap()) fail(place, node, path, "found " + show(node) + "; accepted: a mapping of keys");
         read_section(node, place, section, path, depth);
@@ -184,9 +190,31 @@ class Reader {
         if (!section.validate) return;
         try {
             section.validate();
+        } catch (const KeyError& error) {
+            fail_at_key(place, map, path, error);
         } catch (const InputError& error) {
             fail(place, map, path, error.what());
         }
+    }
+
+    // Where the key stands, or as much of the way to it as there is in this file or on the command line.
+    [[noreturn]] void fail_at_key(const Place& place, const YAML::Node& map, const std::string& path,
+                                  const KeyError& error) {
+        const std::string whole = join(path, error.key());
+        for (const Override& o : overrides_)
+            if (whole == o.path || whole.starts_with(o.path + "."))
+                throw InputError("--set " + whole + ": " + error.reason());
+        std::vector<YAML::Node> way = {map};
+        std::istringstream words(error.key());
+        for (std::string word; std::getline(words, word, '.');) {
+            const YAML::Node& at = way.back();
+            const YAML::Node next = at.IsMap()        ? at[word]
+                                    : at.IsSequence() ? at[std::strtoul(word.c_str(), nullptr, 10)]
+                                                      : YAML::Node(YAML::NodeType::Undefined);
+            if (!next.IsDefined()) break;
+            way.push_back(next);
+        }
+        fail(place, way.back(), whole, error.reason());
     }
 
     static void refuse_unknown_keys(const YAML::Node& map, const Place& place, const Fields& known,
@@ -251,10 +279,13 @@ class Reader {
                 [&](const PathField& f) {
                     if (!node.IsScalar() || node.Scalar().empty()) refuse(node, "a path");
                     *f.value = place.folder / node.Scalar();
+                    if (f.where) *f.where = where(place, node) + (place.command_line ? "" : ": " + path);
                 },
                 [&](const ChoiceField& f) {
-                    const auto word =
-                        std::find(f.words.begin(), f.words.end(), node.IsScalar() ? node.Scalar() : "");
+                    // free-run is as good as free_run.
+                    std::string given = node.IsScalar() ? node.Scalar() : "";
+                    std::replace(given.begin(), given.end(), '-', '_');
+                    const auto word = std::find(f.words.begin(), f.words.end(), given);
                     if (word == f.words.end()) {
                         std::string words;
                         for (const std::string& w : f.words) words += (words.empty() ? "" : " | ") + w;
@@ -341,7 +372,15 @@ class Reader {
     template <class Refuse>
     void section(const YAML::Node& node, const Place& place, const SectionField& f, const std::string& path,
                  int depth, const Refuse& refuse) {
-        if (node.IsScalar()) return read_file(place.folder / node.Scalar(), f, path, depth + 1);
+        if (node.IsScalar()) {
+            const std::filesystem::path file = place.folder / node.Scalar();
+            std::error_code error;
+            if (!std::filesystem::exists(file, error))
+                fail(place, node, path,
+                     "found " + show(node) + "; accepted: a mapping, or the path of a file that holds it; " +
+                         file.string() + ": no such file");
+            return read_file(file, f, path, depth + 1);
+        }
         if (!node.IsMap()) refuse(node, "a mapping, or the path of a file that holds it");
         read_section(node, place, f, path, depth + 1);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <regex>
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -129,6 +130,29 @@ std::string FileNamePattern::stem(const FrameRecord& record, const Camera& camer
                 break;
         }
     return out;
+}
+
+bool FileNamePattern::may_have_named(std::string_view file_name) const {
+    std::string pattern;
+    for (const Piece& piece : pieces_) switch (piece.kind) {
+            case Kind::kText:
+                pattern += std::regex_replace(piece.text, std::regex(R"([^A-Za-z0-9_])"), R"(\\$&)");
+                break;
+            case Kind::kFrame:
+                pattern += "[0-9]{" + std::to_string(piece.digits) + ",}";
+                break;
+            case Kind::kCamera:
+                pattern += "[0-9]+";
+                break;
+            case Kind::kCameraName:
+                pattern += "[A-Za-z0-9._-]*";
+                break;
+            case Kind::kTime:
+                pattern += "-?[0-9]+";
+                break;
+        }
+    pattern += R"((\.view)?\.(png|tiff|raw|fits))";
+    return std::regex_match(file_name.begin(), file_name.end(), std::regex(pattern));
 }
 
 }  // namespace hilcam

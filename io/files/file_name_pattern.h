@@ -31,6 +31,8 @@ class FileNamePattern {
     // Without the ending.
     std::string stem(const FrameRecord& record, const Camera& camera) const;
     const std::string& ending() const { return ending_; }
+    // True for a file's name that a run with this pattern may have written, in any format, and for its view.
+    bool may_have_named(std::string_view file_name) const;
 
   private:
     enum class Kind { kText, kFrame, kCamera, kCameraName, kTime };

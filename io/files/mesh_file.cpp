@@ -95,11 +95,29 @@ Mesh read_mesh(ConfinedResult& in) {
     return m;
 }
 
-}  // namespace
+void write_nodes(const std::vector<MeshNode>& nodes, ConfinedOutput& out) {
+    out.value(nodes.size());
+    for (const MeshNode& node : nodes) {
+        out.text(node.name);
+        out.value(node.depth);
+        out.value(node.triangles);
+    }
+}
 
-Mesh load_mesh(const std::filesystem::path& file) { return std::move(load_mesh_parts(file, {}).front()); }
+std::vector<MeshNode> read_nodes(ConfinedResult& in) {
+    std::vector<MeshNode> nodes;
+    for (auto left = in.value<std::size_t>(); left > 0; --left) {
+        MeshNode& node = nodes.emplace_back();
+        node.name = in.text();
+        node.depth = in.value<std::uint32_t>();
+        node.triangles = in.value<std::uint64_t>();
+    }
+    return nodes;
+}
 
-std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes) {
+// Has `work` read the file in a child process; it gets the file's kind.
+template <class Work>
+ConfinedResult read_confined(const std::filesystem::path& file, const Work& work) {
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::array<std::string, 5> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply"};
@@ -111,7 +129,29 @@ std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<c
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
     const ConfinedLimits limits{kLeastMemory_bytes + kMeshMemoryPerByte * bytes,
                                 kLeastCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
-    ConfinedResult result = run_confined(file.string(), limits, [&](ConfinedOutput& out) {
+    return run_confined(file.string(), limits, [&](ConfinedOutput& out) { work(kind, out); });
+}
+
+}  // namespace
+
+MeshContents load_mesh_contents(const std::filesystem::path& file) {
+    ConfinedResult result = read_confined(file, [&](const std::string& kind, ConfinedOutput& out) {
+        const MeshContents contents = import_mesh_contents(file, kind);
+        write_mesh(contents.mesh, out);
+        write_nodes(contents.nodes, out);
+        out.value(contents.collapsed_triangles);
+    });
+    MeshContents contents;
+    contents.mesh = read_mesh(result);
+    contents.nodes = read_nodes(result);
+    contents.collapsed_triangles = result.value<std::uint64_t>();
+    return contents;
+}
+
+Mesh load_mesh(const std::filesystem::path& file) { return std::move(load_mesh_parts(file, {}).front()); }
+
+std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes) {
+    ConfinedResult result = read_confined(file, [&](const std::string& kind, ConfinedOutput& out) {
         for (const Mesh& mesh : import_mesh_parts(file, kind, nodes)) write_mesh(mesh, out);
     });
     std::vector<Mesh> meshes;

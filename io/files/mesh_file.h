@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "io/files/mesh_import.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
@@ -26,5 +27,7 @@ Mesh load_mesh(const std::filesystem::path& file);
 // at the end matches any ending) with all below them. All in the file's axes. InputError also for a name that
 // takes nothing; the message lists the nodes.
 std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes);
+// The whole mesh with what people ask of a file: its nodes, and what was left out. InputError as above.
+MeshContents load_mesh_contents(const std::filesystem::path& file);
 
 }  // namespace hilcam

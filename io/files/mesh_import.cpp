@@ -46,10 +46,14 @@ class Loader {
     Mesh load() {
         read_materials();
         count_normals_and_uvs();
-        if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1);
+        if (scene_.mRootNode) read_node(*scene_.mRootNode, aiMatrix4x4(), -1, 0);
         if (mesh_.triangles.empty()) refuse_empty();
         return std::move(mesh_);
     }
+
+    // What load() came across.
+    std::vector<MeshNode>& nodes() { return found_nodes_; }
+    std::uint64_t collapsed_triangles() const { return collapsed_triangles_; }
 
   private:
     const std::filesystem::path& file_;
@@ -61,6 +65,8 @@ class Loader {
     bool any_normals_ = false;
     bool any_uvs_ = false;
     std::uint64_t texels_ = 0;
+    std::vector<MeshNode> found_nodes_;
+    std::uint64_t collapsed_triangles_ = 0;
 
     // One part without normals or uvs must not take them from the others, so the missing ones are filled in.
     void count_normals_and_uvs() {
@@ -140,14 +146,17 @@ class Loader {
     }
 
     // above: the part that a node further up belongs to.
-    void read_node(const aiNode& node, const aiMatrix4x4& parent, int above) {
+    void read_node(const aiNode& node, const aiMatrix4x4& parent, int above, std::uint32_t depth) {
         const int own = taken_by(node.mName.C_Str());
         const int part = own >= 0 ? own : above;
         const aiMatrix4x4 body_from_node = parent * node.mTransformation;
+        const std::size_t before = mesh_.triangles.size();
         if (part == part_)
             for (unsigned i = 0; i < node.mNumMeshes; ++i)
                 read_part(*scene_.mMeshes[node.mMeshes[i]], body_from_node);
-        for (unsigned i = 0; i < node.mNumChildren; ++i) read_node(*node.mChildren[i], body_from_node, part);
+        found_nodes_.push_back({node.mName.C_Str(), depth, mesh_.triangles.size() - before});
+        for (unsigned i = 0; i < node.mNumChildren; ++i)
+            read_node(*node.mChildren[i], body_from_node, part, depth + 1);
     }
 
     [[noreturn]] void refuse_empty() const {
@@ -201,7 +210,10 @@ class Loader {
                                   " names a vertex that does not exist");
             // By place: some of assimp's loaders give each corner a vertex of its own.
             const auto at = [&](std::size_t corner) { return mesh_.vertices_m[base + t[corner]]; };
-            if (at(0) == at(1) || at(1) == at(2) || at(0) == at(2)) continue;
+            if (at(0) == at(1) || at(1) == at(2) || at(0) == at(2)) {
+                ++collapsed_triangles_;
+                continue;
+            }
             if (mirrored) std::swap(t[1], t[2]);
             for (std::uint32_t& index : t) index += base;
             mesh_.triangles.push_back(t);
@@ -365,6 +377,17 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source,
 const InputKind& mesh_kind() {
     static const InputKind kind{std::uintmax_t{4} << 30, "a mesh file, or what one names beside it"};
     return kind;
+}
+
+MeshContents import_mesh_contents(const std::filesystem::path& file, const std::string& kind) {
+    const Source source = source_of(file, kind);
+    Assimp::Importer importer;
+    Loader loader(file, read_scene(importer, source, file), {}, -1);
+    MeshContents out;
+    out.mesh = loader.load();
+    out.nodes = std::move(loader.nodes());
+    out.collapsed_triangles = loader.collapsed_triangles();
+    return out;
 }
 
 std::vector<Mesh> import_mesh_parts(const std::filesystem::path& file, const std::string& kind,

@@ -2,6 +2,7 @@
 // Mesh files through assimp, in this process: no caller but the child that mesh_file.cpp makes, and fuzzing.
 // The only unit that knows assimp.
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -18,6 +19,21 @@ const InputKind& mesh_kind();
 inline constexpr double kMeshCpu_s_byte = 3e-6;
 // A line of an OBJ becomes objects some tens of times its size.
 inline constexpr std::uint64_t kMeshMemoryPerByte = 64;
+
+// A node of a file's tree, in the order of the file, parents first.
+struct MeshNode {
+    std::string name;
+    std::uint32_t depth = 0;      // below the root
+    std::uint64_t triangles = 0;  // its own, without those of the nodes below
+};
+// A mesh with what its file has beside the triangles.
+struct MeshContents {
+    Mesh mesh;
+    std::vector<MeshNode> nodes;
+    std::uint64_t collapsed_triangles = 0;  // with two corners at one place; the mesh is without them
+};
+// Does what load_mesh_contents() of mesh_file.h does; `kind` as below.
+MeshContents import_mesh_contents(const std::filesystem::path& file, const std::string& kind);
 
 // Does what load_mesh_parts() of mesh_file.h does. `kind`: the ending, in small letters. std::bad_alloc when
 // memory is limited and runs out.

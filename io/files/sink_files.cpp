@@ -24,7 +24,17 @@ Fields fields(FilesConfig& c) {
              "of each file: %08d or {frame:8} is the frame's number; {camera}, {camera_name}, {time_tai_ns}"),
         flag("view", c.view, "beside each frame NAME.view.png, 8 bits, to look at"),
         integer("every_nth", c.every_nth, {1, 1e9}, "write every n-th frame only"),
+        flag("overwrite", c.overwrite,
+             "a folder that holds another run's frames: false: is refused; true: they are removed first"),
     };
+}
+
+RunFolder run_folder(const FilesConfig& c) {
+    return {.key = "outputs.files",
+            .folder = c.folder,
+            .is_own = [names = FileNamePattern(c.name, ending_of(c.format))](
+                          std::string_view name) { return names.may_have_named(name); },
+            .overwrite = c.overwrite};
 }
 
 void validate(const FilesConfig& c) { FileNamePattern(c.name, ending_of(c.format)); }
@@ -40,14 +50,12 @@ FilesSink::FilesSink(const FilesConfig& config, int width, int height, const Pic
       names_(config.name, ending_of(config.format)),
       camera_{run.camera, run.model.name},
       writer_(run),
-      mailbox_(width, height, 8) {}
+      mailbox_(width, height, 8) {
+    require_unused(run_folder(config_));
+}
 
 void FilesSink::start() {
-    std::error_code error;
-    std::filesystem::create_directories(config_.folder, error);
-    if (error)
-        throw DeviceError("outputs.files.folder " + config_.folder.string() +
-                          " cannot be made: " + error.message());
+    claim(run_folder(config_));
     mailbox_.open();
     thread_ = std::thread([this] { run(); });
 }

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/contract/run_folder.h"
 #include "io/files/file_name_pattern.h"
 #include "io/pictures/image_file.h"
 #include "render/vocabulary/config_field.h"
@@ -21,7 +22,10 @@ struct FilesConfig {
     std::string name = "frame_%08d";  // file_name_pattern.h
     bool view = false;
     std::int64_t every_nth = 1;
+    bool overwrite = false;
 };
+// What of it must not be mixed with another run.
+RunFolder run_folder(const FilesConfig& config);
 Fields fields(FilesConfig& config);
 void validate(const FilesConfig& config);
 // What is to be said of the pictures before they are written: that they are dark in a viewer; or empty.
@@ -29,7 +33,7 @@ std::string dark_picture_warning(const FilesConfig& config, int bits);
 
 class FilesSink : public FrameSink {
   public:
-    // The largest frame's size.
+    // The largest frame's size. Throws InputError when the folder holds another run's frames.
     FilesSink(const FilesConfig& config, int width, int height, const PictureRun& run);
     ~FilesSink() override { stop(); }
 

@@ -48,6 +48,7 @@ void read_piece(const InputFile& in, const std::filesystem::path& file, std::uin
 InputFile open_input_file(const std::filesystem::path& file, const InputKind& kind) {
     struct stat found {};
     const auto require_regular = [&](int result) {
+        if (result != 0 && errno == ENOENT) refuse(file, "no such file", kind);
         if (result != 0) refuse(file, std::string("cannot be read: ") + std::strerror(errno), kind);
         if (!S_ISREG(found.st_mode)) refuse(file, "cannot be read: it is " + kind_of(found.st_mode), kind);
     };

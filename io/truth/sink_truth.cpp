@@ -25,6 +25,7 @@ LineServerSetup port_of(const TruthConfig& c) {
 TruthSink::TruthSink(const TruthConfig& config, const TruthSource& source,
                      const std::function<FrameTruth()>& make_slot)
     : config_(config), document_(source) {
+    if (!config.folder.empty()) require_unused(run_folder(config));
     if (config.port != 0) server_ = std::make_unique<LineServer>(port_of(config));
     for (const std::string& to : config.udp_to) destinations_.push_back(parse_endpoint(to));
     const std::size_t count = config.layers.empty() ? kSlots : kSlotsWithLayers;
@@ -35,7 +36,10 @@ TruthSink::TruthSink(const TruthConfig& config, const TruthSource& source,
 }
 
 void TruthSink::start() {
-    if (!config_.folder.empty()) files_.emplace(config_.folder);
+    if (!config_.folder.empty()) {
+        claim(run_folder(config_));
+        files_.emplace(config_.folder, document_.header());
+    }
     if (!destinations_.empty()) udp_ = open_udp(INADDR_ANY, 0);
     if (server_) server_->start();
     open_.store(true);

@@ -6,6 +6,7 @@
 
 #include "io/system/allow_list.h"
 #include "io/system/fd.h"
+#include "io/truth/truth_files.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -45,6 +46,8 @@ Fields fields(TruthConfig& c) {
         flag("stars", c.stars, "the stars in view"),
         number("faintest_magnitude", c.faintest_magnitude, 1, {-2, 30}, "of those stars"),
         integer("every_nth", c.every_nth, {1, 1e9}, "of every n-th frame only"),
+        flag("overwrite", c.overwrite,
+             "a folder that holds another run's truth: false: is refused; true: it is removed first"),
     };
 }
 
@@ -59,6 +62,13 @@ void validate(const TruthConfig& c) {
                              "; accepted: object, range, depth, normal, position");
     if (!c.layers.empty() && c.folder.empty())
         throw InputError("'layers' are written as pictures: they need 'folder'");
+}
+
+RunFolder run_folder(const TruthConfig& c) {
+    return {.key = "outputs.truth",
+            .folder = c.folder,
+            .is_own = [](std::string_view name) { return name == kTruthLines || is_numbered(name, "truth"); },
+            .overwrite = c.overwrite};
 }
 
 TruthWishes wishes_of(const TruthConfig& c) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/contract/run_folder.h"
 #include "render/frame/frame_truth.h"
 #include "render/vocabulary/config_field.h"
 
@@ -23,10 +24,13 @@ struct TruthConfig {
     bool stars = true;
     double faintest_magnitude = 30;
     std::int64_t every_nth = 1;
+    bool overwrite = false;
 };
 Fields fields(TruthConfig& config);
 void validate(const TruthConfig& config);
 
+// What of its folder must not be mixed with another run; the folder is not empty.
+RunFolder run_folder(const TruthConfig& config);
 // What the renderer is asked for; thing_of_object is left empty.
 TruthWishes wishes_of(const TruthConfig& config);
 

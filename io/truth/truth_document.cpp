@@ -104,6 +104,16 @@ std::vector<std::string> TruthDocument::legend(const FrameTruth& t) const {
     return lines;
 }
 
+std::string TruthDocument::header() const {
+    const RunLabel& run = source_.run;
+    const Json out = {
+        {"version", 1},
+        {"run", {{"id", run.id}, {"scenario", run.scenario}, {"seed", run.seed}, {"program", run.program}}},
+        {"camera", source_.camera},
+        {"camera_name", source_.model.name}};
+    return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, bool with_stars) const {
     Json out = {{"version", 1},
                 {"camera", source_.camera},

@@ -1,6 +1,7 @@
 #pragma once
 // The truth of a frame as one line of JSON; docs/truth.md has every key, its frame and unit.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,17 @@
 
 namespace hilcam {
 
+// What tells one run's labels from another's.
+struct RunLabel {
+    std::string id;        // no other run's
+    std::string scenario;  // its name
+    std::int64_t seed = 0;
+    std::string program;  // "hilcam 0.1.0"
+};
+
 // Whose truth it is; the same for all frames of a run.
 struct TruthSource {
+    RunLabel run{};
     int camera = 1;  // its number on the bench
     CameraModel model;
     int oversampling = 1;  // of the radiance image
@@ -27,6 +37,8 @@ class TruthDocument {
     explicit TruthDocument(const TruthSource& source)
         : source_(source), electrons_(source.model, source.grid) {}
 
+    // The first line of a file of lines: whose they are. Without a newline. Any thread.
+    std::string header() const;
     // Without a newline. What is unknown or not finite is null. Any thread.
     std::string line(const FrameTruth& truth, const FrameRecord& record, bool with_stars = true) const;
     // "1 target", "1000399 earth": of the object layer's numbers, those that this frame can have.

@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
+#include <cstring>
+#include <fstream>
 
 #include "io/pictures/image_file.h"
 #include "render/vocabulary/check.h"
@@ -114,13 +116,12 @@ void write_object_mask(const std::filesystem::path& file, const FrameTruth& trut
                    {"object.names", "", names, ""}});
 }
 
-TruthFiles::TruthFiles(const std::filesystem::path& folder) : folder_(folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw DeviceError(folder.string() + " cannot be made: " + error.message());
-    const std::filesystem::path file = folder / "truth.jsonl";
-    lines_ = Fd(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666));
-    if (!lines_) throw DeviceError(file.string() + " cannot be written");
+// O_EXCL: of two runs that begin at once, one gets the file.
+TruthFiles::TruthFiles(const std::filesystem::path& folder, std::string_view header) : folder_(folder) {
+    const std::filesystem::path file = folder / kTruthLines;
+    lines_ = Fd(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666));
+    if (!lines_) throw DeviceError(file.string() + " cannot be written: " + std::strerror(errno));
+    add_line(header);
 }
 
 // All of it or nothing: what is begun and does not fit is taken back.
@@ -138,7 +139,7 @@ void TruthFiles::add_line(std::string_view line) {
         return;
     }
     [[maybe_unused]] const int cut = ftruncate(lines_.get(), lines_bytes_);
-    throw DeviceError((folder_ / "truth.jsonl").string() + " cannot be written; is the disk full?");
+    throw DeviceError((folder_ / kTruthLines).string() + " cannot be written; is the disk full?");
 }
 
 void TruthFiles::write(const FrameTruth& truth, std::uint64_t frame, std::string_view line,
@@ -149,6 +150,26 @@ void TruthFiles::write(const FrameTruth& truth, std::uint64_t frame, std::string
     std::snprintf(stem, sizeof stem, "truth_%08llu", static_cast<unsigned long long>(frame));
     write_truth_exr(folder_ / (stem + std::string(".exr")), truth, legend);
     if (truth.wishes.object) write_object_mask(folder_ / (stem + std::string(".object.png")), truth, legend);
+}
+
+PictureTruthFiles picture_truth_files(const std::filesystem::path& folder,
+                                      const std::filesystem::path& picture) {
+    const std::string name = picture.stem().string();
+    return {folder / (name + ".truth.jsonl"), folder / (name + ".truth.exr"),
+            folder / (name + ".truth.object.png")};
+}
+
+void write_picture_truth(const PictureTruthFiles& files, std::string_view text, const FrameTruth& truth,
+                         std::span<const std::string> legend) {
+    std::error_code error;
+    const std::filesystem::path folder = files.lines.parent_path();
+    std::filesystem::create_directories(folder, error);
+    if (error) throw DeviceError(folder.string() + " cannot be made: " + error.message());
+    std::ofstream out(files.lines, std::ios::binary);
+    out << text;
+    if (!out.flush()) throw DeviceError(files.lines.string() + " cannot be written");
+    if (truth.wishes.layers()) write_truth_exr(files.layers, truth, legend);
+    if (truth.wishes.object) write_object_mask(files.mask, truth, legend);
 }
 
 }  // namespace hilcam

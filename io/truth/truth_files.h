@@ -1,6 +1,8 @@
 #pragma once
-// Truth as files in a folder: truth.jsonl, a line for each frame, truth_00000001.exr with the layers, and the
-// object layer once more as truth_00000001.object.png, 16 bits, for readers without OpenEXR.
+// Truth as files. Of a run: truth.jsonl, whose first line names the run and each further one tells of a
+// frame, truth_00000001.exr with that frame's layers, and the object layer once more as
+// truth_00000001.object.png, 16 bits, for readers without OpenEXR. Of a single picture: files that are named
+// after it.
 //
 // Channels of the picture, all 32 bit: object.ID (unsigned whole numbers), range.D, depth.Z, normal.X Y Z,
 // position.X Y Z. Its header has each layer's unit ("range.unit") and the numbers' names ("object.names").
@@ -26,11 +28,13 @@ void write_object_mask(const std::filesystem::path& file, const FrameTruth& trut
                        std::span<const std::string> legend);
 // What stands for an id in it.
 std::uint16_t mask_number(std::uint32_t id);
+inline constexpr std::string_view kTruthLines = "truth.jsonl";
 
 class TruthFiles {
   public:
-    // Makes the folder and an empty truth.jsonl. DeviceError when that cannot be.
-    explicit TruthFiles(const std::filesystem::path& folder);
+    // Begins truth.jsonl with the line `header` in a folder that is there and has none (run_folder.h).
+    // DeviceError when that cannot be.
+    TruthFiles(const std::filesystem::path& folder, std::string_view header);
 
     // line: without a newline; it is there for readers when this returns. DeviceError: what there was no room
     // for is left out whole.
@@ -44,5 +48,16 @@ class TruthFiles {
 
     void add_line(std::string_view line);
 };
+
+// Where the truth of a single picture goes: FOLDER/NAME.truth.jsonl and FOLDER/NAME.truth.exr for NAME.png.
+// No run has files of such names.
+struct PictureTruthFiles {
+    std::filesystem::path lines, layers, mask;
+};
+PictureTruthFiles picture_truth_files(const std::filesystem::path& folder,
+                                      const std::filesystem::path& picture);
+// Makes the folder. text: whole lines. DeviceError when it cannot be written.
+void write_picture_truth(const PictureTruthFiles& files, std::string_view text, const FrameTruth& truth,
+                         std::span<const std::string> legend);
 
 }  // namespace hilcam

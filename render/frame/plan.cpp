@@ -50,7 +50,7 @@ const char* reason(ObjectUse use) {
         case ObjectUse::kPoints:
             return "points with the flux of its own little picture (below 8 pixels)";
         case ObjectUse::kMesh:
-            return "traced (in the field)";
+            return "traced (it may be in the field)";
     }
     return "";
 }
@@ -59,8 +59,8 @@ std::string body_line(const FrameView& f, std::size_t i) {
     const PlacedBody& body = f.background->disks()[i];
     std::ostringstream line;
     line << kBodyNames[index_of(body.id)] << ", " << body.distance_m * 1e-3 << " km away, "
-         << 2 * std::acos(body.disk_cosine) / kDegree_rad
-         << " deg wide: " << (f.body_boxes[i].empty() ? "not drawn (outside the field)" : "drawn")
+         << 2 * std::acos(body.disk_cosine) / kDegree_rad << " deg wide: "
+         << (f.body_boxes[i].empty() ? "not drawn (outside the field)" : "may be in the field, then drawn")
          << "; lights and is reflected where that reaches the threshold";
     if (body.may_be_eclipsed) line << "; another body may shadow it";
     return line.str();
@@ -69,7 +69,9 @@ std::string body_line(const FrameView& f, std::size_t i) {
 std::string sun_line(const FrameView& f, const WorldSnapshot& world) {
     std::ostringstream line;
     line << "Sun, " << length(world.bodies.sun_world_m - world.camera.position_world_m) / kAstronomicalUnit_m
-         << " au away: " << (f.sun_box.empty() ? "not drawn (outside the field)" : "its disk is drawn")
+         << " au away: "
+         << (f.sun_box.empty() ? "not drawn (outside the field)"
+                               : "may be in the field, then its disk is drawn")
          << "; light from its " << (f.sun_is_disk ? "whole disk" : "middle (sun_disk: false)");
     const float seen = f.background->sun_seen_from(f.rays_world_m, BodyId{kBodyCount})[0];
     if (seen < 1) line << "; bodies leave " << 100 * seen << " % of it to the objects (first bin)";

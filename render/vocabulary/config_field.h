@@ -20,6 +20,7 @@
 #include <variant>
 #include <vector>
 
+#include "render/vocabulary/check.h"
 #include "render/vocabulary/spectrum.h"
 #include "render/vocabulary/table.h"
 #include "render/vocabulary/vec.h"
@@ -53,9 +54,11 @@ struct TextField {
 struct TextsField {
     std::vector<std::string>* value;
 };
-// A path; relative ones are taken from the folder of the file that names it.
+// A path; relative ones are taken from the folder of the file that names it. `where`, if asked for, gets the
+// place of the key, "bench.yaml:7:11: objects.0.mesh", for messages about what the path leads to.
 struct PathField {
     std::filesystem::path* value;
+    std::string* where = nullptr;
 };
 // One of a fixed list of words; `set` gets its index, `get` gives the present one.
 struct ChoiceField {
@@ -91,8 +94,31 @@ struct TableField {
     std::string x_name, y_name;
     Range x_range, y_range;
 };
+// What a section's `validate` has against one of its keys, "up", or one further down, "objects.0.name": the
+// reader says where that stands.
+class KeyError : public InputError {
+  public:
+    KeyError(std::string key, std::string reason)
+        : InputError(key + ": " + reason), key_(std::move(key)), reason_(std::move(reason)) {}
+    const std::string& key() const { return key_; }
+    const std::string& reason() const { return reason_; }
+
+  private:
+    std::string key_, reason_;
+};
+
+// What an InputError of check() says is against that key.
+template <class Check>
+void at_key(const std::string& key, const Check& check) {
+    try {
+        check();
+    } catch (const InputError& error) {
+        throw KeyError(key, error.what());
+    }
+}
+
 // A nested mapping, or the path of a file that holds the mapping. `validate` runs after it is read and throws
-// InputError with a message that names the keys it is about; the reader adds file and line.
+// KeyError, or InputError with a message that names the keys it is about; the reader adds file and line.
 struct SectionField {
     Fields fields;
     std::function<void()> validate;
@@ -135,6 +161,9 @@ inline Field texts(std::string key, std::vector<std::string>& value, std::string
 }
 inline Field path(std::string key, std::filesystem::path& value, std::string meaning) {
     return {std::move(key), std::move(meaning), PathField{&value}};
+}
+inline Field path(std::string key, std::filesystem::path& value, std::string& where, std::string meaning) {
+    return {std::move(key), std::move(meaning), PathField{&value, &where}};
 }
 // Enum E with values 0, 1, 2, ... in the order of `words`.
 template <class E>

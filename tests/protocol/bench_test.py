@@ -139,8 +139,7 @@ class Speed(unittest.TestCase):
 
     def test_a_camera_that_cannot_fly_around_is_bad_input(self):
         # Above the target along the axis of the circle.
-        result = hilcam("bench", SCENARIO, *SMALL, "--set", "camera_pose.position_m=[0, 0, 30]", "--set",
-                        "camera_pose.attitude=quaternion")
+        result = hilcam("bench", SCENARIO, *SMALL, "--set", "camera_pose={position_m: [0, 0, 30]}")
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("circle: the start must lie off the axis", result.stderr)
 

@@ -118,7 +118,7 @@ class Recording(unittest.TestCase):
         self.assertIn("camera.gain_dn_e: '0.29' there, '0.3' here",
                       refusal("--replay", self.recording, "--set", "camera.gain_dn_e=0.3"))
         self.assertIn("is no recording", refusal("--replay", SCENARIO))
-        self.assertIn("cannot be read", refusal("--replay", self.folder / "none.rec"))
+        self.assertIn("no such file", refusal("--replay", self.folder / "none.rec"))
         result = hilcam("run", SCENARIO, "--replay", self.recording, "--force", "--set", "camera.gain_dn_e=0.3")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("frames may differ", result.stderr)

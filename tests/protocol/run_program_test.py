@@ -63,7 +63,7 @@ class ExitCodes(unittest.TestCase):
         self.assertEqual(len(messages), 1, result.stderr)
 
     def test_bad_input_is_one_line_and_status_2(self):
-        self.refused("none.yaml: cannot be read", "check", "none.yaml")
+        self.refused("none.yaml: no such file", "check", "none.yaml")
         self.refused("unknown key", "check", SCENARIO, "--set", "camera.exposure_us=3")
         self.refused("nearest known key: f_number", "check", SCENARIO, "--set", "camera.f_numbr=3")
         self.refused("accepted: a number", "check", SCENARIO, "--set", "camera.f_number=wide")
@@ -80,15 +80,15 @@ class ExitCodes(unittest.TestCase):
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertNotRegex(result.stderr, "[\x00-\x09\x0b-\x1f\x7f-\x9f]")
         result = hilcam("check", "configs/\x1b[31m.yaml")
-        self.assertIn("configs/ [31m.yaml: cannot be read", result.stderr)
+        self.assertIn("configs/ [31m.yaml: no such file", result.stderr)
 
     def test_check_loads_what_a_run_loads(self):
         second = "{width_px: 8, height_px: 8, pitch_um: 5, focal_length_mm: 25, f_number: 4, quantum_efficiency: 0.5," \
                  " full_well_e: 1e4, gain_dn_e: 0.2, bits: 12, fixed_pattern: {dark_map: /none/map.tiff}}"
         for key in ("prnu_map", "offset_map", "dark_map"):
-            self.refused("/none/map.tiff: cannot be read: No such file", "check", SCENARIO, "--set", f"camera.fixed_pattern.{key}=/none/map.tiff")
-        self.refused("/none/map.tiff: cannot be read: No such file", "check", SCENARIO, "--set", f"more_cameras=[{{camera: {second}}}]")
-        self.refused("/none/map.tiff: cannot be read: No such file", "check", SOURCE / "configs/cameras/inspector_1k.yaml", "--set",
+            self.refused("/none/map.tiff: no such file", "check", SCENARIO, "--set", f"camera.fixed_pattern.{key}=/none/map.tiff")
+        self.refused("/none/map.tiff: no such file", "check", SCENARIO, "--set", f"more_cameras=[{{camera: {second}}}]")
+        self.refused("/none/map.tiff: no such file", "check", SOURCE / "configs/cameras/inspector_1k.yaml", "--set",
                      "fixed_pattern.prnu_map=/none/map.tiff")
         self.refused("found a Bayer format, but the camera has no colour filters", "check", SCENARIO, "--set",
                      "outputs.v4l2.format=BAYER8")
@@ -119,6 +119,84 @@ class ExitCodes(unittest.TestCase):
     def test_check_and_version(self):
         self.assertIn("object 1 'target'", hilcam("check", SCENARIO).stdout)
         self.assertIn("0.1.0", hilcam("--version").stdout)
+
+
+class Check(unittest.TestCase):
+    def test_the_verdict_comes_first_and_says_what_is_not_meant(self):
+        good = hilcam("check", SCENARIO)
+        self.assertEqual(good.returncode, 0, good.stderr)
+        self.assertTrue(good.stdout.startswith("warnings: none\nscenario protocol_test at "), good.stdout[:200])
+        for words in ("m, ", "phase angle", "expected  about", "in camera axes", "plan\n", "memory: "):
+            self.assertIn(words, good.stdout)
+        bad = hilcam("check", SCENARIO, "--set", "mode=lockstep", "--set", "commands={}", "--set", "camera_pose.look_at_m=[44, 30, 14]",
+                     "--set", "faults=[{kind: v4l2_stall}]", "--set", "outputs.gige.interface=nowhere0")
+        self.assertEqual(bad.returncode, 0, bad.stderr)
+        warnings = bad.stdout[:bad.stdout.index("scenario protocol_test")]
+        self.assertTrue(warnings.startswith("warnings:\n"))
+        for words in ("nobody can ask for a frame", "object 'target' is behind the camera", "nothing can show the fault 'v4l2_stall'",
+                      "interface 'nowhere0' does not exist"):
+            self.assertIn(words, warnings)
+        told = json.loads(hilcam("check", SCENARIO, "--json").stdout)
+        self.assertEqual(told["warnings"], [])
+        self.assertEqual(told["cameras"][0]["objects"][0]["place"], "visible")
+        sheet = json.loads(hilcam("check", SOURCE / "configs/cameras/inspector_1k.yaml", "--json").stdout)
+        self.assertEqual(sheet["width_px"], 1024)
+
+    def test_each_camera_of_a_bench(self):
+        pair = SOURCE / "tests/protocol/pair_scenario.yaml"
+        text = hilcam("check", pair).stdout
+        self.assertIn("camera 1 of 2\n", text)
+        self.assertIn("camera 2 of 2\n", text)
+        self.assertRegex(text, r"baseline    1 m from camera 1")
+        self.assertNotIn("camera 1 of 2\n", hilcam("check", pair, "--camera", 2).stdout)
+        result = hilcam("check", pair, "--camera", 3)
+        self.assertEqual((result.returncode, result.stderr), (2, "hilcam: --camera: found 3; accepted: 1 to 2\n"))
+        with tempfile.TemporaryDirectory() as folder:
+            pictures = []
+            for camera in (1, 2):
+                file = pathlib.Path(folder) / f"{camera}.png"
+                result = hilcam("render", pair, "--out", file, "--camera", camera)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                pictures.append(file.read_bytes())
+            self.assertNotEqual(pictures[0], pictures[1])
+
+    def test_a_mesh(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "plate.obj"
+            file.write_text("o wing\nv 0 0 0\nv 2000 0 0\nv 0 1000 0\nf 1 2 3\n")
+            text = hilcam("mesh", file).stdout
+            self.assertIn("size       2000 x 1000 x 0 m", text)
+            self.assertIn("'wing'", text)
+            self.assertIn("probably in millimetres", text)
+            self.assertEqual(json.loads(hilcam("mesh", file, "--json").stdout)["open_edges"], 3)
+            self.assertEqual(hilcam("mesh", file.with_name("none.obj")).returncode, 2)
+
+
+class Words(unittest.TestCase):
+    def test_a_subcommand_that_there_is_not(self):
+        for arguments, words in ((("redner",), "unknown subcommand 'redner'; nearest: render; accepted: run"),
+                                 (("send", "pnig"), "unknown subcommand 'pnig'; nearest: ping"),
+                                 (("send", "--to", "127.0.0.1:9", "xyzzy"), "unknown subcommand 'xyzzy'; accepted: ping")):
+            result = hilcam(*arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(words, result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+
+    def test_help_lists_words_and_is_text(self):
+        for arguments, words in ((("render", "--help"), "--stage radiance|electrons|frame"), (("send", "--help"), "--dialect hilcam|cfs")):
+            text = hilcam(*arguments).stdout
+            self.assertIn(words, text)
+            self.assertNotRegex(text, "[\x00-\x09\x0b-\x1f]")
+        result = hilcam("render", SCENARIO, "--out", "x.exr", "--stage", "radiant")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--stage: found 'radiant'; accepted: radiance|electrons|frame", result.stderr)
+
+    def test_refusals_say_what_helps(self):
+        with tempfile.TemporaryDirectory() as folder, Running("127.0.0.13", 15030, folder) as emulator:
+            self.assertIn("not now: no trigger is taken in free_run ('hilcam send mode triggered')", emulator.send("expose").stdout)
+            for mode in ("triggered", "free_run", "free-run"):
+                self.assertEqual(emulator.send("mode", mode).returncode, 0)
+            emulator.stop()
 
 
 class Signals(unittest.TestCase):
@@ -200,10 +278,15 @@ class FullDisk(unittest.TestCase):
     def test_it_is_said_at_once_and_once_and_leaves_nothing_broken(self):
         with tempfile.TemporaryDirectory() as folder:
             frames = pathlib.Path(folder) / "frames"
-            frames.mkdir()
-            for number in range(3, 400):  # as if the disk were full from the third on
-                (frames / f"frame_{number:08}.png").symlink_to("/dev/full")
-            result = hilcam("run", SCENARIO, "--duration", 2, "--set", f"outputs.files={{folder: {frames}}}")
+            # In lockstep no frame comes before it is asked for; what is there before the run would be refused.
+            with Running("127.0.0.12", 15029, folder, "--set", f"outputs.files={{folder: {frames}}}", "--set", "mode=lockstep") as emulator:
+                for number in range(3, 400):  # as if the disk were full from the third on
+                    (frames / f"frame_{number:08}.png").symlink_to("/dev/full")
+                self.assertEqual(hilcam("send", "--to", "127.0.0.1:15029", "--timeout-ms", 60000, "expose", "--frames", 30).returncode, 0)
+                time.sleep(0.5)  # faults are looked for four times a second
+                emulator.process.send_signal(signal.SIGINT)
+                log = emulator.process.communicate(timeout=60)[1]
+                result = subprocess.CompletedProcess([], emulator.process.returncode, "", log)
             self.assertEqual(result.returncode, 1, result.stderr)
             names = {f.name: f.is_symlink() for f in frames.iterdir()}
             self.assertLessEqual({name for name, full in names.items() if not full},

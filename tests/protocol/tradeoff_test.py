@@ -165,7 +165,7 @@ class Messages(unittest.TestCase):
     def test_bad_input_is_status_2(self):
         with tempfile.TemporaryDirectory() as folder:
             self.refused("--out is required")
-            self.refused("none.yaml: cannot be read", "--out", folder, scenario="none.yaml")
+            self.refused("none.yaml: no such file", "--out", folder, scenario="none.yaml")
             self.refused("--frame-ms", "--out", folder, "--frame-ms", "-1")
             self.refused("--error-sigma", "--out", folder, "--error-sigma", "0")
             self.refused("--runs", "--out", folder, "--runs", "4")

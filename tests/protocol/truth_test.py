@@ -67,13 +67,49 @@ class Truth(unittest.TestCase):
                            check=True, timeout=120)
             subprocess.run([HILCAM, "render", SCENARIO, "--out", folder / "without.png"], check=True, timeout=120)
             self.assertEqual((folder / "with.png").read_bytes(), (folder / "without.png").read_bytes())
-            lines = (folder / "truth/truth.jsonl").read_text().splitlines()
-            self.assertEqual(len(lines), 1)
-            self.check(json.loads(lines[0]))
-            picture = (folder / "truth/truth_00000001.exr").read_bytes()
+            header, line = (json.loads(line) for line in (folder / "truth/with.truth.jsonl").read_text().splitlines())
+            self.assertEqual(header["run"]["scenario"], "protocol_test")
+            self.assertEqual(header["run"]["seed"], 3)
+            self.check(line)
+            picture = (folder / "truth/with.truth.exr").read_bytes()
             self.assertEqual(picture[:4], bytes([0x76, 0x2F, 0x31, 0x01]))  # OpenEXR's magic number
             for channel in (b"object.ID", b"range.D", b"depth.Z", b"normal.X", b"position.Z"):
                 self.assertIn(channel + b"\0", picture[:4096])
+
+    def test_a_runs_labels_are_not_lost(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            sets = ["--set", f"outputs.truth.folder={folder}/labels", "--set", f"outputs.files.folder={folder}/frames"]
+
+            def run(*more):
+                return subprocess.run([HILCAM, "run", SCENARIO, *sets, *more], capture_output=True, text=True, timeout=120)
+
+            def lines():
+                return [json.loads(line) for line in (folder / "labels/truth.jsonl").read_text().splitlines()]
+
+            report = folder / "report.json"
+            self.assertEqual(run("--frames", "5", "--report", report).returncode, 0)
+            first = lines()
+            self.assertEqual(first[0]["run"]["id"], json.loads(report.read_text())["run"])
+            self.assertEqual(len(first), 6)
+            again = run("--frames", "2")
+            self.assertEqual(again.returncode, 2, again.stderr)
+            self.assertIn("frames', which holds 5 files of another run", again.stderr)
+            again = run("--frames", "2", "--set", "outputs.files.overwrite=true")
+            self.assertEqual(again.returncode, 2, again.stderr)
+            self.assertIn("labels', which holds a file of another run ('truth.jsonl')", again.stderr)
+            self.assertEqual(len(list((folder / "frames").iterdir())), 5)
+            check = subprocess.run([HILCAM, "check", SCENARIO, *sets], capture_output=True, text=True, timeout=120)
+            self.assertIn("outputs.files.folder: found", check.stdout)
+            picture = subprocess.run([HILCAM, "render", SCENARIO, "--out", folder / "view.png", "--truth", folder / "labels"],
+                                     capture_output=True, text=True, timeout=120)
+            self.assertEqual(picture.returncode, 0, picture.stderr)
+            self.assertEqual(lines(), first)
+            self.assertEqual(run("--frames", "2", "--set", "outputs.files.overwrite=true", "--set",
+                                 "outputs.truth.overwrite=true").returncode, 0)
+            self.assertEqual(len(lines()), 3)
+            self.assertNotEqual(lines()[0]["run"]["id"], first[0]["run"]["id"])
+            self.assertEqual(len(list((folder / "frames").iterdir())), 2)
 
     def test_a_running_cameras_lines(self):
         with tempfile.TemporaryDirectory() as folder:

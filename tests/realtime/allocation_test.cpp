@@ -275,13 +275,13 @@ TEST_F(Allocation, NorWhileTheTruthOfItsFramesIsTold) {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("hilcam_allocation_" + std::to_string(getpid()));
     for (const char* motion : {"quality.motion=fast", "quality.motion=exact"})
-        EXPECT_EQ(
-            allocations(
-                {motion, "camera_pose.rate_deg_s=[0, 100, 0]", "outputs.truth.folder=" + folder.string(),
-                 "outputs.truth.layers=[object, range, depth, normal, position]",
-                 std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv"},
-                Loop::kTold),
-            0);
+        EXPECT_EQ(allocations(
+                      {motion, "camera_pose.rate_deg_s=[0, 100, 0]",
+                       "outputs.truth.folder=" + folder.string(), "outputs.truth.overwrite=true",
+                       "outputs.truth.layers=[object, range, depth, normal, position]",
+                       std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv"},
+                      Loop::kTold),
+                  0);
     EXPECT_GT(std::filesystem::file_size(folder / "truth.jsonl"), 0u);
     std::filesystem::remove_all(folder);
 }

@@ -152,8 +152,8 @@ def rendered(folder, distance_m, sigma, elapsed_s):
     file = pathlib.Path(folder) / "reference.png"
     position = add(TARGET, (distance_m, 0.0, 0.0))
     result = subprocess.run(
-        [HILCAM, "render", str(SCENARIO), "--out", str(file), "--set", f"camera_pose.position_m={list(position)}", "--set",
-         "camera_pose.attitude=quaternion", "--set", f"camera_pose.attitude_wxyz={list(quaternion(sigma))}", "--set",
+        [HILCAM, "render", str(SCENARIO), "--out", str(file), "--set",
+         f"camera_pose={{position_m: {list(position)}, attitude_wxyz: {list(quaternion(sigma))}}}", "--set",
          f"time_utc=2001-03-20T11:{30 + int(elapsed_s) // 60:02}:{elapsed_s % 60:06.3f}Z"], capture_output=True, text=True, timeout=120)
     assert result.returncode == 0, result.stderr
     return numpy.array(Image.open(file))

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "emulator/bench/resident_memory.h"
 #include "emulator/bench/soak_report.h"
 #include "emulator/loop/latency.h"
+#include "io/system/resident_memory.h"
 
 namespace hilcam {
 namespace {

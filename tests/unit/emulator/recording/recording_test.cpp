@@ -203,7 +203,7 @@ TEST_F(RecordingFileTest, WhatTheQueueHasNoRoomForIsSaid) {
 
 TEST_F(RecordingFileTest, AFileThatIsNoneIsRefused) {
     const auto none = folder_ / "none.rec";
-    EXPECT_THAT(error_of([&] { RecordingReader reader(none); }), HasSubstr("cannot be read"));
+    EXPECT_THAT(error_of([&] { RecordingReader reader(none); }), HasSubstr("no such file"));
     EXPECT_THAT(error_of([&] { RecordingReader reader(folder_); }), HasSubstr("cannot be read"));
     ASSERT_EQ(mkfifo((folder_ / "pipe.rec").c_str(), 0600), 0);
     EXPECT_THAT(error_of([&] { RecordingReader reader(folder_ / "pipe.rec"); }), HasSubstr("it is a pipe"));

@@ -233,7 +233,10 @@ TEST_F(ReplayTest, AnotherScenarioIsRefusedAndAnotherOutputIsNot) {
     limits.record = folder_ / "run.rec";
     Emulator(scenario_into("run"), limits).run([] {});
     const auto refusal = [&](const std::string& change) {
-        return error_of([&] { replay(folder_ / "run.rec", "other", 2, true, {change}); });
+        return error_of([&] {
+            replay(folder_ / "run.rec", "other", 2, true,
+                   {change, "outputs.files.overwrite=true", "more_cameras.0.outputs.files.overwrite=true"});
+        });
     };
     EXPECT_THAT(refusal("camera.f_number=4"), HasSubstr("camera.f_number: '8' there, '4' here; --force"));
     EXPECT_THAT(refusal("seed=2"), HasSubstr("seed: '1' there, '2' here"));

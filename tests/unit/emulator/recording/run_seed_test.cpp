@@ -127,10 +127,10 @@ TEST_F(RunSeedTest, AReplayTakesTheRecordingsSeed) {
 
 TEST_F(RunSeedTest, IsToldAndRepeatsTheRun) {
     ScenarioConfig scenario = bench("told");
-    EXPECT_THAT(check_scenario(scenario), HasSubstr("seed: none, so each run draws its own noise"));
+    EXPECT_THAT(to_text(check_scenario(scenario)), HasSubstr("seed: none, so each run draws its own noise"));
     const std::string line = settle_seed(scenario);
     EXPECT_THAT(line, HasSubstr("--set seed=" + std::to_string(scenario.seed)));
-    EXPECT_THAT(check_scenario(scenario), HasSubstr("every run has the same noise"));
+    EXPECT_THAT(to_text(check_scenario(scenario)), HasSubstr("every run has the same noise"));
     EXPECT_LE(scenario.seed, 9e15);
     ScenarioConfig next = bench("told");
     settle_seed(next);

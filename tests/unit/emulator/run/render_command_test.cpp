@@ -5,12 +5,17 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 
+#include <gmock/gmock.h>
+
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/plate.h"
 
 namespace hilcam {
 namespace {
+
+using testing::HasSubstr;
 
 // A picture as OpenEXR's readers have it.
 struct Picture {
@@ -57,12 +62,11 @@ TEST_F(RenderToFile, EveryStageAndTheTruthPutTheFrameAtTheSamePlace) {
                                                     "quality.oversampling=" + std::to_string(oversampling)};
         const ScenarioConfig s = load_scenario(file, overrides);
         render_to_files(s, RenderStage::kRadiance, 0,
-                        {.out = folder_ / "radiance.exr", .view = {}, .truth = folder_ / "truth"});
-        render_to_files(s, RenderStage::kElectrons, 0,
-                        {.out = folder_ / "electrons.exr", .view = {}, .truth = {}});
+                        {.out = folder_ / "radiance.exr", .truth = folder_ / "truth", .overwrite = true});
+        render_to_files(s, RenderStage::kElectrons, 0, {.out = folder_ / "electrons.exr"});
         const Picture radiance = read(folder_ / "radiance.exr", "Y"),
                       electrons = read(folder_ / "electrons.exr", "Y"),
-                      object = read(folder_ / "truth" / "truth_00000001.exr", "object.ID");
+                      object = read(folder_ / "truth" / "radiance.truth.exr", "object.ID");
         const Imath::Box2i frame({0, 0}, {66, 65});
         for (const Imath::Box2i& window : {electrons.display, electrons.data, object.display, object.data})
             EXPECT_EQ(window, frame);
@@ -77,6 +81,62 @@ TEST_F(RenderToFile, EveryStageAndTheTruthPutTheFrameAtTheSamePlace) {
             EXPECT_NEAR(centre.y, truth.y, 0.3);
         }
     }
+}
+
+// A run's frames and another picture's labels stay; the same picture may be rendered again.
+TEST_F(RenderToFile, NothingOfARunOrOfAnotherPictureIsLost) {
+    const ScenarioConfig s = load_scenario(scenario(), {});
+    const auto render = [&](const char* out, const char* truth, bool overwrite = false) {
+        return error_of([&] {
+            render_to_files(s, RenderStage::kFrame, 0,
+                            {.out = folder_ / out,
+                             .truth = *truth ? folder_ / truth : std::filesystem::path(),
+                             .overwrite = overwrite});
+        });
+    };
+    write("frame_00000007.png", "of a run");
+    EXPECT_THAT(render("frame_00000007.png", ""), HasSubstr("frame_00000007.png: is a frame of a run"));
+    EXPECT_EQ(render("frame_00000008.png", ""), "no error");
+    EXPECT_EQ(render("view.png", ""), "no error");
+    EXPECT_EQ(render("view.png", ""), "no error");
+
+    std::filesystem::create_directory(folder_ / "labels");
+    write("labels/truth.jsonl", "of a run\n");
+    EXPECT_EQ(render("view.png", "labels"), "no error");
+    EXPECT_EQ(std::filesystem::file_size(folder_ / "labels/truth.jsonl"), 9u);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "labels/view.truth.exr"));
+    EXPECT_THAT(
+        render("view.png", "labels"),
+        HasSubstr("labels/view.truth.jsonl: is the truth of a picture that is there already; accepted: "
+                  "another name, or --overwrite"));
+    EXPECT_EQ(render("view.png", "labels", true), "no error");
+
+    std::ifstream in(folder_ / "labels/view.truth.jsonl");
+    std::vector<nlohmann::json> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(nlohmann::json::parse(line));
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0]["run"]["id"].get<std::string>().size(), 16u);
+    EXPECT_EQ(lines[0]["run"]["seed"].get<int>(), 1);
+    EXPECT_EQ(lines[1]["frame"].get<int>(), 1);
+}
+
+// The frame of a camera of a bench is the frame that the camera takes alone in its place, but for its noise.
+TEST_F(RenderToFile, AnyCameraOfABench) {
+    const ScenarioConfig s = load_scenario(
+        scenario(
+            "",
+            "more_cameras:\n  - {position_m: [0.05, 0, 0], camera: {name: right, width_px: 32, height_px: "
+            "32, pitch_um: 10,\n      focal_length_mm: 6.4, f_number: 8, transmission: 0.01, "
+            "quantum_efficiency: 0.5, full_well_e: 20000,\n      gain_dn_e: 0.2, bits: 12, exposure_ms: "
+            "20}}\n"),
+        {});
+    render_to_files(s, RenderStage::kElectrons, 0, {.out = folder_ / "left.exr"}, 1);
+    render_to_files(s, RenderStage::kElectrons, 0, {.out = folder_ / "right.exr"}, 2);
+    const Picture left = read(folder_ / "left.exr", "Y"), right = read(folder_ / "right.exr", "Y");
+    EXPECT_EQ(left.data.max.x, 63);
+    EXPECT_EQ(right.data.max.x, 31);
+    // 0.05 m at 4 m and 640 px of focal length: 8 px, in pictures of 64 and 32 px.
+    EXPECT_NEAR(left.centre().x - 32 - (right.centre().x - 16), 8, 0.3);
 }
 
 }  // namespace

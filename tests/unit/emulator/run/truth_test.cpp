@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "emulator/recording/program_version.h"
 #include "emulator/run/still_camera.h"
 #include "emulator/run/truth_source.h"
 #include "sensor/published_frame.h"
@@ -22,6 +23,9 @@ class TruthTest : public PlateTest {
         std::vector<json> out;
         std::ifstream in(file);
         for (std::string line; std::getline(in, line);) out.push_back(json::parse(line));
+        // The first says whose they are.
+        EXPECT_EQ(out.at(0).at("run").at("program").get<std::string>(), kProgramVersion);
+        out.erase(out.begin());
         return out;
     }
 };
@@ -158,7 +162,7 @@ TEST_F(TruthTest, StarsAreWhereTheirLightIs) {
     EXPECT_EQ(t.stars[0].hd, 11u);
     EXPECT_EQ(t.stars[1].hd, 22u);
     EXPECT_EQ(t.stars[1].row, 1u);
-    const TruthDocument document(truth_source(s, camera.grid(), 1));
+    const TruthDocument document(truth_source(s, camera.grid(), 1, ""));
     FrameRecord record;
     record.exposure_s = 5;
     const json told = json::parse(document.line(t, record));

@@ -148,6 +148,16 @@ TEST(SequenceWindow, TellsGapsLateOnesAndDuplicates) {
     EXPECT_EQ(window.take(4000).kind, Finding::kNext);  // too far back to be late
 }
 
+// Programs that send one command each and number it by the clock.
+TEST(SequenceWindow, AJumpThatNoLineLosesIsASenderThatBeginsAnew) {
+    SequenceWindow window;
+    EXPECT_EQ(window.take(7).kind, Finding::kNext);
+    EXPECT_EQ(window.take(7 + (1u << 20)).lost, (1u << 20) - 1);
+    EXPECT_EQ(window.take(8 + (2u << 20)).kind, Finding::kNext);
+    EXPECT_EQ(window.take(9 + (2u << 20)).kind, Finding::kNext);
+    EXPECT_EQ(window.take(0x90000000u).kind, Finding::kNext);
+}
+
 TEST(SequenceWindow, WrapsWithItsBits) {
     SequenceWindow window(14);
     EXPECT_EQ(window.take(16382).kind, Finding::kNext);

@@ -124,7 +124,51 @@ TEST(ConfigYaml, WrongValuesNameFoundAndAccepted) {
     EXPECT_THAT(error_of("- a\n"), HasSubstr("accepted: a mapping of keys"));
     EXPECT_THAT(error_of("name: x\ninner: {exposure_ms: 900}\n"),
                 HasSubstr("test.yaml:2:8: inner: exposure_ms is above"));
-    EXPECT_THAT(error_of("name: x\ninner: missing.yaml\n"), HasSubstr("missing.yaml: cannot be read"));
+    EXPECT_THAT(error_of("name: x\ninner: missing.yaml\n"), HasSubstr("missing.yaml: no such file"));
+}
+
+struct Pointed {
+    Inner inner;
+    std::vector<Inner> list;
+    std::filesystem::path file;
+    std::string where;
+};
+Fields fields(Pointed& c) {
+    return {section("inner", c.inner, "nested"), sections("list", c.list, "many"),
+            path("file", c.file, c.where, "a file")};
+}
+void validate(const Pointed& c) {
+    if (c.inner.exposure_s > 0.1) throw KeyError("inner.exposure_ms", "is too long");
+    for (std::size_t i = 0; i < c.list.size(); ++i)
+        if (c.list[i].exposure_s > 0.1)
+            throw KeyError("list." + std::to_string(i) + ".exposure_ms", "is too long");
+}
+
+TEST(ConfigYaml, WhatIsWrongBetweenKeysStandsAtItsKey) {
+    const auto error = [](const std::string& text, const std::vector<std::string>& overrides = {}) {
+        Pointed out;
+        try {
+            read_config_text(text, "test.yaml", "/bench", section_of(out), overrides);
+        } catch (const InputError& e) {
+            return std::string(e.what());
+        }
+        return out.where;
+    };
+    EXPECT_EQ(error("inner:\n  exposure_ms: 200\n"), "test.yaml:2:16: inner.exposure_ms: is too long");
+    EXPECT_EQ(error("list:\n  - {}\n  - exposure_ms: 200\n"),
+              "test.yaml:3:18: list.1.exposure_ms: is too long");
+    EXPECT_EQ(error("inner: {}\n", {"inner.exposure_ms=200"}), "--set inner.exposure_ms: is too long");
+    EXPECT_EQ(error("inner: {}\n", {"inner={exposure_ms: 200}"}), "--set inner.exposure_ms: is too long");
+    // And where a file was named, for what is wrong with the file.
+    EXPECT_EQ(error("inner: {}\nfile: x.obj\n"), "test.yaml:2:7: file");
+    EXPECT_EQ(error("inner: {}\n", {"file=x.obj"}), "--set file");
+}
+
+TEST(ConfigYaml, WordsMayHaveAHyphenForAnUnderscore) {
+    enum class Mode { kFree, kOther } mode = Mode::kOther;
+    const SectionField section{{choice("mode", mode, {"free_run", "other"}, "which")}, {}};
+    read_config_text("mode: free-run\n", "test.yaml", "", section);
+    EXPECT_EQ(mode, Mode::kFree);
 }
 
 TEST(ConfigYaml, OverridesReplaceAndAreChecked) {

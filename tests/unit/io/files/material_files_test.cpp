@@ -55,7 +55,7 @@ TEST_F(MaterialFiles, ATableComesBackOnTheBins) {
 }
 
 TEST_F(MaterialFiles, WhatATableLacksIsNamed) {
-    EXPECT_THAT(brdf_error(folder_ / "none.csv"), HasSubstr("none.csv: cannot be read"));
+    EXPECT_THAT(brdf_error(folder_ / "none.csv"), HasSubstr("none.csv: no such file"));
     EXPECT_THAT(brdf_error(write("a.txt", "")), HasSubstr("accepted: a BRDF in .csv, or MERL's .binary"));
     EXPECT_THAT(brdf_error(write("b.csv", "theta,phi\n")), HasSubstr("b.csv:1: found 'theta,phi'"));
     EXPECT_THAT(brdf_error(write("c.csv", std::string(kHeader) + "0,0,0,0.5\n")),
@@ -153,7 +153,7 @@ TEST_F(MaterialFiles, HeightsAreReadAsTheyAreWritten) {
     config.rows = 3;
     EXPECT_THAT(error(), HasSubstr("h.raw: has 12 bytes; 3 columns of 3 rows of 2 bytes make 18"));
     config.file = folder_ / "none.raw";
-    EXPECT_THAT(error(), HasSubstr("none.raw: cannot be read"));
+    EXPECT_THAT(error(), HasSubstr("none.raw: no such file"));
     // A float that is no number is ground at height 0.
     const float values[4] = {1.5f, std::nanf(""), std::numeric_limits<float>::infinity(), -2};
     config.file = write("f.raw", std::string(reinterpret_cast<const char*>(values), sizeof values));

@@ -35,11 +35,12 @@ TEST_F(FilesSinkTest, AFullDiskIsToldByTheFirstFrameThatIsLostAndLeavesNoBeginni
         FilesConfig config;
         config.folder = folder_;
         config.format = static_cast<FilesConfig::Format>(i);
-        fill_up("frame_00000002" + ending);
-        fill_up("frame_00000003" + ending);
+        config.overwrite = i > 0;
         testing::internal::CaptureStderr();
         FilesSink sink(config, 8, 4, PictureRun{});
         sink.start();
+        fill_up("frame_00000002" + ending);
+        fill_up("frame_00000003" + ending);
         publish(sink, 4);
         sink.stop();
         EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -81,6 +82,57 @@ TEST(FilesConfig, ANameThatOverwritesItselfIsRefused) {
     EXPECT_NO_THROW(validate(config));
     config.format = FilesConfig::Format::kFits;
     EXPECT_THROW(validate(config), InputError);
+}
+
+TEST_F(FilesSinkTest, AnotherRunsFramesAreRefusedOrReplacedAsAWhole) {
+    FilesConfig config;
+    config.folder = folder_ / "frames";
+    const auto run = [&](std::uint64_t last) {
+        FilesSink sink(config, 8, 4, PictureRun{});
+        sink.start();
+        publish(sink, last);
+        sink.stop();
+    };
+    run(5);
+    write("frames/notes.txt", "mine");
+    write("frames/frame_1.png", "mine, too");
+    EXPECT_EQ(
+        error_of([&] { run(2); }),
+        "outputs.files.folder: found '" + config.folder.string() +
+            "', which holds 5 files of another run ('frame_00000001.png' is the first); accepted: an empty "
+            "folder, another folder, or outputs.files.overwrite: true, which replaces all of them");
+    config.format = FilesConfig::Format::kTiff;
+    EXPECT_THAT(error_of([&] { run(2); }), HasSubstr("holds 5 files of another run"));
+    config.overwrite = true;
+    run(2);
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(config.folder))
+        names.insert(entry.path().filename());
+    EXPECT_THAT(names, testing::ElementsAre("frame_00000001.tiff", "frame_00000002.tiff", "frame_1.png",
+                                            "notes.txt"));
+}
+
+TEST_F(FilesSinkTest, AnotherRunsFramesAreFoundByTheirPattern) {
+    FilesConfig config;
+    config.folder = folder_ / "frames";
+    config.name = "left({camera})_%04d";
+    write("frames/left(1)_0007.view.png", "a run's");
+    EXPECT_THAT(error_of([&] { FilesSink(config, 8, 4, PictureRun{}); }), HasSubstr("left(1)_0007.view.png"));
+    config.name = "right({camera})_%04d";
+    EXPECT_NO_THROW(FilesSink(config, 8, 4, PictureRun{}));
+    config.name = "left({camera})_%05d";
+    EXPECT_NO_THROW(FilesSink(config, 8, 4, PictureRun{}));
+}
+
+TEST_F(FilesSinkTest, OfTwoRunsThatAreMadeBeforeEitherBeginsTheSecondIsRefused) {
+    FilesConfig config;
+    config.folder = folder_ / "frames";
+    FilesSink first(config, 8, 4, PictureRun{}), second(config, 8, 4, PictureRun{});
+    first.start();
+    publish(first, 1);
+    first.stop();
+    EXPECT_THAT(error_of([&] { second.start(); }),
+                HasSubstr("holds a file of another run ('frame_00000001.png')"));
 }
 
 }  // namespace

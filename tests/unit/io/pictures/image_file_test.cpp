@@ -51,7 +51,7 @@ TEST_F(PixelMapTest, NumbersComeAsTheyAre) {
 
 TEST_F(PixelMapTest, WhatIsNoMapIsRefusedByName) {
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "none.tiff", false); }),
-                HasSubstr("none.tiff: cannot be read: No such file"));
+                HasSubstr("none.tiff: no such file"));
     write("text.tiff", "not a picture");
     EXPECT_THAT(error_of([&] { read_pixel_map(folder_ / "text.tiff", false); }),
                 HasSubstr("does not decode"));

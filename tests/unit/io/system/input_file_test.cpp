@@ -45,7 +45,7 @@ TEST_F(InputFileTest, WhatIsNoRegularFileIsRefusedByWhatItIs) {
                 HasSubstr("/dev/zero: cannot be read: it is a device, not a regular file; accepted: a text"));
     EXPECT_THAT(error(pipe("p")), HasSubstr("it is a pipe"));
     EXPECT_THAT(error(folder_), HasSubstr("it is a folder"));
-    EXPECT_THAT(error(folder_ / "none"), HasSubstr("No such file"));
+    EXPECT_THAT(error(folder_ / "none"), HasSubstr("none: no such file; accepted: a text"));
     const Fd socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const sockaddr_un address = unix_address((folder_ / "s").string());
     ASSERT_EQ(bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);

@@ -40,6 +40,7 @@ CameraModel camera_8x4() {
 
 TruthSource source() {
     TruthSource s;
+    s.run = {"0123", "bench", 7, "hilcam 9"};
     s.model = camera_8x4();
     s.things = {"target"};
     s.parts = {"target", "target/wing"};
@@ -295,18 +296,24 @@ TEST_F(TruthOut, AFolderThatCannotBeMadeIsToldAtTheStart) {
     EXPECT_THROW(sink->start(), DeviceError);
 }
 
-// /dev/full takes nothing: as a full disk, what is begun does not stay.
+// A file that may not grow, and /dev/full, which takes nothing: as a full disk, what is begun does not stay.
 TEST_F(TruthOut, WhatTheDiskHasNoRoomForIsLeftOutWholeAndCounted) {
     config.folder = folder_ / "truth";
-    std::filesystem::create_directories(config.folder);
-    std::filesystem::create_symlink("/dev/full", config.folder / "truth.jsonl");
     make();
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto old = std::signal(SIGXFSZ, SIG_IGN);
     sink->start();
+    const rlimit full{std::filesystem::file_size(config.folder / "truth.jsonl"), before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
     EXPECT_TRUE(frame(1));
     for (int i = 0; i < kPatience_ms && sink->report().dropped < 1; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, old);
     EXPECT_EQ(sink->report().dropped, 1u);
     EXPECT_EQ(sink->report().frames, 0u);
+    EXPECT_EQ(std::filesystem::file_size(config.folder / "truth.jsonl"), full.rlim_cur);
     EXPECT_NE(sink->report().fault.find("truth.jsonl cannot be written; is the disk full?"),
               std::string::npos);
 
@@ -316,22 +323,50 @@ TEST_F(TruthOut, WhatTheDiskHasNoRoomForIsLeftOutWholeAndCounted) {
     EXPECT_FALSE(std::filesystem::is_symlink(picture));
 }
 
+TEST_F(TruthOut, AnotherRunsTruthIsRefusedOrReplacedAsAWhole) {
+    config.folder = folder_ / "truth";
+    make();
+    sink->start();
+    EXPECT_TRUE(frame(1));
+    sink->stop();
+    write("truth/truth_00000007.exr", "a layer");
+    write("truth/view.truth.jsonl", "of a picture");
+    EXPECT_EQ(
+        error_of([&] { make(); }),
+        "outputs.truth.folder: found '" + config.folder.string() +
+            "', which holds 2 files of another run ('truth.jsonl' is the first); accepted: an empty folder, "
+            "another folder, or outputs.truth.overwrite: true, which replaces all of them");
+    config.overwrite = true;
+    make();
+    sink->start();
+    sink->stop();
+    EXPECT_FALSE(std::filesystem::exists(config.folder / "truth_00000007.exr"));
+    EXPECT_TRUE(std::filesystem::exists(config.folder / "view.truth.jsonl"));
+    std::ifstream in(config.folder / "truth.jsonl");
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    EXPECT_EQ(
+        text,
+        "{\"version\":1,\"run\":{\"id\":\"0123\",\"scenario\":\"bench\",\"seed\":7,\"program\":\"hilcam "
+        "9\"},\"camera\":1,\"camera_name\":\"small\"}\n");
+}
+
 // A file grows to a limit, then may grow again.
 TEST_F(TruthOut, LinesStayWholeWhenTheDiskIsFullForAWhile) {
-    TruthFiles files(folder_ / "truth");
+    std::filesystem::create_directories(folder_ / "truth");
+    TruthFiles files(folder_ / "truth", "header");
     const FrameTruth truth = slot(config);
     rlimit before{};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
     const auto old = std::signal(SIGXFSZ, SIG_IGN);
     files.write(truth, 1, "first", {});
-    const rlimit little{10, before.rlim_max};
+    const rlimit little{16, before.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
     EXPECT_THROW(files.write(truth, 2, "second", {}), DeviceError);
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
     std::signal(SIGXFSZ, old);
     files.write(truth, 3, "third", {});
     std::ifstream in(folder_ / "truth" / "truth.jsonl");
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "first\nthird\n");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "header\nfirst\nthird\n");
 }
 
 TEST_F(TruthOut, DatagramsThatTheSystemDoesNotTakeAreCounted) {

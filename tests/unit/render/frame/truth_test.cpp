@@ -121,6 +121,19 @@ TEST(Truth, WhatIsWhollyHiddenOrBehindTheCameraIsNotVisible) {
     EXPECT_TRUE(std::isnan(t.things[2].visible_fraction));
 }
 
+// Far away against its size, so that rays begin at it; the body has the whole picture looked at.
+TEST(Truth, WhatIsFarBehindTheCameraIsNotMetWhereABodyFillsThePicture) {
+    TruthStage s;
+    s.earth(0.3);
+    s.world.bodies[BodyId::kEarth].world_m = {0, 0, 10e6};
+    s.add(plate(lambert(0.5), s.grid), {0, 0, -100}, {});
+    const FrameTruth t = s.tell();
+    const SeenThing& behind = t.things.at(0);
+    EXPECT_EQ(behind.id, 1u);
+    EXPECT_EQ(behind.visible_px, 0u);
+    EXPECT_EQ(value_at(t.layers.object, 64, 64), truth_id(BodyId::kEarth));
+}
+
 TEST(Truth, ASilhouetteThatGoesOnIsMarked) {
     TruthStage s;
     SceneObject wall = plate(lambert(0.5), s.grid);

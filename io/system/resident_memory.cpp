@@ -1,4 +1,4 @@
-#include "emulator/bench/resident_memory.h"
+#include "io/system/resident_memory.h"
 
 #include <fcntl.h>
 

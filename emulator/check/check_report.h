@@ -1,0 +1,41 @@
+#pragma once
+// What `hilcam check` found of a scenario, and its verdict, as text and as JSON.
+
+#include <string>
+#include <vector>
+
+#include "emulator/check/camera_sheet.h"
+#include "emulator/check/first_sight.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+
+inline double degrees(double rad) { return rad / kDegree_rad; }
+
+struct CameraReport {
+    std::size_t number = 1;
+    FirstSight sight;
+    CameraSheet sheet;
+    double share_in_bins = 0;
+    std::vector<std::string> plan;  // a line each, with its reason
+};
+
+struct CheckReport {
+    std::string scenario;
+    TimeTai time;
+    std::size_t cameras = 1;            // of the bench; those asked for are below
+    std::vector<std::string> warnings;  // what is probably not meant, a line each
+    std::vector<CameraReport> reports;
+    std::vector<std::string> run;  // seed, loop, governor
+    double memory_mb = 0;          // with the last camera loaded; 0: not known
+};
+
+// What is probably not meant in what a camera sees. scenario: as that camera has it.
+std::vector<std::string> judge(const ScenarioConfig& scenario, const CameraReport& camera);
+
+std::string to_text(const CheckReport& report);
+std::string to_json(const CheckReport& report);
+// A camera's data sheet.
+std::string to_json(const CameraSheet& sheet);
+
+}  // namespace hilcam

@@ -1,0 +1,108 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "emulator/check/check_report.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kMostObjects = 50;
+constexpr std::size_t kMostSurfaces = 20;  // that are listed; `hilcam mesh` has all
+
+std::string place_text(const SeenObject& o) {
+    switch (o.place) {
+        case SeenObject::Place::kVisible:
+            return fmt::format("{:.3g} % of the picture, {:.0f} % of it in sight", 100 * o.picture_share,
+                               100 * o.visible_fraction);
+        case SeenObject::Place::kHidden:
+            return "hidden by something before it";
+        case SeenObject::Place::kOutside:
+            return "outside the field";
+        case SeenObject::Place::kBehind:
+            break;
+    }
+    return "behind the camera";
+}
+
+void add_surfaces(const LoadedObject& o, std::string& out) {
+    std::size_t listed = 0;
+    for (const LoadedSurface& surface : o.surfaces) {
+        if (surface.triangles == 0) continue;
+        if (++listed > kMostSurfaces) continue;
+        out += fmt::format(
+            "    {:<9} '{}': {} triangles, {:.4g} m2, reflectance {:.2f}, {}\n",
+            listed == 1 ? "surfaces" : "", harmless(surface.name), surface.triangles, surface.area_m2,
+            surface.reflectance,
+            surface.rule.empty() ? "the mesh's own look" : "by rule '" + harmless(surface.rule) + "'");
+    }
+    if (listed > kMostSurfaces)
+        out +=
+            fmt::format("    {:<9} and {} more: 'hilcam mesh FILE' lists them\n", "", listed - kMostSurfaces);
+}
+
+void add_object(const SeenObject& o, std::size_t number, const CameraSheet& sheet, std::string& out) {
+    const Vec3d size_m = o.loaded.most_m - o.loaded.least_m;
+    out += fmt::format("  object {} '{}'\n", number, harmless(o.loaded.name));
+    const auto line = [&](const char* name, const std::string& text) {
+        out += fmt::format("    {:<9} {}\n", name, text);
+    };
+    line("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m, {} triangles, mean reflectance {:.2f}", size_m.x,
+                             size_m.y, size_m.z, o.loaded.triangles, o.loaded.mean_reflectance()));
+    line("place", fmt::format("{:.6g} m away, {:.2f} deg off the boresight; {}", o.distance_m,
+                              degrees(o.off_boresight_rad), place_text(o)));
+    line("light",
+         fmt::format(
+             "phase angle {:.1f} deg ({:.0f} % of a sphere would be lit), {:.0f} % of the Sun is left to it",
+             degrees(o.phase_rad), 100 * lit_share(o.phase_rad), 100 * o.sunlit));
+    line("expected",
+         fmt::format(
+             "about {:.0f} DN of {:.0f} where it is lit, {:.2g} of full scale, SNR {:.3g}, at {:.4g} ms and "
+             "{:.1f} dB{}",
+             o.expected.dn, sheet.most_dn, o.expected.full_scale, o.expected.snr, sheet.exposure_s * 1e3,
+             sheet.camera.gain_db, sheet.camera.auto_exposure.on ? ", before automatic exposure" : ""));
+    add_surfaces(o.loaded, out);
+}
+
+void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
+    if (cameras > 1) out += fmt::format("camera {} of {}\n", c.number, cameras);
+    out += "first instant\n";
+    const FirstSight& sight = c.sight;
+    for (std::size_t i = 0; i < std::min(sight.objects.size(), kMostObjects); ++i)
+        add_object(sight.objects[i], i + 1, c.sheet, out);
+    if (sight.objects.size() > kMostObjects)
+        out += fmt::format("  and {} more objects: --json has them\n", sight.objects.size() - kMostObjects);
+    out += fmt::format(
+        "  Sun         {:.4g} au away, {:.1f} deg off the boresight: ({:.3f}, {:.3f}, {:.3f}) in camera axes "
+        "(right, "
+        "down, ahead)\n",
+        sight.sun_distance_au, degrees(sight.sun_off_boresight_rad), sight.sun_camera_dir.x,
+        sight.sun_camera_dir.y, sight.sun_camera_dir.z);
+    if (c.number > 1)
+        out += fmt::format(
+            "  baseline    {:.6g} m from camera 1: ({:.6g}, {:.6g}, {:.6g}) m in its axes, turned by {:.4g} "
+            "deg\n",
+            length(sight.from_first_m), sight.from_first_m.x, sight.from_first_m.y, sight.from_first_m.z,
+            degrees(sight.turned_rad));
+    out += to_text(c.sheet);
+    out += fmt::format("plan\n  its bins have {:.1f} % of the camera's photo-electrons of sunlight\n",
+                       100 * c.share_in_bins);
+    for (const std::string& line : c.plan) out += "  " + harmless(line) + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const CheckReport& report) {
+    std::string out = report.warnings.empty() ? "warnings: none\n" : "warnings:\n";
+    for (const std::string& warning : report.warnings) out += "  " + harmless(warning) + "\n";
+    out += fmt::format("scenario {} at {}\n", harmless(report.scenario), format_utc(report.time));
+    for (const CameraReport& camera : report.reports) add_camera(camera, report.cameras, out);
+    for (const std::string& line : report.run) out += line + "\n";
+    if (report.memory_mb > 0)
+        out += fmt::format("memory: {:.0f} MB with {} loaded\n", report.memory_mb,
+                           report.reports.size() > 1 ? "the last camera's scene" : "everything");
+    return out + "time of a frame: not measured here; 'hilcam bench' does\n";
+}
+
+}  // namespace hilcam

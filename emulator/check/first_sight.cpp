@@ -1,0 +1,89 @@
+#include "emulator/check/first_sight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/run/truth_source.h"
+#include "render/vocabulary/units.h"
+#include "sensor/published_frame.h"
+
+namespace hilcam {
+namespace {
+
+FrameTruth truth_of(const ScenarioConfig& s, const Renderer& renderer) {
+    TruthWishes wishes = truth_wishes(s);
+    wishes.visibility = true;
+    wishes.stars = false;
+    wishes.object = wishes.range = wishes.depth = wishes.normal = wishes.position = false;
+    FrameTruth truth = make_truth(s, renderer, wishes);
+    truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),
+                             {s.camera.binning_x, s.camera.binning_y});
+    renderer.tell_truth(truth);
+    return truth;
+}
+
+bool is_within(Vec3d p, Vec3d least, Vec3d most) {
+    return p.x > least.x && p.x < most.x && p.y > least.y && p.y < most.y && p.z > least.z && p.z < most.z;
+}
+
+double off_boresight(Vec3d camera) { return std::atan2(std::hypot(camera.x, camera.y), camera.z); }
+
+SeenObject::Place place_of(const SeenThing& thing, double field_rad, double off_rad, double radius_rad) {
+    // What is smaller than a pixel may have none and still be seen.
+    if (thing.visible_px > 0 || thing.visible_fraction > 0) return SeenObject::Place::kVisible;
+    if (off_rad - radius_rad > 0.5 * kPi) return SeenObject::Place::kBehind;
+    // Alone it would be in the frame: something stands before it.
+    const bool alone = thing.silhouette_px > 0 && thing.has_center && off_rad < 0.5 * field_rad;
+    return alone ? SeenObject::Place::kHidden : SeenObject::Place::kOutside;
+}
+
+SeenObject seen(const SeenThing& thing, const LoadedObject& loaded, const FrameTruth& truth,
+                const CameraSheet& sheet, bool carries_camera) {
+    SeenObject out;
+    out.loaded = loaded;
+    out.distance_m = thing.distance_m;
+    out.off_boresight_rad = off_boresight(thing.position_camera_m);
+    out.angular_radius_rad =
+        thing.distance_m > thing.radius_m ? std::asin(thing.radius_m / thing.distance_m) : kPi;
+    out.phase_rad = thing.phase_rad;
+    out.sunlit = std::isfinite(thing.sunlit) ? thing.sunlit : 1;
+    out.silhouette_px = thing.silhouette_px;
+    const double frame_px = static_cast<double>(truth.raster.width_px) * truth.raster.height_px;
+    out.picture_share = static_cast<double>(thing.visible_px) / frame_px;
+    out.visible_fraction = std::isfinite(thing.visible_fraction) ? thing.visible_fraction : 0;
+    out.place = place_of(thing, sheet.field_diagonal_rad, out.off_boresight_rad, out.angular_radius_rad);
+    const Vec3d camera_in_object_m = transposed(to_matrix(thing.world.world_from_body)) *
+                                     (truth.camera.position_world_m - thing.world.position_world_m);
+    out.holds_camera = !carries_camera && is_within(camera_in_object_m, loaded.least_m, loaded.most_m);
+    out.expected =
+        expected_signal(sheet, {loaded.mean_reflectance(), thing.phase_rad,
+                                truth.sun_distance_m / kAstronomicalUnit_m, out.sunlit, thing.silhouette_px});
+    return out;
+}
+
+}  // namespace
+
+FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const Pose& first_camera) {
+    const ScenarioConfig& s = station.scenario();
+    const FrameTruth truth = truth_of(s, station.renderer());
+    FirstSight out;
+    out.camera = truth.camera;
+    out.sun_camera_dir = truth.sun_camera_dir;
+    out.sun_off_boresight_rad = off_boresight(truth.sun_camera_dir);
+    out.sun_distance_au = truth.sun_distance_m / kAstronomicalUnit_m;
+    for (const SeenThing& thing : truth.things) {
+        if (thing.is_body && thing.visible_px > 0)
+            (thing.id == kSunId ? out.shows_sun : out.shows_body) = true;
+        // Terrain comes after the objects and is made while the camera runs: nothing is known of it here.
+        if (thing.is_body || thing.id > s.objects.size()) continue;
+        out.objects.push_back(
+            seen(thing, station.objects()[thing.id - 1], truth, sheet, s.mount.thing == thing.id));
+    }
+    const Mat3d first_from_world = transposed(to_matrix(first_camera.world_from_body));
+    out.from_first_m = first_from_world * (truth.camera.position_world_m - first_camera.position_world_m);
+    const Quat turn = conjugate(first_camera.world_from_body) * truth.camera.world_from_body;
+    out.turned_rad = 2 * std::atan2(std::hypot(turn.x, turn.y, turn.z), std::abs(turn.w));
+    return out;
+}
+
+}  // namespace hilcam

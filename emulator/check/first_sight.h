@@ -1,0 +1,43 @@
+#pragma once
+// What a camera sees of the scenario's first instant, found by a ray through every pixel and not by a
+// picture: where objects are, how they are lit, what hides them.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "emulator/check/expected_signal.h"
+#include "emulator/run/camera_station.h"
+
+namespace hilcam {
+
+struct SeenObject {
+    LoadedObject loaded;
+    enum class Place { kVisible, kHidden, kOutside, kBehind } place = Place::kVisible;
+    double distance_m = 0;
+    double off_boresight_rad = 0;   // of its origin
+    double angular_radius_rad = 0;  // of the sphere about its origin that holds it; pi: the camera is in that
+    double phase_rad = 0;
+    double sunlit = 1;
+    double silhouette_px = 0;     // area that it would cover alone
+    double picture_share = 0;     // of the frame's pixels that show it
+    double visible_fraction = 0;  // of its silhouette
+    bool holds_camera = false;    // the camera stands within the box of its mesh, and does not ride on it
+    ExpectedSignal expected;
+};
+
+struct FirstSight {
+    std::vector<SeenObject> objects;
+    Vec3d sun_camera_dir;
+    double sun_off_boresight_rad = 0, sun_distance_au = 0;
+    bool shows_sun = false, shows_body = false;
+    Pose camera;
+    // Of the camera against the first one: place in its axes, and how far it is turned.
+    Vec3d from_first_m;
+    double turned_rad = 0;
+};
+
+// The station's scene is loaded, and its renderer has placed the first instant (Renderer::explain_plan).
+FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const Pose& first_camera);
+
+}  // namespace hilcam

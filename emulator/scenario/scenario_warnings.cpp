@@ -1,0 +1,114 @@
+#include "emulator/scenario/scenario_warnings.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "emulator/scenario/initial_world.h"
+
+namespace hilcam {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+bool any_camera(const ScenarioConfig& s, const std::function<bool(const OutputsConfig&)>& has) {
+    return has(s.outputs) || std::any_of(s.more_cameras.begin(), s.more_cameras.end(),
+                                         [&](const CameraConfig& c) { return has(c.outputs); });
+}
+
+// Frames are asked for by commands, the preview's button and events; GigE Vision's software trigger is
+// refused in lockstep.
+void look_at_lockstep(const ScenarioConfig& s, Lines& out) {
+    if (s.mode != CameraMode::kLockstep) return;
+    const CommandsConfig& c = s.commands;
+    const bool port = c.has_udp || c.has_tcp || c.has_unix || c.has_usb || c.has_functionfs || c.has_vizard ||
+                      any_camera(s, [](const OutputsConfig& o) { return o.has_preview; });
+    const bool event = std::any_of(s.events.begin(), s.events.end(),
+                                   [](const EventConfig& e) { return actions_of(e).takes_picture(); });
+    if (!port && !event)
+        out.push_back(
+            "mode: lockstep, and nobody can ask for a frame: give commands.udp (or tcp, unix, usb, vizard), "
+            "outputs.preview, or an event that exposes; 'hilcam send expose' then takes one");
+}
+
+// What a kind of fault needs to be seen; empty: it is there.
+std::string lacks(const ScenarioConfig& s, FaultKind kind) {
+    const auto number = static_cast<int>(kind);
+    const auto lacking = [](bool there, const char* what) {
+        return there ? std::string() : std::string(what);
+    };
+    if (number < 60)
+        return lacking(any_camera(s, [](const OutputsConfig& o) { return o.has_gige; }), "outputs.gige");
+    if (number < 70)
+        return lacking(any_camera(s, [](const OutputsConfig& o) { return o.has_v4l2; }), "outputs.v4l2");
+    if (number < 80)
+        return lacking(s.commands.has_usb || s.commands.has_functionfs,
+                       "commands.usb or commands.functionfs");
+    const auto shows = [](const OutputsConfig& o) {
+        return o.has_gige || o.has_v4l2 || o.has_uvc || o.has_files || o.has_preview;
+    };
+    return lacking(any_camera(s, shows) || s.commands.has_vizard, "any of outputs");
+}
+
+void look_at_faults(const ScenarioConfig& s, Lines& out) {
+    std::set<FaultKind> told;
+    const auto look = [&](FaultKind kind, const char* by) {
+        const std::string what = lacks(s, kind);
+        if (what.empty() || !told.insert(kind).second) return;
+        out.push_back(fmt::format("{}: nothing can show the fault '{}' ({}): that takes {}", by,
+                                  name_of(kind), meaning_of(kind), what));
+    };
+    for (const FaultConfig& fault : s.faults) look(fault.kind, "faults");
+    for (const EventConfig& event : s.events)
+        for (const Command& command : actions_of(event).commands)
+            if (const auto* fault = std::get_if<FaultCommand>(&command); fault && !fault->clear_all)
+                look(fault->order.kind, "events");
+}
+
+bool is_inside(const BodyState& body, const Figure& figure, Vec3d place_world_m) {
+    const Vec3d p = body.fixed_from_world * (place_world_m - body.world_m);
+    const double stretch = figure.equatorial_radius_m / figure.polar_radius_m;
+    return length(Vec3d{p.x, p.y, stretch * p.z}) < figure.equatorial_radius_m;
+}
+
+void look_at_places(const ScenarioConfig& bench, Lines& out) {
+    const TimeTai start = parse_utc(bench.time_utc);
+    for (std::size_t camera = 0; camera <= bench.more_cameras.size(); ++camera) {
+        const ScenarioConfig s = scenario_of_camera(bench, camera);
+        const WorldSnapshot world = snapshot_at(s, start, start);
+        for (std::size_t i = 0; i < kBodyCount; ++i) {
+            if (!s.bodies[i].visible ||
+                !is_inside(world.bodies.body[i], kFigures[i], world.camera.position_world_m))
+                continue;
+            const double off_m = length(world.camera.position_world_m - world.bodies.body[i].world_m);
+            std::string line = fmt::format(
+                "camera {} begins inside the body '{}', {:.6g} km from its centre: it sees "
+                "nothing else",
+                camera + 1, kBodyNames[i], off_m * 1e-3);
+            if (index_of(s.origin.center()) == i && !s.origin.turns())
+                line +=
+                    fmt::format("; the world's origin is that centre{}: say where it is by 'origin'",
+                                i == index_of(BodyId::kEarth) ? " unless the scenario says otherwise" : "");
+            out.push_back(line + fmt::format(", move camera_pose, or set {}.visible: false", kBodyNames[i]));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
+    Lines out;
+    look_at_lockstep(scenario, out);
+    look_at_faults(scenario, out);
+    return out;
+}
+
+std::vector<std::string> place_warnings(const ScenarioConfig& scenario) {
+    Lines out;
+    look_at_places(scenario, out);
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,18 @@
+#pragma once
+// What a scenario says that has no effect, or hides everything: it may be meant, so it is no error, but
+// whoever runs it is told.
+
+#include <string>
+#include <vector>
+
+#include "emulator/scenario/app_config.h"
+
+namespace hilcam {
+
+// A line each. What a run will not do: lockstep in which nobody can ask for a frame, faults that no output or
+// port can show.
+std::vector<std::string> idle_warnings(const ScenarioConfig& scenario);
+// Cameras that begin inside a body. Throws InputError where the scenario's motions cannot be had.
+std::vector<std::string> place_warnings(const ScenarioConfig& scenario);
+
+}  // namespace hilcam

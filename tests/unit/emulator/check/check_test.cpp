@@ -1,0 +1,275 @@
+#include "emulator/check/check_command.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "emulator/run/still_camera.h"
+#include "render/vocabulary/units.h"
+#include "tests/support/plate.h"
+#include "tests/support/stage.h"
+
+namespace hilcam {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class CheckScenario : public PlateTest {
+  protected:
+    CheckReport check(const std::vector<std::string>& overrides = {}, const std::string& rest = "",
+                      std::size_t camera = 0) {
+        std::vector<std::string> all = {"spectrum_edges_um=[0.4, 0.6, 0.95]"};
+        all.insert(all.end(), overrides.begin(), overrides.end());
+        return check_scenario(load_scenario(scenario("", rest), all), camera);
+    }
+    std::vector<std::string> warnings(const std::vector<std::string>& overrides,
+                                      const std::string& rest = "") {
+        return check(overrides, rest).warnings;
+    }
+    // A sphere of one metre radius, of reflectance 0.4, that the camera looks at.
+    ScenarioConfig ball(const std::string& place) {
+        write_sphere();
+        return load_scenario(
+            write("ball.yaml",
+                  "time_utc: 2026-12-21T00:00:00Z\n"
+                  "camera: {name: test, width_px: 64, height_px: 64, pitch_um: 10, focal_length_mm: 6.4, "
+                  "f_number: 8,\n"
+                  "  transmission: 0.01, quantum_efficiency: 0.5, full_well_e: 20000, gain_dn_e: 0.2, bits: "
+                  "12,\n"
+                  "  exposure_ms: 20}\n"
+                  "camera_pose: {look_at_m: " +
+                      place +
+                      ", up: [1, 0, 0]}\nobjects:\n  - {name: ball, mesh: sphere.obj, pose: {position_m: " +
+                      place +
+                      "}, materials: {surfaces: [{name: \"*\", material: {reflectance: 0.4}}]}}\n"
+                      "earth: {visible: false}\nmoon: {visible: false}\n"
+                      "spectrum_edges_um: [0.4, 0.46, 0.52, 0.58, 0.64, 0.7, 0.76, 0.83, 0.95]\n"),
+            {});
+    }
+    // All electrons of its picture.
+    static double rendered_e(const ScenarioConfig& s) {
+        StillCamera camera(s);
+        camera.render({1, 1});
+        const ElectronImage& electrons = camera.expose();
+        return std::accumulate(electrons.all().begin(), electrons.all().end(), 0.0);
+    }
+    // A sphere of one metre radius as a file.
+    void write_sphere() {
+        const Mesh mesh = sphere(32, lambert(0.5), SpectralGrid({0.5, 0.7})).mesh;
+        std::ofstream out(folder_ / "sphere.obj");
+        for (const Vec3f& v : mesh.vertices_m) out << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+        for (const auto& t : mesh.triangles)
+            out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+    }
+};
+
+TEST_F(CheckScenario, AGoodSceneHasNoWarningsAndItsFacts) {
+    const CheckReport report = check();
+    EXPECT_THAT(report.warnings, IsEmpty());
+    ASSERT_EQ(report.reports.size(), 1u);
+    const FirstSight& sight = report.reports[0].sight;
+    ASSERT_EQ(sight.objects.size(), 1u);
+    const SeenObject& plate = sight.objects[0];
+    EXPECT_EQ(plate.place, SeenObject::Place::kVisible);
+    EXPECT_NEAR(plate.distance_m, 4, 1e-12);
+    EXPECT_NEAR(plate.loaded.most_m.x - plate.loaded.least_m.x, 0.1, 1e-7);
+    EXPECT_EQ(plate.loaded.triangles, 2u);
+    ASSERT_EQ(plate.loaded.surfaces.size(), 1u);
+    EXPECT_NEAR(plate.loaded.surfaces[0].area_m2, 0.01, 1e-8);
+    EXPECT_NEAR(plate.picture_share, 16.0 * 16 / (64 * 64), 1e-9);
+    EXPECT_EQ(plate.visible_fraction, 1);
+    // The Sun of the solstice is 23.44 degrees south of the equator; the camera looks at the pole.
+    EXPECT_NEAR(sight.sun_off_boresight_rad, (90 + 23.44) * kDegree_rad, 0.001);
+    EXPECT_NEAR(plate.phase_rad, (90 - 23.44) * kDegree_rad, 0.001);
+    EXPECT_EQ(to_text(report).substr(0, 15), "warnings: none\n");
+    EXPECT_THAT(to_text(report), HasSubstr("0.1 x 0.1 x 0 m, 2 triangles"));
+    EXPECT_GT(report.memory_mb, 1);
+}
+
+TEST_F(CheckScenario, WhatIsNotInThePictureIsSaid) {
+    EXPECT_THAT(warnings({"objects.0.pose.position_m=[4, 0, 4]"}),
+                ElementsAre(HasSubstr("object 'plate' is outside the field: 45.00 deg off the boresight"),
+                            HasSubstr("nothing that is lit is in the picture")));
+    EXPECT_THAT(warnings({"objects.0.pose.position_m=[0, 0, -4]"}),
+                Contains(HasSubstr("object 'plate' is behind the camera, 180.0 deg off its boresight")));
+}
+
+TEST_F(CheckScenario, WhatIsHiddenIsSaid) {
+    EXPECT_THAT(warnings({"objects=[{name: near, mesh: " + (folder_ / "plate.obj").string() +
+                          ", pose: {position_m: [0, 0, 2]}}, {name: far, mesh: " +
+                          (folder_ / "plate.obj").string() + ", pose: {position_m: [0, 0, 4]}}]"}),
+                ElementsAre("object 'far' is hidden: something stands before it"));
+}
+
+TEST_F(CheckScenario, AModelInMillimetresIsSaid) {
+    write_sphere();
+    EXPECT_THAT(
+        warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=1000"}),
+        Contains(
+            "the camera is inside the mesh of object 'plate', which is 2000 x 2000 x 2000 m; the file is "
+            "probably in millimetres: scale: 0.001"));
+    EXPECT_THAT(warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=10"}),
+                Contains("the camera is inside the mesh of object 'plate', which is 20 x 20 x 20 m"));
+    // An asteroid from where all of it is seen.
+    EXPECT_THAT(warnings({"objects.0.mesh=" + (folder_ / "sphere.obj").string(), "objects.0.scale=1000",
+                          "objects.0.pose.position_m=[0, 0, 30000]"}),
+                IsEmpty());
+}
+
+TEST_F(CheckScenario, DarknessAndGlareAreSaid) {
+    // The Earth between the Sun and the scene, which stands 7000 km from its centre on the night side.
+    const std::vector<std::string> night = {
+        "earth.visible=true", "earth.albedo=0.3", "camera_pose.position_m=[0, 6450000, 2786000]",
+        "objects.0.pose.position_m=[0, 6450000, 2786004]", "atmosphere.model=none"};
+    EXPECT_THAT(warnings(night),
+                Contains(HasSubstr("object 'plate' is in eclipse: bodies leave it 0 % of the Sun")));
+    // Between the camera and the Sun, but for a degree, so that the Sun is not in the picture.
+    EXPECT_THAT(
+        warnings({"camera_pose={look_at_m: [0, -4, -1.5]}", "objects.0.pose.position_m=[0, -4, -1.5]"}),
+        Contains(HasSubstr("object 'plate' shows its night side: phase angle 17")));
+    EXPECT_THAT(warnings({"camera.exposure_ms=4000"}),
+                Contains(HasSubstr("object 'plate' saturates: about ")));
+    EXPECT_THAT(warnings({"camera.exposure_ms=0.001"}),
+                Contains(HasSubstr("object 'plate' is lost in the noise")));
+}
+
+TEST_F(CheckScenario, KeysWithoutEffectAreSaid) {
+    EXPECT_THAT(warnings({"mode=lockstep"}),
+                ElementsAre(HasSubstr("mode: lockstep, and nobody can ask for a frame")));
+    EXPECT_THAT(warnings({"mode=lockstep", "commands.udp.port=15999"}), IsEmpty());
+    EXPECT_THAT(warnings({"mode=lockstep", "outputs.preview.port=15999"}), IsEmpty());
+    EXPECT_THAT(warnings({"mode=lockstep", "events=[{at_s: 1, do: [expose]}]"}), IsEmpty());
+    EXPECT_THAT(warnings({"faults=[{kind: packet_drop}, {kind: packet_drop, from_frame: 9}]"}),
+                ElementsAre("faults: nothing can show the fault 'packet_drop' (stream packets are not sent): "
+                            "that takes outputs.gige"));
+    EXPECT_THAT(warnings({"faults=[{kind: image_black}]"}),
+                ElementsAre(HasSubstr("that takes any of outputs")));
+    EXPECT_THAT(
+        warnings({"faults=[{kind: image_black}]", "outputs.files.folder=" + (folder_ / "x").string()}),
+        IsEmpty());
+    EXPECT_THAT(warnings({"events=[{at_s: 1, do: [fault usb_stall]}]"}),
+                ElementsAre(HasSubstr("events: nothing can show the fault 'usb_stall'")));
+    EXPECT_THAT(
+        warnings(
+            {"objects.0.materials={surfaces: [{name: DefaultMateriel, material: {}}, {name: zz, material: "
+             "{}}]}"}),
+        ElementsAre(
+            "object 'plate': no surface takes its material rules for 'DefaultMateriel' (the nearest is "
+            "'DefaultMaterial'), 'zz'; the mesh's surfaces: 'DefaultMaterial'"));
+    EXPECT_THAT(
+        warnings({"objects.0.materials={surfaces: [{name: \"*\", material: {}}, {name: DefaultMaterial, "
+                  "material: {}}]}"}),
+        ElementsAre(HasSubstr("'DefaultMaterial' (a rule before it takes that surface)")));
+}
+
+TEST_F(CheckScenario, ACameraInsideABodyIsSaid) {
+    EXPECT_THAT(
+        warnings({"earth.visible=true"}),
+        Contains("camera 1 begins inside the body 'earth', 0 km from its centre: it sees nothing else; the "
+                 "world's origin is that centre unless the scenario says otherwise: say where it is by "
+                 "'origin', move camera_pose, or set earth.visible: false"));
+    // 10 km under the Moon's surface, and 10 km over it.
+    const std::vector<std::string> moon = {"moon.visible=true",
+                                           "origin={kind: body_fixed, body: moon, height_km: 10}"};
+    EXPECT_THAT(warnings(moon), Not(Contains(HasSubstr("inside the body"))));
+    EXPECT_THAT(warnings({"moon.visible=true", "origin={kind: body_fixed, body: moon, height_km: -9.9}"}),
+                Contains(HasSubstr(
+                    "camera 1 begins inside the body 'moon', 1727.5 km from its centre: it sees nothing "
+                    "else, move camera_pose")));
+}
+
+TEST_F(CheckScenario, WhatThisMachineLacksIsSaid) {
+    EXPECT_THAT(warnings({"outputs.gige.interface=nowhere0"}),
+                ElementsAre(HasSubstr("outputs.gige: interface 'nowhere0' does not exist; accepted: lo")));
+    EXPECT_THAT(warnings({"outputs.gige.interface=lo"}), IsEmpty());
+    std::filesystem::create_directory(folder_ / "frames");
+    write("frames/frame_00000001.png", "");
+    const std::string folder = "outputs.files.folder=" + (folder_ / "frames").string();
+    EXPECT_THAT(warnings({folder}), ElementsAre(HasSubstr("which holds a file of another run")));
+    EXPECT_THAT(warnings({folder, "outputs.files.overwrite=true"}), IsEmpty());
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "frames/frame_00000001.png")) << "check removes nothing";
+}
+
+// The mean over the lit part of a rendered Lambert sphere's disk is what is expected of it.
+TEST_F(CheckScenario, ASphereIsAsBrightAsExpected) {
+    for (const char* place : {"[0, 0, 60]", "[0, 40, 44]", "[0, -28, 52]"}) {
+        const ScenarioConfig s = ball(place);
+        const CheckReport report = check_scenario(s);
+        const SeenObject& seen = report.reports.at(0).sight.objects.at(0);
+        EXPECT_NEAR(seen.loaded.mean_reflectance(), 0.4, 1e-6);
+        const double mean_e = rendered_e(s) / (lit_share(seen.phase_rad) * seen.silhouette_px);
+        // Facets of the sphere, wings of the PSF beyond the frame, pixels of the silhouette.
+        EXPECT_NEAR(seen.expected.signal_e / mean_e, 1, 0.03)
+            << place << " phase " << degrees(seen.phase_rad);
+    }
+}
+
+// Smaller than a pixel: all its light in one place.
+TEST_F(CheckScenario, APointIsAsBrightAsExpected) {
+    const ScenarioConfig s = ball("[0, 0, 3000]");
+    const CheckReport report = check_scenario(s);
+    const SeenObject& seen = report.reports.at(0).sight.objects.at(0);
+    EXPECT_EQ(seen.place, SeenObject::Place::kVisible);
+    // Areas this small are measured to an eighth of a pixel.
+    const double true_px = kPi * std::pow(640.0 / 3000, 2);
+    EXPECT_NEAR(seen.silhouette_px, true_px, 0.0625);
+    const double light_e =
+        seen.expected.signal_e / report.reports[0].sheet.peak_share * true_px / seen.silhouette_px;
+    EXPECT_NEAR(light_e / rendered_e(s), 1, 0.03);
+}
+
+TEST_F(CheckScenario, EveryCameraHasABlockWithItsBaseline) {
+    const std::string right =
+        "more_cameras:\n  - {position_m: [0.3, 0, 0.4], attitude: [0.9961947, 0, 0.0871557, 0], camera: "
+        "{name: right, "
+        "width_px: 32, height_px: 32,\n     pitch_um: 10, focal_length_mm: 6.4, f_number: 8, transmission: "
+        "0.01,\n"
+        "     quantum_efficiency: 0.5, full_well_e: 20000, gain_dn_e: 0.2, bits: 12, exposure_ms: 20}}\n";
+    const CheckReport report = check({}, right);
+    ASSERT_EQ(report.reports.size(), 2u);
+    EXPECT_NEAR(length(report.reports[1].sight.from_first_m), 0.5, 1e-9);
+    EXPECT_NEAR(report.reports[1].sight.turned_rad, 10 * kDegree_rad, 1e-5);
+    EXPECT_THAT(report.warnings, Contains(HasSubstr("camera 2: object 'plate' is outside the field")));
+    EXPECT_THAT(to_text(report), HasSubstr("camera 2 of 2\n"));
+    EXPECT_THAT(to_text(report),
+                HasSubstr("baseline    0.5 m from camera 1: (0.3, 0, 0.4) m in its axes, turned by 10"));
+
+    const CheckReport second = check({}, right, 2);
+    ASSERT_EQ(second.reports.size(), 1u);
+    EXPECT_EQ(second.reports[0].number, 2u);
+    EXPECT_EQ(second.reports[0].sheet.camera.name, "right");
+    EXPECT_NEAR(length(second.reports[0].sight.from_first_m), 0.5, 1e-9);
+}
+
+TEST_F(CheckScenario, OfManyObjectsTheFirstAreTold) {
+    std::string objects = "objects=[";
+    for (int i = 0; i < 60; ++i)
+        objects += "{name: o" + std::to_string(i) + ", mesh: " + (folder_ / "plate.obj").string() +
+                   ", pose: {position_m: [9, 0, " + std::to_string(i) + "]}},";
+    const CheckReport report = check({objects + "]"});
+    EXPECT_THAT(report.warnings,
+                Contains("and 50 more objects have warnings: --json tells where each of them is"));
+    EXPECT_EQ(report.warnings.size(), 12u);
+    EXPECT_THAT(to_text(report), HasSubstr("  and 10 more objects: --json has them\n"));
+}
+
+TEST_F(CheckScenario, JsonHasTheSameFacts) {
+    const CheckReport report = check({"objects.0.pose.position_m=[4, 0, 4]"});
+    const nlohmann::json json = nlohmann::json::parse(to_json(report));
+    EXPECT_EQ(json["warnings"].get<std::vector<std::string>>(), report.warnings);
+    const nlohmann::json& camera = json["cameras"][0];
+    EXPECT_EQ(camera["objects"][0]["place"].get<std::string>(), "outside");
+    EXPECT_NEAR(camera["objects"][0]["off_boresight_deg"].get<double>(), 45, 1e-9);
+    EXPECT_NEAR(camera["sheet"]["exposure_ms"].get<double>(), 20, 1e-9);
+    EXPECT_EQ(camera["plan"].size(), report.reports[0].plan.size());
+}
+
+}  // namespace
+}  // namespace hilcam

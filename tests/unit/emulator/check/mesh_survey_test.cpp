@@ -1,0 +1,99 @@
+#include "emulator/check/mesh_survey.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/files.h"
+
+namespace hilcam {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A cube of one metre; its corners count x, y, z by bits 0, 1, 2.
+constexpr const char* kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n";
+constexpr const char* kFaces =
+    "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\n";
+constexpr const char* kLast = "f 2 4 8\nf 2 8 6\n";
+
+class MeshSurveyTest : public FilesTest {
+  protected:
+    MeshSurvey survey(const std::string& obj, const std::string& name = "mesh.obj") {
+        const auto file = write(name, obj);
+        return survey_mesh(load_mesh_contents(file), file.string());
+    }
+    std::vector<std::string> problems(const std::string& obj) { return problems_of(survey(obj)); }
+};
+
+TEST_F(MeshSurveyTest, ACubeIsWhatItIs) {
+    const MeshSurvey s = survey(std::string("mtllib none.mtl\n") + kCorners + "o box\nusemtl gold\n" +
+                                kFaces + "usemtl white\n" + kLast);
+    EXPECT_EQ(s.triangles, 12u);
+    EXPECT_EQ(s.places, 8u);
+    EXPECT_EQ(s.shells, 1u);
+    EXPECT_EQ(s.most_m.x - s.least_m.x, 1);
+    double area_m2 = 0;
+    for (const SurveyedSurface& surface : s.surfaces) area_m2 += surface.area_m2;
+    EXPECT_NEAR(area_m2, 6, 1e-12);
+    std::uint64_t triangles = 0;
+    for (const MeshNode& node : s.nodes) triangles += node.triangles;
+    EXPECT_EQ(triangles, 12u);
+    EXPECT_THAT(problems_of(s), IsEmpty());
+    EXPECT_THAT(to_text(s), HasSubstr("size       1 x 1 x 1 m: x 0 to 1, y 0 to 1, z 0 to 1\n"
+                                      "triangles  12 in 1 shells; "));
+    EXPECT_THAT(to_text(s), HasSubstr("problems: none\n"));
+    EXPECT_THAT(to_text(s), HasSubstr("'box'"));
+}
+
+TEST_F(MeshSurveyTest, WhatIsWrongIsCounted) {
+    const std::string corners = kCorners, faces = kFaces, last = kLast;
+    EXPECT_THAT(problems(corners + faces), ElementsAre(HasSubstr("4 open edges: ")));
+    // One of the last two is turned over: all of its edges go the way of its neighbours'.
+    EXPECT_THAT(problems(corners + faces + "f 2 4 8\nf 2 6 8\n"),
+                ElementsAre(HasSubstr("3 inconsistent edges: ")));
+    EXPECT_THAT(problems(corners + faces + last + "f 2 4 4\n"),
+                ElementsAre(HasSubstr("1 collapsed triangles: ")));
+    const std::vector<std::string> twice = problems(corners + faces + last + "f 2 4 8\n");
+    EXPECT_THAT(twice, Contains(HasSubstr("1 repeated triangles: ")));
+    EXPECT_THAT(twice, Contains(HasSubstr("3 edges of three triangles or more: ")));
+    EXPECT_THAT(problems(corners + "v 0.5 0 0\n" + faces + last + "f 1 9 2\n"),
+                Contains(HasSubstr("1 slivers: ")));
+}
+
+TEST_F(MeshSurveyTest, ACubeThatIsInsideOut) {
+    // The same triangles with two corners exchanged.
+    const std::string obj = std::string(kCorners) +
+                            "f 1 4 3\nf 1 2 4\nf 5 8 6\nf 5 7 8\nf 1 6 2\nf 1 5 6\nf 3 8 7\nf 3 4 8\nf 1 7 "
+                            "5\nf 1 3 7\nf 2 8 4\nf 2 6 8\n";
+    EXPECT_THAT(problems(obj), ElementsAre(HasSubstr("1 inverted shells: ")));
+    // With normals that look outwards the order of the corners is opposed to them.
+    const std::string with_normals =
+        std::string(kCorners) + "vn -1 0 0\nvn 1 0 0\n" +
+        "f 1//1 7//1 5//1\nf 1//1 3//1 7//1\nf 2//2 8//2 4//2\nf 2//2 6//2 8//2\n";
+    EXPECT_THAT(problems(with_normals), Contains(HasSubstr("4 triangles with opposed normals: ")));
+}
+
+TEST_F(MeshSurveyTest, MillimetresAreTold) {
+    const MeshSurvey s = survey("v 0 0 0\nv 3000 0 0\nv 0 2000 0\nf 1 2 3\n");
+    EXPECT_TRUE(s.probably_mm);
+    EXPECT_THAT(problems_of(s).front(), HasSubstr("probably in millimetres"));
+    const nlohmann::json json = nlohmann::json::parse(to_json(s));
+    EXPECT_EQ(json["size_m"].dump(), "[3000.0,2000.0,0.0]");
+    EXPECT_EQ(json["open_edges"].get<int>(), 3);
+    EXPECT_EQ(json["problems"].size(), 2u);
+}
+
+TEST_F(MeshSurveyTest, AFileThatIsNoMeshIsRefused) {
+    EXPECT_THAT(error_of([&] { load_mesh_contents(write("x.txt", "")); }),
+                HasSubstr("accepted: .glb .gltf .obj"));
+    EXPECT_THAT(error_of([&] { load_mesh_contents(folder_ / "none.obj"); }), HasSubstr("no such mesh file"));
+    EXPECT_THAT(error_of([&] { load_mesh_contents(write("e.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")); }),
+                HasSubstr("e.obj: does not parse"));
+}
+
+}  // namespace
+}  // namespace hilcam

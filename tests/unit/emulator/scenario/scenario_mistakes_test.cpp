@@ -1,0 +1,146 @@
+// Mistakes that people make in a scenario, and what they are told: the place, what was found, what helps.
+// None is silent.
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "emulator/check/check_command.h"
+#include "tests/support/files.h"
+
+namespace hilcam {
+namespace {
+
+// Line 1 is the first.
+constexpr const char* kScenario =
+    "name: base\n"
+    "time_utc: 2026-03-20T12:00:00Z\n"
+    "origin: {kind: earth_fixed, longitude_deg: 0, height_km: 35786}\n"
+    "camera:\n"
+    "  width_px: 64\n"
+    "  height_px: 64\n"
+    "  pitch_um: 10\n"
+    "  focal_length_mm: 6.4\n"
+    "  f_number: 8\n"
+    "  quantum_efficiency: 0.5\n"
+    "  transmission: 0.01\n"
+    "  full_well_e: 20000\n"
+    "  gain_dn_e: 0.2\n"
+    "  bits: 12\n"
+    "camera_pose:\n"
+    "  position_m: [4, 0, 0]\n"
+    "  attitude: look_at\n"
+    "  look_at_m: [0, 0, 0]\n"
+    "  up: [0, 0, 1]\n"
+    "objects:\n"
+    "  - name: plate\n"
+    "    mesh: plate.obj\n"
+    "    pose: {position_m: [0, 0, 0]}\n"
+    "mode: free_run\n"
+    "outputs: {files: {folder: frames}}\n";
+
+struct Mistake {
+    const char* name;
+    int line;           // that it is made in
+    const char* text;   // in that line's place
+    const char* place;  // "2:11": where the message finds it; empty: a warning
+    const char* words;
+};
+
+constexpr Mistake kMistakes[] = {
+    // YAML itself.
+    {"Tab", 5, "\twidth_px: 64", "5:10", "tabs are not allowed"},
+    {"Indent", 6, "    height_px: 64", "6:14", "the keys of one mapping begin in one column"},
+    {"Colon", 7, "  pitch_um:10", "8:18", "a space comes after the colon"},
+    {"OpenBracket", 16, "  position_m: [4, 0, 0", "17:11", "not YAML: end of sequence flow not found"},
+    // Keys.
+    {"UnknownKey", 9, "  f_numbr: 8", "9:3", "camera.f_numbr: unknown key; nearest known key: f_number"},
+    {"OtherUnit", 8, "  focal_length_m: 0.0064", "8:3", "its unit here is another: focal_length_mm"},
+    {"KeyTwice", 9, "  width_px: 64", "9:3", "camera.width_px: the key is given twice"},
+    {"KeyMissing", 8, "", "5:3", "camera.focal_length_mm: the key is missing"},
+    {"SectionMisspelt", 20, "object:", "20:1", "unknown key; nearest known key: objects"},
+    // Values.
+    {"WordForNumber", 9, "  f_number: wide", "9:13", "found 'wide'; accepted: a number"},
+    {"UnitInValue", 8, "  focal_length_mm: 6.4 mm", "8:20", "found '6.4 mm'; accepted: a number"},
+    {"Percent", 10, "  quantum_efficiency: 50", "10:23", "found '50'; accepted: a number, 0 to 1"},
+    {"FractionOfAPixel", 5, "  width_px: 64.5", "5:13", "found '64.5'; accepted: a whole number"},
+    {"Negative", 7, "  pitch_um: -10", "7:13", "found '-10'"},
+    {"TwoNumbers", 16, "  position_m: [4, 0]", "16:15", "found a list of 2; accepted: a list of 3 numbers"},
+    {"UnknownChoice", 24, "mode: lock_step", "24:7",
+     "found 'lock_step'; accepted: free_run | triggered | lockstep"},
+    {"FlagByWord", 25, "earth: {visible: maybe}", "25:18", "found 'maybe'; accepted: true or false"},
+    {"NotOfNormOne", 17, "  attitude_wxyz: [1, 1, 0, 0]", "17:18", "found a quaternion of norm 1.414"},
+    {"TextForSection", 23, "    pose: here", "23:11",
+     "accepted: a mapping, or the path of a file that holds it"},
+    {"TextForListItem", 20, "objects: [plate]\nlamps:", "20:11",
+     "objects.0: found 'plate'; accepted: a mapping"},
+    {"SectionForList", 20, "objects: {name: plate}\nlamps:", "20:10", "accepted: a list of mappings"},
+    {"Nanometres", 25, "spectrum_edges_um: [400, 950]", "25:21",
+     "found '400'; accepted: a number, 0.2 to 2.5"},
+    // Time.
+    {"NoDate", 2, "time_utc: noon", "2:11", "time_utc: "},
+    {"NoSuchMonth", 2, "time_utc: 2026-13-01T00:00:00Z", "2:11", "time_utc: "},
+    {"EventWithoutDate", 25, "events: [{at_utc: tomorrow, do: [ping]}]", "25:19", "events.0.at_utc: "},
+    // Files.
+    {"NoSuchMesh", 22, "    mesh: spacecraft.glb", "22:11", "objects.0.mesh: "},
+    {"NoSuchKindOfMesh", 22, "    mesh: scenario.yaml", "22:11", "accepted: .glb .gltf .obj .stl .ply"},
+    {"NoSuchJoint", 23, "    joints: [{node: wing}]", "22:11", "no triangle under a node 'wing'"},
+    {"NoSuchSection", 4, "camera: sheet.yaml\nterrain:", "4:9", "sheet.yaml: no such file"},
+    // Attitudes.
+    {"UpAlongTheSight", 19, "  up: [-1, 0, 0]", "19:7", "camera_pose.up: lies along the line of sight"},
+    {"LooksAtItself", 18, "  look_at_m: [4, 0, 0]", "18:14", "camera_pose.look_at_m: is where it stands"},
+    {"UpWithoutEffect", 17, "  attitude: nadir", "18:14",
+     "camera_pose.look_at_m: has no effect with attitude: nadir; accepted: attitude: look_at"},
+    {"TwoAttitudes", 17, "  attitude_wxyz: [1, 0, 0, 0]", "17:18", "has no effect with look_at_m and up"},
+    {"MotionOfAnotherKind", 23,
+     "    motion: {kind: fixed, kepler: {semi_major_axis_km: 7000, true_anomaly_deg: 0}}", "23:35",
+     "objects.0.motion.kepler: has no effect: kind is not kepler"},
+    {"PoseAndMotion", 24, "camera_motion: {kind: fixed}", "24:16",
+     "either 'camera_pose' or 'camera_motion'; found both"},
+    // What may be meant.
+    {"NoOrigin", 16, "  position_m: [0.001, 0, 0]\norigin_:", "17:1",
+     "unknown key; nearest known key: origin"},
+    {"CameraInTheEarth", 3, "seed: 1", "", "camera 1 begins inside the body 'earth'"},
+    {"RuleForNoSurface", 23, "    materials: {surfaces: [{name: gold, material: {}}]}", "",
+     "no surface takes its material rules for 'gold'"},
+    {"LockstepForNobody", 24, "mode: lockstep", "", "nobody can ask for a frame"},
+    {"FaultForNobody", 24, "faults: [{kind: packet_drop}]", "", "that takes outputs.gige"},
+    {"Millimetres", 22, "    mesh: plate.obj\n    scale: 10000", "", "the file is probably in millimetres"},
+    {"LooksAway", 18, "  look_at_m: [8, 0, 0]", "", "object 'plate' is behind the camera"},
+    {"NoSuchInterface", 25, "outputs: {gige: {interface: nowhere0}}", "",
+     "interface 'nowhere0' does not exist"},
+};
+
+class ScenarioMistakes : public FilesTest, public testing::WithParamInterface<Mistake> {};
+
+TEST_P(ScenarioMistakes, AreTold) {
+    const Mistake& mistake = GetParam();
+    write("plate.obj", "v 0 -0.05 -0.05\nv 0 0.05 -0.05\nv 0 0.05 0.05\nv 0 -0.05 0.05\nf 1 2 3\nf 1 3 4\n");
+    std::istringstream in(kScenario);
+    std::string text, line;
+    for (int number = 1; std::getline(in, line); ++number)
+        text += (number == mistake.line ? mistake.text : line) + std::string("\n");
+    const auto file = write("scenario.yaml", text);
+    CheckReport report;
+    const std::string error = error_of([&] { report = check_scenario(load_scenario(file, {})); });
+    if (*mistake.place) {
+        EXPECT_THAT(error, testing::StartsWith(file.string() + ":" + mistake.place + ": "));
+        EXPECT_THAT(error, testing::HasSubstr(mistake.words));
+    } else {
+        EXPECT_EQ(error, "no error");
+        EXPECT_THAT(report.warnings, testing::Contains(testing::HasSubstr(mistake.words)));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ScenarioMistakes, testing::ValuesIn(kMistakes),
+                         [](const auto& mistake) { return std::string(mistake.param.name); });
+
+class ScenarioWithoutMistakes : public FilesTest {};
+TEST_F(ScenarioWithoutMistakes, NothingIsToldOfIt) {
+    write("plate.obj", "v 0 -0.05 -0.05\nv 0 0.05 -0.05\nv 0 0.05 0.05\nv 0 -0.05 0.05\nf 1 2 3\nf 1 3 4\n");
+    const auto file = write("scenario.yaml", kScenario);
+    EXPECT_THAT(check_scenario(load_scenario(file, {})).warnings, testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace hilcam
