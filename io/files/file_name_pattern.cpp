@@ -136,7 +136,7 @@ bool FileNamePattern::may_have_named(std::string_view file_name) const {
     std::string pattern;
     for (const Piece& piece : pieces_) switch (piece.kind) {
             case Kind::kText:
-                pattern += std::regex_replace(piece.text, std::regex(R"([^A-Za-z0-9_])"), R"(\\$&)");
+                pattern += std::regex_replace(piece.text, std::regex(R"([^A-Za-z0-9_])"), R"(\$&)");
                 break;
             case Kind::kFrame:
                 pattern += "[0-9]{" + std::to_string(piece.digits) + ",}";

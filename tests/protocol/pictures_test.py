@@ -105,7 +105,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(dn.dtype, numpy.uint16)
         png, _ = self.render("stars.png", scenario=scenario)
         self.assertTrue((numpy.array(Image.open(png)) == dn).all())
-        truth = json.loads((self.folder / "truth/truth.jsonl").read_text())
+        truth = json.loads((self.folder / "truth/stars.truth.jsonl").read_text().splitlines()[1])
         lines = (SOURCE / "configs/stars/hipparcos.csv").read_text().splitlines()
         rows = [line for line in lines if line and not line.startswith("#")]
         names = rows[0].split(",")
@@ -141,8 +141,8 @@ class Pictures(unittest.TestCase):
     def test_truth_masks_are_sixteen_bits(self):
         oiio = reader("OpenImageIO")
         self.render("frame.raw", "--truth", self.folder / "truth")
-        mask = numpy.array(Image.open(self.folder / "truth/truth_00000001.object.png"))
-        layers = oiio.ImageInput.open(str(self.folder / "truth/truth_00000001.exr"))
+        mask = numpy.array(Image.open(self.folder / "truth/frame.truth.object.png"))
+        layers = oiio.ImageInput.open(str(self.folder / "truth/frame.truth.exr"))
         # OpenImageIO gives whole numbers beside floats as shares of their greatest.
         shares = layers.read_image()[..., list(layers.spec().channelnames).index("object.ID")]
         ids = numpy.rint(shares.astype(float) * (2**32 - 1)).astype(int)

@@ -116,6 +116,7 @@ TEST_F(FilesSinkTest, AnotherRunsFramesAreFoundByTheirPattern) {
     FilesConfig config;
     config.folder = folder_ / "frames";
     config.name = "left({camera})_%04d";
+    std::filesystem::create_directory(config.folder);
     write("frames/left(1)_0007.view.png", "a run's");
     EXPECT_THAT(error_of([&] { FilesSink(config, 8, 4, PictureRun{}); }), HasSubstr("left(1)_0007.view.png"));
     config.name = "right({camera})_%04d";
