@@ -11,7 +11,7 @@ namespace {
 
 // No spacecraft is as long, but the file of one in millimetres is.
 constexpr double kLongest_m = 500;
-// Of a constellation most are elsewhere.
+// Most of a constellation's objects are elsewhere.
 constexpr std::size_t kMostTold = 10;
 // Less of the Sun than this is an eclipse, less of the disk lit than this is its night side.
 constexpr double kDark = 0.02;

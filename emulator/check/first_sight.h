@@ -32,7 +32,7 @@ struct FirstSight {
     double sun_off_boresight_rad = 0, sun_distance_au = 0;
     bool shows_sun = false, shows_body = false;
     Pose camera;
-    // Of the camera against the first one: place in its axes, and how far it is turned.
+    // Where the camera stands in the first one's axes, and how far it is turned against that.
     Vec3d from_first_m;
     double turned_rad = 0;
 };

@@ -41,7 +41,7 @@ class Emulator {
     const SimulatedClock& clock() const { return clock_; }
     const PoseWatch& poses() const { return poses_; }
     double seconds() const { return seconds_; }
-    // As truth and report have it, and no other run.
+    // Truth and report name the run so; no other run has the name.
     const std::string& run_id() const { return limits_.run_id; }
     CommandReport command_report() const;
     // Null: nothing is recorded.

@@ -74,7 +74,7 @@ void require_unused(const RenderFiles& files) {
             refuse(file, "the truth of a picture that is there already");
 }
 
-// Before minutes of rendering.
+// Refuses names that cannot be, before minutes of rendering.
 void check_names(RenderStage stage, const RenderFiles& files) {
     const auto is_one_of = [&](std::initializer_list<const char*> endings) {
         return std::any_of(endings.begin(), endings.end(),

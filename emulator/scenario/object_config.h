@@ -29,7 +29,7 @@ struct PoseConfig {
 };
 Fields fields(PoseConfig& pose);
 void validate(const PoseConfig& pose);
-// As it is named, or as the other keys mean it: `look_at_m` and `up` mean look_at.
+// The attitude is what is named, or what the other keys mean: `look_at_m` and `up` mean look_at.
 PoseConfig::Attitude attitude_of(const PoseConfig& pose);
 // The motion that a pose config describes at an instant. Throws InputError when look_at is not defined.
 Motion initial_motion(const PoseConfig& pose, TimeTai time, const Bodies& bodies);

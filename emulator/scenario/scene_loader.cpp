@@ -60,7 +60,7 @@ std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, c
     return materials;
 }
 
-// As material.h has it for light from 45 degrees, without textures' colours.
+// Reflectance is material.h's for light from 45 degrees, without textures' colours.
 double reflectance_of(const Material& material, const SpectralGrid& grid) {
     constexpr float kCosine = 0.7f;
     const Scatterer at{&material, material.ggx_alpha, material.base, material.highlight};
