@@ -108,7 +108,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
 void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot,
                              TileStats& stats, RadianceImage& radiance) {
     int n = placer.samples_in(box);
-    SeenMemory* seen = nullptr;
+    VisibilityTile* seen = nullptr;
     if (quality().uses_buffer() && n <= kVisibilitySamplesAcross) {
         n = kVisibilitySamplesAcross;
         if (placer.frame().visibility) seen = &seen_[slot];
@@ -126,7 +126,7 @@ void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std
 }
 
 void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
-                             SeenMemory* seen, TileStats& stats, RadianceImage& radiance) {
+                             VisibilityTile* seen, TileStats& stats, RadianceImage& radiance) {
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
     const std::span<Spectrum> pixels(tile_pixels_[slot].data(), count);
     std::fill(pixels.begin(), pixels.end(), Spectrum{});

@@ -72,7 +72,7 @@ class FrameTracer {
     // By slot.
     std::vector<std::vector<Spectrum>> tile_pixels_;
     std::vector<FacetList> facets_;
-    std::vector<SeenMemory> seen_;                            // none where rays see
+    std::vector<VisibilityTile> seen_;                        // none where rays see
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
 
@@ -81,8 +81,8 @@ class FrameTracer {
     PixelBox tile(int index) const;
     void trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot, TileStats& stats,
                     RadianceImage& radiance);
-    void trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot, SeenMemory* seen,
-                    TileStats& stats, RadianceImage& radiance);
+    void trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
+                    VisibilityTile* seen, TileStats& stats, RadianceImage& radiance);
     void trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
                          TileStats& stats, RadianceImage& radiance);
 };

@@ -38,11 +38,7 @@ void TruthRays::trace(std::span<const Vec2d> points_px, bool normals, std::span<
     RayPacket packet;
     packet.count = static_cast<int>(count);
     for (std::size_t k = 0; k < count; ++k) {
-        // Rays begin at the objects where these are far away; where they lie behind the camera, at the
-        // camera.
-        const Vec3d eye_m = frame_.camera_m + rays[k].from_camera_m;
         starts[k] = frame_.start_of(rays[k].dir, rays[k].from_camera_m);
-        if (dot(to_double(starts[k]) - eye_m, rays[k].dir) < 0) starts[k] = to_float(eye_m);
         dirs[k] = to_float(rays[k].dir);
         packet.set(static_cast<int>(k), starts[k], dirs[k], 0, kNoEnd);
     }

@@ -137,9 +137,7 @@ void FacetList::add(const FrameView& frame, Facet part, std::uint32_t triangle, 
     const bool alike = first || dot(vertex.normal, part.normal) > kSame;
     if (alike && !part.flattened && flattened == 0 && !vertex.facets) return;
     if (!first && !vertex.facets)
-        push(
-            {vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples, nullptr, nullptr},
-            vertex);
+        push({vertex.geometric_normal, vertex.normal, vertex.start(), vertex.weight_samples}, vertex);
     push(part, vertex);
 }
 

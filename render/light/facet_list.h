@@ -30,8 +30,8 @@ class FacetList {
 // What the facets of a vertex reflect of a light that has irradiance 1, with the vertex's weight.
 struct FacetLight {
     Spectrum reflected;
-    Vec3f start_m{};   // of a ray from the one that is lit the most
-    bool none = true;  // of them is lit
+    Vec3f start_m{};   // where a ray begins that leaves the facet with the most light
+    bool none = true;  // no facet is lit
 };
 // dir: towards the light, unit. surface: with the facets' own alpha. Loop, any thread.
 FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir);

@@ -79,8 +79,10 @@ struct FrameView {
     Vec3f start_of(Vec3d unit_dir, Vec3d from_camera_m = {}) const {
         const Vec3d eye_m = camera_m + from_camera_m;
         if (start_before_m <= 0) return to_float(eye_m);
-        // On the plane through that point that faces the ray, less a margin.
-        return to_float(eye_m + (dot(start_at_m - eye_m, unit_dir) - start_before_m) * unit_dir);
+        // On the plane through that point that faces the ray, less a margin; for what lies behind, at the
+        // eye.
+        const double along_m = dot(start_at_m - eye_m, unit_dir) - start_before_m;
+        return to_float(eye_m + std::max(0.0, along_m) * unit_dir);
     }
 };
 

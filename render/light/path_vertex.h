@@ -11,11 +11,11 @@ namespace hilcam {
 
 // A vertex that many samples of a pixel see may be a crumpled thing: a part of it, which leans otherwise.
 struct Facet {
-    Vec3f geometric_normal, normal;  // as a vertex's
-    Vec3f start_m;                   // where rays that leave it begin, ray space
-    float samples;                   // of the pixel, that see it
-    const LevelFacets* flattened;    // what it stands for in the mesh; null: itself
-    const Facet* next;
+    Vec3f geometric_normal, normal;          // as a vertex's
+    Vec3f start_m;                           // where rays that leave it begin, ray space
+    float samples = 0;                       // of the pixel, that see it
+    const LevelFacets* flattened = nullptr;  // what it stands for in the mesh; null: itself
+    const Facet* next = nullptr;
 };
 
 struct Vertex {

@@ -242,8 +242,7 @@ class PrimaryRays {
         vertex.sample = sample;
         vertex.depth = 1;
         vertex.weight = weight_;
-        tile_.facets.add(frame_,
-                         {vertex.geometric_normal, vertex.normal, vertex.start(), 1, nullptr, nullptr},
+        tile_.facets.add(frame_, {vertex.geometric_normal, vertex.normal, vertex.start(), 1},
                          hits_.triangle[k], true, vertex);
         ++count_;
         add_air_before(tile_, exact_dir(k), vertex);

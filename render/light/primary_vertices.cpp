@@ -107,7 +107,7 @@ bool PrimaryVertices::open_next_part() {
         if (x >= box.x1) x = box.x0, y += kVisibilityTile_px;
         part_ = {x, y, std::min(x + kVisibilityTile_px, box.x1), std::min(y + kVisibilityTile_px, box.y1)};
         if (y >= box.y1) return false;
-        if (!tile_.frame.visibility->fill(x, y, tile_.seen->samples)) continue;
+        if (!tile_.frame.visibility->fill(x, y, *tile_.seen)) continue;
         next_pixel_ = 0;
         return true;
     }
@@ -122,7 +122,7 @@ void PrimaryVertices::take_next_pixel() {
 }
 
 void PrimaryVertices::take_pixel(int x, int y) {
-    const std::uint32_t* ids = tile_.seen->samples.ids(x - part_.x0, y - part_.y0);
+    const std::uint32_t* ids = tile_.seen->ids(x - part_.x0, y - part_.y0);
     const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
     std::uint32_t rest = 0xFFFFu & ~equal_ids(ids, VisibilityTile::kNothing);
     const int covered = std::popcount(rest);
@@ -225,8 +225,8 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         if (joined) {
             const Vec3f start_m =
                 origins_[k] + hits_.distance[k] * dir + joined->offset_m * lie.geometric_normal;
-            tile_.facets.add(frame, {lie.geometric_normal, lie.normal, start_m, samples, nullptr, nullptr},
-                             hits_.triangle[k], false, *joined);
+            tile_.facets.add(frame, {lie.geometric_normal, lie.normal, start_m, samples}, hits_.triangle[k],
+                             false, *joined);
             // Alike in all bins, but for the air before it.
             joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
             joined->weight_samples += samples;
@@ -242,7 +242,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
         add_air_before(tile_, dirs_[k], vertex);
-        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples, nullptr, nullptr},
+        tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
                          hits_.triangle[k], true, vertex);
     }
     std::copy(fragments_.begin() + static_cast<std::ptrdiff_t>(n),

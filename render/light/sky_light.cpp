@@ -6,6 +6,7 @@
 
 #include "render/scene/brdf_microfacet.h"
 #include "render/vocabulary/clones.h"
+#include "render/vocabulary/lane_sum.h"
 
 namespace hilcam {
 namespace {
@@ -42,9 +43,7 @@ void weighted_sums(const float* weights, const float* values, std::size_t stride
         }
         std::array<float, kLanes> part;
         std::memcpy(part.data(), &sum, sizeof part);
-        for (std::size_t half = kLanes / 2; half > 0; half /= 2)
-            for (std::size_t i = 0; i < half; ++i) part[i] += part[i + half];
-        sums[b] = part[0];
+        sums[b] = lane_sum(part);
     }
 }
 

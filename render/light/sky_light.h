@@ -56,7 +56,8 @@ class SkyLight {
     struct Disk {
         alignas(64) std::array<float, kPatches> x{}, y{}, z{};
         std::array<Spectrum, kPatches> irradiance{};  // of each, on a surface that faces it
-        alignas(64) std::array<std::array<float, kPatches>, kMaxBins> by_bin{};  // the same
+        alignas(
+            64) std::array<std::array<float, kPatches>, kMaxBins> by_bin{};  // the same, for sums in vectors
         float least_alpha = 0;
     };
     struct Disks {

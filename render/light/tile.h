@@ -27,11 +27,6 @@ struct TileStats : RayCounts {
     }
 };
 
-// Memory for what a frame's visibility buffer finds in a tile.
-struct SeenMemory {
-    VisibilityTile samples;
-};
-
 struct Tile {
     const FrameView& frame;
     PixelBox box;
@@ -43,7 +38,7 @@ struct Tile {
     bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
     std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
     const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
-    SeenMemory* seen = nullptr;            // null: rays find what the camera sees
+    VisibilityTile* seen = nullptr;        // for what the visibility buffer finds; null: rays do
 
     bool wants(int x, int y) const {
         return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];

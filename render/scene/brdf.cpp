@@ -8,6 +8,7 @@
 #include "render/scene/brdf_regolith.h"
 #include "render/scene/brdf_table.h"
 #include "render/vocabulary/clones.h"
+#include "render/vocabulary/lane_sum.h"
 
 namespace hilcam {
 namespace {
@@ -139,28 +140,20 @@ Spectrum brdf_value(const Scatterer& at, Cosines c) {
 
 namespace {
 
-// Halves are added to each other: one order for every width of vectors.
-float sum_of(BrdfSum::Lanes lanes) {
-    for (std::size_t half = lanes.size() / 2; half > 0; half /= 2)
-        for (std::size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
-    return lanes[0];
-}
-
 // weight times below_facets(), and times D V of a lobe.
 HILCAM_CLONES void reflect_below(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
                                  const BrdfSum::Lanes& ni, const LobeAlbedo& e, BrdfSum::Lanes& out) {
-    const float share = 1 / (kPiF * (1 - e.average));
-    for (std::size_t i = 0; i < weight.size(); ++i)
-        out[i] = weight[i] * ((1 - e(no[i])) * (1 - e(ni[i])) * share);
+    for (std::size_t i = 0; i < weight.size(); ++i) out[i] = weight[i] * below_facets(e, no[i], ni[i]);
 }
 HILCAM_CLONES void reflect_lobe(const BrdfSum::Lanes& weight, const BrdfSum::Lanes& no,
                                 const BrdfSum::Lanes& ni, const BrdfSum::Lanes& rougher, float alpha,
                                 float over_half, BrdfSum::Lanes& out) {
     for (std::size_t i = 0; i < weight.size(); ++i) {
         const float nh = std::min((no[i] + ni[i]) * over_half, 1.0f);
-        // Slopes s of density a^2 / (pi (a^2 + s^2)^2) that are scattered by r: to the first order the
-        // density changes by r (4 s^2 - 2 a^2) / (a^2 + s^2)^2 of itself. A lobe whose a^2 grows by 4 r a^2 /
-        // (2 a^2 + s^2) does so at its middle and in its tails, which hardly change.
+        // Slopes s of density a^2 / (pi (a^2 + s^2)^2) (GGX's: Heitz, JCGT 3(2), 2014) that are scattered by
+        // r: to the first order the density changes by r (4 s^2 - 2 a^2) / (a^2 + s^2)^2 of itself. A lobe
+        // whose a^2 grows by 4 r a^2 / (2 a^2 + s^2) does so at its middle and in its tails, which hardly
+        // change.
         const float both = alpha * alpha + rougher[i], slope = (1 - nh * nh) / (nh * nh);
         const float wider =
             std::min(std::sqrt(alpha * alpha + rougher[i] * 4 * both / (2 * both + slope)), 1.0f);
@@ -174,7 +167,7 @@ HILCAM_CLONES void reflect_lobe(const BrdfSum::Lanes& weight, const BrdfSum::Lan
 void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const Lanes& rougher) {
     const Material& m = *at_.material;
     if (m.model == Model::kLambert) {
-        below_ += sum_of(weight) / kPiF;
+        below_ += lane_sum(weight) / kPiF;
         return;
     }
     if (!m.has_facets()) {
@@ -183,13 +176,11 @@ void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const L
         return;
     }
     Lanes part;
-    if (m.facets.average < 0.9999f) {
-        reflect_below(weight, no, ni, m.facets, part);
-        below_ += sum_of(part);
-    }
+    reflect_below(weight, no, ni, m.facets, part);
+    below_ += lane_sum(part);
     if (!(at_.alpha > 0)) return;
     reflect_lobe(weight, no, ni, rougher, at_.alpha, 1 / std::sqrt(std::max(2 + 2 * io_, 1e-8f)), part);
-    lobe_ += sum_of(part);
+    lobe_ += lane_sum(part);
 }
 
 Spectrum BrdfSum::value() const {

@@ -64,8 +64,10 @@ struct ClosestTriangle::Implementation {
     struct Search {
         const Mesh* mesh;
         const Query* query;
+        float distance = 0;  // of what is found
         std::optional<Found> found;
     };
+    // Of equally near ones it takes the first: which is met first depends on the tree.
     static bool look_at(RTCPointQueryFunctionArguments* arguments) {
         Search& search = *static_cast<Search*>(arguments->userPtr);
         const Mesh& mesh = *search.mesh;
@@ -78,9 +80,13 @@ struct ClosestTriangle::Implementation {
         const Vec3f p = search.query->place_m;
         const Place at = nearest_place(p, a, b, c);
         const float distance = length(a + at.u * (b - a) + at.v * (c - a) - p);
-        if (!(distance < arguments->query->radius)) return false;
-        arguments->query->radius = distance;
+        if (!(distance <= search.distance)) return false;
+        if (search.found && distance == search.distance && number > search.found->triangle) return false;
+        search.distance = distance;
         search.found = Found{number, at.u, at.v};
+        // A little more, so that no other one that is as near is cut off.
+        constexpr float kAsNear = 1.0001f, kLeast_m = 1e-12f;
+        arguments->query->radius = std::min(arguments->query->radius, std::max(kAsNear * distance, kLeast_m));
         return true;
     }
 };
@@ -109,7 +115,7 @@ ClosestTriangle::~ClosestTriangle() = default;
 
 std::optional<ClosestTriangle::Found> ClosestTriangle::find(const Query& query) const {
     const Implementation& my = *implementation_;
-    Implementation::Search search{my.mesh, &query, std::nullopt};
+    Implementation::Search search{my.mesh, &query, query.radius_m, std::nullopt};
     RTCPointQuery at{query.place_m.x, query.place_m.y, query.place_m.z, 0, query.radius_m};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);

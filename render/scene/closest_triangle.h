@@ -25,7 +25,8 @@ class ClosestTriangle {
         std::uint32_t triangle;
         float u, v;  // barycentric, of the second and the third corner
     };
-    // Returns none where there is no such triangle within the radius. Any thread.
+    // Returns none where there is no such triangle within the radius; of equally near ones the first. Any
+    // thread.
     std::optional<Found> find(const Query& query) const;
 
   private:

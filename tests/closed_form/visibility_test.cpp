@@ -8,6 +8,7 @@
 
 #include "render/scene/mesh_lod.h"
 #include "tests/support/stage.h"
+#include "tests/support/wavy_plate.h"
 
 namespace hilcam {
 namespace {
@@ -115,24 +116,10 @@ TEST(Visibility, KeptLightIsWhatRaysSee) {
     EXPECT_LT(d.greatest, 0.05);
 }
 
-// A plate of 2 m in waves of 0.1 m that are 0.2 steep, as foil has them.
+// A plate of 2 m whose waves are 0.2 steep.
 SceneObject foil(const MaterialConfig& material, const SpectralGrid& grid) {
-    constexpr int kSteps = 200;
-    constexpr double kHigh_m = 3e-3, k_rad_m = 60;
-    std::vector<Vec3f> v;
-    std::vector<std::array<std::uint32_t, 3>> t;
-    for (int j = 0; j <= kSteps; ++j)
-        for (int i = 0; i <= kSteps; ++i) {
-            const double x = 2.0 * i / kSteps - 1, y = 2.0 * j / kSteps - 1;
-            v.push_back(to_float({x, y, kHigh_m * (std::sin(k_rad_m * x) + std::sin(k_rad_m * y + x))}));
-        }
-    const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (kSteps + 1) + i); };
-    for (int j = 0; j < kSteps; ++j)
-        for (int i = 0; i < kSteps; ++i) {
-            t.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
-            t.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-        }
-    return object_of(v, t, material, grid);
+    Mesh mesh = wavy_plate(200, -1, 1, 3e-3);
+    return object_of(std::move(mesh.vertices_m), std::move(mesh.triangles), material, grid);
 }
 double sum_of(const RadianceImage& radiance) {
     double sum = 0;

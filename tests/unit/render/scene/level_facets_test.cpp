@@ -9,32 +9,12 @@
 #include "render/scene/closest_triangle.h"
 #include "render/scene/mesh_lod.h"
 #include "render/vocabulary/units.h"
+#include "tests/support/wavy_plate.h"
 
 namespace hilcam {
 namespace {
 
-// Where the surface of a plate of 1 m lies, in waves across both ways.
-Vec3f wave(double x, double y, double amplitude_m) {
-    constexpr double k = 60;  // rad/m
-    return to_float({x, y, amplitude_m * (std::sin(k * x) + std::sin(k * y + x))});
-}
-
-Mesh plate(int steps, double amplitude_m) {
-    Mesh mesh;
-    mesh.surfaces.resize(1);
-    for (int j = 0; j <= steps; ++j)
-        for (int i = 0; i <= steps; ++i)
-            mesh.vertices_m.push_back(
-                wave(static_cast<double>(i) / steps, static_cast<double>(j) / steps, amplitude_m));
-    const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (steps + 1) + i); };
-    for (int j = 0; j < steps; ++j)
-        for (int i = 0; i < steps; ++i) {
-            mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
-            mesh.triangles.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-        }
-    mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
-    return mesh;
-}
+Mesh plate(int steps, double amplitude_m) { return wavy_plate(steps, 0, 1, amplitude_m); }
 
 struct Look {
     Vec3d view, sun;
@@ -167,6 +147,20 @@ TEST(ClosestTriangle, IsTheNearestOfItsSurfaceThatFacesTheSameWay) {
     }
     EXPECT_FALSE(closest.find({{0.5f, 0.5f, 0}, {0, 0, -1}, 0, 1}));
     EXPECT_FALSE(closest.find({{0.5f, 0.5f, 9}, {0, 0, 1}, 0, 1}));
+}
+
+// Whatever the tree looks like.
+TEST(ClosestTriangle, OfEquallyNearOnesItIsTheFirst) {
+    Mesh mesh = plate(12, 2e-2);
+    const std::size_t count = mesh.triangles.size();
+    for (std::size_t t = 0; t < count; ++t) mesh.triangles.push_back(mesh.triangles[count - 1 - t]);
+    mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
+    const ClosestTriangle closest(mesh);
+    for (std::size_t t = 0; t < count; t += 7) {
+        const auto& c = mesh.triangles[t];
+        const Vec3f middle = (mesh.vertices_m[c[0]] + mesh.vertices_m[c[1]] + mesh.vertices_m[c[2]]) / 3.0f;
+        EXPECT_EQ(closest.find({middle, {0, 0, 1}, 0, 1})->triangle, t);
+    }
 }
 
 }  // namespace
