@@ -3,9 +3,9 @@
 // takes what wraps around. A lens that differs over the field has several layers, one for each of its zones:
 // each is transformed and multiplied by its own function, and their sum is transformed back.
 //
-// Single precision, FFTW, planned once at construction; run as rows, columns
-// (forward, MTF and back while they are in cache) and rows again on oneTBB. The result depends
-// neither on the thread count nor on the run.
+// Single precision; run as columns, rows (forward, transfer function and back while they are in cache) and
+// columns again on oneTBB. The result depends neither on the thread count nor on the run nor on the
+// processor.
 
 #include <complex>
 #include <functional>

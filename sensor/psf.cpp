@@ -1,12 +1,11 @@
 #include "sensor/psf.h"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numeric>
+
+#include "sensor/fourier.h"
 
 namespace hilcam {
 namespace {
@@ -23,22 +22,18 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
                          double fill_factor) {
     constexpr int n = kField_px * kOversampling;
     constexpr int half = n / 2 + 1;
-    std::unique_ptr<fftwf_complex[], void (*)(void*)> spectrum(fftwf_alloc_complex(std::size_t{n} * half),
-                                                               fftwf_free);
-    std::unique_ptr<float[], void (*)(void*)> fine(fftwf_alloc_real(std::size_t{n} * n), fftwf_free);
-    fftwf_plan plan = fftwf_plan_dft_c2r_2d(n, n, spectrum.get(), fine.get(), FFTW_ESTIMATE);
+    std::vector<std::complex<float>> spectrum(std::size_t{n} * half);
+    std::vector<float> fine(std::size_t{n} * n);
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < half; ++x) {
             const double u = static_cast<double>(x) / kField_px;
             const double v = static_cast<double>(y < n / 2 ? y : y - n) / kField_px;
             const std::complex<double> value = transfer(u, v) * (fill_factor / (kField_px * kField_px));
-            auto& bin = spectrum[static_cast<std::size_t>(y) * half + static_cast<std::size_t>(x)];
             // The table runs over where a pixel lies from the point.
-            bin[0] = static_cast<float>(value.real());
-            bin[1] = static_cast<float>(value.imag());
+            spectrum[static_cast<std::size_t>(y) * half + static_cast<std::size_t>(x)] =
+                std::complex<float>(value);
         }
-    fftwf_execute(plan);
-    fftwf_destroy_plan(plan);
+    real_from_half_spectrum(spectrum, n, fine);
 
     // fine(x) is the share that a pixel takes whose centre lies x/16 px from the point; split by phase.
     phases_.resize(std::size_t{n} * n);

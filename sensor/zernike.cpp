@@ -1,12 +1,11 @@
 #include "sensor/zernike.h"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "render/vocabulary/units.h"
+#include "sensor/fourier.h"
 
 namespace hilcam {
 namespace {
@@ -69,8 +68,6 @@ double zernike(int noll, double x, double y) {
 
 PupilTransfer::PupilTransfer(double obscuration_ratio, double defocus_waves, std::span<const double> waves)
     : otf_(std::size_t{kSize} * kSize) {
-    auto* data = reinterpret_cast<fftwf_complex*>(otf_.data());
-    fftwf_plan plan = fftwf_plan_dft_2d(kSize, kSize, data, data, FFTW_FORWARD, FFTW_ESTIMATE);
     double area = 0;
     for (int j = 0; j < kAcross; ++j)
         for (int i = 0; i < kAcross; ++i) {
@@ -85,11 +82,10 @@ PupilTransfer::PupilTransfer(double obscuration_ratio, double defocus_waves, std
             area += amplitude;
         }
     // Autocorrelation: transform, squared modulus, transform.
-    fftwf_execute(plan);
+    fourier_forward(otf_, kSize);
     const auto scale = static_cast<float>(1 / (area * kSize * kSize));
     for (auto& value : otf_) value = std::norm(value) * scale;
-    fftwf_execute(plan);
-    fftwf_destroy_plan(plan);
+    fourier_forward(otf_, kSize);
     // Samples on the pupil's edge overlap themselves with the square of their share: right for every shift
     // but none.
     otf_[0] = 1;

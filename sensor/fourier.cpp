@@ -1,0 +1,269 @@
+// The first pass over this file includes what PocketFFT includes, before any pass asks for wider
+// instructions.
+#include "sensor/fourier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Threads are oneTBB's, vectors this file's own.
+#define POCKETFFT_NO_MULTITHREADING
+#define POCKETFFT_NO_VECTORS
+#define POCKETFFT_CACHE_SIZE 0
+#include <gemmi/third_party/pocketfft_hdronly.h>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sensor/fourier.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// PocketFFT's functions take vectors by value and are all inlined: there is no call whose convention could
+// change.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+// PocketFFT anew for each level of instructions, each in a namespace of its own.
+#undef POCKETFFT_HDRONLY_H
+#define pocketfft HWY_CONCAT(pocketfft_, HWY_NAMESPACE)
+HWY_BEFORE_NAMESPACE();
+#include <gemmi/third_party/pocketfft_hdronly.h>
+
+namespace hilcam {
+namespace HWY_NAMESPACE {
+
+constexpr std::size_t kLanes = HWY_LANES(float);
+static_assert(PlaneFourier::kMostLanes % kLanes == 0);
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
+// What a transform of this thread may use beside its values.
+thread_local void* room_of_transform = nullptr;
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hilcam
+
+// A transform goes to and fro between its values and as much memory again. PocketFFT takes that from the
+// heap, which a frame must not; of vectors, its array is lent the room instead.
+namespace pocketfft::detail {
+template <>
+class arr<hilcam::HWY_NAMESPACE::Lanes> {
+  public:
+    explicit arr(std::size_t) {}
+    hilcam::HWY_NAMESPACE::Lanes* data() {
+        return static_cast<hilcam::HWY_NAMESPACE::Lanes*>(hilcam::HWY_NAMESPACE::room_of_transform);
+    }
+    hilcam::HWY_NAMESPACE::Lanes& operator[](std::size_t i) { return data()[i]; }
+};
+template <>
+class arr<cmplx<hilcam::HWY_NAMESPACE::Lanes>> {
+  public:
+    using Complex = cmplx<hilcam::HWY_NAMESPACE::Lanes>;
+    explicit arr(std::size_t) {}
+    Complex* data() { return static_cast<Complex*>(hilcam::HWY_NAMESPACE::room_of_transform); }
+    Complex& operator[](std::size_t i) { return data()[i]; }
+};
+}  // namespace pocketfft::detail
+
+namespace hilcam {
+namespace HWY_NAMESPACE {
+
+using Complex = pocketfft::detail::cmplx<Lanes>;
+
+HWY_INLINE Lanes load(const float* from) {
+    Lanes lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+HWY_INLINE void store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof lanes); }
+
+// The lower or upper halves of two vectors, value by value in turns.
+template <std::size_t kFirst, std::size_t... kIndex>
+HWY_INLINE Lanes interleaved(const Lanes& a, const Lanes& b, std::index_sequence<kIndex...>) {
+    return __builtin_shufflevector(a, b, (kFirst + kIndex / 2 + kIndex % 2 * kLanes)...);
+}
+
+// Each pass pairs vector i with the one half the square further; after log2(kLanes) passes rows are columns.
+HWY_INLINE void transpose(Lanes (&square)[kLanes]) {
+    constexpr std::make_index_sequence<kLanes> all;
+    for (std::size_t pass = 1; pass < kLanes; pass *= 2) {
+        Lanes paired[kLanes];
+        for (std::size_t i = 0; i < kLanes / 2; ++i) {
+            paired[2 * i] = interleaved<0>(square[i], square[i + kLanes / 2], all);
+            paired[2 * i + 1] = interleaved<kLanes / 2>(square[i], square[i + kLanes / 2], all);
+        }
+        std::copy_n(paired, kLanes, square);
+    }
+}
+
+// sin(pi x) / (pi x) to 2e-7: x less the nearest whole number, sin by its series to x^11.
+HWY_INLINE float fast_sinc(float x) {
+    const float whole = std::floor(x + 0.5f);
+    const float r = (x - whole) * 3.14159265f;
+    const float r2 = r * r;
+    const float series =
+        r * (1.0f + r2 * (-1.0f / 6 +
+                          r2 * (1.0f / 120 + r2 * (-1.0f / 5040 + r2 * (1.0f / 362880 - r2 / 39916800)))));
+    const float half = 0.5f * whole;
+    const float odd = 2.0f * (half - std::floor(half));  // 1 for odd whole numbers, else 0
+    const float sine = (1.0f - 2.0f * odd) * series;
+    return std::abs(x) < 1e-4f ? 1.0f : sine / (x * 3.14159265f);
+}
+
+class LanesFourier final : public PlaneFourier {
+  public:
+    LanesFourier(int width, int height)
+        : width_(static_cast<std::size_t>(width)),
+          height_(static_cast<std::size_t>(height)),
+          stride_(stride(width)),
+          along_x_(width_),
+          along_y_(height_) {}
+
+    std::size_t lanes() const override { return kLanes; }
+
+    void columns_forward(float* plane, std::size_t first, float* room) const override {
+        columns(plane, first, room, true);
+    }
+    void columns_back(float* plane, std::size_t first, float* room) const override {
+        columns(plane, first, room, false);
+    }
+
+    void rows_forward(const float* plane, std::size_t v, float* block, float* room) const override {
+        auto* values = reinterpret_cast<Complex*>(block);
+        for (std::size_t x = 0; x < width_; x += kLanes) {
+            Lanes real[kLanes], imaginary[kLanes];
+            for (std::size_t k = 0; k < kLanes; ++k) {
+                real[k] = v + k > height_ / 2 ? Lanes{} : load(plane + real_row(v + k) * stride_ + x);
+                imaginary[k] = is_complex(v + k) ? load(plane + 2 * (v + k) * stride_ + x) : Lanes{};
+            }
+            transpose(real), transpose(imaginary);
+            for (std::size_t k = 0; k < kLanes; ++k) values[x + k] = {real[k], imaginary[k]};
+        }
+        room_of_transform = room;
+        along_x_.exec(values, 1.0f, true);
+    }
+    void rows_back(float* block, std::size_t v, float* plane, float* room) const override {
+        auto* values = reinterpret_cast<Complex*>(block);
+        room_of_transform = room;
+        along_x_.exec(values, 1.0f, false);
+        // Beyond the width the plane stays zero: what is there goes through the columns' transforms, too.
+        for (std::size_t x = width_; x % kLanes != 0; ++x) values[x] = {Lanes{}, Lanes{}};
+        for (std::size_t x = 0; x < width_; x += kLanes) {
+            Lanes real[kLanes], imaginary[kLanes];
+            for (std::size_t k = 0; k < kLanes; ++k)
+                real[k] = values[x + k].r, imaginary[k] = values[x + k].i;
+            transpose(real), transpose(imaginary);
+            for (std::size_t k = 0; k < kLanes && v + k <= height_ / 2; ++k) {
+                store(real[k], plane + real_row(v + k) * stride_ + x);
+                if (is_complex(v + k)) store(imaginary[k], plane + 2 * (v + k) * stride_ + x);
+            }
+        }
+    }
+
+    void multiply(float* block, const float* real) const override {
+        auto* values = reinterpret_cast<Complex*>(block);
+        for (std::size_t x = 0; x < width_; ++x) {
+            const Lanes factor = load(real + x * kLanes);
+            values[x].r *= factor, values[x].i *= factor;
+        }
+    }
+    void multiply(float* block, const float* real, const float* imaginary) const override {
+        auto* values = reinterpret_cast<Complex*>(block);
+        for (std::size_t x = 0; x < width_; ++x) {
+            const Lanes re = load(real + x * kLanes), im = load(imaginary + x * kLanes);
+            const Complex value = values[x];
+            values[x].r = value.r * re - value.i * im;
+            values[x].i = value.r * im + value.i * re;
+        }
+    }
+    void add(float* sum, const float* block) const override {
+        for (std::size_t i = 0; i < 2 * kLanes * width_; ++i) sum[i] += block[i];
+    }
+    void blur(float* block, std::size_t v, const SpectrumBlur& blur) const override {
+        const float step_u = 1.0f / static_cast<float>(width_), step_v = 1.0f / static_cast<float>(height_);
+        for (std::size_t x = 0; x < width_; ++x) {
+            const float u = step_u * static_cast<float>(x) - (x > width_ / 2 ? 1.0f : 0.0f);
+            const float smear_u = u * blur.smear_x_px;
+            float* const values = block + 2 * kLanes * x;
+            for (std::size_t k = 0; k < kLanes; ++k) {
+                const float smear = smear_u + step_v * static_cast<float>(v + k) * blur.smear_y_px;
+                const float factor = blur.along_u[x] * blur.along_v[v + k] * fast_sinc(smear);
+                values[k] *= factor;
+                values[kLanes + k] *= factor;
+            }
+        }
+    }
+
+  private:
+    std::size_t width_, height_, stride_;
+    pocketfft::detail::cfftp<float> along_x_;
+    pocketfft::detail::rfftp<float> along_y_;
+
+    static std::size_t real_row(std::size_t v) { return v == 0 ? 0 : 2 * v - 1; }
+    bool is_complex(std::size_t v) const { return v != 0 && 2 * v < height_; }
+
+    void columns(float* plane, std::size_t first, float* room, bool forward) const {
+        auto* values = reinterpret_cast<Lanes*>(room);
+        room_of_transform = values + height_;
+        for (std::size_t x = first; x < first + kMostLanes; x += kLanes) {
+            for (std::size_t y = 0; y < height_; ++y) values[y] = load(plane + y * stride_ + x);
+            along_y_.exec(values, 1.0f, forward);
+            for (std::size_t y = 0; y < height_; ++y) store(values[y], plane + y * stride_ + x);
+        }
+    }
+};
+
+std::unique_ptr<PlaneFourier> make(int width, int height) {
+    return std::make_unique<LanesFourier>(width, height);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hilcam
+HWY_AFTER_NAMESPACE();
+#undef pocketfft
+
+#if HWY_ONCE
+namespace hilcam {
+namespace {
+
+std::size_t whole_vectors(int count) {
+    constexpr std::size_t most = PlaneFourier::kMostLanes;
+    return (static_cast<std::size_t>(count) + most - 1) / most * most;
+}
+
+}  // namespace
+
+std::size_t PlaneFourier::stride(int width) {
+    const std::size_t floats = whole_vectors(width);
+    return floats % 64 == 0 ? floats + kMostLanes : floats;
+}
+std::size_t PlaneFourier::block_floats(int width) { return 2 * kMostLanes * whole_vectors(width); }
+std::size_t PlaneFourier::room_floats(int width, int height) {
+    return std::max(block_floats(width), 2 * kMostLanes * static_cast<std::size_t>(height));
+}
+
+HWY_EXPORT(make);
+std::unique_ptr<PlaneFourier> make_plane_fourier(int width, int height) {
+    return HWY_DYNAMIC_DISPATCH(make)(width, height);
+}
+
+void fourier_forward(std::span<std::complex<float>> square, std::size_t size) {
+    constexpr std::ptrdiff_t step = sizeof(std::complex<float>);
+    const pocketfft::stride_t strides{static_cast<std::ptrdiff_t>(size) * step, step};
+    pocketfft::c2c({size, size}, strides, strides, {0, 1}, pocketfft::FORWARD, square.data(), square.data(),
+                   1.0f);
+}
+
+void real_from_half_spectrum(std::span<const std::complex<float>> spectrum, std::size_t size,
+                             std::span<float> square) {
+    constexpr std::ptrdiff_t step = sizeof(float);
+    const auto line = static_cast<std::ptrdiff_t>(size), half = line / 2 + 1;
+    pocketfft::c2r({size, size}, {half * 2 * step, 2 * step}, {line * step, step}, {0, 1},
+                   pocketfft::BACKWARD, spectrum.data(), square.data(), 1.0f);
+}
+
+}  // namespace hilcam
+#endif
