@@ -1,6 +1,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "emulator/check/check_report.h"
 #include "render/vocabulary/quoted.h"
@@ -65,6 +66,9 @@ void add_object(const SeenObject& o, std::size_t number, const CameraSheet& shee
     add_surfaces(o.loaded, out);
 }
 
+// What rounding leaves where two bodies' axes agree is no length.
+double to_a_nanometre(double length_m) { return std::round(length_m * 1e9) / 1e9 + 0.0; }
+
 void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
     if (cameras > 1) out += fmt::format("camera {} of {}\n", c.number, cameras);
     out += "first instant\n";
@@ -83,7 +87,8 @@ void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
         out += fmt::format(
             "  baseline    {:.6g} m from camera 1: ({:.6g}, {:.6g}, {:.6g}) m in its axes, turned by {:.4g} "
             "deg\n",
-            length(sight.from_first_m), sight.from_first_m.x, sight.from_first_m.y, sight.from_first_m.z,
+            length(sight.from_first_m), to_a_nanometre(sight.from_first_m.x),
+            to_a_nanometre(sight.from_first_m.y), to_a_nanometre(sight.from_first_m.z),
             degrees(sight.turned_rad));
     out += to_text(c.sheet);
     out += fmt::format("plan\n  its bins have {:.1f} % of the camera's photo-electrons of sunlight\n",

@@ -13,6 +13,7 @@ sent as it is, and hilcam's answer says what is wrong. A client is for one threa
 import binascii
 import collections
 import dataclasses
+import math
 import select
 import socket
 import struct
@@ -188,6 +189,29 @@ class Lamp:
 
     def payload(self):
         return struct.pack(">Hxxqd", self.lamp, self.time_tai_ns, self.level)
+
+
+def look_at(position_m, target_m, up=(0, 0, 1)):
+    """attitude_wxyz of a camera at a place that looks at another, with `up` upwards in its picture: what a scenario's
+    `attitude: look_at` does. Throws ValueError where the places coincide or `up` is along the line of sight."""
+    def cross(a, b):
+        return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+    def unit(a):
+        length = math.hypot(*a)
+        if length == 0:
+            raise ValueError(f"no such direction: from {position_m} to {target_m} with {up} upwards")
+        return tuple(c / length for c in a)
+
+    z = unit(tuple(t - p for t, p in zip(target_m, position_m)))
+    x = unit(cross(z, up))
+    y = cross(z, x)
+    # Shepperd's method: the largest of the four comes from the diagonal of the matrix with columns x, y, z.
+    squares = (x[0] + y[1] + z[2], x[0] - y[1] - z[2], y[1] - x[0] - z[2], z[2] - x[0] - y[1])
+    largest = max(range(4), key=lambda i: squares[i])
+    q = ((1 + squares[0], y[2] - z[1], z[0] - x[2], x[1] - y[0]), (y[2] - z[1], 1 + squares[1], x[1] + y[0], z[0] + x[2]),
+         (z[0] - x[2], x[1] + y[0], 1 + squares[2], y[2] + z[1]), (x[1] - y[0], z[0] + x[2], y[2] + z[1], 1 + squares[3]))[largest]
+    return unit(tuple(c if q[0] >= 0 else -c for c in q))
 
 
 COMMANDS = (Pose, Settings, Start, Stop, Ping, Joint, Fault, Expose, Mode, Subscribe, Clock, Lamp)
