@@ -12,9 +12,12 @@ import tempfile
 import unittest
 
 import gvcp_client as g
-from bench import tool
+from bench import SOURCE, tool
 from camera_case import CameraTest
 from genicam_client import Features
+
+sys.path.insert(0, str(SOURCE / "tools"))
+import make_feature_table  # noqa: E402
 
 CameraTest.hilcam = sys.argv[1]
 CameraTest.address = "127.0.23.14"
@@ -108,6 +111,12 @@ class Description(CameraTest):
             if features.kinds[name] == "Category":
                 ahead += features.texts(name, "pFeature")
         self.assertEqual([name for name in self.NEEDED if name not in reached], [])
+
+    def test_the_documents_table_is_what_the_camera_serves(self):
+        document = (SOURCE / "docs/genicam.md").read_text()
+        served = self.client().description()[0]
+        made = make_feature_table.with_table(document, served if isinstance(served, str) else served.decode())
+        self.assertEqual(made, document, "tools/make_feature_table.py makes docs/genicam.md anew")
 
 
 if __name__ == "__main__":
