@@ -4,6 +4,8 @@
 //     answer DIALECT APID COUNT NUMBERS...                 the bytes of an acknowledgement (the last word is
 //     its
 //                                                          reason's bytes) or of telemetry
+//     judge BYTES                                          a command's status and, where it is accepted, what
+//                                                          was understood, encoded again
 //     faults                                               each kind's name and number
 //     filter AT EXCHANGES...                               as vectors.c has it
 
@@ -196,6 +198,20 @@ std::size_t answer(Line& in, std::span<std::uint8_t> bytes) {
     return encode_telemetry(telemetry, count, dialect, bytes);
 }
 
+void print_judged(const std::string& digits) {
+    std::vector<std::uint8_t> packet;
+    for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
+        packet.push_back(static_cast<std::uint8_t>(std::stoul(digits.substr(i, 2), nullptr, 16)));
+    const DecodedCommand d = decode_command(packet, DialectConfig{});
+    std::printf("%u ", static_cast<unsigned>(d.status));
+    if (d.status == CommandStatus::kAccepted) {
+        std::vector<std::uint8_t> bytes(kMostPacketBytes);
+        bytes.resize(encode_command(d.command, d.sequence, DialectConfig{}, bytes, d.camera));
+        for (const std::uint8_t byte : bytes) std::printf("%02x", byte);
+    }
+    std::printf("\n");
+}
+
 void print_filtered(Line& in) {
     ClockFilter filter;
     const std::int64_t at_ns = in.i64();
@@ -226,6 +242,11 @@ int main() {
             for (const FaultKind kind : kAllFaults)
                 std::printf("%s:%u ", std::string(name_of(kind)).c_str(), static_cast<unsigned>(kind));
             std::printf("\n");
+            continue;
+        }
+        if (verb == "judge") {
+            words >> word;
+            print_judged(word);
             continue;
         }
         Line line;

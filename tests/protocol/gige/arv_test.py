@@ -5,9 +5,12 @@
 
 --long: 100 start/stop cycles and 20 client kills, in place of 20 and 3.
 """
+import functools
+import operator
 import pathlib
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -260,7 +263,7 @@ class GStreamer(CameraTest):
                 self.skipTest(f"{too_busy()}: {words}")
             self.assertEqual(result.returncode, 0, words)
 
-    def pictures(self, caps, picture_bytes, number=8):
+    def pictures(self, caps, picture_bytes, number=8, properties=()):
         """So many of aravissrc's pictures, and the words of gst-launch.
 
         aravissrc gives up when two seconds bring no whole frame, and it hands its memory back to its stream before a
@@ -269,8 +272,8 @@ class GStreamer(CameraTest):
         for _ in range(4):
             with tempfile.TemporaryDirectory() as folder:
                 result = subprocess.run(
-                    ["gst-launch-1.0", "-e", "-v", "aravissrc", f"camera-name={self.address}", f"num-buffers={number}", "!", caps,
-                     "!", "identity", "silent=false", "!", "filesink", "buffer-mode=unbuffered", f"location={folder}/frames.raw"],
+                    ["gst-launch-1.0", "-e", "-v", "aravissrc", f"camera-name={self.address}", *properties, f"num-buffers={number}",
+                     "!", caps, "!", "identity", "silent=false", "!", "filesink", "buffer-mode=unbuffered", f"location={folder}/frames.raw"],
                     capture_output=True, text=True, timeout=60)
                 stream = b"".join(file.read_bytes() for file in pathlib.Path(folder).glob("*.raw"))
             if result.returncode == 0 and len(stream) == number * picture_bytes:
@@ -295,6 +298,13 @@ class GStreamer(CameraTest):
             found = [index.get(data) for data in taken]
             self.assertNotIn(None, found, f"{caps}: frames that no file has")
             self.assertEqual(found, sorted(set(found)))
+
+    def test_16_bits_hold_the_numbers_as_the_document_says(self):
+        """The table of docs/gstreamer.md: Mono12 as it is, what is asked for without a format in the upper bits."""
+        for properties, where in ((("features=PixelFormat=Mono12",), 0x0FFF), ((), 0xFFF0)):
+            joined = b"".join(self.pictures("video/x-raw,format=GRAY16_LE", 256 * 192 * 2, 2, properties))
+            values = struct.unpack(f"<{len(joined) // 2}H", joined)
+            self.assertEqual(functools.reduce(operator.or_, values), where, properties)
 
 
 if __name__ == "__main__":

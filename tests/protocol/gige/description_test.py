@@ -12,9 +12,12 @@ import tempfile
 import unittest
 
 import gvcp_client as g
-from bench import tool
+from bench import SOURCE, tool
 from camera_case import CameraTest
 from genicam_client import Features
+
+sys.path.insert(0, str(SOURCE / "tools"))
+import make_feature_table  # noqa: E402
 
 CameraTest.hilcam = sys.argv[1]
 CameraTest.address = "127.0.23.14"
@@ -108,6 +111,50 @@ class Description(CameraTest):
             if features.kinds[name] == "Category":
                 ahead += features.texts(name, "pFeature")
         self.assertEqual([name for name in self.NEEDED if name not in reached], [])
+
+    def test_the_documents_table_is_what_the_camera_serves(self):
+        document = (SOURCE / "docs/genicam.md").read_text()
+        served = self.client().description()[0]
+        made = make_feature_table.with_table(document, served if isinstance(served, str) else served.decode())
+        self.assertEqual(made, document, "tools/make_feature_table.py makes docs/genicam.md anew")
+
+    def documented(self):
+        """docs/genicam.md, of this test's camera."""
+        text = (SOURCE / "docs/genicam.md").read_text()
+        serial = next(s.split("=")[1] for s in self.emulator.sets if s.startswith("outputs.gige.serial"))
+        return text.replace("127.0.77.1", self.address).replace("test-camera-W1", "test-camera-" + serial)
+
+    def test_the_documents_lines_for_a_shell_print_what_it_says(self):
+        program = tool("arv-tool")
+        if program is None:
+            self.skipTest("arv-tool is missing")
+        sessions = re.findall(r"^    \$ arv-tool-0.8(.*)\n((?:    [^$].*\n)+)", self.documented(), re.M)
+        self.assertGreaterEqual(len(sessions), 6)
+        for arguments, printed in sessions:
+            result = subprocess.run([program, *arguments.split()], capture_output=True, text=True, timeout=60)
+            expected = [line.strip() for line in printed.splitlines()]
+            found = [line.strip() for line in result.stdout.splitlines()]
+            # Without an address it lists the cameras of other tests, too.
+            self.assertEqual([line for line in found if line in expected], expected, arguments + result.stdout + result.stderr)
+
+    def test_the_documents_program_reads_chunks(self):
+        try:
+            import gi
+            gi.require_version("Aravis", "0.8")
+        except (ImportError, ValueError) as error:
+            self.skipTest(str(error))
+        program, = re.findall(r"```python\n(.*?)```", self.documented(), re.S)
+        for _ in range(10):  # a frame that a busy client loses is left out
+            result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            lines = [line.split() for line in result.stdout.splitlines()]
+            if len(lines) == 3:
+                break
+        self.assertEqual(len(lines), 3)
+        for before, after in zip(lines, lines[1:]):
+            frames, time_ns = int(after[0]) - int(before[0]), int(after[3]) - int(before[3])
+            self.assertAlmostEqual(time_ns, frames * 1e9 / 30, delta=1e5)
+            self.assertEqual(float(after[1]), 150)
 
 
 if __name__ == "__main__":
