@@ -133,6 +133,8 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
     report.share_in_bins = share_in_bins(s.camera, grid);
     report.plan = station->renderer().explain_plan(snapshot_at(s, time, time));
     report.sight = first_sight(*station, report.sheet, first_camera);
+    report.frame_rate_hz = s.camera.frame_rate_hz;
+    report.frame_time = frame_time(*station, grid);
     report.plan.push_back(motion_line(s, station->renderer(), grid));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
     idle_rules.clear();

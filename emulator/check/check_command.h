@@ -10,7 +10,7 @@
 namespace hilcam {
 
 // Loads everything the scenario names, camera after camera. camera: the one to look at, from 1; 0: all.
-// Nothing is rendered. Throws InputError, DeviceError.
+// Nothing of what it renders is kept. Throws InputError, DeviceError.
 CheckReport check_scenario(const ScenarioConfig& scenario, std::size_t camera = 0);
 
 // A camera's file alone, told by its key pitch_um.

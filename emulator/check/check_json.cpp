@@ -114,6 +114,10 @@ std::string to_json(const CheckReport& report) {
                            {"from_first_camera_m", of(c.sight.from_first_m)},
                            {"turned_from_first_deg", degrees(c.sight.turned_rad)},
                            {"sheet", sheet_of(c.sheet)},
+                           {"frame_ms", c.frame_time ? Json{{"render", c.frame_time->render_ms},
+                                                            {"sensor", c.frame_time->sensor_ms},
+                                                            {"threads", c.frame_time->threads}}
+                                                     : Json()},
                            {"share_in_bins", c.share_in_bins},
                            {"plan", c.plan}});
     }

@@ -1,11 +1,13 @@
 #pragma once
 // What `hilcam check` found of a scenario, and its verdict, as text and as JSON.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "emulator/check/camera_sheet.h"
 #include "emulator/check/first_sight.h"
+#include "emulator/check/frame_time.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -17,6 +19,8 @@ struct CameraReport {
     FirstSight sight;
     CameraSheet sheet;
     double share_in_bins = 0;
+    double frame_rate_hz = 0;
+    std::optional<FrameTime> frame_time;
     std::vector<std::string> plan;  // a line each, with its reason
 };
 

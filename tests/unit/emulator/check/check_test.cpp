@@ -225,6 +225,18 @@ TEST_F(CheckScenario, APointIsAsBrightAsExpected) {
     EXPECT_NEAR(light_e / rendered_e(s), 1, 0.03);
 }
 
+TEST_F(CheckScenario, AFrameIsTimedUnlessItWouldTakeMinutes) {
+    const CheckReport small = check();
+    ASSERT_TRUE(small.reports.at(0).frame_time);
+    EXPECT_GT(small.reports[0].frame_time->render_ms, 0);
+    EXPECT_GT(small.reports[0].frame_time->sensor_ms, 0);
+    EXPECT_THAT(to_text(small), HasSubstr("ms in the sensor on"));
+    const CheckReport fine =
+        check({"camera.width_px=2000", "camera.height_px=1000", "quality.samples_per_axis=5"});
+    EXPECT_FALSE(fine.reports.at(0).frame_time);
+    EXPECT_THAT(to_text(fine), HasSubstr("is not timed"));
+}
+
 TEST_F(CheckScenario, EveryCameraHasABlockWithItsBaseline) {
     const std::string right =
         "more_cameras:\n  - {position_m: [0.3, 0, 0.4], attitude: [0.9961947, 0, 0.0871557, 0], camera: "

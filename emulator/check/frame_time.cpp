@@ -1,0 +1,68 @@
+#include "emulator/check/frame_time.h"
+
+#include <tbb/global_control.h>
+
+#include "emulator/loop/exposure_renderer.h"
+#include "emulator/loop/shutter_timing.h"
+#include "emulator/scenario/initial_world.h"
+#include "emulator/scenario/lamp_setup.h"
+#include "emulator/scenario/motion_builder.h"
+#include "emulator/scenario/quality_ladder.h"
+#include "emulator/world/clock.h"
+#include "render/vocabulary/median.h"
+
+namespace hilcam {
+namespace {
+
+constexpr double kMostRays = 32e6;
+constexpr int kFrames = 3;
+
+double primary_rays(const ScenarioConfig& s) {
+    const double across = static_cast<double>(s.quality.oversampling) *
+                          static_cast<double>(render_quality_of(s).samples_per_axis);
+    return static_cast<double>(s.camera.width_px) * static_cast<double>(s.camera.height_px) * across * across;
+}
+
+template <class Work>
+double milliseconds(const Work& work) {
+    const std::int64_t start_ns = monotonic_ns();
+    work();
+    return static_cast<double>(monotonic_ns() - start_ns) * 1e-6;
+}
+
+}  // namespace
+
+std::optional<FrameTime> frame_time(CameraStation& station, const SpectralGrid& grid) {
+    const ScenarioConfig& s = station.scenario();
+    if (primary_rays(s) > kMostRays) return {};
+    const TimeTai start = parse_utc(s.time_utc);
+    WorldState world(initial_motions(s, start), s.origin, joints_of(s), s.mount, load_motion_sources(s),
+                     lamp_mounts(s));
+    ExposureRenderer exposures(station.renderer(), s, grid, world.placed_objects());
+    RadianceImage radiance = exposures.make_image();
+    std::vector<PointSource> points;
+    points.reserve(exposures.most_points());
+    const auto [array_width, array_height] = array_size(s.camera);
+    ElectronImage electrons(array_width, array_height);
+    const auto [width, height] = frame_size(s.camera);
+    DnImage frame(width, height);
+    Exposure exposure{ShutterTiming(s.camera).exposure_s(s.camera.exposure_s), s.camera.gain_db, {}, {}};
+    std::vector<double> render_ms, sensor_ms;
+    for (std::uint32_t i = 0; i <= kFrames; ++i) {
+        const RandomKey key{seed_of_camera(s, station.number() - 1), i};
+        const double render =
+            milliseconds([&] { exposures.render(world, start, key, radiance, points, exposure); });
+        const double sensor = milliseconds([&] {
+            station.chain().expose(radiance, points, exposure, electrons);
+            station.chain().digitise(electrons, exposure, key, frame);
+        });
+        if (i == 0) continue;
+        render_ms.push_back(render);
+        sensor_ms.push_back(sensor);
+    }
+    return FrameTime{
+        median(render_ms), median(sensor_ms),
+        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))};
+}
+
+}  // namespace hilcam

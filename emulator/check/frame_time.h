@@ -1,0 +1,22 @@
+#pragma once
+// How long a frame of the first instant takes on this machine: what `hilcam check` tells before a run.
+// `hilcam bench` measures it around the target, paced, and with its spread.
+
+#include <optional>
+
+#include "emulator/run/camera_station.h"
+
+namespace hilcam {
+
+struct FrameTime {
+    double render_ms;  // from the world to the radiance image, on all threads
+    double sensor_ms;  // from there to DN
+    int threads;
+};
+
+// Returns medians of three frames behind a first one that is not counted. None where a frame has more than 32
+// million primary rays, as at the quality `reference`: it would take minutes. Owner thread; the station is
+// loaded.
+std::optional<FrameTime> frame_time(CameraStation& station, const SpectralGrid& grid);
+
+}  // namespace hilcam
