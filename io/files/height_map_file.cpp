@@ -1,10 +1,13 @@
 #include "io/files/height_map_file.h"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 #include "io/system/input_file.h"
 #include "render/vocabulary/check.h"
@@ -14,6 +17,24 @@ namespace {
 
 // The most that columns and rows can ask for: a map is not read whole.
 constexpr std::uintmax_t kMostHeightBytes = 4'000'000'000'000;
+
+// A file of another format that is often taken for raw heights, and how heights come out of it; empty: none
+// of them. TIFF 6.0 and BigTIFF begin with their byte order and 42 or 43, PDS3 labels with their version.
+std::string format_with_heights_inside(int fd) {
+    std::array<char, 16> head{};
+    if (pread(fd, head.data(), head.size(), 0) != static_cast<ssize_t>(head.size())) return {};
+    const std::string_view magic(head.data(), head.size());
+    using namespace std::string_view_literals;
+    for (const std::string_view tiff : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv})
+        if (magic.starts_with(tiff))
+            return "is a TIFF; accepted: raw heights, as 'gdal_translate -of ENVI -ot Float32 FILE.tif "
+                   "heights.raw' makes them";
+    if (magic.starts_with("PDS_VERSION_ID"))
+        return "is a PDS label; accepted: raw heights, as 'gdal_translate -of ENVI -ot Float32 FILE.lbl "
+               "heights.raw' makes "
+               "them";
+    return {};
+}
 
 class MappedHeights final : public HeightMap {
   public:
@@ -26,6 +47,7 @@ class MappedHeights final : public HeightMap {
           offset_m_(static_cast<float>(c.offset_m)) {
         const auto refuse = [&](const std::string& what) { throw InputError(c.file.string() + ": " + what); };
         const InputFile in = open_input_file(c.file, {kMostHeightBytes, "a raw file of heights"});
+        if (const std::string other = format_with_heights_inside(in.fd.get()); !other.empty()) refuse(other);
         size_ = static_cast<std::size_t>(c.columns) * static_cast<std::size_t>(c.rows) * bytes_each();
         if (in.bytes != size_)
             refuse("has " + std::to_string(in.bytes) + " bytes; " + std::to_string(c.columns) +

@@ -154,6 +154,13 @@ TEST_F(MaterialFiles, HeightsAreReadAsTheyAreWritten) {
     EXPECT_THAT(error(), HasSubstr("h.raw: has 12 bytes; 3 columns of 3 rows of 2 bytes make 18"));
     config.file = folder_ / "none.raw";
     EXPECT_THAT(error(), HasSubstr("none.raw: no such file"));
+    // Other formats have heights inside, and say how they come out; a raw file of that length does not begin
+    // like them.
+    using namespace std::string_literals;
+    for (const std::string& magic : {"II*\0"s, "MM\0*"s, "II+\0"s, "MM\0+"s, "PDS_VERSION_ID"s}) {
+        config.file = write("h.raw", magic + std::string(18 - magic.size(), 'x'));
+        EXPECT_THAT(error(), HasSubstr("'gdal_translate -of ENVI")) << magic;
+    }
     // A float that is no number is ground at height 0.
     const float values[4] = {1.5f, std::nanf(""), std::numeric_limits<float>::infinity(), -2};
     config.file = write("f.raw", std::string(reinterpret_cast<const char*>(values), sizeof values));
