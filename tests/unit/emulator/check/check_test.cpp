@@ -211,6 +211,18 @@ TEST_F(CheckScenario, ASphereIsAsBrightAsExpected) {
     }
 }
 
+// f = w / 4 pi / (cos i + cos e) reflects w / 2 (1 - m ln((1 + m) / m)) of what comes in at cos i = m:
+// Lommel-Seeliger's law, whose w is 8 times the reflectance that is given.
+TEST_F(CheckScenario, DarkGroundIsNotTakenForBright) {
+    ScenarioConfig s = ball("[0, 0, 60]");
+    MaterialConfig& ground = s.objects.at(0).materials.surfaces.at(0).material;
+    ground.model = ReflectionModel::kLommelSeeliger;
+    ground.reflectance = Curve::constant(0.06);
+    const double m = std::sqrt(0.5), expected = 8 * 0.06 / 2 * (1 - m * std::log((1 + m) / m));
+    EXPECT_NEAR(check_scenario(s).reports.at(0).sight.objects.at(0).loaded.mean_reflectance(), expected,
+                1e-3 * expected);
+}
+
 // Smaller than a pixel: all its light in one place.
 TEST_F(CheckScenario, APointIsAsBrightAsExpected) {
     const ScenarioConfig s = ball("[0, 0, 3000]");
