@@ -27,7 +27,8 @@ Fields fields(RenderQuality& q) {
                "path: least GGX alpha of surfaces seen by way of a diffuse one, against sparkle; 0: as they "
                "are"),
         flag("watertight", q.watertight,
-             "no ray slips through the edge that two triangles share; costs a sixth"),
+             "no ray slips through the edge that two triangles share, as none ever does through terrain; "
+             "costs a sixth"),
         number("lod_error_px", q.lod_error_px, 1, {0, 16},
                "a mesh may be this far off, in pixels, where it is drawn from a coarser level; 0: never"),
         integer(

@@ -143,7 +143,6 @@ constexpr std::size_t kNoLevel = std::numeric_limits<std::size_t>::max();
 struct EmbreeScene::Implementation {
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
-    bool watertight = true;
     std::vector<std::vector<RTCScene>> levels;  // per object
     std::vector<std::vector<MeshView>> meshes;  // of them, where Embree keeps them
     std::vector<std::size_t> shown;             // level of each
@@ -172,9 +171,9 @@ struct EmbreeScene::Implementation {
             throw DeviceError(std::string("Embree reports error ") + std::to_string(static_cast<int>(error)) +
                               " while " + doing);
     }
-    RTCScene build(const Mesh& mesh) const {
+    RTCScene build(const Mesh& mesh, bool without_gaps) const {
         RTCScene scene = rtcNewScene(device);
-        if (watertight) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        if (without_gaps) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene, mesh.triangles.size() < kSpatialSplits ? RTC_BUILD_QUALITY_HIGH
                                                                               : RTC_BUILD_QUALITY_MEDIUM);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -202,7 +201,6 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool
     my.device = rtcNewDevice(nullptr);
     if (!my.device) throw DeviceError("Embree cannot start on this processor; it needs SSE2 at least");
     my.top = rtcNewScene(my.device);
-    my.watertight = watertight;
     rtcSetSceneFlags(my.top,
                      watertight ? RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(my.top, RTC_BUILD_QUALITY_LOW);
@@ -215,7 +213,7 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool
             if (scene)
                 rtcRetainScene(scene);
             else
-                scene = my.build(*mesh);
+                scene = my.build(*mesh, watertight);
             scenes.push_back(scene);
             views.push_back(view_of(scene, *mesh));
         }
@@ -254,7 +252,7 @@ PreparedMesh::~PreparedMesh() {
 
 PreparedMesh EmbreeScene::prepare(const Mesh& mesh) const {
     PreparedMesh out;
-    out.scene_ = implementation_->build(mesh);
+    out.scene_ = implementation_->build(mesh, true);
     return out;
 }
 
