@@ -23,6 +23,20 @@ std::string first_local_key(const ScenarioConfig& s) {
     return "";
 }
 
+// What looks at another body turns as that moves, and by no rate.
+void check_rates(const ScenarioConfig& s, BodyId site_body) {
+    const auto check = [&](const PoseConfig& pose, const std::string& key) {
+        if (pose.frame == PoseConfig::Frame::kLocal && pose.has_rate && pose.has_nadir_of &&
+            pose.nadir_of != site_body)
+            throw KeyError(key,
+                           "has no effect with the nadir of another body than the site's; accepted: no "
+                           "'rate_deg_s'");
+    };
+    check(s.camera_pose, "camera_pose.rate_deg_s");
+    for (std::size_t i = 0; i < s.objects.size(); ++i)
+        check(s.objects[i].pose, "objects." + std::to_string(i) + ".pose.rate_deg_s");
+}
+
 std::string body_name(BodyId id) { return std::string(kBodyNames[index_of(id)]); }
 
 }  // namespace
@@ -44,6 +58,7 @@ void check_site(const ScenarioConfig& s) {
         throw KeyError(key,
                        "found 'local', and no site for its axes; accepted: with site: {body, longitude_deg, "
                        "latitude_deg}, terrain.place, or an origin of kind earth_fixed or body_fixed");
+    check_rates(s, site->body);
     if (s.origin.center() == site->body) return;
     const std::string body = body_name(site->body);
     throw KeyError(

@@ -260,6 +260,9 @@ TEST_F(Frames, WhatHasNoEffectIsRefused) {
               "sun.phase_deg: needs a camera_pose"},
              {"origin: {kind: free}\nsun: {direction: [1, 0, 0]}\ncamera_pose: {attitude: nadir}\n",
               "camera_pose.attitude: is nadir in free space"},
+             {std::string(kMoonSite) +
+                  "camera_pose: {frame: local, attitude: nadir, nadir_of: earth, rate_deg_s: [0, 0, 1]}\n",
+              "camera_pose.rate_deg_s: has no effect with the nadir of another body than the site's"},
              {"camera_pose: {nadir_of: moon}\n", "camera_pose.nadir_of: has no effect"},
              {"camera_motion: {kind: fixed, attitude: {nadir_of: moon}}\n",
               "attitude.nadir_of: has no effect"},
