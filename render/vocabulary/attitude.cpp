@@ -30,9 +30,9 @@ Mat3d scaled_sum(double a, const Mat3d& m, double b, const Mat3d& n) {
 }  // namespace
 
 Quat from_mrp(Vec3d sigma) {
-    const double square = dot(sigma, sigma);
-    const double scale = 2 / (1 + square);
-    return normalized(Quat{(1 - square) / (1 + square), scale * sigma.x, scale * sigma.y, scale * sigma.z});
+    const double s2 = dot(sigma, sigma);
+    const double scale = 1 / (1 + s2);
+    return normalized(Quat{(1 - s2) * scale, 2 * sigma.x * scale, 2 * sigma.y * scale, 2 * sigma.z * scale});
 }
 
 Vec3d mrp_of(Quat q) {

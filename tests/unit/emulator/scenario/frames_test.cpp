@@ -20,11 +20,10 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-constexpr const char* kCamera =
-    "camera: {width_px: 32, height_px: 32, pitch_um: 10, focal_length_mm: 6.4, f_number: 8, "
+constexpr const char* kSheet =
+    "{width_px: 32, height_px: 32, pitch_um: 10, focal_length_mm: 6.4, f_number: 8, "
     "quantum_efficiency: 0.5, transmission: 0.01, full_well_e: 20000, gain_dn_e: 0.2, bits: 12, "
-    "exposure_ms: 1}\n"
-    "spectrum_edges_um: [0.5, 0.7]\n";
+    "exposure_ms: 1}";
 // 1.6 m to a side, in the plane of x and y.
 constexpr const char* kPlate = "v -0.8 -0.8 0\nv 0.8 -0.8 0\nv 0.8 0.8 0\nv -0.8 0.8 0\nf 1 2 3\nf 1 3 4\n";
 constexpr const char* kMoonSite =
@@ -34,7 +33,10 @@ class Frames : public FilesTest {
   protected:
     ScenarioConfig scenario(const std::string& lines, const std::string& utc = "2026-03-20T14:00:00Z") {
         write("plate.obj", kPlate);
-        return load_scenario(write("s.yaml", "time_utc: " + utc + "\n" + kCamera + lines), {});
+        return load_scenario(
+            write("s.yaml",
+                  "time_utc: " + utc + "\nspectrum_edges_um: [0.5, 0.7]\ncamera: " + kSheet + "\n" + lines),
+            {});
     }
     std::string refusal(const std::string& lines) {
         return error_of([&] { scenario(lines); });
@@ -66,9 +68,9 @@ TEST_F(Frames, InFreeSpaceTheSunIsWhereItIsSaid) {
     EXPECT_TRUE(s.bodies[index_of(BodyId::kMars)].visible);
     for (const BodyId id : {BodyId::kEarth, BodyId::kMoon, BodyId::kJupiter})
         EXPECT_FALSE(s.bodies[index_of(id)].visible) << kBodyNames[index_of(id)];
-    // The planets are where they are against the Sun, but for light time and the Sun's own 13 m/s.
+    // The planets are where they are against the Sun, but for light time: 26.5 km/s for 35 minutes at most.
     const Vec3d mars = heliocentric(BodyId::kMars, parse_utc(s.time_utc)).position_m;
-    EXPECT_LT(length(world.bodies[BodyId::kMars].world_m - world.bodies.sun_world_m - mars), 4e7);
+    EXPECT_LT(length(world.bodies[BodyId::kMars].world_m - world.bodies.sun_world_m - mars), 5.6e7);
     // It stays there, and time runs.
     expect_near(at(s, 86400).bodies.sun_world_m, world.bodies.sun_world_m, 0);
     EXPECT_GT(length(at(s, 86400).bodies[BodyId::kMars].world_m - world.bodies[BodyId::kMars].world_m), 1e9);
@@ -124,7 +126,7 @@ TEST_F(Frames, LocalAxesAreEastNorthUpOfTheEllipsoid) {
     // It turns with the Earth: 15.04 arcsec/s, eastwards.
     const WorldSnapshot later = at(s, 10);
     EXPECT_NEAR(length(later.camera.position_world_m - world.camera.position_world_m),
-                10 * 7.2921159e-5 * std::hypot(3259319.188, 2517068.267), 1);
+                10 * 7.2921159e-5 * std::hypot(4045731.2748, 713473.1231), 1);
     EXPECT_LT(length(at(s, 0.01).camera.position_world_m - at(s, -0.01).camera.position_world_m -
                      0.02 * world.camera_velocity_m_s),
               1e-6);
@@ -195,13 +197,13 @@ TEST_F(Frames, NadirIsOfAnyBody) {
     const std::string geo = "origin: {kind: earth_fixed, height_km: 35786}\n";
     EXPECT_LT(off(scenario(geo + "camera_pose: {attitude: nadir}\n"), BodyId::kEarth), 1e-7);
     EXPECT_LT(off(scenario(geo + "camera_pose: {attitude: nadir, nadir_of: moon}\n"), BodyId::kMoon), 1e-7);
-    // From the Moon's ground the Earth; a motion looks where the body is, not where its light shows it: 21
-    // arcsec.
+    // From the Moon's ground the Earth; a motion looks where the body is, not where its light shows it: up to
+    // 21 arcsec by the observer's way, and as much by the planet's.
     const std::string earthrise = "frame: local, position_m: [0, 0, 2], attitude: nadir, nadir_of: earth";
     EXPECT_LT(off(scenario(kMoonSite + ("camera_pose: {" + earthrise + "}\n")), BodyId::kEarth), 1.1e-4);
     EXPECT_LT(off(scenario(geo + "camera_motion: {kind: fixed, attitude: {law: nadir, nadir_of: mars}}\n"),
                   BodyId::kMars),
-              1.5e-4);
+              3e-4);
 }
 
 TEST_F(Frames, EveryQuaternionMayBeAnotherForm) {
@@ -233,8 +235,7 @@ TEST_F(Frames, EveryQuaternionMayBeAnotherForm) {
     }
     // A mount's quaternion is called otherwise.
     const ScenarioConfig pair =
-        scenario(std::string("more_cameras:\n  - {position_m: [1, 0, 0], attitude_mrp: [0.2, -0.25, 0.3], ") +
-                 kCamera + "    }\n");
+        scenario(std::string("more_cameras: [{attitude_mrp: [0.2, -0.25, 0.3], camera: ") + kSheet + "}]\n");
     EXPECT_LT(length(turn_between(expected, scenario_of_camera(pair, 1).mount.thing_from_camera)), 1e-14);
 }
 
@@ -324,7 +325,7 @@ TEST_F(Frames, ACheckTellsPointingAndSite) {
     const std::string text = to_text(stars);
     EXPECT_THAT(text,
                 HasSubstr("right ascension 83.8221 deg, declination -5.3911 deg, roll 30.00 deg (ICRF)"));
-    EXPECT_THAT(text, testing::Not(HasSubstr("earth")));
+    EXPECT_THAT(text, testing::Not(HasSubstr("km away")));
     EXPECT_THAT(text, testing::Not(HasSubstr("site   ")));
     EXPECT_THAT(stars.warnings, Contains(HasSubstr("site: nothing is in its local axes")));
     EXPECT_THAT(stars.warnings, Contains(HasSubstr("atmosphere: has no effect, as the Earth is not shown")));
@@ -332,7 +333,9 @@ TEST_F(Frames, ACheckTellsPointingAndSite) {
 
 // What the tutorials are about: each sees what it is for, and nothing of it is doubtful.
 TEST(ShippedFrames, AreAsTheyAreMeant) {
-    const auto checked = [](const std::string& name, const std::vector<std::string>& overrides) {
+    // The middle of each picture says it.
+    const auto checked = [](const std::string& name, std::vector<std::string> overrides) {
+        for (const char* size : {"camera.width_px=120", "camera.height_px=90"}) overrides.push_back(size);
         return check_scenario(
             load_scenario(HILCAM_SOURCE_DIR "/configs/scenarios/" + name + ".yaml", overrides));
     };
