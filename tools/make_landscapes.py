@@ -57,13 +57,13 @@ def ground():
     draw = random.Random(4)
     for _ in range(700):
         radius = 2.5 / math.sqrt(draw.uniform(0.0025, 1))  # posts; the largest has a diameter of 250 m
-        x, y = draw.uniform(0, COLUMNS), draw.uniform(0, COLUMNS)
+        x, y, fresh = draw.uniform(0, COLUMNS), draw.uniform(0, COLUMNS), 0.1 + 0.7 * draw.uniform(0, 1) ** 2  # most are worn down
         reach = 4 * radius
         if radius > 3 and math.hypot(x - middle, y - middle) < 1.5 * radius:
             continue  # nothing large where the lander comes down
         for r in range(max(0, int(y - reach)), min(COLUMNS, int(y + reach) + 1)):
             for c in range(max(0, int(x - reach)), min(COLUMNS, int(x + reach) + 1)):
-                heights[r][c] += SPACING_M * crater_height(math.hypot(c - x, r - y), radius)
+                heights[r][c] += fresh * SPACING_M * crater_height(math.hypot(c - x, r - y), radius)
     zero = heights[COLUMNS // 2][COLUMNS // 2]
     return b"".join(struct.pack("<h", round((h - zero) / UNIT_M)) for row in heights for h in row)
 
