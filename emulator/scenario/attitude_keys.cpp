@@ -41,10 +41,10 @@ Fields attitude_keys(AttitudeForms& a, const AttitudeWords& words) {
                              " one after the other, each about an axis as it then stands, with "
                              "euler_sequence"),
                  a.has_euler),
-        optional(
-            choice("euler_sequence", a.euler_sequence, {kEulerSequences.begin(), kEulerSequences.end()},
-                   "the axes of attitude_euler_deg in their order (1 x, 2 y, 3 z); 321: yaw, pitch, roll"),
-            a.has_sequence)};
+        optional(choice("euler_sequence", a.euler_sequence, {kEulerSequences.begin(), kEulerSequences.end()},
+                        "goes with attitude_euler_deg: its axes in their order (1 x, 2 y, 3 z); 321: yaw, "
+                        "pitch, roll"),
+                 a.has_sequence)};
     if (words.radec)
         list.push_back(optional(
             vector3("attitude_radec_deg", a.radec_rad, kDegree_rad, {-360, 360},

@@ -148,7 +148,7 @@ Fields fields(PlaceConfig& p) {
         required(number("longitude_deg", p.place.longitude_rad, kDegree_rad, {-360, 360}, "east positive")),
         required(number("latitude_deg", p.place.latitude_rad, kDegree_rad, {-90, 90}, "geodetic")),
         number("height_km", p.place.height_m, 1e3, {-100, 1e5},
-               "of the map's height 0 over the body's ellipsoid"),
+               "over the body's ellipsoid; of terrain: of its map's height 0"),
     };
 }
 

@@ -20,22 +20,23 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-constexpr const char* kSheet =
+constexpr const char* kFramesSheet =
     "{width_px: 32, height_px: 32, pitch_um: 10, focal_length_mm: 6.4, f_number: 8, "
     "quantum_efficiency: 0.5, transmission: 0.01, full_well_e: 20000, gain_dn_e: 0.2, bits: 12, "
     "exposure_ms: 1}";
 // 1.6 m to a side, in the plane of x and y.
-constexpr const char* kPlate = "v -0.8 -0.8 0\nv 0.8 -0.8 0\nv 0.8 0.8 0\nv -0.8 0.8 0\nf 1 2 3\nf 1 3 4\n";
-constexpr const char* kMoonSite =
+constexpr const char* kFramesPlate =
+    "v -0.8 -0.8 0\nv 0.8 -0.8 0\nv 0.8 0.8 0\nv -0.8 0.8 0\nf 1 2 3\nf 1 3 4\n";
+constexpr const char* kFramesMoonSite =
     "origin: {kind: body_fixed, body: moon, longitude_deg: 23, latitude_deg: 40}\n";
 
-class Frames : public FilesTest {
+class ScenarioFrames : public FilesTest {
   protected:
     ScenarioConfig scenario(const std::string& lines, const std::string& utc = "2026-03-20T14:00:00Z") {
-        write("plate.obj", kPlate);
+        write("plate.obj", kFramesPlate);
         return load_scenario(
-            write("s.yaml",
-                  "time_utc: " + utc + "\nspectrum_edges_um: [0.5, 0.7]\ncamera: " + kSheet + "\n" + lines),
+            write("s.yaml", "time_utc: " + utc + "\nspectrum_edges_um: [0.5, 0.7]\ncamera: " + kFramesSheet +
+                                "\n" + lines),
             {});
     }
     std::string refusal(const std::string& lines) {
@@ -60,7 +61,7 @@ class Frames : public FilesTest {
     }
 };
 
-TEST_F(Frames, InFreeSpaceTheSunIsWhereItIsSaid) {
+TEST_F(ScenarioFrames, InFreeSpaceTheSunIsWhereItIsSaid) {
     const ScenarioConfig s = scenario(
         "origin: {kind: free}\nsun: {direction: [3, 0, -4], distance_au: 2.5}\nmars: {visible: true}\n");
     const WorldSnapshot world = at(s);
@@ -79,7 +80,7 @@ TEST_F(Frames, InFreeSpaceTheSunIsWhereItIsSaid) {
 }
 
 // A plate that faces the camera, the Sun at the right shoulder: L = rho E cos 60 deg / pi falls with d^2.
-TEST_F(Frames, InFreeSpaceLightFallsWithTheSquareOfTheDistance) {
+TEST_F(ScenarioFrames, InFreeSpaceLightFallsWithTheSquareOfTheDistance) {
     const std::string lines =
         "objects: [{name: plate, mesh: plate.obj, pose: {position_m: [0, 0, 4], attitude_wxyz: [0, 1, 0, "
         "0]}, "
@@ -94,7 +95,7 @@ TEST_F(Frames, InFreeSpaceLightFallsWithTheSquareOfTheDistance) {
 }
 
 // The phase angle and the side that light comes from are those of what the camera looks at.
-TEST_F(Frames, TheSunIsPlacedByPhaseAndSide) {
+TEST_F(ScenarioFrames, TheSunIsPlacedByPhaseAndSide) {
     for (const double azimuth_deg : {0.0, 90.0, 200.0}) {
         const ScenarioConfig s = scenario(
             "origin: {kind: free}\ncamera_pose: {position_m: [5, 7, 1], look_at_m: [1, 2, 3], up: [0, 1, "
@@ -113,7 +114,7 @@ TEST_F(Frames, TheSunIsPlacedByPhaseAndSide) {
 
 // ERFA's gd2gc and c2t00b by way of pyerfa 2.0: a place 100 m east, 200 m north and 500 m up of 10 E, 50 N,
 // 200 m, and the local axes by differences of neighbouring places.
-TEST_F(Frames, LocalAxesAreEastNorthUpOfTheEllipsoid) {
+TEST_F(ScenarioFrames, LocalAxesAreEastNorthUpOfTheEllipsoid) {
     const ScenarioConfig s = scenario(
         "site: {body: earth, longitude_deg: 10, latitude_deg: 50, height_km: 0.2}\nearth: {visible: false}\n"
         "camera_pose: {frame: local, position_m: [100, 200, 500], look_at_m: [100, 200, 0], up: [0, 1, "
@@ -136,9 +137,9 @@ TEST_F(Frames, LocalAxesAreEastNorthUpOfTheEllipsoid) {
 
 // Three lines put a camera 500 m above a site on the Moon, looking down, north up; a target and waypoints
 // have the same axes.
-TEST_F(Frames, ALandingIsSaidInThreeLines) {
+TEST_F(ScenarioFrames, ALandingIsSaidInThreeLines) {
     const ScenarioConfig s = scenario(
-        std::string(kMoonSite) +
+        std::string(kFramesMoonSite) +
         "camera_pose:\n  frame: local\n  position_m: [0, 0, 500]\n  attitude: nadir\n"
         "objects:\n"
         "  - {name: beacon, mesh: plate.obj, pose: {frame: local, position_m: [0, 30, 0]}}\n"
@@ -169,13 +170,13 @@ TEST_F(Frames, ALandingIsSaidInThreeLines) {
     expect_near(initial_motions(s, start)[0].pose.position_world_m, at(s).camera.position_world_m, 1e-9);
 }
 
-TEST_F(Frames, PointingByRightAscensionStaysOnTheStarsAndSlews) {
+TEST_F(ScenarioFrames, PointingByRightAscensionStaysOnTheStarsAndSlews) {
     const std::string orion = "attitude_radec_deg: [83.8221, -5.3911, 30]";
     const Quat expected = from_radec({83.8221 * kDegree_rad, -5.3911 * kDegree_rad, 30 * kDegree_rad});
     for (const std::string& lines :
          {"origin: {kind: free}\nsun: {direction: [1, 0, 0]}\ncamera_pose: {" + orion + "}\n",
-          kMoonSite + ("camera_pose: {frame: local, " + orion + "}\n"),
-          kMoonSite + ("camera_motion: {kind: fixed, frame: local, attitude: {" + orion + "}}\n")}) {
+          kFramesMoonSite + ("camera_pose: {frame: local, " + orion + "}\n"),
+          kFramesMoonSite + ("camera_motion: {kind: fixed, frame: local, attitude: {" + orion + "}}\n")}) {
         const ScenarioConfig s = scenario(lines);
         for (const double t_s : {0.0, 1000.0})
             EXPECT_LT(length(turn_between(expected, at(s, t_s).camera.world_from_body)), 1e-12) << lines;
@@ -188,7 +189,7 @@ TEST_F(Frames, PointingByRightAscensionStaysOnTheStarsAndSlews) {
     expect_near(boresight(at(slew, 30)), {std::cos(25 * kDegree_rad), std::sin(25 * kDegree_rad), 0}, 1e-12);
 }
 
-TEST_F(Frames, NadirIsOfAnyBody) {
+TEST_F(ScenarioFrames, NadirIsOfAnyBody) {
     const auto off = [&](const ScenarioConfig& s, BodyId id) {
         const WorldSnapshot world = at(s);
         const Vec3d to_body = world.bodies[id].world_m - world.camera.position_world_m;
@@ -200,13 +201,14 @@ TEST_F(Frames, NadirIsOfAnyBody) {
     // From the Moon's ground the Earth; a motion looks where the body is, not where its light shows it: up to
     // 21 arcsec by the observer's way, and as much by the planet's.
     const std::string earthrise = "frame: local, position_m: [0, 0, 2], attitude: nadir, nadir_of: earth";
-    EXPECT_LT(off(scenario(kMoonSite + ("camera_pose: {" + earthrise + "}\n")), BodyId::kEarth), 1.1e-4);
+    EXPECT_LT(off(scenario(kFramesMoonSite + ("camera_pose: {" + earthrise + "}\n")), BodyId::kEarth),
+              1.1e-4);
     EXPECT_LT(off(scenario(geo + "camera_motion: {kind: fixed, attitude: {law: nadir, nadir_of: mars}}\n"),
                   BodyId::kMars),
               3e-4);
 }
 
-TEST_F(Frames, EveryQuaternionMayBeAnotherForm) {
+TEST_F(ScenarioFrames, EveryQuaternionMayBeAnotherForm) {
     const Quat expected = from_mrp({0.2, -0.25, 0.3});
     for (const char* form :
          {"attitude_mrp: [0.2, -0.25, 0.3]",
@@ -234,12 +236,12 @@ TEST_F(Frames, EveryQuaternionMayBeAnotherForm) {
             EXPECT_LT(length(turn_between(expected, found)), 1e-7);
     }
     // A mount's quaternion is called otherwise.
-    const ScenarioConfig pair =
-        scenario(std::string("more_cameras: [{attitude_mrp: [0.2, -0.25, 0.3], camera: ") + kSheet + "}]\n");
+    const ScenarioConfig pair = scenario(
+        std::string("more_cameras: [{attitude_mrp: [0.2, -0.25, 0.3], camera: ") + kFramesSheet + "}]\n");
     EXPECT_LT(length(turn_between(expected, scenario_of_camera(pair, 1).mount.thing_from_camera)), 1e-14);
 }
 
-TEST_F(Frames, WhatHasNoEffectIsRefused) {
+TEST_F(ScenarioFrames, WhatHasNoEffectIsRefused) {
     for (const auto& [lines, message] : std::vector<std::pair<std::string, std::string>>{
              {"origin: {longitude_deg: 3}\n",
               "origin.longitude_deg: has no effect with kind: earth_center; accepted: kind: earth_fixed or "
@@ -261,7 +263,7 @@ TEST_F(Frames, WhatHasNoEffectIsRefused) {
               "sun.phase_deg: needs a camera_pose"},
              {"origin: {kind: free}\nsun: {direction: [1, 0, 0]}\ncamera_pose: {attitude: nadir}\n",
               "camera_pose.attitude: is nadir in free space"},
-             {std::string(kMoonSite) +
+             {std::string(kFramesMoonSite) +
                   "camera_pose: {frame: local, attitude: nadir, nadir_of: earth, rate_deg_s: [0, 0, 1]}\n",
               "camera_pose.rate_deg_s: has no effect with the nadir of another body than the site's"},
              {"camera_pose: {nadir_of: moon}\n", "camera_pose.nadir_of: has no effect"},
@@ -272,7 +274,7 @@ TEST_F(Frames, WhatHasNoEffectIsRefused) {
         EXPECT_THAT(refusal(lines), HasSubstr(message)) << lines;
 }
 
-TEST_F(Frames, LocalAxesNeedASiteOnTheOriginsBody) {
+TEST_F(ScenarioFrames, LocalAxesNeedASiteOnTheOriginsBody) {
     EXPECT_THAT(
         refusal("camera_pose: {frame: local}\n"),
         HasSubstr("camera_pose.frame: found 'local', and no site for its axes; accepted: with site:"));
@@ -287,7 +289,7 @@ TEST_F(Frames, LocalAxesNeedASiteOnTheOriginsBody) {
         HasSubstr("pose.frame: found 'local'; accepted: terrain.place"));
 }
 
-TEST_F(Frames, AnAttitudeIsSaidOnceAndWhole) {
+TEST_F(ScenarioFrames, AnAttitudeIsSaidOnceAndWhole) {
     const auto pose = [&](const std::string& keys) { return refusal("camera_pose: {" + keys + "}\n"); };
     EXPECT_THAT(pose("attitude_wxyz: [1, 0, 0, 0], attitude_mrp: [0, 0, 0]"),
                 HasSubstr("camera_pose.attitude_mrp: found besides 'attitude_wxyz'; accepted: one of them"));
@@ -307,16 +309,16 @@ TEST_F(Frames, AnAttitudeIsSaidOnceAndWhole) {
         refusal("camera_motion: {kind: fixed, attitude: {frame: lvlh, attitude_radec_deg: [1, 2, 3]}}\n"),
         HasSubstr("attitude_radec_deg: is against ICRF; accepted: with frame: world"));
     EXPECT_THAT(
-        refusal(kMoonSite +
+        refusal(kFramesMoonSite +
                 std::string("camera_motion: {kind: keyframes, frame: local, keyframes: [{at_s: 0}, "
                             "{at_s: 1, attitude_radec_deg: [1, 2, 3]}], attitude: {law: keyframes}}\n")),
         HasSubstr("keyframes.1.attitude_radec_deg: is against ICRF"));
 }
 
-TEST_F(Frames, ACheckTellsPointingAndSite) {
+TEST_F(ScenarioFrames, ACheckTellsPointingAndSite) {
     const std::string plate = "objects: [{name: plate, mesh: plate.obj, pose: {frame: local}}]\n";
     const CheckReport report = check_scenario(scenario(
-        kMoonSite + plate + "camera_pose: {frame: local, position_m: [1, 2, 30], attitude: nadir}\n"));
+        kFramesMoonSite + plate + "camera_pose: {frame: local, position_m: [1, 2, 30], attitude: nadir}\n"));
     EXPECT_THAT(to_text(report), HasSubstr("the camera is 1 m east, 2 m north, 30 m above it (moon)"));
     const CheckReport stars = check_scenario(
         scenario("origin: {kind: free}\nsun: {direction: [1, 0, 0]}\natmosphere: {model: precomputed}\n"
