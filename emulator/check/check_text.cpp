@@ -78,6 +78,14 @@ void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
     if (sight.objects.size() > kMostObjects)
         out += fmt::format("  and {} more objects: --json has them\n", sight.objects.size() - kMostObjects);
     out += fmt::format(
+        "  boresight   right ascension {:.4f} deg, declination {:.4f} deg, roll {:.2f} deg (ICRF)\n",
+        degrees(sight.pointing.right_ascension_rad), degrees(sight.pointing.declination_rad),
+        degrees(sight.pointing.roll_rad));
+    if (sight.from_site_m)
+        out +=
+            fmt::format("  site        the camera is {:.6g} m east, {:.6g} m north, {:.6g} m above it ({})\n",
+                        sight.from_site_m->x, sight.from_site_m->y, sight.from_site_m->z, sight.site_body);
+    out += fmt::format(
         "  Sun         {:.4g} au away, {:.1f} deg off the boresight: ({:.3f}, {:.3f}, {:.3f}) in camera axes "
         "(right, "
         "down, ahead)\n",

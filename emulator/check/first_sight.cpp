@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "emulator/run/truth_source.h"
+#include "emulator/scenario/site.h"
 #include "render/vocabulary/units.h"
 #include "sensor/published_frame.h"
 
@@ -61,6 +62,16 @@ SeenObject seen(const SeenThing& thing, const LoadedObject& loaded, const FrameT
     return out;
 }
 
+void tell_site(const ScenarioConfig& s, FirstSight& out) {
+    const std::optional<PlaceConfig> site = site_of(s);
+    if (!site || s.origin.center() != site->body) return;
+    const WorldFrame frame(parse_utc(s.time_utc), s.origin);
+    const PlacedAxes axes = axes_of(local_frame(*site), {frame, {}});
+    out.from_site_m =
+        transposed(axes.axes.icrf_from_axes) * (out.camera.position_world_m - axes.origin.position_m);
+    out.site_body = kBodyNames[index_of(site->body)];
+}
+
 }  // namespace
 
 FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const Pose& first_camera) {
@@ -68,6 +79,8 @@ FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const P
     const FrameTruth truth = truth_of(s, station.renderer());
     FirstSight out;
     out.camera = truth.camera;
+    out.pointing = radec_of(truth.camera.world_from_body);
+    tell_site(s, out);
     out.sun_camera_dir = truth.sun_camera_dir;
     out.sun_off_boresight_rad = off_boresight(truth.sun_camera_dir);
     out.sun_distance_au = truth.sun_distance_m / kAstronomicalUnit_m;

@@ -3,11 +3,13 @@
 // picture: where objects are, how they are lit, what hides them.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "emulator/check/expected_signal.h"
 #include "emulator/run/camera_station.h"
+#include "render/vocabulary/attitude.h"
 
 namespace hilcam {
 
@@ -32,6 +34,10 @@ struct FirstSight {
     double sun_off_boresight_rad = 0, sun_distance_au = 0;
     bool shows_sun = false, shows_body = false;
     Pose camera;
+    RaDecRoll pointing;
+    // Where it stands in the local axes of the scenario's site, if it has one on the origin's body.
+    std::optional<Vec3d> from_site_m;
+    std::string site_body;
     // Where the camera stands in the first one's axes, and how far it is turned against that.
     Vec3d from_first_m;
     double turned_rad = 0;

@@ -14,8 +14,22 @@ StateVector about_center(const MotionContext& context, const StateVector& world,
     return {world.position_m - middle.position_m, world.velocity_m_s - middle.velocity_m_s};
 }
 
+namespace {
+
+PlacedAxes local_axes(BodyId body, const Geodetic& site, const WorldFrame& frame) {
+    const StateVector middle = frame.center({body});
+    const TurningAxes fixed = frame.body_fixed(body);
+    const Vec3d arm = fixed.icrf_from_axes * body_fixed_position_m(body, site);
+    return {{middle.position_m + arm, middle.velocity_m_s + cross(fixed.rate_rad_s, arm)},
+            {fixed.icrf_from_axes * body_fixed_from_local(site), fixed.rate_rad_s}};
+}
+
+}  // namespace
+
 PlacedAxes axes_of(const PlacedFrame& frame, const MotionContext& context) {
     if (frame.kind == PlacedFrame::Kind::kWorld) return {};
+    if (frame.kind == PlacedFrame::Kind::kLocal)
+        return local_axes(*frame.center.body, frame.site, context.frame);
     if (frame.kind == PlacedFrame::Kind::kBodyFixed) {
         if (!frame.center.body) return {context.frame.center(frame.center), {}};
         return {context.frame.center(frame.center), context.frame.body_fixed(*frame.center.body)};

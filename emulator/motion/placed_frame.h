@@ -1,6 +1,6 @@
 #pragma once
-// Axes that a scenario gives positions and attitudes in: the world's, a body's that turns, a thing's orbit's,
-// a thing's own.
+// Axes that a scenario gives positions and attitudes in: the world's, a body's that turns, a place's on a
+// body, a thing's orbit's, a thing's own.
 
 #include "emulator/motion/motion_source.h"
 
@@ -11,10 +11,12 @@ struct PlacedFrame {
         kWorld,      // the scenario's origin, ICRF axes
         kBodyFixed,  // the centre of `center`, with which it turns (Earth: ITRF)
         kLvlh,       // the thing, local vertical and horizontal of its orbit about `center`
-        kThing       // the thing's own axes
+        kThing,      // the thing's own axes
+        kLocal       // east, north and up at `site` on the body `center`, with which they turn
     } kind = Kind::kWorld;
     std::size_t thing = 0;
     OrbitCenter center;
+    Geodetic site{};
 
     bool follows_thing() const { return kind == Kind::kLvlh || kind == Kind::kThing; }
     std::vector<MotionNeed> needs() const;

@@ -41,18 +41,18 @@ TurningAxes WorldFrame::body_fixed(BodyId body) const {
 }
 
 StateVector WorldFrame::center(const OrbitCenter& center) const {
-    const BodyId home = origin_.center();
+    const std::optional<BodyId> home = origin_.center();
     if (!origin_state_) {
         origin_state_ = StateVector{};
         if (origin_.turns()) {
-            const TurningAxes axes = body_fixed(home);
-            const Vec3d place = axes.icrf_from_axes * body_fixed_position_m(home, origin_.place);
+            const TurningAxes axes = body_fixed(*home);
+            const Vec3d place = axes.icrf_from_axes * body_fixed_position_m(*home, origin_.place);
             origin_state_ = {place, cross(axes.rate_rad_s, place)};
         }
     }
     StateVector out{-origin_state_->position_m, -origin_state_->velocity_m_s};
-    if (center.body == home) return out;
-    const StateVector from = heliocentric(home, time_);
+    if (center.body && center.body == home) return out;
+    const StateVector from = home ? heliocentric(*home, time_) : StateVector{-origin_.sun_m, {}};
     StateVector to;
     if (center.body) to = heliocentric(*center.body, time_);
     out.position_m = out.position_m + (to.position_m - from.position_m);

@@ -7,7 +7,9 @@
 #include <set>
 
 #include "emulator/events/event_sequence.h"
+#include "emulator/scenario/free_space.h"
 #include "emulator/scenario/lamp_setup.h"
+#include "emulator/scenario/site.h"
 #include "io/config/config_yaml.h"
 #include "io/system/plain_number.h"
 #include "render/vocabulary/check.h"
@@ -117,58 +119,11 @@ Fields fields(OutputsConfig& o) {
     };
 }
 
-Fields fields(CameraConfig& c) {
-    return {
-        required(section("camera", c.camera, "its data sheet")),
-        integer("on", c.thing, {0, 65535},
-                "what it is fixed to; 0: the body of the first camera, or an object"),
-        vector3("position_m", c.mount.position_m, 1, {-1e6, 1e6}, "in that body's axes"),
-        quaternion("attitude", c.mount.thing_from_camera, "turns the camera's axes into that body's"),
-        beside_frames(section("outputs", c.outputs, "where its frames go")),
-    };
-}
-
-ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index) {
-    ScenarioConfig own = scenario;
-    if (index == 0) return own;
-    const CameraConfig& more = scenario.more_cameras[index - 1];
-    own.camera = more.camera;
-    own.mount = more.mount;
-    own.mount.thing = static_cast<std::size_t>(more.thing);
-    own.outputs = more.outputs;
-    // `rays`, where the scenario gives them, are the first camera's; the others go by their shutters.
-    own.has_rays = false;
-    own.models.rays = {};
-    return own;
-}
-
-std::uint64_t seed_of_camera(const ScenarioConfig& scenario, std::size_t index) {
-    return static_cast<std::uint64_t>(scenario.seed) + index * 0x9E3779B97F4A7C15u;
-}
-
 EventWorld event_world(const ScenarioConfig& s) {
     EventWorld world;
     for (const ObjectConfig& object : s.objects) world.objects.push_back(object.name);
     for (std::size_t i = 0; i < kBodyCount; ++i) world.visible[i] = s.bodies[i].visible;
     return world;
-}
-
-VizardBench vizard_bench(const ScenarioConfig& s) {
-    VizardBench bench;
-    bench.start = parse_utc(s.time_utc);
-    bench.origin = s.origin;
-    for (const ObjectConfig& object : s.objects) bench.objects.push_back(object.name);
-    for (std::size_t i = 0; i <= s.more_cameras.size(); ++i) {
-        const ScenarioConfig own = scenario_of_camera(s, i);
-        const auto [width, height] = frame_size(own.camera);
-        // Of the undistorted lens, over all rows that a frame shows.
-        const double half_m = 0.5 * static_cast<double>(height * own.camera.binning_y) * own.camera.pitch_m;
-        bench.cameras.push_back({{own.mount.position_m, own.mount.thing_from_camera},
-                                 2 * std::atan2(half_m, own.camera.focal_length_m),
-                                 width,
-                                 height});
-    }
-    return bench;
 }
 
 Fields fields(PluginConfig& p) {
@@ -189,6 +144,10 @@ Fields fields(ScenarioConfig& s) {
                  s.has_seed),
         beside_frames(integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core")),
         section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
+        optional(section("site", s.site,
+                         "where local axes stand, on the origin's body; none: at terrain.place, or at an "
+                         "origin that turns"),
+                 s.has_site),
         required(section("camera", s.camera, "the camera's data sheet")),
         optional(
             section("camera_pose", s.camera_pose, "where the camera stands until commands say otherwise"),
@@ -347,6 +306,7 @@ void validate(const ScenarioConfig& s) {
     SpectralGrid grid(s.spectrum_edges_um);
     if (s.has_camera_pose && s.has_camera_motion)
         throw KeyError("camera_motion", "a scenario has either 'camera_pose' or 'camera_motion'; found both");
+    check_site(s);
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
     if (s.more_cameras.size() > kMostCameras - 1)
         throw InputError("more_cameras: found " + std::to_string(s.more_cameras.size()) +
@@ -371,7 +331,12 @@ void validate(const ScenarioConfig& s) {
 
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
     ScenarioConfig scenario;
-    read_config(file, section_of(scenario), overrides);
+    SectionField root = section_of(scenario);
+    root.validate = [&scenario] {
+        settle_free_space(scenario);
+        validate(scenario);
+    };
+    read_config(file, root, overrides);
     if (scenario.has_leap_seconds) {
         const std::string warning = apply_leap_seconds(scenario.leap_seconds, scenario.time_utc);
         if (!warning.empty()) spdlog::warn("{}", warning);

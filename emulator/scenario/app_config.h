@@ -111,11 +111,13 @@ inline constexpr std::size_t kMostCameras = 255;
 // A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
 struct CameraConfig {
     CameraModel camera;
-    Mount mount;
+    Vec3d position_m;  // with `attitude` its mount
+    AttitudeForms attitude;
     std::int64_t thing = 0;
     OutputsConfig outputs;
 };
 Fields fields(CameraConfig& camera);
+void validate(const CameraConfig& camera);
 
 struct PluginConfig {
     std::filesystem::path file;
@@ -132,6 +134,8 @@ struct ScenarioConfig {
     bool has_seed = false;  // stated, or settled by settle_seed()
     std::int64_t threads = 0;
     OriginConfig origin;
+    PlaceConfig site;  // where local axes stand (site.h)
+    bool has_site = false;
     CameraModel camera;
     PoseConfig camera_pose;
     MotionConfig camera_motion;

@@ -2,14 +2,19 @@
 
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/motion_builder.h"
+#include "emulator/scenario/site.h"
 
 namespace hilcam {
 
 std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time) {
     const Bodies bodies = bodies_at(time, scenario.origin);
-    std::vector<Motion> motions = {initial_motion(scenario.camera_pose, time, bodies)};
-    for (const ObjectConfig& object : scenario.objects)
-        motions.push_back(initial_motion(object.pose, time, bodies));
+    const auto motion_of = [&](const PoseConfig& pose) {
+        if (pose.frame == PoseConfig::Frame::kLocal)
+            return local_motion_at(pose, site_of(scenario).value(), time, scenario.origin);
+        return initial_motion(pose, time, bodies);
+    };
+    std::vector<Motion> motions = {motion_of(scenario.camera_pose)};
+    for (const ObjectConfig& object : scenario.objects) motions.push_back(motion_of(object.pose));
     return motions;
 }
 

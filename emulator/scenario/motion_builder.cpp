@@ -7,6 +7,7 @@
 #include "emulator/motion/relative_motion.h"
 #include "emulator/motion/trajectories.h"
 #include "emulator/scenario/initial_world.h"
+#include "emulator/scenario/site.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -15,10 +16,12 @@ namespace {
 
 constexpr const char* kCameraName = "camera";
 
-OrbitCenter center_of(const MotionConfig& m) {
-    if (m.center == kBodyCount) return {std::nullopt};
-    return {static_cast<BodyId>(m.center)};
+OrbitCenter center_numbered(std::size_t number) {
+    if (number == kBodyCount) return {std::nullopt};
+    return {static_cast<BodyId>(number)};
 }
+
+OrbitCenter center_of(const MotionConfig& m) { return center_numbered(m.center); }
 
 class Builder {
   public:
@@ -26,6 +29,13 @@ class Builder {
         : scenario_(scenario), start_(parse_utc(scenario.time_utc)) {
         names_.push_back(kCameraName);
         for (const ObjectConfig& object : scenario.objects) names_.push_back(object.name);
+        // A pose in local axes turns with the body.
+        site_ = site_of(scenario);
+        for (std::size_t thing = 0; thing < names_.size(); ++thing) {
+            const PoseConfig& pose = thing == 0 ? scenario.camera_pose : scenario.objects[thing - 1].pose;
+            local_.emplace_back();
+            if (pose.frame == PoseConfig::Frame::kLocal) local_.back() = local_motion(pose, site_.value());
+        }
     }
 
     MotionSources build() {
@@ -46,9 +56,12 @@ class Builder {
     const ScenarioConfig& scenario_;
     TimeTai start_;
     std::vector<std::string> names_;
-    std::vector<std::size_t> asked_;  // things on the way to the one whose orbit is asked for
+    std::optional<PlaceConfig> site_;
+    std::vector<std::optional<MotionConfig>> local_;  // of each thing, where its pose is local
+    std::vector<std::size_t> asked_;                  // things on the way to the one whose orbit is asked for
 
     const MotionConfig* config_of(std::size_t thing) const {
+        if (local_[thing]) return &*local_[thing];
         if (thing == 0) return scenario_.has_camera_motion ? &scenario_.camera_motion : nullptr;
         const ObjectConfig& object = scenario_.objects[thing - 1];
         return object.has_motion ? &object.motion : nullptr;
@@ -67,6 +80,7 @@ class Builder {
         PlacedFrame frame;
         frame.kind = static_cast<PlacedFrame::Kind>(kind);
         frame.center = center_of(m);
+        if (kind == MotionFrame::kLocal) frame = local_frame(site_.value());
         // An attitude against LVLH is by the thing's own orbit, unless another is named.
         if (frame.follows_thing()) frame.thing = of.empty() ? self : thing_named(of);
         return frame;
@@ -90,7 +104,7 @@ class Builder {
             out.time = start_ + std::llround(k.at_s * 1e9);
             out.position_m = k.position_m;
             if (k.has_velocity) out.velocity_m_s = k.velocity_m_s;
-            if (k.has_attitude) out.attitude = k.attitude;
+            if (k.attitude.given()) out.attitude = frame_from_body(k.attitude);
         }
         return Keyframes(keyframes);
     }
@@ -166,7 +180,8 @@ class Builder {
         const AttitudeConfig& a = m.attitude;
         using Law = AttitudeConfig::Law;
         if (a.law == Law::kHeld)
-            return make_turning(frame_of(a.frame, a.of, m, thing), {a.attitude, a.rate_body_rad_s}, start_);
+            return make_turning(frame_of(a.frame, a.of, m, thing),
+                                {frame_from_body(a.attitude), a.rate_body_rad_s}, start_);
         if (a.law == Law::kKeyframes)
             return make_keyframed_attitude(frame_of(m.frame, m.of, m, thing), keyframes_of(m));
         if (a.law == Law::kAem) {
@@ -183,6 +198,10 @@ class Builder {
         Pointing p;
         p.axis = a.axis, p.second_axis = a.second_axis;
         p.aim.center = p.second_aim.center = center_of(m);
+        if (a.law == Law::kNadir && a.has_nadir_of)
+            p.aim.center = center_numbered(a.nadir_of);
+        else if (a.law == Law::kNadir && m.frame == MotionFrame::kLocal)
+            p.aim.center = {site_.value().body};
         p.aim.kind = a.law == Law::kNadir      ? Aim::Kind::kNadir
                      : a.law == Law::kSun      ? Aim::Kind::kSun
                      : a.law == Law::kVelocity ? Aim::Kind::kVelocity

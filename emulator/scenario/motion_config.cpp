@@ -15,22 +15,29 @@ std::vector<std::string> center_names() {
     return names;
 }
 
-std::vector<std::string> frame_names() { return {"world", "body_fixed", "lvlh", "object"}; }
+std::vector<std::string> frame_names() { return {"world", "body_fixed", "lvlh", "object", "local"}; }
 
+constexpr const char* kRadecIsWorlds =
+    "is against ICRF; accepted: with frame: world, or another form of attitude";
 constexpr const char* kOf = "the thing that frames lvlh and object belong to: an object's name, or camera";
 
 }  // namespace
 
 Fields fields(KeyframeConfig& k) {
-    return {
+    Fields list = {
         required(number("at_s", k.at_s, 1, {-1e9, 1e9}, "after the scenario's start")),
         vector3("position_m", k.position_m, 1, {-1e13, 1e13}, "in the motion's frame"),
         optional(vector3("velocity_m_s", k.velocity_m_s, 1, {-1e9, 1e9}, "none: by its neighbours"),
                  k.has_velocity),
-        optional(quaternion("attitude_wxyz", k.attitude, "turns body axes into the frame's; none: as before"),
-                 k.has_attitude),
     };
+    for (Field& field : attitude_keys(k.attitude, {.frame = "the frame"})) {
+        if (field.key == "attitude_wxyz") field.meaning += "; no form given: as before";
+        list.push_back(std::move(field));
+    }
+    return list;
 }
+
+void validate(const KeyframeConfig& k) { check_attitude(k.attitude); }
 
 Fields fields(KeplerConfig& k) {
     return {
@@ -79,15 +86,20 @@ Fields fields(EphemerisFileConfig& f) {
 }
 
 Fields fields(AttitudeConfig& a) {
-    return {
+    Fields list = {
         choice("law", a.law, {"held", "nadir", "object", "sun", "velocity", "keyframes", "aem"},
-               "held: attitude_wxyz and rate_deg_s against frame (inertial, spin, lvlh, ...); nadir, object, "
-               "sun, "
-               "velocity: axis looks there; keyframes, aem: by them"),
+               "held: the attitude given here and rate_deg_s against frame (inertial, spin, lvlh, ...); "
+               "nadir, object, sun, velocity: axis looks there; keyframes, aem: by them"),
         choice("frame", a.frame, frame_names(), "of held; keyframes have the motion's"),
         text("of", a.of, std::string(kOf) + ", or that law object looks at"),
-        quaternion("attitude_wxyz", a.attitude, "turns body axes into the frame's, scalar first"),
+    };
+    for (Field& field : attitude_keys(a.attitude, {.frame = "the frame"})) list.push_back(std::move(field));
+    Fields rest = {
         vector3("rate_deg_s", a.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "of held: about the body axes"),
+        optional(choice("nadir_of", a.nadir_of, center_names(),
+                        "the body to whose centre law nadir looks; none: center, or the site's body with the "
+                        "motion's frame local"),
+                 a.has_nadir_of),
         vector3("axis", a.axis, 1, {-1e6, 1e6}, "of the body, that looks"),
         vector3("second_axis", a.second_axis, 1, {-1e6, 1e6}, "of the body, that looks near 'second'"),
         choice("second", a.second, {"north", "velocity", "orbit_normal", "nadir", "sun"},
@@ -95,13 +107,27 @@ Fields fields(AttitudeConfig& a) {
         optional(section("aem", a.aem, "attitude ephemeris message, CCSDS 504.0-B"), a.has_aem),
         optional(section("jitter", a.jitter, "unsteadiness about the body's axes"), a.has_jitter),
     };
+    for (Field& field : rest) list.push_back(std::move(field));
+    return list;
+}
+
+void validate(const AttitudeConfig& a) {
+    using Law = AttitudeConfig::Law;
+    check_attitude(a.attitude);
+    if (a.attitude.given() && a.law != Law::kHeld)
+        throw KeyError(given_key(a.attitude), "has no effect with this law; accepted: law: held, or no '" +
+                                                  std::string(given_key(a.attitude)) + "'");
+    if (a.attitude.has_radec && a.frame != MotionFrame::kWorld)
+        throw KeyError("attitude_radec_deg", kRadecIsWorlds);
+    if (a.has_nadir_of && a.law != Law::kNadir)
+        throw KeyError("nadir_of", "has no effect with this law; accepted: law: nadir, or no 'nadir_of'");
 }
 
 Fields fields(MotionConfig& m) {
     return {
         required(choice("kind", m.kind, {"fixed", "keyframes", "kepler", "tle", "oem", "cw"},
                         "where positions come from; cw: drift near a thing on a circular orbit")),
-        choice("frame", m.frame, frame_names(), "of fixed and keyframes"),
+        choice("frame", m.frame, frame_names(), "of fixed and keyframes; local: east, north, up at the site"),
         text("of", m.of, kOf),
         choice("center", m.center, center_names(), "of the orbit, of lvlh, or the body of body_fixed"),
         vector3("position_m", m.position_m, 1, {-1e13, 1e13}, "of fixed and cw, at the start"),
@@ -139,6 +165,9 @@ void validate(const MotionConfig& m) {
     if (m.kind == Kind::kCw) need(!m.of.empty(), "of", "cw");
     if (m.frame == MotionFrame::kLvlh || m.frame == MotionFrame::kThing)
         need(!m.of.empty(), "of", "with frames lvlh and object");
+    for (std::size_t i = 0; i < m.keyframes.size(); ++i)
+        if (m.keyframes[i].attitude.has_radec && m.frame != MotionFrame::kWorld)
+            throw KeyError("keyframes." + std::to_string(i) + ".attitude_radec_deg", kRadecIsWorlds);
     const AttitudeConfig& a = m.attitude;
     if (a.law == AttitudeConfig::Law::kAem && !a.has_aem)
         throw InputError("attitude has no 'aem'; law aem needs it");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "emulator/motion/attitude_jitter.h"
+#include "emulator/scenario/attitude_keys.h"
 #include "io/files/tle_file.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/earth_orientation.h"
@@ -15,10 +16,11 @@ namespace hilcam {
 struct KeyframeConfig {
     double at_s = 0;
     Vec3d position_m, velocity_m_s;
-    Quat attitude;
-    bool has_velocity = false, has_attitude = false;
+    AttitudeForms attitude;
+    bool has_velocity = false;
 };
 Fields fields(KeyframeConfig& keyframe);
+void validate(const KeyframeConfig& keyframe);
 
 struct KeplerConfig {
     double semi_major_axis_m = 0, eccentricity = 0, inclination_rad = 0, node_rad = 0, periapsis_rad = 0;
@@ -43,21 +45,24 @@ struct EphemerisFileConfig {
 };
 Fields fields(EphemerisFileConfig& file);
 
-enum class MotionFrame { kWorld, kBodyFixed, kLvlh, kThing };
+// As PlacedFrame::Kind (emulator/motion/placed_frame.h).
+enum class MotionFrame { kWorld, kBodyFixed, kLvlh, kThing, kLocal };
 
 struct AttitudeConfig {
     enum class Law { kHeld, kNadir, kThing, kSun, kVelocity, kKeyframes, kAem } law = Law::kHeld;
     MotionFrame frame = MotionFrame::kWorld;
     std::string of;
-    Quat attitude;
+    AttitudeForms attitude;
+    std::size_t nadir_of = 2;  // as MotionConfig::center
     Vec3d rate_body_rad_s;
     Vec3d axis{0, 0, 1}, second_axis{0, -1, 0};
     enum class Second { kNorth, kVelocity, kOrbitNormal, kNadir, kSun } second = Second::kNorth;
     EphemerisFileConfig aem;
     JitterBand jitter;
-    bool has_aem = false, has_jitter = false;
+    bool has_aem = false, has_jitter = false, has_nadir_of = false;
 };
 Fields fields(AttitudeConfig& attitude);
+void validate(const AttitudeConfig& attitude);
 
 struct MotionConfig {
     enum class Kind { kFixed, kKeyframes, kKepler, kTle, kOem, kCw } kind = Kind::kFixed;

@@ -6,21 +6,29 @@
 namespace hilcam {
 
 Fields fields(PoseConfig& p) {
-    return {
-        vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "in the world"),
+    Fields list = {
+        choice("frame", p.frame, {"world", "local"},
+               "of all that is given here; local: x east, y north, z up at the site, with which it turns"),
+        vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "in the frame"),
         optional(choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
-                        "quaternion: attitude_wxyz; look_at: +z to a point, -y near up; nadir: +z to the "
-                        "Earth's centre, +y south; with look_at_m or up it is look_at"),
+                        "quaternion: by attitude_wxyz or another form; look_at: +z to a point, -y near up; "
+                        "nadir: +z to the centre of nadir_of, +y south; with look_at_m or up it is look_at"),
                  p.has_attitude),
+    };
+    for (Field& field : attitude_keys(p.forms, {.frame = "the frame"})) list.push_back(std::move(field));
+    Fields rest = {
         optional(
-            quaternion("attitude_wxyz", p.world_from_body, "turns body axes into world axes, scalar first"),
-            p.has_quaternion),
-        optional(vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the world"), p.has_look_at),
-        optional(vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the world"), p.has_up),
-        optional(vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "in the world"), p.has_velocity),
+            choice("nadir_of", p.nadir_of, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
+                   "the body of nadir; none: the Earth, or the site's body in frame local"),
+            p.has_nadir_of),
+        optional(vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the frame"), p.has_look_at),
+        optional(vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the frame"), p.has_up),
+        optional(vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "in the frame"), p.has_velocity),
         optional(vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "about the body axes"),
                  p.has_rate),
     };
+    for (Field& field : rest) list.push_back(std::move(field));
+    return list;
 }
 
 PoseConfig::Attitude attitude_of(const PoseConfig& p) {
@@ -57,20 +65,26 @@ void validate(const PoseConfig& p) {
                               : attitude == Attitude::kNadir  ? "attitude: nadir"
                               : attitude == Attitude::kLookAt ? "attitude: look_at"
                                                               : "attitude: quaternion";
-    if (p.has_quaternion && attitude != Attitude::kQuaternion)
-        refuse_idle_key("attitude_wxyz", named, "quaternion");
+    check_attitude(p.forms);
+    if (p.forms.given() && attitude != Attitude::kQuaternion)
+        refuse_idle_key(given_key(p.forms), named, "quaternion");
+    if (p.has_nadir_of && attitude != Attitude::kNadir) refuse_idle_key("nadir_of", named, "nadir");
     if (p.has_look_at && attitude != Attitude::kLookAt) refuse_idle_key("look_at_m", named, "look_at");
     if (p.has_up && attitude != Attitude::kLookAt) refuse_idle_key("up", named, "look_at");
     if (attitude == Attitude::kLookAt) check_look_at(p);
 }
 
 Motion initial_motion(const PoseConfig& p, TimeTai time, const Bodies& bodies) {
-    Quat attitude = p.world_from_body;
+    Quat attitude = frame_from_body(p.forms);
     if (attitude_of(p) == PoseConfig::Attitude::kLookAt)
         attitude = look_along(p.look_at_m - p.position_m, p.up);
-    // +z down, +y along -north: then +x = y x z points east.
-    if (p.attitude == PoseConfig::Attitude::kNadir)
-        attitude = look_along(bodies.earth().world_m - p.position_m, Vec3d{0, 0, 1});
+    // +z down, +y along -north: then +x = y x z points east. North is the world's +z at the Earth, whose pole
+    // is near it, else the body's.
+    if (p.attitude == PoseConfig::Attitude::kNadir) {
+        const BodyState& body = bodies[p.nadir_of];
+        const Vec3d north = p.nadir_of == BodyId::kEarth ? Vec3d{0, 0, 1} : body.fixed_from_world.z;
+        attitude = look_along(body.world_m - p.position_m, north);
+    }
     return {time, {p.position_m, attitude}, p.velocity_m_s, p.rate_body_rad_s};
 }
 
@@ -134,13 +148,15 @@ Fields fields(PlaceConfig& p) {
         required(number("longitude_deg", p.place.longitude_rad, kDegree_rad, {-360, 360}, "east positive")),
         required(number("latitude_deg", p.place.latitude_rad, kDegree_rad, {-90, 90}, "geodetic")),
         number("height_km", p.place.height_m, 1e3, {-100, 1e5},
-               "of the map's height 0 over the body's ellipsoid"),
+               "over the body's ellipsoid; of terrain: of its map's height 0"),
     };
 }
 
 void validate(const TerrainConfig& t) {
     if (t.has_pose && t.has_place)
         throw KeyError("place", "terrain has either 'pose' or 'place'; found both");
+    if (t.pose.frame != PoseConfig::Frame::kWorld)
+        throw KeyError("pose.frame", "found 'local'; accepted: terrain.place, which has local axes");
     for (const auto& [key, given] :
          {std::pair{"velocity_m_s", t.pose.has_velocity}, {"rate_deg_s", t.pose.has_rate}})
         if (given) throw KeyError(std::string("pose.") + key, "has no effect: terrain stays where it is");

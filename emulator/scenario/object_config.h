@@ -17,21 +17,24 @@ namespace hilcam {
 
 // Where a thing stands when the run begins, until commands say otherwise.
 struct PoseConfig {
+    enum class Frame { kWorld, kLocal } frame = Frame::kWorld;
     enum class Attitude { kQuaternion, kLookAt, kNadir } attitude = Attitude::kQuaternion;
     Vec3d position_m;
-    Quat world_from_body;
+    AttitudeForms forms;
+    BodyId nadir_of = BodyId::kEarth;
     Vec3d look_at_m;
     Vec3d up{0, 0, 1};
     Vec3d velocity_m_s;
     Vec3d rate_body_rad_s;
-    bool has_attitude = false, has_quaternion = false, has_look_at = false, has_up = false;
+    bool has_attitude = false, has_look_at = false, has_up = false, has_nadir_of = false;
     bool has_velocity = false, has_rate = false;
 };
 Fields fields(PoseConfig& pose);
 void validate(const PoseConfig& pose);
 // The attitude is what is named, or what the other keys mean: `look_at_m` and `up` mean look_at.
 PoseConfig::Attitude attitude_of(const PoseConfig& pose);
-// The motion that a pose config describes at an instant. Throws InputError when look_at is not defined.
+// The motion that a pose config in the world's frame describes at an instant (one in the local frame:
+// site.h). Throws InputError when look_at is not defined.
 Motion initial_motion(const PoseConfig& pose, TimeTai time, const Bodies& bodies);
 
 struct GeneratedMeshConfig {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "emulator/scenario/initial_world.h"
+#include "emulator/scenario/site.h"
 
 namespace hilcam {
 namespace {
@@ -87,7 +88,7 @@ void look_at_places(const ScenarioConfig& bench, Lines& out) {
                 "camera {} begins inside the body '{}', {:.6g} km from its centre: it sees "
                 "nothing else",
                 camera + 1, kBodyNames[i], off_m * 1e-3);
-            if (index_of(s.origin.center()) == i && !s.origin.turns())
+            if (s.origin.center() == static_cast<BodyId>(i) && !s.origin.turns())
                 line +=
                     fmt::format("; the world's origin is that centre{}: say where it is by 'origin'",
                                 i == index_of(BodyId::kEarth) ? " unless the scenario says otherwise" : "");
@@ -96,12 +97,21 @@ void look_at_places(const ScenarioConfig& bench, Lines& out) {
     }
 }
 
+// What is said of places and bodies that the scenario does not have.
+void look_at_frames(const ScenarioConfig& s, Lines& out) {
+    if (s.has_site && !uses_local_axes(s))
+        out.push_back("site: nothing is in its local axes: give a pose or a motion 'frame: local'");
+    if (s.atmosphere.model != "none" && !s.bodies[index_of(BodyId::kEarth)].visible)
+        out.push_back("atmosphere: has no effect, as the Earth is not shown: earth.visible");
+}
+
 }  // namespace
 
 std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
     Lines out;
     look_at_lockstep(scenario, out);
     look_at_faults(scenario, out);
+    look_at_frames(scenario, out);
     return out;
 }
 

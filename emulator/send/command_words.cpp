@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <sstream>
 
 #include "emulator/send/choice_option.h"
 #include "io/contract/fault.h"
+#include "render/vocabulary/attitude.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
@@ -60,21 +62,70 @@ void add_settings(CLI::App& app, const Take& take) {
     });
 }
 
+// An attitude in one of the forms that a scenario takes, too (docs/conventions.md).
+struct AttitudeOptions {
+    std::array<double, 4> wxyz{1, 0, 0, 0};
+    std::array<double, 3> mrp{}, euler_deg{}, radec_deg{};
+    std::array<double, 9> dcm{};
+    std::size_t sequence = 0;
+};
+
+// The options in the order of AttitudeOptions' forms: wxyz, mrp, dcm, euler, radec.
+std::vector<CLI::Option*> add_attitudes(CLI::App& pose, AttitudeOptions& o) {
+    std::vector<CLI::Option*> forms = {
+        pose.add_option("--attitude", o.wxyz, "w x y z, body to world"),
+        pose.add_option("--mrp", o.mrp, "x y z, instead: Basilisk's sigma_BN"),
+        pose.add_option("--dcm", o.dcm, "nine numbers, instead: [BN] row by row"),
+        pose.add_option("--euler-deg", o.euler_deg, "three angles, instead, with --sequence"),
+        pose.add_option("--radec-deg", o.radec_deg,
+                        "right ascension, declination, roll of a camera, instead"),
+    };
+    for (std::size_t i = 0; i < forms.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) forms[i]->excludes(forms[k]);
+    std::vector<std::pair<std::string, std::size_t>> sequences;
+    for (std::size_t i = 0; i < kEulerSequences.size(); ++i) sequences.emplace_back(kEulerSequences[i], i);
+    CLI::Option* sequence = add_choice(pose, "--sequence", o.sequence, sequences, "the axes of --euler-deg");
+    forms[3]->needs(sequence);
+    sequence->needs(forms[3]);
+    return forms;
+}
+
+Quat world_from_body(const AttitudeOptions& o, std::span<CLI::Option* const> forms) {
+    if (forms[1]->count()) return from_mrp(vec(o.mrp));
+    if (forms[2]->count()) {
+        const std::array<double, 9>& m = o.dcm;
+        const Mat3d dcm{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+        if (const double error = rotation_error(dcm); !(error <= kDcmTolerance))
+            throw InputError("--dcm: found a matrix that is off a rotation by " + std::to_string(error) +
+                             "; accepted: " + std::to_string(kDcmTolerance) + " or less");
+        return from_dcm(dcm);
+    }
+    if (forms[3]->count()) return from_euler(euler_axes(o.sequence), kDegree_rad * vec(o.euler_deg));
+    if (forms[4]->count()) {
+        const Vec3d p = kDegree_rad * vec(o.radec_deg);
+        if (!(std::abs(p.y) <= 0.5 * kPi))
+            throw InputError("--radec-deg: found a declination of " + std::to_string(o.radec_deg[1]) +
+                             "; accepted: -90 to 90");
+        return from_radec({p.x, p.y, p.z});
+    }
+    return {o.wxyz[0], o.wxyz[1], o.wxyz[2], o.wxyz[3]};
+}
+
 void add_pose(CLI::App& app, const Take& take) {
     struct Options {
         unsigned object = 0;
         std::string utc;
         std::array<double, 3> position_m{}, velocity_m_s{}, rate_deg_s{}, look_at_m{}, up{0, 0, 1};
-        std::array<double, 4> attitude{1, 0, 0, 0};
+        AttitudeOptions attitude;
     };
     CLI::App* pose = app.add_subcommand("pose", "one pose");
     const auto o = std::make_shared<Options>();
     pose->add_option("--object", o->object, "0: the camera; 1, 2, ...: the scenario's objects")
         ->check(CLI::Range(0, 65535));
     pose->add_option("--position-m", o->position_m, "x y z in the world")->required();
-    CLI::Option* attitude = pose->add_option("--attitude", o->attitude, "w x y z, body to world");
-    CLI::Option* look =
-        pose->add_option("--look-at-m", o->look_at_m, "x y z, instead of an attitude")->excludes(attitude);
+    const std::vector<CLI::Option*> attitudes = add_attitudes(*pose, o->attitude);
+    CLI::Option* look = pose->add_option("--look-at-m", o->look_at_m, "x y z, instead of an attitude");
+    for (CLI::Option* attitude : attitudes) look->excludes(attitude);
     pose->add_option("--up", o->up, "x y z, for --look-at-m")->needs(look);
     pose->add_option("--velocity-m-s", o->velocity_m_s, "x y z in the world");
     pose->add_option("--at-utc", o->utc, "simulated time it is true at; left out: on arrival");
@@ -85,7 +136,7 @@ void add_pose(CLI::App& app, const Take& take) {
         Motion& m = command.motion;
         if (!o->utc.empty()) m.time = parse_utc(o->utc);
         m.pose.position_world_m = vec(o->position_m);
-        m.pose.world_from_body = {o->attitude[0], o->attitude[1], o->attitude[2], o->attitude[3]};
+        m.pose.world_from_body = world_from_body(o->attitude, attitudes);
         if (look->count())
             m.pose.world_from_body = look_along(vec(o->look_at_m) - vec(o->position_m), vec(o->up));
         m.velocity_world_m_s = vec(o->velocity_m_s);

@@ -11,19 +11,10 @@
 // it of the script's own sigma_CB (C: x right, y down, z along the boresight, as ours) as [UB] = [UC] [CB]
 // with sigma_UC = (1/3, 1/3, -1/3).
 
-#include "render/vocabulary/vec.h"
+#include "render/vocabulary/attitude.h"
 
 namespace hilcam {
 
-// x_from_y of sigma_YX. Schaub & Junkins, Analytical Mechanics of Space Systems, 4th ed. (2018), section
-// 3.5.1: beta_0 = (1 - s^2) / (1 + s^2), beta_i = 2 sigma_i / (1 + s^2), s = |sigma|. Any finite sigma, the
-// shadow set too; NaN when s^2 overflows.
-Quat from_mrp(Vec3d sigma);
-// x_from_y of the passive matrix [YX].
-Quat from_dcm(const Mat3d& dcm_yx);
-// How far rows are from unit length and right angles: the largest element of |M M^T - 1|, and 2 for a
-// reflection.
-double rotation_error(const Mat3d& m);
 // Ours of a message's camera rotation.
 Quat body_from_camera(Vec3d sigma_ub);
 // The angle between two vectors, 0..pi; accurate for small ones too. 0 when one of them is zero.

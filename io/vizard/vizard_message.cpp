@@ -57,7 +57,7 @@ struct Numbers {
                           {values[6], values[7], values[8]}};
             if (!(rotation_error(m) <= kRotationTolerance))
                 throw InputError(what + ": found a matrix that is no rotation");
-            q = from_dcm(m);
+            q = to_quat(transposed(m));
         }
         if (!std::isfinite(norm(q))) throw InputError(what + ": found numbers that are no rotation");
         return q;

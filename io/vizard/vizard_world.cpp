@@ -146,7 +146,9 @@ const VizardThing* VizardWorld::parent_of(const VizardCamera& camera) const {
 }
 
 VizardWorld::Shift VizardWorld::shift_at(TimeTai time, const Bodies& bodies) {
-    const BodyId center = bench_.origin.center();
+    // In free space the message's own frame is the world's.
+    if (!bench_.origin.center()) return {};
+    const BodyId center = *bench_.origin.center();
     Shift shift{bodies[center].world_m, {}};
     if (bench_.origin.turns()) {
         // How the origin's place turns about the body: a difference over two seconds, good to a part in 1e9.

@@ -3,7 +3,7 @@
 //
 // World: the message's frame N has the world's axes (ICRF; "J2000" is within 0.02 arcsec of it) and another
 // origin. The scenario's central body is in both: world = N - body_N + body_world. Without that body in the
-// message, N's origin is taken for its centre.
+// message, N's origin is taken for its centre. With an origin in free space N is the world.
 //
 // Time: epoch of the run's first message + elapsed time, or with `time: scenario` the scenario's start +
 // elapsed time.

@@ -1,6 +1,5 @@
 #include "render/scene/shown_terrain.h"
 
-#include <cmath>
 #include <utility>
 
 namespace hilcam {
@@ -8,10 +7,7 @@ namespace {
 
 // East, north and up at the place are the terrain's axes.
 Pose pose_on_body(const SceneTerrain& terrain, const BodyState& body) {
-    const double lon = terrain.place.longitude_rad, lat = terrain.place.latitude_rad;
-    const Vec3d east{-std::sin(lon), std::cos(lon), 0};
-    const Vec3d up{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
-    const Mat3d fixed_from_terrain = transposed(Mat3d{east, cross(up, east), up});
+    const Mat3d fixed_from_terrain = body_fixed_from_local(terrain.place);
     const Mat3d world_from_fixed = transposed(body.fixed_from_world);
     return {body.world_m + world_from_fixed * body_fixed_position_m(*terrain.body, terrain.place),
             to_quat(world_from_fixed * fixed_from_terrain)};

@@ -184,18 +184,48 @@ Vec3d body_fixed_position_m(BodyId id, const Geodetic& place) {
     return {xyz[0], xyz[1], xyz[2]};
 }
 
+Mat3d body_fixed_from_local(const Geodetic& place) {
+    const double lon = place.longitude_rad, lat = place.latitude_rad;
+    const Vec3d east{-std::sin(lon), std::cos(lon), 0};
+    const Vec3d up{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+    return transposed(Mat3d{east, cross(up, east), up});
+}
+
 Fields fields(OriginConfig& c) {
     std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
     return {
-        choice("kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed"},
-               "what the world's origin is: the centre of a body, or a place that turns with it"),
-        choice("body", c.body, names, "of body_center and body_fixed"),
-        number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
-               "of a fixed origin, east positive"),
-        number("latitude_deg", c.place.latitude_rad, kDegree_rad, {-90, 90}, "of a fixed origin, geodetic"),
-        number("height_km", c.place.height_m, 1e3, {-10, 1e9},
-               "of a fixed origin above the body's ellipsoid (Earth: WGS 84)"),
+        choice("kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed", "free"},
+               "what the world's origin is: the centre of a body, a place that turns with it, or free space, "
+               "at rest against the Sun, which stands where sun.direction says; bodies are then shown where "
+               "their 'visible' is true"),
+        optional(choice("body", c.body, names, "of body_center and body_fixed"), c.has_body),
+        optional(number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
+                        "of a fixed origin, east positive"),
+                 c.has_longitude),
+        optional(number("latitude_deg", c.place.latitude_rad, kDegree_rad, {-90, 90},
+                        "of a fixed origin, geodetic"),
+                 c.has_latitude),
+        optional(number("height_km", c.place.height_m, 1e3, {-10, 1e9},
+                        "of a fixed origin above the body's ellipsoid (Earth: WGS 84)"),
+                 c.has_height),
     };
+}
+
+void validate(const OriginConfig& c) {
+    using Kind = OriginConfig::Kind;
+    constexpr std::array kWords = {"earth_center", "earth_fixed", "body_center", "body_fixed", "free"};
+    const auto forbid = [&](bool given, const char* key, bool is_read, const char* readers) {
+        if (given && !is_read)
+            throw KeyError(key, std::string("has no effect with kind: ") +
+                                    kWords[static_cast<std::size_t>(c.kind)] +
+                                    "; accepted: kind: " + readers + ", or no '" + key + "'");
+    };
+    const bool names_body = c.kind == Kind::kBodyCenter || c.kind == Kind::kBodyFixed;
+    forbid(c.has_body, "body", names_body, "body_center or body_fixed");
+    for (const auto& [given, key] : {std::pair{c.has_longitude, "longitude_deg"},
+                                     {c.has_latitude, "latitude_deg"},
+                                     {c.has_height, "height_km"}})
+        forbid(given, key, c.turns(), "earth_fixed or body_fixed");
 }
 
 namespace {
@@ -205,8 +235,9 @@ namespace {
 StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
     if (!origin.turns()) return {};
     constexpr std::int64_t kStep_ns = 30'000'000'000;
-    const Vec3d fixed_m = body_fixed_position_m(origin.center(), origin.place);
-    const auto at = [&](TimeTai t) { return transposed(body_fixed_from_icrf(origin.center(), t)) * fixed_m; };
+    const BodyId center = *origin.center();
+    const Vec3d fixed_m = body_fixed_position_m(center, origin.place);
+    const auto at = [&](TimeTai t) { return transposed(body_fixed_from_icrf(center, t)) * fixed_m; };
     return {at(time), (at(time + kStep_ns) - at(time + -kStep_ns)) / (2 * kStep_ns * kSecondsPerNs)};
 }
 
@@ -224,19 +255,20 @@ Vec3d aberrated(Vec3d dir, Vec3d velocity_m_s) {
 }
 
 Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
-    const BodyId center = origin.center();
+    const std::optional<BodyId> center = origin.center();
+    HILCAM_CHECK(center || length(origin.sun_m) > 0);
     const auto [earth, sun] = earth_and_sun(time);
-    const StateVector home = heliocentric(center, time, earth);
+    const StateVector home = center ? heliocentric(*center, time, earth) : StateVector{-origin.sun_m, {}};
     const StateVector place = place_from_center(time, origin);
     Bodies out;
     out.origin_from_barycenter = sun + home + place;
 
-    // As the home body's centre sees it, then from the origin.
+    // As the home body's centre, or the place in free space, sees it, then from the origin.
     const auto apparent = [&](Vec3d from_home_m) {
         return seen_in_motion(from_home_m, 0, out.origin_from_barycenter.velocity_m_s) - place.position_m;
     };
     const double sun_light_s = length(home.position_m) / kSpeedOfLight_m_s;
-    out.sun_world_m = apparent(-home.position_m - sun_light_s * sun.velocity_m_s);
+    out.sun_world_m = center ? apparent(-home.position_m - sun_light_s * sun.velocity_m_s) : origin.sun_m;
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         const auto id = static_cast<BodyId>(i);
         if (id == center) {

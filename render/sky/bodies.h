@@ -81,18 +81,28 @@ struct Geodetic {
 };
 Vec3d earth_fixed_position_m(const Geodetic& place);
 Vec3d body_fixed_position_m(BodyId id, const Geodetic& place);
+// The local axes of a place - x east, y north, z up along the ellipsoid's normal - into its body's own.
+Mat3d body_fixed_from_local(const Geodetic& place);
 
-// The scenario's world origin, which may ride with a rotating body.
+// The scenario's world origin: a body's centre, a place that rides with a rotating body, or a place in free
+// space that is at rest against the Sun.
 struct OriginConfig {
-    enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed } kind = Kind::kEarthCenter;
+    enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed, kFree } kind = Kind::kEarthCenter;
     BodyId body = BodyId::kEarth;
     Geodetic place;  // of the fixed ones: a geostationary longitude with height 35 786 km, say
-    BodyId center() const {
+    Vec3d sun_m;     // of kFree: where the Sun is; no key of this section (emulator/scenario/free_space.h)
+    bool has_body = false, has_longitude = false, has_latitude = false, has_height = false;
+
+    // The body that the origin belongs to; none: free space.
+    std::optional<BodyId> center() const {
+        if (kind == Kind::kFree) return std::nullopt;
         return kind == Kind::kBodyCenter || kind == Kind::kBodyFixed ? body : BodyId::kEarth;
     }
     bool turns() const { return kind == Kind::kEarthFixed || kind == Kind::kBodyFixed; }
 };
 Fields fields(OriginConfig& config);
+// Throws KeyError for a key that the kind does not read.
+void validate(const OriginConfig& config);
 
 // Where the bodies stand in the world at an instant.
 struct BodyState {

@@ -94,7 +94,10 @@ BodyConfig default_body(BodyId id) {
 
 Fields fields(BodyConfig& c) {
     return {
-        flag("visible", c.visible, "whether it is drawn, reflected, shines on the objects and casts shadow"),
+        optional(flag("visible", c.visible,
+                      "whether it is drawn, reflected, shines on the objects and casts shadow; with "
+                      "origin.kind free false unless given"),
+                 c.has_visible),
         choice("law", c.law, {"lambert", "lommel_seeliger"}, "how its surface reflects"),
         flag("measured_magnitude", c.measured_magnitude,
              "scale it to its measured V magnitude at every phase; albedo is then a factor (not for the "

@@ -25,6 +25,7 @@ enum class SurfaceLaw { kLambert, kLommelSeeliger };
 
 struct BodyConfig {
     bool visible = true;
+    bool has_visible = false;  // given: in free space nothing is shown that is not asked for
     SurfaceLaw law = SurfaceLaw::kLambert;
     bool measured_magnitude = false;    // c(g) from the measured magnitude; `albedo` is then a factor
     Curve albedo = Curve::constant(1);  // Lambert: albedo; Lommel-Seeliger: w, 8 times the normal reflectance

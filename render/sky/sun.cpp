@@ -112,6 +112,22 @@ Fields fields(SunConfig& c) {
             curve("spectrum", c.spectrum, {0, 1e5}, "irradiance at 1 au in W m^-2 um^-1; none: ASTM G173-03"),
             c.has_spectrum),
         flag("limb_darkening", c.limb_darkening, "whether the Sun's disk is darker at its edge"),
+        optional(vector3("direction", c.direction, 1, {-1e13, 1e13},
+                         "with origin.kind free: where the Sun is, in world axes; the length does not count"),
+                 c.has_direction),
+        optional(number("distance_au", c.distance_m, kAstronomicalUnit_m, {0.01, 1e3},
+                        "with origin.kind free: from the world's origin; its light falls with the square"),
+                 c.has_distance),
+        optional(
+            number("phase_deg", c.phase_rad, kDegree_rad, {0, 180},
+                   "with origin.kind free, instead of direction: phase angle of what stands in the middle "
+                   "of the picture that camera_pose begins with; 0: the Sun is behind the camera"),
+            c.has_phase),
+        optional(
+            number("azimuth_deg", c.azimuth_rad, kDegree_rad, {-360, 360},
+                   "of phase_deg: where sunlight comes from in that picture, clockwise; 0: from the top, "
+                   "90: from the right"),
+            c.has_azimuth),
     };
 }
 

@@ -5,6 +5,7 @@
 
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 
@@ -17,6 +18,11 @@ struct SunConfig {
     Curve spectrum;  // at 1 au [W m^-2 um^-1]; empty: the table above
     bool has_spectrum = false;
     bool limb_darkening = true;
+    // Where it stands, with an origin in free space: by its direction, or by where its light comes from in
+    // the first picture (emulator/scenario/free_space.h).
+    Vec3d direction;  // world axes, of any length
+    double distance_m = kAstronomicalUnit_m, phase_rad = 0, azimuth_rad = 0;
+    bool has_direction = false, has_distance = false, has_phase = false, has_azimuth = false;
 };
 Fields fields(SunConfig& config);
 

@@ -97,6 +97,12 @@ constexpr Mistake kMistakes[] = {
      "objects.0.motion.kepler: has no effect: kind is not kepler"},
     {"PoseAndMotion", 24, "camera_motion: {kind: fixed}", "24:16",
      "either 'camera_pose' or 'camera_motion'; found both"},
+    {"PlaceBesideACenter", 3, "origin: {kind: earth_center, longitude_deg: 0}", "3:45",
+     "origin.longitude_deg: has no effect with kind: earth_center"},
+    {"SunWithoutFreeSpace", 25, "sun: {direction: [1, 0, 0]}", "25:18", "sun.direction: has no effect"},
+    {"FreeSpaceWithoutSun", 3, "origin: {kind: free}", "1:1", "sun: does not say where the Sun is"},
+    {"TwoFormsOfAttitude", 17, "  attitude_radec_deg: [1, 2, 0]\n  attitude_mrp: [0, 0, 0]", "17:23",
+     "camera_pose.attitude_radec_deg: found besides 'attitude_mrp'"},
     // What may be meant.
     {"NoOrigin", 16, "  position_m: [0.001, 0, 0]\norigin_:", "17:1",
      "unknown key; nearest known key: origin"},

@@ -4,7 +4,9 @@
 
 #include "emulator/send/send_watch.h"
 #include "io/contract/frame_flags.h"
+#include "render/vocabulary/attitude.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
@@ -19,6 +21,31 @@ std::string error_of(const std::string& script) {
         return error.what();
     }
     return "no error";
+}
+
+// The same attitude in each form: Basilisk's own test values
+// (tests/unit/render/vocabulary/attitude_test.cpp).
+TEST(CommandScript, APoseTakesAnAttitudeInAnyForm) {
+    for (const char* form : {"--mrp 0.2 -0.25 0.3",
+                             "--dcm 0.1420874 0.4001248 0.9053791 -0.9626905 0.2686647 0.0323475 -0.2303003 "
+                             "-0.8761960 0.4233702",
+                             "--euler-deg 70.449659 -64.874389 4.369185 --sequence 321"}) {
+        const auto lines = parse_script(std::string("pose --position-m 0 0 0 ") + form + "\n", "a.txt");
+        const Quat q = std::get<PoseCommand>(lines.at(0).command).motion.pose.world_from_body;
+        const double sign = q.w < 0 ? -1 : 1;
+        EXPECT_NEAR(sign * q.w, 0.6771488, 1e-6) << form;
+        EXPECT_NEAR(sign * q.y, -0.4192872, 1e-6) << form;
+    }
+    const auto lines = parse_script("pose --position-m 0 0 0 --radec-deg 10 20 30\n", "a.txt");
+    const RaDecRoll at = radec_of(std::get<PoseCommand>(lines.at(0).command).motion.pose.world_from_body);
+    EXPECT_NEAR(at.right_ascension_rad, 10 * kDegree_rad, 1e-12);
+    EXPECT_NEAR(at.declination_rad, 20 * kDegree_rad, 1e-12);
+    EXPECT_NEAR(at.roll_rad, 30 * kDegree_rad, 1e-12);
+    EXPECT_THAT(error_of("pose --position-m 0 0 0 --mrp 0 0 1 --attitude 1 0 0 0\n"), HasSubstr("excludes"));
+    EXPECT_THAT(error_of("pose --position-m 0 0 0 --euler-deg 0 0 1\n"), HasSubstr("requires --sequence"));
+    EXPECT_THAT(error_of("pose --position-m 0 0 0 --dcm 1 0 0 0 1 0 0 0 2\n"),
+                HasSubstr("--dcm: found a matrix that is off a rotation by 3"));
+    EXPECT_THAT(error_of("pose --position-m 0 0 0 --radec-deg 0 91 0\n"), HasSubstr("accepted: -90 to 90"));
 }
 
 TEST(CommandScript, LinesHaveTimesAndCommands) {

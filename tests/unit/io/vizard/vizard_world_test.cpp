@@ -104,6 +104,17 @@ TEST_F(VizardWorldTest, AnOriginThatTurnsIsTakenOffInPlaceAndVelocity) {
     expect_near(shot.poses[1].motion.velocity_world_m_s, {}, 1e-3);
 }
 
+TEST_F(VizardWorldTest, InFreeSpaceTheMessagesFrameIsTheWorld) {
+    bench.origin.kind = OriginConfig::Kind::kFree;
+    bench.origin.sun_m = {0, kAstronomicalUnit_m, 0};
+    const VizardUpdate u = update();
+    VizardWorld w = world();
+    w.take(u);
+    VizardShot shot;
+    ASSERT_TRUE(w.shot(1, shot));
+    expect_near(shot.poses[1].motion.pose.position_world_m, u.spacecraft[1].position_n_m, 0);
+}
+
 TEST_F(VizardWorldTest, BodiesOfTheScenariosNamesAreObjectsToo) {
     bench.objects = {"bennu"};
     VizardUpdate u = update();

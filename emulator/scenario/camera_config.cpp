@@ -1,0 +1,66 @@
+// Cameras beside the first, and the scenario as each of a bench's cameras has it.
+
+#include <cmath>
+
+#include "emulator/scenario/app_config.h"
+
+namespace hilcam {
+
+namespace {
+
+constexpr AttitudeWords kMountWords{"camera", "that body", "attitude", false};
+
+}  // namespace
+
+Fields fields(CameraConfig& c) {
+    Fields list = {
+        required(section("camera", c.camera, "its data sheet")),
+        integer("on", c.thing, {0, 65535},
+                "what it is fixed to; 0: the body of the first camera, or an object"),
+        vector3("position_m", c.position_m, 1, {-1e6, 1e6}, "in that body's axes"),
+    };
+    for (Field& field : attitude_keys(c.attitude, kMountWords)) list.push_back(std::move(field));
+    list.push_back(beside_frames(section("outputs", c.outputs, "where its frames go")));
+    return list;
+}
+
+void validate(const CameraConfig& c) { check_attitude(c.attitude, kMountWords); }
+
+ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t index) {
+    ScenarioConfig own = scenario;
+    if (index == 0) return own;
+    const CameraConfig& more = scenario.more_cameras[index - 1];
+    own.camera = more.camera;
+    own.mount.position_m = more.position_m;
+    own.mount.thing_from_camera = frame_from_body(more.attitude);
+    own.mount.thing = static_cast<std::size_t>(more.thing);
+    own.outputs = more.outputs;
+    // `rays`, where the scenario gives them, are the first camera's; the others go by their shutters.
+    own.has_rays = false;
+    own.models.rays = {};
+    return own;
+}
+
+std::uint64_t seed_of_camera(const ScenarioConfig& scenario, std::size_t index) {
+    return static_cast<std::uint64_t>(scenario.seed) + index * 0x9E3779B97F4A7C15u;
+}
+
+VizardBench vizard_bench(const ScenarioConfig& s) {
+    VizardBench bench;
+    bench.start = parse_utc(s.time_utc);
+    bench.origin = s.origin;
+    for (const ObjectConfig& object : s.objects) bench.objects.push_back(object.name);
+    for (std::size_t i = 0; i <= s.more_cameras.size(); ++i) {
+        const ScenarioConfig own = scenario_of_camera(s, i);
+        const auto [width, height] = frame_size(own.camera);
+        // Of the undistorted lens, over all rows that a frame shows.
+        const double half_m = 0.5 * static_cast<double>(height * own.camera.binning_y) * own.camera.pitch_m;
+        bench.cameras.push_back({{own.mount.position_m, own.mount.thing_from_camera},
+                                 2 * std::atan2(half_m, own.camera.focal_length_m),
+                                 width,
+                                 height});
+    }
+    return bench;
+}
+
+}  // namespace hilcam
