@@ -3,77 +3,81 @@
 
     tools/make_landscapes.py configs/maps/crater_field.raw configs/meshes/asteroid.ply
 
-The ground is 400 x 400 heights of int16 in units of 2 cm, 2.5 m apart, rows from the north, 0 in the middle. The body is a mesh of 20480
-triangles in metres, 640 m long along x. The same call makes the same files.
+The ground is 800 x 800 heights of int16 in units of 1 cm, 1.25 m apart, rows from the north, 0 in the middle. The body is a mesh of 81920
+triangles in metres with normals, some 600 m long along x. The same call makes the same files.
 
 Craters have a bowl of 0.2 of their diameter (Pike, Geophysical Research Letters 1, 291, 1974) and a rim of 0.04 of it that falls with the
 third power of the distance (McGetchin, Settle & Head, Earth and Planetary Science Letters 20, 226, 1973); there are more small ones than
 large ones, by the square of the diameter.
 """
-import math
-import random
-import struct
 import sys
 
-COLUMNS, SPACING_M, UNIT_M = 400, 2.5, 0.02
-SUBDIVISIONS, RADII_M = 5, (300.0, 220.0, 190.0)
+import numpy as np
+
+COLUMNS, SPACING_M, UNIT_M = 800, 1.25, 0.01
+SUBDIVISIONS, RADII_M = 6, (300.0, 220.0, 190.0)
 
 
 def hashed(x, y, z, seed):
-    """A number of -1 to 1 that belongs to a point of the lattice (32-bit mixing after Jenkins and Wang)."""
-    h = (x * 374761393 + y * 668265263 + z * 2147483647 + seed * 1274126177) & 0xFFFFFFFF
-    h = ((h ^ (h >> 13)) * 1274126177) & 0xFFFFFFFF
-    return ((h ^ (h >> 16)) & 0xFFFF) / 32767.5 - 1
+    """32 bits that belong to a point of the lattice (32-bit mixing after Jenkins and Wang)."""
+    h = (x * 374761393 + y * 668265263 + z * 2147483647 + seed * 1274126177).astype(np.uint32)
+    h = (h ^ (h >> np.uint32(13))) * np.uint32(1274126177)
+    h = (h ^ (h >> np.uint32(16))) * np.uint32(2246822519)
+    return h ^ (h >> np.uint32(15))
 
 
-def noise(x, y, z, seed):
-    """Value noise: the lattice's numbers, smoothly between them (Perlin, SIGGRAPH 1985)."""
-    xi, yi, zi = math.floor(x), math.floor(y), math.floor(z)
-    u, v, w = (t * t * (3 - 2 * t) for t in (x - xi, y - yi, z - zi))
-    total = 0.0
-    for i, wi in ((0, 1 - u), (1, u)):
-        for j, wj in ((0, 1 - v), (1, v)):
-            for k, wk in ((0, 1 - w), (1, w)):
-                total += wi * wj * wk * hashed(xi + i, yi + j, zi + k, seed)
+def noise(p, seed):
+    """Gradient noise (Perlin, SIGGRAPH 1985) at points [..., 3]: slopes of the lattice's points, smoothly between them."""
+    low = np.floor(p).astype(np.int64)
+    at = p - low
+    share = at ** 3 * (at * (at * 6 - 15) + 10)  # Perlin, SIGGRAPH 2002: no crease at the lattice
+    total = np.zeros(p.shape[:-1])
+    for corner in np.ndindex(2, 2, 2):
+        h = hashed(*np.moveaxis(low + corner, -1, 0), seed)
+        z = (h & np.uint32(0xFFFF)) / 32767.5 - 1
+        turn = (h >> np.uint32(16)) / 65536 * 2 * np.pi
+        flat = np.sqrt(np.maximum(0, 1 - z * z))
+        away = at - corner
+        slope = away[..., 0] * flat * np.cos(turn) + away[..., 1] * flat * np.sin(turn) + away[..., 2] * z
+        total += np.prod(np.where(corner, share, 1 - share), axis=-1) * slope
     return total
 
 
-def rough(x, y, z, octaves, seed):
+def rough(p, octaves, seed):
     """Noise at scales that halve each time; the height goes with the scale to the power 0.9, as of natural ground."""
-    return sum(noise(x * 2 ** n, y * 2 ** n, z * 2 ** n, seed + n) / 2 ** (0.9 * n) for n in range(octaves))
+    return sum(noise(p * 2 ** n, seed + n) / 2 ** (0.9 * n) for n in range(octaves))
 
 
 def crater_height(distance, radius):
-    """Height of a crater's profile over the ground before it, in the unit of its radius."""
+    """Height of a crater's profile over the ground before it, in the unit of its radius: a bowl from -0.40 to the rim's 0.08, which is 0.20 and
+    0.04 of the diameter. The rim is round over a tenth of the radius, as impacts of dust leave it."""
     r = distance / radius
-    if r < 1:
-        return radius * (0.48 * r * r - 0.40)  # the bowl, from -0.40 to the rim's 0.08: of the diameter 0.20 and 0.04
-    return radius * 0.08 * r ** -3 if r < 4 else 0.0
+    bowl, blanket = 0.48 * r * r - 0.40, 0.08 * np.maximum(r, 0.5) ** -3
+    return radius * np.where(r < 4, -0.03 * np.logaddexp(-bowl / 0.03, -blanket / 0.03), 0)
 
 
 def ground():
-    middle = 0.5 * (COLUMNS - 1)
-    heights = [[8 * rough(c * SPACING_M / 220, r * SPACING_M / 220, 0, 6, 11) for c in range(COLUMNS)] for r in range(COLUMNS)]
-    draw = random.Random(4)
-    for _ in range(700):
-        radius = 2.5 / math.sqrt(draw.uniform(0.0025, 1))  # posts; the largest has a diameter of 250 m
-        x, y, fresh = draw.uniform(0, COLUMNS), draw.uniform(0, COLUMNS), 0.1 + 0.7 * draw.uniform(0, 1) ** 2  # most are worn down
-        reach = 4 * radius
-        if radius > 3 and math.hypot(x - middle, y - middle) < 1.5 * radius:
+    across_m = (np.arange(COLUMNS) - 0.5 * (COLUMNS - 1)) * SPACING_M
+    x, y = np.meshgrid(across_m, across_m)
+    heights_m = 14 * rough(np.stack([x / 260, y / 260, np.zeros_like(x)], axis=-1), 9, 11)
+    draw = np.random.Generator(np.random.PCG64(4))
+    for _ in range(5000):
+        radius_m = 1.6 / np.sqrt(draw.uniform(0.0003, 1))  # from 3 m to 180 m across
+        at, fresh = draw.uniform(-500, 500, 2), 0.1 + 0.7 * draw.uniform() ** 2  # most are worn down
+        if radius_m > 8 and np.hypot(*at) < 1.5 * radius_m:
             continue  # nothing large where the lander comes down
-        for r in range(max(0, int(y - reach)), min(COLUMNS, int(y + reach) + 1)):
-            for c in range(max(0, int(x - reach)), min(COLUMNS, int(x + reach) + 1)):
-                heights[r][c] += fresh * SPACING_M * crater_height(math.hypot(c - x, r - y), radius)
-    zero = heights[COLUMNS // 2][COLUMNS // 2]
-    return b"".join(struct.pack("<h", round((h - zero) / UNIT_M)) for row in heights for h in row)
+        columns, rows = (slice(*np.searchsorted(across_m, (c - 4 * radius_m, c + 4 * radius_m))) for c in at)
+        heights_m[rows, columns] += fresh * crater_height(np.hypot(x[rows, columns] - at[0], y[rows, columns] - at[1]), radius_m)
+    middle_m = heights_m[COLUMNS // 2, COLUMNS // 2]
+    return np.round((heights_m - middle_m) / UNIT_M).astype("<i2").tobytes()
 
 
 def sphere():
     """Points and triangles of an icosahedron whose triangles are divided into four, again and again."""
-    g = (1 + math.sqrt(5)) / 2
+    g = (1 + 5 ** 0.5) / 2
     points = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g),
               (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
-    points = [tuple(x / math.hypot(*p) for x in p) for p in points]
+    points = [np.array(p) / np.linalg.norm(p) for p in points]
     triangles = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8),
                  (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
     for _ in range(SUBDIVISIONS):
@@ -82,9 +86,8 @@ def sphere():
         def middle(a, b):
             key = (min(a, b), max(a, b))
             if key not in between:
-                p = [x + y for x, y in zip(points[a], points[b])]
                 between[key] = len(points)
-                points.append(tuple(x / math.hypot(*p) for x in p))
+                points.append((points[a] + points[b]) / np.linalg.norm(points[a] + points[b]))
             return between[key]
 
         finer = []
@@ -92,26 +95,36 @@ def sphere():
             ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
             finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
         triangles = finer
-    return points, triangles
+    return np.array(points), np.array(triangles)
+
+
+def normals(points, triangles):
+    """Unit vectors at the points: of the triangles about each, by area."""
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    of_triangles = np.cross(b - a, c - a)
+    out = np.zeros_like(points)
+    for i in range(3):
+        np.add.at(out, triangles[:, i], of_triangles)
+    return out / np.linalg.norm(out, axis=1, keepdims=True)
 
 
 def asteroid():
     points, triangles = sphere()
-    draw = random.Random(9)
-    craters = []
-    for _ in range(160):
-        axis = [draw.gauss(0, 1) for _ in range(3)]
-        craters.append(([x / math.hypot(*axis) for x in axis], 0.04 / math.sqrt(draw.uniform(0.012, 1))))  # radius in rad
-    out = []
-    for p in points:
-        size = 1 + 0.16 * rough(*(1.3 * x for x in p), 2, 3) + 0.035 * rough(*(5 * x for x in p), 4, 7)
-        for axis, radius in craters:
-            size += 0.8 * crater_height(math.acos(max(-1.0, min(1.0, sum(a * b for a, b in zip(p, axis))))), radius)
-        out.append(tuple(r * size * x for r, x in zip(RADII_M, p)))
-    header = ("ply\nformat binary_little_endian 1.0\n"
-              f"element vertex {len(out)}\nproperty float x\nproperty float y\nproperty float z\n"
-              f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
-    return header.encode() + b"".join(struct.pack("<3f", *p) for p in out) + b"".join(struct.pack("<B3i", 3, *t) for t in triangles)
+    draw = np.random.Generator(np.random.PCG64(9))
+    size = 1 + 0.35 * rough(1.1 * points, 2, 3) + 0.06 * rough(5 * points, 6, 7)
+    for _ in range(260):
+        axis = draw.normal(size=3)
+        radius = 0.045 / np.sqrt(draw.uniform(0.015, 1))  # in radians: from 20 m to 170 m across
+        fresh = 0.4 + 0.6 * draw.uniform()
+        size += fresh * crater_height(np.arccos(np.clip(points @ (axis / np.linalg.norm(axis)), -1, 1)), radius)
+    points = points * RADII_M * size[:, None]
+    vertices = np.hstack([points, normals(points, triangles)]).astype("<f4")
+    faces = np.zeros(len(triangles), dtype=[("count", "u1"), ("corners", "<u2", 3)])
+    faces["count"], faces["corners"] = 3, triangles
+    header = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(vertices)}\n"
+    header += "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
+    header += f"element face {len(faces)}\nproperty list uchar ushort vertex_indices\nend_header\n"
+    return header.encode() + vertices.tobytes() + faces.tobytes()
 
 
 if len(sys.argv) != 3:

@@ -347,7 +347,7 @@ TEST(ShippedFrames, AreAsTheyAreMeant) {
     const CheckReport asteroid = checked("asteroid", {"stars.faintest_magnitude=3"});
     EXPECT_THAT(asteroid.warnings, testing::IsEmpty());
     EXPECT_EQ(asteroid.reports[0].sight.objects[0].place, SeenObject::Place::kVisible);
-    EXPECT_EQ(asteroid.reports[0].sight.objects[0].loaded.triangles, 20480u);
+    EXPECT_EQ(asteroid.reports[0].sight.objects[0].loaded.triangles, 81920u);
     const CheckReport stars = checked("star_tracker", {"stars.faintest_magnitude=3"});
     EXPECT_THAT(stars.warnings, testing::IsEmpty());
     EXPECT_NEAR(stars.reports[0].sight.pointing.declination_rad, 7.407 * kDegree_rad, 1e-12);
