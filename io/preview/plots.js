@@ -49,6 +49,7 @@ function verticalAxis({ c, left, top, width, height }, values, at, name) {
 
 export function drawHistogram(canvas, picture, logarithmic) {
   const plot = frameOf(canvas, 52), { c, left, top, width, height, below } = plot;
+  canvas.setAttribute("aria-label", `pixels over DN, ${logarithmic ? "logarithmic" : "linear"}`);
   const counts = picture.counts, bins = Math.min(counts.length, 192);
   const sums = new Float64Array(bins);
   counts.forEach((n, value) => { sums[Math.floor(value * bins / counts.length)] += n; });
@@ -114,6 +115,7 @@ export const DELAYS = [["first_packet", "to the first packet", "--accent"], ["la
 // why: what to say where there is nothing to draw.
 export function drawLatency(canvas, latency, why) {
   const { c, width, height, top, below } = frameOf(canvas), all = DELAYS.flatMap(([key]) => latency[key].buckets);
+  canvas.setAttribute("aria-label", all.length ? "histogram of the times" : why.join(" "));
   if (all.length === 0) {
     c.textAlign = "center";
     why.forEach((line, i) => c.fillText(line, width / 2, top + height / 2 + 15 * (i - (why.length - 1) / 2)));

@@ -41,8 +41,8 @@ export function viewWords(picture, histogram) {
 // Soon, not with every move: browsers allow some hundred changes of an address in half a minute.
 let timer = 0;
 export function keepView(picture, histogram) {
-  clearTimeout(timer);
-  timer = setTimeout(() => {
+  timer ||= setTimeout(() => {
+    timer = 0;
     const words = viewWords(picture, histogram);
     if (words !== location.hash.slice(1)) history.replaceState(null, "", words ? "#" + words : location.pathname);
   }, 300);
