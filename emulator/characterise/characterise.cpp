@@ -90,7 +90,7 @@ class Laboratory {
     Characterisation measure() {
         out_.setup = setup_;
         out_.pixels = selection_.count();
-        phases_.begin("defects", 0.1);
+        phases_.begin("defects", 0.04);
         find_defects();
         out_.defects = out_.pixels - selection_.count();
         evenly_lit_ = evenly_lit(setup_, selection_);
@@ -98,17 +98,18 @@ class Laboratory {
         const auto lit = static_cast<double>(evenly_lit_.count());
         light_pairs_ = static_cast<int>(std::clamp(std::ceil(kLightPixels / lit), 2.0, 16.0));
         measure_bandwidths();
-        phases_.begin("response to light", 0.3);
+        phases_.begin("response to light", 0.12);
         const ResponseCurve response = measure_light();
-        phases_.begin("differences between pixels", 0.1);
+        phases_.begin("differences between pixels", 0.02);
         measure_nonuniformity(response);
-        phases_.begin("darkness", 0.2);
+        phases_.begin("darkness", 0.02);
         measure_darkness();
         out_.frames = bench_.frames_taken();
-        phases_.begin("MTF along rows", 0.15);
-        out_.horizontal = measure_mtf(setup_, response, EdgeDirection::kAlongRows, pictures_);
-        phases_.begin("MTF along columns", 0.15);
-        out_.vertical = measure_mtf(setup_, response, EdgeDirection::kAlongColumns, pictures_);
+        const auto told = [this](double part) { phases_.within(part); };
+        phases_.begin("MTF along rows", 0.40);
+        out_.horizontal = measure_mtf(setup_, response, EdgeDirection::kAlongRows, pictures_, told);
+        phases_.begin("MTF along columns", 0.40);
+        out_.vertical = measure_mtf(setup_, response, EdgeDirection::kAlongColumns, pictures_, told);
         return std::move(out_);
     }
 

@@ -47,7 +47,7 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-// For topics and frames of ROS: letters, digits, underscores.
+// A name as ROS takes it: letters, digits, underscores.
 std::string plain_name(const CameraCalibration& c) {
     std::string out;
     for (const char ch : c.name) {
@@ -136,8 +136,8 @@ std::string kalibr_text(std::span<const CameraCalibration> cameras) {
                            is_fisheye(c) ? "equi" : "radtan",
                            is_fisheye(c) ? list(std::array{d.k1, d.k2, d.k3, d.k4})
                                          : list(std::array{d.k1, d.k2, d.p1, d.p2}));
-        out += fmt::format("  resolution: [{}, {}]\n  rostopic: /{}/image_raw\n", c.width_px, c.height_px,
-                           plain_name(c));
+        out +=
+            fmt::format("  resolution: [{}, {}]\n  rostopic: /cam{}/image_raw\n", c.width_px, c.height_px, i);
         if (i == 0) continue;
         // From the camera before.
         const CameraCalibration& before = cameras[i - 1];

@@ -43,7 +43,9 @@ export function drawTruth(c, truth, layers, { place, scale, ratio }) {
   }
   if (layers.has("stars")) for (const star of truth.stars ?? []) {
     const at = place(...star.position_px);
-    outline(c, STAR, () => c.arc(at.x, at.y, 6 * ratio, 0, 2 * Math.PI));
+    // Brighter ones have larger circles.
+    const radius = Math.min(9, Math.max(2.5, 8 - star.magnitude_v)) * ratio;
+    outline(c, STAR, () => c.arc(at.x, at.y, radius, 0, 2 * Math.PI));
     drawn.stars++;
     if (!layers.has("names") || star.magnitude_v > FAINTEST_NAMED_STAR || !star.hip) continue;
     c.fillStyle = STAR;

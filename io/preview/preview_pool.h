@@ -2,8 +2,6 @@
 // The preview's working threads. Jobs beyond a number let who brings them wait: the thread that accepts
 // connections, whose backlog in the kernel then refuses the rest.
 
-#include <sys/resource.h>
-
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -44,7 +42,7 @@ class BoundedPool {
 
   private:
     void work() {
-        setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
+        become_preview_thread();
         std::unique_lock lock(mutex_);
         while (true) {
             jobs_there_.wait(lock, [&] { return over_ || !jobs_.empty(); });

@@ -1,11 +1,17 @@
 #include "io/preview/preview_slot.h"
 
+#include <pthread.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <utility>
 
 namespace hilcam {
+
+void become_preview_thread() noexcept {
+    setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
+    pthread_setname_np(pthread_self(), kPreviewThreadName);
+}
 
 PreviewSlot::PreviewSlot(std::size_t most_samples, std::chrono::nanoseconds least_interval)
     : least_interval_(least_interval) {
@@ -48,7 +54,7 @@ void PreviewSlot::ask_for_truth(Clock::time_point deadline) {
 }
 
 void PreviewSlot::hand_over() {
-    setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
+    become_preview_thread();
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         asked_.wait(lock, [&] { return stopping_ || Clock::now() < asked_until_; });

@@ -1,7 +1,6 @@
 #include "io/preview/sink_preview.h"
 
 #include <httplib.h>
-#include <sys/resource.h>
 
 #include <charconv>
 
@@ -335,7 +334,7 @@ void PreviewSink::start() {
     i.slot.start();
     i.guard.start(port, connection_limits(i.allow));
     i.thread = std::thread([&server = i.server] {
-        setpriority(PRIO_PROCESS, 0, kPreviewNiceness);
+        become_preview_thread();
         server.listen_after_bind();
     });
     // stop() of a server that does not run yet would do nothing.

@@ -156,7 +156,9 @@ TEST(Calibration, SeveralCamerasStandWhereTheirMountsSay) {
         EXPECT_LT(length(chained - wanted), 1e-12);
     }
     EXPECT_THAT(opencv, HasSubstr("camera_name: \"right \\\"eye\\\"\""));
-    EXPECT_THAT(kalibr, HasSubstr("rostopic: /right__eye_/image_raw"));
+    EXPECT_THAT(kalibr, HasSubstr("rostopic: /cam2/image_raw"));
+    EXPECT_THAT(calibration_text(calibrations_of(s, 2), CalibrationFormat::kRos),
+                HasSubstr("camera_name: right__eye_\n"));
     // One of them alone is where its own axes are.
     EXPECT_THAT(calibration_text(calibrations_of(s, 2), CalibrationFormat::kKalibr), Not(HasSubstr("T_cn")));
 }
