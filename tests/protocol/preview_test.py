@@ -650,8 +650,11 @@ class PageInBrowser(unittest.TestCase):
         # The box's edge is on the canvas, in its colour, and gone when it is switched off.
         at = page.run(f"(() => {{ const s = preview.shownScale(), c = preview.shownCentre(); return [preview.canvas.width / 2 + ({left} - c.x) * s,"
                       f" preview.canvas.height / 2 + ({top} + {height} / 2 - c.y) * s]; }})()")
-        yellow = f"""(() => {{ const d = preview.canvas.getContext('2d').getImageData({round(at[0])} - 2, {round(at[1])}, 5, 1).data;
-            for (let i = 0; i < d.length; i += 4) if (d[i] > 150 && d[i] > 2 * d[i + 2]) return true; return false; }})()"""
+        yellow = f"""(() => {{ const c = new OffscreenCanvas(5, 1).getContext('2d');
+            c.drawImage(preview.canvas, {round(at[0])} - 2, {round(at[1])}, 5, 1, 0, 0, 5, 1);
+            const d = c.getImageData(0, 0, 5, 1).data;
+            for (let i = 0; i < d.length; i += 4) if (d[i] > 150 && d[i] > 2 * d[i + 2]) return true;
+            return false; }})()"""
         self.assertTrue(page.run(yellow))
         self.switch("show-boxes", False)
         self.assertFalse(page.run(yellow))
@@ -799,9 +802,8 @@ def take_screenshot(file):
         fly = subprocess.Popen([HILCAM, "send", "--to", f"127.0.0.1:{PORT + 1}", "fly", "--from-m", "22", "15", "7",
                                 "--duration-s", "60", "--rate-hz", "50"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         post("/fault", "kind=packet_drop&rate=0.002")
-        page = Page(b, URL + "/", width=1840, height=1080)
-        page.wait("window.preview && preview.frame && true", 60)
-        page.run("document.getElementById('stretch').value = 'sqrt', document.getElementById('stretch').dispatchEvent(new Event('change'))")
+        page = Page(b, URL + "/#stretch=sqrt&show=boxes,names,boresight&profile=180,520,840,470", width=1840, height=1080)
+        page.wait("window.preview && preview.drawn?.boxes > 0", 60)
         wait_for(lambda: status()["latency_ms"]["last_packet"]["count"] > 10, 40)
         page.mouse("mouseMoved", 480, 420)
         time.sleep(1.5)

@@ -213,7 +213,7 @@ Seen run(const std::vector<std::string>& overrides, Loop loop, const std::filesy
     const ScenarioConfig scenario =
         load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", overrides);
     RunLimits limits;
-    limits.frames = streaming || looked_at ? 300 : 80;
+    limits.frames = streaming ? 300 : looked_at ? 150 : 80;
     limits.paced = loop != Loop::kUnpaced && loop != Loop::kTold;
     limits.outputs = streaming || looked_at || loop == Loop::kTold;
     limits.record = record;
