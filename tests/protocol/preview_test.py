@@ -802,7 +802,7 @@ def take_screenshot(file):
         fly = subprocess.Popen([HILCAM, "send", "--to", f"127.0.0.1:{PORT + 1}", "fly", "--from-m", "22", "15", "7",
                                 "--duration-s", "60", "--rate-hz", "50"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         post("/fault", "kind=packet_drop&rate=0.002")
-        page = Page(b, URL + "/#stretch=sqrt&show=boxes,names,boresight&profile=180,520,840,470", width=1840, height=1080)
+        page = Page(b, URL + "/#stretch=sqrt&show=boxes,names,boresight&profile=180,520,840,470", width=1840, height=1500)
         page.wait("window.preview && preview.drawn?.boxes > 0", 60)
         wait_for(lambda: status()["latency_ms"]["last_packet"]["count"] > 10, 40)
         page.mouse("mouseMoved", 480, 420)
