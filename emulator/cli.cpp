@@ -15,6 +15,7 @@
 #include "emulator/bench/sensor_bench.h"
 #include "emulator/bench/soak_report.h"
 #include "emulator/characterise/characterise_report.h"
+#include "emulator/check/calibration.h"
 #include "emulator/check/check_command.h"
 #include "emulator/check/doctor.h"
 #include "emulator/check/doctor_facts.h"
@@ -55,6 +56,7 @@ struct Options {
     RunLimits run;
     std::uint16_t preview_port = 0;  // 0: as the scenario says
     RenderStage stage = RenderStage::kFrame;
+    CalibrationFormat calibration = CalibrationFormat::kNone;
 };
 
 // Threads of oneTBB, for as long as it lives.
@@ -173,7 +175,21 @@ int render(const Options& o) {
     });
 }
 
+int print_calibration(const Options& o) {
+    if (is_camera_file(o.config)) {
+        CameraModel camera;
+        read_config(o.config, section_of(camera), o.overrides);
+        fmt::print("{}", calibration_text(std::array{calibration_of(camera)}, o.calibration));
+        return 0;
+    }
+    const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
+    require_camera(o, scenario);
+    fmt::print("{}", calibration_text(calibrations_of(scenario, o.camera), o.calibration));
+    return 0;
+}
+
 int check(const Options& o) {
+    if (o.calibration != CalibrationFormat::kNone) return print_calibration(o);
     if (is_camera_file(o.config)) {
         fmt::print("{}", check_camera(o.config, o.overrides, o.json));
         return 0;
@@ -379,7 +395,13 @@ int run_command_line(int argc, char** argv) {
         "check", "validate a scenario and say what it needs; of a camera's file, print its data sheet");
     add_config(check_app, o);
     add_camera(check_app, o);
-    check_app->add_flag("--json", o.json, "machine-readable");
+    auto* const check_json = check_app->add_flag("--json", o.json, "machine-readable");
+    add_choice<CalibrationFormat>(*check_app, "--calibration", o.calibration,
+                                  {{"opencv", CalibrationFormat::kOpencv},
+                                   {"ros", CalibrationFormat::kRos},
+                                   {"kalibr", CalibrationFormat::kKalibr}},
+                                  "print the cameras' calibration instead (YAML; docs/check.md)")
+        ->excludes(check_json);
     check_app->callback([&] { action = [&] { return check(o); }; });
 
     CLI::App* mesh_app =

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/bench/pilot.h"
+#include "emulator/progress/progress.h"
 #include "emulator/recording/machine_report.h"
 #include "emulator/run/emulator.h"
 #include "emulator/run/report.h"
@@ -75,6 +76,9 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     Emulator emulator(scenario, limits);
     const CircleFlight flight = flight_around_target(scenario);
     {
+        const Progress progress("frames", static_cast<double>(limits.frames), [&emulator] {
+            return static_cast<double>(emulator.loop().counters().frames.load());
+        });
         // Once round in the frames of a run, so that every run sees the same views however fast it is.
         const double seconds_per_frame = flight.period_s / static_cast<double>(limits.frames);
         const Pilot pilot(emulator, flight, [&emulator, seconds_per_frame](std::int64_t) {
@@ -127,7 +131,11 @@ json medians(const std::vector<json>& runs) {
 
 json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
     std::vector<Run> runs;
-    for (int i = 0; i < options.runs; ++i) runs.push_back(run_once(scenario, options));
+    Progress progress("bench", options.runs);
+    for (int i = 0; i < options.runs; ++i) {
+        runs.push_back(run_once(scenario, options));
+        progress.done(i + 1);
+    }
     const auto median_of = [&](auto member) {
         std::vector<double> values;
         for (const Run& run : runs) values.push_back(run.*member);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "emulator/bench/pilot.h"
+#include "emulator/progress/progress.h"
 #include "emulator/run/emulator.h"
 #include "io/system/resident_memory.h"
 
@@ -139,11 +140,15 @@ Soak soak(const ScenarioConfig& configured, const SoakOptions& options) {
     std::optional<SliceWatch> watch;
     {
         std::optional<Pilot> pilot;
+        const std::int64_t begun_ns = monotonic_ns();
+        const Progress progress("soak", limits.seconds, [begun_ns] {
+            return static_cast<double>(monotonic_ns() - begun_ns) * 1e-9;
+        });
         emulator.run([&] {
-            const std::int64_t begun_ns = monotonic_ns();
+            const std::int64_t ready_ns = monotonic_ns();
             pilot.emplace(emulator, flight,
-                          [begun_ns](std::int64_t ns) { return static_cast<double>(ns - begun_ns) * 1e-9; });
-            watch.emplace(emulator.loop(), begun_ns + static_cast<std::int64_t>(soak.round_s * 1e9),
+                          [ready_ns](std::int64_t ns) { return static_cast<double>(ns - ready_ns) * 1e-9; });
+            watch.emplace(emulator.loop(), ready_ns + static_cast<std::int64_t>(soak.round_s * 1e9),
                           soak.slice_s, soak.slices);
         });
     }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 
+#include "emulator/progress/progress.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -58,6 +60,22 @@ std::vector<double> less(std::vector<double> a, const std::vector<double>& b) {
     return a;
 }
 
+// How far the measurements are; their shares of the whole time are those that inspector_1k takes.
+class Phases {
+  public:
+    void begin(const std::string& name, double share) {
+        begun_ += share_;
+        share_ = share;
+        progress_.now("measuring " + name);
+        progress_.done(begun_);
+    }
+    void within(double part) { progress_.done(begun_ + part * share_); }
+
+  private:
+    Progress progress_{"measuring", 1};
+    double begun_ = 0, share_ = 0;
+};
+
 // One camera's measurements, one after the other on the same bench.
 class Laboratory {
   public:
@@ -72,6 +90,7 @@ class Laboratory {
     Characterisation measure() {
         out_.setup = setup_;
         out_.pixels = selection_.count();
+        phases_.begin("defects", 0.04);
         find_defects();
         out_.defects = out_.pixels - selection_.count();
         evenly_lit_ = evenly_lit(setup_, selection_);
@@ -79,12 +98,18 @@ class Laboratory {
         const auto lit = static_cast<double>(evenly_lit_.count());
         light_pairs_ = static_cast<int>(std::clamp(std::ceil(kLightPixels / lit), 2.0, 16.0));
         measure_bandwidths();
+        phases_.begin("response to light", 0.12);
         const ResponseCurve response = measure_light();
+        phases_.begin("differences between pixels", 0.02);
         measure_nonuniformity(response);
+        phases_.begin("darkness", 0.02);
         measure_darkness();
         out_.frames = bench_.frames_taken();
-        out_.horizontal = measure_mtf(setup_, response, EdgeDirection::kAlongRows, pictures_);
-        out_.vertical = measure_mtf(setup_, response, EdgeDirection::kAlongColumns, pictures_);
+        const auto told = [this](double part) { phases_.within(part); };
+        phases_.begin("MTF along rows", 0.40);
+        out_.horizontal = measure_mtf(setup_, response, EdgeDirection::kAlongRows, pictures_, told);
+        phases_.begin("MTF along columns", 0.40);
+        out_.vertical = measure_mtf(setup_, response, EdgeDirection::kAlongColumns, pictures_, told);
         return std::move(out_);
     }
 
@@ -189,6 +214,7 @@ class Laboratory {
             expose_dark(level.exposure_s, gain_db);
             level.point.dark = take_pairs(bench_, evenly_lit_, (light_pairs_ + 3) / 4);
             out.push_back(level);
+            phases_.within(static_cast<double>(out.size()) / static_cast<double>(level_fractions().size()));
         }
         return out;
     }
@@ -331,6 +357,7 @@ class Laboratory {
     double photons_per_s_ = 0;
     double bandwidth_error_ = 0;  // relative
     Characterisation out_;
+    Phases phases_;
 };
 
 }  // namespace

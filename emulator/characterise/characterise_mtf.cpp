@@ -102,7 +102,7 @@ std::size_t MtfCurve::nyquist() const {
 }
 
 MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, EdgeDirection direction,
-                     const DetectorPictures& pictures) {
+                     const DetectorPictures& pictures, const std::function<void(double)>& told) {
     const BenchSetup s = windowed(setup, direction);
     PixelSelection selection = bench_selection(s);
     CameraBench bench(s.camera, s.grid, kFineSampling, s.lamp_w_m2_um, pictures);
@@ -116,9 +116,12 @@ MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, Edg
     const int frames = static_cast<int>(
         std::clamp(std::ceil(std::pow(noise / kPixelNoise, 2)), 1.0 * kFewestFrames, 1.0 * kMostFrames));
 
+    int pictures_taken = 0;
     const auto picture_of = [&](double left, double right) {
         bench.show({left, right, tilt_rad});
-        return light_of(bench, s, response, filter, selection, frames);
+        LightPicture picture = light_of(bench, s, response, filter, selection, frames);
+        told(++pictures_taken / 3.0);
+        return picture;
     };
     const LightPicture bright = picture_of(kBrightAlbedo, kBrightAlbedo);
     const LightPicture dark = picture_of(kDarkAlbedo, kDarkAlbedo);

@@ -7,6 +7,7 @@
 // takes contrast from everything but large surfaces, lowers the measured curve as it lowers the configured
 // one. Not resolved: what changes within 1/32 cycles/px, as a halo's curve does at its very beginning.
 
+#include <functional>
 #include <vector>
 
 #include "emulator/characterise/characterise_setup.h"
@@ -23,7 +24,8 @@ struct MtfCurve {
 
 // Edge near the columns (the MTF along the rows), or near the rows.
 enum class EdgeDirection { kAlongRows, kAlongColumns };
+// told: is given the share of the work that is done, 0 to 1, now and then.
 MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, EdgeDirection direction,
-                     const DetectorPictures& pictures);
+                     const DetectorPictures& pictures, const std::function<void(double)>& told);
 
 }  // namespace hilcam

@@ -49,6 +49,9 @@ MapStatistics statistics_of(const PixelMap& map, const CameraModel& c) {
     return {sum / n, std::sqrt(std::max(0.0, square / n - sum / n * (sum / n)))};
 }
 
+// What is left of a straight response after its line is taken off is rounding: none.
+double without_rounding(double fraction) { return std::abs(fraction) < 1e-9 ? 0 : fraction; }
+
 // 101 cells over the range of what counts.
 json histogram(const std::vector<double>& image, double scale) {
     constexpr std::size_t kCells = 101;
@@ -67,8 +70,12 @@ json histogram(const std::vector<double>& image, double scale) {
 }
 
 json light_json(const Characterisation& r) {
+    std::vector<LightPoint> points;
+    for (const LightLevel& level : r.light) points.push_back(level.point);
+    const std::size_t saturation = saturation_index(points);
     json out = json::array();
-    for (const LightLevel& level : r.light) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const LightLevel& level = r.light[i];
         const LightPoint& p = level.point;
         out.push_back({{"exposure_s", level.exposure_s},
                        {"filter", level.filter},
@@ -79,6 +86,7 @@ json light_json(const Characterisation& r) {
                        {"dark_variance_dn2", p.dark.variance_dn2.value},
                        {"signal_dn", p.signal_dn()},
                        {"shot_variance_dn2", p.shot_dn2()},
+                       {"saturated", i > saturation},
                        {"snr", p.signal_dn() / std::sqrt(p.light.variance_dn2.value)}});
     }
     return out;
@@ -162,7 +170,8 @@ json characterisation_json(const Characterisation& r, const DetectorPictures& pi
         {"prnu_fraction",
          figure(std::hypot(c.prnu_fraction, statistics_of(pictures.prnu, c).deviation), prnu)},
         {"dsnu_e", figure(std::hypot(c.dsnu_e, statistics_of(pictures.offset_e, c).deviation), dsnu)},
-        {"linearity_error", figure(r.configured_linearity.error_fraction.value, r.linearity.error_fraction)},
+        {"linearity_error",
+         figure(without_rounding(r.configured_linearity.error_fraction.value), r.linearity.error_fraction)},
         {"mtf_nyquist", mtf_at(r.horizontal)},
         {"mtf_nyquist_vertical", mtf_at(r.vertical)},
         {"snr_max_db", figure(snr_max_db({saturation_e, 0}).value, snr_max_db(r.saturation_capacity_e))},

@@ -223,6 +223,7 @@ void FrameLoop::render_into(Slot& slot) {
         flagged_ = flagged;
     }
     FrameTruth* const truth = truth_ ? truth_->begin(record) : nullptr;
+    record.has_truth = truth != nullptr;
     const ShownWorld moment{slot.use.shown_at, slot.use.moving};
     const ExposureRenderer::Result result = exposures_.render(
         world_, moment, {seed_, record.id}, slot.radiance, slot.points, slot.exposure, truth);

@@ -4,7 +4,6 @@
 
 #include "emulator/recording/recorder.h"
 #include "emulator/run/picture_run.h"
-#include "emulator/run/status.h"
 #include "emulator/run/truth_source.h"
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/lamp_setup.h"
@@ -60,12 +59,17 @@ void CameraStation::make_sinks() {
     if (o.has_files)
         sinks_.push_back(
             std::make_unique<FilesSink>(o.files, width, height, picture_run_of(scenario_, number_)));
-    if (o.has_preview)
-        sinks_.push_back(std::make_unique<PreviewSink>(o.preview, context, [this] { return status(); }));
+    if (o.has_preview) {
+        auto preview = std::make_unique<PreviewSink>(o.preview, context, picture_run_of(scenario_, number_),
+                                                     [this] { return status(); });
+        preview_ = preview.get();
+        sinks_.push_back(std::move(preview));
+    }
 }
 
 std::string CameraStation::status() const {
-    return run_status({scenario_, *loop_, delivery_, receivers_, sinks(), settings_, faults_});
+    return run_status(
+        {scenario_, number_, cameras_, *loop_, delivery_, receivers_, sinks(), settings_, faults_});
 }
 
 void CameraStation::load(const SpectralGrid& grid) {
@@ -80,8 +84,8 @@ void CameraStation::load(const SpectralGrid& grid) {
                                           load_motion_sources(scenario_), lamp_mounts(scenario_));
     renderer_->require_air(snapshot_at(scenario_, start, start));
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
-    if (limits_.outputs && scenario_.outputs.has_truth) {
-        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id);
+    if (limits_.outputs && (scenario_.outputs.has_truth || preview_)) {
+        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id, preview_);
         truth_ = truth.get();
         sinks_.push_back(std::move(truth));
     }

@@ -11,6 +11,7 @@
 
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/frame_loop.h"
+#include "emulator/run/status.h"
 #include "emulator/scenario/app_config.h"
 #include "emulator/scenario/scene_loader.h"
 #include "io/contract/command_receiver.h"
@@ -46,6 +47,7 @@ class CameraStation {
     void prepare(SimulatedClock& clock, const PoseWatch& poses);
     // What the preview tells of the bench's commands.
     void set_receivers(const std::vector<std::unique_ptr<CommandReceiver>>& all) { receivers_ = &all; }
+    void set_cameras(const std::vector<CameraPage>& all) { cameras_ = all; }
 
     // What the loop and the settings do goes into a recording. After prepare().
     void record_to(Recorder& recorder);
@@ -96,6 +98,7 @@ class CameraStation {
     FaultBoard faults_;
     DeliveryMeter delivery_;
     const std::vector<std::unique_ptr<CommandReceiver>>* receivers_ = nullptr;  // the bench's
+    std::vector<CameraPage> cameras_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::set<const FrameSink*> told_faults_;
     std::vector<LoadedObject> objects_;
@@ -103,7 +106,8 @@ class CameraStation {
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<ExposureRenderer> exposures_;
-    TruthSink* truth_ = nullptr;  // of the sinks; may be null
+    PreviewSink* preview_ = nullptr;  // of the sinks, as is the next; may be null
+    TruthSink* truth_ = nullptr;
     std::unique_ptr<FrameLoop> loop_;
     std::vector<FaultConfig> timed_faults_;  // by time
     std::size_t next_fault_ = 0;

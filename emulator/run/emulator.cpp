@@ -53,13 +53,17 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     if (!wishes.cores.empty())
         threads_.emplace(tbb::global_control::max_allowed_parallelism, wishes.cores.size());
     std::vector<CommandedCamera> bench;
+    std::vector<CameraPage> pages;
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
         stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits_));
         bench.push_back({nullptr, &stations_.back()->settings(), &stations_.back()->faults()});
+        const OutputsConfig& outputs = stations_.back()->scenario().outputs;
+        pages.push_back({stations_.back()->name(), outputs.has_preview ? outputs.preview.port : 0});
     }
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         stations_[i]->load(grid_);
         stations_[i]->set_receivers(receivers_);
+        stations_[i]->set_cameras(pages);
         bench[i].world = &stations_[i]->world();
     }
     if (limits.outputs)

@@ -3,6 +3,7 @@
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include "render/vocabulary/quoted.h"
 
@@ -26,7 +27,10 @@ class HarmlessMessage final : public spdlog::custom_flag_formatter {
 void set_up_log() {
     spdlog::set_default_logger(spdlog::stderr_color_mt("hilcam"));
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
-    formatter->add_flag<HarmlessMessage>('*').set_pattern("hilcam: %^%*%$");
+    // On a terminal the line may have a Progress's words in it.
+    const bool terminal = isatty(STDERR_FILENO) == 1;
+    formatter->add_flag<HarmlessMessage>('*').set_pattern(terminal ? "\r\x1b[Khilcam: %^%*%$"
+                                                                   : "hilcam: %^%*%$");
     spdlog::set_formatter(std::move(formatter));
 }
 

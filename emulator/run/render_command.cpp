@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "emulator/progress/progress.h"
 #include "emulator/recording/run_seed.h"
 #include "emulator/run/picture_run.h"
 #include "emulator/run/still_camera.h"
@@ -111,7 +112,11 @@ void render_to_files(const ScenarioConfig& bench, RenderStage stage, double time
     const RandomKey key{seed_of_camera(scenario, number - 1), 1};
     std::optional<FrameTruth> truth;
     if (!files.truth.empty()) truth = empty_truth(scenario, camera.renderer());
+    const Renderer& renderer = camera.renderer();
+    std::optional<Progress> progress(std::in_place, "rendering", 1.0,
+                                     [&] { return renderer.share_traced(); });
     const RadianceImage& radiance = camera.render(key, truth ? &*truth : nullptr);
+    progress.emplace("sensor and files");
     const FrameRecord record = record_of(scenario, camera);
     if (truth)
         write_truth(picture_truth_files(files.truth, files.out),

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/run/report.h"
+#include "emulator/scenario/scenario_warnings.h"
 #include "io/contract/frame_flags.h"
 #include "io/preview/preview_request.h"
 
@@ -33,6 +34,16 @@ json camera_status(const CameraModel& camera, const CameraLimits& l) {
     // A companded DN is no line over the charge.
     if (camera.converter.companding == Companding::kNone) c["gain_dn_e_at_0_db"] = camera.system_gain_dn_e(0);
     return c;
+}
+
+json cameras_status(const std::vector<CameraPage>& pages, std::size_t number) {
+    json cameras = json::array();
+    for (std::size_t i = 0; i < pages.size(); ++i)
+        cameras.push_back({{"number", i + 1},
+                           {"name", pages[i].name},
+                           {"port", pages[i].port > 0 ? json(pages[i].port) : json(nullptr)},
+                           {"own", i + 1 == number}});
+    return cameras;
 }
 
 json settings_status(const CameraSettings& s) {
@@ -106,14 +117,15 @@ json commands_status(const std::vector<std::unique_ptr<CommandReceiver>>* receiv
     return commands;
 }
 
-json faults_status(const FaultBoard& board) {
+json faults_status(const FaultBoard& board, const ScenarioConfig& scenario) {
     json faults = json::array();
     for (const FaultKind kind : kAllFaults) {
         json fault = {{"kind", name_of(kind)},
                       {"number", static_cast<int>(kind)},
                       {"bit", std::countr_zero(bit_of(kind))},
                       {"meaning", meaning_of(kind)},
-                      {"strikes", board.strikes_of(kind)}};
+                      {"strikes", board.strikes_of(kind)},
+                      {"lacks", lacking_output({&scenario.outputs}, scenario.commands, kind)}};
         if (const auto order = board.order_of(kind))
             fault["order"] = {{"rate", order->rate},
                               {"value", order->value},
@@ -155,6 +167,7 @@ std::string run_status(const StatusSources& s) {
     const LoopCounters& counters = s.loop.counters();
     const json status = {{"scenario", s.scenario.name},
                          {"camera", camera_status(s.scenario.camera, s.camera.limits())},
+                         {"cameras", cameras_status(s.cameras, s.number)},
                          {"settings", settings_status(s.camera.settings())},
                          {"limits", limits_status(s.camera.limits())},
                          {"frames", counters.frames.load()},
@@ -169,7 +182,7 @@ std::string run_status(const StatusSources& s) {
                          {"stages_ms", stages_report(s.loop.meters())},
                          {"commands", commands_status(s.receivers)},
                          {"outputs", outputs_status(s.sinks)},
-                         {"faults", faults_status(s.faults)},
+                         {"faults", faults_status(s.faults, s.scenario)},
                          {"frame_flags", flags_status()}};
     // Names come from files: bytes that are not UTF-8 are replaced.
     return status.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -13,8 +13,16 @@
 
 namespace hilcam {
 
+// A camera of the bench as a page of another one names it.
+struct CameraPage {
+    std::string name;
+    std::int64_t port = 0;  // of its preview; 0: it has none
+};
+
 struct StatusSources {
-    const ScenarioConfig& scenario;
+    const ScenarioConfig& scenario;          // as the camera has it
+    std::size_t number;                      // of the camera, from 1
+    const std::vector<CameraPage>& cameras;  // by number
     const FrameLoop& loop;
     const DeliveryMeter& delivery;
     const std::vector<std::unique_ptr<CommandReceiver>>* receivers;  // null: none

@@ -19,9 +19,10 @@ TruthWishes truth_wishes(const ScenarioConfig& scenario);
 // A record for any frame of the camera. Owner thread.
 FrameTruth make_truth(const ScenarioConfig& scenario, const Renderer& renderer, const TruthWishes& wishes);
 
-// The output outputs.truth; what the scenario is about is loaded. Throws InputError.
+// The output outputs.truth, or what serves the listener alone; what the scenario is about is loaded. Throws
+// InputError.
 std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& scenario, const SpectralGrid& grid,
                                            std::size_t number, const Renderer& renderer,
-                                           const std::string& run_id = {});
+                                           const std::string& run_id = {}, TruthListener* listener = nullptr);
 
 }  // namespace hilcam

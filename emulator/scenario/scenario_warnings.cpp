@@ -34,29 +34,12 @@ void look_at_lockstep(const ScenarioConfig& s, Lines& out) {
             "outputs.preview, or an event that exposes; 'hilcam send expose' then takes one");
 }
 
-// What a kind of fault needs to be seen; empty: it is there.
-std::string lacks(const ScenarioConfig& s, FaultKind kind) {
-    const auto number = static_cast<int>(kind);
-    const auto lacking = [](bool there, const char* what) {
-        return there ? std::string() : std::string(what);
-    };
-    if (number < 60)
-        return lacking(any_camera(s, [](const OutputsConfig& o) { return o.has_gige; }), "outputs.gige");
-    if (number < 70)
-        return lacking(any_camera(s, [](const OutputsConfig& o) { return o.has_v4l2; }), "outputs.v4l2");
-    if (number < 80)
-        return lacking(s.commands.has_usb || s.commands.has_functionfs,
-                       "commands.usb or commands.functionfs");
-    const auto shows = [](const OutputsConfig& o) {
-        return o.has_gige || o.has_v4l2 || o.has_uvc || o.has_files || o.has_preview;
-    };
-    return lacking(any_camera(s, shows) || s.commands.has_vizard, "any of outputs");
-}
-
 void look_at_faults(const ScenarioConfig& s, Lines& out) {
     std::set<FaultKind> told;
+    std::vector<const OutputsConfig*> outputs = {&s.outputs};
+    for (const CameraConfig& camera : s.more_cameras) outputs.push_back(&camera.outputs);
     const auto look = [&](FaultKind kind, const char* by) {
-        const std::string what = lacks(s, kind);
+        const std::string what = lacking_output(outputs, s.commands, kind);
         if (what.empty() || !told.insert(kind).second) return;
         out.push_back(fmt::format("{}: nothing can show the fault '{}' ({}): that takes {}", by,
                                   name_of(kind), meaning_of(kind), what));
@@ -106,6 +89,25 @@ void look_at_frames(const ScenarioConfig& s, Lines& out) {
 }
 
 }  // namespace
+
+std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, const CommandsConfig& commands,
+                           FaultKind kind) {
+    const auto number = static_cast<int>(kind);
+    const auto any = [&](const auto& has) {
+        return std::any_of(outputs.begin(), outputs.end(), [&](const OutputsConfig* o) { return has(*o); });
+    };
+    const auto lacking = [](bool there, const char* what) {
+        return there ? std::string() : std::string(what);
+    };
+    if (number < 60) return lacking(any([](const OutputsConfig& o) { return o.has_gige; }), "outputs.gige");
+    if (number < 70) return lacking(any([](const OutputsConfig& o) { return o.has_v4l2; }), "outputs.v4l2");
+    if (number < 80)
+        return lacking(commands.has_usb || commands.has_functionfs, "commands.usb or commands.functionfs");
+    const auto shows = [](const OutputsConfig& o) {
+        return o.has_gige || o.has_v4l2 || o.has_uvc || o.has_files || o.has_preview;
+    };
+    return lacking(any(shows) || commands.has_vizard, "any of outputs");
+}
 
 std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
     Lines out;

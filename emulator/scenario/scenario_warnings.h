@@ -12,6 +12,10 @@ namespace hilcam {
 // A line each. What a run will not do: lockstep in which nobody can ask for a frame, faults that no output or
 // port can show.
 std::vector<std::string> idle_warnings(const ScenarioConfig& scenario);
+// What a kind of fault needs to be seen, of the outputs of some cameras and the bench's commands; empty: it
+// is there.
+std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, const CommandsConfig& commands,
+                           FaultKind kind);
 // Cameras that begin inside a body. Throws InputError where the scenario's motions cannot be had.
 std::vector<std::string> place_warnings(const ScenarioConfig& scenario);
 

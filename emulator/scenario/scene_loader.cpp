@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "emulator/progress/progress.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/scenario_listing.h"
 #include "io/config/config_advice.h"
@@ -152,6 +153,7 @@ std::shared_ptr<const TransferTable> load_transfer(const SceneObject& object, st
     std::vector<std::uint8_t> glass;
     for (const Material& material : object.materials)
         glass.push_back(material.model == ReflectionModel::kGlass);
+    const Progress progress("light kept on " + object.name);
     const TransferSettings settings{static_cast<int>(scenario.quality.render.kept_directions), nodes,
                                     !scenario.lamps.empty() || models_of(scenario).radiance != "reflected"};
     return cached_transfer(object.mesh, glass, settings, cache_folder());
@@ -179,7 +181,10 @@ SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioCon
     object.mesh = std::move(mesh);
     const auto scale = static_cast<float>(config.scale);
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
-    if (wants_levels_of_detail(scenario)) object.levels = cached_levels(object.mesh, cache_folder());
+    if (wants_levels_of_detail(scenario)) {
+        const Progress progress("levels of detail of " + config.name);
+        object.levels = cached_levels(object.mesh, cache_folder());
+    }
     object.materials = load_materials(object.mesh, config.materials, grid);
     tell(object.mesh, object.materials, config, grid, found);
     return object;
@@ -196,6 +201,7 @@ std::string make_of(const ObjectConfig& config, const std::filesystem::path& mes
 // What is wrong with a mesh file stands where the scenario names it.
 std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem::path& file,
                               const std::vector<std::string>& nodes) {
+    const Progress progress("mesh " + file.filename().string());
     try {
         return load_mesh_parts(file, nodes);
     } catch (const InputError& error) {
@@ -214,8 +220,10 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
         std::size_t object, first_part;
     };
     std::map<std::string, Loaded> loaded;
+    Progress progress("loading the objects", static_cast<double>(scenario.objects.size()));
     for (std::size_t i = 0; i < scenario.objects.size(); ++i) {
         const ObjectConfig& config = scenario.objects[i];
+        progress.done(static_cast<double>(i));
         const std::filesystem::path file = mesh_path(config);
         const auto [make, is_new] = loaded.try_emplace(make_of(config, file), Loaded{i, objects.size()});
         std::vector<std::string> nodes;
@@ -296,6 +304,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     const TimeTai time = parse_utc(scenario.time_utc);
     if (scenario.has_terrain) {
         const TerrainConfig& t = scenario.terrain;
+        const Progress progress("terrain " + t.name);
         const Pose pose = initial_motion(t.pose, time, bodies_at(time, scenario.origin)).pose;
         scene.terrain = std::make_unique<SceneTerrain>(SceneTerrain{
             t.name, open_height_map(t.heights), t.radius_m, pose,
@@ -319,6 +328,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     if (scene.body(BodyId::kEarth).visible) {
         std::optional<AtmosphereTable> table;
         if (!air.table.empty()) table = read_atmosphere(air.table, grid);
+        const Progress progress("air");
         scene.air =
             modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
     }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/bench/pilot.h"
+#include "emulator/progress/progress.h"
 #include "emulator/recording/machine_report.h"
 #include "emulator/tradeoff/mean_errors.h"
 #include "emulator/tradeoff/reference_cache.h"
@@ -197,7 +198,9 @@ json error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
     json views = json::array();
     const std::vector<View> all_views = views_of(scenario, camera.world(), options.views);
     if (scenario.objects.empty()) log("no object to look at from all around: one view, the scenario's own");
+    Progress progress("views", static_cast<double>(all_views.size()));
     for (const View& view : all_views) {
+        progress.done(static_cast<double>(views.size()));
         log(fmt::format("view {} of {}", views.size() + 1, all_views.size()));
         if (view.body) camera.look_from(*view.body);
         const Pose& camera_world = camera.world().camera;

@@ -3,7 +3,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <atomic>
 
+#include "emulator/progress/progress.h"
 #include "emulator/tradeoff/mean_errors.h"
 #include "emulator/tradeoff/pareto.h"
 #include "emulator/tradeoff/tradeoff_combinations.h"
@@ -31,13 +33,25 @@ FrameTime take_frame(StillCamera& camera, RandomKey key, const ElectronImage*& e
     return {1e3 * seconds_since(start_ns), render_ms};
 }
 
+std::size_t single_changes(const Tradeoff& t) {
+    std::size_t count = 0;
+    for (const Knob& knob : t.knobs) count += knob.choices() - 1;
+    return count;
+}
+
 class Sweep {
   public:
     Sweep(Tradeoff& out, const PictureJudge& judge, const TradeoffOptions& options, const Log& log)
-        : out_(out), judge_(judge), options_(options), log_(log), start_ns_(monotonic_ns()) {}
+        : out_(out),
+          judge_(judge),
+          options_(options),
+          log_(log),
+          start_ns_(monotonic_ns()),
+          planned_(1 + single_changes(out) + static_cast<std::size_t>(options.combinations)) {}
 
     void run() {
         const std::vector<std::size_t> own(out_.knobs.size(), 0);
+        const Progress progress("settings", 1, [this] { return share_done(); });
         try_setting(Kind::kOwn, own);
         std::vector<std::vector<std::size_t>> singles;
         for (std::size_t k = 0; k < own.size(); ++k)
@@ -62,7 +76,13 @@ class Sweep {
                 return;
             }
             try_setting(kind, list[i]);
+            ++tried_;
         }
+    }
+    // By settings or by the budget, whichever ends it sooner.
+    double share_done() const {
+        return std::max(static_cast<double>(tried_) / static_cast<double>(planned_),
+                        1 - left_s() / options_.budget_s);
     }
 
     // What cannot be is left out with its reason, unless it is the scenario itself.
@@ -132,6 +152,8 @@ class Sweep {
     const TradeoffOptions& options_;
     const Log& log_;
     std::int64_t start_ns_;
+    std::size_t planned_;
+    std::atomic<std::size_t> tried_{0};
 };
 
 }  // namespace
@@ -156,6 +178,10 @@ Tradeoff measure_tradeoff(const ScenarioSource& source, const TradeoffOptions& o
 
     std::vector<std::string> overrides = out.reference_overrides;
     if (out.scenario.has_terrain) overrides.emplace_back("terrain.wait=true");
+    log(
+        fmt::format("first the reference, then {} single changes and up to {} combinations in {:g} s, the "
+                    "reference not counted",
+                    single_changes(out), options.combinations, options.budget_s));
     const PictureJudge judge = first_instant_judge(source.load(overrides), options.reference, log);
     out.reference_frames = judge.reference().frames;
     out.reference_s = judge.reference().seconds;

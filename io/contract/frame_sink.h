@@ -31,6 +31,7 @@ struct FrameRecord {
         0;  // bits of the faults that strike it (fault.h), those of packets apart; and above
     std::uint32_t quality_level = 0;  // 0: as configured
     bool reverse_x = false, reverse_y = false;
+    bool has_truth = false;  // what it shows is told (docs/truth.md)
     // Of the camera at mid-exposure, its pointing jitter in it; none: the shutter stayed closed.
     std::optional<Pose> camera;
     std::int64_t command_arrival_monotonic_ns =

@@ -78,12 +78,19 @@ void give_up_file(const std::filesystem::path& file, const std::string& why) {
 
 void write_numbers(const std::filesystem::path& file, const DnImage& numbers, const PictureNotes& notes) {
     const std::string kind = file.extension().string();
-    if (kind == ".png")
-        write_encoded(file, encode_png(samples_of(numbers), {png_texts(notes), 0}));
-    else if (kind == ".tiff" || kind == ".tif")
-        write_encoded(file, encode_tiff(samples_of(numbers), tiff_notes(notes)));
-    else
+    if (kind != ".png" && kind != ".tiff" && kind != ".tif")
         refuse_ending(file, "for frames: .png .tiff .fits .raw");
+    write_encoded(file, encode_numbers(kind, numbers, notes));
+}
+
+std::string encode_numbers(const std::string& kind, const DnImage& numbers, const PictureNotes& notes) {
+    return kind == ".png" ? encode_png(samples_of(numbers), {png_texts(notes), 0})
+                          : encode_tiff(samples_of(numbers), tiff_notes(notes));
+}
+
+std::string encode_frame(const std::string& kind, const DnImage& frame, const PictureRun& run,
+                         const FrameRecord& record) {
+    return encode_numbers(kind, frame, notes_of(run, record, layout_of(record), "DN"));
 }
 
 PictureWriter::PictureWriter(PictureRun run) : run_(std::move(run)), view_(run_) {}

@@ -44,6 +44,11 @@ class PictureWriter {
 // Numbers to 65535 as .png or .tiff, without notes unless given.
 void write_numbers(const std::filesystem::path& file, const DnImage& numbers, const PictureNotes& notes = {});
 
+// The same as a file's bytes, kind ".png" or ".tiff"; with the notes of a camera's frame.
+std::string encode_numbers(const std::string& kind, const DnImage& numbers, const PictureNotes& notes);
+std::string encode_frame(const std::string& kind, const DnImage& frame, const PictureRun& run,
+                         const FrameRecord& record);
+
 // What is to be said when such numbers are written for somebody who may want to look at them; empty: nothing.
 // remedy: what would make a picture to look at.
 std::string dark_picture_warning(const std::filesystem::path& file, int bits, const std::string& remedy);

@@ -1,20 +1,24 @@
 // The page around the picture: figures of GET /status once a second, settings, trigger, faults.
 
+import { FaultBoard } from "./faults.js";
+import { LAYERS } from "./overlay.js";
 import { Picture } from "./picture.js";
+import { colour, DELAYS, drawHistogram, drawLatency, drawProfile, number } from "./plots.js";
+import { lengthOf, samplesAlong } from "./profile.js";
+import { saveNumbers, saveView } from "./save.js";
+import { keepView, readView } from "./view_state.js";
 
 const $ = id => document.getElementById(id);
-const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   element.append(...children);
   return element;
 }
-function number(value, digits = 3) {
-  if (!Number.isFinite(value)) return "–";
-  return Math.abs(value) >= 10 ** digits ? Math.round(value).toLocaleString("en") : Number(value.toPrecision(digits)).toString();
-}
 const ms = value => number(value) + " ms";
-const tai = ns => ns === 0n ? "none" : new Date(Number(ns / 1000000n)).toISOString().slice(0, -1).replace("T", " ") + " TAI";
+// TAI has no leap seconds, so its nanoseconds are a calendar; UTC is the server's to tell.
+const tai = ns => new Date(Number(ns / 1000000n)).toISOString().slice(0, -1).replace("T", " ");
+const clocks = (name, utc, ns) => ns === 0n ? [[name, "none"]]
+  : [[name, utc.replace("T", " ").replace("Z", " UTC")], ["", tai(ns) + " TAI"]];
 function pairs(list, entries) {
   list.replaceChildren(...entries.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
 }
@@ -23,7 +27,8 @@ function rows(table, lines, head) {
   table.replaceChildren(...(head ? [row("th", head)] : []), ...lines.map(line => row("td", line)));
 }
 
-let status = null, before = null, link = "connecting";
+let status = null, before = null, link = "connecting", latest = null;  // latest: of the poses that frames have shown
+const histogram = { logarithmic: true };
 
 // --- The picture.
 const picture = new Picture($("picture"), {
@@ -33,7 +38,9 @@ const picture = new Picture($("picture"), {
     const ratio = window.devicePixelRatio || 1, reduced = picture.frame.step > 1 ? `, every ${picture.frame.step} x ${picture.frame.step} pixels as their mean` : "";
     $("zoom").textContent = `${number(100 * scale / ratio)} %${reduced}`;
     for (const name of ["black", "white"]) if (document.activeElement !== $(name)) $(name).value = picture[name];
+    keepView(picture, histogram);
   },
+  online: showProfile,
   onlink: text => { link = text; showChips(); },
 });
 window.preview = picture;  // for the console and for tests
@@ -58,9 +65,9 @@ function showFrame(f) {
     ["Exposure", ms(1e3 * f.exposure)],
     ["Gain", number(f.gain) + " dB"],
     ["Black level", number(f.blackLevel) + " DN"],
-    ["Exposed at", tai(f.exposureMidTai)],
+    ...clocks("Exposed at", f.exposureMidUtc, f.exposureMidTai),
     ["Pose", f.poseSequence ? "command " + f.poseSequence : "of the scenario"],
-    ["Pose tag", tai(f.poseTai)],
+    ...clocks("Pose tag", f.poseUtc, f.poseTai),
     ...(f.triggerSequence ? [["Trigger", "command " + f.triggerSequence]] : []),
     ["Size", `${f.frameWidth} x ${f.frameHeight}, ${f.bits} bit${f.pattern ? ", " + f.pattern : ""}`],
     ["Faults", struck || "none"],
@@ -72,67 +79,33 @@ function showFrame(f) {
     ["Least, most", `${s.least}, ${s.most} DN`],
     ["At full scale", `${number(100 * s.saturated / f.samples.length)} %`],
   ]);
-  drawHistogram();
+  if (f.poseSequence) latest = f.poseSequence;
+  showTruthNote();
+  showHistogram();
+  showProfile();
   showChips();
 }
+// The next frame comes with it; a frozen one does not get it any more.
+function showTruthNote() {
+  $("truth-note").textContent = picture.layers.size && !picture.frame.truth && picture.frozen ? "no truth of this frame " : "";
+}
+function showHistogram() { drawHistogram($("histogram"), picture, histogram.logarithmic); }
+function showProfile() {
+  $("profile-card").hidden = !picture.line;
+  if (!picture.line || !picture.frame) return;
+  const values = samplesAlong(picture, picture.line), known = values.filter(v => v !== null), line = picture.line;
+  const spread = known.length ? `, ${Math.min(...known)} to ${Math.max(...known)} DN` : "";
+  $("profile-of").textContent = `from x ${number(line.x0, 4)} y ${number(line.y0, 4)} to x ${number(line.x1, 4)} y ${number(line.y1, 4)}${spread}`;
+  drawProfile($("profile"), values, lengthOf(line));
+}
 
-// --- Plots.
-function plot(canvas) {
-  const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
-  canvas.width = width * ratio; canvas.height = height * ratio;
-  const c = canvas.getContext("2d");
-  c.scale(ratio, ratio);
-  c.font = "11px system-ui, sans-serif";
-  c.fillStyle = colour("--soft");
-  return { c, width, height: height - 16 };
-}
-function drawHistogram() {
-  const { c, width, height } = plot($("histogram")), counts = picture.counts, bins = Math.min(counts.length, 192);
-  const sums = new Float64Array(bins);
-  counts.forEach((n, value) => { sums[Math.floor(value * bins / counts.length)] += n; });
-  const most = Math.log1p(Math.max(...sums));
-  const at = value => value / counts.length * width;
-  c.fillText("0", 0, height + 13);
-  c.textAlign = "right";
-  c.fillText(`${counts.length - 1} DN`, width, height + 13);
-  c.fillStyle = colour("--accent");
-  sums.forEach((n, i) => { const h = height * Math.log1p(n) / most; c.fillRect(i * width / bins, height - h, Math.max(1, width / bins - 0.5), h); });
-  c.strokeStyle = colour("--second");
-  c.setLineDash([3, 2]);
-  for (const level of [picture.black, picture.white]) {
-    const x = Math.min(width - 1, at(level)) + 0.5;
-    c.beginPath(); c.moveTo(x, 0); c.lineTo(x, height); c.stroke();
-  }
-  c.strokeStyle = colour("--line");
-  c.setLineDash([]);
-  c.beginPath(); c.moveTo(0, height + 0.5); c.lineTo(width, height + 0.5); c.stroke();
-}
-const DELAYS = [["first_packet", "to the first packet", "--accent"], ["last_packet", "to the last packet", "--second"]];
-function drawLatency() {
-  const { c, width, height } = plot($("latency")), all = DELAYS.flatMap(([key]) => status.latency_ms[key].buckets);
-  if (all.length === 0) {
-    c.textAlign = "center";
-    c.fillText("no command shown by a delivered frame yet", width / 2, height / 2);
-  } else {
-    const from = Math.floor(Math.log10(Math.min(...all.map(b => b[0])))), to = Math.ceil(Math.log10(1.19 * Math.max(...all.map(b => b[0]))));
-    const most = Math.max(...all.map(b => b[1])), at = value => (Math.log10(value) - from) / (to - from) * width;
-    c.strokeStyle = colour("--line");
-    for (let decade = from; decade <= to; decade++) {
-      const x = Math.min(width - 0.5, at(10 ** decade) + 0.5);
-      c.beginPath(); c.moveTo(x, 0); c.lineTo(x, height); c.stroke();
-      c.textAlign = decade === from ? "left" : decade === to ? "right" : "center";
-      c.fillText(decade < 0 ? `${10 ** (decade + 3)} µs` : decade < 3 ? `${10 ** decade} ms` : `${10 ** (decade - 3)} s`, x, height + 13);
-    }
-    for (const [key, , name] of DELAYS) {
-      c.fillStyle = colour(name);
-      c.globalAlpha = 0.65;
-      for (const [start, n] of status.latency_ms[key].buckets) {
-        const h = height * n / most;
-        c.fillRect(at(start), height - h, Math.max(1, at(start * 2 ** 0.25) - at(start) - 0.5), h);
-      }
-    }
-    c.globalAlpha = 1;
-  }
+// --- Latency.
+function showLatency() {
+  const times = status.outputs.some(o => /^(gige|v4l2|uvc|usb)/.test(o.name));
+  drawLatency($("latency"), status.latency_ms,
+    !latest ? ["no frame has shown a command yet"]
+      : times ? ["commands are shown, but nobody takes", "the frames, so none is delivered"]
+        : ["commands are shown; deliveries are timed", "by outputs.gige, v4l2 and uvc, not here"]);
   rows($("latency-table"), DELAYS.map(([key, text, name]) => {
     const swatch = make("span", { className: "swatch" }), h = status.latency_ms[key];
     swatch.style.background = colour(name);
@@ -257,47 +230,28 @@ function showSettings() {
 }
 
 // --- Faults.
-const GROUPS = [[20, "Stream packets"], [30, "Frames"], [40, "Time stamps"], [50, "Control channel"], [60, "Device"], [70, "V4L2"],
-  [80, "USB"], [256, "Picture"]];
-const faults = {};
-function isActive(fault) {
-  const o = fault.order, newest = picture.frame?.id ?? 0n;
-  return !!o && (!o.frames || newest < BigInt(o.from_frame) + BigInt(o.frames));
-}
-function buildFaults() {
-  let group = 0, box = null;
-  for (const fault of status.faults) {
-    if (!box || fault.number >= GROUPS[group][0]) {
-      while (fault.number >= GROUPS[group][0]) group++;
-      box = make("div", {}, make("h3", {}, GROUPS[group][1]));
-      $("faults").append(box);
-    }
-    const strikes = make("span", { className: "strikes" });
-    const button = make("button", { type: "button" });
-    const kind = fault.kind;
-    button.addEventListener("click", () => order("fault", faults[kind].active ? { kind, rate: 0 }
-      : { kind, rate: $("rate").value, value: $("value").value, frames: $("frames").value, duration_s: $("duration").value }, $("fault-answer")));
-    const row = make("div", { className: "fault", id: "fault-" + kind },
-      make("span", { className: "name" }, kind.replaceAll("_", " ")), strikes, button, make("p", {}, fault.meaning));
-    box.append(row);
-    faults[kind] = { row, strikes, button, active: false };
-  }
-  $("clear").addEventListener("click", () => order("fault", { clear_all: 1 }, $("fault-answer")));
-  $("order").addEventListener("submit", event => event.preventDefault());
-}
+const faults = new FaultBoard($("faults"), fields => order("fault", fields, $("fault-answer")),
+  () => ({ rate: $("rate").value, value: $("value").value, frames: $("frames").value, duration_s: $("duration").value }));
+$("clear").addEventListener("click", () => order("fault", { clear_all: 1 }, $("fault-answer")));
+$("order").addEventListener("submit", event => event.preventDefault());
 function showFaults() {
-  if ($("faults").childElementCount === 0) buildFaults();
-  let count = 0;
-  for (const fault of status.faults) {
-    const shown = faults[fault.kind];
-    shown.active = isActive(fault);
-    count += shown.active;
-    shown.row.classList.toggle("active", shown.active);
-    shown.button.textContent = shown.active ? "End" : "Strike";
-    shown.strikes.textContent = fault.strikes ? number(fault.strikes, 6) + " x" : "";
-  }
+  const count = faults.show(status.faults, picture.frame?.id ?? 0n);
   $("faults-active").textContent = count ? count + " in force" : "";
 }
+
+// --- The bench's cameras, each with a page of its own; how the picture is looked at goes along.
+function showCameras() {
+  const pages = status.cameras.filter(camera => camera.port);
+  if (pages.length < 2 || $("camera-choice").childElementCount) return;
+  $("camera-choice").replaceChildren(...pages.map(camera =>
+    make("option", { value: camera.port, selected: camera.own }, `${camera.number} ${camera.name}`)));
+  $("cameras").hidden = false;
+}
+$("camera-choice").addEventListener("change", () => {
+  const to = new URL(location.href);
+  to.port = $("camera-choice").value;
+  location.assign(to);
+});
 
 // --- The clock of the page.
 async function refresh() {
@@ -315,11 +269,12 @@ async function refresh() {
   document.title = `${status.camera.name || "camera"} – hilcam`;
   $("camera").textContent = status.camera.name || "hilcam";
   $("scenario").textContent = status.scenario;
-  showSettings(); showFigures(); drawLatency(); showFaults(); showChips();
+  showSettings(); showFigures(); showLatency(); showFaults(); showCameras(); showChips();
 }
 
-function freeze() {
-  picture.frozen = !picture.frozen;
+async function freeze() {
+  if (picture.frozen) picture.frozen = false;
+  else await picture.freeze();
   $("freeze").setAttribute("aria-pressed", picture.frozen);
   showChips();
 }
@@ -327,6 +282,52 @@ function one() { picture.zoom(window.devicePixelRatio || 1); }
 $("freeze").addEventListener("click", freeze);
 $("fit").addEventListener("click", () => picture.fit());
 $("one").addEventListener("click", one);
+// --- How the picture is looked at.
+function showView() {
+  $("stretch").value = picture.stretch;
+  $("auto").value = picture.auto;
+  for (const layer of LAYERS) $("show-" + layer).checked = picture.layers.has(layer);
+  $("histogram-log").checked = histogram.logarithmic;
+  showProfile();
+}
+for (const layer of LAYERS)
+  $("show-" + layer).addEventListener("change", () => {
+    picture.layers[$("show-" + layer).checked ? "add" : "delete"](layer);
+    if (!picture.frame) return;
+    picture.draw();
+    showTruthNote();
+  });
+$("histogram-log").addEventListener("change", () => {
+  histogram.logarithmic = $("histogram-log").checked;
+  if (picture.frame) showHistogram();
+  keepView(picture, histogram);
+});
+// On: dragging draws the line; off: there is none.
+function setProfile(on) {
+  picture.drawing = on;
+  if (!on) picture.line = null;
+  $("profile-tool").setAttribute("aria-pressed", on);
+  showProfile();
+  if (picture.frame) picture.draw();
+}
+$("profile-tool").addEventListener("click", () => setProfile(!picture.drawing));
+$("save-view").addEventListener("click", () => { if (picture.frame) saveView(picture); });
+for (const format of ["png", "tiff"])
+  $("save-" + format).addEventListener("click", async () => {
+    if (picture.frame) $("save-answer").textContent = await saveNumbers(picture, format);
+  });
+function takeAddress() {
+  readView(picture, histogram);
+  picture.drawing = !!picture.line;
+  $("profile-tool").setAttribute("aria-pressed", picture.drawing);
+  showView();
+  if (!picture.frame) return;
+  picture.level();
+  picture.draw();
+  showHistogram();
+}
+window.addEventListener("hashchange", takeAddress);
+takeAddress();
 $("stretch").addEventListener("change", () => { picture.stretch = $("stretch").value; picture.draw(); });
 $("auto").addEventListener("change", () => { picture.auto = $("auto").value; picture.level(); picture.draw(); });
 for (const name of ["black", "white"])
@@ -334,12 +335,12 @@ for (const name of ["black", "white"])
     $("auto").value = picture.auto = "manual";
     picture[name] = Math.max(0, Number($(name).value));
     picture.draw();
-    if (picture.frame) drawHistogram();
+    if (picture.frame) showHistogram();
   });
 document.addEventListener("keydown", event => {
   if (event.target.matches(event.key === " " ? "input, select, button" : "input, select") || event.ctrlKey || event.metaKey || event.altKey) return;
   const act = { " ": freeze, f: () => picture.fit(), F: () => picture.fit(), 1: one, "+": () => picture.zoom(picture.shownScale() * 2),
-    "-": () => picture.zoom(picture.shownScale() / 2) }[event.key];
+    "-": () => picture.zoom(picture.shownScale() / 2), Escape: () => setProfile(false) }[event.key];
   if (!act) return;
   event.preventDefault();
   act();

@@ -1,5 +1,8 @@
 // The live picture: fetched as 16-bit samples, stretched, drawn, zoomed and read here.
 
+import { drawTruth } from "./overlay.js";
+import { drawLine } from "./profile.js";
+
 // Frames up to this size come whole, so that a frozen one can be looked at pixel by pixel; of larger ones
 // come the part in view, reduced as the screen shows it.
 const WHOLE_SAMPLES = 1.6e6;
@@ -16,19 +19,20 @@ const STRETCHES = {
 function decode(buffer) {
   const v = new DataView(buffer);
   const u32 = at => v.getUint32(at, true), i64 = at => v.getBigInt64(at, true), f64 = at => v.getFloat64(at, true);
-  const pattern = new TextDecoder().decode(new Uint8Array(buffer, 132, 4)).replace(/\0/g, "");
+  const text = (at, length) => new TextDecoder().decode(new Uint8Array(buffer, at, length)).replace(/\0/g, "");
   return {
     id: v.getBigUint64(8, true), frameWidth: u32(16), frameHeight: u32(20), x: u32(24), y: u32(28), width: u32(32),
     height: u32(36), step: u32(40), bits: u32(44), exposureMidTai: i64(48), poseTai: i64(56), exposureMid: i64(64),
     commandArrival: i64(72), exposure: f64(80), gain: f64(88), blackLevel: f64(96), faults: v.getBigUint64(104, true),
-    poseSequence: u32(112), triggerSequence: u32(116), quality: u32(120), binning: [u32(124), u32(128)], pattern,
+    poseSequence: u32(112), triggerSequence: u32(116), quality: u32(120), binning: [u32(124), u32(128)], pattern: text(132, 4),
+    hasTruth: u32(136) === 1, exposureMidUtc: text(144, 32), poseUtc: text(176, 32), truth: null,
     samples: new Uint16Array(buffer, u32(4)),
   };
 }
 
 export class Picture {
-  constructor(canvas, { onframe, onpixel, onview, onlink }) {
-    Object.assign(this, { canvas, onframe, onpixel, onview, onlink });
+  constructor(canvas, { onframe, onpixel, onview, onlink, online }) {
+    Object.assign(this, { canvas, onframe, onpixel, onview, onlink, online });
     this.viewer = crypto.getRandomValues(new Uint32Array(1))[0];
     this.frame = null;
     this.frozen = false;
@@ -39,6 +43,10 @@ export class Picture {
     this.scale = 0;  // device pixels per frame pixel; 0: fit
     this.centre = null;
     this.cursor = null;
+    this.layers = new Set();  // of truth, that are drawn
+    this.drawn = null;        // how many of each
+    this.line = null;         // of the profile, in the frame's pixels
+    this.drawing = false;     // dragging draws it
     this.arrivals = [];
     this.sheet = document.createElement("canvas");
     new ResizeObserver(() => this.resize()).observe(canvas);
@@ -52,7 +60,7 @@ export class Picture {
     let after = 0n;
     this.asked = "";
     for (;;) {
-      if (this.frozen || document.hidden) { await new Promise(r => setTimeout(r, 100)); continue; }
+      if (this.frozen || this.freezing || document.hidden) { await new Promise(r => setTimeout(r, 100)); continue; }
       const part = this.part();
       if (part !== this.asked) after = 0n;  // another part of the same frame is news too
       this.asked = part;
@@ -61,9 +69,9 @@ export class Picture {
         const answer = await fetch(`frame?viewer=${this.viewer}&after=${after}${part}`, { signal: this.patience.signal });
         this.onlink(answer.ok ? "" : (await answer.text()).trim());
         if (answer.status === 200) {
-          const frame = decode(await answer.arrayBuffer());
+          const frame = await this.withTruth(decode(await answer.arrayBuffer()));
           after = frame.id;
-          if (!this.frozen) this.take(frame);
+          if (!this.frozen && !this.freezing) this.take(frame);
         } else if (answer.status !== 204) await new Promise(r => setTimeout(r, 500));
       } catch (error) {
         if (error.name === "AbortError") continue;
@@ -72,17 +80,39 @@ export class Picture {
       }
     }
   }
+  // What is drawn over a frame is there when the frame is shown.
+  async withTruth(frame) {
+    if (!frame.hasTruth || !this.layers.size) return frame;
+    const answer = await fetch(`truth?frame=${frame.id}`);
+    if (answer.ok) frame.truth = await answer.json();
+    return frame;
+  }
+  // Shows the newest frame, which the server keeps so that its numbers can be saved; without an answer, the one shown.
+  async freeze() {
+    if (this.freezing) return;
+    this.freezing = true;
+    this.patience?.abort();
+    try {
+      for (let i = 0; i < 5; i++) {
+        const answer = await fetch(`frame?viewer=${this.viewer}&hold=1${this.part()}`);
+        if (answer.status === 200) { this.take(await this.withTruth(decode(await answer.arrayBuffer()))); break; }
+        await new Promise(r => setTimeout(r, 100));  // too many at once
+      }
+    } catch { this.onlink("no answer"); }
+    this.frozen = true;
+    this.freezing = false;
+  }
   // The view has moved on while a frame is waited for: ask for the new part.
   hurry() { if (this.asked !== this.part()) this.patience?.abort(); }
   part() {
-    const f = this.frame;
-    if (!f || f.frameWidth * f.frameHeight <= WHOLE_SAMPLES) return "";
+    const f = this.frame, truth = this.layers.size ? "&truth=1" : "";
+    if (!f || f.frameWidth * f.frameHeight <= WHOLE_SAMPLES) return truth;
     const s = this.shownScale(), c = this.shownCentre();
     const w = this.canvas.width / s, h = this.canvas.height / s;
     const clamp = (value, most) => Math.max(0, Math.min(most, Math.floor(value)));
     const x = clamp(c.x - w / 2, f.frameWidth - 1), y = clamp(c.y - h / 2, f.frameHeight - 1);
     const step = Math.min(256, Math.max(1, Math.floor(1 / s)));
-    return `&x=${x}&y=${y}&width=${Math.ceil(Math.min(f.frameWidth, w + 1))}&height=${Math.ceil(Math.min(f.frameHeight, h + 1))}&step=${step}`;
+    return `&x=${x}&y=${y}&width=${Math.ceil(Math.min(f.frameWidth, w + 1))}&height=${Math.ceil(Math.min(f.frameHeight, h + 1))}&step=${step}${truth}`;
   }
   take(frame) {
     const now = performance.now();
@@ -193,6 +223,10 @@ export class Picture {
     context.strokeStyle = "#5b6570";
     context.strokeRect(left - 0.5, upper - 0.5, f.frameWidth * s + 1, f.frameHeight * s + 1);
     if (s >= GRID_FROM && f.step === 1) this.drawPixels(context, s, left, upper, table);
+    const place = (x, y) => ({ x: left + x * s, y: upper + y * s });
+    this.drawn = f.truth && this.layers.size
+      ? drawTruth(context, f.truth, this.layers, { place, scale: s, ratio: window.devicePixelRatio || 1 }) : null;
+    if (this.line) drawLine(context, this.line, place);
     this.readPixel();
     this.onview(s);
   }
@@ -225,15 +259,27 @@ export class Picture {
     const p = this.toFrame(this.cursor), x = Math.floor(p.x), y = Math.floor(p.y), value = this.valueAt(x, y);
     this.onpixel(value === null ? null : { x, y, value });
   }
+  // Points of the canvas; from null: where it began.
+  setLine(from, to) {
+    const begin = from ? this.toFrame(from) : { x: this.line.x0, y: this.line.y0 }, end = this.toFrame(to);
+    this.line = { x0: begin.x, y0: begin.y, x1: end.x, y1: end.y };
+    this.draw();
+    this.online();
+  }
   listen() {
     const ratio = () => window.devicePixelRatio || 1, c = this.canvas;
     const at = event => ({ x: event.offsetX * ratio(), y: event.offsetY * ratio() });
     let held = null;
-    c.addEventListener("pointerdown", e => { held = at(e); c.setPointerCapture(e.pointerId); });
+    c.addEventListener("pointerdown", e => {
+      held = at(e);
+      c.setPointerCapture(e.pointerId);
+      if (this.drawing && this.frame) this.setLine(held, held);
+    });
     c.addEventListener("pointerup", () => { held = null; });
     c.addEventListener("pointermove", e => {
       this.cursor = at(e);
       if (!held) return this.readPixel();
+      if (this.drawing && this.line) return this.setLine(null, this.cursor);
       const s = this.shownScale(), centre = this.shownCentre();
       this.scale = s;
       this.centre = { x: centre.x - (this.cursor.x - held.x) / s, y: centre.y - (this.cursor.y - held.y) / s };

@@ -4,6 +4,7 @@
 #include <dirent.h>
 #include <linux/tcp.h>
 #include <netinet/in.h>
+#include <pthread.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -13,6 +14,8 @@
 #include <memory>
 #include <string_view>
 #include <vector>
+
+#include "io/preview/preview_slot.h"
 
 namespace hilcam {
 namespace {
@@ -72,7 +75,10 @@ void ConnectionGuard::start(std::uint16_t port, const Limits& limits) {
     stopping_ = ending_ = false;
     first_seen_.clear();
     heard_.clear();
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::thread([this] {
+        pthread_setname_np(pthread_self(), kPreviewThreadName);
+        run();
+    });
 }
 
 void ConnectionGuard::end_all() {

@@ -17,6 +17,14 @@ void put(std::string& out, const T& value) {
     out.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+// Leap seconds are the server's to know. No text for no instant.
+void put_utc(std::string& out, TimeTai time) {
+    constexpr std::size_t kBytes = 32;
+    std::string text = time.ns == 0 ? std::string() : format_utc(time);
+    text.resize(kBytes);
+    out += text;
+}
+
 int blocks(int length, int step) { return (length + step - 1) / step; }
 
 void put_reduced(std::string& out, const PictureSource& s, const PictureRequest& r) {
@@ -85,6 +93,10 @@ std::string encode_picture(const PictureSource& s, const PictureRequest& r,
     char pattern[4] = {};
     std::copy_n(color_pattern.begin(), std::min<std::size_t>(color_pattern.size(), 4), pattern);
     out.append(pattern, 4);
+    put(out, static_cast<std::uint32_t>(f.has_truth ? 1 : 0));  // 136
+    put(out, std::uint32_t{0});
+    put_utc(out, f.exposure_mid);  // 144
+    put_utc(out, f.pose_time);     // 176
     out.resize(kPictureHeaderBytes);
     if (r.step > 1) {
         put_reduced(out, s, r);

@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-inline constexpr std::size_t kPictureHeaderBytes = 160;
+inline constexpr std::size_t kPictureHeaderBytes = 208;
 // The most samples of one answer: larger parts are reduced further.
 inline constexpr std::int64_t kMostPictureSamples = 1 << 21;
 

@@ -17,6 +17,8 @@ constexpr int kLongestSide_px = 1 << 20;
 constexpr int kMostStep = 256;
 
 constexpr std::array<std::string_view, 3> kSources = {"software", "line0", "action1"};
+enum class NumbersFormat { kPng, kTiff };
+constexpr std::array<std::string_view, 2> kFormats = {"png", "tiff"};
 constexpr std::array<std::string_view, 6> kPatterns = {
     "off", "black", "white", "ramp_horizontal", "ramp_vertical", "ramp_horizontal_moving"};
 
@@ -112,10 +114,39 @@ PictureRequest parse_picture_request(std::string_view query) {
             r.height = pixels(key, text);
         else if (key == "step")
             r.step = parse_number<int>(key, text, 1, kMostStep);
+        else if (key == "hold")
+            r.hold = parse_flag(key, text);
+        else if (key == "truth")
+            r.truth = parse_flag(key, text);
         else
-            refuse_key(key, "viewer, after, x, y, width, height, step");
+            refuse_key(key, "viewer, after, x, y, width, height, step, hold, truth");
     }
     return r;
+}
+
+NumbersRequest parse_numbers_request(std::string_view query) {
+    NumbersRequest r;
+    for (const auto& [key, text] : parse_form(query)) {
+        if (key == "viewer")
+            r.viewer = parse_number<std::uint64_t>(key, text, 0, ~std::uint64_t{0});
+        else if (key == "frame")
+            r.frame = parse_number<std::uint64_t>(key, text, 0, ~std::uint64_t{0});
+        else if (key == "format")
+            r.tiff = parse_word<NumbersFormat>(key, text, kFormats) == NumbersFormat::kTiff;
+        else
+            refuse_key(key, "viewer, frame, format");
+    }
+    return r;
+}
+
+std::uint64_t parse_truth_request(std::string_view query) {
+    std::uint64_t frame = 0;
+    for (const auto& [key, text] : parse_form(query)) {
+        if (key != "frame") refuse_key(key, "frame");
+        frame = parse_number<std::uint64_t>(key, text, 1, ~std::uint64_t{0});
+    }
+    if (frame == 0) throw InputError("missing key 'frame'; accepted: frame=ID");
+    return frame;
 }
 
 SettingsChange parse_settings_change(std::string_view body) {

@@ -24,8 +24,20 @@ struct PictureRequest {
     std::uint64_t after = 0;   // wait for a frame with another id than this; 0: the newest there is
     int x = 0, y = 0, width = 0, height = 0;
     int step = 1;
+    bool hold = false;   // keep the frame, so that its numbers can be saved later
+    bool truth = false;  // one whose truth is told, if it comes in time
 };
 PictureRequest parse_picture_request(std::string_view query);
+
+// A frame's numbers as a file.
+struct NumbersRequest {
+    std::uint64_t viewer = 0;
+    std::uint64_t frame = 0;  // one that is held, or the newest; 0: the newest
+    bool tiff = false;        // else PNG
+};
+NumbersRequest parse_numbers_request(std::string_view query);
+// frame=ID.
+std::uint64_t parse_truth_request(std::string_view query);
 
 // exposure_s, gain_db, black_level_dn, frame_rate_hz, running, automatic_exposure, triggered, trigger_source,
 // trigger_delay_s, burst_frames, test_pattern, reverse_x, reverse_y, binning_x, binning_y.

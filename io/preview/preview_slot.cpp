@@ -1,11 +1,17 @@
 #include "io/preview/preview_slot.h"
 
+#include <pthread.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <utility>
 
 namespace hilcam {
+
+void become_preview_thread() noexcept {
+    setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
+    pthread_setname_np(pthread_self(), kPreviewThreadName);
+}
 
 PreviewSlot::PreviewSlot(std::size_t most_samples, std::chrono::nanoseconds least_interval)
     : least_interval_(least_interval) {
@@ -39,13 +45,22 @@ void PreviewSlot::copy(const DnImage& frame, const FrameRecord& record) noexcept
     full_.release();
 }
 
+// A camera that waits for a trigger takes no other frame before: what is wanted of the next one changes now.
+// If the loop is copying at this moment, that frame comes and the next is asked for anew.
+void PreviewSlot::ask_for_truth(Clock::time_point deadline) {
+    truth_until_ = std::max(truth_until_, deadline);
+    State plain = State::kWanted;
+    state_.compare_exchange_strong(plain, State::kWantedWithTruth, std::memory_order_acq_rel);
+}
+
 void PreviewSlot::hand_over() {
-    setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
+    become_preview_thread();
     std::unique_lock lock(mutex_);
     while (!stopping_) {
         asked_.wait(lock, [&] { return stopping_ || Clock::now() < asked_until_; });
         if (stopping_) return;
-        state_.store(State::kWanted, std::memory_order_release);
+        const bool with_truth = Clock::now() < truth_until_;
+        state_.store(with_truth ? State::kWantedWithTruth : State::kWanted, std::memory_order_release);
         lock.unlock();
         full_.acquire();  // a frame, or stop()
         lock.lock();

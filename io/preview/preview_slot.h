@@ -20,6 +20,10 @@ namespace hilcam {
 // Nice value of the preview's threads, so that neither a viewer nor a flood of requests takes the processor
 // from the loop. 0: as others, 19: the least.
 inline constexpr int kPreviewNiceness = 15;
+// As `top -H` shows them.
+inline constexpr const char* kPreviewThreadName = "preview";
+// The calling thread is one of the preview's from now on.
+void become_preview_thread() noexcept;
 
 class PreviewSlot {
   public:
@@ -39,19 +43,28 @@ class PreviewSlot {
 
     // Loop, one thread: no lock, no allocation.
     void put(const DnImage& frame, const FrameRecord& record) noexcept {
-        if (state_.load(std::memory_order_acquire) == State::kWanted) copy(frame, record);
+        const State state = state_.load(std::memory_order_acquire);
+        if (state == State::kWanted || (state == State::kWantedWithTruth && record.has_truth))
+            copy(frame, record);
+    }
+    // True while a frame is waited for whose truth is told. Loop.
+    bool wants_truth() const noexcept {
+        return state_.load(std::memory_order_relaxed) == State::kWantedWithTruth;
     }
     // Waits until there is a frame with another id than `after`, then calls read(frame) with the lock held.
-    // False when none came in time. Any thread but the loop.
+    // False when none came in time. with_truth: while it waits, for one whose truth is told; when time is up
+    // any will do. Any thread but the loop.
     template <class Read>
-    bool wait_for(std::uint64_t after, std::chrono::nanoseconds patience, Read&& read) {
+    bool wait_for(std::uint64_t after, std::chrono::nanoseconds patience, bool with_truth, Read&& read) {
         std::unique_lock lock(mutex_);
         const auto deadline = Clock::now() + patience;
         asked_until_ = std::max(asked_until_, deadline);
+        if (with_truth) ask_for_truth(deadline);
         asked_.notify_all();
-        const bool there = news_.wait_until(
-            lock, deadline, [&] { return stopping_ || (shown_.width > 0 && shown_.record.id != after); });
-        if (!there || stopping_) return false;
+        const auto there = [&] { return shown_.width > 0 && shown_.record.id != after; };
+        news_.wait_until(lock, deadline,
+                         [&] { return stopping_ || (there() && (shown_.record.has_truth || !with_truth)); });
+        if (stopping_ || !there()) return false;
         read(static_cast<const Frame&>(shown_));
         return true;
     }
@@ -59,11 +72,12 @@ class PreviewSlot {
 
   private:
     using Clock = std::chrono::steady_clock;
-    // kIdle and kFull: the hand-over thread owns `incoming_`; kWanted: the loop does.
-    enum class State : std::uint8_t { kIdle, kWanted, kFull };
+    // kIdle and kFull: the hand-over thread owns `incoming_`; else the loop does.
+    enum class State : std::uint8_t { kIdle, kWanted, kWantedWithTruth, kFull };
 
     void copy(const DnImage& frame, const FrameRecord& record) noexcept;
     void hand_over();
+    void ask_for_truth(Clock::time_point deadline);
 
     std::chrono::nanoseconds least_interval_;
     std::atomic<State> state_{State::kIdle};
@@ -74,7 +88,7 @@ class PreviewSlot {
     std::mutex mutex_;  // of what follows
     std::condition_variable asked_, news_;
     Frame shown_;
-    Clock::time_point asked_until_{};
+    Clock::time_point asked_until_{}, truth_until_{};
     bool stopping_ = true;
     std::thread thread_;
 };

@@ -1,14 +1,16 @@
 #include "io/preview/sink_preview.h"
 
 #include <httplib.h>
-#include <sys/resource.h>
 
 #include <charconv>
-#include <deque>
 
+#include "io/pictures/image_file.h"
+#include "io/preview/preview_assets.h"
 #include "io/preview/preview_guard.h"
 #include "io/preview/preview_picture.h"
+#include "io/preview/preview_pool.h"
 #include "io/preview/preview_request.h"
+#include "io/preview/preview_shelf.h"
 #include "io/preview/preview_slot.h"
 #include "io/preview/preview_viewers.h"
 #include "io/system/allow_list.h"
@@ -21,38 +23,14 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLongestPoll = 2s;
+// A frame's truth is on its way when the frame is there.
+constexpr auto kTruthPoll = 1s;
 // A viewer has a poll for pictures and one for figures under way, and now and then an order.
 constexpr std::size_t kWorkers = 24;
 // Those who dawdle with their requests are ended together, however many: so many do not keep others out.
 constexpr std::size_t kMostWaiting = 232;
 constexpr int kBacklog = 128;  // in the kernel, behind those
 constexpr std::size_t kMostBody_bytes = 4096;
-
-// The page's files, as string literals made by CMake.
-constexpr std::string_view kPageHtml =
-#include "page.html.inc"
-    ;
-constexpr std::string_view kPageCss =
-#include "page.css.inc"
-    ;
-constexpr std::string_view kPageJs =
-#include "page.js.inc"
-    ;
-constexpr std::string_view kPictureJs =
-#include "picture.js.inc"
-    ;
-
-struct Asset {
-    const char* path;
-    std::string_view text;
-    const char* type;
-};
-constexpr Asset kAssets[] = {
-    {"/", kPageHtml, "text/html; charset=utf-8"},
-    {"/page.css", kPageCss, "text/css; charset=utf-8"},
-    {"/page.js", kPageJs, "text/javascript; charset=utf-8"},
-    {"/picture.js", kPictureJs, "text/javascript; charset=utf-8"},
-};
 
 // Browsers send less than 2 KB, at once; a picture over a slow line takes its time.
 ConnectionGuard::Limits connection_limits(const AllowList& allow) {
@@ -64,53 +42,20 @@ ConnectionGuard::Limits connection_limits(const AllowList& allow) {
             .allows = [&allow](std::uint32_t address) { return allow.allows(address); }};
 }
 
-// The library's pool takes any number of connections; this one lets the accepting thread wait, and the
-// kernel's backlog refuses the rest.
-class BoundedPool : public httplib::TaskQueue {
+// The library's pool takes any number of connections.
+class Workers : public httplib::TaskQueue {
   public:
     // bool in newer versions of the library.
     using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
 
-    BoundedPool() {
-        for (std::size_t i = 0; i < kWorkers; ++i) threads_.emplace_back([this] { work(); });
-    }
     Enqueued enqueue(std::function<void()> job) override {
-        std::unique_lock lock(mutex_);
-        room_.wait(lock, [&] { return jobs_.size() < kMostWaiting; });
-        jobs_.push_back(std::move(job));
-        jobs_there_.notify_one();
+        pool_.add(std::move(job));
         return static_cast<Enqueued>(true);
     }
-    void shutdown() override {
-        {
-            const std::lock_guard lock(mutex_);
-            over_ = true;
-        }
-        jobs_there_.notify_all();
-        for (std::thread& thread : threads_) thread.join();
-    }
+    void shutdown() override { pool_.stop(); }
 
   private:
-    void work() {
-        setpriority(PRIO_PROCESS, 0, kPreviewNiceness);  // Linux: of this thread alone
-        std::unique_lock lock(mutex_);
-        while (true) {
-            jobs_there_.wait(lock, [&] { return over_ || !jobs_.empty(); });
-            if (jobs_.empty()) return;
-            const std::function<void()> job = std::move(jobs_.front());
-            jobs_.pop_front();
-            room_.notify_one();
-            lock.unlock();
-            job();
-            lock.lock();
-        }
-    }
-
-    std::mutex mutex_;
-    std::condition_variable jobs_there_, room_;
-    std::deque<std::function<void()>> jobs_;
-    bool over_ = false;
-    std::vector<std::thread> threads_;
+    BoundedPool pool_{kWorkers, kMostWaiting};
 };
 
 std::string machine_name() {
@@ -133,6 +78,17 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
     response.set_content(why + "\n", "text/plain; charset=utf-8");
 }
 
+void refuse_crowd(httplib::Response& response) {
+    refuse(response, 429,
+           "accepted: " + std::to_string(PreviewViewers::kMost) + " viewers, 15 requests/s each");
+}
+
+std::string_view query_of(const httplib::Request& request) {
+    const std::size_t question = request.target.find('?');
+    return question == std::string::npos ? std::string_view()
+                                         : std::string_view(request.target).substr(question + 1);
+}
+
 std::size_t most_samples(const CameraLimits& limits) {
     return static_cast<std::size_t>(limits.width) * static_cast<std::size_t>(limits.height);
 }
@@ -150,10 +106,12 @@ Fields fields(PreviewConfig& c) {
 void validate(const PreviewConfig& c) { AllowList(c.allow, c.address, "outputs.preview"); }
 
 struct PreviewSink::Implementation {
-    Implementation(const PreviewConfig& c, const SinkContext& sink_context, std::function<std::string()> s)
+    Implementation(const PreviewConfig& c, const SinkContext& sink_context, PictureRun r,
+                   std::function<std::string()> s)
         : config(c),
           allow(c.allow, c.address, "outputs.preview"),
           context(sink_context),
+          run(std::move(r)),
           status(std::move(s)),
           color_pattern(sink_context.camera.limits().color_pattern),
           slot(most_samples(sink_context.camera.limits()), PreviewViewers::kInterval) {}
@@ -161,10 +119,13 @@ struct PreviewSink::Implementation {
     PreviewConfig config;
     AllowList allow;
     SinkContext context;
+    PictureRun run;
     std::function<std::string()> status;
     std::string color_pattern;
     std::string machine = machine_name();
     PreviewSlot slot;
+    PreviewShelf shelf;
+    std::mutex encoding;  // one file at a time: it takes memory and time
     PreviewViewers viewers;
     ConnectionGuard guard;
     httplib::Server server;
@@ -174,6 +135,8 @@ struct PreviewSink::Implementation {
     void add_routes();
     bool refuse_stranger(const httplib::Request& request, httplib::Response& response);
     void send_picture(const httplib::Request& request, httplib::Response& response);
+    void send_numbers(const httplib::Request& request, httplib::Response& response);
+    void send_truth(const httplib::Request& request, httplib::Response& response);
     void change_settings(const httplib::Request& request, httplib::Response& response);
     void trigger(const httplib::Request& request, httplib::Response& response);
     void order_fault(const httplib::Request& request, httplib::Response& response);
@@ -205,18 +168,15 @@ bool PreviewSink::Implementation::refuse_stranger(const httplib::Request& reques
 }
 
 void PreviewSink::Implementation::send_picture(const httplib::Request& request, httplib::Response& response) {
-    const std::size_t question = request.target.find('?');
-    const PictureRequest wanted = parse_picture_request(
-        question == std::string::npos ? std::string_view()
-                                      : std::string_view(request.target).substr(question + 1));
-    if (!viewers.admit(wanted.viewer))
-        return refuse(response, 429,
-                      "accepted: " + std::to_string(PreviewViewers::kMost) + " viewers, 15 requests/s each");
+    const PictureRequest wanted = parse_picture_request(query_of(request));
+    if (!viewers.admit(wanted.viewer)) return refuse_crowd(response);
     std::string picture;
-    const bool there = slot.wait_for(wanted.after, kLongestPoll, [&](const PreviewSlot::Frame& f) {
+    const auto read = [&](const PreviewSlot::Frame& f) {
         const PictureSource source{f.samples, f.width, f.height, f.record};
         picture = encode_picture(source, fit_to_frame(wanted, f.width, f.height), color_pattern);
-    });
+        if (wanted.hold) shelf.keep(f);
+    };
+    const bool there = slot.wait_for(wanted.after, kLongestPoll, wanted.truth, read);
     if (!there) {
         response.status = 204;  // no frame in time: ask again
         return;
@@ -225,6 +185,43 @@ void PreviewSink::Implementation::send_picture(const httplib::Request& request, 
     bytes.fetch_add(picture.size());
     response.headers.emplace("Content-Type", "application/octet-stream");
     response.body = std::move(picture);
+}
+
+// A frame that was held, or the newest there is.
+void PreviewSink::Implementation::send_numbers(const httplib::Request& request, httplib::Response& response) {
+    const NumbersRequest wanted = parse_numbers_request(query_of(request));
+    if (!viewers.admit(wanted.viewer)) return refuse_crowd(response);
+    PreviewShelf::Frame frame = shelf.find(wanted.frame);
+    if (!frame)
+        slot.wait_for(0, kLongestPoll, false, [&](const PreviewSlot::Frame& f) {
+            if (wanted.frame == 0 || wanted.frame == f.record.id)
+                frame = std::make_shared<const PreviewSlot::Frame>(f);
+        });
+    if (!frame)
+        return refuse(response, 404,
+                      wanted.frame == 0
+                          ? "no frame yet"
+                          : "frame " + std::to_string(wanted.frame) +
+                                " is no longer here; freeze the picture, and it is kept for you");
+    const std::lock_guard lock(encoding);
+    DnImage image(frame->width, frame->height);
+    std::copy_n(frame->samples.begin(), image.pixels(), image.data());
+    const std::string kind = wanted.tiff ? ".tiff" : ".png";
+    response.body = encode_frame(kind, image, run, frame->record);
+    response.headers.emplace("Content-Type", wanted.tiff ? "image/tiff" : "image/png");
+    response.headers.emplace("Content-Disposition", "attachment; filename=\"camera" +
+                                                        std::to_string(run.camera) + "_frame" +
+                                                        std::to_string(frame->record.id) + kind + "\"");
+    bytes.fetch_add(response.body.size());
+}
+
+void PreviewSink::Implementation::send_truth(const httplib::Request& request, httplib::Response& response) {
+    const std::uint64_t frame = parse_truth_request(query_of(request));
+    std::string line = shelf.line_of(frame, kTruthPoll);
+    if (line.empty()) return refuse(response, 404, "the truth of this frame is not, or no longer, here");
+    bytes.fetch_add(line.size());
+    response.headers.emplace("Content-Type", "application/json");
+    response.body = std::move(line);
 }
 
 void PreviewSink::Implementation::change_settings(const httplib::Request& request,
@@ -259,11 +256,13 @@ void PreviewSink::Implementation::order_fault(const httplib::Request& request, h
 
 void PreviewSink::Implementation::add_routes() {
     using httplib::Request, httplib::Response;
-    for (const Asset& asset : kAssets)
+    for (const PreviewAsset& asset : preview_assets())
         server.Get(asset.path, [&asset](const Request&, Response& response) {
             response.set_content(asset.text.data(), asset.text.size(), asset.type);
         });
     server.Get("/frame", [this](const Request& q, Response& a) { send_picture(q, a); });
+    server.Get("/numbers", [this](const Request& q, Response& a) { send_numbers(q, a); });
+    server.Get("/truth", [this](const Request& q, Response& a) { send_truth(q, a); });
     server.Get("/status",
                [this](const Request&, Response& a) { a.set_content(status(), "application/json"); });
     server.Post("/settings", [this](const Request& q, Response& a) { change_settings(q, a); });
@@ -301,9 +300,9 @@ void PreviewSink::Implementation::add_routes() {
          {"X-Content-Type-Options", "nosniff"}});
 }
 
-PreviewSink::PreviewSink(const PreviewConfig& config, const SinkContext& context,
+PreviewSink::PreviewSink(const PreviewConfig& config, const SinkContext& context, PictureRun run,
                          std::function<std::string()> status)
-    : implementation_(std::make_unique<Implementation>(config, context, std::move(status))) {}
+    : implementation_(std::make_unique<Implementation>(config, context, std::move(run), std::move(status))) {}
 
 PreviewSink::~PreviewSink() { stop(); }
 
@@ -311,7 +310,7 @@ void PreviewSink::start() {
     Implementation& i = *implementation_;
     parse_ipv4(i.config.address, "outputs.preview.address");
     i.add_routes();
-    i.server.new_task_queue = [] { return new BoundedPool; };
+    i.server.new_task_queue = [] { return new Workers; };
     // One request a connection: an idle browser holds no worker.
     i.server.set_keep_alive_max_count(1);
     i.server.set_keep_alive_timeout(2);
@@ -335,7 +334,7 @@ void PreviewSink::start() {
     i.slot.start();
     i.guard.start(port, connection_limits(i.allow));
     i.thread = std::thread([&server = i.server] {
-        setpriority(PRIO_PROCESS, 0, kPreviewNiceness);
+        become_preview_thread();
         server.listen_after_bind();
     });
     // stop() of a server that does not run yet would do nothing.
@@ -344,6 +343,12 @@ void PreviewSink::start() {
 
 void PreviewSink::publish(const DnImage& frame, const FrameRecord& record) noexcept {
     implementation_->slot.put(frame, record);
+}
+
+bool PreviewSink::wants_truth() const noexcept { return implementation_->slot.wants_truth(); }
+
+void PreviewSink::take_truth(std::uint64_t frame, std::string line) {
+    implementation_->shelf.put_line(frame, std::move(line));
 }
 
 void PreviewSink::stop() noexcept {

@@ -18,6 +18,8 @@
 
 #include "io/contract/camera_control.h"
 #include "io/contract/frame_sink.h"
+#include "io/contract/truth_listener.h"
+#include "io/pictures/picture_notes.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
@@ -30,11 +32,12 @@ struct PreviewConfig {
 Fields fields(PreviewConfig& config);
 void validate(const PreviewConfig& config);
 
-class PreviewSink : public FrameSink {
+class PreviewSink : public FrameSink, public TruthListener {
   public:
-    // `status` gives the run's figures as JSON; called from the server's threads, several at a time, between
-    // start() and stop().
-    PreviewSink(const PreviewConfig& config, const SinkContext& context, std::function<std::string()> status);
+    // `run`: what saved frames say of themselves. `status` gives the run's figures as JSON; called from the
+    // server's threads, several at a time, between start() and stop().
+    PreviewSink(const PreviewConfig& config, const SinkContext& context, PictureRun run,
+                std::function<std::string()> status);
     ~PreviewSink() override;
 
     // Throws InputError when the address is none, DeviceError when the port cannot be had.
@@ -42,6 +45,8 @@ class PreviewSink : public FrameSink {
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
     void stop() noexcept override;
     SinkReport report() const override;
+    bool wants_truth() const noexcept override;
+    void take_truth(std::uint64_t frame, std::string line) override;
 
   private:
     struct Implementation;

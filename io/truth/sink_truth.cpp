@@ -23,17 +23,20 @@ LineServerSetup port_of(const TruthConfig& c) {
 }  // namespace
 
 TruthSink::TruthSink(const TruthConfig& config, const TruthSource& source,
-                     const std::function<FrameTruth()>& make_slot)
-    : config_(config), document_(source) {
+                     const std::function<FrameTruth()>& make_slot, TruthListener* listener)
+    : config_(config), document_(source), listener_(listener) {
     if (!config.folder.empty()) require_unused(run_folder(config));
     if (config.port != 0) server_ = std::make_unique<LineServer>(port_of(config));
     for (const std::string& to : config.udp_to) destinations_.push_back(parse_endpoint(to));
-    const std::size_t count = config.layers.empty() ? kSlots : kSlotsWithLayers;
+    // A listener can miss one: it wants a few frames a second.
+    const std::size_t count = config.layers.empty() && has_outputs() ? kSlots : kFewerSlots;
     for (std::size_t i = 0; i < count; ++i) {
         slots_.push_back(std::make_unique<Slot>());
         slots_.back()->truth = make_slot();
     }
 }
+
+bool TruthSink::has_outputs() const { return server_ || !destinations_.empty() || !config_.folder.empty(); }
 
 void TruthSink::start() {
     if (!config_.folder.empty()) {
@@ -55,16 +58,19 @@ void TruthSink::start() {
 
 FrameTruth* TruthSink::begin(const FrameRecord& record) noexcept {
     if (!open_.load(std::memory_order_relaxed)) return nullptr;
-    if (offered_++ % static_cast<std::uint64_t>(config_.every_nth) != 0) return nullptr;
+    const bool for_outputs = has_outputs() && offered_++ % static_cast<std::uint64_t>(config_.every_nth) == 0;
+    const bool for_listener = listener_ && listener_->wants_truth();
+    if (!for_outputs && !for_listener) return nullptr;
     const std::size_t taken = taken_.load(std::memory_order_relaxed);
     if (taken - done_.load(std::memory_order_acquire) == slots_.size()) {
-        dropped_.fetch_add(1, std::memory_order_relaxed);
+        if (for_outputs) dropped_.fetch_add(1, std::memory_order_relaxed);
         return nullptr;
     }
     Slot& slot = *slots_[taken % slots_.size()];
     const TruthSource& source = document_.source();
     slot.truth.raster = raster_of(source.model, source.oversampling,
                                   {record.binning_x, record.binning_y, record.reverse_x, record.reverse_y});
+    slot.for_outputs = for_outputs, slot.for_listener = for_listener;
     slot.frame.store(record.id, std::memory_order_relaxed);
     taken_.store(taken + 1, std::memory_order_relaxed);
     return &slot.truth;
@@ -112,6 +118,8 @@ void TruthSink::run() {
 // The stream first: files take longer.
 void TruthSink::deliver(const Slot& slot) {
     const std::string line = document_.line(slot.truth, slot.record);
+    if (slot.for_listener) listener_->take_truth(slot.record.id, line);
+    if (!slot.for_outputs) return;
     if (server_) server_->tell(line + "\n");
     if (!destinations_.empty()) send_datagrams(slot.truth, slot.record, line);
     if (files_) files_->write(slot.truth, slot.record.id, line, document_.legend(slot.truth));
@@ -144,7 +152,7 @@ bool TruthSink::has_fault() const noexcept {
 
 SinkReport TruthSink::report() const {
     SinkReport out;
-    out.name = "truth";
+    out.name = has_outputs() ? "truth" : "truth for the preview";
     out.frames = written_.load();
     out.dropped = dropped_.load();
     out.figures = {{"truth_ms", out.frames > 0 ? took_ms_.load() / static_cast<double>(out.frames) : 0.0}};

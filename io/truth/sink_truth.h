@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "io/contract/frame_sink.h"
+#include "io/contract/truth_listener.h"
 #include "io/system/fd.h"
 #include "io/system/line_server.h"
 #include "io/truth/truth_config.h"
@@ -33,10 +34,11 @@ inline constexpr const char* kTruthThreadName = "truth";
 
 class TruthSink : public FrameSink {
   public:
-    // make_slot: gives a record with room for any frame; asked several times. Throws InputError. Owner
-    // thread.
+    // make_slot: gives a record with room for any frame; asked several times. listener: gets the lines of
+    // the frames that it wants, whatever config says, and outlives the sink; null: nobody. Throws InputError.
+    // Owner thread.
     TruthSink(const TruthConfig& config, const TruthSource& source,
-              const std::function<FrameTruth()>& make_slot);
+              const std::function<FrameTruth()>& make_slot, TruthListener* listener = nullptr);
     ~TruthSink() override { stop(); }
 
     void start() override;
@@ -55,16 +57,19 @@ class TruthSink : public FrameSink {
         FrameTruth truth;
         FrameRecord record;
         std::atomic<std::uint64_t> frame{0};  // begun for; both of the loop's threads look at it
+        bool for_outputs = false, for_listener = false;
     };
     // Both stages of the loop may hold one, and a third is written meanwhile.
-    static constexpr std::size_t kSlots = 8, kSlotsWithLayers = 4, kInLoop = 2;
+    static constexpr std::size_t kSlots = 8, kFewerSlots = 4, kInLoop = 2;
 
+    bool has_outputs() const;
     void run();
     void deliver(const Slot& slot);
     void send_datagrams(const FrameTruth& truth, const FrameRecord& record, const std::string& line);
 
     TruthConfig config_;
     TruthDocument document_;
+    TruthListener* listener_;
     std::vector<std::unique_ptr<Slot>> slots_;
     std::uint64_t offered_ = 0;
     // Slots taken, handed over, and free again; taken - done <= the number of slots.

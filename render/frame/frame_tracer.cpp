@@ -84,10 +84,18 @@ PixelBox FrameTracer::tile(int index) const {
     return {x, y, std::min(x + level.tile_px, width_), std::min(y + level.tile_px, height_)};
 }
 
+double FrameTracer::share_done() const {
+    const int all = tiles_all_.load(std::memory_order_relaxed);
+    return all > 0 ? 1.0 * tiles_done_.load(std::memory_order_relaxed) / all : 0;
+}
+
 TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance) {
     // Tiles smaller than the image's blocks share a mark: it stays off.
     const bool marks = levels_[level_].tile_px == RadianceImage::kBlock_px;
     if (!marks) radiance.clear_marks();
+    const int all = levels_[level_].tiles_across * levels_[level_].tiles_down;
+    tiles_done_.store(0, std::memory_order_relaxed);
+    tiles_all_.store(all, std::memory_order_relaxed);
     for_each_tile([&](int index, const PixelBox& tile, std::size_t slot) {
         TileStats& stats = tile_stats_[static_cast<std::size_t>(index)];
         const bool anything = placer.can_see_anything(tile);
@@ -98,10 +106,10 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
             trace_tile(placer, tile, slot, stats, radiance);
         else if (!was_dark)
             fill_zero(radiance, tile);
+        tiles_done_.fetch_add(1, std::memory_order_relaxed);
     });
     TileStats sum;
-    const auto tiles = static_cast<std::size_t>(levels_[level_].tiles_across * levels_[level_].tiles_down);
-    for (std::size_t i = 0; i < tiles; ++i) sum += tile_stats_[i];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(all); ++i) sum += tile_stats_[i];
     return sum;
 }
 

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <atomic>
 #include <memory>
 #include <span>
 #include <string>
@@ -40,6 +41,9 @@ class FrameTracer {
     static Paths make_paths(const Modules& modules, const std::string& name);
     // In place of those of the level in use, for a comparison (render_bench.h).
     void exchange_paths(Paths& paths) { std::swap(path_sets_[levels_[level_].paths].models, paths); }
+
+    // Share of the present frame's tiles that are done. Any thread.
+    double share_done() const;
 
     // Fills the image. Loop.
     TileStats trace(const FramePlacer& placer, RadianceImage& radiance);
@@ -75,6 +79,7 @@ class FrameTracer {
     std::vector<VisibilityTile> seen_;                        // none where rays see
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
+    std::atomic<int> tiles_done_{0}, tiles_all_{0};           // of the present frame
 
     const Paths& paths() const { return path_sets_[levels_[level_].paths].models; }
     std::size_t path_set(const Modules& modules, const std::string& name);

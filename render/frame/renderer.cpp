@@ -158,6 +158,8 @@ void Renderer::require_air(const WorldSnapshot& world) {
         }
 }
 
+double Renderer::share_traced() const { return implementation_->tracer.share_done(); }
+
 std::uint64_t Renderer::rays_outside_air() const {
     const Atmosphere* air = implementation_->placer.air();
     return air ? air->rays_outside() : 0;

@@ -91,6 +91,8 @@ class Renderer {
     // missing. For the first instant of a run; what leaves the table later is counted. Not for the loop.
     void require_air(const WorldSnapshot& world);
     std::uint64_t rays_outside_air() const;
+    // How much of the frame that is being rendered is traced, 0 to 1. Any thread.
+    double share_traced() const;
 
     // See render_bench.h. Not for the loop.
     double floor_ms(const WorldSnapshot& world);

@@ -37,6 +37,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const SettingsChange c = parse_settings_change(text);
         HILCAM_CHECK(!c.exposure_s || std::isfinite(*c.exposure_s));
     });
+    refuse_or([&] { parse_numbers_request(text); });
+    refuse_or([&] { HILCAM_CHECK(parse_truth_request(text) > 0); });
     refuse_or([&] { parse_trigger_order(text); });
     refuse_or([&] {
         const FaultRequest r = parse_fault_request(text);

@@ -19,7 +19,7 @@ LAYERS = ("emulator", "io", "sensor", "render")
 ROOMS = (
     "emulator",
     "emulator/tradeoff", "emulator/check", "emulator/bench", "emulator/characterise", "emulator/run", "emulator/recording",
-    "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion",
+    "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion", "emulator/progress",
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/truth", "io/commands",
     "io/files", "io/pictures", "io/config", "io/contract", "io/system",
     "sensor/measure", "sensor",

@@ -3,6 +3,8 @@
 
     preview_test.py HILCAM SOURCE_DIR [--screenshot FILE.png]
 """
+import datetime
+import io
 import json
 import os
 import pathlib
@@ -105,6 +107,14 @@ def fetch_picture(query=""):
     return frame, x, y, width, height, step, data[begin:]
 
 
+def picture_of(data):
+    """Size, 16-bit samples and texts of a PNG's or TIFF's bytes."""
+    from PIL import Image
+    with Image.open(io.BytesIO(data)) as image:
+        words = dict(image.text) if image.format == "PNG" else json.loads(image.tag_v2[270])
+        return image.size, struct.pack(f"<{image.width * image.height}H", *image.getdata()), words
+
+
 def wait_for(condition, seconds=20):
     deadline = time.monotonic() + seconds
     while not condition():
@@ -152,12 +162,59 @@ class Requests(unittest.TestCase):
         self.assertGreater(newer, frame)
         self.assertEqual(fetch_picture("?step=4")[3:6], (64, 48, 4))
 
+    def test_numbers_are_those_of_the_frame(self):
+        for query in ("", "&format=tiff"):
+            data = get("/numbers?viewer=5" + query)
+            size, numbers, words = picture_of(data)
+            frame = int(words["frame"])
+            self.assertEqual((size, numbers), read_png(self.emulator.file_of(frame)))
+            self.assertGreater(len(set(numbers)), 1)
+            self.assertIn("protocol_test", words["scenario"])
+            self.assertEqual(data[:2], b"\x89P" if not query else b"II")
+
+    def test_a_frame_that_is_held_stays(self):
+        frame = fetch_picture("?viewer=6&hold=1")[0]
+        wait_for(lambda: fetch_picture()[0] > frame + 5)
+        _, numbers, _ = picture_of(get(f"/numbers?viewer=6&frame={frame}"))
+        self.assertEqual(numbers, read_png(self.emulator.file_of(frame))[1])
+        code, text = refusal(get, f"/numbers?viewer=6&frame={frame + 1}")
+        self.assertEqual(code, 404)
+        self.assertIn(f"frame {frame + 1} is no longer here; freeze the picture", text)
+
+    def test_truth_is_told_to_who_asks(self):
+        data = get("/frame?viewer=8&truth=1")
+        frame, = struct.unpack_from("<Q", data, 8)
+        self.assertEqual(struct.unpack_from("<I", data, 136)[0], 1)
+        truth = json.loads(get(f"/truth?frame={frame}"))
+        self.assertEqual(truth["frame"], frame)
+        self.assertEqual([thing["name"] for thing in truth["objects"]], ["target"])
+        left, top, width, height = truth["objects"][0]["visible_box_px"]
+        self.assertTrue(0 <= left < left + width <= 256 and 0 <= top < top + height <= 192)
+        self.assertEqual(refusal(get, "/truth?frame=999999999")[0], 404)
+        # Nobody asks any more: no frame's truth is worked out.
+        def told():
+            return next(o for o in status()["outputs"] if o["name"] == "truth for the preview")["frames"]
+        time.sleep(3)
+        before, frames = told(), status()["frames"]
+        wait_for(lambda: status()["frames"] > frames + 20)
+        self.assertEqual(told(), before)
+
+    def test_times_are_utc_by_the_servers_leap_seconds(self):
+        data = get("/frame?viewer=9")
+        tai_ns, = struct.unpack_from("<q", data, 48)
+        utc = data[144:176].rstrip(b"\0").decode()
+        by_hand = datetime.datetime(1970, 1, 1) + datetime.timedelta(microseconds=tai_ns // 1000) - datetime.timedelta(seconds=37)
+        found = datetime.datetime.strptime(utc, "%Y-%m-%dT%H:%M:%S.%fZ")
+        self.assertLess(abs((found - by_hand).total_seconds()), 0.001)
+
     def test_bad_requests_get_one_line(self):
         for code, needle, call in (
                 (400, "'step' is '0'", lambda: get("/frame?step=0")),
                 (400, "unknown key 'colour'", lambda: get("/frame?colour=1")),
                 (400, "character 37", lambda: get("/frame?x=%20")),
                 (404, "no such page", lambda: get("/secret")),
+                (400, "'format' is 'gif'; accepted: png, tiff", lambda: get("/numbers?format=gif")),
+                (400, "missing key 'frame'", lambda: get("/truth")),
                 (400, "accepted: a number", lambda: post("/settings", "exposure_s=long")),
                 (409, "the camera refuses", lambda: post("/settings", "exposure_s=1e9")),
                 (400, "value is outside its kind's range", lambda: post("/fault", "kind=image_tear&value=7")),
@@ -205,7 +262,7 @@ class Requests(unittest.TestCase):
         wait_for(lambda: status()["frames"] > frames + 20)
         self.assertEqual(copies(), before)
         fetch_picture("?after=1")
-        self.assertGreater(copies(), before)
+        wait_for(lambda: copies() > before)
 
     def test_the_port_is_not_shared(self):
         second = subprocess.run([HILCAM, "run", str(SCENARIO), "--preview", str(PORT), "--frames", "1"],
@@ -543,15 +600,147 @@ class PageInBrowser(unittest.TestCase):
         wait_for(lambda: not any("order" in f for f in status()["faults"]))
         page.wait("!document.querySelector('.fault.active')")
         # So many frames from now on.
-        page.run("document.getElementById('frames').value = 5, document.querySelector('#fault-frame_drop button').click()")
+        page.run("document.getElementById('frames').value = 5, document.querySelector('#fault-image_saturated button').click()")
         wait_for(lambda: any("order" in f for f in status()["faults"]))
-        found = next(f for f in status()["faults"] if f["kind"] == "frame_drop")["order"]
+        found = next(f for f in status()["faults"] if f["kind"] == "image_saturated")["order"]
         self.assertEqual(found["frames"], 5)
         self.assertGreater(found["from_frame"], 1)
         page.wait("!document.querySelector('.fault.active')")
         page.run("document.getElementById('value').value = 9, document.querySelector('#fault-image_tear button').click()")
         page.wait("document.getElementById('fault-answer').textContent.includes('outside its kind')")
         self.forgive("400")
+
+    def test_faults_are_folded_and_those_that_nothing_shows_say_why(self):
+        page = self.page
+        groups = page.run("""Array.from(document.querySelectorAll('#faults details')).map(d => [d.open, d.querySelector('summary').textContent])""")
+        self.assertEqual(len(groups), 8)
+        self.assertFalse(any(opened for opened, _ in groups))
+        self.assertIn("not without outputs.gige", groups[0][1])
+        self.assertEqual(page.run("document.querySelector('#fault-packet_drop button').disabled"), True)
+        self.assertIn("that takes outputs.gige", page.run("document.querySelector('#fault-packet_drop').textContent"))
+        self.assertEqual(page.run("document.querySelector('#fault-image_tear button').disabled"), False)
+        self.assertNotIn("`", page.run("document.getElementById('faults').textContent"))
+        # One that is in force is seen, and can be ended although nothing shows it.
+        post("/fault", "kind=frame_drop&frames=0")
+        page.wait("document.querySelector('#fault-frame_drop').classList.contains('active')")
+        self.assertTrue(page.run("document.querySelector('#fault-frame_drop').closest('details').open"))
+        page.run("document.querySelector('#fault-frame_drop button').click()")
+        wait_for(lambda: not any("order" in f for f in status()["faults"]))
+
+    def switch(self, name, on=True):
+        self.page.run(f"{{ const i = document.getElementById('{name}'); i.checked = {json.dumps(on)}; i.dispatchEvent(new Event('change')); }}")
+
+    def test_truth_is_drawn_over_the_picture(self):
+        page = self.page
+        for layer in ("boxes", "names", "boresight"):
+            self.switch("show-" + layer)
+        drawn = page.wait("preview.drawn?.boxes > 0 && preview.drawn")
+        self.assertGreaterEqual(drawn["names"], 1)
+        self.assertEqual((drawn["stars"], drawn["boresight"]), (0, 1))
+        frame = self.freeze(page)
+        # What is drawn belongs to the frame that is shown: the boxes hold the pixels that are not sky.
+        self.assertEqual(page.run("preview.frame.truth.frame"), frame)
+        left, top, width, height = page.run("preview.frame.truth.objects[0].visible_box_px")
+        _, whole = read_png(self.emulator.file_of(frame))
+        bright = [i for i in range(256 * 192) if struct.unpack_from("<H", whole, 2 * i)[0] > 500]
+        self.assertGreater(len(bright), 20)
+        boxes = page.run("[...preview.frame.truth.objects, ...preview.frame.truth.bodies].map(t => t.visible_box_px).filter(b => b)")
+        inside = [i for i in bright if any(x - 2 <= i % 256 < x + w + 2 and y - 2 <= i // 256 < y + h + 2 for x, y, w, h in boxes)]
+        self.assertGreater(len(inside), 0.9 * len(bright))
+        # The box's edge is on the canvas, in its colour, and gone when it is switched off.
+        at = page.run(f"(() => {{ const s = preview.shownScale(), c = preview.shownCentre(); return [preview.canvas.width / 2 + ({left} - c.x) * s,"
+                      f" preview.canvas.height / 2 + ({top} + {height} / 2 - c.y) * s]; }})()")
+        yellow = f"""(() => {{ const c = new OffscreenCanvas(5, 1).getContext('2d');
+            c.drawImage(preview.canvas, {round(at[0])} - 2, {round(at[1])}, 5, 1, 0, 0, 5, 1);
+            const d = c.getImageData(0, 0, 5, 1).data;
+            for (let i = 0; i < d.length; i += 4) if (d[i] > 150 && d[i] > 2 * d[i + 2]) return true;
+            return false; }})()"""
+        self.assertTrue(page.run(yellow))
+        self.switch("show-boxes", False)
+        self.assertFalse(page.run(yellow))
+        page.key(" ")
+
+    def test_a_profile_is_drawn_along_a_line(self):
+        page = self.page
+        frame = self.freeze(page)
+        page.run("document.getElementById('profile-tool').click()")
+        points = page.run("""(() => { const r = preview.canvas.getBoundingClientRect(), s = preview.shownScale(), c = preview.shownCentre();
+            return [[40.5, 96.5], [200.5, 96.5]].map(([x, y]) => [r.left + preview.canvas.width / 2 + (x - c.x) * s,
+                r.top + preview.canvas.height / 2 + (y - c.y) * s]); })()""")
+        page.mouse("mousePressed", *points[0], button="left", clickCount=1)
+        page.mouse("mouseMoved", *points[1], button="left", buttons=1)
+        page.mouse("mouseReleased", *points[1], button="left", clickCount=1)
+        page.wait("!document.getElementById('profile-card').hidden")
+        values = page.run("import('./profile.js').then(m => m.samplesAlong(preview, preview.line))")
+        _, whole = read_png(self.emulator.file_of(frame))
+        row = struct.unpack_from("<256H", whole, 2 * 256 * 96)
+        # The ends are where the screen's pixels are.
+        self.assertIn(len(values), (160, 161, 162))
+        self.assertIn(values[5:-5], [list(row[i + 5:i + len(values) - 5]) for i in (39, 40, 41)])
+        self.assertIn(f"{min(values)} to {max(values)} DN", page.run("document.getElementById('profile-of').textContent"))
+        page.key("Escape")
+        self.assertTrue(page.run("document.getElementById('profile-card').hidden"))
+        page.key(" ")
+
+    def test_the_view_is_in_the_address_and_comes_back(self):
+        page = self.page
+        page.run("{ const i = document.getElementById('stretch'); i.value = 'asinh'; i.dispatchEvent(new Event('change')); }")
+        page.run("{ const i = document.getElementById('white'); i.value = 1000; i.dispatchEvent(new Event('input')); }")
+        self.switch("show-boresight")
+        self.switch("histogram-log", False)
+        page.run("preview.zoom(8, {x: 100, y: 100})")
+        page.run("document.getElementById('profile-tool').click(), preview.setLine({x: 10, y: 10}, {x: 200, y: 90})")
+        page.wait("location.hash.includes('profile=') && location.hash.includes('zoom=8')")
+        state = "[preview.stretch, preview.auto, preview.white, preview.scale, preview.centre, [...preview.layers], preview.line]"
+        before = page.run(state)
+        page.call("Page.reload")
+        page.wait("window.preview && preview.frame && document.getElementById('trigger') && preview.drawn?.boresight === 1")
+        after = page.run(state)
+        for old, new in zip(before, after):
+            if isinstance(old, dict):
+                for key in old:
+                    self.assertAlmostEqual(old[key], new[key], delta=1e-3)
+            else:
+                self.assertEqual(old, new)
+        self.assertEqual(page.run("[document.getElementById('stretch').value, document.getElementById('show-boresight').checked,"
+                                  "document.getElementById('histogram-log').checked]"), ["asinh", True, False])
+        # Nonsense is left out.
+        page.run("location.hash = '#stretch=plaid&zoom=-1&show=boxes,evil&profile=1,2,x,4&black=NaN'")
+        page.wait("preview.stretch === 'asinh' && preview.scale === 0 && preview.layers.size === 1 && preview.line === null")
+
+    def test_pictures_are_saved(self):
+        page = self.page
+        with tempfile.TemporaryDirectory() as folder:
+            self.browser.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            frame = self.freeze(page)
+            time.sleep(0.5)  # the camera goes on meanwhile
+            def saved(button, name):
+                file = pathlib.Path(folder) / name
+                page.run(f"document.getElementById('{button}').click()")
+                wait_for(lambda: file.exists() and file.stat().st_size > 0 or page.run("document.getElementById('save-answer').textContent"))
+                self.assertEqual(page.run("document.getElementById('save-answer').textContent"), "")
+                return file.read_bytes()
+            whole = read_png(self.emulator.file_of(frame))
+            self.assertEqual(picture_of(saved("save-png", f"camera1_frame{frame}.png"))[:2], whole)
+            self.assertEqual(picture_of(saved("save-tiff", f"camera1_frame{frame}.tiff"))[:2], whole)
+            from PIL import Image
+            with Image.open(io.BytesIO(saved("save-view", f"view_frame{frame}.png"))) as view:
+                self.assertEqual(list(view.size), page.run("[preview.canvas.width, preview.canvas.height]"))
+            page.key(" ")
+
+    def test_times_and_latency_say_what_they_are(self):
+        page = self.page
+        text = page.run("document.getElementById('frame').textContent")
+        self.assertRegex(text, r"Exposed at2026-03-20 14:\d\d:\d\d\.\d{3} UTC2026-03-20 14:\d\d:\d\d\.\d{3} TAI")
+        subprocess.run([HILCAM, "send", "--to", f"127.0.0.1:{PORT + 1}", "pose", "--position-m", "22", "15", "7", "--look-at-m", "0",
+                        "0", "0", "--up", "0", "0", "1"], timeout=10, check=True, stdout=subprocess.DEVNULL)
+        page.wait("preview.frame.poseSequence > 0")
+        page.wait("document.getElementById('latency').getAttribute('aria-label')?.includes('commands are shown')")
+        self.assertRegex(page.run("document.getElementById('frame').textContent"), r"Pose tag[^,]* UTC[^,]* TAI|Pose tagnone")
+        label = "document.getElementById('histogram').getAttribute('aria-label')"
+        self.assertIn("logarithmic", page.run(label))
+        self.switch("histogram-log", False)
+        page.wait(f"{label}.includes('linear')")
 
     def check_strikes(self, strikes, before):
         wait_for(lambda: strikes() > before + 3)
@@ -577,7 +766,7 @@ class PageInBrowser(unittest.TestCase):
         return next(o for o in status()["outputs"] if o["name"].startswith("preview"))["figures"]["viewers"]
 
     def test_a_narrow_window_has_no_sideways_scroll(self):
-        for width in (360, 700, 1280, 1800):
+        for width in (360, 390, 700, 1280, 1440, 1800):
             self.page.resize(width, 800)
             self.page.wait(f"document.documentElement.scrollWidth <= {width}")
 
@@ -613,9 +802,8 @@ def take_screenshot(file):
         fly = subprocess.Popen([HILCAM, "send", "--to", f"127.0.0.1:{PORT + 1}", "fly", "--from-m", "22", "15", "7",
                                 "--duration-s", "60", "--rate-hz", "50"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         post("/fault", "kind=packet_drop&rate=0.002")
-        page = Page(b, URL + "/", width=1840, height=1080)
-        page.wait("window.preview && preview.frame && true", 60)
-        page.run("document.getElementById('stretch').value = 'sqrt', document.getElementById('stretch').dispatchEvent(new Event('change'))")
+        page = Page(b, URL + "/#stretch=sqrt&show=boxes,names,boresight&profile=180,520,840,470", width=1840, height=1500)
+        page.wait("window.preview && preview.drawn?.boxes > 0", 60)
         wait_for(lambda: status()["latency_ms"]["last_packet"]["count"] > 10, 40)
         page.mouse("mouseMoved", 480, 420)
         time.sleep(1.5)

@@ -6,6 +6,7 @@
 import json
 import os
 import pathlib
+import pty
 import re
 import signal
 import subprocess
@@ -337,11 +338,66 @@ class Characterise(unittest.TestCase):
             self.assertEqual(page.count("<svg"), 9)
             self.assertNotIn("http-equiv", page)  # one file, nothing to load
             self.assertNotIn("<script", page)
+            # Levels beyond saturation are marked, and a straight response has no error of rounding.
+            file = pathlib.Path(folder) / "characterise.json"
+            report = json.loads(file.read_text())
+            beyond = [point["saturated"] for point in report["photon_transfer"]]
+            self.assertEqual(beyond, sorted(beyond))
+            self.assertTrue(beyond[-1] and not beyond[0])
+            self.assertEqual(report["linearity_error"]["configured"], 0)
+            self.assertIn("beyond saturation", page)
+            # A camera without a nonuniformity has words in place of empty axes.
+            report["prnu_fraction"]["configured"], report["dsnu_histogram"] = 0, None
+            file.write_text(json.dumps(report))
+            subprocess.run([SOURCE / "tools/hilcam-plot-characterise", file, pathlib.Path(folder) / "none.html"], check=True, timeout=60)
+            page = (pathlib.Path(folder) / "none.html").read_text()
+            self.assertEqual(page.count("<svg"), 7)
+            self.assertIn("PRNU: none configured (", page)
+            self.assertIn("DSNU: none configured (", page)
+
+    def test_progress_is_told_to_terminals_alone(self):
+        # Its standard error is a terminal, its standard output is none.
+        parent, terminal = pty.openpty()
+        with subprocess.Popen([HILCAM, "characterise", self.CAMERA, "--json"], stdout=subprocess.PIPE, stderr=terminal) as process:
+            os.close(terminal)
+            told = b""
+            while b"left" not in told:
+                try:
+                    told += os.read(parent, 4096)
+                except OSError:  # the other end is closed
+                    break
+            process.kill()
+        os.close(parent)
+        self.assertRegex(told.decode(), r"\r\x1b\[Khilcam: measuring [a-zA-Z ]+ \d+ %, \d+ s, about [^:]* left\r")
+        result = hilcam("characterise", self.CAMERA, "--json", *self.FAST)
+        self.assertEqual(result.stderr, "")
 
     def test_a_camera_that_cannot_be_is_refused(self):
         result = hilcam("characterise", self.CAMERA, "--set", "f_number=0")
         self.assertEqual(result.returncode, 2)
         self.assertIn("f_number", result.stderr)
+
+
+class Calibration(unittest.TestCase):
+    SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
+
+    def test_it_is_printed_for_scenarios_and_camera_files(self):
+        result = hilcam("check", self.SCENARIO, "--calibration", "kalibr")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("resolution: [256, 192]\n", result.stdout)
+        self.assertIn("127.5, 95.5]", result.stdout)  # the middle, counted from the first pixel's middle
+        result = hilcam("check", SOURCE / "configs/cameras/inspector_1k.yaml", "--calibration", "ros")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("camera_name: inspector_1k\n", result.stdout)
+
+    def test_what_cannot_be_is_refused(self):
+        result = hilcam("check", self.SCENARIO, "--calibration", "colmap")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("found 'colmap'; accepted: opencv|ros|kalibr", result.stderr)
+        result = hilcam("check", self.SCENARIO, "--calibration", "kalibr", "--set", "camera.distortion=[0,0,0,0,0.1]")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("camera 1 has distortion.k3 0.1, and Kalibr's radtan model has k1, k2, p1, p2 alone", result.stderr)
+        self.assertEqual(result.stdout, "")
 
 
 class Camera(unittest.TestCase):

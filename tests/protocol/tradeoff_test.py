@@ -91,6 +91,13 @@ class Tradeoff(unittest.TestCase):
         # A single frame of the scenario's own quality is farther off than the mean of four far better ones.
         self.assertGreater(self.report["settings"][0]["error_sigma_p99"], reference["standard_error_sigma"]["p99"])
 
+    def test_what_it_will_take_is_said_first(self):
+        lines = self.result.stderr.splitlines()
+        first = next(i for i, line in enumerate(lines) if "single changes and up to 6 combinations in 600 s" in line)
+        frame = next(i for i, line in enumerate(lines) if "a frame of the reference takes" in line)
+        setting = next(i for i, line in enumerate(lines) if " sigma  " in line)
+        self.assertTrue(first < frame < setting, lines)
+
     def test_errors_are_the_same_every_time(self):
         again = pathlib.Path(self.temporary.name) / "again"
         result = tradeoff(again, "--combinations", 0, "--set", "threads=1")
@@ -122,6 +129,8 @@ class Tradeoff(unittest.TestCase):
             self.assertIn("Matplotlib is missing", self.result.stderr)
             self.skipTest("Matplotlib is missing: no plots to look at")
         self.assertEqual(page.count("<svg"), 5)  # without a limb
+        for title in ("Error of the picture, all settings", "Centroid of the target", "Light of the target", "one knob at a time"):
+            self.assertIn(title, page)  # as a comment of the plot's own
         self.assertTrue((self.folder / "error.svg").read_text().startswith("<?xml"))
 
     def test_without_matplotlib_there_is_a_message_and_a_page(self):

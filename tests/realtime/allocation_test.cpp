@@ -26,6 +26,7 @@
 #include "emulator/run/emulator.h"
 #include "io/gige/device/gige_features.h"
 #include "io/gige/device/gvcp.h"
+#include "io/preview/preview_slot.h"
 #include "io/system/bytes.h"
 #include "io/system/fd.h"
 
@@ -41,10 +42,11 @@ bool lies_in(const void* address, const char* file) {
 }
 void count(const void* caller) {
     if (!armed.load(std::memory_order_relaxed) || !lies_in(caller, own_file)) return;
-    // It makes text of what the loop has handed over.
+    // They make text and pictures of what the loop has handed over.
     std::array<char, 16> thread{};
     prctl(PR_GET_NAME, thread.data());
-    if (std::strcmp(thread.data(), hilcam::kTruthThreadName) == 0) return;
+    for (const char* name : {hilcam::kTruthThreadName, hilcam::kPreviewThreadName})
+        if (std::strcmp(thread.data(), name) == 0) return;
     std::array<void*, 64> frames;
     const int depth = backtrace(frames.data(), static_cast<int>(frames.size()));
     for (int i = 0; i < depth; ++i)
@@ -153,24 +155,67 @@ class StreamReader {
     std::uint16_t id_ = 0;
 };
 
+// Somebody who looks at the preview's page with truth drawn over the picture.
+class PreviewReader {
+  public:
+    static constexpr std::uint16_t kPort = 15263;
+
+    PreviewReader() : thread_([this] { look(); }) {}
+    ~PreviewReader() {
+        over_ = true;
+        thread_.join();
+    }
+    int pictures() const { return pictures_; }
+    int with_truth() const { return with_truth_; }
+
+  private:
+    void look() {
+        while (!over_) {
+            const Fd connection(socket(AF_INET, SOCK_STREAM, 0));
+            const sockaddr_in to = socket_address(INADDR_LOOPBACK, kPort);
+            if (connect(connection.get(), reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0)
+                ask(connection.get());
+        }
+    }
+    void ask(int connection) {
+        constexpr std::string_view kQuestion =
+            "GET /frame?viewer=1&truth=1&hold=1 HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n";
+        send(connection, kQuestion.data(), kQuestion.size(), 0);
+        std::size_t size = 0;
+        for (ssize_t got = 1; got > 0 && size < bytes_.size();
+             size += static_cast<std::size_t>(std::max<ssize_t>(got, 0)))
+            got = recv(connection, bytes_.data() + size, bytes_.size() - size, 0);
+        const std::string_view answer(bytes_.data(), size);
+        const std::size_t picture = answer.find("HCP1");
+        if (picture == std::string_view::npos || picture + 140 > size) return;
+        ++pictures_;
+        if (answer[picture + 136] == 1) ++with_truth_;
+    }
+    std::array<char, 200'000> bytes_{};  // 256 x 192 px of two bytes, and headers
+    std::atomic<bool> over_{false};
+    std::atomic<int> pictures_{0}, with_truth_{0};
+    std::thread thread_;
+};
+
 enum class Loop {
     kUnpaced,    // as fast as it goes, without outputs
     kTold,       // the same, with the outputs that the scenario has
     kPaced,      // at the camera's rate, as the governor needs it
     kStreaming,  // the same, with a GigE Vision camera whose frames an application takes
+    kLookedAt,   // with a preview whose pictures and their truth somebody looks at
 };
 struct Seen {
     int allocations = 0;
     std::uint32_t level_changes = 0;
 };
 Seen run(const std::vector<std::string>& overrides, Loop loop, const std::filesystem::path& record = {}) {
-    const bool streaming = loop == Loop::kStreaming;
+    const bool streaming = loop == Loop::kStreaming, looked_at = loop == Loop::kLookedAt;
     const ScenarioConfig scenario =
         load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml", overrides);
     RunLimits limits;
-    limits.frames = streaming ? 300 : 80;
+    limits.frames = streaming ? 300 : looked_at ? 150 : 80;
     limits.paced = loop != Loop::kUnpaced && loop != Loop::kTold;
-    limits.outputs = streaming || loop == Loop::kTold;
+    limits.outputs = streaming || looked_at || loop == Loop::kTold;
     limits.record = record;
     Emulator emulator(scenario, limits);
     std::thread runner([&] { emulator.run([] {}); });
@@ -190,7 +235,14 @@ Seen run(const std::vector<std::string>& overrides, Loop loop, const std::filesy
         EXPECT_GT(packets, 0);
         packets = 0;
     }
-    const std::uint64_t until = streaming ? frames() + 50 : 70;
+    std::optional<PreviewReader> viewer;
+    if (looked_at) {
+        viewer.emplace();
+        while (viewer->with_truth() < 2 && !emulator.loop().finished()) std::this_thread::yield();
+        EXPECT_GE(viewer->with_truth(), 2);
+    }
+    const int seen = viewer ? viewer->with_truth() : 0;
+    const std::uint64_t until = streaming || looked_at ? frames() + 50 : 70;
     const std::uint32_t changes = emulator.loop().counters().level_changes.load();
     allocated = 0;
     armed = true;
@@ -205,6 +257,10 @@ Seen run(const std::vector<std::string>& overrides, Loop loop, const std::filesy
     }
     armed = false;
     const std::uint64_t measured = frames();
+    if (viewer) {
+        EXPECT_GT(viewer->with_truth(), seen);
+    }
+    viewer.reset();
     const std::uint32_t changed = emulator.loop().counters().level_changes.load() - changes;
     runner.join();
     EXPECT_GE(measured, until);
@@ -284,6 +340,14 @@ TEST_F(Allocation, NorWhileTheTruthOfItsFramesIsTold) {
                   0);
     EXPECT_GT(std::filesystem::file_size(folder / "truth.jsonl"), 0u);
     std::filesystem::remove_all(folder);
+}
+
+TEST_F(Allocation, NorWhileSomebodyLooksAtPicturesWithTheirTruth) {
+    EXPECT_EQ(
+        allocations({"outputs.preview.port=" + std::to_string(PreviewReader::kPort),
+                     std::string("stars.catalogue=") + HILCAM_SOURCE_DIR + "/configs/stars/hipparcos.csv"},
+                    Loop::kLookedAt),
+        0);
 }
 
 TEST_F(Allocation, NorWithAScanningLine) {

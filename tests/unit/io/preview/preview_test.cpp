@@ -8,6 +8,7 @@
 
 #include "io/preview/preview_picture.h"
 #include "io/preview/preview_request.h"
+#include "io/preview/preview_shelf.h"
 #include "io/preview/preview_slot.h"
 #include "render/vocabulary/check.h"
 
@@ -33,6 +34,23 @@ TEST(PreviewRequest, PictureTakesItsNumbers) {
     EXPECT_EQ(r.after, 12u);
     EXPECT_EQ((std::array{r.x, r.y, r.width, r.height, r.step}), (std::array{3, 4, 50, 60, 2}));
     EXPECT_EQ(parse_picture_request("").step, 1);
+    EXPECT_FALSE(parse_picture_request("").hold);
+    EXPECT_TRUE(parse_picture_request("hold=1").hold);
+    EXPECT_TRUE(parse_picture_request("truth=1").truth);
+}
+
+TEST(PreviewRequest, NumbersAndTruthNameTheirFrame) {
+    const NumbersRequest r = parse_numbers_request("viewer=3&frame=12&format=tiff");
+    EXPECT_EQ(r.viewer, 3u);
+    EXPECT_EQ(r.frame, 12u);
+    EXPECT_TRUE(r.tiff);
+    EXPECT_FALSE(parse_numbers_request("").tiff);
+    EXPECT_EQ(message_of([] { parse_numbers_request("format=jpeg"); }),
+              "'format' is 'jpeg'; accepted: png, tiff");
+    EXPECT_EQ(parse_truth_request("frame=7"), 7u);
+    EXPECT_THAT(message_of([] { parse_truth_request(""); }), HasSubstr("missing key 'frame'"));
+    EXPECT_THAT(message_of([] { parse_truth_request("frame=0"); }), HasSubstr("from 1"));
+    EXPECT_THAT(message_of([] { parse_truth_request("frames=1"); }), HasSubstr("unknown key 'frames'"));
 }
 
 TEST(PreviewRequest, RefusalsNameTheKeyAndWhatIsAccepted) {
@@ -110,6 +128,8 @@ TEST(PreviewPicture, ExactAtStep1AndMeansAtOthers) {
     FrameRecord record;
     record.id = 77, record.bits = 12, record.exposure_s = 0.25, record.pose_sequence = 9, record.faults = 5;
     record.pose_time.ns = -3;
+    // The 37th leap second, between 23:59:59 and 00:00:00, and a pose without a tag.
+    record.exposure_mid = parse_utc("2016-12-31T23:59:60.25Z"), record.has_truth = true;
     const PictureSource source{samples, 5, 3, record};
 
     const std::string whole = encode_picture(source, fit_to_frame({}, 5, 3), "RGGB");
@@ -123,6 +143,9 @@ TEST(PreviewPicture, ExactAtStep1AndMeansAtOthers) {
     EXPECT_EQ(at<std::uint64_t>(whole, 104), 5u);
     EXPECT_EQ(at<std::uint32_t>(whole, 112), 9u);
     EXPECT_EQ(whole.substr(132, 4), "RGGB");
+    EXPECT_EQ(at<std::uint32_t>(whole, 136), 1u);
+    EXPECT_STREQ(whole.c_str() + 144, "2016-12-31T23:59:60.250Z");
+    EXPECT_STREQ(whole.c_str() + 176, format_utc({-3}).c_str());
     for (std::size_t i = 0; i < 15; ++i)
         EXPECT_EQ(at<std::uint16_t>(whole, kPictureHeaderBytes + 2 * i), 100 * i);
 
@@ -132,10 +155,10 @@ TEST(PreviewPicture, ExactAtStep1AndMeansAtOthers) {
     EXPECT_EQ(at<std::uint32_t>(part, 32), 2u);  // 2 x 2 blocks, the last of each narrower
     EXPECT_EQ(at<std::uint32_t>(part, 36), 2u);
     ASSERT_EQ(part.size(), kPictureHeaderBytes + 8);
-    EXPECT_EQ(at<std::uint16_t>(part, 160), (200 + 300 + 700 + 800) / 4);
-    EXPECT_EQ(at<std::uint16_t>(part, 162), (400 + 900) / 2);
-    EXPECT_EQ(at<std::uint16_t>(part, 164), (1200 + 1300) / 2);
-    EXPECT_EQ(at<std::uint16_t>(part, 166), 1400);
+    EXPECT_EQ(at<std::uint16_t>(part, kPictureHeaderBytes), (200 + 300 + 700 + 800) / 4);
+    EXPECT_EQ(at<std::uint16_t>(part, kPictureHeaderBytes + 2), (400 + 900) / 2);
+    EXPECT_EQ(at<std::uint16_t>(part, kPictureHeaderBytes + 4), (1200 + 1300) / 2);
+    EXPECT_EQ(at<std::uint16_t>(part, kPictureHeaderBytes + 6), 1400);
 }
 
 // Every frame has its id in every pixel: a reader sees whole frames only, and never an older one than before.
@@ -160,7 +183,7 @@ TEST(PreviewSlot, ReadersSeeWholeFramesAndTheLoopCopiesForThemOnly) {
     const auto look = [&] {
         std::uint64_t last = 0;
         for (int i = 0; i < 50; ++i)
-            ASSERT_TRUE(slot.wait_for(last, 10s, [&](const PreviewSlot::Frame& f) {
+            ASSERT_TRUE(slot.wait_for(last, 10s, false, [&](const PreviewSlot::Frame& f) {
                 EXPECT_GT(f.record.id, last);
                 last = f.record.id;
                 for (const std::uint16_t sample : f.samples)
@@ -174,10 +197,10 @@ TEST(PreviewSlot, ReadersSeeWholeFramesAndTheLoopCopiesForThemOnly) {
     loop.join();
     EXPECT_LT(slot.copies(), published);
     std::uint64_t last = 0;
-    slot.wait_for(0, 1s, [&](const PreviewSlot::Frame& f) { last = f.record.id; });
-    EXPECT_FALSE(slot.wait_for(last, 5ms, [](const PreviewSlot::Frame&) {})) << "no loop, no news";
+    slot.wait_for(0, 1s, false, [&](const PreviewSlot::Frame& f) { last = f.record.id; });
+    EXPECT_FALSE(slot.wait_for(last, 5ms, false, [](const PreviewSlot::Frame&) {})) << "no loop, no news";
     slot.stop();
-    EXPECT_FALSE(slot.wait_for(0, 10s, [](const PreviewSlot::Frame&) {}));
+    EXPECT_FALSE(slot.wait_for(0, 10s, false, [](const PreviewSlot::Frame&) {}));
 }
 
 TEST(PreviewSlot, AFrameLargerThanItsRoomIsNotCopied) {
@@ -188,10 +211,68 @@ TEST(PreviewSlot, AFrameLargerThanItsRoomIsNotCopied) {
         const DnImage large(8, 8);
         while (!over) slot.put(large, FrameRecord{});
     });
-    EXPECT_FALSE(slot.wait_for(0, 30ms, [](const PreviewSlot::Frame&) {}));
+    EXPECT_FALSE(slot.wait_for(0, 30ms, false, [](const PreviewSlot::Frame&) {}));
     over = true;
     loop.join();
     EXPECT_EQ(slot.copies(), 0u);
+}
+
+// While truth is wanted frames without it are passed over, but for who would else get none at all.
+TEST(PreviewSlot, WhoWantsTruthGetsAFrameWithIt) {
+    PreviewSlot slot(16, 1ms);
+    slot.start();
+    std::atomic<bool> over{false}, told{false};
+    std::thread loop([&] {
+        const DnImage frame(4, 4);
+        FrameRecord record;
+        while (!over) {
+            ++record.id;
+            // As the loop does: asked when the frame begins.
+            record.has_truth = told && slot.wants_truth();
+            slot.put(frame, record);
+            std::this_thread::sleep_for(100us);
+        }
+    });
+    FrameRecord got;
+    const auto read = [&](const PreviewSlot::Frame& f) { got = f.record; };
+    EXPECT_FALSE(slot.wants_truth());
+    ASSERT_TRUE(slot.wait_for(0, 10s, false, read));
+    EXPECT_FALSE(got.has_truth);
+    told = true;
+    ASSERT_TRUE(slot.wait_for(0, 10s, true, read));
+    EXPECT_TRUE(got.has_truth);
+    told = false;
+    // The wish is forgotten, and pictures come as before.
+    std::this_thread::sleep_for(20ms);
+    over = true;
+    loop.join();
+    const std::uint64_t last = got.id;
+    ASSERT_TRUE(slot.wait_for(0, 20ms, true, read)) << "the newest there is, in the end";
+    EXPECT_GE(got.id, last);
+}
+
+TEST(PreviewShelf, KeepsWhatWasFrozenLastAndTheNewestLines) {
+    PreviewShelf shelf;
+    PreviewSlot::Frame frame;
+    for (std::uint64_t id = 1; id <= 5; ++id) {
+        frame.record.id = id;
+        frame.samples.assign(4, static_cast<std::uint16_t>(id));
+        shelf.keep(frame);
+        shelf.keep(frame);  // twice is once
+    }
+    EXPECT_EQ(shelf.find(1), nullptr);
+    ASSERT_NE(shelf.find(2), nullptr);
+    EXPECT_EQ(shelf.find(5)->samples[3], 5);
+
+    for (std::uint64_t id = 1; id <= 9; ++id) shelf.put_line(id, "line " + std::to_string(id));
+    EXPECT_EQ(shelf.line_of(1, 1ms), "");
+    EXPECT_EQ(shelf.line_of(9, 1ms), "line 9");
+    std::thread truth([&] {
+        std::this_thread::sleep_for(5ms);
+        shelf.put_line(10, "late");
+    });
+    EXPECT_EQ(shelf.line_of(10, 10s), "late");
+    truth.join();
 }
 
 }  // namespace

@@ -1,0 +1,123 @@
+#include "emulator/progress/progress.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "emulator/progress/progress_line.h"
+
+namespace hilcam {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+struct Progress::Work {
+    std::string what;
+    double steps = 0, done = 0;
+    std::function<double()> look;
+    Clock::time_point begun = Clock::now();
+};
+
+// All work under way, the outermost first, and the thread that writes about it, which lives as long as there
+// is any.
+class ProgressLine {
+  public:
+    static ProgressLine& the() {
+        static ProgressLine line;
+        return line;
+    }
+    bool shown() const { return shown_; }
+
+    void begin(const std::shared_ptr<Progress::Work>& work) {
+        const std::lock_guard lock(mutex_);
+        works_.push_back(work);
+        if (works_.size() > 1) return;
+        thread_ = std::jthread([this](const std::stop_token& over) { run(over); });
+    }
+    void end(const std::shared_ptr<Progress::Work>& work) {
+        std::jthread finished;  // stopped and joined without the lock
+        const std::lock_guard lock(mutex_);
+        // What it looks at may not be there any more.
+        std::erase(works_, work);
+        if (works_.empty()) finished = std::move(thread_);
+    }
+    template <class Change>
+    void change(const Change& change) {
+        const std::lock_guard lock(mutex_);
+        change();
+    }
+
+  private:
+    // Work that is done sooner has no line.
+    static constexpr auto kFirstLine = 700ms, kBetweenLines = 250ms;
+
+    void run(const std::stop_token& over) {
+        std::unique_lock lock(mutex_);
+        bool written = false;
+        const auto never = [] { return false; };
+        for (auto pause = kFirstLine;; pause = kBetweenLines) {
+            news_.wait_for(lock, over, pause, never);
+            if (over.stop_requested()) break;
+            if (works_.empty()) continue;
+            write(text() + "\r");
+            written = true;
+        }
+        if (written) write("");
+    }
+    // Called with the lock.
+    std::string text() const {
+        std::vector<ProgressItem> items;
+        for (const auto& work : works_) {
+            ProgressItem item{
+                work->what, {}, std::chrono::duration<double>(Clock::now() - work->begun).count()};
+            const double done = work->look ? work->look() : work->done;
+            if (work->steps > 0) item.fraction = std::clamp(done / work->steps, 0.0, 1.0);
+            items.push_back(item);
+        }
+        return "hilcam: " + progress_text(items, columns() - 9);
+    }
+    static std::size_t columns() {
+        winsize size{};
+        const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col >= 20;
+        return known ? size.ws_col : 80;
+    }
+    // Clears the line first. The cursor stays at its beginning, where the next message is written over it.
+    static void write(const std::string& text) {
+        const std::string bytes = "\r\x1b[K" + text;
+        [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, bytes.data(), bytes.size());
+    }
+
+    bool shown_ = isatty(STDERR_FILENO) == 1;
+    std::mutex mutex_;
+    std::condition_variable_any news_;
+    std::vector<std::shared_ptr<Progress::Work>> works_;
+    std::jthread thread_;
+};
+
+Progress::Progress(std::string what, double steps, std::function<double()> look) {
+    if (!ProgressLine::the().shown()) return;
+    work_ = std::make_shared<Work>();
+    work_->what = std::move(what), work_->steps = steps, work_->look = std::move(look);
+    ProgressLine::the().begin(work_);
+}
+
+Progress::~Progress() {
+    if (work_) ProgressLine::the().end(work_);
+}
+
+void Progress::done(double steps) {
+    if (work_) ProgressLine::the().change([&] { work_->done = steps; });
+}
+
+void Progress::now(std::string what) {
+    if (work_) ProgressLine::the().change([&] { work_->what = std::move(what); });
+}
+
+}  // namespace hilcam

@@ -1,0 +1,36 @@
+#pragma once
+// How far long work is, told while the object lives: on one line of standard error, where that is a terminal,
+// with what is left by the pace so far. Elsewhere nothing is written and no thread runs.
+//
+// Work within work makes a Progress of its own: the line has the outermost, whose time it tells, and the
+// innermost. Not for a camera's loop: functions here lock. Who may be watched from outside gives `look`
+// instead of counting.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace hilcam {
+
+class Progress {
+  public:
+    // Of work of which nothing is known but the time that it has taken.
+    explicit Progress(std::string what) : Progress(std::move(what), 0) {}
+    // Of `steps` steps; 0: unknown. look: gives how many are done, asked by the line's thread.
+    Progress(std::string what, double steps, std::function<double()> look = {});
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    // So many steps are done in all. Any thread.
+    void done(double steps);
+    // What comes now; nothing else changes. Any thread.
+    void now(std::string what);
+
+  private:
+    struct Work;
+    friend class ProgressLine;
+    std::shared_ptr<Work> work_;
+};
+
+}  // namespace hilcam

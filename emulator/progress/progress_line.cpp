@@ -1,0 +1,41 @@
+#include "emulator/progress/progress_line.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+
+std::string duration_text(double seconds) {
+    const auto s = static_cast<long long>(std::ceil(std::clamp(seconds, 0.0, 1e9)));
+    if (s < 60) return fmt::format("{} s", s);
+    if (s < 3600)
+        return s % 60 == 0 ? fmt::format("{} min", s / 60) : fmt::format("{} min {} s", s / 60, s % 60);
+    return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+}
+
+std::optional<double> left_s(const ProgressItem& item) {
+    constexpr double kLeastTime_s = 1, kLeastFraction = 0.01;
+    if (!item.fraction || item.elapsed_s < kLeastTime_s || *item.fraction < kLeastFraction) return {};
+    return item.elapsed_s * (1 - *item.fraction) / *item.fraction;
+}
+
+std::string progress_text(const std::vector<ProgressItem>& items, std::size_t most_columns) {
+    const auto named = [](const ProgressItem& item) {
+        return item.fraction ? fmt::format("{} {:.0f} %", item.what, std::floor(100 * *item.fraction))
+                             : item.what;
+    };
+    const ProgressItem& first = items.front();
+    std::string text = fmt::format("{}, {}", named(first), duration_text(first.elapsed_s));
+    if (const auto left = left_s(first)) text += fmt::format(", about {} left", duration_text(*left));
+    if (items.size() > 1) text += ": " + named(items.back());
+    // Names may be any bytes. A byte is a column or less.
+    text = harmless(text);
+    if (text.size() > most_columns) text = harmless(text.substr(0, most_columns));
+    return text;
+}
+
+}  // namespace hilcam
