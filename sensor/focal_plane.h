@@ -13,7 +13,7 @@
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/point_source.h"
 #include "sensor/camera_model.h"
-#include "sensor/convolve.h"
+#include "sensor/convolution/convolve.h"
 #include "sensor/exposure.h"
 
 namespace hilcam {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "sensor/compact_kernel.h"
-#include "sensor/convolve.h"
+#include "sensor/convolution/compact_kernel.h"
+#include "sensor/convolution/convolve.h"
 #include "sensor/exposure.h"
 #include "sensor/mosaic.h"
 #include "sensor/optics.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sensor/fourier.h"
+#include "sensor/convolution/fourier.h"
 
 namespace hilcam {
 namespace {

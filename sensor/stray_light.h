@@ -12,7 +12,7 @@
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/image_geometry.h"
-#include "sensor/convolve.h"
+#include "sensor/convolution/convolve.h"
 
 namespace hilcam {
 

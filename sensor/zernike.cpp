@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "render/vocabulary/units.h"
-#include "sensor/fourier.h"
+#include "sensor/convolution/fourier.h"
 
 namespace hilcam {
 namespace {

@@ -50,7 +50,7 @@ Fields fields(StarsConfig& stars);
 enum class MotionQuality { kOff, kFast, kExact };
 
 // How the picture gets its point spread function. kAuto: by a compact kernel where that is as accurate
-// (sensor/compact_kernel.h).
+// (sensor/convolution/compact_kernel.h).
 enum class PsfMethod { kAuto, kFft };
 
 struct QualityConfig {

@@ -1,6 +1,6 @@
 // The first pass over this file includes what PocketFFT includes, before any pass asks for wider
 // instructions.
-#include "sensor/fourier.h"
+#include "sensor/convolution/fourier.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@
 #include <gemmi/third_party/pocketfft_hdronly.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sensor/fourier.cpp"
+#define HWY_TARGET_INCLUDE "sensor/convolution/fourier.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,11 +1,11 @@
-#include "sensor/convolve.h"
+#include "sensor/convolution/convolve.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "render/vocabulary/units.h"
-#include "sensor/compact_kernel.h"
+#include "sensor/convolution/compact_kernel.h"
 #include "sensor/mtf.h"
 #include "tests/support/cameras.h"
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "sensor/convolve.h"
+#include "sensor/convolution/convolve.h"
 
 namespace hilcam {
 

@@ -1,4 +1,4 @@
-#include "sensor/compact_kernel.h"
+#include "sensor/convolution/compact_kernel.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,4 +1,4 @@
-#include "sensor/fourier.h"
+#include "sensor/convolution/fourier.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sensor/convolve.h"
+#include "sensor/convolution/convolve.h"
 
 namespace hilcam {
 namespace {

@@ -1,4 +1,4 @@
-#include "sensor/convolve.h"
+#include "sensor/convolution/convolve.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "render/vocabulary/units.h"
-#include "sensor/fourier.h"
+#include "sensor/convolution/fourier.h"
 
 namespace hilcam {
 namespace {
