@@ -118,29 +118,35 @@ TEST(Calibration, PointsAppearWhereOpenCvHasThem) {
                      {597.9626320811456, 128.62455972951486}});
 }
 
+CameraConfig mounted(Vec3d position_m, Quat thing_from_camera) {
+    CameraConfig out;
+    out.camera = camera();
+    out.camera.name = "right \"eye\"";
+    out.position_m = position_m;
+    out.attitude.wxyz = thing_from_camera;
+    out.attitude.has_wxyz = true;
+    return out;
+}
+
 TEST(Calibration, SeveralCamerasStandWhereTheirMountsSay) {
     ScenarioConfig s;
     s.camera = camera();
-    CameraConfig right;
-    right.camera = camera();
-    right.camera.name = "right \"eye\"";
     // 0.2 m to the right, turned left by 10 degrees.
-    right.mount = {0, {0.2, 0, 0}, from_rotation_vector({0, -0.17453292519943295, 0})};
-    CameraConfig third = right;
-    third.mount = {0, {0.1, 0.3, 0.05}, from_rotation_vector({0.1, 0.2, -0.3})};
+    const CameraConfig right = mounted({0.2, 0, 0}, from_rotation_vector({0, -0.17453292519943295, 0}));
+    const CameraConfig third = mounted({0.1, 0.3, 0.05}, from_rotation_vector({0.1, 0.2, -0.3}));
     s.more_cameras = {right, third};
     const auto cameras = calibrations_of(s, 0);
     ASSERT_EQ(cameras.size(), 3u);
     // A point of the first camera's axes, told in each one's own by hand and by what is written.
     const Vec3d p{0.4, -0.2, 3};
-    const auto own = [&](const Mount& m) {
-        return to_matrix(conjugate(m.thing_from_camera)) * (p - m.position_m);
+    const auto own = [&](const CameraConfig& c) {
+        return to_matrix(conjugate(c.attitude.wxyz)) * (p - c.position_m);
     };
     const std::string opencv = calibration_text(cameras, CalibrationFormat::kOpencv);
     const std::string kalibr = calibration_text(cameras, CalibrationFormat::kKalibr);
     Vec3d chained = p;
     for (int i = 1; i < 3; ++i) {
-        const Vec3d wanted = own(i == 1 ? right.mount : third.mount);
+        const Vec3d wanted = own(i == 1 ? right : third);
         const auto r = list_at(opencv, "   R:", i), t = list_at(opencv, "   T:", i);
         const Mat3d rotation{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
         EXPECT_LT(length(rotation * p + Vec3d{t[0], t[1], t[2]} - wanted), 1e-12);
@@ -180,7 +186,7 @@ TEST(Calibration, WhatAFormatHasNoPlaceForIsRefused) {
     s.camera.distortion = {0.01, 0, 0, 0};
     s.camera.projection = Projection::kFisheye;
     EXPECT_EQ(refusal_of(s, CalibrationFormat::kKalibr), "accepted");
-    s.more_cameras.push_back({camera(), {}, 0, {}});
+    s.more_cameras.push_back(mounted({}, {}));
     EXPECT_THAT(refusal_of(s, CalibrationFormat::kRos), HasSubstr("found 2; give --camera N"));
     s.more_cameras.back().thing = 1;
     EXPECT_THAT(refusal_of(s, CalibrationFormat::kOpencv), HasSubstr("camera 2 does not ride with camera 1"));
