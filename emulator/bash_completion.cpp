@@ -70,19 +70,19 @@ _hilcam() {
         key="${path#.} $word"
         if [[ $word == -* ]]; then
             if [ -n "${_hilcam_values[$key]+set}" ]; then option=$key; fi
-        elif [[ " ${_hilcam_commands[$path]} " == *" $word "* ]]; then
+        elif [[ " ${_hilcam_commands[$path]-} " == *" $word "* ]]; then
             if [ "$path" = . ]; then path=$word; else path+=" $word"; fi
         fi
     done
     local words
     if [ -n "$option" ]; then
-        words=${_hilcam_values[$option]}
+        words=${_hilcam_values[$option]-}
     elif [[ $current == -* ]]; then
-        words=${_hilcam_options[$path]}
-    elif [ -n "${_hilcam_commands[$path]}" ]; then
-        words=${_hilcam_commands[$path]}
+        words=${_hilcam_options[$path]-}
+    elif [ -n "${_hilcam_commands[$path]-}" ]; then
+        words=${_hilcam_commands[$path]-}
     else
-        words=${_hilcam_arguments[$path]}
+        words=${_hilcam_arguments[$path]-}
     fi
     for word in $words; do
         case $word in

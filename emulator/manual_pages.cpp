@@ -44,7 +44,7 @@ std::string body_of(const OptionText& option) {
     if (option.is_positional && !option.words.empty()) text += "; accepted: " + option.value;
     if (!option.usual.empty()) text += " [" + option.usual + "]";
     if (option.is_required && !option.is_positional) text += " (required)";
-    return text.empty() ? "see the command" : text;
+    return text;
 }
 
 std::string synopsis(const std::string& words, const CommandText& command) {
@@ -61,8 +61,11 @@ std::string synopsis(const std::string& words, const CommandText& command) {
 std::string option_list(const CommandText& command) {
     std::string out;
     for (const bool positional : {true, false})
-        for (const OptionText& o : command.options)
-            if (o.is_positional == positional) out += ".TP\n" + head_of(o) + "\n" + roff(body_of(o)) + "\n";
+        for (const OptionText& o : command.options) {
+            if (o.is_positional != positional) continue;
+            const std::string body = roff(body_of(o));
+            out += ".TP\n" + head_of(o) + "\n" + (body.empty() ? "\\&" : body) + "\n";
+        }
     return out;
 }
 

@@ -16,6 +16,10 @@ std::vector<std::string> split(const std::string& text, char mark) {
     return words;
 }
 
+std::string_view word_of(std::string_view kind) {
+    return kind == "FLOAT" ? "NUMBER" : kind == "INT" || kind == "UINT" ? "N" : kind;
+}
+
 // CLI11 writes the kind of a value and then its checks: "INT:INT in [1 - 65535]", "TEXT:{on,off}".
 void read_type(const std::string& type, OptionText& out) {
     const std::size_t colon = type.find(':');
@@ -37,7 +41,10 @@ void read_type(const std::string& type, OptionText& out) {
         out.accepted = check;
     }
     out.takes_files = kind == "TEXT" && out.words.empty();
-    out.value = kind == "FLOAT" ? "NUMBER" : kind == "INT" || kind == "UINT" ? "N" : kind;
+    // Several are "[FLOAT,FLOAT,FLOAT]".
+    const bool several = kind.starts_with('[') && kind.ends_with(']');
+    for (const std::string& one : split(several ? kind.substr(1, kind.size() - 2) : kind, ','))
+        out.value += (out.value.empty() ? "" : " ") + std::string(word_of(one));
     if (!out.words.empty()) {
         out.value.clear();
         for (const std::string& word : out.words) out.value += (out.value.empty() ? "" : "|") + word;
@@ -58,8 +65,6 @@ OptionText described(const CLI::Option& option) {
     out.is_required = option.get_required();
     if (option.get_items_expected_max() == 0) return out;
     read_type(option.get_type_name(), out);
-    const std::string one = out.value;
-    for (int i = 1; i < option.get_type_size_max(); ++i) out.value += " " + one;
     return out;
 }
 

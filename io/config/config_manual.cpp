@@ -132,24 +132,31 @@ constexpr std::size_t kFewestFolded = 4;  // keys of a section that is worth fol
 
 class ManualTable {
   public:
+    explicit ManualTable(const std::vector<Entry>& entries) {
+        // Others are like those at the top rather than the other way round.
+        for (const Entry& e : entries)
+            if (e.below.size() >= kFewestFolded) seen_.emplace(shape_of(e), &e);
+        add_all(entries);
+    }
+    std::string take() { return std::move(out_); }
+
+  private:
     void add(const Entry& e) {
         out_ += "| `" + e.key + "` | " + e.accepted + " | " + e.usual + " | " + e.meaning + " |\n";
         if (e.below.size() < kFewestFolded) return add_all(e.below);
-        const auto [known, is_new] = seen_.emplace(shape_of(e), &e);
-        if (is_new) return add_all(e.below);
+        const Entry& like = *seen_.emplace(shape_of(e), &e).first->second;
+        if (&like == &e) return add_all(e.below);
         const std::string keys = e.below.front().key.substr(0, e.below.front().key.rfind('.')) + ".*";
-        const std::string& first = known->second->below.front().key;
+        const std::string& first = like.below.front().key;
         std::string others;
-        other_defaults(e, *known->second, "", others);
+        other_defaults(e, like, "", others);
         out_ += "| `" + keys + "` | as `" + first.substr(0, first.rfind('.')) + ".*` | " + others +
                 " | the same keys |\n";
     }
     void add_all(const std::vector<Entry>& entries) {
         for (const Entry& e : entries) add(e);
     }
-    std::string take() { return std::move(out_); }
 
-  private:
     std::string out_ = "| key | accepted | default | meaning |\n|---|---|---|---|\n";
     std::map<std::string, const Entry*> seen_;
 };
@@ -212,9 +219,7 @@ std::string value_text(const SectionField& root, std::string_view key) {
 
 std::string config_manual(const SectionField& root, std::string_view prefix) {
     const std::vector<Entry> entries = chosen(root, prefix);
-    ManualTable table;
-    table.add_all(entries);
-    return table.take();
+    return ManualTable(entries).take();
 }
 
 std::string config_manual_json(const SectionField& root, std::string_view prefix) {

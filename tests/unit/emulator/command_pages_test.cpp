@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
 namespace hilcam {
 namespace {
 
@@ -13,7 +15,7 @@ using testing::Not;
 
 struct Line {
     std::string file, what, stage;
-    std::vector<double> place;
+    std::array<double, 3> place{};
     int port = 0;
     double seconds = 2;
     bool fast = false;
@@ -30,7 +32,7 @@ struct Line {
         CLI::App* send = app.add_subcommand("send", "say something");
         CLI::App* lamp = send->add_subcommand("lamp", "switch it");
         lamp->add_option("what", what, "the way")->check(CLI::IsMember({"on", "off"}));
-        lamp->add_option("--place-m", place, "x y z")->expected(1)->type_size(3)->required();
+        lamp->add_option("--place-m", place, "x y z")->required();
         app.add_subcommand("hidden", "of no page")->group("");
     }
 };
