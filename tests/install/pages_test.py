@@ -26,7 +26,7 @@ def completed(line):
         COMP_CWORD=$(( ${{#COMP_WORDS[@]}} - 1 ))
         _hilcam
         printf '%s\\n' "${{COMPREPLY[@]}}" """
-    return output_of("bash", "-u", "-c", script, cwd=SOURCE / "configs").split("\n")[:-1]
+    return output_of("bash", "-u", "-c", script, cwd=SOURCE / "configs").split()
 
 
 class Pages(unittest.TestCase):
