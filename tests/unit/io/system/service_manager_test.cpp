@@ -50,8 +50,8 @@ TEST_F(ServiceManager, IsToldAtAPathAndAtAnAbstractName) {
 TEST_F(ServiceManager, NobodyThereIsNoFailure) {
     unsetenv("NOTIFY_SOCKET");
     EXPECT_FALSE(tell_service_manager("READY=1"));
-    for (const std::string bad : {std::string(), std::string("/"), std::string("relative"),
-                                  "/" + std::string(200, 'a'), (folder_ / "nobody").string()}) {
+    for (const std::string& bad : {std::string(), std::string("/"), std::string("relative"),
+                                   "/" + std::string(200, 'a'), (folder_ / "nobody").string()}) {
         setenv("NOTIFY_SOCKET", bad.c_str(), 1);
         EXPECT_FALSE(tell_service_manager("READY=1")) << bad;
     }
