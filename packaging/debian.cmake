@@ -53,20 +53,22 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME hilcam)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+# Plots are made by Python.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "hilcam-examples, python3-matplotlib")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "aravis-tools, aravis-tools-cli")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "spacecraft's visible camera for the test bench
- hilcam stands in for a spacecraft's visible camera in hardware-in-the-loop
- tests. A real-time loop takes poses over UDP, TCP or USB, ray-traces what the
- camera would see, puts it through a model of optics, detector and electronics,
- and publishes the frames as a GigE Vision camera, a V4L2 device or a USB video
- camera.")
+hilcam stands in for a spacecraft's visible camera in hardware-in-the-loop
+tests. A real-time loop takes poses over UDP, TCP or USB, ray-traces what the
+camera would see, puts it through a model of optics, detector and electronics,
+and publishes the frames as a GigE Vision camera, a V4L2 device or a USB video
+camera.")
 set(CPACK_DEBIAN_EXAMPLES_PACKAGE_NAME hilcam-examples)
 set(CPACK_DEBIAN_EXAMPLES_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_EXAMPLES_PACKAGE_DEPENDS "hilcam (= ${PROJECT_VERSION}-${release_tag})")
 set(CPACK_DEBIAN_EXAMPLES_PACKAGE_SUGGESTS "gir1.2-aravis-0.8, python3-gi, python3-numpy, python3-pil")
 set(CPACK_COMPONENT_EXAMPLES_DESCRIPTION "scenarios and example programs for hilcam
- Scenarios to start hilcam with, the generator of the spacecraft in them, a
- flight program that keeps its target in the middle of the picture (source), and
- a client that takes frames through Aravis.")
+Scenarios to start hilcam with, the generator of the spacecraft in them, a
+flight program that keeps its target in the middle of the picture (source), and
+a client that takes frames through Aravis.")
 include(CPack)
