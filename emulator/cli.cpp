@@ -20,6 +20,8 @@
 #include "emulator/check/doctor.h"
 #include "emulator/check/doctor_facts.h"
 #include "emulator/check/mesh_survey.h"
+#include "emulator/commit.h"
+#include "emulator/manual_command.h"
 #include "emulator/recording/program_version.h"
 #include "emulator/recording/recording_text.h"
 #include "emulator/recording/run_seed.h"
@@ -33,9 +35,9 @@
 #include "emulator/send/send_command.h"
 #include "emulator/tradeoff/error_bench.h"
 #include "emulator/tradeoff/tradeoff_report.h"
-#include "io/config/config_manual.h"
 #include "io/config/config_yaml.h"
 #include "io/files/mesh_cache.h"
+#include "io/system/program_files.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -51,7 +53,7 @@ struct Options {
     SoakOptions soak;
     ErrorBenchOptions error_bench;
     TradeoffOptions tradeoff;
-    bool json = false, sensor = false, error = false, overwrite = false;
+    bool json = false, sensor = false, error = false, overwrite = false, clear_cache = false;
     std::size_t camera = 0;  // from 1; 0: not told
     RunLimits run;
     std::uint16_t preview_port = 0;  // 0: as the scenario says
@@ -305,6 +307,12 @@ int run_tradeoff(const Options& o) {
 }
 
 int run_doctor(const Options& o) {
+    if (o.clear_cache) {
+        const CacheSize gone = clear_cache();
+        fmt::print("{}: {} files removed, {:.0f} MB\n", harmless(cache_folder().string()), gone.files,
+                   static_cast<double>(gone.bytes) * 1e-6);
+        return 0;
+    }
     const BenchNeeds needs = o.config.empty() ? BenchNeeds{} : needs_of(load_scenario(o.config, o.overrides));
     const std::vector<Finding> findings = diagnose(needs, look_at_machine(needs));
     fmt::print("{}", o.json ? findings_json(findings) : findings_text(findings));
@@ -323,8 +331,19 @@ CLI::Validator power_of_two_from_4() {
             "a power of two from 4 to 65536"};
 }
 
+// Puts a shipped file's path in the place of its name.
+CLI::Validator name_of_shipped() {
+    return {[](std::string& name) {
+                name = named_config(name).string();
+                return std::string();
+            },
+            ""};
+}
+
 void add_config(CLI::App* command, Options& o) {
-    command->add_option("config", o.config, "scenario file (YAML)")->required();
+    command->add_option("config", o.config, "scenario file (YAML), or the name of a shipped one")
+        ->required()
+        ->transform(name_of_shipped());
     command->add_option("--set", o.overrides, "KEY=VALUE, replaces a value of the scenario; may be repeated")
         ->allow_extra_args(false);
 }
@@ -341,7 +360,7 @@ int run_command_line(int argc, char** argv) {
     Options o;
     std::function<int()> action;
     CLI::App app{"hilcam: a spacecraft's camera for the test bench"};
-    app.set_version_flag("--version", std::string(kProgramVersion));
+    app.set_version_flag("--version", fmt::format("{} ({})", kProgramVersion, program_commit()));
     app.require_subcommand(1);
 
     CLI::App* run_app = app.add_subcommand("run", "be the camera, in real time");
@@ -502,7 +521,9 @@ int run_command_line(int argc, char** argv) {
 
     CLI::App* characterise_app =
         app.add_subcommand("characterise", "measure a camera from its own frames (EMVA 1288, ISO 12233)");
-    characterise_app->add_option("camera", o.config, "camera file (YAML)")->required();
+    characterise_app->add_option("camera", o.config, "camera file (YAML), or the name of a shipped one")
+        ->required()
+        ->transform(name_of_shipped());
     characterise_app
         ->add_option("--set", o.overrides, "KEY=VALUE, replaces a value of the camera; may be repeated")
         ->allow_extra_args(false);
@@ -512,22 +533,21 @@ int run_command_line(int argc, char** argv) {
 
     CLI::App* doctor_app = app.add_subcommand(
         "doctor", "what this machine lacks to run a bench, and what to do; status 1: something CONFIG needs");
-    doctor_app->add_option("config", o.config, "scenario file (YAML); none: nothing is required");
+    doctor_app
+        ->add_option("config", o.config,
+                     "scenario file (YAML), or the name of a shipped one; none: nothing is required")
+        ->transform(name_of_shipped());
     doctor_app
         ->add_option("--set", o.overrides, "KEY=VALUE, replaces a value of the scenario; may be repeated")
         ->allow_extra_args(false);
     doctor_app->add_flag("--json", o.json, "machine-readable");
+    doctor_app->add_flag("--clear-cache", o.clear_cache,
+                         "only remove what earlier runs have kept ($HILCAM_CACHE, else ~/.cache/hilcam)");
     doctor_app->callback([&] { action = [&] { return run_doctor(o); }; });
 
-    CLI::App* manual_app = app.add_subcommand("manual", "the keys of a scenario file as a Markdown table");
-    manual_app->callback([&] {
-        action = [] {
-            ScenarioConfig scenario;
-            fmt::print("{}", config_manual(section_of(scenario)));
-            return 0;
-        };
-    });
+    add_manual_command(app, action);
     add_send_command(app, action);
+    add_pages_command(app, action);
 
     try {
         app.parse(argc, argv);

@@ -217,6 +217,17 @@ void look_at_time(const MachineFacts& m, Findings& out) {
     out.good("pps", m.pps.empty() ? "none" : fmt::format("{}", fmt::join(m.pps, ", ")));
 }
 
+constexpr double kLargeCache_bytes = 10e9;
+
+void look_at_cache(const MachineFacts& m, Findings& out) {
+    const std::string size = fmt::format("{}: {} files, {:.0f} MB", m.cache, m.cache_files,
+                                         static_cast<double>(m.cache_bytes) / kMegabyte);
+    if (static_cast<double>(m.cache_bytes) > kLargeCache_bytes)
+        out.note("cache", size, "hilcam doctor --clear-cache removes it; what is needed again is made again");
+    else
+        out.good("cache", size);
+}
+
 const char* word_of(Level level) {
     return level == Level::kGood ? "good" : level == Level::kNote ? "note" : "problem";
 }
@@ -254,6 +265,7 @@ std::vector<Finding> diagnose(const BenchNeeds& needs, const MachineFacts& facts
     look_at_network(needs, facts, out);
     look_at_v4l2(needs, facts, out);
     look_at_usb(needs, facts, out);
+    look_at_cache(facts, out);
     look_at_time(facts, out);
     return out.take();
 }

@@ -78,6 +78,10 @@ struct MachineFacts {
     std::vector<std::string> controllers;  // for being a device
     bool configfs = false;
     int usb_devices = 0, usb_openable = 0;
+    // What earlier runs have kept (io/files/mesh_cache.h).
+    std::string cache;
+    std::size_t cache_files = 0;
+    std::uint64_t cache_bytes = 0;
     // Time.
     std::vector<std::string> pps;
     bool clock_synchronised = false;

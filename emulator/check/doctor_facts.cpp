@@ -15,6 +15,7 @@
 #include <fstream>
 #include <thread>
 
+#include "io/files/mesh_cache.h"
 #include "io/system/fd.h"
 #include "io/system/net_interface.h"
 #include "io/uvc/uvc_gadget.h"
@@ -170,6 +171,10 @@ MachineFacts look_at_machine(const BenchNeeds& needs) {
     look_at_video(facts);
     look_at_usb(facts);
     look_at_time(facts);
+    const CacheSize cache = cache_size();
+    facts.cache = cache_folder().string();
+    facts.cache_files = cache.files;
+    facts.cache_bytes = cache.bytes;
     return facts;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
-// What `hilcam --version` says, and what a recording says it was made by.
+// What recordings, pictures and truth say they were made by. `hilcam --version` adds the commit
+// (emulator/commit.h), on which nothing else depends.
 
 #include <string_view>
 
 namespace hilcam {
 
-inline constexpr std::string_view kProgramVersion = "hilcam 0.1.0";
+// "hilcam 0.2.0", of CMakeLists.txt.
+extern const std::string_view kProgramVersion;
 
 }  // namespace hilcam

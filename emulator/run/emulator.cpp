@@ -9,6 +9,7 @@
 
 #include "emulator/recording/recording_header.h"
 #include "emulator/recording/run_seed.h"
+#include "io/system/service_manager.h"
 
 namespace hilcam {
 namespace {
@@ -209,6 +210,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     for (const auto& station : stations_) station->start_loop();
     raise_threads(scenario_.loop.real_time);
     on_ready();
+    tell_service_manager("READY=1");
     const bool terminal = isatty(STDERR_FILENO);
     std::int64_t next_line_ns = begun_ns + 1'000'000'000;
     while (!signalled && !finished()) {
@@ -226,6 +228,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         }
         sleep_until_monotonic_ns(now_ns + 10'000'000);
     }
+    tell_service_manager("STOPPING=1");
     // Loops first: they answer what waits for a frame.
     if (events_) events_->ask_to_stop();
     for (const auto& station : stations_) station->stop_loop();

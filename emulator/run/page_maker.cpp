@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <filesystem>
 
+#include "io/system/program_files.h"
 #include "render/vocabulary/check.h"
 
 extern char** environ;
@@ -13,8 +14,7 @@ extern char** environ;
 namespace hilcam {
 
 void run_page_maker(const std::string& name, const std::vector<std::string>& arguments) {
-    std::error_code error;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
+    const auto program = helper_program(name);
     if (!std::filesystem::exists(program))
         throw DeviceError(program.string() + " is missing: no page is made; build it (target " + name + ")");
     std::vector<std::string> words = {name};

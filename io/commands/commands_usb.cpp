@@ -312,18 +312,6 @@ void UsbCommandReceiver::send_telemetry() {
 
 }  // namespace
 
-Fields fields(UsbCommandConfig& c) {
-    Fields list = {required(text(
-        "device", c.device, "VENDOR:PRODUCT or VENDOR:PRODUCT:SERIAL, hexadecimal as lsusb prints them"))};
-    add_fields(c.dialect, list);
-    return list;
-}
-
-void validate(const UsbCommandConfig& c) {
-    validate(c.dialect);
-    parse_usb_id(c.device);
-}
-
 std::unique_ptr<CommandReceiver> make_usb_receiver(const UsbCommandConfig& config, CommandHandler& handler,
                                                    FaultBoard& faults) {
     return std::make_unique<UsbCommandReceiver>(config, handler, faults);

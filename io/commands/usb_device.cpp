@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "render/vocabulary/check.h"
-#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -76,35 +74,6 @@ UsbDevice open_device(libusb_device* device, const libusb_device_descriptor& d, 
 }
 
 }  // namespace
-
-UsbId parse_usb_id(const std::string& text) {
-    const auto fail = [&]() -> InputError {
-        return InputError(in_quotes(text) +
-                          ": accepted: VENDOR:PRODUCT or VENDOR:PRODUCT:SERIAL, hexadecimal as "
-                          "lsusb prints them, as 1209:0001");
-    };
-    UsbId id;
-    const char *at = text.data(), *const last = text.data() + text.size();
-    for (std::uint16_t* number : {&id.vendor, &id.product}) {
-        if (number == &id.product) {
-            if (at == last || *at != ':') throw fail();
-            ++at;
-        }
-        const auto [end, error] = std::from_chars(at, last, *number, 16);
-        if (error != std::errc{} || end == at) throw fail();
-        at = end;
-    }
-    if (at == last) return id;
-    if (*at != ':' || at + 1 == last) throw fail();
-    id.serial.assign(at + 1, last);
-    return id;
-}
-
-std::string to_string(const UsbId& id) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%04x:%04x", unsigned{id.vendor}, unsigned{id.product});
-    return text + (id.serial.empty() ? "" : ":" + id.serial);
-}
 
 void UsbContextDeleter::operator()(libusb_context* context) const { libusb_exit(context); }
 

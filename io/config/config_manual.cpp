@@ -1,10 +1,14 @@
 #include "io/config/config_manual.h"
 
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <variant>
 
 #include "io/system/plain_number.h"
+#include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
+#include "render/vocabulary/quoted.h"
 
 namespace hilcam {
 namespace {
@@ -61,15 +65,134 @@ std::string default_text(const Field& field) {
     return std::holds_alternative<NumbersField>(field.target) ? std::string() : present_text(field);
 }
 
-void manual_rows(const SectionField& section, const std::string& prefix, std::string& out) {
+const char* kind_of(const Field& field) {
+    return std::visit(Overloaded{
+                          [](const NumberField&) { return "number"; },
+                          [](const IntegerField&) { return "integer"; },
+                          [](const FlagField&) { return "flag"; },
+                          [](const TextField&) { return "text"; },
+                          [](const TextsField&) { return "texts"; },
+                          [](const PathField&) { return "path"; },
+                          [](const ChoiceField&) { return "choice"; },
+                          [](const NumbersField&) { return "numbers"; },
+                          [](const Vec3Field&) { return "vector"; },
+                          [](const QuatField&) { return "quaternion"; },
+                          [](const CurveField&) { return "curve"; },
+                          [](const TableField&) { return "table"; },
+                          [](const SectionField&) { return "section"; },
+                          [](const SectionsField&) { return "list of sections"; },
+                      },
+                      field.target);
+}
+
+// A key with all below it.
+struct Entry {
+    std::string key;   // whole, "camera.shutter.kind"
+    std::string word;  // its last part
+    std::string kind, accepted, usual, meaning;
+    bool required = false;
+    std::vector<Entry> below;
+};
+
+std::vector<Entry> entries_of(const SectionField& section, const std::string& prefix) {
+    std::vector<Entry> out;
     for (const Field& field : section.fields) {
-        out += "| `" + prefix + field.key + "` | " + accepted_text(field) + " | " + default_text(field) +
-               " | " + field.meaning + " |\n";
+        Entry entry{prefix + field.key,  field.key,     kind_of(field), accepted_text(field),
+                    default_text(field), field.meaning, field.required, {}};
         if (const auto* nested = std::get_if<SectionField>(&field.target))
-            manual_rows(*nested, prefix + field.key + ".", out);
+            entry.below = entries_of(*nested, entry.key + ".");
         if (const auto* many = std::get_if<SectionsField>(&field.target))
-            manual_rows(many->append(), prefix + field.key + ".N.", out);
+            entry.below = entries_of(many->append(), entry.key + ".N.");
+        out.push_back(std::move(entry));
     }
+    return out;
+}
+
+// What two sections have in common that are described alike: all but their defaults.
+std::string shape_of(const Entry& section) {
+    std::string out;
+    for (const Entry& e : section.below)
+        out += e.word + "|" + e.accepted + "|" + e.meaning + "|" + (e.required ? "!" : "") + "{" +
+               shape_of(e) + "}";
+    return out;
+}
+
+// "albedo 0.3, visible false": what `section` has otherwise than `other` of the same shape.
+void other_defaults(const Entry& section, const Entry& other, const std::string& prefix, std::string& out) {
+    for (std::size_t i = 0; i < section.below.size(); ++i) {
+        const Entry &mine = section.below[i], &its = other.below[i];
+        if (mine.usual != its.usual)
+            out += (out.empty() ? "" : ", ") + prefix + mine.word + " " +
+                   (mine.usual.empty() ? "none" : mine.usual);
+        other_defaults(mine, its, prefix + mine.word + ".", out);
+    }
+}
+
+constexpr std::size_t kFewestFolded = 4;  // keys of a section that is worth folding
+
+class ManualTable {
+  public:
+    explicit ManualTable(const std::vector<Entry>& entries) {
+        // Others are like those at the top rather than the other way round.
+        for (const Entry& e : entries)
+            if (e.below.size() >= kFewestFolded) seen_.emplace(shape_of(e), &e);
+        add_all(entries);
+    }
+    std::string take() { return std::move(out_); }
+
+  private:
+    void add(const Entry& e) {
+        out_ += "| `" + e.key + "` | " + e.accepted + " | " + e.usual + " | " + e.meaning + " |\n";
+        if (e.below.size() < kFewestFolded) return add_all(e.below);
+        const Entry& like = *seen_.emplace(shape_of(e), &e).first->second;
+        if (&like == &e) return add_all(e.below);
+        const std::string keys = e.below.front().key.substr(0, e.below.front().key.rfind('.')) + ".*";
+        const std::string& first = like.below.front().key;
+        std::string others;
+        other_defaults(e, like, "", others);
+        out_ += "| `" + keys + "` | as `" + first.substr(0, first.rfind('.')) + ".*` | " + others +
+                " | the same keys |\n";
+    }
+    void add_all(const std::vector<Entry>& entries) {
+        for (const Entry& e : entries) add(e);
+    }
+
+    std::string out_ = "| key | accepted | default | meaning |\n|---|---|---|---|\n";
+    std::map<std::string, const Entry*> seen_;
+};
+
+// The entry of a key; null: there is none.
+const Entry* find(const std::vector<Entry>& entries, std::string_view key) {
+    for (const Entry& e : entries) {
+        if (e.key == key || e.key + ".N" == key) return &e;
+        if (const Entry* below = find(e.below, key)) return below;
+    }
+    return nullptr;
+}
+
+std::vector<Entry> chosen(const SectionField& root, std::string_view prefix) {
+    std::vector<Entry> all = entries_of(root, "");
+    if (prefix.empty()) return all;
+    const Entry* found = find(all, prefix);
+    if (!found)
+        throw InputError("manual " + in_quotes(prefix) +
+                         ": no such key; accepted: a key as `hilcam manual` prints it, as camera.shutter or "
+                         "objects.N.pose");
+    return {*found};
+}
+
+nlohmann::ordered_json json_of(const std::vector<Entry>& entries) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Entry& e : entries) {
+        list.push_back({{"key", e.key},
+                        {"kind", e.kind},
+                        {"accepted", e.accepted},
+                        {"default", e.required ? "" : e.usual},
+                        {"required", e.required},
+                        {"meaning", e.meaning}});
+        for (auto& below : json_of(e.below)) list.push_back(std::move(below));
+    }
+    return list;
 }
 
 }  // namespace
@@ -94,10 +217,13 @@ std::string value_text(const SectionField& root, std::string_view key) {
     return {};
 }
 
-std::string config_manual(const SectionField& root) {
-    std::string out = "| key | accepted | default | meaning |\n|---|---|---|---|\n";
-    manual_rows(root, "", out);
-    return out;
+std::string config_manual(const SectionField& root, std::string_view prefix) {
+    const std::vector<Entry> entries = chosen(root, prefix);
+    return ManualTable(entries).take();
+}
+
+std::string config_manual_json(const SectionField& root, std::string_view prefix) {
+    return json_of(chosen(root, prefix)).dump(1) + "\n";
 }
 
 }  // namespace hilcam

@@ -16,7 +16,11 @@ std::string accepted(const Range& range);
 std::string value_text(const SectionField& root, std::string_view key);
 
 // A Markdown table of the keys: key, accepted, default, meaning. Nested sections follow as rows
-// "section.key".
-std::string config_manual(const SectionField& root);
+// "section.key", list elements as "list.N.key". A section with the same keys as an earlier one is folded into
+// a row that names that one and the defaults that are others. prefix: "camera.shutter" for that key and all
+// below it alone; empty: all. Throws InputError for one that is none.
+std::string config_manual(const SectionField& root, std::string_view prefix = {});
+// The same keys, none folded, as a JSON list of {key, kind, accepted, default, required, meaning}.
+std::string config_manual_json(const SectionField& root, std::string_view prefix = {});
 
 }  // namespace hilcam

@@ -13,6 +13,7 @@
 #include "io/config/config_manual.h"
 #include "io/system/input_file.h"
 #include "io/system/plain_number.h"
+#include "io/system/program_files.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
 #include "render/vocabulary/quoted.h"
@@ -151,6 +152,18 @@ class Reader {
         return path.empty() ? key : path + "." + key;
     }
 
+    // What a file names: from that one's folder; where nothing is there, the shipped file of that name. What
+    // a shipped file names and is not shipped is the user's: a mesh to bring, a folder to write to. It lies
+    // in the working directory.
+    static std::filesystem::path found_from(const Place& place, const std::string& name) {
+        const std::filesystem::path own = place.folder / name;
+        std::error_code error;
+        if (std::filesystem::exists(own, error)) return own;
+        const std::filesystem::path shipped = shipped_file(name);
+        if (!shipped.empty()) return shipped;
+        return is_shipped(place.folder) ? std::filesystem::current_path() / name : own;
+    }
+
     void count_node(const Place& place, const YAML::Node& node, const std::string& path, int depth) {
         if (++nodes_ > 200000) fail(place, node, path, "the configuration has more than 200000 values");
         if (depth > kDeepest)
@@ -278,7 +291,7 @@ class Reader {
                 },
                 [&](const PathField& f) {
                     if (!node.IsScalar() || node.Scalar().empty()) refuse(node, "a path");
-                    *f.value = place.folder / node.Scalar();
+                    *f.value = found_from(place, node.Scalar());
                     if (f.where) *f.where = where(place, node) + (place.command_line ? "" : ": " + path);
                 },
                 [&](const ChoiceField& f) {
@@ -373,7 +386,7 @@ class Reader {
     void section(const YAML::Node& node, const Place& place, const SectionField& f, const std::string& path,
                  int depth, const Refuse& refuse) {
         if (node.IsScalar()) {
-            const std::filesystem::path file = place.folder / node.Scalar();
+            const std::filesystem::path file = found_from(place, node.Scalar());
             std::error_code error;
             if (!std::filesystem::exists(file, error))
                 fail(place, node, path,

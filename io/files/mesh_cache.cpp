@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <regex>
 
+#include "io/system/program_files.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -28,6 +30,20 @@ int run(const std::filesystem::path& program, std::vector<std::string> words) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+// Names that caches give their files: "levels_123.bin", "hilcam-make-spacecraft_seed_1.glb"; and what is left
+// of one that was being written: "levels_123.bin.4711".
+std::vector<std::filesystem::path> cached_files(const std::filesystem::path& folder) {
+    static const std::regex name(
+        R"((atmosphere|levels|reference|transfer)_\d+.*\.bin(\.\d+)?|hilcam-[\w-]+_.*\.glb)");
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        if (std::regex_match(entry.path().filename().string(), name) && !entry.is_symlink(error) &&
+            entry.is_regular_file(error))
+            files.push_back(entry.path());
+    return files;
+}
+
 }  // namespace
 
 std::filesystem::path cache_folder() {
@@ -37,6 +53,28 @@ std::filesystem::path cache_folder() {
     if (const char* home = std::getenv("HOME"); home && *home)
         return std::filesystem::path(home) / ".cache" / "hilcam";
     return std::filesystem::temp_directory_path() / "hilcam";
+}
+
+CacheSize cache_size(const std::filesystem::path& folder) {
+    CacheSize size;
+    for (const auto& file : cached_files(folder)) {
+        std::error_code error;
+        const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+        if (error) continue;
+        ++size.files;
+        size.bytes += bytes;
+    }
+    return size;
+}
+
+CacheSize clear_cache(const std::filesystem::path& folder) {
+    const CacheSize size = cache_size(folder);
+    for (const auto& file : cached_files(folder)) {
+        std::error_code error;
+        std::filesystem::remove(file, error);
+        if (error) throw DeviceError(file.string() + " cannot be removed: " + error.message());
+    }
+    return size;
 }
 
 std::filesystem::path generated_mesh(const std::string& program, const std::vector<std::string>& arguments,
@@ -56,11 +94,11 @@ std::filesystem::path generated_mesh(const std::string& program, const std::vect
     const std::filesystem::path file = folder / (name + ".glb");
     if (std::filesystem::exists(file)) return file;
 
-    std::error_code error;
-    const auto beside = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / program;
+    const auto beside = helper_program(program);
     if (!std::filesystem::exists(beside))
         throw InputError("mesh generator " + beside.string() +
                          " is missing; build it, or give the object a mesh file");
+    std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw DeviceError("cache folder " + folder.string() + " cannot be made: " + error.message());
     std::vector<std::string> words = {program};

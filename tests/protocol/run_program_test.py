@@ -119,7 +119,7 @@ class ExitCodes(unittest.TestCase):
 
     def test_check_and_version(self):
         self.assertIn("object 1 'target'", hilcam("check", SCENARIO).stdout)
-        self.assertIn("0.1.0", hilcam("--version").stdout)
+        self.assertRegex(hilcam("--version").stdout, r"^hilcam 0\.2\.0 \(\S.*\)\n$")
 
 
 class Check(unittest.TestCase):

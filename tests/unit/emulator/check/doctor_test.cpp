@@ -56,6 +56,17 @@ TEST(Doctor, AGoodMachineHasNothingToDo) {
     }
 }
 
+TEST(Doctor, TheCacheHasASizeAndALargeOneAnAdvice) {
+    MachineFacts m = good_machine();
+    m.cache = "/home/a/.cache/hilcam";
+    m.cache_files = 12;
+    m.cache_bytes = 116'000'000;
+    EXPECT_THAT(about("cache", {}, m, Finding::Level::kGood),
+                HasSubstr("/home/a/.cache/hilcam: 12 files, 116 MB"));
+    m.cache_bytes = 11'000'000'000;
+    EXPECT_THAT(about("cache", {}, m, kNote), HasSubstr("hilcam doctor --clear-cache"));
+}
+
 TEST(Doctor, WithoutAScenarioNothingIsAProblem) {
     const std::vector<Finding> findings = diagnose({}, MachineFacts{});
     EXPECT_TRUE(all_there(findings));

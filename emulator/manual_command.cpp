@@ -1,0 +1,74 @@
+#include "emulator/manual_command.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <fstream>
+
+#include "emulator/command_pages.h"
+#include "emulator/recording/program_version.h"
+#include "emulator/scenario/app_config.h"
+#include "io/config/config_manual.h"
+#include "io/config/config_schema.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+struct ManualOptions {
+    std::string prefix;
+    bool json = false, schema = false;
+};
+
+int print_manual(const ManualOptions& o) {
+    ScenarioConfig scenario;
+    const SectionField root = section_of(scenario);
+    if (o.schema)
+        fmt::print("{}",
+                   config_schema(root, o.prefix, "hilcam " + (o.prefix.empty() ? "scenario" : o.prefix)));
+    else
+        fmt::print("{}", o.json ? config_manual_json(root, o.prefix) : config_manual(root, o.prefix));
+    return 0;
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    if (!out.flush()) throw DeviceError(file.string() + " cannot be written");
+}
+
+int make_pages(const CLI::App& app, const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    const CommandText program = described(app);
+    for (const NamedText& page : manual_pages(program, std::string(kProgramVersion)))
+        write_text(folder / page.name, page.text);
+    write_text(folder / "hilcam.bash", bash_completion(program));
+    return 0;
+}
+
+}  // namespace
+
+void add_manual_command(CLI::App& app, std::function<int()>& action) {
+    auto o = std::make_shared<ManualOptions>();
+    CLI::App* manual = app.add_subcommand("manual", "the keys of a scenario file as a Markdown table");
+    manual->add_option("prefix", o->prefix,
+                       "only this key and those below it, as camera.shutter or objects.N.pose");
+    CLI::Option* json = manual->add_flag("--json", o->json, "machine-readable");
+    manual
+        ->add_flag(
+            "--schema", o->schema,
+            "a JSON Schema (draft 2020-12) of a scenario file, or of a file that holds the section PREFIX")
+        ->excludes(json);
+    manual->callback([&action, o] { action = [o] { return print_manual(*o); }; });
+}
+
+void add_pages_command(CLI::App& app, std::function<int()>& action) {
+    auto folder = std::make_shared<std::filesystem::path>();
+    CLI::App* pages = app.add_subcommand("make-pages", "manual pages and completion, into a folder");
+    pages->group("");
+    pages->add_option("folder", *folder)->required();
+    pages->callback(
+        [&app, &action, folder] { action = [&app, folder] { return make_pages(app, *folder); }; });
+}
+
+}  // namespace hilcam

@@ -1,0 +1,147 @@
+#include "io/config/config_schema.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/overloaded.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Whole ends as whole numbers, so that 1 does not become 1.0.
+Json plain_end(double end) {
+    if (std::abs(end) < 9.1e15 && end == std::trunc(end)) return static_cast<std::int64_t>(end);
+    return end;
+}
+
+Json number_of(const Range& range, const char* type = "number") {
+    Json out = {{"type", type}};
+    if (std::isfinite(range.least)) out["minimum"] = plain_end(range.least);
+    if (std::isfinite(range.most)) out["maximum"] = plain_end(range.most);
+    return out;
+}
+
+Json list_of(const Json& items, std::size_t fewest, std::size_t most) {
+    return {{"type", "array"}, {"items", items}, {"minItems", fewest}, {"maxItems", most}};
+}
+
+Json pairs_of(const Range& x, const Range& y) {
+    const Json pair = {
+        {"type", "array"}, {"prefixItems", {number_of(x), number_of(y)}}, {"minItems", 2}, {"maxItems", 2}};
+    return {{"type", "array"}, {"items", pair}, {"minItems", 1}};
+}
+
+Json mapping_of(const SectionField& section);
+
+// A mapping, or the path of a file that holds it.
+Json section_of_field(const SectionField& section) {
+    return {{"anyOf", {Json{{"type", "string"}, {"minLength", 1}}, mapping_of(section)}}};
+}
+
+Json type_of(const Field& field) {
+    return std::visit(Overloaded{
+                          [](const NumberField& f) { return number_of(f.range); },
+                          [](const IntegerField& f) { return number_of(f.range, "integer"); },
+                          [](const FlagField&) {
+                              return Json{{"type", "boolean"}};
+                          },
+                          // Any plain value is a text: a serial number of digits, too.
+                          [](const TextField&) {
+                              return Json{{"type", {"string", "number", "boolean"}}};
+                          },
+                          [](const TextsField&) {
+                              const Json text = {{"type", {"string", "number", "boolean"}}};
+                              return Json{{"anyOf", {text, Json{{"type", "array"}, {"items", text}}}}};
+                          },
+                          [](const PathField&) {
+                              return Json{{"type", "string"}, {"minLength", 1}};
+                          },
+                          [](const ChoiceField& f) {
+                              return Json{{"enum", f.words}};
+                          },
+                          [](const NumbersField& f) { return list_of(number_of(f.range), f.fewest, f.most); },
+                          [](const Vec3Field& f) { return list_of(number_of(f.range), 3, 3); },
+                          [](const QuatField&) {
+                              return list_of(number_of({-1.001, 1.001}), 4, 4);
+                          },
+                          [](const CurveField& f) {
+                              return Json{{"anyOf", {number_of(f.range), pairs_of({0.1, 100}, f.range)}}};
+                          },
+                          [](const TableField& f) { return pairs_of(f.x_range, f.y_range); },
+                          [](const SectionField& f) { return section_of_field(f); },
+                          [](const SectionsField& f) {
+                              return Json{{"type", "array"}, {"items", section_of_field(f.append())}};
+                          },
+                      },
+                      field.target);
+}
+
+// What holds without the key, where that is one value.
+std::optional<Json> default_of(const Field& field) {
+    if (field.required) return {};
+    if (const auto* f = std::get_if<NumberField>(&field.target))
+        if (const double value = *f->value / f->si_per_unit; std::isfinite(value)) {
+            // Twelve digits, as what is read and divided again is not quite what was written.
+            char text[32];
+            std::snprintf(text, sizeof text, "%.12g", value);
+            return plain_end(std::strtod(text, nullptr));
+        }
+    if (const auto* f = std::get_if<IntegerField>(&field.target)) return *f->value;
+    if (const auto* f = std::get_if<FlagField>(&field.target)) return *f->value;
+    if (const auto* f = std::get_if<ChoiceField>(&field.target)) return f->words[f->get()];
+    return {};
+}
+
+Json mapping_of(const SectionField& section) {
+    Json properties = Json::object(), required = Json::array();
+    for (const Field& field : section.fields) {
+        Json of_key = type_of(field);
+        of_key["description"] = field.meaning;
+        if (const auto value = default_of(field)) of_key["default"] = *value;
+        properties[field.key] = std::move(of_key);
+        if (field.required) required.push_back(field.key);
+    }
+    Json out = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+    if (!required.empty()) out["required"] = std::move(required);
+    return out;
+}
+
+// The section that stands at a key, "objects.N.materials"; references into appended elements live on in their
+// owner.
+std::optional<SectionField> section_at(const SectionField& root, std::string_view key) {
+    const std::size_t dot = key.find('.');
+    for (const Field& field : root.fields) {
+        if (field.key != key.substr(0, dot)) continue;
+        std::string_view rest = dot == std::string_view::npos ? std::string_view() : key.substr(dot + 1);
+        std::optional<SectionField> here;
+        if (const auto* nested = std::get_if<SectionField>(&field.target)) here = *nested;
+        if (const auto* many = std::get_if<SectionsField>(&field.target); many && rest.starts_with("N")) {
+            here = many->append();
+            rest = rest.size() > 2 ? rest.substr(2) : std::string_view();
+        }
+        if (!here || rest.empty()) return here;
+        return section_at(*here, rest);
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string config_schema(const SectionField& root, std::string_view prefix, const std::string& title) {
+    const std::optional<SectionField> section =
+        prefix.empty() ? std::optional<SectionField>(root) : section_at(root, prefix);
+    if (!section)
+        throw InputError("manual " + in_quotes(prefix) +
+                         ": no such section; accepted: a section as `hilcam manual` prints it, as camera or "
+                         "objects.N.materials");
+    Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
+    schema.update(mapping_of(*section));
+    return schema.dump(1) + "\n";
+}
+
+}  // namespace hilcam

@@ -1,0 +1,30 @@
+#pragma once
+// What belongs to the program: the files that are shipped with it, and the programs that it starts.
+//
+// They are sought from where the running program lies, so that an installed tree may be moved; then in the
+// prefix that it was configured for. A build tree has a link to the source tree's configs in the place of
+// the installed folder. Any thread; touches nothing but the file system.
+
+#include <filesystem>
+#include <string>
+
+namespace hilcam {
+
+// The folder of scenarios/, cameras/, stars/ ...; empty: there is none.
+std::filesystem::path data_folder();
+
+// A shipped file by its path in that folder, "cameras/lorri.yaml", as it may be written from the source tree,
+// too ("configs/cameras/lorri.yaml"); empty: there is no such file.
+std::filesystem::path shipped_file(const std::filesystem::path& name);
+// A scenario or a camera's file as people name it: a path, or a word such as "small" for the shipped
+// scenarios/small.yaml, or cameras/small.yaml. What is there at the path itself comes first; the name as it
+// is, when nothing is there.
+std::filesystem::path named_config(const std::filesystem::path& name);
+// True of a file's folder that lies in the data folder, where runs must not write.
+bool is_shipped(const std::filesystem::path& folder);
+
+// A program that hilcam starts, beside it or in its own folder (libexec/hilcam). Beside it, when there is
+// none.
+std::filesystem::path helper_program(const std::string& name);
+
+}  // namespace hilcam

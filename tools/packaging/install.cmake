@@ -1,0 +1,40 @@
+# What is installed, and where. Everything is found from where the program lies (io/system/program_files.h), so a prefix
+# may be moved whole.
+set(data ${CMAKE_INSTALL_DATADIR}/hilcam)
+set(doc ${CMAKE_INSTALL_DOCDIR})
+
+# A build tree looks like a prefix to the program: its data are those of the source tree.
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/configs ${CMAKE_BINARY_DIR}/share/hilcam SYMBOLIC)
+
+# Manual pages and completion, made by the program out of its own options.
+set(pages ${CMAKE_BINARY_DIR}/pages)
+add_custom_command(OUTPUT ${pages}/hilcam.bash
+    COMMAND $<TARGET_FILE:hilcam> make-pages ${pages}
+    DEPENDS hilcam COMMENT "Manual pages and completion" VERBATIM)
+add_custom_target(pages ALL DEPENDS ${pages}/hilcam.bash)
+
+# --- the program ---
+install(TARGETS hilcam RUNTIME COMPONENT program)
+install(PROGRAMS tools/hilcam-plot-characterise tools/hilcam-plot-soak tools/hilcam-plot-tradeoff
+    DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT program)
+install(DIRECTORY configs/cameras configs/maps configs/materials configs/quality configs/schema configs/stars
+    DESTINATION ${data} COMPONENT program)
+install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
+install(FILES ${pages}/hilcam.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME hilcam
+    COMPONENT program)
+install(FILES tools/packaging/systemd/hilcam@.service DESTINATION lib/systemd/system COMPONENT program)
+# What clients in C and plug-ins include: -I PREFIX/include/hilcam.
+install(FILES tools/client/hilcam_client.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program)
+install(DIRECTORY render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program FILES_MATCHING PATTERN "*.h")
+install(FILES tools/client/hilcam_client.py DESTINATION ${data}/client COMPONENT program)
+install(FILES README.md NOTICE CITATION.cff SECURITY.md DESTINATION ${doc} COMPONENT program)
+install(DIRECTORY docs DESTINATION ${doc} COMPONENT program)
+# Debian has a licence file and a changelog of its own kind in their place (debian.cmake).
+install(FILES CHANGELOG.md LICENSE DESTINATION ${doc} COMPONENT texts)
+
+# --- the examples ---
+install(TARGETS hilcam-make-spacecraft RUNTIME DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT examples)
+install(DIRECTORY configs/scenarios configs/meshes DESTINATION ${data} COMPONENT examples)
+install(DIRECTORY tools/flight_software_example DESTINATION ${doc}-examples/examples COMPONENT examples)
+install(FILES tools/quickstart_client.py tools/client/README.md DESTINATION ${doc}-examples/examples COMPONENT examples)
