@@ -193,8 +193,13 @@ TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
 bool LiveSettings::wait_for_order(double patience_s) {
     if (!ordered_) return true;
     ordered_ = false;
-    const auto patience = std::chrono::duration<double>(patience_s);
-    return done_.try_acquire_for(std::chrono::duration_cast<std::chrono::nanoseconds>(patience));
+    // An order may come just when the loop has looked for the last time: nobody answers it.
+    const std::int64_t until_ns = monotonic_ns() + static_cast<std::int64_t>(patience_s * 1e9);
+    while (!done_.try_acquire_for(std::chrono::nanoseconds(kLongestWait_ns))) {
+        if (closed_.load()) return true;
+        if (monotonic_ns() >= until_ns) return false;
+    }
+    return true;
 }
 
 // If time goes on as it does now, and does not stand.

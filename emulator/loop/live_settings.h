@@ -50,8 +50,8 @@ class LiveSettings : public CameraControl {
     }
 
     // Lockstep, one caller at a time: trigger(), to be followed by wait_for_order(), which returns when the
-    // loop has seen the world for the order's last frame, or at once when it was not taken. False when that
-    // takes longer than `patience_s`.
+    // loop has seen the world for the order's last frame or has ended, or at once when it was not taken.
+    // False when that takes longer than `patience_s`.
     TriggerResult order_in_lockstep(const TriggerOrder& order);
     bool wait_for_order(double patience_s);
 

@@ -3,8 +3,8 @@
 
     tutorial_test.py HILCAM SOURCE_DIR PAGE.md
 
-Blocks of the page, in their order, in an empty folder that has the project's configs and tools, on a network of its own
-where the kernel allows that:
+Blocks of the page, in their order, in an empty folder, on a network of its own where the kernel allows
+that, with the program on the path and the Python client beside Python's own modules:
     ```yaml FILE, ```python FILE    is written to FILE
     ```sh                           is run, all of a page's by one shell, which stops at the first command that fails
     ```text after an sh block       is what that block prints; "..." stands for any words, alone on a line for any lines
@@ -62,8 +62,6 @@ def run_page(hilcam, source, page):
     assert any("commands" in step for step in todo), "the page has no commands"
     folder = pathlib.Path(tempfile.mkdtemp(prefix="tutorial_"))
     try:
-        shutil.copytree(source / "configs", folder / "configs")  # scenarios put their files beside it
-        (folder / "tools").symlink_to(source / "tools")
         for step in todo:
             if "file" in step:
                 (folder / step["file"]).write_text(step["body"])

@@ -118,6 +118,17 @@ TEST(LiveSettings, RefusesWhatIsOutsideAndTheLoopSeesTheRest) {
     EXPECT_EQ(settings.read_in_loop().gain_db, 6);
 }
 
+// An order that comes just when the loop has looked for the last time, as at the end of --frames.
+TEST(LiveSettings, NobodyWaitsForALoopThatHasEnded) {
+    LiveSettings settings(CameraModel{}, {.lockstep = true});
+    ASSERT_EQ(settings.order_in_lockstep({.frames = 1, .source = TriggerSource::kLine0}),
+              TriggerResult::kTaken);
+    settings.close();
+    const std::int64_t begin_ns = monotonic_ns();
+    EXPECT_TRUE(settings.wait_for_order(600));
+    EXPECT_LT(monotonic_ns() - begin_ns, 300'000'000'000) << "not the whole patience";
+}
+
 TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
     CameraModel camera;
     LiveSettings settings(camera);
