@@ -121,8 +121,9 @@ TEST(LiveSettings, RefusesWhatIsOutsideAndTheLoopSeesTheRest) {
 // An order that comes just when the loop has looked for the last time, as at the end of --frames.
 TEST(LiveSettings, NobodyWaitsForALoopThatHasEnded) {
     LiveSettings settings(CameraModel{}, {.lockstep = true});
-    ASSERT_EQ(settings.order_in_lockstep({.frames = 1, .source = TriggerSource::kLine0}),
-              TriggerResult::kTaken);
+    TriggerOrder order;
+    order.source = TriggerSource::kLine0;
+    ASSERT_EQ(settings.order_in_lockstep(order), TriggerResult::kTaken);
     settings.close();
     const std::int64_t begin_ns = monotonic_ns();
     EXPECT_TRUE(settings.wait_for_order(600));
