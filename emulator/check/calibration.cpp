@@ -14,7 +14,7 @@ std::string list(std::span<const double> numbers) { return fmt::format("[{}]", f
 
 bool is_fisheye(const CameraCalibration& c) { return c.distortion.projection == Projection::kFisheye; }
 
-// As OpenCV orders them.
+// Coefficients stand as OpenCV orders them.
 std::vector<double> coefficients(const CameraCalibration& c) {
     const LensDistortion& d = c.distortion;
     if (is_fisheye(c)) return {d.k1, d.k2, d.k3, d.k4};

@@ -14,9 +14,9 @@ namespace hilcam {
 
 class Progress {
   public:
-    // Of work of which nothing is known but the time that it has taken.
+    // Tells of work of which nothing is known but the time that it has taken.
     explicit Progress(std::string what) : Progress(std::move(what), 0) {}
-    // Of `steps` steps; 0: unknown. look: gives how many are done, asked by the line's thread.
+    // Tells of work of `steps` steps; 0: unknown. look: gives how many are done, asked by the line's thread.
     Progress(std::string what, double steps, std::function<double()> look = {});
     ~Progress();
     Progress(const Progress&) = delete;

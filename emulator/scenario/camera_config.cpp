@@ -53,7 +53,7 @@ VizardBench vizard_bench(const ScenarioConfig& s) {
     for (std::size_t i = 0; i <= s.more_cameras.size(); ++i) {
         const ScenarioConfig own = scenario_of_camera(s, i);
         const auto [width, height] = frame_size(own.camera);
-        // Of the undistorted lens, over all rows that a frame shows.
+        // The field is that of the undistorted lens, over all rows that a frame shows.
         const double half_m = 0.5 * static_cast<double>(height * own.camera.binning_y) * own.camera.pitch_m;
         bench.cameras.push_back({{own.mount.position_m, own.mount.thing_from_camera},
                                  2 * std::atan2(half_m, own.camera.focal_length_m),

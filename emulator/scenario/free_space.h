@@ -5,7 +5,7 @@
 
 namespace hilcam {
 
-// With `origin: {kind: free}` takes the Sun's place from the keys of `sun`, and leaves out the bodies whose
+// Takes the Sun's place, for `origin: {kind: free}`, from the keys of `sun`, and leaves out the bodies whose
 // `visible` is not given. Throws KeyError for keys of `sun` that are missing, that another origin does not
 // read, or that say it twice, and for a nadir of no named body.
 void settle_free_space(ScenarioConfig& scenario);

@@ -45,7 +45,7 @@ struct EphemerisFileConfig {
 };
 Fields fields(EphemerisFileConfig& file);
 
-// As PlacedFrame::Kind (emulator/motion/placed_frame.h).
+// The kinds are those of PlacedFrame::Kind (emulator/motion/placed_frame.h).
 enum class MotionFrame { kWorld, kBodyFixed, kLvlh, kThing, kLocal };
 
 struct AttitudeConfig {
