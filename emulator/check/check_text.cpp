@@ -84,7 +84,8 @@ void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
     if (sight.from_site_m)
         out +=
             fmt::format("  site        the camera is {:.6g} m east, {:.6g} m north, {:.6g} m above it ({})\n",
-                        sight.from_site_m->x, sight.from_site_m->y, sight.from_site_m->z, sight.site_body);
+                        to_a_nanometre(sight.from_site_m->x), to_a_nanometre(sight.from_site_m->y),
+                        to_a_nanometre(sight.from_site_m->z), sight.site_body);
     out += fmt::format(
         "  Sun         {:.4g} au away, {:.1f} deg off the boresight: ({:.3f}, {:.3f}, {:.3f}) in camera axes "
         "(right, "

@@ -9,6 +9,7 @@
 #include "emulator/events/event_sequence.h"
 #include "emulator/scenario/free_space.h"
 #include "emulator/scenario/lamp_setup.h"
+#include "emulator/scenario/listening_ports.h"
 #include "emulator/scenario/site.h"
 #include "io/config/config_yaml.h"
 #include "io/system/plain_number.h"
@@ -325,6 +326,7 @@ void validate(const ScenarioConfig& s) {
     const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
     lamp_mounts(s);
     check_folders(s);
+    check_listening_ports(s);
     if (s.commands.has_vizard) check_vizard(s);
     if (s.mode == CameraMode::kLockstep) require_lockstep(s.clock), require_lockstep(s.commands.poses);
 }

@@ -103,6 +103,9 @@ constexpr Mistake kMistakes[] = {
     {"FreeSpaceWithoutSun", 3, "origin: {kind: free}", "1:1", "sun: does not say where the Sun is"},
     {"TwoFormsOfAttitude", 17, "  attitude_radec_deg: [1, 2, 0]\n  attitude_mrp: [0, 0, 0]", "17:23",
      "camera_pose.attitude_radec_deg: found besides 'attitude_mrp'"},
+    // Ports.
+    {"TwoOnOnePort", 25, "outputs: {truth: {port: 5733}, preview: {port: 5733}}", "25:25",
+     "found TCP '127.0.0.1:5733', where outputs.preview.port listens, too"},
     // What may be meant.
     {"NoOrigin", 16, "  position_m: [0.001, 0, 0]\norigin_:", "17:1",
      "unknown key; nearest known key: origin"},

@@ -1,0 +1,51 @@
+#include "emulator/scenario/listening_ports.h"
+
+#include <map>
+
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+// Keys by what they listen on. 0.0.0.0 and names of interfaces are taken as they are written: what they meet
+// is only known on the machine of the run.
+class Listeners {
+  public:
+    void add(const char* protocol, const std::string& key, const std::string& address, std::int64_t port) {
+        if (port == 0) return;
+        const std::string place = address + ":" + std::to_string(port);
+        const auto [other, is_new] = taken_.emplace(protocol + place, key);
+        if (!is_new)
+            throw KeyError(key, std::string("found ") + protocol + " " + in_quotes(place) + ", where " +
+                                    other->second +
+                                    " listens, too; accepted: another address or port for each");
+    }
+
+  private:
+    std::map<std::string, std::string> taken_;
+};
+
+void add_outputs(const std::string& prefix, const OutputsConfig& o, Listeners& listeners) {
+    // GVCP's port is fixed (GigE Vision 2.0, 14.3).
+    if (o.has_gige) listeners.add("UDP", prefix + "outputs.gige.interface", o.gige.interface, 3956);
+    if (o.has_preview)
+        listeners.add("TCP", prefix + "outputs.preview.port", o.preview.address, o.preview.port);
+    if (o.has_truth) listeners.add("TCP", prefix + "outputs.truth.port", o.truth.address, o.truth.port);
+}
+
+}  // namespace
+
+void check_listening_ports(const ScenarioConfig& s) {
+    Listeners listeners;
+    if (s.commands.has_udp)
+        listeners.add("UDP", "commands.udp.port", s.commands.udp.address, s.commands.udp.port);
+    if (s.commands.has_tcp)
+        listeners.add("TCP", "commands.tcp.port", s.commands.tcp.address, s.commands.tcp.port);
+    if (s.has_telemetry)
+        listeners.add("TCP", "telemetry.port", s.telemetry.port.address, s.telemetry.port.port);
+    add_outputs("", s.outputs, listeners);
+    for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
+        add_outputs("more_cameras." + std::to_string(i) + ".", s.more_cameras[i].outputs, listeners);
+}
+
+}  // namespace hilcam
