@@ -141,9 +141,8 @@ Soak soak(const ScenarioConfig& configured, const SoakOptions& options) {
     {
         std::optional<Pilot> pilot;
         const std::int64_t begun_ns = monotonic_ns();
-        const Progress progress("soak", limits.seconds, [begun_ns] {
-            return static_cast<double>(monotonic_ns() - begun_ns) * 1e-9;
-        });
+        const Progress progress("soak", limits.seconds,
+                                [begun_ns] { return static_cast<double>(monotonic_ns() - begun_ns) * 1e-9; });
         emulator.run([&] {
             const std::int64_t ready_ns = monotonic_ns();
             pilot.emplace(emulator, flight,
