@@ -79,8 +79,8 @@ class EmbreeScene {
     // top-level tree.
     void place(std::span<const Pose> objects, std::span<const std::size_t> levels, Vec3d origin_world_m);
 
-    // Returns a mesh to take an object's place, always watertight: it is ground, and a camera straight above a grid of heights
-    // looks along whole rows of its edges. Any thread, also while others trace.
+    // Returns a mesh to take an object's place, always watertight: it is ground, and a camera straight above
+    // a grid of heights looks along whole rows of its edges. Any thread, also while others trace.
     PreparedMesh prepare(const Mesh& mesh) const;
     // Puts it in the place of the object's first level, from the next place() on; `mesh` then holds what was
     // there. Loop, one thread.
