@@ -22,13 +22,9 @@ namespace hilcam {
 namespace {
 
 // How the exposure of the first instant will be made, and why.
-std::string motion_line(const ScenarioConfig& s, Renderer& renderer, const SpectralGrid& grid) {
-    const TimeTai start = parse_utc(s.time_utc);
-    WorldState world(initial_motions(s, start), s.origin, joints_of(s), s.mount, load_motion_sources(s),
-                     lamp_mounts(s));
-    ExposureRenderer exposures(renderer, s, grid, world.placed_objects());
+std::string motion_line(const ScenarioConfig& s, WorldState& world, ExposureRenderer& exposures) {
     const double exposure_s = ShutterTiming(s.camera).exposure_s(s.camera.exposure_s);
-    const ExposureRenderer::Plan plan = exposures.plan(world, start, exposure_s);
+    const ExposureRenderer::Plan plan = exposures.plan(world, parse_utc(s.time_utc), exposure_s);
     const char* names[] = {"off", "fast", "exact"};
     std::string out = fmt::format(
         "motion {}: the picture moves by {:.3g} px in {:.4g} ms, anything in it by {:.3g} px at most",
@@ -134,8 +130,11 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
     report.plan = station->renderer().explain_plan(snapshot_at(s, time, time));
     report.sight = first_sight(*station, report.sheet, first_camera);
     report.frame_rate_hz = s.camera.frame_rate_hz;
-    report.frame_time = frame_time(*station, grid);
-    report.plan.push_back(motion_line(s, station->renderer(), grid));
+    WorldState world(initial_motions(s, time), s.origin, joints_of(s), s.mount, load_motion_sources(s),
+                     lamp_mounts(s));
+    ExposureRenderer exposures(station->renderer(), s, grid, world.placed_objects());
+    report.frame_time = frame_time(*station, world, exposures);
+    report.plan.push_back(motion_line(s, world, exposures));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
     idle_rules.clear();
     for (const LoadedObject& object : station->objects())

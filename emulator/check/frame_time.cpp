@@ -2,11 +2,7 @@
 
 #include <tbb/global_control.h>
 
-#include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/shutter_timing.h"
-#include "emulator/scenario/initial_world.h"
-#include "emulator/scenario/lamp_setup.h"
-#include "emulator/scenario/motion_builder.h"
 #include "emulator/scenario/quality_ladder.h"
 #include "emulator/world/clock.h"
 #include "render/vocabulary/median.h"
@@ -32,13 +28,10 @@ double milliseconds(const Work& work) {
 
 }  // namespace
 
-std::optional<FrameTime> frame_time(CameraStation& station, const SpectralGrid& grid) {
+std::optional<FrameTime> frame_time(CameraStation& station, WorldState& world, ExposureRenderer& exposures) {
     const ScenarioConfig& s = station.scenario();
     if (primary_rays(s) > kMostRays) return {};
     const TimeTai start = parse_utc(s.time_utc);
-    WorldState world(initial_motions(s, start), s.origin, joints_of(s), s.mount, load_motion_sources(s),
-                     lamp_mounts(s));
-    ExposureRenderer exposures(station.renderer(), s, grid, world.placed_objects());
     RadianceImage radiance = exposures.make_image();
     std::vector<PointSource> points;
     points.reserve(exposures.most_points());

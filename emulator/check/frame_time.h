@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "emulator/loop/exposure_renderer.h"
 #include "emulator/run/camera_station.h"
 
 namespace hilcam {
@@ -17,6 +18,6 @@ struct FrameTime {
 // Returns medians of three frames behind a first one that is not counted. None where a frame has more than 32
 // million primary rays, as at the quality `reference`: it would take minutes. Owner thread; the station is
 // loaded.
-std::optional<FrameTime> frame_time(CameraStation& station, const SpectralGrid& grid);
+std::optional<FrameTime> frame_time(CameraStation& station, WorldState& world, ExposureRenderer& exposures);
 
 }  // namespace hilcam

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "io/gige/device/gvcp.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -26,8 +27,7 @@ class Listeners {
 };
 
 void add_outputs(const std::string& prefix, const OutputsConfig& o, Listeners& listeners) {
-    // GVCP's port is fixed (GigE Vision 2.0, 14.3).
-    if (o.has_gige) listeners.add("UDP", prefix + "outputs.gige.interface", o.gige.interface, 3956);
+    if (o.has_gige) listeners.add("UDP", prefix + "outputs.gige.interface", o.gige.interface, gvcp::kPort);
     if (o.has_preview)
         listeners.add("TCP", prefix + "outputs.preview.port", o.preview.address, o.preview.port);
     if (o.has_truth) listeners.add("TCP", prefix + "outputs.truth.port", o.truth.address, o.truth.port);

@@ -20,7 +20,7 @@ namespace hilcam {
 // Nice value of the preview's threads, so that neither a viewer nor a flood of requests takes the processor
 // from the loop. 0: as others, 19: the least.
 inline constexpr int kPreviewNiceness = 15;
-// As `top -H` shows them.
+// The name by which `top -H` shows them.
 inline constexpr const char* kPreviewThreadName = "preview";
 // The calling thread is one of the preview's from now on.
 void become_preview_thread() noexcept;

@@ -29,7 +29,7 @@
 
 namespace hilcam {
 
-// As `top -H` shows it.
+// The name by which `top -H` shows it.
 inline constexpr const char* kTruthThreadName = "truth";
 
 class TruthSink : public FrameSink {

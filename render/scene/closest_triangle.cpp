@@ -67,7 +67,7 @@ struct ClosestTriangle::Implementation {
         float distance = 0;  // of what is found
         std::optional<Found> found;
     };
-    // Of equally near ones it takes the first: which is met first depends on the tree.
+    // It takes the first of equally near ones: which is met first depends on the tree.
     static bool look_at(RTCPointQueryFunctionArguments* arguments) {
         Search& search = *static_cast<Search*>(arguments->userPtr);
         const Mesh& mesh = *search.mesh;

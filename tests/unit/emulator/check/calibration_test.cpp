@@ -39,7 +39,7 @@ CameraModel camera() {
     c.pitch_m = 5.5e-6, c.focal_length_m = 0.00825;
     return c;
 }
-// As OpenCV orders them: k1, k2, p1, p2, k3, or k1 to k4 of a fisheye.
+// Coefficients stand in the order of OpenCV: k1, k2, p1, p2, k3, or k1 to k4 of a fisheye.
 CameraModel with_lens(const std::vector<double>& distortion) {
     CameraModel c = camera();
     c.distortion = distortion;

@@ -70,7 +70,7 @@ TEST_F(MeshSurveyTest, ACubeThatIsInsideOut) {
                             "f 1 4 3\nf 1 2 4\nf 5 8 6\nf 5 7 8\nf 1 6 2\nf 1 5 6\nf 3 8 7\nf 3 4 8\nf 1 7 "
                             "5\nf 1 3 7\nf 2 8 4\nf 2 6 8\n";
     EXPECT_THAT(problems(obj), ElementsAre(HasSubstr("1 inverted shells: ")));
-    // With normals that look outwards the order of the corners is opposed to them.
+    // The order of the corners is opposed to normals that look outwards.
     const std::string with_normals =
         std::string(kCorners) + "vn -1 0 0\nvn 1 0 0\n" +
         "f 1//1 7//1 5//1\nf 1//1 3//1 7//1\nf 2//2 8//2 4//2\nf 2//2 6//2 8//2\n";

@@ -227,7 +227,7 @@ TEST(PreviewSlot, WhoWantsTruthGetsAFrameWithIt) {
         FrameRecord record;
         while (!over) {
             ++record.id;
-            // As the loop does: asked when the frame begins.
+            // The loop does so: it is asked when the frame begins.
             record.has_truth = told && slot.wants_truth();
             slot.put(frame, record);
             std::this_thread::sleep_for(100us);
