@@ -1,6 +1,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "emulator/command_pages.h"
+#include "io/contract/fault.h"
 
 namespace hilcam {
 namespace {
@@ -9,6 +10,27 @@ std::string joined(const std::vector<std::string>& words) {
     std::string out;
     for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
     return out;
+}
+
+// "-" stands for files.
+std::string value_words(const std::string& name, const OptionText& o) {
+    if (name == "--set") return "@set";
+    return o.words.empty() ? (o.takes_files ? "-" : "") : joined(o.words);
+}
+
+// What stands in the place of a positional argument: words, or the name of a list that is made when it is
+// asked for.
+std::string argument_words(const std::string& path, const OptionText& o) {
+    const std::string& name = o.names.front();
+    if (path == "manual") return "@keys";
+    if (path == "check" && name == "config") return "@config @camera";
+    if (name == "config" || name == "camera") return "@" + name;
+    if (path == "send fault") {
+        std::vector<std::string> words = {"list", "clear"};
+        for (const FaultKind kind : kAllFaults) words.emplace_back(name_of(kind));
+        return joined(words);
+    }
+    return value_words(name, o);
 }
 
 // One line for each command: what its table says for a path of words, "send pose".
@@ -20,16 +42,14 @@ void add(const CommandText& command, const std::string& path, Tables& out) {
     std::vector<std::string> names, below;
     std::string arguments;
     for (const OptionText& o : command.options) {
-        // "-" stands for files.
-        const std::string value = o.words.empty() ? (o.takes_files ? "-" : "") : joined(o.words);
         if (o.is_positional) {
-            const bool config = o.names.front() == "config" || o.names.front() == "camera";
-            arguments += (arguments.empty() ? "" : " ") + (config ? "@" + o.names.front() : value);
+            arguments += (arguments.empty() ? "" : " ") + argument_words(path, o);
             continue;
         }
         for (const std::string& name : o.names) {
             names.push_back(name);
-            if (!o.value.empty()) out.values += fmt::format("    ['{} {}']='{}'\n", path, name, value);
+            if (!o.value.empty())
+                out.values += fmt::format("    ['{} {}']='{}'\n", path, name, value_words(name, o));
         }
     }
     for (const CommandText& next : command.commands) {
@@ -88,6 +108,11 @@ _hilcam() {
         case $word in
             -) _hilcam_files "$current" ;;
             @config) _hilcam_files "$current"; COMPREPLY+=($(compgen -W "$(_hilcam_shipped scenarios)" -- "$current")) ;;
+            @keys) COMPREPLY+=($(compgen -W "$_hilcam_keys" -- "$current")) ;;
+            @set)
+                compopt -o nospace 2>/dev/null
+                COMPREPLY+=($(compgen -S = -W "${_hilcam_keys//.N/.0}" -- "$current"))
+                ;;
             @camera) _hilcam_files "$current"; COMPREPLY+=($(compgen -W "$(_hilcam_shipped cameras)" -- "$current")) ;;
             *) COMPREPLY+=($(compgen -W "$word" -- "$current")) ;;
         esac
@@ -98,16 +123,18 @@ complete -F _hilcam hilcam
 
 }  // namespace
 
-std::string bash_completion(const CommandText& program) {
+std::string bash_completion(const CommandText& program, const std::vector<std::string>& keys) {
     Tables tables;
     add(program, "", tables);
     return fmt::format(
                "# bash completion of hilcam, made from its options. Keys: words of the command, and an "
                "option's name.\n"
-               "# '-' stands for files, '@config' and '@camera' for files and shipped ones.\n"
+               "# '-' stands for files, '@config' and '@camera' for files and shipped ones, '@keys' and "
+               "'@set' for a scenario's keys.\n"
                "declare -gA _hilcam_commands=(\n{})\ndeclare -gA _hilcam_options=(\n{})\n"
-               "declare -gA _hilcam_values=(\n{})\ndeclare -gA _hilcam_arguments=(\n{})\n",
-               tables.commands, tables.options, tables.values, tables.arguments) +
+               "declare -gA _hilcam_values=(\n{})\ndeclare -gA _hilcam_arguments=(\n{})\n"
+               "_hilcam_keys='{}'\n",
+               tables.commands, tables.options, tables.values, tables.arguments, joined(keys)) +
            kFunction;
 }
 

@@ -17,7 +17,7 @@ struct NamedText {
 std::vector<NamedText> manual_pages(const CommandText& program, const std::string& version);
 
 // A script for bash that completes subcommands, options, their words, files, and in the place of a
-// configuration the shipped ones.
-std::string bash_completion(const CommandText& program);
+// configuration the shipped ones. keys: of a scenario, "objects.N.mesh", for --set and manual.
+std::string bash_completion(const CommandText& program, const std::vector<std::string>& keys);
 
 }  // namespace hilcam

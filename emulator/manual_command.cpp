@@ -7,6 +7,7 @@
 #include "emulator/command_pages.h"
 #include "emulator/recording/program_version.h"
 #include "emulator/scenario/app_config.h"
+#include "io/config/config_keys.h"
 #include "io/config/config_manual.h"
 #include "io/config/config_schema.h"
 #include "render/vocabulary/check.h"
@@ -42,7 +43,8 @@ int make_pages(const CLI::App& app, const std::filesystem::path& folder) {
     const CommandText program = described(app);
     for (const NamedText& page : manual_pages(program, std::string(kProgramVersion)))
         write_text(folder / page.name, page.text);
-    write_text(folder / "hilcam.bash", bash_completion(program));
+    ScenarioConfig scenario;
+    write_text(folder / "hilcam.bash", bash_completion(program, config_keys(fields(scenario))));
     return 0;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "emulator/check/camera_judge.h"
 #include "emulator/check/camera_sheet.h"
 #include "emulator/loop/exposure_renderer.h"
 #include "emulator/loop/shutter_timing.h"
@@ -129,7 +130,8 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
     report.share_in_bins = share_in_bins(s.camera, grid);
     report.plan = station->renderer().explain_plan(snapshot_at(s, time, time));
     report.sight = first_sight(*station, report.sheet, first_camera);
-    report.frame_rate_hz = s.camera.frame_rate_hz;
+    if (s.mode == CameraMode::kFreeRun)
+        report.period_s = ShutterTiming(s.camera).period_s(s.camera.frame_rate_hz, report.sheet.exposure_s);
     WorldState world(initial_motions(s, time), s.origin, joints_of(s), s.mount, load_motion_sources(s),
                      lamp_mounts(s));
     ExposureRenderer exposures(station->renderer(), s, grid, world.placed_objects());
@@ -160,7 +162,10 @@ std::string check_camera(const std::filesystem::path& file, std::span<const std:
     read_config(file, section_of(camera), overrides);
     draw_fixed_pattern(camera, load_detector_pictures(camera));  // throws when a map does not fit
     const CameraSheet sheet = camera_sheet(camera);
-    return json ? to_json(sheet) : to_text(sheet);
+    if (json) return to_json(sheet, judge_camera(sheet, true));
+    std::string warnings;
+    for (const std::string& line : judge_camera(sheet, true)) warnings += "warning: " + line + "\n";
+    return warnings + to_text(sheet);
 }
 
 CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {

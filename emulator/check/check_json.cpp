@@ -26,6 +26,10 @@ Json surfaces_of(const LoadedObject& o) {
     return list;
 }
 
+Json expected_of(const ExpectedSignal& e) {
+    return {{"signal_e", e.signal_e}, {"dn", e.dn}, {"full_scale_ratio", e.full_scale}, {"snr", e.snr}};
+}
+
 Json object_of(const SeenObject& o) {
     return {{"name", o.loaded.name},
             {"size_m", of(o.loaded.most_m - o.loaded.least_m)},
@@ -42,11 +46,18 @@ Json object_of(const SeenObject& o) {
             {"camera_inside", o.holds_camera},
             {"phase_deg", degrees(o.phase_rad)},
             {"sunlit_fraction", o.sunlit},
-            {"expected",
-             {{"signal_e", o.expected.signal_e},
-              {"dn", o.expected.dn},
-              {"full_scale_ratio", o.expected.full_scale},
-              {"snr", o.expected.snr}}}};
+            {"expected", expected_of(o.expected)}};
+}
+
+Json ground_of(const std::optional<GroundSight>& g) {
+    if (!g) return {};
+    return {{"body", g->body},
+            {"distance_m", g->distance_m},
+            {"pixel_m", g->pixel_m},
+            {"field_m", {g->wide_m, g->high_m}},
+            {"off_vertical_deg", degrees(g->off_vertical_rad)},
+            {"sun_elevation_deg", degrees(g->sun_elevation_rad)},
+            {"expected", g->expected ? expected_of(*g->expected) : Json()}};
 }
 
 Json sheet_of(const CameraSheet& s) {
@@ -98,7 +109,11 @@ std::string dumped(const Json& json) {
 
 }  // namespace
 
-std::string to_json(const CameraSheet& sheet) { return dumped(sheet_of(sheet)); }
+std::string to_json(const CameraSheet& sheet, const std::vector<std::string>& warnings) {
+    Json out = sheet_of(sheet);
+    out["warnings"] = warnings;
+    return dumped(out);
+}
 
 std::string to_json(const CheckReport& report) {
     Json cameras = Json::array();
@@ -115,6 +130,7 @@ std::string to_json(const CheckReport& report) {
                             {{"right_ascension_deg", degrees(c.sight.pointing.right_ascension_rad)},
                              {"declination_deg", degrees(c.sight.pointing.declination_rad)},
                              {"roll_deg", degrees(c.sight.pointing.roll_rad)}}},
+                           {"ground", ground_of(c.sight.ground)},
                            {"from_site_m", c.sight.from_site_m ? Json(of(*c.sight.from_site_m)) : Json()},
                            {"from_first_camera_m", of(c.sight.from_first_m)},
                            {"turned_from_first_deg", degrees(c.sight.turned_rad)},

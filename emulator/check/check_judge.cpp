@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/check/camera_judge.h"
 #include "emulator/check/check_report.h"
 #include "render/vocabulary/quoted.h"
 
@@ -11,6 +12,8 @@ namespace {
 
 // No spacecraft is as long, but the file of one in millimetres is.
 constexpr double kLongest_m = 500;
+// What is smaller, and covers no pixel, is likely to have been scaled twice.
+constexpr double kShortest_m = 0.05;
 // Most of a constellation's objects are elsewhere.
 constexpr std::size_t kMostTold = 10;
 // Less of the Sun than this is an eclipse, less of the disk lit than this is its night side.
@@ -20,9 +23,13 @@ std::string size_text(Vec3d size_m) {
     return fmt::format("{:.4g} x {:.4g} x {:.4g} m", size_m.x, size_m.y, size_m.z);
 }
 
-std::string longest_advice(const SeenObject& o) {
+double longest_m(const SeenObject& o) {
     const Vec3d size_m = o.loaded.most_m - o.loaded.least_m;
-    if (!(std::max({size_m.x, size_m.y, size_m.z}) > kLongest_m)) return "";
+    return std::max({size_m.x, size_m.y, size_m.z});
+}
+
+std::string longest_advice(const SeenObject& o) {
+    if (!(longest_m(o) > kLongest_m)) return "";
     return "; the file is probably in millimetres: scale: 0.001";
 }
 
@@ -50,6 +57,10 @@ void judge_place(const SeenObject& o, const CameraReport& camera, std::vector<st
         case SeenObject::Place::kVisible:
             break;
     }
+    if (longest_m(o) < kShortest_m && o.silhouette_px < 1)
+        out.push_back(fmt::format("{} is {} large, {:.2g} pixels from {:.4g} m: is its scale too small?",
+                                  name, size_text(o.loaded.most_m - o.loaded.least_m), o.silhouette_px,
+                                  o.distance_m));
     if (const std::string advice = longest_advice(o); !advice.empty() && o.distance_m < 10 * kLongest_m)
         out.push_back(fmt::format("{} is {} large and {:.4g} m away{}", name,
                                   size_text(o.loaded.most_m - o.loaded.least_m), o.distance_m, advice));
@@ -73,10 +84,11 @@ void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraRepor
         out.push_back(fmt::format("{} is lost in the noise: about {:.3g} e- of light, {:.3g} e- of noise",
                                   name, o.expected.signal_e, camera.sheet.dark_total_e));
     else if (o.expected.full_scale > 2 && !s.camera.auto_exposure.on)
-        out.push_back(
-            fmt::format("{} saturates: about {:.3g} times what a pixel holds; exposure_ms or gain_db is too "
-                        "high",
-                        name, o.expected.full_scale));
+        out.push_back(fmt::format(
+            "{} saturates: about {:.3g} times what {} takes; {} is too high", name, o.expected.full_scale,
+            camera.sheet.converter_e < camera.sheet.well_e ? "the converter" : "a pixel",
+            camera.sheet.converter_e < camera.sheet.well_e ? "exposure_ms, or gain_dn_e with gain_db,"
+                                                           : "exposure_ms"));
 }
 
 // Whether anything in the picture sends light.
@@ -108,10 +120,27 @@ std::vector<std::string> judge(const ScenarioConfig& s, const CameraReport& came
             fmt::format("and {} more objects have warnings: --json tells where each of them is", left));
     if (!shows_light(s, camera.sight))
         out.push_back("nothing that is lit is in the picture: it will be black");
+    for (std::string& line : judge_camera(camera.sheet, camera.period_s > 0)) out.push_back(std::move(line));
     if (camera.share_in_bins < 0.5)
         out.push_back(
             fmt::format("spectrum_edges_um leave out {:.0f} % of what the camera would see of sunlight",
                         100 * (1 - camera.share_in_bins)));
+    return out;
+}
+
+// Both stages share the cores, also where one frame's rendering overlaps the sensing of the one before.
+std::vector<std::string> late_warnings(const CheckReport& report) {
+    std::vector<std::string> out;
+    for (const CameraReport& c : report.reports) {
+        if (!c.frame_time || !(c.period_s > 0)) continue;
+        const double frame_ms = c.frame_time->render_ms + c.frame_time->sensor_ms;
+        if (frame_ms <= 1e3 * c.period_s) continue;
+        out.push_back(
+            fmt::format("camera {}: a frame takes {:.3g} ms on this machine, and {:.4g} frames/s leave "
+                        "{:.3g} ms: exposures will "
+                        "be missed (camera.frame_rate_hz, quality, loop.frame_budget_ms)",
+                        c.number, frame_ms, 1 / c.period_s, 1e3 * c.period_s));
+    }
     return out;
 }
 

@@ -19,7 +19,7 @@ struct CameraReport {
     FirstSight sight;
     CameraSheet sheet;
     double share_in_bins = 0;
-    double frame_rate_hz = 0;
+    double period_s = 0;  // from frame to frame; 0: frames are asked for
     std::optional<FrameTime> frame_time;
     std::vector<std::string> plan;  // a line each, with its reason
 };
@@ -37,9 +37,13 @@ struct CheckReport {
 // What is probably not meant in what a camera sees. scenario: as that camera has it.
 std::vector<std::string> judge(const ScenarioConfig& scenario, const CameraReport& camera);
 
+// Cameras whose frames took longer on this machine than they have: a line each. Unlike the report's own
+// warnings these depend on what else the machine did.
+std::vector<std::string> late_warnings(const CheckReport& report);
+
 std::string to_text(const CheckReport& report);
 std::string to_json(const CheckReport& report);
-// A camera's data sheet.
-std::string to_json(const CameraSheet& sheet);
+// A camera's data sheet, and what is probably not meant in it.
+std::string to_json(const CameraSheet& sheet, const std::vector<std::string>& warnings);
 
 }  // namespace hilcam

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "emulator/check/check_report.h"
 #include "render/vocabulary/quoted.h"
@@ -69,7 +70,55 @@ void add_object(const SeenObject& o, std::size_t number, const CameraSheet& shee
 // What rounding leaves where two bodies' axes agree is no length.
 double to_a_nanometre(double length_m) { return std::round(length_m * 1e9) / 1e9 + 0.0; }
 
-void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
+// Rounded, and not to 360: "359.998" as 0.00.
+std::string turn_text(double rad, int decimals) {
+    const double steps = std::pow(10.0, decimals);
+    return fmt::format("{:.{}f}", std::fmod(std::round(degrees(rad) * steps) / steps, 360) + 0.0, decimals);
+}
+
+// Metres, and kilometres where they are many.
+std::string length_text(double length_m) {
+    return length_m < 1e4 ? fmt::format("{:.4g} m", length_m) : fmt::format("{:.5g} km", length_m * 1e-3);
+}
+
+void add_ground(const GroundSight& g, const CameraSheet& sheet, std::string& out) {
+    out += fmt::format("  ground      the smooth {}, {} ahead: {} a pixel, {} x {} in the frame\n", g.body,
+                       length_text(g.distance_m), length_text(g.pixel_m), length_text(g.wide_m),
+                       length_text(g.high_m));
+    out += fmt::format(
+        "              seen {:.1f} deg off its vertical, the Sun {:.1f} deg {} its horizon{}\n",
+        degrees(g.off_vertical_rad), std::abs(degrees(g.sun_elevation_rad)),
+        g.sun_elevation_rad < 0 ? "below" : "above",
+        g.expected ? fmt::format(": about {:.0f} DN of {:.0f}, {:.2g} of full scale, SNR {:.3g}",
+                                 g.expected->dn, sheet.most_dn, g.expected->full_scale, g.expected->snr)
+                   : "");
+}
+
+// A data sheet is printed once: `earlier` have been.
+void add_sheet(const CameraReport& c, std::span<const CameraReport> earlier, std::string& out) {
+    const std::string sheet = to_text(c.sheet);
+    for (const CameraReport& other : earlier)
+        if (to_text(other.sheet) == sheet) {
+            out += fmt::format("camera sheet: as camera {}'s\n", other.number);
+            return;
+        }
+    out += sheet;
+}
+
+void add_frame_time(const CameraReport& c, std::string& out) {
+    if (!c.frame_time) {
+        out += "  a frame     is not timed: it has more than 32 million rays\n";
+        return;
+    }
+    out += fmt::format(
+        "  a frame     takes {:.3g} ms to render and {:.3g} ms in the sensor on {} threads here{}\n",
+        c.frame_time->render_ms, c.frame_time->sensor_ms, c.frame_time->threads,
+        c.period_s > 0 ? fmt::format("; {:.4g} frames/s leave {:.3g} ms", 1 / c.period_s, 1e3 * c.period_s)
+                       : "");
+}
+
+void add_camera(const CameraReport& c, std::span<const CameraReport> earlier, std::size_t cameras,
+                std::string& out) {
     if (cameras > 1) out += fmt::format("camera {} of {}\n", c.number, cameras);
     out += "first instant\n";
     const FirstSight& sight = c.sight;
@@ -77,15 +126,15 @@ void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
         add_object(sight.objects[i], i + 1, c.sheet, out);
     if (sight.objects.size() > kMostObjects)
         out += fmt::format("  and {} more objects: --json has them\n", sight.objects.size() - kMostObjects);
-    out += fmt::format(
-        "  boresight   right ascension {:.4f} deg, declination {:.4f} deg, roll {:.2f} deg (ICRF)\n",
-        degrees(sight.pointing.right_ascension_rad), degrees(sight.pointing.declination_rad),
-        degrees(sight.pointing.roll_rad));
+    out += fmt::format("  boresight   right ascension {} deg, declination {:.4f} deg, roll {} deg (ICRF)\n",
+                       turn_text(sight.pointing.right_ascension_rad, 4),
+                       degrees(sight.pointing.declination_rad), turn_text(sight.pointing.roll_rad, 2));
     if (sight.from_site_m)
         out +=
             fmt::format("  site        the camera is {:.6g} m east, {:.6g} m north, {:.6g} m above it ({})\n",
                         to_a_nanometre(sight.from_site_m->x), to_a_nanometre(sight.from_site_m->y),
                         to_a_nanometre(sight.from_site_m->z), sight.site_body);
+    if (sight.ground) add_ground(*sight.ground, c.sheet, out);
     out += fmt::format(
         "  Sun         {:.4g} au away, {:.1f} deg off the boresight: ({:.3f}, {:.3f}, {:.3f}) in camera axes "
         "(right, "
@@ -94,20 +143,13 @@ void add_camera(const CameraReport& c, std::size_t cameras, std::string& out) {
         sight.sun_camera_dir.y, sight.sun_camera_dir.z);
     if (c.number > 1)
         out += fmt::format(
-            "  baseline    {:.6g} m from camera 1: ({:.6g}, {:.6g}, {:.6g}) m in its axes, turned by {:.4g} "
+            "  baseline    {:.6g} m from camera 1: ({:.6g}, {:.6g}, {:.6g}) m in its axes, turned by {:.4f} "
             "deg\n",
             length(sight.from_first_m), to_a_nanometre(sight.from_first_m.x),
             to_a_nanometre(sight.from_first_m.y), to_a_nanometre(sight.from_first_m.z),
             degrees(sight.turned_rad));
-    if (c.frame_time)
-        out += fmt::format(
-            "  a frame     takes {:.3g} ms to render and {:.3g} ms in the sensor on {} threads here; {:.4g} "
-            "frames/s leave {:.3g} ms\n",
-            c.frame_time->render_ms, c.frame_time->sensor_ms, c.frame_time->threads, c.frame_rate_hz,
-            1e3 / c.frame_rate_hz);
-    else
-        out += "  a frame     is not timed: it has more than 32 million rays\n";
-    out += to_text(c.sheet);
+    add_frame_time(c, out);
+    add_sheet(c, earlier, out);
     out += fmt::format("plan\n  its bins have {:.1f} % of the camera's photo-electrons of sunlight\n",
                        100 * c.share_in_bins);
     for (const std::string& line : c.plan) out += "  " + harmless(line) + "\n";
@@ -119,7 +161,8 @@ std::string to_text(const CheckReport& report) {
     std::string out = report.warnings.empty() ? "warnings: none\n" : "warnings:\n";
     for (const std::string& warning : report.warnings) out += "  " + harmless(warning) + "\n";
     out += fmt::format("scenario {} at {}\n", harmless(report.scenario), format_utc(report.time));
-    for (const CameraReport& camera : report.reports) add_camera(camera, report.cameras, out);
+    const std::span<const CameraReport> all(report.reports);
+    for (std::size_t i = 0; i < all.size(); ++i) add_camera(all[i], all.first(i), report.cameras, out);
     for (const std::string& line : report.run) out += line + "\n";
     if (report.memory_mb > 0)
         out += fmt::format("memory: {:.0f} MB with {} loaded\n", report.memory_mb,

@@ -20,23 +20,27 @@ double lambert_sphere(double phase_rad) {
 
 double lit_share(double phase_rad) { return 0.5 * (1 + std::cos(phase_rad)); }
 
+ExpectedSignal read_out(const CameraSheet& camera, double signal_e) {
+    const double charge_e = signal_e + camera.dark_e_s * camera.exposure_s;
+    const double held_e = std::min(signal_e, camera.full_scale_e);
+    ExpectedSignal out;
+    out.signal_e = signal_e;
+    out.full_scale = charge_e / camera.full_scale_e;
+    out.dn = std::min(camera.camera.offset_dn + std::min(charge_e, camera.well_e) * camera.gain_dn_e,
+                      camera.most_dn);
+    out.snr = held_e / std::sqrt(held_e + camera.dark_total_e * camera.dark_total_e);
+    return out;
+}
+
 ExpectedSignal expected_signal(const CameraSheet& camera, const LitObject& object) {
     // The first scene of the sheet is white, at 1 au, and faces the Sun.
     const double white_e = camera.scenes.front().signal_e;
     const double lit = lit_share(object.phase_rad);
+    if (!(lit > 1e-6)) return {};
     const double disk_e = object.reflectance * white_e / (object.sun_au * object.sun_au) * object.sunlit *
                           lambert_sphere(object.phase_rad);
-    ExpectedSignal out;
-    if (!(lit > 1e-6)) return out;
     const double lit_px = lit * object.area_px;
-    out.signal_e = lit_px < kPoint_px ? disk_e * object.area_px * camera.peak_share : disk_e / lit;
-    const double charge_e = out.signal_e + camera.dark_e_s * camera.exposure_s;
-    out.full_scale = charge_e / camera.full_scale_e;
-    out.dn = std::min(camera.camera.offset_dn + std::min(charge_e, camera.well_e) * camera.gain_dn_e,
-                      camera.most_dn);
-    const double held_e = std::min(out.signal_e, camera.full_scale_e);
-    out.snr = held_e / std::sqrt(held_e + camera.dark_total_e * camera.dark_total_e);
-    return out;
+    return read_out(camera, lit_px < kPoint_px ? disk_e * object.area_px * camera.peak_share : disk_e / lit);
 }
 
 }  // namespace hilcam

@@ -32,6 +32,9 @@ struct ExpectedSignal {
 
 ExpectedSignal expected_signal(const CameraSheet& camera, const LitObject& object);
 
+// What a pixel makes of so many electrons of light.
+ExpectedSignal read_out(const CameraSheet& camera, double signal_e);
+
 // Share of a sphere's disk that is lit.
 double lit_share(double phase_rad);
 

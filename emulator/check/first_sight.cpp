@@ -29,12 +29,22 @@ bool is_within(Vec3d p, Vec3d least, Vec3d most) {
 
 double off_boresight(Vec3d camera) { return std::atan2(std::hypot(camera.x, camera.y), camera.z); }
 
-SeenObject::Place place_of(const SeenThing& thing, double field_rad, double off_rad, double radius_rad) {
-    // What is smaller than a pixel may have none and still be seen.
+bool is_in_frame(const SeenThing& thing, const FrameRaster& raster) {
+    const Vec2d p = thing.center_px;
+    return thing.has_center && p.x >= 0 && p.y >= 0 && p.x <= raster.width_px && p.y <= raster.height_px;
+}
+
+SeenObject::Place place_of(const SeenThing& thing, const FrameRaster& raster, const CameraSheet& sheet,
+                           double off_rad, double radius_rad) {
+    // What is smaller than a pixel may have none and still be seen; a speck of a 64th has no silhouette
+    // either.
     if (thing.visible_px > 0 || thing.visible_fraction > 0) return SeenObject::Place::kVisible;
+    if (thing.silhouette_px == 0 && is_in_frame(thing, raster) && radius_rad < sheet.ifov_rad)
+        return SeenObject::Place::kVisible;
     if (off_rad - radius_rad > 0.5 * kPi) return SeenObject::Place::kBehind;
     // Alone it would be in the frame: something stands before it.
-    const bool alone = thing.silhouette_px > 0 && thing.has_center && off_rad < 0.5 * field_rad;
+    const bool alone =
+        thing.silhouette_px > 0 && thing.has_center && off_rad < 0.5 * sheet.field_diagonal_rad;
     return alone ? SeenObject::Place::kHidden : SeenObject::Place::kOutside;
 }
 
@@ -52,7 +62,7 @@ SeenObject seen(const SeenThing& thing, const LoadedObject& loaded, const FrameT
     const double frame_px = static_cast<double>(truth.raster.width_px) * truth.raster.height_px;
     out.picture_share = static_cast<double>(thing.visible_px) / frame_px;
     out.visible_fraction = std::isfinite(thing.visible_fraction) ? thing.visible_fraction : 0;
-    out.place = place_of(thing, sheet.field_diagonal_rad, out.off_boresight_rad, out.angular_radius_rad);
+    out.place = place_of(thing, truth.raster, sheet, out.off_boresight_rad, out.angular_radius_rad);
     const Vec3d camera_in_object_m = transposed(to_matrix(thing.world.world_from_body)) *
                                      (truth.camera.position_world_m - thing.world.position_world_m);
     out.holds_camera = !carries_camera && is_within(camera_in_object_m, loaded.least_m, loaded.most_m);
@@ -81,6 +91,7 @@ FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const P
     out.camera = truth.camera;
     out.pointing = radec_of(truth.camera.world_from_body);
     tell_site(s, out);
+    out.ground = ground_sight(s, out.camera, sheet);
     out.sun_camera_dir = truth.sun_camera_dir;
     out.sun_off_boresight_rad = off_boresight(truth.sun_camera_dir);
     out.sun_distance_au = truth.sun_distance_m / kAstronomicalUnit_m;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/check/expected_signal.h"
+#include "emulator/check/ground_sight.h"
 #include "emulator/run/camera_station.h"
 #include "render/vocabulary/attitude.h"
 
@@ -33,6 +34,7 @@ struct FirstSight {
     Vec3d sun_camera_dir;
     double sun_off_boresight_rad = 0, sun_distance_au = 0;
     bool shows_sun = false, shows_body = false;
+    std::optional<GroundSight> ground;
     Pose camera;
     RaDecRoll pointing;
     // Where it stands in the local axes of the scenario's site, if it has one on the origin's body.

@@ -226,6 +226,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
             print_line();
             next_line_ns += 1'000'000'000;
         }
+        if (!terminal) print_missed(now_ns);
         sleep_until_monotonic_ns(now_ns + 10'000'000);
     }
     tell_service_manager("STOPPING=1");
@@ -286,6 +287,19 @@ void Emulator::print_output_faults(std::int64_t now_ns) {
     next_fault_look_ns_ = now_ns + kBetweenLooks_ns;
     for (const auto& station : stations_)
         for (const std::string& fault : station->new_faults()) spdlog::error("{}", fault);
+}
+
+// A log has no line of rates: it says when exposures are missed, and not more often than it can be read.
+void Emulator::print_missed(std::int64_t now_ns) {
+    constexpr std::int64_t kBetweenLines_ns = 10'000'000'000;
+    if (now_ns < next_missed_line_ns_) return;
+    std::uint64_t missed = 0;
+    for (const auto& station : stations_) missed += station->loop().counters().deadline_misses.load();
+    if (missed == missed_told_) return;
+    spdlog::warn("{} exposures missed in {:.0f} s, {} of them new: frames take longer than their period",
+                 missed, seconds_, missed - missed_told_);
+    missed_told_ = missed;
+    next_missed_line_ns_ = now_ns + kBetweenLines_ns;
 }
 
 // Of the first camera.

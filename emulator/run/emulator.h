@@ -57,6 +57,7 @@ class Emulator {
     void print_replays() const;
     void make_telemetry();
     HousekeepingFigures housekeeping();
+    void print_missed(std::int64_t now_ns);
     void print_line();
     void print_level_changes();
     void print_held_motion();
@@ -83,6 +84,8 @@ class Emulator {
     std::uint64_t frames_printed_ = 0;
     bool told_held_motion_ = false;
     std::int64_t next_fault_look_ns_ = 0;
+    std::int64_t next_missed_line_ns_ = 0;
+    std::uint64_t missed_told_ = 0;
     std::atomic<std::int64_t> begun_ns_{0};
     HousekeepingFigures housekeeping_before_;  // telemetry's thread
 };

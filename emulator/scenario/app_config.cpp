@@ -138,10 +138,13 @@ ScenarioConfig::ScenarioConfig() {
 Fields fields(ScenarioConfig& s) {
     Fields list = {
         beside_frames(text("name", s.name, "for reports")),
-        required(text("time_utc", s.time_utc, "simulated time at the start")),
+        required(text(
+            "time_utc", s.time_utc,
+            "simulated time at the start, in UTC: 2026-03-20T12:00:00Z, of which the Z may be left out")),
         beside_frames(section("clock", s.clock, "how fast simulated time goes")),
         optional(integer("seed", s.seed, {0, 9e15},
-                         "of a run's random numbers; where none is given, run and render draw their own"),
+                         "of a run's random numbers; without the key run and render draw one of their own, "
+                         "all else takes 1"),
                  s.has_seed),
         beside_frames(integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core")),
         section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
@@ -165,7 +168,7 @@ Fields fields(ScenarioConfig& s) {
         sections("lamps", s.lamps, "light sources on things; commands number them from 1 (docs/lamps.md)"),
         section("sun", s.sun, "the Sun"),
         section("atmosphere", s.atmosphere, "the Earth's air"),
-        section("stars", s.stars, "the stars"),
+        optional(section("stars", s.stars, "the stars"), s.has_stars),
         numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
                 "edges of the spectral bins"),
         optional(
@@ -331,11 +334,26 @@ void validate(const ScenarioConfig& s) {
     if (s.mode == CameraMode::kLockstep) require_lockstep(s.clock), require_lockstep(s.commands.poses);
 }
 
+namespace {
+
+// Down is towards the body that the world belongs to, unless a pose names another.
+void settle_nadir(ScenarioConfig& s) {
+    const std::optional<BodyId> home = s.origin.center();
+    const auto settle = [&](PoseConfig& pose) {
+        if (home && !pose.has_nadir_of) pose.nadir_of = *home;
+    };
+    settle(s.camera_pose);
+    for (ObjectConfig& object : s.objects) settle(object.pose);
+}
+
+}  // namespace
+
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
     ScenarioConfig scenario;
     SectionField root = section_of(scenario);
     root.validate = [&scenario] {
         settle_free_space(scenario);
+        settle_nadir(scenario);
         validate(scenario);
     };
     read_config(file, root, overrides);

@@ -145,6 +145,7 @@ struct ScenarioConfig {
     EarthOrientation earth_orientation;
     std::vector<ObjectConfig> objects;
     TerrainConfig terrain;
+    bool has_stars = false;
     bool has_terrain = false;
     std::vector<LampConfig> lamps;
     SunConfig sun;

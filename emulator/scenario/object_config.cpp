@@ -19,7 +19,7 @@ Fields fields(PoseConfig& p) {
     Fields rest = {
         optional(
             choice("nadir_of", p.nadir_of, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
-                   "the body of nadir; none: the Earth, or the site's body in frame local"),
+                   "the body of nadir; none: the origin's, or the site's body in frame local"),
             p.has_nadir_of),
         optional(vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the frame"), p.has_look_at),
         optional(vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the frame"), p.has_up),

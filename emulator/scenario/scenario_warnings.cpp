@@ -80,10 +80,37 @@ void look_at_places(const ScenarioConfig& bench, Lines& out) {
     }
 }
 
+// A bench's camera that shows its frames to nobody is forgotten; a scenario without any output is for
+// `render`.
+void look_at_outputs(const ScenarioConfig& s, Lines& out) {
+    const auto shows = [](const OutputsConfig& o) {
+        return o.has_gige || o.has_v4l2 || o.has_uvc || o.has_files || o.has_preview || o.has_truth;
+    };
+    if (s.commands.has_vizard || !any_camera(s, shows)) return;
+    for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
+        if (!shows(s.more_cameras[i].outputs))
+            out.push_back(fmt::format(
+                "more_cameras.{}.outputs: camera {} has none, so nobody gets its frames", i, i + 2));
+    if (!shows(s.outputs)) out.push_back("outputs: camera 1 has none, so nobody gets its frames");
+}
+
+void look_at_shutter(const std::string& key, const ShutterConfig& shutter, Lines& out) {
+    if (shutter.has_line_time && shutter.kind == ShutterKind::kGlobal)
+        out.push_back(key + ".shutter.line_time_us: has no effect with kind: global");
+}
+
+void look_at_shutters(const ScenarioConfig& s, Lines& out) {
+    look_at_shutter("camera", s.camera.shutter, out);
+    for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
+        look_at_shutter(fmt::format("more_cameras.{}.camera", i), s.more_cameras[i].camera.shutter, out);
+}
+
 // What is said of places and bodies that the scenario does not have.
 void look_at_frames(const ScenarioConfig& s, Lines& out) {
     if (s.has_site && !uses_local_axes(s))
         out.push_back("site: nothing is in its local axes: give a pose or a motion 'frame: local'");
+    if (s.has_stars && s.stars.catalogue.empty())
+        out.push_back("stars: there are none without stars.catalogue; hipparcos.csv is shipped");
     if (s.atmosphere.model != "none" && !s.bodies[index_of(BodyId::kEarth)].visible)
         out.push_back("atmosphere: has no effect, as the Earth is not shown: earth.visible");
 }
@@ -113,6 +140,8 @@ std::vector<std::string> idle_warnings(const ScenarioConfig& scenario) {
     Lines out;
     look_at_lockstep(scenario, out);
     look_at_faults(scenario, out);
+    look_at_outputs(scenario, out);
+    look_at_shutters(scenario, out);
     look_at_frames(scenario, out);
     return out;
 }

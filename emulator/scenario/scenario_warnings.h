@@ -10,7 +10,7 @@
 namespace hilcam {
 
 // A line each. What a run will not do: lockstep in which nobody can ask for a frame, faults that no output or
-// port can show.
+// port can show, a camera whose frames nobody gets, keys that do nothing beside the others.
 std::vector<std::string> idle_warnings(const ScenarioConfig& scenario);
 // What a kind of fault needs to be seen, of the outputs of some cameras and the bench's commands; empty: it
 // is there.

@@ -1,7 +1,11 @@
 #include "io/config/config_advice.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
+
+#include "io/config/config_keys.h"
+#include "io/system/plain_number.h"
 
 namespace hilcam {
 namespace {
@@ -30,7 +34,33 @@ bool ends_in_unit(std::string_view key) {
     return at != std::string_view::npos && key.size() - at - 1 <= 3;
 }
 
+bool same_but_for_unit(std::string_view a, std::string_view b) {
+    return a == b || (ends_in_unit(a) && ends_in_unit(b) && stem(a) == stem(b));
+}
+
 constexpr std::size_t kMostSlips = 3;
+constexpr std::size_t kMostPlaces = 3;
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string out;
+    for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+    return out;
+}
+
+// "camera.exposure_ms" of "exposure_ms" or "exposure_us": the places that are least deep.
+std::vector<std::string> places_of(std::string_view key, const Fields& root) {
+    std::vector<std::string> out;
+    std::ptrdiff_t least_deep = 0;
+    for (const std::string& place : config_keys(root)) {
+        if (!same_but_for_unit(key, std::string_view(place).substr(place.rfind('.') + 1))) continue;
+        const std::ptrdiff_t depth = std::count(place.begin(), place.end(), '.');
+        if (!out.empty() && depth > least_deep) continue;
+        if (depth < least_deep) out.clear();
+        least_deep = depth;
+        out.push_back(place);
+    }
+    return out;
+}
 
 }  // namespace
 
@@ -44,17 +74,51 @@ std::string nearest_of(std::string_view word, std::span<const std::string> known
     return nearest ? *nearest : std::string();
 }
 
-std::string advice_for(std::string_view key, const Fields& known) {
+std::string advice_for(std::string_view key, const Fields& known, const Fields& root) {
     std::vector<std::string> keys;
     std::string list;
     for (const Field& field : known) {
-        if (field.key != key && ends_in_unit(key) && ends_in_unit(field.key) && stem(field.key) == stem(key))
+        if (field.key != key && same_but_for_unit(key, field.key))
             return "; its unit here is another: " + field.key;
         keys.push_back(field.key);
         list += " " + field.key;
     }
     const std::string nearest = nearest_of(key, keys);
-    return (nearest.empty() ? "" : "; nearest known key: " + nearest) + "; known keys:" + list;
+    if (!nearest.empty()) return "; nearest known key: " + nearest + "; known keys:" + list;
+    const std::vector<std::string> places = places_of(key, root);
+    // A word like `name` stands in many places, which helps nobody.
+    if (places.empty() || places.size() > kMostPlaces) return "; known keys:" + list;
+    return "; there is " + joined(places) + "; known keys here:" + list;
+}
+
+std::string key_advice(std::string_view whole_key, const Fields& root) {
+    const std::string nearest = nearest_of(whole_key, config_keys(root));
+    if (!nearest.empty()) return "; nearest: " + nearest;
+    const std::vector<std::string> places = places_of(whole_key, root);
+    if (places.empty() || places.size() > kMostPlaces)
+        return "; accepted: a key as `hilcam manual` prints it, as camera.shutter or objects.N.pose";
+    return "; there is " + joined(places);
+}
+
+std::string unit_advice(std::string_view name, double found, const Range& range) {
+    struct Slip {
+        std::string_view ending, words;
+        double per_found;
+    };
+    static constexpr std::array kSlips = {
+        Slip{"_um", "in nanometres", 1e-3}, Slip{"_mm", "in metres", 1e3},
+        Slip{"_ms", "in seconds", 1e3},     Slip{"_km", "in metres", 1e-3},
+        Slip{"_nm", "in micrometres", 1e3}, Slip{"", "in percent", 1e-2},
+    };
+    for (const Slip& slip : kSlips) {
+        const double meant = found * slip.per_found;
+        // Shares alone are told in percent.
+        const bool fits =
+            slip.ending.empty() ? range.least == 0 && range.most <= 1 : name.ends_with(slip.ending);
+        if (fits && meant >= range.least && meant <= range.most && meant != 0)
+            return "; " + std::string(slip.words) + "? here it would be " + plain(meant);
+    }
+    return {};
 }
 
 }  // namespace hilcam

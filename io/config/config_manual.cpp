@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "io/config/config_advice.h"
 #include "io/system/plain_number.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
@@ -175,9 +176,7 @@ std::vector<Entry> chosen(const SectionField& root, std::string_view prefix) {
     if (prefix.empty()) return all;
     const Entry* found = find(all, prefix);
     if (!found)
-        throw InputError("manual " + in_quotes(prefix) +
-                         ": no such key; accepted: a key as `hilcam manual` prints it, as camera.shutter or "
-                         "objects.N.pose");
+        throw InputError("manual " + in_quotes(prefix) + ": no such key" + key_advice(prefix, root.fields));
     return {*found};
 }
 

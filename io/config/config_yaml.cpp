@@ -58,7 +58,7 @@ struct Override {
 
 class Reader {
   public:
-    explicit Reader(std::span<const std::string> overrides) {
+    Reader(const Fields& root, std::span<const std::string> overrides) : root_(root) {
         for (const std::string& text : overrides) add_override(text);
     }
 
@@ -89,13 +89,13 @@ class Reader {
         read_section(node, place, section, path, depth);
     }
 
-    void require_all_overrides_used(const SectionField& root) const {
+    void require_all_overrides_used() const {
         for (const Override& o : overrides_)
-            if (!o.used)
-                throw InputError("--set " + shortened(o.path) + ": " + why_unused(o.path, root.fields));
+            if (!o.used) throw InputError("--set " + shortened(o.path) + ": " + why_unused(o.path, root_));
     }
 
   private:
+    const Fields& root_;
     std::vector<Override> overrides_;
     std::vector<std::filesystem::path> open_files_;
     std::size_t nodes_ = 0;
@@ -114,11 +114,11 @@ class Reader {
     }
 
     // Follows an override's path down the sections until a word is unknown.
-    static std::string why_unused(std::string_view path, const Fields& known) {
+    std::string why_unused(std::string_view path, const Fields& known) const {
         const std::string_view word = path.substr(0, path.find('.'));
         const auto field =
             std::find_if(known.begin(), known.end(), [&](const Field& f) { return f.key == word; });
-        if (field == known.end()) return "unknown key" + advice_for(word, known);
+        if (field == known.end()) return "unknown key" + advice_for(word, known, root_);
         if (std::holds_alternative<SectionsField>(field->target))
             return "the list '" + field->key + "' has no such element in the file";
         const auto* nested = std::get_if<SectionField>(&field->target);
@@ -230,14 +230,15 @@ class Reader {
         fail(place, way.back(), whole, error.reason());
     }
 
-    static void refuse_unknown_keys(const YAML::Node& map, const Place& place, const Fields& known,
-                                    const std::string& path) {
+    void refuse_unknown_keys(const YAML::Node& map, const Place& place, const Fields& known,
+                             const std::string& path) const {
         std::vector<std::string> seen;
         for (const auto& entry : map) {
             const std::string key =
                 entry.first.IsScalar() ? entry.first.Scalar() : std::string("(not a word)");
             if (std::none_of(known.begin(), known.end(), [&](const Field& f) { return f.key == key; }))
-                fail(place, entry.first, join(path, shortened(key)), "unknown key" + advice_for(key, known));
+                fail(place, entry.first, join(path, shortened(key)),
+                     "unknown key" + advice_for(key, known, root_));
             if (std::find(seen.begin(), seen.end(), key) != seen.end())
                 fail(place, entry.first, join(path, shortened(key)), "the key is given twice");
             seen.push_back(key);
@@ -247,15 +248,18 @@ class Reader {
     void read_value(const YAML::Node& node, const Place& place, const Field& field, const std::string& path,
                     int depth) {
         count_node(place, node, path, depth);
-        const auto refuse = [&](const YAML::Node& at, const std::string& accepted) {
+        const auto refuse = [&](const YAML::Node& at, const std::string& accepted,
+                                const std::string& advice = "") {
             fail(place, at, path,
-                 "found " + show(at) + "; accepted: " + accepted + " (" + field.meaning + ")");
+                 "found " + show(at) + "; accepted: " + accepted + " (" + field.meaning + ")" + advice);
         };
-        const auto number = [&](const YAML::Node& at, const Range& range) {
+        // column: of a table.
+        const auto number = [&](const YAML::Node& at, const Range& range, std::string_view column = {}) {
             count_number(place, at, path);
             const std::optional<double> value = to_number(at);
             if (!value || *value < range.least || *value > range.most)
-                refuse(at, "a number, " + accepted(range));
+                refuse(at, "a number, " + accepted(range),
+                       value ? unit_advice(column.empty() ? field.key : column, *value, range) : "");
             return *value;
         };
         const auto list = [&](std::size_t fewest, std::size_t most) {
@@ -373,11 +377,11 @@ class Reader {
         Table out;
         for (const auto& pair : node) {
             if (!pair.IsSequence() || pair.size() != 2) refuse(pair, "a pair " + pair_text);
-            const double x = number(pair[0], f.x_range);
+            const double x = number(pair[0], f.x_range, f.x_name);
             if (!out.x.empty() && x <= out.x.back())
                 refuse(pair[0], f.x_name + " that rises from pair to pair");
             out.x.push_back(x);
-            out.y.push_back(number(pair[1], f.y_range));
+            out.y.push_back(number(pair[1], f.y_range, f.y_name));
         }
         return out;
     }
@@ -403,16 +407,16 @@ class Reader {
 
 void read_config(const std::filesystem::path& file, const SectionField& root,
                  std::span<const std::string> overrides) {
-    Reader reader(overrides);
+    Reader reader(root.fields, overrides);
     reader.read_file(file, root, "", 0);
-    reader.require_all_overrides_used(root);
+    reader.require_all_overrides_used();
 }
 
 void read_config_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                       const SectionField& root, std::span<const std::string> overrides) {
-    Reader reader(overrides);
+    Reader reader(root.fields, overrides);
     reader.read_text(text, {name, folder}, root, "", 0);
-    reader.require_all_overrides_used(root);
+    reader.require_all_overrides_used();
 }
 
 bool has_top_level_key(const std::filesystem::path& file, const std::string& key) {

@@ -24,7 +24,7 @@ struct FrameRecord {
     double black_level_dn = 0;
     int bits = 0;  // significant bits of a DN
     std::int64_t binning_x = 1, binning_y = 1;
-    std::uint32_t pose_sequence = 0;     // of the newest command that this frame shows
+    std::uint32_t pose_sequence = 0;     // of the newest command that had arrived when rendering began
     TimeTai pose_time;                   // that command's time tag
     std::uint32_t trigger_sequence = 0;  // of the `expose` that asked for it
     std::uint64_t faults =

@@ -13,6 +13,7 @@
 #include "io/preview/preview_shelf.h"
 #include "io/preview/preview_slot.h"
 #include "io/preview/preview_viewers.h"
+#include "io/preview/refused_settings.h"
 #include "io/system/allow_list.h"
 #include "io/system/fd.h"
 #include "render/vocabulary/check.h"
@@ -226,8 +227,9 @@ void PreviewSink::Implementation::send_truth(const httplib::Request& request, ht
 
 void PreviewSink::Implementation::change_settings(const httplib::Request& request,
                                                   httplib::Response& response) {
-    if (!context.camera.change(parse_settings_change(request.body)))
-        return refuse(response, 409, "the camera refuses this value or cannot set it now");
+    const SettingsChange change = parse_settings_change(request.body);
+    if (!context.camera.change(change))
+        return refuse(response, 409, refusal_of(change, context.camera.settings(), context.camera.limits()));
     response.status = 204;
 }
 

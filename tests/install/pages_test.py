@@ -70,7 +70,15 @@ class Completion(unittest.TestCase):
         self.assertEqual(completed("hilcam send lamp o"), ["on", "off"])
         self.assertEqual(completed("hilcam run --duration _"), [])
 
+    def test_keys_and_faults(self):
+        self.assertEqual(completed("hilcam run --set camera.shutter.li"), ["camera.shutter.line_time_us="])
+        self.assertEqual(completed("hilcam run --set objects.0.mes"), ["objects.0.mesh="])
+        self.assertEqual(completed("hilcam manual camera.shutter.li"), ["camera.shutter.line_time_us"])
+        self.assertEqual(completed("hilcam send fault packet_dr"), ["packet_drop"])
+        self.assertIn("clear", completed("hilcam send fault _"))
+
     def test_files_and_names_of_shipped_ones(self):
+        self.assertEqual(completed("hilcam check lor"), ["lorri"])
         self.assertIn("geo_inspection", completed("hilcam run _"))
         self.assertEqual(completed("hilcam run geo_"), ["geo_inspection"])
         self.assertEqual(completed("hilcam characterise lor"), ["lorri"])

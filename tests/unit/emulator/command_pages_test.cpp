@@ -74,12 +74,13 @@ TEST(ManualPages, EachSubcommandHasOneWithThoseBelowIt) {
 
 TEST(BashCompletion, KnowsCommandsOptionsWordsAndFiles) {
     Line line;
-    const std::string script = bash_completion(described(line.app));
+    const std::string script = bash_completion(described(line.app), {"camera.bits", "objects.N.mesh"});
     EXPECT_THAT(script, HasSubstr("    ['.']='run send'\n"));
     EXPECT_THAT(script, HasSubstr("    ['run']='-h --help --port -s --seconds --fast'\n"));
     EXPECT_THAT(script, HasSubstr("    ['run']='@config'\n"));
     EXPECT_THAT(script, HasSubstr("    ['send lamp']='on off'\n"));
     EXPECT_THAT(script, HasSubstr("    ['run --port']=''\n"));
+    EXPECT_THAT(script, HasSubstr("_hilcam_keys='camera.bits objects.N.mesh'\n"));
     EXPECT_THAT(script, Not(HasSubstr("run --fast")));
     EXPECT_THAT(script, Not(HasSubstr("hidden")));
 }

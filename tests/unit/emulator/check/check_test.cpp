@@ -237,6 +237,51 @@ TEST_F(CheckScenario, APointIsAsBrightAsExpected) {
     EXPECT_NEAR(light_e / rendered_e(s), 1, 0.03);
 }
 
+// The Moon from 1000 km above it, straight down: what is expected of the ground is what the picture has
+// there.
+TEST_F(CheckScenario, TheGroundIsAsFarAndAsBrightAsExpected) {
+    const ScenarioConfig s = load_scenario(
+        scenario(
+            "",
+            "origin: {kind: body_fixed, body: moon, longitude_deg: 100, latitude_deg: 10, height_km: 1000}\n"
+            "camera_pose: {attitude: nadir}\n"),
+        std::vector<std::string>{"spectrum_edges_um=[0.4, 0.46, 0.52, 0.58, 0.64, 0.7, 0.76, 0.83, 0.95]",
+                                 "moon.visible=true", "objects=[]"});
+    const CheckReport report = check_scenario(s);
+    const std::optional<GroundSight>& ground = report.reports.at(0).sight.ground;
+    ASSERT_TRUE(ground && ground->expected);
+    EXPECT_EQ(ground->body, "moon");
+    EXPECT_NEAR(ground->distance_m, 1e6, 1);
+    EXPECT_NEAR(ground->pixel_m, 1e6 * 10e-6 / 6.4e-3, 1e-3);
+    EXPECT_NEAR(ground->off_vertical_rad, 0, 1e-9);
+    EXPECT_GT(ground->sun_elevation_rad, 10 * kDegree_rad);
+    StillCamera camera(s);
+    camera.render({1, 1});
+    const ElectronImage& electrons = camera.expose();
+    double middle_e = 0;
+    for (int y = 30; y < 34; ++y)
+        for (std::size_t x = 30; x < 34; ++x) middle_e += electrons.row(y)[x] / 16;
+    EXPECT_NEAR(ground->expected->signal_e / middle_e, 1, 0.03);
+    EXPECT_THAT(to_text(report), HasSubstr("ground      the smooth moon, 1000 km ahead: 1562 m a pixel"));
+    EXPECT_FALSE(check().reports.at(0).sight.ground);
+}
+
+TEST_F(CheckScenario, AFrameThatTakesLongerThanItHasIsTold) {
+    CheckReport report;
+    report.reports.resize(2);
+    report.reports[0].frame_time = FrameTime{30, 15, 2};
+    report.reports[0].period_s = 0.04;
+    report.reports[1].number = 2;
+    report.reports[1].frame_time = FrameTime{30, 15, 2};
+    report.reports[1].period_s = 0.05;
+    EXPECT_THAT(late_warnings(report),
+                ElementsAre(HasSubstr("camera 1: a frame takes 45 ms on this machine, and 25 "
+                                      "frames/s leave 40 ms")));
+    // In lockstep frames are asked for.
+    EXPECT_EQ(check({}, "mode: lockstep\n").reports.at(0).period_s, 0);
+    EXPECT_NEAR(check({"camera.exposure_ms=250"}).reports.at(0).period_s, 0.25, 1e-12);
+}
+
 TEST_F(CheckScenario, AFrameIsTimedUnlessItWouldTakeMinutes) {
     const CheckReport small = check();
     ASSERT_TRUE(small.reports.at(0).frame_time);
@@ -262,8 +307,19 @@ TEST_F(CheckScenario, EveryCameraHasABlockWithItsBaseline) {
     EXPECT_NEAR(report.reports[1].sight.turned_rad, 10 * kDegree_rad, 1e-5);
     EXPECT_THAT(report.warnings, Contains(HasSubstr("camera 2: object 'plate' is outside the field")));
     EXPECT_THAT(to_text(report), HasSubstr("camera 2 of 2\n"));
-    EXPECT_THAT(to_text(report),
-                HasSubstr("baseline    0.5 m from camera 1: (0.3, 0, 0.4) m in its axes, turned by 10"));
+    EXPECT_THAT(
+        to_text(report),
+        HasSubstr("baseline    0.5 m from camera 1: (0.3, 0, 0.4) m in its axes, turned by 10.0000 deg"));
+    EXPECT_THAT(to_text(report), Not(HasSubstr("camera sheet: as camera 1's")));
+
+    const CheckReport pair =
+        check({},
+              "more_cameras: [{camera: {name: test, width_px: 64, height_px: 64, pitch_um: "
+              "10, focal_length_mm: 6.4, f_number: 8,\n"
+              "  transmission: 0.01, quantum_efficiency: 0.5, full_well_e: 20000, gain_dn_e: "
+              "0.2, bits: 12, offset_dn: 50, read_noise_e: 5, exposure_ms: 20}}]\n");
+    EXPECT_THAT(to_text(pair), HasSubstr("camera sheet: as camera 1's\n"));
+    EXPECT_THAT(to_text(pair), HasSubstr("turned by 0.0000 deg"));
 
     const CheckReport second = check({}, right, 2);
     ASSERT_EQ(second.reports.size(), 1u);

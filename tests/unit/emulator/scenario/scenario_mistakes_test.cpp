@@ -59,10 +59,12 @@ constexpr Mistake kMistakes[] = {
     {"KeyTwice", 9, "  width_px: 64", "9:3", "camera.width_px: the key is given twice"},
     {"KeyMissing", 8, "", "5:3", "camera.focal_length_mm: the key is missing"},
     {"SectionMisspelt", 20, "object:", "20:1", "unknown key; nearest known key: objects"},
+    {"KeyOfAnotherSection", 1, "exposure_ms: 5", "1:1",
+     "unknown key; there is camera.exposure_ms; known keys"},
     // Values.
     {"WordForNumber", 9, "  f_number: wide", "9:13", "found 'wide'; accepted: a number"},
     {"UnitInValue", 8, "  focal_length_mm: 6.4 mm", "8:20", "found '6.4 mm'; accepted: a number"},
-    {"Percent", 10, "  quantum_efficiency: 50", "10:23", "found '50'; accepted: a number, 0 to 1"},
+    {"Percent", 10, "  quantum_efficiency: 50", "10:23", "in percent? here it would be 0.5"},
     {"FractionOfAPixel", 5, "  width_px: 64.5", "5:13", "found '64.5'; accepted: a whole number"},
     {"Negative", 7, "  pitch_um: -10", "7:13", "found '-10'"},
     {"TwoNumbers", 16, "  position_m: [4, 0]", "16:15", "found a list of 2; accepted: a list of 3 numbers"},
@@ -77,6 +79,8 @@ constexpr Mistake kMistakes[] = {
     {"SectionForList", 20, "objects: {name: plate}\nlamps:", "20:10", "accepted: a list of mappings"},
     {"Nanometres", 25, "spectrum_edges_um: [400, 950]", "25:21",
      "found '400'; accepted: a number, 0.2 to 2.5"},
+    {"CurveInNanometres", 10, "  quantum_efficiency: [[400, 0.3], [900, 0.5]]", "10:25",
+     "in nanometres? here it would be 0.4"},
     // Time.
     {"NoDate", 2, "time_utc: noon", "2:11", "time_utc: "},
     {"NoSuchMonth", 2, "time_utc: 2026-13-01T00:00:00Z", "2:11", "time_utc: "},
@@ -116,9 +120,26 @@ constexpr Mistake kMistakes[] = {
     {"FaultForNobody", 24, "faults: [{kind: packet_drop}]", "", "that takes outputs.gige"},
     {"Millimetres", 22, "    mesh: plate.obj\n    scale: 10000", "", "the file is probably in millimetres"},
     {"LooksAway", 18, "  look_at_m: [8, 0, 0]", "", "object 'plate' is behind the camera"},
+    {"Kilometres", 22, "    mesh: plate.obj\n    scale: 0.001", "", "is its scale too small?"},
+    {"LineTimeOfAGlobalShutter", 14, "  bits: 12\n  shutter: {line_time_us: 30}", "",
+     "camera.shutter.line_time_us: has no effect with kind: global"},
+    {"SecondCameraForNobody", 24,
+     "more_cameras: [{camera: {width_px: 8, height_px: 8, pitch_um: 10, focal_length_mm: 6.4, f_number: 8, "
+     "quantum_efficiency: 0.5, full_well_e: 20000, gain_dn_e: 0.2, bits: 12}}]",
+     "", "more_cameras.0.outputs: camera 2 has none"},
+    {"StarsWithoutACatalogue", 24, "stars: {faintest_magnitude: 6}", "", "stars: there are none without"},
+    {"ExposureLongerThanThePeriod", 14, "  bits: 12\n  exposure_ms: 200", "",
+     "camera.frame_rate_hz is 30, and camera.exposure_ms with the shutter's rows leaves 5"},
+    {"GainAHundredTimesTooHigh", 13, "  gain_dn_e: 20", "", "camera.gain_dn_e or gain_db is too high"},
+    {"GainAHundredTimesTooLow", 13, "  gain_dn_e: 0.002", "", "camera.gain_dn_e or gain_db is too low"},
+    {"FullWellInThousands", 12, "  full_well_e: 20", "", "does the data sheet count in ke-?"},
+    {"BlackLevelCutsTheNoise", 14, "  bits: 12\n  read_noise_e: 20", "",
+     "camera.offset_dn is 0, and the noise in the dark 4 DN"},
     {"NoSuchInterface", 25, "outputs: {gige: {interface: nowhere0}}", "",
      "interface 'nowhere0' does not exist"},
 };
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
 
 class ScenarioMistakes : public FilesTest, public testing::WithParamInterface<Mistake> {};
 

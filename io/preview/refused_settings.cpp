@@ -1,0 +1,62 @@
+#include "io/preview/refused_settings.h"
+
+#include <cstdint>
+
+#include "io/system/plain_number.h"
+
+namespace hilcam {
+namespace {
+
+template <class Value>
+std::string outside(const char* name, const std::optional<Value>& value, double least, double most) {
+    if (!value) return {};
+    const auto found = static_cast<double>(*value);
+    if (found >= least && found <= most) return {};
+    return std::string(name) + ": found " + plain(found) + "; accepted: " + plain(least) + " to " +
+           plain(most);
+}
+
+std::string no_binning(const char* name, const std::optional<std::int64_t>& value, std::int64_t most) {
+    if (!value || (*value >= 1 && *value <= most && (*value & (*value - 1)) == 0)) return {};
+    return std::string(name) + ": found " + std::to_string(*value) + "; accepted: 1, 2, 4 and so on up to " +
+           std::to_string(most);
+}
+
+std::string lacking(const char* name, const std::optional<bool>& wanted, bool there) {
+    return wanted.value_or(false) && !there ? std::string(name) + ": this camera does not have it" : "";
+}
+
+// The camera sets it itself.
+std::string own(const char* name, bool asked, bool is_own, const char* why) {
+    if (!asked || !is_own) return {};
+    return std::string(name) + ": the camera sets it itself (" + why + ")";
+}
+
+}  // namespace
+
+std::string refusal_of(const SettingsChange& c, const CameraSettings& now, const CameraLimits& l) {
+    constexpr const char* kFixed = "a sequence, or a line-scan shutter";
+    const bool automatic = c.automatic_exposure.value_or(now.automatic_exposure);
+    for (std::string line : {
+             own("exposure_s", c.exposure_s.has_value(), l.exposure_is_own, kFixed),
+             own("exposure_s", c.exposure_s.has_value(), automatic, "automatic_exposure is on"),
+             own("gain_db", c.gain_db.has_value(), l.gain_is_own, kFixed),
+             own("frame_rate_hz", c.frame_rate_hz.has_value(), l.frame_rate_is_own, kFixed),
+             outside("exposure_s", c.exposure_s, l.least_exposure_s, l.most_exposure_s),
+             outside("gain_db", c.gain_db, l.least_gain_db, l.most_gain_db),
+             outside("black_level_dn", c.black_level_dn, 0, l.most_black_level_dn),
+             outside("frame_rate_hz", c.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz),
+             outside("trigger_delay_s", c.trigger_delay_s, 0, l.most_trigger_delay_s),
+             outside("burst_frames", c.burst_frames, 1, static_cast<double>(l.most_burst_frames)),
+             no_binning("binning_x", c.binning_x, l.most_binning),
+             no_binning("binning_y", c.binning_y, l.most_binning),
+             lacking("automatic_exposure", c.automatic_exposure, l.has_automatic_exposure),
+             lacking("reverse_x", c.reverse_x, l.reversible),
+             lacking("reverse_y", c.reverse_y, l.reversible),
+         })
+        if (!line.empty()) return line;
+    if (c.triggered && l.lockstep) return "triggered: lockstep takes each frame on command, and stays so";
+    return "the camera cannot set this now";
+}
+
+}  // namespace hilcam
