@@ -50,10 +50,11 @@ install_name(configs ${data} program)
 install_name(tools/client/hilcam_client.h ${CMAKE_INSTALL_INCLUDEDIR}/hilcam/hilcam_client.h program)
 install_name(tools/client/hilcam_client.py ${data}/client/hilcam_client.py program)
 install_name(tools/flight_software_example ${doc}-examples/examples/flight_software_example examples)
+install_name(tools/flight_software_glue ${doc}-examples/examples/flight_software_glue examples)
 
 # --- the examples ---
 install(TARGETS hilcam-make-spacecraft RUNTIME DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT examples)
 install(DIRECTORY configs/scenarios configs/meshes DESTINATION ${data} COMPONENT examples)
-install(DIRECTORY tools/flight_software_example DESTINATION ${doc}-examples/examples COMPONENT examples)
+install(DIRECTORY tools/flight_software_example tools/flight_software_glue DESTINATION ${doc}-examples/examples COMPONENT examples)
 install(FILES tools/quickstart_client.py DESTINATION ${doc}-examples/examples COMPONENT examples)
 install(FILES tools/packaging/examples.md DESTINATION ${doc}-examples/examples RENAME README.md COMPONENT examples)
