@@ -78,7 +78,9 @@ std::string header(const std::string& name, const std::string& meaning, const st
 // The last section of each page.
 std::string see_also(const std::string& pages) {
     return ".SH SEE ALSO\n" + pages +
-           "\n.PP\nEvery key of a scenario file: \\fBhilcam manual\\fR. Guides: /usr/share/doc/hilcam.\n";
+           "\n.PP\nEvery key of a scenario file: \\fBhilcam manual\\fR. Guides: share/doc/hilcam, in the "
+           "prefix that has "
+           "bin/hilcam.\n";
 }
 
 constexpr const char* kEnds =

@@ -84,7 +84,7 @@ is a test (ctest label `extremes`): what is varied, its value, and for each quan
 that the test holds it to. Truths are closed forms in double precision, or published values; limits come from the grain of
 single and double precision, from numbers of samples, or from the accuracy that a source states. An error of 0 is exact.
 
-Written by `build/ci/bin/extremes --table > docs/extremes.md`. The tests fail when this page and the suite (`tests/extremes/`)
+Written in the source tree by `build/ci/bin/extremes --table > docs/extremes.md`. The tests fail when this page and the suite (`tests/extremes/`)
 disagree about values, truths or limits; errors differ in their last digits from machine to machine.
 
 )";

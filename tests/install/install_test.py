@@ -13,6 +13,8 @@ import sys
 import tempfile
 import unittest
 
+import manual_names
+
 BUILD, SOURCE, CMAKE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
 
 
@@ -39,10 +41,30 @@ class Installed(unittest.TestCase):
         for name in ("bin/hilcam", "libexec/hilcam/hilcam-make-spacecraft", "libexec/hilcam/hilcam-plot-tradeoff",
                      "share/hilcam/scenarios/small.yaml", "share/hilcam/stars/hipparcos.csv", "share/hilcam/maps/earth_albedo.png",
                      "share/hilcam/schema/scenario.schema.json", "share/hilcam/client/hilcam_client.py",
+                     "share/doc/hilcam/tools/client/hilcam_client.py", "share/doc/hilcam/tools/client/hilcam_client.h",
+                     "share/doc/hilcam/tools/flight_software_example/main.cpp",
+                     "share/doc/hilcam/tools/flight_software_glue/camera_link.c", "share/doc/hilcam/configs/scenarios/small.yaml",
+                     "share/doc/hilcam-examples/examples/README.md",
                      "include/hilcam/hilcam_client.h", "include/hilcam/render/frame/plugin.h", "share/man/man1/hilcam.1",
                      "share/man/man1/hilcam-send.1", "share/bash-completion/completions/hilcam",
                      "lib/systemd/system/hilcam@.service", "share/doc/hilcam/NOTICE", "share/doc/hilcam/docs/protocol.md"):
             self.assertTrue((self.prefix / name).is_file(), name)
+
+    def test_the_manual_names_no_file_that_is_elsewhere(self):
+        self.assertGreater(len(manual_names.pages(self.prefix)), 60)
+        self.assertEqual(manual_names.missing_in(self.prefix), [])
+
+    def test_a_page_that_names_a_lost_file_is_seen(self):
+        def lost(text):
+            page = self.prefix / "share/doc/hilcam/docs/invented.md"
+            return [line.split(": ")[1] for line in manual_names.missing_names(page, text, self.prefix)]
+
+        self.assertEqual(lost("`tools/check` and [a page](nowhere.md), `share/hilcam/nothing`\n\n    build/release/bin/hilcam\n"),
+                         ["nowhere.md", "tools/check", "share/hilcam/nothing", "build/release/bin/hilcam"])
+        # What is there, and what the source tree is said to have; a paragraph's mark is not for the next one.
+        self.assertEqual(lost("`configs/scenarios/small.yaml`, [pages](protocol.md), `render/frame/plugin.h`"), [])
+        self.assertEqual(lost("In the source tree:\n\n    tools/check\n\n`tools/package`"), ["tools/package"])
+        self.assertEqual(lost("[In the source tree](nowhere.md) `tools/check`"), ["nowhere.md"])
 
     def test_the_programs_know_no_data_of_the_source_tree(self):
         for name in ("bin/hilcam", "libexec/hilcam/hilcam-make-spacecraft"):

@@ -4,7 +4,7 @@
     tutorial_test.py HILCAM SOURCE_DIR PAGE.md
 
 Blocks of the page, in their order, in an empty folder, on a network of its own where the kernel allows
-that, with the program on the path and the Python client beside Python's own modules:
+that, with the program on the path, the Python that runs this as python3, and the Python client beside its own modules:
     ```yaml FILE, ```python FILE    is written to FILE
     ```sh                           is run, all of a page's by one shell, which stops at the first command that fails
     ```text after an sh block       is what that block prints; "..." stands for any words, alone on a line for any lines
@@ -68,7 +68,11 @@ def run_page(hilcam, source, page):
         (folder / "page.sh").write_text(script_of(todo))
         own_network = subprocess.run(["unshare", "-rn", "true"], capture_output=True).returncode == 0
         shell = ["unshare", "-rn", "bash", "-c", "ip link set lo up && exec bash page.sh"] if own_network else ["bash", "page.sh"]
-        environment = {**os.environ, "PATH": f"{pathlib.Path(hilcam).parent}:{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1",
+        # Debian's Python has numpy and PIL; another one may come before it on the path.
+        (folder / ".bin").mkdir()
+        (folder / ".bin/python3").symlink_to(sys.executable)
+        path = f"{pathlib.Path(hilcam).parent}:{folder}/.bin:{os.environ['PATH']}"
+        environment = {**os.environ, "PATH": path, "PYTHONDONTWRITEBYTECODE": "1",
                        "PYTHONPATH": str(source / "tools/client")}
         status = subprocess.run(shell, cwd=folder, env=environment, stdin=subprocess.DEVNULL, timeout=MOST_SECONDS).returncode
         return judge(folder, todo, status)

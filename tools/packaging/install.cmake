@@ -28,13 +28,33 @@ install(FILES tools/packaging/systemd/hilcam@.service DESTINATION lib/systemd/sy
 install(FILES tools/client/hilcam_client.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program)
 install(DIRECTORY render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program FILES_MATCHING PATTERN "*.h")
 install(FILES tools/client/hilcam_client.py DESTINATION ${data}/client COMPONENT program)
-install(FILES README.md NOTICE CITATION.cff SECURITY.md DESTINATION ${doc} COMPONENT program)
+install(FILES README.md CONTRIBUTING.md NOTICE CITATION.cff SECURITY.md DESTINATION ${doc} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${doc} COMPONENT program)
+install(FILES tools/client/README.md DESTINATION ${doc}/tools/client COMPONENT program)
+install(DIRECTORY tools/ground_systems DESTINATION ${doc}/tools COMPONENT program)
 # Debian has a licence file and a changelog of its own kind in their place (debian.cmake).
 install(FILES CHANGELOG.md LICENSE DESTINATION ${doc} COMPONENT texts)
+
+# The manual's pages name files as they lie in the source tree. What of those is installed is found beside the pages by the
+# same name: a relative link, so that the prefix may be moved.
+function(install_name NAME INSTALLED COMPONENT)
+    get_filename_component(parent ${doc}/${NAME} DIRECTORY)
+    file(RELATIVE_PATH target /${parent} /${INSTALLED})
+    set(link ${CMAKE_BINARY_DIR}/names/${NAME})
+    get_filename_component(made ${link} DIRECTORY)
+    file(MAKE_DIRECTORY ${made})
+    file(CREATE_LINK ${target} ${link} SYMBOLIC)
+    install(FILES ${link} DESTINATION ${parent} COMPONENT ${COMPONENT})
+endfunction()
+install_name(configs ${data} program)
+install_name(tools/client/hilcam_client.h ${CMAKE_INSTALL_INCLUDEDIR}/hilcam/hilcam_client.h program)
+install_name(tools/client/hilcam_client.py ${data}/client/hilcam_client.py program)
+install_name(tools/flight_software_example ${doc}-examples/examples/flight_software_example examples)
+install_name(tools/flight_software_glue ${doc}-examples/examples/flight_software_glue examples)
 
 # --- the examples ---
 install(TARGETS hilcam-make-spacecraft RUNTIME DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT examples)
 install(DIRECTORY configs/scenarios configs/meshes DESTINATION ${data} COMPONENT examples)
-install(DIRECTORY tools/flight_software_example DESTINATION ${doc}-examples/examples COMPONENT examples)
-install(FILES tools/quickstart_client.py tools/client/README.md DESTINATION ${doc}-examples/examples COMPONENT examples)
+install(DIRECTORY tools/flight_software_example tools/flight_software_glue DESTINATION ${doc}-examples/examples COMPONENT examples)
+install(FILES tools/quickstart_client.py DESTINATION ${doc}-examples/examples COMPONENT examples)
+install(FILES tools/packaging/examples.md DESTINATION ${doc}-examples/examples RENAME README.md COMPONENT examples)
