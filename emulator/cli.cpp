@@ -127,9 +127,13 @@ int run(const Options& o) {
     Emulator& emulator = *whole;
     warn_of_dark_pictures(scenario);
     emulator.run([&] {
-        const PreviewConfig& preview = scenario.outputs.preview;
-        if (scenario.outputs.has_preview)
-            spdlog::info("preview at http://{}:{}/", preview.address, preview.port);
+        for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
+            const OutputsConfig& outputs = i == 0 ? scenario.outputs : scenario.more_cameras[i - 1].outputs;
+            if (!outputs.has_preview) continue;
+            const std::string whose =
+                scenario.more_cameras.empty() ? "" : fmt::format(" of camera {}", i + 1);
+            spdlog::info("preview{} at http://{}:{}/", whose, outputs.preview.address, outputs.preview.port);
+        }
         spdlog::info("running; Ctrl-C ends it");
     });
     const nlohmann::json report = run_report(emulator);
