@@ -13,6 +13,7 @@
 #include "emulator/scenario/site.h"
 #include "io/config/config_yaml.h"
 #include "io/system/plain_number.h"
+#include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
@@ -268,8 +269,10 @@ std::string governor_off(const ScenarioConfig& s) {
 
 RenderQuality render_quality_of(const ScenarioConfig& s) {
     RenderQuality quality = s.quality.render;
-    const bool straight = s.camera.projection == Projection::kRectilinear && s.camera.distortion.empty();
-    if (!straight || models_of(s).rays.model != "pinhole" || s.has_terrain || quality.noise_budget > 0)
+    const ImageGeometry image =
+        geometry_of(s.camera, static_cast<int>(s.quality.guard_px), static_cast<int>(s.quality.oversampling));
+    if (!VisibilityBuffer::takes(image) || models_of(s).rays.model != "pinhole" || s.has_terrain ||
+        quality.noise_budget > 0)
         quality.visibility = "rays";
     return quality;
 }

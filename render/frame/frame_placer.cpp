@@ -58,7 +58,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
                       ? std::min(stars_.size(), stars_.most_within(2 * half_field_rad(geometry)))
                       : stars_.size();
 
-    if (quality.uses_buffer() && !terrain_) {
+    if (quality.uses_buffer() && !terrain_ && VisibilityBuffer::takes(geometry)) {
         seen_.reserve(objects_.size());
         visibility_ = std::make_unique<VisibilityBuffer>(geometry, visibility_room());
     }
@@ -190,7 +190,7 @@ void FramePlacer::place_background() {
 }
 
 void FramePlacer::place_visibility() {
-    if (!visibility_ || !uses_visibility_ || !rays_->linear()) return;
+    if (!visibility_ || !uses_visibility_ || !rays_->is_still()) return;
     seen_.clear();
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh)

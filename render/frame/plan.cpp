@@ -6,6 +6,7 @@
 
 #include "render/light/kept_scene.h"
 #include "render/light/lamp_light.h"
+#include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -111,7 +112,11 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
         lines.push_back(line.str());
     };
     const RenderQuality& q = planned.quality;
-    add(f.bins, " spectral bins; ", q.samples_per_axis, " x ", q.samples_per_axis, " rays per pixel");
+    if (q.uses_buffer())
+        add(f.bins, " spectral bins; ", kVisibilitySamplesAcross, " x ", kVisibilitySamplesAcross,
+            " samples per pixel by the visibility buffer");
+    else
+        add(f.bins, " spectral bins; ", q.samples_per_axis, " x ", q.samples_per_axis, " rays per pixel");
     if (q.noise_budget > 0)
         add("noise budget: pixels are sampled again, ", q.most_passes,
             " times at most, while their error is above ", q.noise_budget, " of their sensor noise");

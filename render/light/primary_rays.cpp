@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/place_sequence.h"
 
 namespace hilcam {
@@ -93,12 +94,13 @@ class PrimaryRays {
     // Nothing of a block of 4 x 4 pixels is near the rim of a body or of its air, or near the Sun: one ray
     // tells of all of a pixel.
     bool is_even(int x, int y) const {
-        if (frame_.background->camera_in_air() || !linear_) return false;
+        if (frame_.background->camera_in_air()) return false;
         if (frame_.sun_box.overlaps({x, y, x + 4, y + 4})) return false;
         const float at_x = static_cast<float>(x - tile_.box.x0) + 2,
                     at_y = static_cast<float>(y - tile_.box.y0) + 2;
-        const Vec3d dir = normalized(corner_ + static_cast<double>(at_x) * linear_->right +
-                                     static_cast<double>(at_y) * linear_->down);
+        const Vec3d dir = normalized(linear_ ? corner_ + static_cast<double>(at_x) * linear_->right +
+                                                   static_cast<double>(at_y) * linear_->down
+                                             : frame_.visibility->direction(x + 2, y + 2, {}));
         const double block_rad = 3 / frame_.geometry.focal_length_px;  // its middle to its corners
         for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
             const PlacedBody& body = frame_.background->disks()[i];

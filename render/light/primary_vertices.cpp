@@ -169,8 +169,9 @@ Vertex* PrimaryVertices::join(std::span<Vertex> so_far, std::uint32_t pixel, std
 // The first fragments, as many as are of one object.
 std::size_t PrimaryVertices::look_at_fragments() {
     const FrameView& frame = tile_.frame;
-    const LinearRays& rays = *frame.rays->linear();
-    const Vec3d corner = rays.corner + tile_.box.x0 * rays.right + tile_.box.y0 * rays.down;
+    const LinearRays* rays = frame.rays->linear();
+    const Vec3d corner =
+        rays ? rays->corner + tile_.box.x0 * rays->right + tile_.box.y0 * rays->down : Vec3d{};
     const int width = tile_.box.x1 - tile_.box.x0;
     const VisibilityBuffer::Shown& shown = *frame.visibility->seen(fragments_[0].id).shown;
     const Vec3f body_m = to_float(shown.pose.position_world_m - frame.rays_world_m);
@@ -181,9 +182,10 @@ std::size_t PrimaryVertices::look_at_fragments() {
         const VisibilityBuffer::Seen seen = frame.visibility->seen(fragment.id);
         if (seen.shown != &shown) break;
         const Vec2f at = middle_of(fragment.samples);
-        dirs_[n] = corner +
-                   static_cast<double>(static_cast<float>(fragment.pixel % width) + at.x) * rays.right +
-                   static_cast<double>(static_cast<float>(fragment.pixel / width) + at.y) * rays.down;
+        const int x = fragment.pixel % width, y = fragment.pixel / width;
+        dirs_[n] = rays ? corner + static_cast<double>(static_cast<float>(x) + at.x) * rays->right +
+                              static_cast<double>(static_cast<float>(y) + at.y) * rays->down
+                        : frame.visibility->direction(tile_.box.x0 + x, tile_.box.y0 + y, at);
         origins_[n] =
             frame.start_before_m > 0 ? frame.start_of(normalized(dirs_[n])) : to_float(frame.camera_m);
         packet_.triangle[n] = seen.triangle;

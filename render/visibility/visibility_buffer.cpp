@@ -15,16 +15,6 @@ constexpr std::size_t kVertexRun = 1 << 14;   // vertices that a task projects
 constexpr std::uint32_t kBlocksAtOnce = 32;   // that a group takes for itself
 constexpr std::size_t kBlocksTogether = 256;  // of a tile, that are put in order
 
-// The farthest left, right, up and down that the picture reaches, as slopes.
-struct Slopes {
-    double left, right, top, bottom;
-};
-Slopes slopes_of(const ImageGeometry& g) {
-    const Vec2d center{g.center_px().x + g.guard_px, g.center_px().y + g.guard_px};
-    return {-center.x / g.focal_length_px, (g.padded_width() - center.x) / g.focal_length_px,
-            -center.y / g.focal_length_px, (g.padded_height() - center.y) / g.focal_length_px};
-}
-
 ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_body, Vec3d origin_m,
                                double radius_m, double depth_origin_m) {
     const auto single = [](double v) { return static_cast<float>(v); };
@@ -50,6 +40,7 @@ ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_
 
 VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Room& room)
     : geometry_(geometry),
+      lens_(geometry),
       room_(room),
       tiles_across_((geometry.padded_width() + kVisibilityTile_px - 1) / kVisibilityTile_px),
       tiles_down_((geometry.padded_height() + kVisibilityTile_px - 1) / kVisibilityTile_px) {
@@ -65,7 +56,8 @@ VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Room& ro
 }
 
 bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
-    const Mat3d camera_from_world = transposed(to_matrix(camera.world_from_body));
+    world_from_camera_ = to_matrix(camera.world_from_body);
+    const Mat3d camera_from_world = transposed(world_from_camera_);
     placed_.clear();
     triangle_count_ = 0;
     std::size_t vertices = 0;
@@ -129,9 +121,9 @@ class VisibilityBuffer::Sorter {
 
     bool sort_run(const Placed& object, std::size_t first, std::size_t count) {
         const std::span<const TriangleCorners> triangles = object.shown.mesh.triangles.subspan(first, count);
-        const std::size_t found =
-            find_tiles(&my_.vertices_[object.first_vertex], triangles, static_cast<std::uint32_t>(first),
-                       my_.geometry_.padded_width(), my_.geometry_.padded_height(), ranges_.data());
+        const std::size_t found = find_tiles(
+            &my_.vertices_[object.first_vertex], triangles, static_cast<std::uint32_t>(first),
+            my_.geometry_.padded_width(), my_.geometry_.padded_height(), my_.lens_.screen(), ranges_.data());
         const auto placed = static_cast<std::uint32_t>(&object - my_.placed_.data());
         for (std::size_t i = 0; i < found; ++i) {
             TileRange& range = ranges_[i];
@@ -191,7 +183,7 @@ std::array<Vec3d, 3> VisibilityBuffer::corners_camera_m(const Placed& placed, st
 
 // The tiles of what of a triangle is before the camera. False: it is behind it, or beside the picture.
 bool VisibilityBuffer::bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const {
-    const Slopes slopes = slopes_of(geometry_);
+    const LensTiles::Slopes& slopes = lens_.slopes();
     const auto all = [&](auto&& says) { return std::all_of(corners_m.begin(), corners_m.end(), says); };
     if (all([](Vec3d p) { return p.z <= 0; }) || all([&](Vec3d p) { return p.x < slopes.left * p.z; }) ||
         all([&](Vec3d p) { return p.x > slopes.right * p.z; }) ||
@@ -199,9 +191,11 @@ bool VisibilityBuffer::bounds_of_cut(const std::array<Vec3d, 3>& corners_m, Tile
         all([&](Vec3d p) { return p.y > slopes.bottom * p.z; }))
         return false;
     double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+    const Vec2d center{geometry_.center_px().x + geometry_.guard_px,
+                       geometry_.center_px().y + geometry_.guard_px};
     const auto grow = [&](Vec3d p) {
-        const double x = (p.x / p.z - slopes.left) * geometry_.focal_length_px;
-        const double y = (p.y / p.z - slopes.top) * geometry_.focal_length_px;
+        const double x = center.x + p.x / p.z * geometry_.focal_length_px;
+        const double y = center.y + p.y / p.z * geometry_.focal_length_px;
         x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
     };
     double reach = 0;
@@ -216,11 +210,7 @@ bool VisibilityBuffer::bounds_of_cut(const std::array<Vec3d, 3>& corners_m, Tile
         at.z = near_m;
         grow(at);
     }
-    const auto tile = [](double px, int tiles) {
-        return static_cast<std::int16_t>(std::clamp(px / kVisibilityTile_px, 0.0, tiles - 1.0));
-    };
-    range.x0 = tile(x0 - 1, tiles_across_), range.x1 = tile(x1 + 1, tiles_across_);
-    range.y0 = tile(y0 - 1, tiles_down_), range.y1 = tile(y1 + 1, tiles_down_);
+    lens_.tiles_of(x0, x1, y0, y1, range);
     return true;
 }
 
@@ -228,9 +218,7 @@ bool VisibilityBuffer::bounds_of_cut(const std::array<Vec3d, 3>& corners_m, Tile
 void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,
                                   TriangleSetup& setup) const {
     const std::array<Vec3d, 3> p = corners_camera_m(placed, triangle);
-    const Slopes slopes = slopes_of(geometry_);
-    const double pixel = 1 / geometry_.focal_length_px;
-    const Vec3d corner{slopes.left + x_px * pixel, slopes.top + y_px * pixel, 1};
+    const LensTiles::View view = lens_.view(x_px, y_px);
     const double volume = dot(p[0], cross(p[1], p[2]));
     setup.count = 1;
     setup.x0[0] = setup.y0[0] = 0;
@@ -244,16 +232,16 @@ void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, 
         // Shares of the corners, times a ray's depth.
         const Vec3d edge = cross(p[(i + 1) % 3], p[(i + 2) % 3]) / volume;
         sum = sum + edge;
-        const Vec3d plane{edge.x * pixel, edge.y * pixel, dot(edge, corner)};
+        const Vec3d plane{dot(edge, view.right), dot(edge, view.down), dot(edge, view.corner)};
         const double greatest = std::max({std::abs(plane.x), std::abs(plane.y), std::abs(plane.z), 1e-300});
         setup.a[i][0] = static_cast<float>(plane.x / greatest);
         setup.b[i][0] = static_cast<float>(plane.y / greatest);
         setup.c[i][0] = static_cast<float>(plane.z / greatest) + 0.0f;
         setup.flip[i][0] = 0x80000000u;
     }
-    setup.depth_x[0] = static_cast<float>(depth_origin_m_ * sum.x * pixel);
-    setup.depth_y[0] = static_cast<float>(depth_origin_m_ * sum.y * pixel);
-    setup.depth[0] = static_cast<float>(depth_origin_m_ * dot(sum, corner) - 1);
+    setup.depth_x[0] = static_cast<float>(depth_origin_m_ * dot(sum, view.right));
+    setup.depth_y[0] = static_cast<float>(depth_origin_m_ * dot(sum, view.down));
+    setup.depth[0] = static_cast<float>(depth_origin_m_ * dot(sum, view.corner) - 1);
 }
 
 bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
@@ -292,13 +280,21 @@ void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_
         else
             set_up_triangles({&vertices_[placed.first_vertex], placed.shown.mesh.triangles.data(),
                               static_cast<std::uint32_t>(placed.first_triangle)},
-                             blocks_[block].triangles, head.count, x_px, y_px, setup);
+                             blocks_[block].triangles, head.count, x_px, y_px, lens_.forward(x_px, y_px),
+                             setup);
         fill_tile(setup, tile);
         filled += head.count;
         if (filled < kTriangles) continue;
         find_farthest(tile);
         filled = 0;
     }
+}
+
+Vec3d VisibilityBuffer::direction(int x_px, int y_px, Vec2f within_px) const {
+    const int left = x_px / kVisibilityTile_px * kVisibilityTile_px,
+              top = y_px / kVisibilityTile_px * kVisibilityTile_px;
+    return world_from_camera_ * lens_.view(left, top).at(x_px - left + static_cast<double>(within_px.x),
+                                                         y_px - top + static_cast<double>(within_px.y));
 }
 
 VisibilityBuffer::Seen VisibilityBuffer::seen(std::uint32_t id) const {

@@ -1,10 +1,11 @@
 #pragma once
 // Which triangle each of sixteen samples in every pixel sees, for a pinhole camera at one instant: what rays
-// would find, for less than one ray a pixel costs. Triangles are projected and sorted into tiles of the
+// would find, for less than one ray a pixel costs. Lenses that bend straight lines are affine in each tile
+// (lens_tiles.h). Triangles are projected and sorted into tiles of the
 // screen once a frame; tiles are filled one by one, when they are shaded.
 //
-// Not modelled: lenses that bend straight lines, rows of different instants. Such frames are for rays, and so
-// is a frame that shows more triangles than there is memory for: place() says no.
+// Not modelled: rows of different instants, fisheyes, lenses that bend much within a tile (takes()). Such
+// frames are for rays, and so is a frame that shows more triangles than there is memory for: place() says no.
 //
 // Precision: places on the screen are good to a thousandth of a pixel, also of objects that are far against
 // their size; depth to a few 1e-7 of the distance, or of the object where that is smaller. A triangle through
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "render/scene/embree_scene.h"
+#include "render/visibility/lens_tiles.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_box.h"
@@ -30,7 +32,8 @@ class VisibilityBuffer {
     struct Room {
         std::size_t objects = 0, vertices = 0, triangles = 0;
     };
-    // Owner thread.
+    static bool takes(const ImageGeometry& geometry) { return LensTiles::takes(geometry); }
+    // Owner thread. The geometry is one that it takes.
     VisibilityBuffer(const ImageGeometry& geometry, const Room& room);
 
     // An object as a frame shows it.
@@ -46,6 +49,9 @@ class VisibilityBuffer {
     // Finds what a tile's samples see; x and y of its corner are multiples of kVisibilityTile_px. False:
     // nothing. Loop, any thread.
     bool fill(int x_px, int y_px, VisibilityTile& tile) const;
+
+    // Through a place in a pixel, as its tile has it; world axes, of any length.
+    Vec3d direction(int x_px, int y_px, Vec2f within_px) const;
 
     // What an id of a tile stands for.
     struct Seen {
@@ -84,6 +90,8 @@ class VisibilityBuffer {
     class Sorter;
 
     ImageGeometry geometry_;
+    LensTiles lens_;
+    Mat3d world_from_camera_;
     Room room_;
     int tiles_across_, tiles_down_;
     std::vector<Placed> placed_;

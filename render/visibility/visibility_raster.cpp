@@ -25,6 +25,7 @@ HWY_INLINE T times_plus(T a, T b, T c) {
 }
 
 constexpr int kSide_px = kVisibilityTile_px;
+constexpr float kPlace_px = 1e-3f;      // ten times what corners are rounded by
 constexpr float kFarBeside_px = 16384;  // where floats still tell a thousandth of a pixel
 
 void project(std::span<const Vec3f> vertices_m, const ScreenProjection& p, ScreenVertex* out) {
@@ -95,22 +96,66 @@ HWY_INLINE V least(const V* of) { return hn::Min(hn::Min(of[0], of[1]), of[2]); 
 HWY_INLINE V most(const V* of) { return hn::Max(hn::Max(of[0], of[1]), of[2]); }
 
 // Whether a place is beside a triangle, and not by rounding.
-HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y) {
-    const Floats d;
+HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y, V place_px) {
     V side[3];
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
         side[i] = hn::Sub(hn::Mul(hn::Sub(c.x[j], c.x[i]), hn::Sub(y, c.y[i])),
                           hn::Mul(hn::Sub(c.y[j], c.y[i]), hn::Sub(x, c.x[i])));
     }
-    constexpr float kPlace_px = 1e-3f;  // ten times what corners are rounded by
     const V size = hn::Add(hn::Sub(most(c.x), least(c.x)), hn::Sub(most(c.y), least(c.y)));
-    const V margin = hn::Mul(size, hn::Set(d, kPlace_px));
+    const V margin = hn::Mul(size, place_px);
     return hn::And(hn::Lt(least(side), hn::Neg(margin)), hn::Gt(most(side), margin));
 }
 
-std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
-                  std::uint32_t first, int width_px, int height_px, TileRange* ranges) {
+// From ideal places to those on the screen (LensDistortion::distorted).
+HWY_INLINE void distort(const ScreenLens& lens, Corners& c) {
+    const auto number = [](float value) { return hn::Set(Floats(), value); };
+    const V inverse = number(1 / lens.focal_px);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const V x = hn::Mul(hn::Sub(c.x[i], number(lens.center_x)), inverse);
+        const V y = hn::Mul(hn::Sub(c.y[i], number(lens.center_y)), inverse);
+        const V xx = hn::Mul(x, x), yy = hn::Mul(y, y), xy = hn::Mul(x, y), r2 = hn::Add(xx, yy);
+        const V outer = times_plus(r2, times_plus(r2, number(lens.k3), number(lens.k2)), number(lens.k1));
+        const V radial = times_plus(r2, outer, number(1));
+        const auto add_tangential = [&](V of, float along, V own_squared, float across) {
+            const V mixed = hn::Mul(number(2 * along), xy);
+            const V own = hn::Mul(number(across), times_plus(number(2), own_squared, r2));
+            return hn::Add(times_plus(of, radial, mixed), own);
+        };
+        c.x[i] =
+            times_plus(add_tangential(x, lens.p1, xx, lens.p2), number(lens.focal_px), number(lens.center_x));
+        c.y[i] =
+            times_plus(add_tangential(y, lens.p2, yy, lens.p1), number(lens.focal_px), number(lens.center_y));
+    }
+}
+
+// What triangles are on the screen of a bent lens.
+struct Bent {
+    hn::Mask<Floats> unknown, beside_picture;
+    V margin_px;
+};
+HWY_INLINE Bent bend(const ScreenLens& lens, Corners& c) {
+    const Floats d;
+    const auto number = [&](float value) { return hn::Set(d, value); };
+    const V x0 = least(c.x), x1 = most(c.x), y0 = least(c.y), y1 = most(c.y);
+    const auto known = hn::Not(hn::IsNaN(hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2])));
+    const auto beside = hn::Or(hn::Or(hn::Lt(x1, number(lens.least_x)), hn::Gt(x0, number(lens.most_x))),
+                               hn::Or(hn::Lt(y1, number(lens.least_y)), hn::Gt(y0, number(lens.most_y))));
+    const auto leaves = hn::Or(hn::Or(hn::Lt(x0, number(lens.least_x)), hn::Gt(x1, number(lens.most_x))),
+                               hn::Or(hn::Lt(y0, number(lens.least_y)), hn::Gt(y1, number(lens.most_y))));
+    const V extent = hn::Max(hn::Sub(x1, x0), hn::Sub(y1, y0));
+    distort(lens, c);
+    // Beside the picture the polynomial may fold back: such corners have no place.
+    return {hn::Or(hn::Not(known), leaves), hn::And(known, beside),
+            times_plus(hn::Mul(extent, extent), number(lens.bend_per_px),
+                       number(lens.tile_error_px + kPlace_px))};
+}
+
+template <bool kBent>
+std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
+                       std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
+                       TileRange* ranges) {
     const Floats d;
     const Ints di;
     const std::size_t lanes = hn::Lanes(d);
@@ -118,11 +163,21 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
     std::size_t count = 0;
     for (std::size_t t = 0; t < triangles.size(); t += lanes) {
         const std::size_t last = triangles.size() - 1;
-        const Corners c =
+        Corners c =
             corners_of(vertices, triangles.data(), [&](std::size_t k) { return std::min(t + k, last); });
         const V sum = hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2]);
-        const auto unknown = hn::IsNaN(sum);
-        const V x0 = least(c.x), x1 = most(c.x), y0 = least(c.y), y1 = most(c.y);
+        auto unknown = hn::IsNaN(sum);
+        auto outside = unknown;  // of a bent lens only
+        V place_px = hn::Set(d, kPlace_px);
+        if constexpr (kBent) {
+            const Bent bent = bend(*lens, c);
+            unknown = bent.unknown, outside = bent.beside_picture, place_px = bent.margin_px;
+        }
+        V x0 = least(c.x), x1 = most(c.x), y0 = least(c.y), y1 = most(c.y);
+        if constexpr (kBent) {
+            x0 = hn::Sub(x0, place_px), x1 = hn::Add(x1, place_px);
+            y0 = hn::Sub(y0, place_px), y1 = hn::Add(y1, place_px);
+        }
         // No sample between least and greatest, in one of the axes: seen by none.
         const V four = hn::Set(d, 4), half = hn::Set(d, 0.5f);
         const auto from = [&](V at) { return hn::Ceil(hn::Sub(hn::Mul(four, at), half)); };
@@ -131,8 +186,8 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
         const auto none = hn::Or(hn::Gt(from_x, to_x), hn::Gt(from_y, to_y));
         // Of crumpled things most triangles have one there, and beside them.
         const auto one = hn::And(hn::Eq(from_x, to_x), hn::Eq(from_y, to_y));
-        const auto beside = hn::And(
-            one, is_beside(c, hn::Div(hn::Add(from_x, half), four), hn::Div(hn::Add(from_y, half), four)));
+        const auto beside = hn::And(one, is_beside(c, hn::Div(hn::Add(from_x, half), four),
+                                                   hn::Div(hn::Add(from_y, half), four), place_px));
         const V right = hn::Set(d, static_cast<float>(width_px)),
                 low = hn::Set(d, static_cast<float>(height_px));
         const auto missed = hn::Or(hn::Or(none, beside), hn::Or(hn::Or(hn::Lt(x1, zero), hn::Lt(y1, zero)),
@@ -147,12 +202,16 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
         static_assert(kSide_px == 16);
         hn::Store(tile_of(x0, right), di, box[0]), hn::Store(tile_of(x1, right), di, box[1]);
         hn::Store(tile_of(y0, low), di, box[2]), hn::Store(tile_of(y1, low), di, box[3]);
-        std::uint8_t not_known[8] = {}, not_met[8] = {};
-        hn::StoreMaskBits(d, unknown, not_known), hn::StoreMaskBits(d, missed, not_met);
-        const unsigned unknown_bits = not_known[0] | unsigned{not_known[1]} << 8;
-        const unsigned missed_bits = not_met[0] | unsigned{not_met[1]} << 8;
+        const auto bits_of = [&](auto mask) {
+            std::uint8_t bytes[8] = {};
+            hn::StoreMaskBits(d, mask, bytes);
+            return bytes[0] | unsigned{bytes[1]} << 8;
+        };
+        const unsigned unknown_bits = bits_of(unknown), missed_bits = bits_of(missed);
         const auto n = static_cast<unsigned>(std::min(lanes, triangles.size() - t));
-        for (unsigned rest = (unknown_bits | ~missed_bits) & ((1u << n) - 1); rest; rest &= rest - 1) {
+        unsigned rest = (unknown_bits | ~missed_bits) & ((1u << n) - 1);
+        if constexpr (kBent) rest &= ~bits_of(outside);
+        for (; rest; rest &= rest - 1) {
             const auto k = static_cast<std::size_t>(__builtin_ctz(rest));
             TileRange& out = ranges[count++];
             out.triangle = first + static_cast<std::uint32_t>(t + k);
@@ -165,8 +224,26 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
     return count;
 }
 
+std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
+                  std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
+                  TileRange* ranges) {
+    return lens ? tiles_with<true>(vertices, triangles, first, width_px, height_px, lens, ranges)
+                : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens, ranges);
+}
+
+// Of corners in a tile, from its corner.
+HWY_INLINE void bend_in_tile(const TileLens& lens, Corners& c) {
+    const auto number = [](float value) { return hn::Set(Floats(), value); };
+    const V half = number(0.5f * kSide_px);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const V x = hn::Sub(c.x[i], number(lens.middle_x)), y = hn::Sub(c.y[i], number(lens.middle_y));
+        c.x[i] = times_plus(number(lens.xx), x, times_plus(number(lens.xy), y, half));
+        c.y[i] = times_plus(number(lens.yx), x, times_plus(number(lens.yy), y, half));
+    }
+}
+
 void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
-            std::size_t count, int tile_x_px, int tile_y_px, TriangleSetup& s) {
+            std::size_t count, int tile_x_px, int tile_y_px, const TileLens* lens, TriangleSetup& s) {
     const Floats d;
     const Ints di;
     const std::size_t lanes = hn::Lanes(d);
@@ -177,9 +254,10 @@ void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAt
     for (std::size_t k = 0; k < count; k += lanes) {
         const I number = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(numbers.data()) + k);
         Corners c = corners_of(mesh.vertices, mesh.triangles, [&](std::size_t i) { return numbers[k + i]; });
-        for (int i = 0; i < 3; ++i) {
-            c.x[i] = hn::Sub(c.x[i], left), c.y[i] = hn::Sub(c.y[i], top);
-        }
+        if (lens)
+            bend_in_tile(*lens, c);
+        else
+            for (int i = 0; i < 3; ++i) c.x[i] = hn::Sub(c.x[i], left), c.y[i] = hn::Sub(c.y[i], top);
         const V ux = hn::Sub(c.x[1], c.x[0]), uy = hn::Sub(c.y[1], c.y[0]);
         const V vx = hn::Sub(c.x[2], c.x[0]), vy = hn::Sub(c.y[2], c.y[0]);
         const V area = hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx));
@@ -342,13 +420,15 @@ void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection&
     HWY_DYNAMIC_DISPATCH(project)(vertices_m, projection, out);
 }
 std::size_t find_tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
-                       std::uint32_t first, int width_px, int height_px, TileRange* ranges) {
+                       std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
+                       TileRange* ranges) {
     if (triangles.empty()) return 0;
-    return HWY_DYNAMIC_DISPATCH(tiles)(vertices, triangles, first, width_px, height_px, ranges);
+    return HWY_DYNAMIC_DISPATCH(tiles)(vertices, triangles, first, width_px, height_px, lens, ranges);
 }
 void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
-                      std::size_t count, int tile_x_px, int tile_y_px, TriangleSetup& setup) {
-    HWY_DYNAMIC_DISPATCH(set_up)(mesh, numbers, count, tile_x_px, tile_y_px, setup);
+                      std::size_t count, int tile_x_px, int tile_y_px, const TileLens* lens,
+                      TriangleSetup& setup) {
+    HWY_DYNAMIC_DISPATCH(set_up)(mesh, numbers, count, tile_x_px, tile_y_px, lens, setup);
 }
 void fill_tile(const TriangleSetup& setup, VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(fill)(setup, tile); }
 void find_farthest(VisibilityTile& tile) { HWY_DYNAMIC_DISPATCH(farthest)(tile); }

@@ -40,6 +40,21 @@ struct alignas(16) ScreenVertex {
 void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection& projection,
                       ScreenVertex* out);
 
+// A lens after project_vertices(), which gives ideal places (lens_tiles.h): Brown's distortion about a
+// centre, and how far it may be trusted.
+struct ScreenLens {
+    float center_x, center_y, focal_px;
+    float k1, k2, k3, p1, p2;
+    float least_x, most_x, least_y, most_y;  // ideal places of the picture
+    float bend_per_px;    // an edge in a box of so many px leaves its chord by that times its square
+    float tile_error_px;  // of a tile's own map
+};
+// The same lens in a tile: place on it = 8 px + (xx, xy; yx, yy) (ideal place - middle).
+struct TileLens {
+    float middle_x, middle_y;
+    float xx, xy, yx, yy;
+};
+
 // Tiles that a triangle may be seen in, from x0 to x1 and y0 to y1.
 struct TileRange {
     std::uint32_t triangle;
@@ -47,10 +62,11 @@ struct TileRange {
     float nearest;                // its greatest depth
 };
 using TriangleCorners = std::array<std::uint32_t, 3>;
-// Those that triangles cover a sample of, at most. first: number of the first triangle. Returns how many were
-// written; ranges holds as many as there are triangles.
+// Those that triangles cover a sample of, at most. first: number of the first triangle; lens: null without.
+// Returns how many were written; ranges holds as many as there are triangles.
 std::size_t find_tiles(const ScreenVertex* vertices, std::span<const TriangleCorners> triangles,
-                       std::uint32_t first, int width_px, int height_px, TileRange* ranges);
+                       std::uint32_t first, int width_px, int height_px, const ScreenLens* lens,
+                       TileRange* ranges);
 
 // Sixteen triangles ready for a tile. A sample at (x, y) from the tile's corner is inside where the sign bit
 // of a x + b y + c, flipped by `flip`, is set for all three edges. Two triangles that share an edge have the
@@ -69,9 +85,10 @@ struct ScreenMesh {
     const TriangleCorners* triangles;
     std::uint32_t first_id;  // of its first triangle
 };
-// numbers: of triangles; what is beyond count must be a triangle, too.
+// numbers: of triangles; what is beyond count must be a triangle, too. lens: of the tile; null without.
 void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
-                      std::size_t count, int tile_x_px, int tile_y_px, TriangleSetup& setup);
+                      std::size_t count, int tile_x_px, int tile_y_px, const TileLens* lens,
+                      TriangleSetup& setup);
 
 // What each sample of a tile sees: the nearest triangle.
 struct alignas(64) VisibilityTile {

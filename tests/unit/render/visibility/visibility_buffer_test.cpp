@@ -52,7 +52,8 @@ struct Sight {
     struct Count {
         int samples = 0, seen_by_both = 0, only_buffer = 0, only_rays = 0, other_triangle = 0;
     };
-    Count compare() const {
+    // by_tile: rays through the lens as its tiles have it, else through the lens itself.
+    Count compare(bool by_tile = false) const {
         Count count;
         const Mat3d world_from_camera = to_matrix(camera.world_from_body);
         VisibilityTile tile;
@@ -63,22 +64,23 @@ struct Sight {
                 const int y1 = std::min(ty + kVisibilityTile_px, geometry.padded_height());
                 for (int y = ty; y < y1; ++y)
                     for (int x = tx; x < x1; ++x)
-                        add_pixel(tile.ids(x - tx, y - ty), x, y, world_from_camera, count);
+                        add_pixel(tile.ids(x - tx, y - ty), x, y, world_from_camera, by_tile, count);
             }
         return count;
     }
 
   private:
-    void add_pixel(const std::uint32_t* ids, int x, int y, const Mat3d& world_from_camera,
+    void add_pixel(const std::uint32_t* ids, int x, int y, const Mat3d& world_from_camera, bool by_tile,
                    Count& count) const {
         RayPacket rays;
         HitPacket hits;
         rays.count = kVisibilitySamples;
         for (int i = 0; i < kVisibilitySamples; ++i) {
             const Vec3d dir =
-                world_from_camera *
-                geometry.direction_camera(x + static_cast<double>(sample_x(i)) - geometry.guard_px,
-                                          y + static_cast<double>(sample_y(i)) - geometry.guard_px);
+                by_tile ? buffer->direction(x, y, {sample_x(i), sample_y(i)})
+                        : world_from_camera * geometry.direction_camera(
+                                                  x + static_cast<double>(sample_x(i)) - geometry.guard_px,
+                                                  y + static_cast<double>(sample_y(i)) - geometry.guard_px);
             rays.set(i, {}, to_float(dir), 0, std::numeric_limits<float>::infinity());
         }
         embree->intersect(rays, Coherence::kIncoherent, hits);
@@ -195,6 +197,55 @@ TEST(VisibilityBuffer, TellsThinPartsFromWhatTheyLieOn) {
     const Sight::Count count = sight.compare();
     EXPECT_GT(count.seen_by_both, 20'000);
     EXPECT_LT(count.other_triangle, 1e-3 * count.seen_by_both);
+}
+
+// A lens of a camera of 2000 px, with 5 % of barrel distortion in this corner of its picture and a little
+// tangential.
+void bend(Sight& sight) {
+    sight.geometry.distortion.k1 = -0.25, sight.geometry.distortion.k2 = 0.1;
+    sight.geometry.distortion.p1 = 1e-3, sight.geometry.distortion.p2 = -5e-4;
+    sight.geometry.principal_offset_px = {-500, -300};
+}
+
+// As a tile has the lens, its samples see what rays see; against the lens itself edges are off by hundredths
+// of a pixel.
+TEST(VisibilityBuffer, SeesThroughALensThatBends) {
+    Sight sight(220, 160, 1600);
+    bend(sight);
+    ASSERT_TRUE(VisibilityBuffer::takes(sight.geometry));
+    sight.add(debris(2000, 2, 1), turned({3, 2, 8}));
+    sight.add(debris(2000, 2, 2), turned({4, 2.5, 9}));
+    ASSERT_TRUE(sight.place());
+    const Sight::Count own = sight.compare(true);
+    EXPECT_GT(own.seen_by_both, 100'000);
+    EXPECT_LT(own.only_rays + own.only_buffer, 1e-4 * own.seen_by_both);
+    EXPECT_LT(own.other_triangle, 1e-3 * own.seen_by_both);
+    const Sight::Count exact = sight.compare();
+    EXPECT_LT(exact.only_rays + exact.only_buffer, 1e-3 * exact.seen_by_both);
+    EXPECT_LT(exact.other_triangle, 2e-3 * exact.seen_by_both);
+}
+
+// Triangles around the camera, through its plane, beside the picture: none is lost through the lens.
+TEST(VisibilityBuffer, LosesNoSampleInsideASphereBehindALensThatBends) {
+    Sight sight(220, 160, 1600);
+    bend(sight);
+    sight.add(sphere(1, 200), turned({0.3, 0.1, 0.2}));
+    ASSERT_TRUE(sight.place());
+    const Sight::Count count = sight.compare(true);
+    EXPECT_LE(count.samples - count.seen_by_both, 2);
+}
+
+TEST(VisibilityBuffer, LeavesLensesThatBendMuchToRays) {
+    Sight sight(220, 160, 1600);
+    bend(sight);
+    EXPECT_TRUE(VisibilityBuffer::takes(sight.geometry));
+    sight.geometry.distortion.k1 = -3;  // folds over
+    EXPECT_FALSE(VisibilityBuffer::takes(sight.geometry));
+    sight.geometry.distortion = {.projection = Projection::kFisheye};
+    EXPECT_FALSE(VisibilityBuffer::takes(sight.geometry));
+    Sight wide(200, 150, 100);
+    wide.geometry.distortion.k1 = -0.1;
+    EXPECT_FALSE(VisibilityBuffer::takes(wide.geometry));
 }
 
 // From inside there is no way out.
