@@ -38,6 +38,21 @@ std::string motion_line(const ScenarioConfig& s, WorldState& world, ExposureRend
     return out;
 }
 
+// Where the tables of directions came from, how long that took here, and what a run does without them.
+std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
+    if (light.found + light.made == 0) return {};
+    if (light.made == 0)
+        return fmt::format("tables of directions: {} on disk, read in {:.2g} s: runs begin with kept light",
+                           light.found, light.seconds);
+    std::string out = fmt::format("tables of directions: {} made in {:.3g} s, from now on on disk",
+                                  light.made, light.seconds);
+    if (light.found > 0) out += fmt::format(" as {} were", light.found);
+    const bool waits = s.mode == CameraMode::kLockstep || s.loop.wait_for_light;
+    return out + (waits ? "; a run waits for those that are not there"
+                        : "; a run that finds none begins with random paths and makes them beside its frames "
+                          "(loop.wait_for_light)");
+}
+
 // What telling the truth of frames computes, and why.
 std::string truth_line(const ScenarioConfig& s) {
     if (!s.outputs.has_truth) return {};
@@ -134,6 +149,8 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
                      lamp_mounts(s));
     ExposureRenderer exposures(station->renderer(), s, grid, world.placed_objects());
     report.frame_time = frame_time(*station, world, exposures);
+    if (const std::string light = light_line(s, station->light()); !light.empty())
+        report.plan.push_back(light);
     report.plan.push_back(motion_line(s, world, exposures));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
     idle_rules.clear();

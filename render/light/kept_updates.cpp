@@ -17,10 +17,7 @@ KeptUpdates::KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& 
     stage_.links.resize(count), stage_.has_links.resize(count);
     stage_.solutions.resize(count);
     stage_.has_solution.assign(count, std::vector<std::uint8_t>(terms_.count()));
-    for (KeptTarget* target : {&shown_, &stage_.target}) {
-        target->near.resize(count), target->group.resize(count);
-        target->sources.assign(count, std::vector<KeptSource>(terms_.count()));
-    }
+    for (KeptTarget* target : {&shown_, &stage_.target, &wanted_}) target->reserve(count, terms_);
     for (std::size_t i = 0; i < count; ++i) {
         if (!lights_[i]) continue;
         order_.push_back(i);
