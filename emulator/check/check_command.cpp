@@ -133,8 +133,9 @@ std::vector<std::string> machine_warnings(const OutputsConfig& o) {
     return out;
 }
 
+// memory_mb: gets what the process has while the camera is loaded.
 CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const SpectralGrid& grid,
-                       const Pose& first_camera, std::vector<std::string>& idle_rules) {
+                       const Pose& first_camera, std::vector<std::string>& idle_rules, double& memory_mb) {
     const ScenarioConfig s = scenario_of_camera(bench, index);
     const std::unique_ptr<CameraStation> station = make_station(bench, index, grid);
     const TimeTai time = parse_utc(s.time_utc);
@@ -157,6 +158,7 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
     for (const LoadedObject& object : station->objects())
         if (std::string warning = warning_of(object); !warning.empty())
             idle_rules.push_back(std::move(warning));
+    memory_mb = ResidentMemory().megabytes();
     return report;
 }
 
@@ -193,11 +195,12 @@ CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {
     // One after the other: the scene of each is large.
     for (std::size_t i = 0; i < out.cameras; ++i) {
         if (camera != 0 && camera != i + 1) continue;
-        out.reports.push_back(report_of(s, i, grid, first_camera, idle_rules));
+        double memory_mb = 0;
+        out.reports.push_back(report_of(s, i, grid, first_camera, idle_rules, memory_mb));
+        out.memory_mb = std::max(out.memory_mb, memory_mb);
         const ScenarioConfig own = scenario_of_camera(s, i);
         add_warnings(judge(own, out.reports.back()), i + 1, out.cameras, out.warnings);
         add_warnings(machine_warnings(own.outputs), i + 1, out.cameras, out.warnings);
-        out.memory_mb = std::max(out.memory_mb, ResidentMemory().megabytes());
     }
     out.warnings.insert(out.warnings.end(), idle_rules.begin(), idle_rules.end());
     out.run = {seed_line(s), loop_line(s)};
