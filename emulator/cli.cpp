@@ -117,6 +117,7 @@ int run(const Options& o) {
     RunLimits limits = o.run;
     limits.seconds = o.duration_s;
     limits.frames = o.frames;
+    limits.light_beside = o.frames == 0;  // so many frames are wanted for what they show
     tell_seed(settle_seed(scenario, limits.replay));
     if (limits.replay.empty()) {
         tell(idle_warnings(scenario));

@@ -39,6 +39,21 @@ std::string motion_line(const ScenarioConfig& s, WorldState& world, ExposureRend
     return out;
 }
 
+// Where the tables of directions came from, how long that took here, and what a run does without them.
+std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
+    if (light.found + light.made == 0) return {};
+    if (light.made == 0)
+        return fmt::format("tables of directions: {} on disk, read in {:.2g} s: runs begin with kept light",
+                           light.found, light.seconds);
+    std::string out = fmt::format("tables of directions: {} made in {:.3g} s, from now on on disk",
+                                  light.made, light.seconds);
+    if (light.found > 0) out += fmt::format(" as {} were", light.found);
+    const bool waits = s.mode == CameraMode::kLockstep || s.loop.wait_for_light;
+    return out + (waits ? "; a run waits for those that are not there"
+                        : "; a run that finds none begins with random paths and makes them beside its frames "
+                          "(loop.wait_for_light)");
+}
+
 // What telling the truth of frames computes, and why.
 std::string truth_line(const ScenarioConfig& s) {
     if (!s.outputs.has_truth) return {};
@@ -119,8 +134,9 @@ std::vector<std::string> machine_warnings(const OutputsConfig& o) {
     return out;
 }
 
+// memory_mb: gets what the process has while the camera is loaded.
 CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const SpectralGrid& grid,
-                       const Pose& first_camera, std::vector<std::string>& idle_rules) {
+                       const Pose& first_camera, std::vector<std::string>& idle_rules, double& memory_mb) {
     const ScenarioConfig s = scenario_of_camera(bench, index);
     const std::unique_ptr<CameraStation> station = make_station(bench, index, grid);
     const TimeTai time = parse_utc(s.time_utc);
@@ -136,12 +152,15 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
                      lamp_mounts(s));
     ExposureRenderer exposures(station->renderer(), s, grid, world.placed_objects());
     report.frame_time = frame_time(*station, world, exposures);
+    if (const std::string light = light_line(s, station->light()); !light.empty())
+        report.plan.push_back(light);
     report.plan.push_back(motion_line(s, world, exposures));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
     idle_rules.clear();
     for (const LoadedObject& object : station->objects())
         if (std::string warning = warning_of(object); !warning.empty())
             idle_rules.push_back(std::move(warning));
+    memory_mb = ResidentMemory().megabytes();
     return report;
 }
 
@@ -181,11 +200,12 @@ CheckReport check_scenario(const ScenarioConfig& s, std::size_t camera) {
     // One after the other: the scene of each is large.
     for (std::size_t i = 0; i < out.cameras; ++i) {
         if (camera != 0 && camera != i + 1) continue;
-        out.reports.push_back(report_of(s, i, grid, first_camera, idle_rules));
+        double memory_mb = 0;
+        out.reports.push_back(report_of(s, i, grid, first_camera, idle_rules, memory_mb));
+        out.memory_mb = std::max(out.memory_mb, memory_mb);
         const ScenarioConfig own = scenario_of_camera(s, i);
         add_warnings(judge(own, out.reports.back()), i + 1, out.cameras, out.warnings);
         add_warnings(machine_warnings(own.outputs), i + 1, out.cameras, out.warnings);
-        out.memory_mb = std::max(out.memory_mb, ResidentMemory().megabytes());
     }
     out.warnings.insert(out.warnings.end(), idle_rules.begin(), idle_rules.end());
     out.run = {seed_line(s), loop_line(s)};

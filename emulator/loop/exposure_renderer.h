@@ -52,6 +52,9 @@ class ExposureRenderer {
     // The quality of the next exposures (lower_levels()): 0, as configured, or one of those below. Loop.
     void use_level(std::size_t level) { renderer_.use_level(level); }
 
+    // See Renderer. Loop, before an exposure.
+    bool take_light() { return renderer_.take_light(); }
+
     struct Result {
         RenderStats stats;  // of all parts
         ShownCommand shown;

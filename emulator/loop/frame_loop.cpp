@@ -99,6 +99,7 @@ bool FrameLoop::begin(Slot& slot) {
         take_settings(start, slot);
     }
     use_level(slot.use.quality_level);
+    take_light(slot.use);
     last_id_ = slot.use.id;
     counters_.deadline_misses.fetch_add(slot.use.skipped + (slot.use.late ? 1 : 0),
                                         std::memory_order_relaxed);
@@ -203,6 +204,15 @@ void FrameLoop::use_level(std::uint32_t level) {
     level_ = level;
     counters_.level.store(level, std::memory_order_relaxed);
     counters_.frames_at_level[level].fetch_add(1, std::memory_order_relaxed);
+}
+
+void FrameLoop::take_light(FrameUse& use) {
+    const bool lacks = !exposures_.take_light();
+    counters_.lacks_light.store(lacks, std::memory_order_relaxed);
+    if (!lacks) return;
+    use.faults |= kNoKeptLightBit;
+    counters_.without_light.fetch_add(1, std::memory_order_relaxed);
+    counters_.last_without_light.store(use.id, std::memory_order_relaxed);
 }
 
 void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const {

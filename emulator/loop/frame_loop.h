@@ -31,6 +31,9 @@
 // It is told of a frame when its slot is taken over, two frames later. Off in lockstep, where frames must not
 // depend on the machine, and where frames are not paced.
 //
+// Light: what is made beside the run (Renderer::give_tables) is taken as a frame begins; frames before that
+// say so.
+//
 // Recordings: with a recorder each frame leaves what it depends on (frame_script.h) and which commands it
 // shows, right before it is published; with a script it is the script that says when frames begin and what
 // they depend on, and clock, live settings, governor and faults do not matter.
@@ -91,6 +94,9 @@ struct LoopCounters {
     std::atomic<std::uint64_t> last_id{0};
     std::atomic<std::uint64_t> motion_limited{0};      // frames with more motion than exact motion divides
     std::atomic<std::uint64_t> standing{0}, stale{0};  // frames while time stood; while no poses came
+    // Frames before the kept light that they ask for was there: how many, and the newest one.
+    std::atomic<std::uint64_t> without_light{0}, last_without_light{0};
+    std::atomic<bool> lacks_light{false};  // the newest frame is one
     // Quality levels: that of the newest frame, how often it changed, how many frames each has had.
     std::atomic<std::uint32_t> level{0}, level_changes{0};
     std::array<std::atomic<std::uint64_t>, kMostLevels> frames_at_level{};
@@ -170,6 +176,7 @@ class FrameLoop {
     double frame_ms(const Slot& slot) const;
     std::uint32_t choose_level(const Slot& slot, std::uint64_t frame);
     void use_level(std::uint32_t level);
+    void take_light(FrameUse& use);
     void render_into(Slot& slot);
     void count_budget();
     void tell_watcher(const Slot& slot);

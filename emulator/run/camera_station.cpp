@@ -18,6 +18,12 @@ LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
             .fixed_size = scenario.outputs.has_v4l2 || scenario.outputs.has_uvc};
 }
 
+// Frames of lockstep, and those that are recorded or replayed, are functions of their commands alone.
+bool begins_without_light(const ScenarioConfig& scenario, const RunLimits& limits) {
+    return limits.light_beside && !scenario.loop.wait_for_light && scenario.mode != CameraMode::kLockstep &&
+           limits.record.empty() && limits.replay.empty();
+}
+
 GovernorSettings governor_of(const ScenarioConfig& scenario) {
     return {scenario.loop.frame_budget_s * 1e3, 1 + lower_levels(scenario).size()};
 }
@@ -68,14 +74,15 @@ void CameraStation::make_sinks() {
 }
 
 std::string CameraStation::status() const {
-    return run_status(
-        {scenario_, number_, cameras_, *loop_, delivery_, receivers_, sinks(), settings_, faults_});
+    return run_status({scenario_, number_, cameras_, *loop_, delivery_, receivers_, sinks(), settings_,
+                       faults_, light_maker_});
 }
 
 void CameraStation::load(const SpectralGrid& grid) {
     const ImageGeometry geometry = geometry_of(scenario_.camera, static_cast<int>(scenario_.quality.guard_px),
                                                static_cast<int>(scenario_.quality.oversampling));
-    renderer_ = load_renderer(scenario_, grid, geometry, &objects_);
+    light_.later = begins_without_light(scenario_, limits_);
+    renderer_ = load_renderer(scenario_, grid, geometry, &objects_, &light_);
     chain_ = std::make_unique<SensorChain>(scenario_.camera, grid, sampling_of(scenario_),
                                            load_detector_pictures(scenario_.camera));
     const TimeTai start = parse_utc(scenario_.time_utc);

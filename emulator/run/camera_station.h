@@ -28,10 +28,15 @@ struct RunLimits {
     bool outputs = true;  // false: frames go nowhere, for benchmarks
     // A file to record to, or one whose frames to show once more; empty: none.
     std::filesystem::path record{}, replay{};
+    // Frames may come before the light between surfaces that they ask for is kept, where the scenario says
+    // so, too.
+    bool light_beside = false;
     bool replay_fast = false;   // not by the recording's times
     bool replay_force = false;  // of another program or scenario
     std::string run_id{};       // what the truth of its frames is labelled with; empty: the emulator draws it
 };
+
+class LightMaker;
 
 class CameraStation {
   public:
@@ -48,6 +53,7 @@ class CameraStation {
     // What the preview tells of the bench's commands.
     void set_receivers(const std::vector<std::unique_ptr<CommandReceiver>>& all) { receivers_ = &all; }
     void set_cameras(const std::vector<CameraPage>& all) { cameras_ = all; }
+    void set_light_maker(const LightMaker& maker) { light_maker_ = &maker; }
 
     // What the loop and the settings do goes into a recording. After prepare().
     void record_to(Recorder& recorder);
@@ -69,6 +75,8 @@ class CameraStation {
     Renderer& renderer() { return *renderer_; }
     // What was found when they were loaded, in the scenario's order.
     const std::vector<LoadedObject>& objects() const { return objects_; }
+    // How it got its tables of directions; orders: those that it is still without.
+    LightLoading& light() { return light_; }
     SensorChain& chain() { return *chain_; }
     WorldState& world() { return *world_; }
     LiveSettings& settings() { return settings_; }
@@ -102,6 +110,8 @@ class CameraStation {
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::set<const FrameSink*> told_faults_;
     std::vector<LoadedObject> objects_;
+    LightLoading light_;
+    const LightMaker* light_maker_ = nullptr;  // the bench's; null: nothing is made beside the run
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;

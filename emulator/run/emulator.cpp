@@ -83,6 +83,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     make_replays();
     make_recorder();
     make_events();
+    make_light_maker();
 }
 
 // Before minutes go into a scene.
@@ -132,6 +133,16 @@ void Emulator::make_events() {
         EventSequence(scenario_.events, event_world(scenario_), clock_.start()), bench);
     loop().tell(*events_);
     if (clock_.lockstep()) dispatch_->ask_events(*events_);
+}
+
+void Emulator::make_light_maker() {
+    std::vector<LightMaker::Job> jobs;
+    for (const auto& station : stations_)
+        if (LightLoading& light = station->light(); !light.orders.empty())
+            jobs.push_back({&station->renderer(), std::move(light.orders)});
+    if (jobs.empty()) return;
+    light_maker_ = std::make_unique<LightMaker>(std::move(jobs));
+    for (const auto& station : stations_) station->set_light_maker(*light_maker_);
 }
 
 // When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.
@@ -209,6 +220,14 @@ void Emulator::run(const std::function<void()>& on_ready) {
     if (events_) events_->start();
     for (const auto& station : stations_) station->start_loop();
     raise_threads(scenario_.loop.real_time);
+    // It is not raised with the others.
+    if (light_maker_) {
+        spdlog::info(
+            "light between surfaces is made beside the run (loop.wait_for_light): until then frames have "
+            "random "
+            "paths and the flag no_kept_light");
+        light_maker_->start();
+    }
     on_ready();
     tell_service_manager("READY=1");
     const bool terminal = isatty(STDERR_FILENO);
@@ -220,6 +239,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         for (const auto& station : stations_) station->serve_faults(seconds_);
         print_level_changes();
         print_held_motion();
+        print_light();
         silence_log_.look();
         print_output_faults(now_ns);
         if (terminal && limits_.outputs && now_ns >= next_line_ns) {
@@ -233,6 +253,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
     // Loops first: they answer what waits for a frame.
     if (events_) events_->ask_to_stop();
     for (const auto& station : stations_) station->stop_loop();
+    if (light_maker_) light_maker_->stop();
     if (events_) events_->stop();
     for (const auto& replay : replays_) replay->stop();
     print_level_changes();
@@ -278,6 +299,18 @@ void Emulator::print_held_motion() {
     spdlog::warn(
         "a source of motion does not know the simulated time any more, {}: what it moves stands still",
         format_utc(clock_.now()));
+}
+
+// Once, when all cameras have the light that was made beside the run.
+void Emulator::print_light() {
+    if (told_light_ || !light_maker_ || !light_maker_->is_done()) return;
+    for (const auto& station : stations_)
+        if (station->loop().counters().lacks_light.load()) return;
+    told_light_ = true;
+    for (const auto& station : stations_)
+        spdlog::info("{}: light between surfaces is kept after frame {}; its tables took {:.1f} s",
+                     station->name(), station->loop().counters().last_without_light.load(),
+                     light_maker_->seconds());
 }
 
 // What an output begins to be unable to do: once, not for each frame. The report at the end has it whole.

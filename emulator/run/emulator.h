@@ -15,6 +15,7 @@
 #include "emulator/run/command_dispatch.h"
 #include "emulator/run/command_receivers.h"
 #include "emulator/run/event_director.h"
+#include "emulator/run/light_maker.h"
 #include "emulator/run/silence_log.h"
 #include "emulator/scenario/app_config.h"
 
@@ -54,6 +55,7 @@ class Emulator {
     void make_replays();
     void make_recorder();
     void make_events();
+    void make_light_maker();
     void print_replays() const;
     void make_telemetry();
     HousekeepingFigures housekeeping();
@@ -61,6 +63,7 @@ class Emulator {
     void print_line();
     void print_level_changes();
     void print_held_motion();
+    void print_light();
     void print_output_faults(std::int64_t now_ns);
     bool finished() const;
 
@@ -78,11 +81,12 @@ class Emulator {
     std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them
     std::unique_ptr<EventDirector> events_;         // outlives the loop that it watches; may be null
     std::vector<std::unique_ptr<CameraStation>> stations_;
+    std::unique_ptr<LightMaker> light_maker_;  // gives to renderers; null: no table is made beside the run
     std::unique_ptr<CommandDispatch> dispatch_;
     std::vector<std::unique_ptr<CommandReceiver>> receivers_;
     double seconds_ = 0;
     std::uint64_t frames_printed_ = 0;
-    bool told_held_motion_ = false;
+    bool told_held_motion_ = false, told_light_ = false;
     std::int64_t next_fault_look_ns_ = 0;
     std::int64_t next_missed_line_ns_ = 0;
     std::uint64_t missed_told_ = 0;

@@ -77,6 +77,7 @@ json quality_report(CameraStation& station) {
                    {"contribution_threshold", quality.contribution_threshold},
                    {"rays_outside_atmosphere", station.renderer().rays_outside_air()},
                    {"motion_limited_frames", counters.motion_limited.load()},
+                   {"frames_without_kept_light", counters.without_light.load()},
                    {"frame_budget_ms", station.scenario().loop.frame_budget_s * 1e3},
                    {"level", counters.level.load()},
                    {"level_changes", counters.level_changes.load()},

@@ -3,6 +3,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "emulator/run/light_maker.h"
 #include "emulator/run/report.h"
 #include "emulator/scenario/scenario_warnings.h"
 #include "io/contract/frame_flags.h"
@@ -150,13 +151,16 @@ json flags_status() {
 }
 
 // The newest frame's level and share of pixels within the noise budget; 0 ms: the governor is off.
-json quality_status(const ScenarioConfig& scenario, const LoopCounters& counters) {
+// light_made: of the tables that frames wait for; null: of none.
+json quality_status(const ScenarioConfig& scenario, const LoopCounters& counters, const LightMaker* light) {
     json quality = {{"level", counters.level.load()},
                     {"levels", 1 + lower_levels(scenario).size()},
                     {"level_changes", counters.level_changes.load()},
                     {"frame_budget_ms", scenario.loop.frame_budget_s * 1e3},
                     {"noise_budget", scenario.quality.render.noise_budget},
-                    {"within_noise_budget", nullptr}};
+                    {"within_noise_budget", nullptr},
+                    {"light_made", nullptr}};
+    if (light && counters.lacks_light.load()) quality["light_made"] = light->share();
     if (counters.lit_px.load() > 0) quality["within_noise_budget"] = counters.within_budget.load();
     return quality;
 }
@@ -172,7 +176,7 @@ std::string run_status(const StatusSources& s) {
                          {"limits", limits_status(s.camera.limits())},
                          {"frames", counters.frames.load()},
                          {"deadline_misses", counters.deadline_misses.load()},
-                         {"quality", quality_status(s.scenario, counters)},
+                         {"quality", quality_status(s.scenario, counters, s.light)},
                          {"monotonic_ns", monotonic_ns()},
                          {"clock", clock_status(s.loop.clock())},
                          {"latency_ms",

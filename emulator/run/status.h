@@ -13,6 +13,8 @@
 
 namespace hilcam {
 
+class LightMaker;
+
 // A camera of the bench as a page of another one names it.
 struct CameraPage {
     std::string name;
@@ -29,6 +31,7 @@ struct StatusSources {
     std::vector<FrameSink*> sinks;
     const CameraControl& camera;
     const FaultBoard& faults;
+    const LightMaker* light;  // null: nothing is made beside the run
 };
 // Any thread but the loop.
 std::string run_status(const StatusSources& sources);

@@ -32,6 +32,13 @@ Fields fields(LoopConfig& l) {
             "prefer", l.prefer, {"throughput", "latency"},
             "throughput: a frame is rendered while the one before is sensed; latency: one after the other, "
             "each with all threads")),
+        beside_frames(
+            flag("wait_for_light", l.wait_for_light,
+                 "free_run, triggered, with quality.path_model kept: false: frames come at once, with random "
+                 "paths and "
+                 "the flag no_kept_light, while tables that are not on disk are made beside them; true: none "
+                 "comes "
+                 "before. Lockstep, --frames, --record, --replay and all other commands always wait")),
         number(
             "frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
             "a frame may take so long (with throughput: the longer of its two stages); the governor lowers "

@@ -31,6 +31,7 @@ enum class LoopPreference { kThroughput, kLatency };
 
 struct LoopConfig {
     LoopPreference prefer = LoopPreference::kThroughput;
+    bool wait_for_light = false;
     double frame_budget_s = 0;  // 0: no governor
     std::vector<QualityLevelConfig> levels;
     RealTime real_time;

@@ -18,7 +18,6 @@
 #include "io/files/mesh_cache.h"
 #include "io/files/mesh_file.h"
 #include "io/files/mesh_level_cache.h"
-#include "io/files/transfer_cache.h"
 #include "io/pictures/picture_file.h"
 #include "render/frame/plugin.h"
 #include "render/scene/brdf.h"
@@ -133,48 +132,6 @@ bool wants_levels_of_detail(const ScenarioConfig& scenario) {
            std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
 }
 
-bool wants_kept_light(const ScenarioConfig& scenario) {
-    const std::vector<RenderQuality> lower = lower_levels(scenario);
-    const auto keeps = [](const RenderQuality& q) { return q.path_model == "kept"; };
-    return keeps(scenario.quality.render) || std::any_of(lower.begin(), lower.end(), keeps);
-}
-
-double area_of(const Mesh& mesh) {
-    double twice = 0;
-    for (const auto& t : mesh.triangles) {
-        const Vec3f a = mesh.vertices_m[t[0]];
-        twice += static_cast<double>(length(cross(mesh.vertices_m[t[1]] - a, mesh.vertices_m[t[2]] - a)));
-    }
-    return std::isfinite(twice) ? 0.5 * twice : 0;
-}
-
-std::shared_ptr<const TransferTable> load_transfer(const SceneObject& object, std::size_t nodes,
-                                                   const ScenarioConfig& scenario) {
-    std::vector<std::uint8_t> glass;
-    for (const Material& material : object.materials)
-        glass.push_back(material.model == ReflectionModel::kGlass);
-    const Progress progress("light kept on " + object.name);
-    const TransferSettings settings{static_cast<int>(scenario.quality.render.kept_directions), nodes,
-                                    !scenario.lamps.empty() || models_of(scenario).radiance != "reflected"};
-    return cached_transfer(object.mesh, glass, settings, cache_folder());
-}
-
-// Objects share the places that light is kept at by their areas; each has some.
-void load_transfers(std::vector<SceneObject>& objects, const ScenarioConfig& scenario) {
-    if (!wants_kept_light(scenario)) return;
-    constexpr double kLeast = 1000;
-    std::vector<double> area_m2;
-    double all_m2 = 0;
-    for (const SceneObject& object : objects)
-        all_m2 += area_m2.emplace_back(object.like ? area_m2[*object.like] : area_of(object.mesh));
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        if (objects[i].like || !(area_m2[i] > 0)) continue;
-        const auto most = static_cast<double>(scenario.quality.render.kept_nodes);
-        const double nodes = std::max(std::min(kLeast, most), most * area_m2[i] / all_m2);
-        objects[i].transfer = load_transfer(objects[i], static_cast<std::size_t>(nodes), scenario);
-    }
-}
-
 SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
                         const SpectralGrid& grid, LoadedObject& found) {
     SceneObject object;
@@ -248,7 +205,6 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
             part.turn_rate_rad_s = objects[i].turn_rate_rad_s + std::abs(config.joints[k].rate_rad_s);
         }
     }
-    load_transfers(objects, scenario);
     return objects;
 }
 
@@ -297,10 +253,12 @@ std::string warning_of(const LoadedObject& object) {
 }
 
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,
-                 std::vector<LoadedObject>* found) {
+                 std::vector<LoadedObject>* found, LightLoading* light) {
     Scene scene;
     std::vector<LoadedObject> objects;
+    LightLoading at_once;
     scene.objects = load_objects(scenario, grid, found ? *found : objects);
+    load_tables(scene, scenario, light ? *light : at_once);
     const TimeTai time = parse_utc(scenario.time_utc);
     if (scenario.has_terrain) {
         const TerrainConfig& t = scenario.terrain;
@@ -340,13 +298,14 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
 }
 
 std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
-                                        const ImageGeometry& geometry, std::vector<LoadedObject>* found) {
+                                        const ImageGeometry& geometry, std::vector<LoadedObject>* found,
+                                        LightLoading* light) {
     require_room(grid, geometry);
     Modules modules;
     std::vector<std::filesystem::path> plugins;
     for (const PluginConfig& plugin : scenario.plugins) plugins.push_back(plugin.file);
     load_plugins(plugins, modules);
-    return std::make_unique<Renderer>(load_scene(scenario, grid, modules, found), grid, geometry,
+    return std::make_unique<Renderer>(load_scene(scenario, grid, modules, found, light), grid, geometry,
                                       render_quality_of(scenario), models_of(scenario), modules,
                                       lower_levels(scenario));
 }

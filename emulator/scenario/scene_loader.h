@@ -2,6 +2,7 @@
 // From a scenario to the renderer: models, meshes, materials, stars, bodies, air.
 
 #include "emulator/scenario/app_config.h"
+#include "emulator/scenario/light_loader.h"
 #include "render/frame/renderer.h"
 #include "render/light/modules.h"
 #include "render/scene/scene.h"
@@ -29,13 +30,15 @@ struct LoadedObject {
 std::string warning_of(const LoadedObject& object);
 
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
-// found: gets the objects in their order; null: nobody wants to know.
+// found: gets the objects in their order; light: how the scene is to get its tables of directions, and what
+// came of it; null: nobody wants to know, and tables are made at once.
 Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const Modules& modules,
-                 std::vector<LoadedObject>* found = nullptr);
+                 std::vector<LoadedObject>* found = nullptr, LightLoading* light = nullptr);
 // The same, ready to render.
 std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const SpectralGrid& grid,
                                         const ImageGeometry& geometry,
-                                        std::vector<LoadedObject>* found = nullptr);
+                                        std::vector<LoadedObject>* found = nullptr,
+                                        LightLoading* light = nullptr);
 
 // What the maps of the camera's fixed_pattern hold.
 DetectorPictures load_detector_pictures(const CameraModel& camera);

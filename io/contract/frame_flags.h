@@ -9,6 +9,8 @@
 
 namespace hilcam {
 
+// It was made before the light between surfaces was kept that its quality asks for (loop.wait_for_light).
+inline constexpr std::uint64_t kNoKeptLightBit = std::uint64_t{1} << 59;
 inline constexpr std::uint64_t kTimeStandsBit = std::uint64_t{1} << 60;    // simulated time stood
 inline constexpr std::uint64_t kPosesStaleBit = std::uint64_t{1} << 61;    // no pose came (pose_watch.h)
 inline constexpr std::uint64_t kTagsWentBackBit = std::uint64_t{1} << 62;  // the first after tags went back
@@ -17,7 +19,8 @@ struct FrameFlag {
     std::uint64_t bit;
     std::string_view name;
 };
-inline constexpr std::array<FrameFlag, 3> kFrameFlags = {{
+inline constexpr std::array<FrameFlag, 4> kFrameFlags = {{
+    {kNoKeptLightBit, "no_kept_light"},
     {kTimeStandsBit, "time_stands"},
     {kPosesStaleBit, "poses_stale"},
     {kTagsWentBackBit, "tags_went_back"},

@@ -14,6 +14,11 @@ namespace hilcam {
 // surface of the mesh.
 std::shared_ptr<const TransferTable> cached_transfer(const Mesh& mesh, std::span<const std::uint8_t> glass,
                                                      const TransferSettings& settings,
-                                                     const std::filesystem::path& folder);
+                                                     const std::filesystem::path& folder,
+                                                     const WorkWatcher& watcher = {});
+// Returns the table that the folder has; null where it has none.
+std::shared_ptr<const TransferTable> find_transfer(const Mesh& mesh, std::span<const std::uint8_t> glass,
+                                                   const TransferSettings& settings,
+                                                   const std::filesystem::path& folder);
 
 }  // namespace hilcam

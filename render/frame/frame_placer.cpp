@@ -49,9 +49,8 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     full_mask_.fill();
     const bool emission = radiance_model_->emits() &&
                           any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
-    const KeptScene::Settings kept_settings{static_cast<float>(quality.kept_step_rad), lamps_.all().size(),
-                                            emission};
-    kept_ = std::make_unique<KeptScene>(objects_, embree_, bands_, kept_settings);
+    kept_settings_ = {static_cast<float>(quality.kept_step_rad), lamps_.all().size(), emission};
+    if (!scene.light_later) kept_ = make_kept();
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     most_stars_ = rays_->is_still()
@@ -91,9 +90,27 @@ VisibilityBuffer::Room FramePlacer::visibility_room() const {
     return room;
 }
 
+std::unique_ptr<KeptScene> FramePlacer::make_kept() const {
+    return std::make_unique<KeptScene>(objects_, embree_, bands_, kept_settings_);
+}
+
 void FramePlacer::set_paths(const PathModel& paths) {
     frame_.paths_sample_lobes = paths.samples_lobes();
-    frame_.kept = paths.uses_kept_light() ? kept_.get() : nullptr;
+    uses_kept_light_ = paths.uses_kept_light();
+    frame_.kept = uses_kept_light_ ? kept_.get() : nullptr;
+}
+
+// What the loop reads of the objects meanwhile is not touched.
+void FramePlacer::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
+    for (std::size_t i = 0; i < tables.size(); ++i)
+        if (tables[i]) objects_[i].transfer = tables[i];
+    handover_.give(make_kept());
+}
+
+bool FramePlacer::take_light() {
+    if (!kept_ && any_placed_) kept_ = handover_.take(frame_, world_);
+    if (uses_kept_light_) frame_.kept = kept_.get();
+    return kept_ || !uses_kept_light_;
 }
 
 void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& paths) {
@@ -149,6 +166,7 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     place_objects();
     place_background();
     frame_.visibility = nullptr;
+    any_placed_ = true;
     if (frame_.kept) kept_->place(frame_, world_);
 }
 

@@ -13,6 +13,7 @@
 #include "render/frame/plan.h"
 #include "render/frame/render_quality.h"
 #include "render/light/frame_view.h"
+#include "render/light/kept_handover.h"
 #include "render/light/kept_scene.h"
 #include "render/light/lamp_light.h"
 #include "render/light/path_model.h"
@@ -39,6 +40,9 @@ class FramePlacer {
 
     // What of the quality may change, from the next place() on; with its path model. Loop.
     void set_quality(const RenderQuality& quality, const PathModel& paths);
+    // See Renderer.
+    void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
+    bool take_light();
     // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
     // buffer. Loop.
     void place_visibility();
@@ -96,7 +100,10 @@ class FramePlacer {
     std::unique_ptr<Atmosphere> air_;
     ColorBands bands_;
     Background background_;
-    std::unique_ptr<KeptScene> kept_;
+    KeptScene::Settings kept_settings_;
+    std::unique_ptr<KeptScene> kept_;  // null: its tables have not come
+    KeptHandover handover_;
+    bool uses_kept_light_ = false, any_placed_ = false;
     ScreenMask object_mask_, full_mask_;
     std::unique_ptr<VisibilityBuffer> visibility_;  // null: rays
     std::vector<VisibilityBuffer::Shown> seen_;
@@ -110,6 +117,7 @@ class FramePlacer {
     FrameView frame_;
     WorldSnapshot world_;
 
+    std::unique_ptr<KeptScene> make_kept() const;
     void choose_levels();
     void place_objects();
     void place_background();

@@ -70,6 +70,10 @@ Renderer::Renderer(Scene scene, const SpectralGrid& grid, const ImageGeometry& g
 Renderer::~Renderer() = default;
 
 void Renderer::use_level(std::size_t level) { implementation_->use_level(level); }
+void Renderer::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
+    implementation_->placer.give_tables(tables);
+}
+bool Renderer::take_light() { return implementation_->placer.take_light(); }
 const RenderQuality& Renderer::quality() const { return implementation_->tracer.quality(); }
 void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->tracer.set_pixel_noise(noise); }
 

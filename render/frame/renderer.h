@@ -51,6 +51,12 @@ class Renderer {
     // The quality of the next frames. Loop: nothing is allocated.
     void use_level(std::size_t level);
     const RenderQuality& quality() const;
+    // For a scene whose light comes later: the tables of directions, by object, null where there is no other
+    // than the scene had. Makes of them what frames need and hands it over. One thread beside the loop, once.
+    void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
+    // Lets the next frames have kept light if it has come. False: it has not, and their quality asks for it:
+    // they are made with random paths. Loop, between two frames: no lock, nothing is allocated.
+    bool take_light();
     // What the noise budget is weighed against in the next frames; until it is told, pixels are sampled once.
     // Loop.
     void set_pixel_noise(const PixelNoise& noise);

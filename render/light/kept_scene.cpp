@@ -52,6 +52,7 @@ KeptScene::KeptScene(std::span<const ShownObject> objects, const EmbreeScene& sc
     }
     lights_.assign(lights.begin(), lights.end());
     updates_ = std::make_unique<KeptUpdates>(lights, scene, terms_);
+    for (KeptTarget* target : {&target_, &ahead_target_}) target->reserve(objects.size(), terms_);
     for (KeptInputs* inputs : {&now_, &before_, &long_before_, &ahead_})
         inputs->objects.resize(objects.size()), inputs->lamps.reserve(settings.lamps);
 }
@@ -82,14 +83,27 @@ void KeptScene::take_inputs(const FrameView& frame, const WorldSnapshot& world) 
                 {lamp.number, lamp.position_m + frame.rays_world_m, to_float(lamp.axis), lamp.beam});
 }
 
-void KeptScene::place(const FrameView& frame, const WorldSnapshot& world) {
+void KeptScene::set_target(const FrameView& frame, const WorldSnapshot& world) {
     sky_.place(*frame.background);
-    for (std::size_t i = 0; i < objects_.size(); ++i)
-        objects_[i].origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
     take_inputs(frame, world);
     target_.set(now_, lights_, terms_);
+}
+
+void KeptScene::place(const FrameView& frame, const WorldSnapshot& world) {
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        objects_[i].origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
+    set_target(frame, world);
     updates_->bring_to(target_);
     look_ahead();
+}
+
+bool KeptScene::prepare(const FrameView& frame, const WorldSnapshot& world) {
+    if (!is_asked_) {
+        set_target(frame, world);
+        updates_->look_ahead(target_);
+        is_asked_ = true;
+    }
+    return !updates_->is_busy();
 }
 
 // Has made what the next frames will need first, if everything moves on as it did.

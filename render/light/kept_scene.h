@@ -33,6 +33,10 @@ class KeptScene {
     // For a frame, after everything else is placed; solves for what has moved by a step, where that was not
     // done ahead. Loop.
     void place(const FrameView& frame, const WorldSnapshot& world);
+    // Has the light of a frame that is placed solved by the thread that looks ahead, for who can do without
+    // it meanwhile. True: that is done, and place() has no more to solve than what has moved since the first
+    // call. Before the first place(); loop, nothing is allocated and nobody waited for.
+    bool prepare(const FrameView& frame, const WorldSnapshot& world);
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
     const KeptLight& light(std::size_t object) const { return *objects_[object].light; }
@@ -61,7 +65,9 @@ class KeptScene {
     KeptInputs now_, before_, long_before_, ahead_;
     KeptTarget target_, ahead_target_;
     int frames_ = 0;
+    bool is_asked_ = false;  // prepare() has been called
 
+    void set_target(const FrameView& frame, const WorldSnapshot& world);
     void take_inputs(const FrameView& frame, const WorldSnapshot& world);
     void look_ahead();
 

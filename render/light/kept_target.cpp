@@ -64,6 +64,13 @@ bool KeptInputs::extrapolate(const KeptInputs& then, const KeptInputs& now, doub
     return true;
 }
 
+void KeptTarget::reserve(std::size_t objects, const KeptTerms& terms) {
+    near.resize(objects), group.resize(objects);
+    sources.assign(objects, std::vector<KeptSource>(terms.count()));
+    for (std::vector<KeptNeighbour>& others : near)
+        if (objects <= kMostLinked) others.reserve(objects);
+}
+
 void KeptTarget::set(const KeptInputs& inputs, std::span<const KeptLight* const> lights,
                      const KeptTerms& terms) {
     using Kind = KeptSource::Kind;

@@ -52,8 +52,10 @@ struct KeptTarget {
     std::vector<std::vector<KeptSource>> sources;  // by object and term; kNone: it does not shine
     std::vector<std::uint32_t> group;              // by object: those of one number stand near each other
 
-    // lights: by object, null where none is kept. No allocation but at the first call and for neighbours that
-    // are more than ever before. Loop.
+    // Makes all the room that set() can need. Owner thread.
+    void reserve(std::size_t objects, const KeptTerms& terms);
+    // lights: by object, null where none is kept. No allocation after reserve(); without it at the first call
+    // and for neighbours that are more than ever before. Loop.
     void set(const KeptInputs& inputs, std::span<const KeptLight* const> lights, const KeptTerms& terms);
     bool operator==(const KeptTarget& o) const { return near == o.near && sources == o.sources; }
 };

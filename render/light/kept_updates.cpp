@@ -17,10 +17,7 @@ KeptUpdates::KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& 
     stage_.links.resize(count), stage_.has_links.resize(count);
     stage_.solutions.resize(count);
     stage_.has_solution.assign(count, std::vector<std::uint8_t>(terms_.count()));
-    for (KeptTarget* target : {&shown_, &stage_.target}) {
-        target->near.resize(count), target->group.resize(count);
-        target->sources.assign(count, std::vector<KeptSource>(terms_.count()));
-    }
+    for (KeptTarget* target : {&shown_, &stage_.target, &wanted_}) target->reserve(count, terms_);
     for (std::size_t i = 0; i < count; ++i) {
         if (!lights_[i]) continue;
         order_.push_back(i);
@@ -58,7 +55,8 @@ void KeptUpdates::wait() {
 
 void KeptUpdates::work() {
     // Frames come first; and one core of those that they leave is enough.
-    setpriority(PRIO_PROCESS, 0, 10);
+    constexpr int kNicer = 10;  // than the program, which may be nice itself
+    setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
     tbb::task_arena alone(1, 1);
     while (true) {
         state_.wait(State::kIdle);

@@ -64,6 +64,8 @@ struct Scene {
     std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
     Spectrum sun_irradiance_1au_w_m2_um;
     bool limb_darkening = true;
+    // Objects' tables of directions come when frames are being made already (Renderer::give_tables).
+    bool light_later = false;
 
     SceneBody& body(BodyId id) { return bodies[index_of(id)]; }
 };

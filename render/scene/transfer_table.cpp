@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -191,14 +192,16 @@ std::vector<Vec3f> transfer_directions(int count) {
 }
 
 TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass,
-                             const TransferSettings& settings)
+                             const TransferSettings& settings, const WorkWatcher& watcher)
     : directions_(settings.directions) {
+    if (watcher) watcher(0);
     std::vector<std::uint8_t> keeps;
     for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
     EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
     scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
     nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMostNodes / 2),
                         [&](Vec3f point_m, Vec3f normal, float within_m) {
+                            if (watcher) watcher(0);
                             return openness(mesh, glass, scene, point_m, normal, within_m);
                         });
     for (std::size_t n = 0; n < size(); ++n) {
@@ -206,20 +209,22 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
         const float part = std::fmod(static_cast<float>(n % 4096) * kGolden, 1.0f);
         turns_.push_back({std::cos(2 * kPiF * part), std::sin(2 * kPiF * part)});
     }
-    std::vector<Block> blocks = trace(mesh, glass, scene);
+    std::vector<Block> blocks = trace(mesh, glass, scene, watcher);
     drop_dead_ends(blocks);
     pack(blocks, numbers_of_open(blocks, settings.enclosed));
 }
 
 std::vector<TransferTable::Block> TransferTable::trace(const Mesh& mesh, std::span<const std::uint8_t> glass,
-                                                       const EmbreeScene& scene) {
+                                                       const EmbreeScene& scene, const WorkWatcher& watcher) {
     const std::vector<Vec3f> local = transfer_directions(directions_);
     std::vector<Block> blocks((size() + kBlock - 1) / kBlock);
     free_.assign(size() * free_words(), 0);
     live_.assign(size(), 0), counted_.assign(size(), 0);
     if (blocks.empty()) return blocks;
     const Tracer tracer(mesh, glass, nodes_, scene, local, turns_);
+    std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+        if (watcher) watcher(static_cast<double>(done.fetch_add(1)) / static_cast<double>(blocks.size()));
         const std::size_t first = b * kBlock, last = std::min(size(), first + kBlock);
         std::vector<std::uint32_t> met((last - first) * local.size());
         tracer.trace(first, last, met);

@@ -28,6 +28,10 @@ struct TransferSettings {
     bool enclosed = false;        // light can begin in closed rooms: lamps, materials that emit
 };
 
+// Is told, now and then, which share of the work is done, on any of its threads; what it throws ends the
+// work.
+using WorkWatcher = std::function<void(double share)>;
+
 // The directions in local axes (z: the node's normal), before a node's own turn; those of a node's first
 // point come first, then those of its second, and so on.
 std::vector<Vec3f> transfer_directions(int count);
@@ -37,9 +41,10 @@ class EmbreeScene;
 class TransferTable {
   public:
     TransferTable() = default;
-    // glass: per surface, whether it is. Throws InputError when memory runs out. Owner thread, on oneTBB; the
-    // same on any number of threads.
-    TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass, const TransferSettings& settings);
+    // glass: per surface, whether it is. Throws InputError when memory runs out, and what the watcher throws.
+    // Owner thread, on oneTBB; the same on any number of threads.
+    TransferTable(const Mesh& mesh, std::span<const std::uint8_t> glass, const TransferSettings& settings,
+                  const WorkWatcher& watcher = {});
 
     const LightNodes& nodes() const { return nodes_; }
     std::size_t size() const { return nodes_.nodes().size(); }
@@ -107,7 +112,8 @@ class TransferTable {
         std::vector<Link> links;
         std::vector<std::size_t> counts;  // by node
     };
-    std::vector<Block> trace(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene);
+    std::vector<Block> trace(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene,
+                             const WorkWatcher& watcher);
     static void for_each_node(std::vector<Block>& blocks,
                               const std::function<void(std::size_t, std::span<Link>)>& visit);
     void drop_dead_ends(std::vector<Block>& blocks);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "tests/support/stage.h"
 
@@ -78,6 +80,55 @@ TEST(KeptMotion, WhatIsMadeAheadIsWhatIsMadeAtOnce) {
         ++compared;
     }
     EXPECT_EQ(compared, 3);
+}
+
+// Tables that come while frames are made: until then random paths, from then on what a renderer shows that
+// had them from the beginning. Nothing is waited for in between, and the frames are those of either.
+TEST(KeptMotion, LightThatComesLaterIsWhatWouldHaveBeenThere) {
+    Stage kept = two_objects("kept"), later = two_objects("kept"), paths = two_objects("path");
+    std::vector<std::shared_ptr<const TransferTable>> tables;
+    for (SceneObject& object : later.scene.objects) tables.push_back(std::move(object.transfer));
+    later.scene.light_later = true;
+    later.build();
+    paths.quality = later.quality, paths.quality.path_model = "path";
+    for (Stage* s : {&kept, &paths}) s->render();
+
+    std::atomic<bool> go{false};
+    std::thread maker([&] {
+        while (!go) std::this_thread::yield();
+        later.renderer->give_tables(tables);
+    });
+    int without = 0, with = 0;
+    constexpr int kMost = 100'000;
+    for (int frame = 0; with < 3 && without < kMost; ++frame) {
+        if (frame == 2) go = true;
+        const bool lit = later.renderer->take_light();
+        EXPECT_FALSE(lit && frame < 2) << "before it was given";
+        later.render_again();
+        ++(lit ? with : without);
+        ASSERT_EQ(picture(later), picture(lit ? kept : paths)) << frame;
+    }
+    maker.join();
+    EXPECT_GE(without, 2);
+    EXPECT_EQ(with, 3);
+}
+
+// A renderer that ends before it has taken what was given lets go of it, and of what is being solved.
+TEST(KeptMotion, LightThatIsNeverTakenIsLetGo) {
+    for (const int calls : {0, 1}) {
+        Stage later = two_objects("kept");
+        std::vector<std::shared_ptr<const TransferTable>> tables;
+        for (SceneObject& object : later.scene.objects) tables.push_back(std::move(object.transfer));
+        const std::weak_ptr<const TransferTable> watched = tables.front();
+        later.scene.light_later = true;
+        later.render();
+        later.renderer->give_tables(tables);
+        for (int i = 0; i < calls; ++i) later.renderer->take_light();
+        tables.clear();
+        EXPECT_FALSE(watched.expired());
+        later.renderer.reset();
+        EXPECT_TRUE(watched.expired()) << calls;
+    }
 }
 
 // Two objects far from each other are lit as each alone is.

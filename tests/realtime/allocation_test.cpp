@@ -42,10 +42,10 @@ bool lies_in(const void* address, const char* file) {
 }
 void count(const void* caller) {
     if (!armed.load(std::memory_order_relaxed) || !lies_in(caller, own_file)) return;
-    // They make text and pictures of what the loop has handed over.
+    // They make text and pictures of what the loop has handed over, or what they hand to it.
     std::array<char, 16> thread{};
     prctl(PR_GET_NAME, thread.data());
-    for (const char* name : {hilcam::kTruthThreadName, hilcam::kPreviewThreadName})
+    for (const char* name : {hilcam::kTruthThreadName, hilcam::kPreviewThreadName, hilcam::kLightThreadName})
         if (std::strcmp(thread.data(), name) == 0) return;
     std::array<void*, 64> frames;
     const int depth = backtrace(frames.data(), static_cast<int>(frames.size()));
@@ -361,6 +361,48 @@ TEST_F(Allocation, NorWithAScanningLine) {
 TEST_F(Allocation, NorWhileACameraIsStreamedFrom) {
     EXPECT_EQ(
         allocations({"outputs.gige.interface=127.83.4.1", "outputs.gige.serial=ALLOC"}, Loop::kStreaming), 0);
+}
+
+// The first frames are without kept light; it is taken on the way, and frames with it come after that. What
+// the loop allocates is counted from before the tables are given until then.
+TEST_F(Allocation, NorWhenLightComesThatWasMadeBesideTheRun) {
+    const std::filesystem::path cache =
+        std::filesystem::temp_directory_path() / ("hilcam_allocation_cache_" + std::to_string(getpid()));
+    const char* const before = std::getenv("HILCAM_CACHE");
+    const std::string kept_before = before ? before : "";
+    setenv("HILCAM_CACHE", cache.c_str(), 1);
+    {
+        const ScenarioConfig scenario =
+            load_scenario(std::string(HILCAM_SOURCE_DIR) + "/tests/protocol/minimal_scenario.yaml",
+                          std::vector<std::string>{"quality.path_model=kept", "quality.kept_nodes=20000"});
+        RunLimits limits;
+        limits.outputs = false;
+        limits.light_beside = true;
+        limits.seconds = 300;
+        Emulator emulator(scenario, limits);
+        const LoopCounters& counters = emulator.loop().counters();
+        std::thread runner([&] { emulator.run([] {}); });
+        const auto wait_until = [&](auto&& done) {
+            while (!done() && !emulator.loop().finished()) std::this_thread::yield();
+        };
+        wait_until([&] { return counters.frames >= 5; });
+        EXPECT_TRUE(counters.lacks_light);
+        allocated = 0;
+        armed = true;
+        wait_until([&] { return !counters.lacks_light; });
+        const std::uint64_t lit = counters.last_id;
+        wait_until([&] { return counters.last_id >= lit + 20; });
+        armed = false;
+        EXPECT_GE(counters.without_light, 5u);
+        EXPECT_EQ(allocated.load(), 0);
+        emulator.loop().stop();
+        runner.join();
+    }
+    if (before)
+        setenv("HILCAM_CACHE", kept_before.c_str(), 1);
+    else
+        unsetenv("HILCAM_CACHE");
+    std::filesystem::remove_all(cache);
 }
 
 // A satellite by its element set that looks at one by an ephemeris, and a third that drifts beside it.

@@ -205,7 +205,8 @@ std::vector<ChunkRow> chunk_rows(const CameraLimits& l) {
          u32("ChunkTriggerSequence", "Of the command that asked for the frame")},
         {Chunk::kFaults, "Faults",
          u64("ChunkFaults",
-             "Faults that struck the frame: bit n is FaultSelector n; 60 time stood, 61 no poses came, 62 "
+             "Faults that struck the frame: bit n is FaultSelector n; 59 light not kept yet, 60 time stood, "
+             "61 no poses came, 62 "
              "time tags went back")},
     };
 }

@@ -1,0 +1,83 @@
+#include "emulator/scenario/light_loader.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "emulator/progress/progress.h"
+#include "io/files/mesh_cache.h"
+#include "io/files/transfer_cache.h"
+
+namespace hilcam {
+namespace {
+
+bool wants_kept_light(const ScenarioConfig& scenario) {
+    const std::vector<RenderQuality> lower = lower_levels(scenario);
+    const auto keeps = [](const RenderQuality& q) { return q.path_model == "kept"; };
+    return keeps(scenario.quality.render) || std::any_of(lower.begin(), lower.end(), keeps);
+}
+
+double area_of(const Mesh& mesh) {
+    double twice = 0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3f a = mesh.vertices_m[t[0]];
+        twice += static_cast<double>(length(cross(mesh.vertices_m[t[1]] - a, mesh.vertices_m[t[2]] - a)));
+    }
+    return std::isfinite(twice) ? 0.5 * twice : 0;
+}
+
+// Without the mesh: that is copied only for who makes the table later.
+TableOrder order_of(const SceneObject& object, std::size_t nodes, const ScenarioConfig& scenario) {
+    TableOrder order;
+    order.name = object.name;
+    for (const Material& material : object.materials)
+        order.glass.push_back(material.model == ReflectionModel::kGlass);
+    order.settings = {static_cast<int>(scenario.quality.render.kept_directions), nodes,
+                      !scenario.lamps.empty() || models_of(scenario).radiance != "reflected"};
+    return order;
+}
+
+void load_table(std::vector<SceneObject>& objects, std::size_t i, TableOrder order, LightLoading& light) {
+    SceneObject& object = objects[i];
+    object.transfer = find_transfer(object.mesh, order.glass, order.settings, cache_folder());
+    if (object.transfer) {
+        ++light.found;
+    } else if (!light.later) {
+        const Progress progress("light kept on " + object.name);
+        object.transfer = cached_transfer(object.mesh, order.glass, order.settings, cache_folder());
+        ++light.made;
+    } else {
+        order.mesh = object.mesh;
+        for (std::size_t k = i; k < objects.size(); ++k)
+            if (k == i || objects[k].like == i) order.objects.push_back(k);
+        light.orders.push_back(std::move(order));
+    }
+}
+
+}  // namespace
+
+// Objects share the places that light is kept at by their areas; each has some.
+void load_tables(Scene& scene, const ScenarioConfig& scenario, LightLoading& light) {
+    if (!wants_kept_light(scenario)) return;
+    constexpr double kLeast = 1000;
+    const auto begun = std::chrono::steady_clock::now();
+    std::vector<SceneObject>& objects = scene.objects;
+    std::vector<double> area_m2;
+    double all_m2 = 0;
+    for (const SceneObject& object : objects)
+        all_m2 += area_m2.emplace_back(object.like ? area_m2[*object.like] : area_of(object.mesh));
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (objects[i].like || !(area_m2[i] > 0)) continue;
+        const auto most = static_cast<double>(scenario.quality.render.kept_nodes);
+        const double nodes = std::max(std::min(kLeast, most), most * area_m2[i] / all_m2);
+        load_table(objects, i, order_of(objects[i], static_cast<std::size_t>(nodes), scenario), light);
+    }
+    scene.light_later = !light.orders.empty();
+    light.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+}
+
+std::shared_ptr<const TransferTable> make_table(const TableOrder& order, const WorkWatcher& watcher) {
+    return cached_transfer(order.mesh, order.glass, order.settings, cache_folder(), watcher);
+}
+
+}  // namespace hilcam

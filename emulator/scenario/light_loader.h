@@ -1,0 +1,38 @@
+#pragma once
+// The tables of directions of a scene's objects (render/scene/transfer_table.h): read from the cache folder,
+// made and written there, or ordered, for who begins without them.
+
+#include <string>
+#include <vector>
+
+#include "emulator/scenario/app_config.h"
+#include "render/scene/scene.h"
+#include "render/scene/transfer_table.h"
+
+namespace hilcam {
+
+// A table that is to be made: all that it depends on.
+struct TableOrder {
+    std::string name;                  // of the object, for people
+    std::vector<std::size_t> objects;  // of the scene, that have it: one and those that are like it
+    Mesh mesh;
+    std::vector<std::uint8_t> glass;  // by surface of the mesh
+    TransferSettings settings;
+};
+
+// How a scene is to get its tables, and what came of it.
+struct LightLoading {
+    bool later = false;               // tables that are not on disk are ordered instead of made
+    std::vector<TableOrder> orders;   // of those
+    std::size_t found = 0, made = 0;  // tables on disk; tables that were made
+    double seconds = 0;               // that this took
+};
+
+// Gives each object its table, where the scenario's qualities ask for any; objects that are like another have
+// that one's. Throws InputError when memory runs out.
+void load_tables(Scene& scene, const ScenarioConfig& scenario, LightLoading& light);
+// Makes what was ordered, or finds it where another camera had the same one made. Throws InputError, and what
+// the watcher throws. One thread, on oneTBB.
+std::shared_ptr<const TransferTable> make_table(const TableOrder& order, const WorkWatcher& watcher);
+
+}  // namespace hilcam
