@@ -9,6 +9,7 @@
 #include "render/light/kept_light.h"
 #include "render/light/shadow_rays.h"
 #include "render/light/sun_sample.h"
+#include "render/vocabulary/clones.h"
 
 namespace hilcam {
 namespace {
@@ -86,6 +87,9 @@ class Asker {
     Asker& operator=(const Asker&) = delete;
 
     void ask(const Vertex& at) {
+        // Most that stand before a mirror face away from it; facets may lean otherwise, by half a right
+        // angle.
+        if (dot(at.normal, shown_.dir) <= (at.facets ? -0.7f : -0.01f)) return;
         const float above_m = dot(at.point_m - shown_.corner_m, shown_.normal);
         if (!(above_m > shown_.tolerance_m) || !at.surface.has_lobes()) return;
         Asked asked;
@@ -134,9 +138,12 @@ class Asker {
         const Vec2f blur{shown_.blur.x * asked.distance_m, shown_.blur.y * asked.distance_m};
         asked.even = std::clamp(std::min(blur.x / coarse.x, blur.y / coarse.y) - 1, 0.0f, 1.0f);
         asked.filled = 0;
-        for (const Rectangle& part : kRectangles)
-            asked.filled += part.share * shape_.filled(place, {std::max(2 * part.half * blur.x, coarse.x),
-                                                               std::max(2 * part.half * blur.y, coarse.y)});
+        // The largest first: most see nothing of it.
+        for (auto part = kRectangles.rbegin(); part != kRectangles.rend(); ++part) {
+            asked.filled += part->share * shape_.filled(place, {std::max(2 * part->half * blur.x, coarse.x),
+                                                                std::max(2 * part->half * blur.y, coarse.y)});
+            if (asked.filled == 0) return false;
+        }
         const float least = frame_.contribution_threshold;
         if (least > 0)
             asked.filled *= std::clamp(asked.filled * largest(shown_.reflectance) / least - 1, 0.0f, 1.0f);
@@ -202,12 +209,13 @@ void MirroredSuns::add(const ShownObject& object, std::size_t number, std::span<
 namespace {
 
 // A facet that leans along the plane of incidence turns light by twice that, one that leans across it by a
-// cosine less; seen on the mirror's own plane the former is a cosine longer.
+// cosine less; seen on the mirror's own plane the former is a cosine longer. At flat angles, where facets
+// hide each other, no longer than at six degrees.
 Vec2f blur_of(const MirroredSuns::Shown& shown, Vec3f sun) {
-    const float cosine = dot(sun, shown.normal), turned = 2 * shown.mirror.alpha;
+    const float cosine = std::max(dot(sun, shown.normal), 0.1f), turned = 2 * shown.mirror.alpha;
     const float along = std::hypot(turned, kHalfSun_rad) / cosine,
                 beside = std::hypot(turned * cosine, kHalfSun_rad);
-    const Vec3f flat = sun - cosine * shown.normal;
+    const Vec3f flat = sun - dot(sun, shown.normal) * shown.normal;
     const float sine = length(flat);
     const Vec3f incidence = sine > 1e-3f ? flat / sine : shown.across;
     const auto size = [&](Vec3f axis) {
@@ -215,6 +223,28 @@ Vec2f blur_of(const MirroredSuns::Shown& shown, Vec3f sun) {
         return std::hypot(in * along, out * beside);
     };
     return {size(shown.across), size(shown.down)};
+}
+
+// least: what is to be added at least, of the Sun.
+void find_lines(Vec3f sun, float least, MirroredSuns::Shown& out) {
+    using Line = MirroredSuns::Shown::Line;
+    const float cosine = dot(sun, out.normal);
+    const Vec3f dir = out.dir = sun - 2 * cosine * out.normal;
+    const auto line = [&](Vec3f by_place) { return Line{by_place, -dot(by_place, out.corner_m)}; };
+    const Vec3f per_m = (1 / cosine) * out.normal;
+    out.distance = line(per_m);
+    out.x = line(out.across + dot(dir, out.across) * per_m);
+    out.y = line(out.down + dot(dir, out.down) * per_m);
+    // The farthest that any rectangle reaches which counts, or the edge of the Sun's disk.
+    const float disk = 2 * kHalfSun_rad / cosine;
+    float widest = 0, share = 0;
+    for (auto part = kRectangles.rbegin(); part != kRectangles.rend() && widest == 0; ++part) {
+        share += part->share;
+        if (share * largest(out.reflectance) > least) widest = part->half;
+    }
+    out.margin = {std::max(widest * out.blur.x, disk), std::max(widest * out.blur.y, disk)};
+    const Vec2f cell = out.mirror.shape->cell_m();
+    out.margin_m = {2 * (cell.x + out.tolerance_m), 2 * (cell.y + out.tolerance_m)};
 }
 
 }  // namespace
@@ -246,17 +276,62 @@ void MirroredSuns::place(const FrameView& frame, const WorldSnapshot& world) {
         // Rounding: a place in ray space is good to some 1e-7 of how far it is away.
         out.tolerance_m += 32 * std::numeric_limits<float>::epsilon() * length(out.corner_m);
         if (2 * mirror.alpha > kHalfSun_rad) out.blur = blur_of(out, sun);
+        find_lines(sun, frame.contribution_threshold, out);
         shown_.push_back(out);
     }
 }
 
+namespace {
+
+// Vertices side by side: nearly all of them see no mirror, and are to cost nothing.
+struct Places {
+    static constexpr std::size_t kMost = 256;
+    alignas(64) std::array<float, kMost> x, y, z;
+    alignas(64) std::array<std::uint8_t, kMost> may_see;
+};
+
+HILCAM_CLONES void look_for(const MirroredSuns::Shown& shown, Places& places) {
+    using Line = MirroredSuns::Shown::Line;
+    const Line d = shown.distance, u = shown.x, v = shown.y;
+    const float nearest_m = shown.tolerance_m, width_m = shown.mirror.shape->width_m,
+                height_m = shown.mirror.shape->height_m;
+    const Vec2f margin = shown.margin, margin_m = shown.margin_m;
+    for (std::size_t i = 0; i < Places::kMost; ++i) {
+        const float px = places.x[i], py = places.y[i], pz = places.z[i];
+        const auto at = [&](const Line& line) {
+            return line.by_place.x * px + line.by_place.y * py + line.by_place.z * pz + line.constant;
+        };
+        const float away_m = at(d), x = at(u), y = at(v);
+        const float more_x = margin_m.x + margin.x * away_m, more_y = margin_m.y + margin.y * away_m;
+        const bool sees = (away_m > nearest_m) & (x > -more_x) & (x < width_m + more_x) & (y > -more_y) &
+                          (y < height_m + more_y);
+        places.may_see[i] = sees ? 1 : 0;
+    }
+}
+
+}  // namespace
+
 void MirroredSuns::add_light(Tile& tile, std::span<const Vertex> vertices) const {
+    if (shown_.empty()) return;
     const auto lit = [&](const Reflected& by, const Spectrum* glass) {
         tile.pixels[by.at->pixel] += glass ? by.light * *glass : by.light;
     };
-    for (const Shown& shown : shown_) {
-        Asker<decltype(lit)> asker(tile, shown, lit);
-        for (const Vertex& at : vertices) asker.ask(at);
+    Places places;
+    for (std::size_t first = 0; first < vertices.size(); first += Places::kMost) {
+        const std::size_t count = std::min(Places::kMost, vertices.size() - first);
+        for (std::size_t i = 0; i < Places::kMost; ++i) {
+            const Vec3f point_m = vertices[first + std::min(i, count - 1)].point_m;
+            places.x[i] = point_m.x, places.y[i] = point_m.y, places.z[i] = point_m.z;
+        }
+        for (const Shown& shown : shown_) {
+            look_for(shown, places);
+            const auto* const end = places.may_see.data() + count;
+            const auto* seen = std::find(static_cast<const std::uint8_t*>(places.may_see.data()), end, 1);
+            if (seen == end) continue;
+            Asker<decltype(lit)> asker(tile, shown, lit);
+            for (; seen != end; seen = std::find(seen + 1, end, 1))
+                asker.ask(vertices[first + static_cast<std::size_t>(seen - places.may_see.data())]);
+        }
     }
 }
 

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kSamePlane = 0.999986;  // cosine of 0.3 degrees
 constexpr float kFlatCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
-// Mirrors that are smaller than this share of the object's radius, squared, throw too little.
-constexpr double kLeastArea = 1e-4;
+// Mirrors that are smaller than this share of the object's radius, squared, throw too little; so do those
+// that fill less than this of their rectangle, as bars do.
+constexpr double kLeastArea = 1e-2, kLeastFilled = 0.2;
 // So many of the largest parts are looked at, each with all that lies in its plane.
 constexpr std::size_t kMostSeeds = 64;
 
@@ -96,14 +97,19 @@ class MirrorFinder {
         sort_into_parts();
         join_parts();
         const std::vector<std::vector<FlatTriangle>> of = triangles();
-        std::vector<FlatMirror> out(mirrors_.size());
-        for (std::size_t m = 0; m < out.size(); ++m) {
-            out[m].surface = mirrors_[m].surface;
-            out[m].area_m2 = static_cast<float>(mirrors_[m].area_m2);
-            out[m].tolerance_m = static_cast<float>(2 * tolerance_m_);
-            lay_out(of[m], normalized(mirrors_[m].area), mirrors_[m].middle, out[m]);
-            for (const FlatTriangle& t : of[m]) out[m].draw(t.a, t.b, t.c);
-            out[m].sum_up();
+        std::vector<FlatMirror> out;
+        for (std::size_t m = 0; m < mirrors_.size() && out.size() < kMostFlatMirrors; ++m) {
+            FlatMirror mirror;
+            lay_out(of[m], normalized(mirrors_[m].area), mirrors_[m].middle, mirror);
+            const double whole_m2 =
+                static_cast<double>(mirror.width_m) * static_cast<double>(mirror.height_m);
+            if (!(mirrors_[m].area_m2 > kLeastFilled * whole_m2)) continue;
+            mirror.surface = mirrors_[m].surface;
+            mirror.area_m2 = static_cast<float>(mirrors_[m].area_m2);
+            mirror.tolerance_m = static_cast<float>(2 * tolerance_m_);
+            for (const FlatTriangle& t : of[m]) mirror.draw(t.a, t.b, t.c);
+            mirror.sum_up();
+            out.push_back(std::move(mirror));
         }
         return out;
     }
@@ -199,7 +205,6 @@ class MirrorFinder {
         }
         std::stable_sort(mirrors_.begin(), mirrors_.end(),
                          [](const Mirror& a, const Mirror& b) { return a.thrown_m2 > b.thrown_m2; });
-        if (mirrors_.size() > kMostFlatMirrors) mirrors_.resize(kMostFlatMirrors);
         for (PlanePart& part : parts_) part.mirror = -1;
         for (std::size_t m = 0; m < mirrors_.size(); ++m)
             for (const std::size_t p : mirrors_[m].parts) parts_[p].mirror = static_cast<int>(m);
