@@ -7,8 +7,8 @@
 
 #include "render/light/facet_list.h"
 #include "render/light/kept_light.h"
+#include "render/light/radiance_equation.h"
 #include "render/light/shadow_rays.h"
-#include "render/light/sun_sample.h"
 #include "render/vocabulary/clones.h"
 
 namespace hilcam {

@@ -6,7 +6,6 @@
 #include "render/light/facet_list.h"
 #include "render/light/lamp_light.h"
 #include "render/light/shadow_rays.h"
-#include "render/light/sun_sample.h"
 #include "render/scene/brdf_microfacet.h"
 
 namespace hilcam {
