@@ -32,13 +32,18 @@ KeptLight::Bounds sphere_about(std::span<const LightNode> nodes) {
 
 }  // namespace
 
-KeptAlbedos::KeptAlbedos(const std::vector<Material>& materials, float least_alpha) {
-    for (const Material& material : materials) {
+KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float least_alpha) {
+    std::vector<float> throws;
+    for (const Material& material : surfaces.materials) {
         own.emplace_back(material);
         Material other = material;
         other.ggx_alpha = std::max(material.ggx_alpha, least_alpha);
         wide.emplace_back(other);
+        const bool is_mirror =
+            material.has_facets() && material.ggx_alpha < kNarrowestKept && material.texture < 0;
+        throws.push_back(is_mirror ? largest(own.back().lobe(0.5f)) : 0.0f);
     }
+    mirrors = find_flat_mirrors(mesh, surfaces, throws);
 }
 
 // A lobe's half width is about twice its alpha; sixty directions stand 0.32 rad apart.
@@ -72,6 +77,18 @@ KeptLight::KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedo
         describe_lobe(n);
     }
     bounds_ = sphere_about(nodes);
+    find_what_throws();
+}
+
+void KeptLight::find_what_throws() {
+    if (mirrors().empty()) return;
+    const std::vector<LightNode>& nodes = table_->nodes().nodes();
+    throws_sun_.resize(nodes.size());
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        for (const FlatMirror& mirror : mirrors())
+            if (mirror.surface == nodes[n].surface &&
+                mirror.holds(nodes[n].point_m[0], unpack_normal(nodes[n].geometric[0])))
+                throws_sun_[n] = 1;
 }
 
 void KeptLight::describe_lobe(std::size_t n) {
@@ -133,7 +150,7 @@ void KeptLight::adopt(const KeptLinks& links) {
 
 std::size_t KeptLight::bytes() const {
     std::size_t bytes = colors_.size() * sizeof(Spectrum) + lobes_.size() * sizeof(LobeNode) +
-                        (white_.size() + irradiance_.size()) * sizeof(PackedSpectrum);
+                        throws_sun_.size() + (white_.size() + irradiance_.size()) * sizeof(PackedSpectrum);
     for (const KeptSolution& term : terms_) bytes += term.bytes();
     return bytes + (links_ ? links_->bytes() : 0);
 }

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "render/light/kept_source.h"
@@ -16,6 +17,7 @@
 #include "render/scene/brdf_microfacet.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
+#include "render/scene/flat_mirrors.h"
 #include "render/scene/shown_object.h"
 #include "render/scene/transfer_table.h"
 #include "render/vocabulary/packed_spectrum.h"
@@ -35,12 +37,13 @@ inline constexpr std::size_t kDirectionLanes = 16;
 // normal (GGX as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
 
-// What an object's materials reflect in all; objects of one make share it.
+// What an object's materials reflect in all, and where it mirrors; objects of one make share it.
 struct KeptAlbedos {
-    // materials: one per surface. least_alpha: of facets as other surfaces see them.
-    KeptAlbedos(const std::vector<Material>& materials, float least_alpha);
+    // mesh: with the object's triangles. least_alpha: of facets as other surfaces see them.
+    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float least_alpha);
 
     std::vector<MaterialAlbedo> own, wide;  // by surface; the latter of facets as other surfaces see them
+    std::vector<FlatMirror> mirrors;        // of the object; whoever looks them up has their sunlight
 };
 
 // A term that is solved: what one source gives to every node, per unit of it.
@@ -83,6 +86,9 @@ class KeptLight {
     bool is_glass(std::uint16_t surface) const {
         return materials_[surface]->model == ReflectionModel::kGlass;
     }
+    // What a node mirrors of the Sun is not kept: mirrored_suns.h has it.
+    bool throws_sun(std::size_t node) const { return !throws_sun_.empty() && throws_sun_[node] != 0; }
+    bool throws_sun() const { return !throws_sun_.empty(); }
     // All that it reflects, it reflects in a narrow lobe.
     bool is_mirror(std::uint16_t surface) const {
         const Material& m = *materials_[surface];
@@ -105,6 +111,8 @@ class KeptLight {
     // --- lookup. Loop, any thread.
 
     const MaterialAlbedo& albedo(std::uint16_t surface) const { return albedos_->own[surface]; }
+    std::span<const MaterialAlbedo> albedos() const { return albedos_->own; }
+    std::span<const FlatMirror> mirrors() const { return albedos_->mirrors; }
     // By way of other surfaces, per unit of the source.
     Spectrum irradiance(std::size_t term, const NodesAbout& about) const {
         Spectrum sum;
@@ -166,9 +174,10 @@ class KeptLight {
     // Local directions, component by component, and after them some that never count, to full vectors.
     static constexpr std::size_t kMostDirections = 256;
     std::vector<float> local_x_, local_y_, local_z_, counts_;
-    std::vector<Spectrum> colors_;       // by node where there are textures; else empty
-    std::vector<PackedSpectrum> white_;  // by node: albedo over pi
-    std::vector<LobeNode> lobes_;        // by node
+    std::vector<Spectrum> colors_;          // by node where there are textures; else empty
+    std::vector<PackedSpectrum> white_;     // by node: albedo over pi
+    std::vector<LobeNode> lobes_;           // by node
+    std::vector<std::uint8_t> throws_sun_;  // by node; empty: none does
     std::size_t along_ = 0;
     std::vector<KeptSolution> terms_;         // their irradiance is in the next
     std::vector<PackedSpectrum> irradiance_;  // by node and term
@@ -187,6 +196,7 @@ class KeptLight {
     };
     static Local local(const LobeNode& node);
     void describe_lobe(std::size_t node);
+    void find_what_throws();
     template <class Visit>
     void for_each_met(std::size_t node, const Visit& visit) const;
 };

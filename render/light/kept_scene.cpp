@@ -43,11 +43,12 @@ KeptScene::KeptScene(std::span<const ShownObject> objects, const EmbreeScene& sc
         if (!objects[i].transfer || objects[i].transfer->size() == 0) continue;
         std::shared_ptr<const KeptAlbedos>& of_make = albedos[objects[i].levels.front().get()];
         if (!of_make)
-            of_make = std::make_shared<const KeptAlbedos>(objects[i].materials(),
+            of_make = std::make_shared<const KeptAlbedos>(*objects[i].levels.front(), scene.mesh(i, 0),
                                                           KeptLight::least_alpha(*objects[i].transfer));
         objects_[i].light =
             std::make_unique<KeptLight>(objects[i], of_make, bands, step_of(objects[i], settings.step_rad));
         lights[i] = objects_[i].light.get();
+        mirrored_suns_.add(objects[i], i, lights[i]->mirrors(), lights[i]->albedos());
         for (std::size_t term = 0; term < terms_.count(); ++term) lights[i]->add_term(terms_.kind(term));
     }
     lights_.assign(lights.begin(), lights.end());
@@ -63,8 +64,9 @@ std::string KeptScene::describe(std::size_t i) const {
     std::ostringstream text;
     text << table.size() << " places, " << 1e3f * table.nodes().cube_m() << " mm apart, "
          << table.directions() << " directions each, of which " << table.entries()
-         << " meet something; steps of " << light.step_rad() / static_cast<float>(kDegree_rad)
-         << " deg; table " << static_cast<double>(table.bytes()) * 1e-6 << " MB, light "
+         << " meet something; steps of " << light.step_rad() / static_cast<float>(kDegree_rad) << " deg; "
+         << light.mirrors().size() << " flat mirrors throw sunlight; table "
+         << static_cast<double>(table.bytes()) * 1e-6 << " MB, light "
          << static_cast<double>(light.bytes() + updates_->bytes(i)) * 1e-6 << " MB";
     return text.str();
 }
@@ -92,6 +94,7 @@ void KeptScene::set_target(const FrameView& frame, const WorldSnapshot& world) {
 void KeptScene::place(const FrameView& frame, const WorldSnapshot& world) {
     for (std::size_t i = 0; i < objects_.size(); ++i)
         objects_[i].origin_m = to_float(world.objects[i].position_world_m - frame.rays_world_m);
+    mirrored_suns_.place(frame, world);
     set_target(frame, world);
     updates_->bring_to(target_);
     look_ahead();

@@ -4,7 +4,7 @@
 //
 // Kept are the light between the parts of an object and between objects that stand near each other, and what
 // of the bodies' light reaches them past their parts. The Sun and lamps shine on what a path meets by rays as
-// ever. Not kept: light of terrain, between objects far apart.
+// ever, and by way of flat mirrors (mirrored_suns.h). Not kept: light of terrain, between objects far apart.
 
 #include <array>
 #include <memory>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "render/light/kept_updates.h"
+#include "render/light/mirrored_suns.h"
 #include "render/light/sky_light.h"
 #include "render/light/tile.h"
 #include "render/scene/shown_object.h"
@@ -46,6 +47,10 @@ class KeptScene {
     // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart; and notes
     // which of those have something near in the mirror's direction. Loop, any thread.
     void add_reflected(Tile& tile, std::span<Vertex> vertices) const;
+    // Adds what they reflect of the Sun by way of flat mirrors. Loop, any thread.
+    void add_mirrored_suns(Tile& tile, std::span<const Vertex> vertices) const {
+        mirrored_suns_.add_light(tile, vertices);
+    }
     // Adds what a lobe too narrow to be kept reflects of the bodies; mirror: its middle. Loop, any thread.
     void add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
                             Spectrum& radiance) const;
@@ -60,6 +65,7 @@ class KeptScene {
     std::vector<const KeptLight*> lights_;  // of them
     std::unique_ptr<KeptUpdates> updates_;
     SkyLight sky_;
+    MirroredSuns mirrored_suns_;
     // How things stand now, some frames ago, and as far ahead; what that asks for.
     static constexpr int kStride = 16;  // frames
     KeptInputs now_, before_, long_before_, ahead_;

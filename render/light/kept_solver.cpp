@@ -8,7 +8,6 @@
 #include <bit>
 #include <cmath>
 
-#include "render/light/lamp_light.h"
 #include "render/scene/brdf_microfacet.h"
 #include "render/scene/surface.h"
 
@@ -17,25 +16,6 @@ namespace {
 
 using Nodes = tbb::blocked_range<std::size_t>;
 constexpr std::size_t kBlock = 256;  // nodes that a thread takes at a time; no result depends on it
-
-float schlick_normal_incidence(float refractive_index) {
-    const float r = (refractive_index - 1) / (refractive_index + 1);
-    return r * r;
-}
-
-// A cone's directions, sixteen of equal solid angle (Vogel 1979), for the irradiance that it makes.
-constexpr int kConeDirections = 16;
-std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_cosine) {
-    const Frame axis(axis_dir);
-    std::array<Vec3f, kConeDirections> out;
-    for (int i = 0; i < kConeDirections; ++i) {
-        const float below = (static_cast<float>(i) + 0.5f) / kConeDirections * (1 - cone_cosine);
-        const float r = std::sqrt(std::max(0.0f, below * (2 - below))),
-                    phi = 2 * kPiF * 0.61803399f * static_cast<float>(i);
-        out[static_cast<std::size_t>(i)] = axis.to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
-    }
-    return out;
-}
 
 // A facet lobe of a sender, of what it receives, towards one that gathers.
 template <class Sender>
@@ -49,6 +29,11 @@ void add_lobe(const Sender& from, Vec3f dir, Vec3f source_dir, Spectrum& radianc
     const float grazing = schlick_weight(ih);
     radiance += (law * (1 - grazing)) * from.lobe.unpacked();
     for (float& bin : radiance.bin) bin += law * grazing * from.received;
+}
+
+Spectrum at_least_zero(Spectrum s) {
+    for (float& bin : s.bin) bin = std::max(bin, 0.0f);
+    return s;
 }
 
 // Where a source is, seen from an object. A lamp is taken as seen from its middle: it differs by node, but
@@ -69,6 +54,9 @@ KeptSolver::KeptSolver(std::span<const KeptLight* const> lights, const EmbreeSce
     }
     senders_.resize(nodes), radiosity_.resize(nodes), first_.resize(nodes), now_.resize(nodes),
         before_.resize(nodes);
+    if (std::any_of(lights_.begin(), lights_.end(),
+                    [](const KeptLight* light) { return light && light->throws_sun(); }))
+        mirrored_.resize(nodes);
 }
 
 void KeptSolver::solve(std::span<const Member> group) {
@@ -77,162 +65,6 @@ void KeptSolver::solve(std::span<const Member> group) {
     bounce(group);
     for (const Member& member : group) store(member);
 }
-
-void KeptSolver::light_nodes(const Member& member) {
-    tbb::parallel_for(Nodes(0, lights_[member.object]->table().size(), kBlock), [&](const Nodes& r) {
-        for (std::size_t first = r.begin(); first < r.end(); first += kBlock)
-            light_block(member, first, std::min(r.end(), first + kBlock));
-    });
-}
-
-// By the object itself, or by one that stands near.
-std::uint32_t KeptSolver::blocked(const Member& member, const RayPacket& rays) const {
-    std::uint32_t out = scene_.occluded_by(member.object, rays);
-    for (const KeptNeighbour& other : member.links->near()) {
-        RayPacket there = rays;
-        bool any = false;
-        for (int i = 0; i < rays.count; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            const Vec3f origin = other.place({rays.origin_x[k], rays.origin_y[k], rays.origin_z[k]});
-            const Vec3f dir = other.dir({rays.dir_x[k], rays.dir_y[k], rays.dir_z[k]});
-            there.set(i, origin, dir, rays.nearest[k], rays.farthest[k]);
-            any = any || lights_[other.object]->bounds().is_met(origin, dir);
-        }
-        if (any) out |= scene_.occluded_by(other.object, there);
-    }
-    return out;
-}
-
-void KeptSolver::light_block(const Member& member, std::size_t first, std::size_t last) {
-    const KeptLight& light = *lights_[member.object];
-    const TransferTable& table = light.table();
-    const KeptSource& source = member.source;
-    Sender* const senders = senders_.data() + base_[member.object];
-    // What is asked of each node: how much its points would receive, rays sent, and rays that get through.
-    struct Asked {
-        float received = 0;
-        int points = 0, rays = 0, lit = 0;
-        Vec3f dir;
-        Vec3f normal{};  // of the points that face the source, by how much they receive; not unit
-    };
-    std::array<Asked, kBlock> asked;
-    RayPacket rays;
-    std::array<std::size_t, kPacketSize> of;
-    rays.count = 0;
-    const auto flush = [&] {
-        if (rays.count == 0) return;
-        const std::uint32_t stopped = this->blocked(member, rays);
-        for (int i = 0; i < rays.count; ++i)
-            if (!(stopped >> i & 1u)) ++asked[of[static_cast<std::size_t>(i)]].lit;
-        rays.count = 0;
-    };
-    const bool cone = source.kind == KeptSource::Kind::kCone;
-    const auto cone_dirs = cone_directions(source.dir, cone ? source.cone_cosine : 1);
-    for (std::size_t n = first; n < last; ++n) {
-        Asked& a = asked[n - first];
-        a.dir = source.dir;
-        if (source.kind == KeptSource::Kind::kGlow) continue;
-        const LightNode& node = table.nodes().nodes()[n];
-        float most = 0;
-        for (std::size_t p = 0; p < LightNode::kPoints; ++p) {
-            if (!table.is_live(n, p)) continue;
-            ++a.points;
-            const Vec3f normal = unpack_normal(node.normal[p]), geometric = unpack_normal(node.geometric[p]);
-            Vec3f dir = source.dir;
-            float strength = 1, until_m = std::numeric_limits<float>::infinity();
-            if (source.kind == KeptSource::Kind::kLamp) {
-                const Vec3f way = source.position_m - node.point_m[p];
-                const float distance_m = std::max(length(way), 1e-3f);
-                dir = way / distance_m;
-                strength = static_cast<float>(source.beam->at(to_double(source.dir), to_double(-dir))) /
-                           (distance_m * distance_m);
-                until_m = std::max(0.0f, distance_m * (1 - 1e-5f) - static_cast<float>(kLampClearance_m));
-            }
-            float cosine = std::max(0.0f, dot(normal, dir));
-            if (cone) {
-                float sum = 0, faced = 0;
-                for (const Vec3f d : cone_dirs) {
-                    sum += std::max(0.0f, dot(normal, d));
-                    faced += std::max(0.0f, dot(source.dir, d));
-                }
-                cosine = sum / faced;
-            }
-            if (cosine * strength <= 0 || (!cone && dot(geometric, dir) <= 0)) continue;
-            a.received += cosine * strength;
-            a.normal = a.normal + cosine * strength * normal;
-            if (cosine * strength > most) most = cosine * strength, a.dir = dir;
-            // Two points tell of a node's shadow.
-            if (cone || a.rays == 2) continue;
-            of[static_cast<std::size_t>(rays.count)] = n - first;
-            rays.set(rays.count, node.point_m[p], dir, 0, until_m);
-            ++a.rays;
-            if (++rays.count == kPacketSize) flush();
-        }
-    }
-    flush();
-    for (std::size_t n = first; n < last; ++n) {
-        const Asked& a = asked[n - first];
-        float share = a.rays > 0 ? static_cast<float>(a.lit) / static_cast<float>(a.rays) : 0;
-        if (cone) {
-            share = seen_of_cone(member, light, n);
-            member.out->seen[n] = static_cast<std::uint8_t>(std::lround(255 * share));
-        }
-        const float mean = a.points > 0 ? a.received / static_cast<float>(a.points) : 0;
-        Sender& sender = senders[n];
-        send(light, n, a.dir, a.normal, share * mean, sender);
-        if (source.kind == KeptSource::Kind::kGlow)
-            sender.diffuse = PackedSpectrum(light.materials_[table.nodes().nodes()[n].surface]->emission);
-        if (cone && sender.alpha > 0)
-            widen(light.albedo(table.nodes().nodes()[n].surface), source, share * mean, sender);
-    }
-}
-
-// A wide source widens lobes; those that are wider than half a radian send as paint does, all that they
-// reflect.
-void KeptSolver::widen(const MaterialAlbedo& albedo, const KeptSource& source, float received,
-                       Sender& sender) {
-    constexpr float kBegins = 0.2f, kWhole = 0.4f;
-    const float sine = std::sqrt(std::max(0.0f, 1 - source.cone_cosine * source.cone_cosine));
-    sender.alpha = std::min(1.0f, std::hypot(sender.alpha, 0.5f * sine));
-    const float paint = std::clamp((sender.alpha - kBegins) / (kWhole - kBegins), 0.0f, 1.0f);
-    if (paint == 0) return;
-    sender.diffuse =
-        PackedSpectrum(sender.diffuse.unpacked() + (paint * received / kPiF) * albedo.lobe(sender.ni));
-    sender.lobe = PackedSpectrum((1 - paint) * sender.lobe.unpacked());
-    sender.received *= 1 - paint;
-    if (paint == 1) sender.alpha = 0;
-}
-
-// facing: along the normal of what is lit; received: irradiance, per unit of the source.
-void KeptSolver::send(const KeptLight& light, std::size_t n, Vec3f source_dir, Vec3f facing, float received,
-                      Sender& sender) const {
-    const LightNode& node = light.table().nodes().nodes()[n];
-    sender = {};
-    if (!(received > 0)) return;
-    const Vec3f normal = normalized(facing);
-    const float cosine = std::clamp(dot(normal, source_dir), 1e-3f, 1.0f);
-    const Material& material = *light.materials_[node.surface];
-    const MaterialAlbedo& albedo = light.albedo(node.surface);
-    Spectrum diffuse = (received / kPiF) * albedo.base(cosine);
-    if (!light.colors_.empty()) diffuse = diffuse * light.colors_[n];
-    sender.diffuse = PackedSpectrum(diffuse);
-    sender.normal = pack_normal(normal);
-    sender.ni = cosine;
-    if (!material.has_facets()) return;
-    sender.alpha = std::max(material.ggx_alpha, KeptLight::least_alpha(light.table()));
-    Spectrum normal_incidence = material.highlight;
-    if (material.model == ReflectionModel::kDielectric)
-        normal_incidence.bin.fill(schlick_normal_incidence(material.refractive_index));
-    else if (!light.colors_.empty())
-        normal_incidence = normal_incidence * light.colors_[n];
-    // However wide the facets are taken, they send as much in all as they reflect.
-    const float whole = largest(light.albedos_->wide[node.surface].lobe(cosine));
-    const float gain = whole > 0 ? largest(albedo.lobe(cosine)) / whole : 0.0f;
-    sender.lobe = PackedSpectrum((gain * received) * normal_incidence);
-    sender.received = gain * received;
-}
-
-// --- between nodes
 
 void KeptSolver::gather_first(const Member& member, std::span<const Member> group) {
     const KeptLight& light = *lights_[member.object];
@@ -262,11 +94,13 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
             const auto direction = [&](std::size_t d) {
                 return axes.body({light.local_x_[d], light.local_y_[d], light.local_z_[d]});
             };
-            Spectrum sum;
+            Spectrum sum, mirrored;
             for (const TransferTable::Entry e : table.entries(n)) {
                 const Sender& from = senders_[base + e.node];
                 Spectrum radiance = from.diffuse.unpacked();
-                if (from.alpha > 0) add_lobe(from, direction(e.direction), source_dir, radiance);
+                if (from.alpha > 0)
+                    add_lobe(from, direction(e.direction), source_dir,
+                             keeps_along && light.throws_sun(e.node) ? mirrored : radiance);
                 if (along) *along++ = PackedSpectrum(radiance);
                 sum += radiance;
             }
@@ -282,6 +116,10 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
                              source_of(link.object), radiance);
                 if (keeps_along) out.along_links[member.links->first(n) + i] = PackedSpectrum(radiance);
                 sum += radiance;
+            }
+            if (light.throws_sun()) {
+                mirrored_[base + n] = (kPiF / static_cast<float>(table.counted(n))) * mirrored;
+                sum += mirrored;
             }
             first_[base + n] = now_[base + n] = (kPiF / static_cast<float>(table.counted(n))) * sum;
         }
@@ -368,6 +206,9 @@ void KeptSolver::store(const Member& member) {
         for (std::size_t n = r.begin(); n < r.end(); ++n) {
             out.irradiance[n] = PackedSpectrum(now_[base + n]);
             if (!keeps_along) continue;
+            if (light.throws_sun())
+                out.irradiance[n] =
+                    PackedSpectrum(at_least_zero(now_[base + n] + -1.0f * mirrored_[base + n]));
             std::size_t to = light.lobes_[n].first_along;
             if (to != KeptLight::kNoLobe)
                 for (const TransferTable::Entry e : light.table().entries(n))

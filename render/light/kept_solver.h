@@ -7,6 +7,9 @@
 // factors. No ray is traced but those that ask which nodes a source shines on, and nothing is drawn by
 // chance.
 //
+// What flat mirrors throw of the Sun goes on from where it falls, but is not in what is kept: who looks that
+// up has it sharp (mirrored_suns.h).
+//
 // The approximation: facets that other surfaces see are at least so wide that the directions find their
 // light; from the second bounce on everything scatters as a diffuse surface of the same albedo; glass is
 // clear.
@@ -37,7 +40,8 @@ class KeptSolver {
     std::span<const KeptLight* const> lights() const { return lights_; }
     // Returns an object's share of the workspace.
     std::size_t bytes(std::size_t object) const {
-        return lights_[object]->table().size() * (sizeof(Sender) + 4 * sizeof(Spectrum));
+        return lights_[object]->table().size() *
+               (sizeof(Sender) + (mirrored_.empty() ? 4 : 5) * sizeof(Spectrum));
     }
     // One term. On oneTBB. Nothing is allocated but by links that are more than ever before.
     void solve(std::span<const Member> group);
@@ -62,6 +66,7 @@ class KeptSolver {
     std::vector<Sender> senders_;
     std::vector<Spectrum> radiosity_;             // over pi
     std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
+    std::vector<Spectrum> mirrored_;  // of the first, what flat mirrors throw of the Sun; empty: none does
 
     void light_nodes(const Member& member);
     void light_block(const Member& member, std::size_t first, std::size_t last);

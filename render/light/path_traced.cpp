@@ -71,6 +71,7 @@ class TracedPaths final : public PathModel {
                 keep = static_cast<std::size_t>(others - current_);
                 frame.radiance->add_light(tile, {current_, keep}, LampLight::kNone);
                 frame.kept->add_reflected(tile, {current_, keep});
+                frame.kept->add_mirrored_suns(tile, {current_, keep});
             }
             frame.radiance->add_light(tile, {current_ + keep, count - keep}, LampLight::kSampled);
             const bool last = depth == frame.max_depth;

@@ -51,14 +51,8 @@ struct LitBy {
 void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
-    const Spectrum& irradiance = background.sun_irradiance_w_m2_um();
-    if (largest(irradiance) <= 0 || vertices.empty()) return;
-    const Vec3f center = to_float(background.sun_world_dir());
-    const Frame axis(center);
-    // 1 - cos of a small angle by its sine: single precision has no digits left for it.
-    const auto sine_squared =
-        static_cast<float>(1 - background.sun_disk_cosine() * background.sun_disk_cosine());
-    const float disk_density = 1 / (kPiF * sine_squared);
+    if (largest(background.sun_irradiance_w_m2_um()) <= 0 || vertices.empty()) return;
+    const SunSampler sun(tile);
 
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
         tile.pixels[by.at->pixel] += glass ? by.weight * *glass : by.weight;
@@ -68,22 +62,14 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     ShadowRays<LitBy, decltype(lit)> shadow(frame, counter, lit);
     for (const Vertex& at : vertices) {
         if (!at.surface.has_lobes()) continue;
-        Vec3f dir = center;
-        Spectrum light = irradiance;
+        const auto [dir, light] = sun.of(at);
         float share = 1;
-        if (frame.sun_is_disk) {
-            const auto random = tile.random_of(at, 1);
-            const float u1 = uniform01(random[0]), phi = 2 * kPiF * uniform01(random[1]);
-            const float r = std::sqrt(u1 * sine_squared);
-            dir = normalized(axis.to_world({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)}));
-            light = light * background.sun_disk().relative_radiance(std::sqrt(1 - u1));
-        }
         const float ni = dot(at.normal, dir);
         const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
         // Narrow lobes are better found by their own samples (Veach & Guibas, SIGGRAPH 95, balance
         // heuristic).
         if (frame.sun_is_disk && is_weighed(frame, at))
-            share = disk_density / (disk_density + brdf_density(at.surface, c));
+            share = sun.disk_density() / (sun.disk_density() + brdf_density(at.surface, c));
         if (at.facets) {
             Scatterer surface = at.surface;
             surface.alpha = at.facet_alpha;

@@ -1,6 +1,7 @@
 #pragma once
 // Rays that ask whether what shines is seen, sixteen at a time; through glass if there is any.
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -10,8 +11,27 @@ namespace hilcam {
 
 // What sheets of glass within `until_m` let pass; zero where something else is met. dir: unit. Loop, any
 // thread.
-Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir,
-                              float until_m = std::numeric_limits<float>::infinity());
+inline Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir,
+                                     float until_m = std::numeric_limits<float>::infinity()) {
+    constexpr int kMostSheets = 64;
+    Spectrum passed;
+    passed.bin.fill(1);
+    RayPacket ray;
+    HitPacket hit;
+    ray.count = 1;
+    for (int sheet = 0; sheet < kMostSheets; ++sheet) {
+        ray.set(0, origin_m, dir, 0, until_m);
+        frame.scene->intersect(ray, Coherence::kIncoherent, hit);
+        if (hit.object[0] == HitPacket::kMiss) return passed;
+        Vertex vertex;
+        if (!make_vertex(frame, hit, 0, origin_m, dir, 0, {}, vertex)) return {};
+        if (!vertex.surface.is_glass()) return {};
+        passed = passed * sheet_transmittance(vertex.surface, dot(vertex.normal, vertex.view_dir));
+        origin_m = vertex.start(false);
+        until_m = std::max(0.0f, until_m - hit.distance[0]);
+    }
+    return {};
+}
 
 // Payload: what the caller needs to know of a ray again. Lit is called as lit(payload, transmittance) for
 // every ray that gets through, in order; transmittance is null where nothing is in the way.
