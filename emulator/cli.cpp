@@ -35,6 +35,7 @@
 #include "emulator/send/send_command.h"
 #include "emulator/tradeoff/error_bench.h"
 #include "emulator/tradeoff/tradeoff_report.h"
+#include "io/config/config_advice.h"
 #include "io/config/config_yaml.h"
 #include "io/files/mesh_cache.h"
 #include "io/system/program_files.h"
@@ -292,6 +293,9 @@ int run_bench(const Options& o) {
 
 int run_characterise(const Options& o) {
     CameraModel camera;
+    if (has_top_level_key(o.config, "time_utc"))
+        throw InputError(o.config.string() +
+                         ": is a scenario; accepted: a camera's data sheet, as cameras/lorri.yaml");
     read_config(o.config, section_of(camera), o.overrides);
     const DetectorPictures pictures = load_detector_pictures(camera);
     const nlohmann::json report = characterisation_json(characterise(camera, pictures), pictures);
@@ -339,11 +343,21 @@ CLI::Validator power_of_two_from_4() {
 
 // Puts a shipped file's path in the place of its name.
 CLI::Validator name_of_shipped() {
-    return {[](std::string& name) {
-                name = named_config(name).string();
-                return std::string();
-            },
-            ""};
+    return {
+        [](std::string& name) {
+            const std::filesystem::path file = named_config(name);
+            std::error_code error;
+            // A path is told when it is read.
+            if (!std::filesystem::exists(file, error) && !file.has_parent_path() && !file.has_extension()) {
+                const std::string nearest = nearest_of(name, shipped_names());
+                return "found " + in_quotes(name) +
+                       ", which is neither a file nor a shipped scenario or camera" +
+                       (nearest.empty() ? "" : "; nearest: " + nearest);
+            }
+            name = file.string();
+            return std::string();
+        },
+        ""};
 }
 
 void add_config(CLI::App* command, Options& o) {
@@ -372,7 +386,7 @@ int run_command_line(int argc, char** argv) {
     CLI::App* run_app = app.add_subcommand("run", "be the camera, in real time");
     add_config(run_app, o);
     run_app->add_option("--duration", o.duration_s, "stop after so many seconds")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0.0, 1e9));
     run_app->add_option("--frames", o.frames, "stop after so many frames");
     run_app->add_option("--report", o.report, "write a report (JSON) at the end");
     run_app

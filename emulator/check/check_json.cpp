@@ -130,6 +130,8 @@ std::string to_json(const CheckReport& report) {
                             {{"right_ascension_deg", degrees(c.sight.pointing.right_ascension_rad)},
                              {"declination_deg", degrees(c.sight.pointing.declination_rad)},
                              {"roll_deg", degrees(c.sight.pointing.roll_rad)}}},
+                           {"height_above_ground_m",
+                            c.sight.height_above_ground_m ? Json(*c.sight.height_above_ground_m) : Json()},
                            {"ground", ground_of(c.sight.ground)},
                            {"from_site_m", c.sight.from_site_m ? Json(of(*c.sight.from_site_m)) : Json()},
                            {"from_first_camera_m", of(c.sight.from_first_m)},

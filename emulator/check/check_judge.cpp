@@ -91,6 +91,17 @@ void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraRepor
                                                            : "exposure_ms"));
 }
 
+void judge_terrain(const ScenarioConfig& s, const FirstSight& sight, std::vector<std::string>& out) {
+    if (!s.has_terrain) return;
+    if (!sight.height_above_ground_m)
+        out.push_back(
+            "the camera is beside the terrain's map: terrain.place or pose, heights.spacing_m, or where the "
+            "camera is");
+    else if (*sight.height_above_ground_m < 0)
+        out.push_back(fmt::format("the camera is {:.4g} m below the ground of the terrain",
+                                  -*sight.height_above_ground_m));
+}
+
 // Whether anything in the picture sends light.
 bool shows_light(const ScenarioConfig& s, const FirstSight& sight) {
     if (sight.shows_sun || sight.shows_body || s.has_terrain || !s.stars.catalogue.empty() ||
@@ -121,6 +132,7 @@ std::vector<std::string> judge(const ScenarioConfig& s, const CameraReport& came
     if (!shows_light(s, camera.sight))
         out.push_back("nothing that is lit is in the picture: it will be black");
     for (std::string& line : judge_camera(camera.sheet, camera.period_s > 0)) out.push_back(std::move(line));
+    judge_terrain(s, camera.sight, out);
     if (camera.share_in_bins < 0.5)
         out.push_back(
             fmt::format("spectrum_edges_um leave out {:.0f} % of what the camera would see of sunlight",

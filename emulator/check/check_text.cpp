@@ -134,6 +134,8 @@ void add_camera(const CameraReport& c, std::span<const CameraReport> earlier, st
             fmt::format("  site        the camera is {:.6g} m east, {:.6g} m north, {:.6g} m above it ({})\n",
                         to_a_nanometre(sight.from_site_m->x), to_a_nanometre(sight.from_site_m->y),
                         to_a_nanometre(sight.from_site_m->z), sight.site_body);
+    if (sight.height_above_ground_m)
+        out += fmt::format("  terrain     the camera is {:.6g} m above it\n", *sight.height_above_ground_m);
     if (sight.ground) add_ground(*sight.ground, c.sheet, out);
     out += fmt::format(
         "  Sun         {:.4g} au away, {:.1f} deg off the boresight: ({:.3f}, {:.3f}, {:.3f}) in camera axes "

@@ -91,6 +91,7 @@ FirstSight first_sight(CameraStation& station, const CameraSheet& sheet, const P
     out.camera = truth.camera;
     out.pointing = radec_of(truth.camera.world_from_body);
     tell_site(s, out);
+    out.height_above_ground_m = truth.height_above_ground_m;
     out.ground = ground_sight(s, out.camera, sheet);
     out.sun_camera_dir = truth.sun_camera_dir;
     out.sun_off_boresight_rad = off_boresight(truth.sun_camera_dir);

@@ -35,6 +35,7 @@ struct FirstSight {
     double sun_off_boresight_rad = 0, sun_distance_au = 0;
     bool shows_sun = false, shows_body = false;
     std::optional<GroundSight> ground;
+    std::optional<double> height_above_ground_m;  // over terrain
     Pose camera;
     RaDecRoll pointing;
     // Where it stands in the local axes of the scenario's site, if it has one on the origin's body.

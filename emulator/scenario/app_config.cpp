@@ -352,6 +352,10 @@ void settle_nadir(ScenarioConfig& s) {
 }  // namespace
 
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
+    if (has_top_level_key(file, "pitch_um"))
+        throw InputError(file.string() +
+                         ": is a camera's data sheet; accepted: a scenario, which has it as 'camera: " +
+                         file.filename().string() + "'");
     ScenarioConfig scenario;
     SectionField root = section_of(scenario);
     root.validate = [&scenario] {

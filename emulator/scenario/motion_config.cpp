@@ -1,5 +1,7 @@
 #include "emulator/scenario/motion_config.h"
 
+#include <algorithm>
+
 #include "io/files/leap_seconds_file.h"
 #include "render/sky/bodies.h"
 #include "render/vocabulary/check.h"
@@ -173,6 +175,12 @@ void validate(const MotionConfig& m) {
         throw InputError("attitude has no 'aem'; law aem needs it");
     if (a.law == AttitudeConfig::Law::kKeyframes && m.kind != Kind::kKeyframes)
         throw InputError("attitude: law keyframes needs kind keyframes");
+    const bool any_given = std::any_of(m.keyframes.begin(), m.keyframes.end(),
+                                       [](const KeyframeConfig& k) { return k.attitude.given(); });
+    if (a.law == AttitudeConfig::Law::kKeyframes && !any_given)
+        throw KeyError("attitude.law",
+                       "is keyframes, and none of them has an attitude; accepted: attitudes in the "
+                       "keyframes, or another law, as nadir");
     const bool of_thing = a.law == AttitudeConfig::Law::kThing ||
                           (a.law == AttitudeConfig::Law::kHeld && a.frame == MotionFrame::kThing);
     if (of_thing && a.of.empty()) throw InputError("attitude has no 'of': the object that it is about");

@@ -90,7 +90,7 @@ std::string json_of(const Telemetry& telemetry) {
 
 void add_watch_options(CLI::App& app, WatchOptions& o) {
     app.add_option("--duration-s", o.duration_s, "then end; left out: until Ctrl-C")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0.0, 1e9));
     app.add_option("--frames", o.frames, "end after so many frame reports");
     app.add_flag("--housekeeping", o.housekeeping_only, "no frame reports");
     app.add_flag("--json", o.json, "one JSON object a line");

@@ -1,5 +1,7 @@
 #include "io/system/program_files.h"
 
+#include <algorithm>
+
 namespace hilcam {
 namespace {
 
@@ -51,6 +53,18 @@ fs::path named_config(const fs::path& name) {
         if (const fs::path file = shipped_file(fs::path(kind) / (name.string() + ".yaml")); !file.empty())
             return file;
     return name;
+}
+
+std::vector<std::string> shipped_names() {
+    std::vector<std::string> out;
+    for (const char* const kind : {"scenarios", "cameras"}) {
+        std::error_code error;
+        const std::size_t first = out.size();
+        for (const auto& entry : fs::directory_iterator(data_folder() / kind, error))
+            if (entry.path().extension() == ".yaml") out.push_back(entry.path().stem().string());
+        std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
+    }
+    return out;
 }
 
 bool is_shipped(const fs::path& folder) {

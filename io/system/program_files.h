@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hilcam {
 
@@ -20,6 +21,8 @@ std::filesystem::path shipped_file(const std::filesystem::path& name);
 // scenarios/small.yaml, or cameras/small.yaml. What is there at the path itself comes first; the name as it
 // is, when nothing is there.
 std::filesystem::path named_config(const std::filesystem::path& name);
+// The words that named_config() takes, scenarios before cameras.
+std::vector<std::string> shipped_names();
 // True of a file's folder that lies in the data folder, where runs must not write.
 bool is_shipped(const std::filesystem::path& folder);
 

@@ -139,6 +139,7 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
                  {{"direction", of(t.sun_world_dir)},
                   {"direction_camera", of(t.sun_camera_dir)},
                   {"distance_m", t.sun_distance_m}}}};
+    if (t.height_above_ground_m) out["height_above_ground_m"] = *t.height_above_ground_m;
     Json objects = Json::array(), bodies = Json::array(), parts = Json::array(), stars = Json::array();
     for (const SeenThing& thing : t.things)
         if (thing.is_body)

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "render/frame/image_motion.h"
+#include "render/frame/kept_handover.h"
 #include "render/frame/plan.h"
 #include "render/frame/render_quality.h"
 #include "render/light/frame_view.h"
-#include "render/light/kept_handover.h"
 #include "render/light/kept_scene.h"
 #include "render/light/lamp_light.h"
 #include "render/light/path_model.h"
@@ -61,6 +61,10 @@ class FramePlacer {
     double radius_m(std::size_t object) const { return radii_m_[object]; }
     // The last of the objects is the ground.
     bool has_terrain() const { return terrain_ != nullptr; }
+    // Of the camera; none without terrain, and beside its map.
+    std::optional<double> height_above_ground_m() const {
+        return terrain_ ? terrain_->height_above_ground_m() : std::nullopt;
+    }
     // Of the pixels that can meet the sphere that holds an object.
     PixelBox box_of(std::size_t object) const;
     // Any ray of the camera through the box can meet something.

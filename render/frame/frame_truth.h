@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "render/frame/frame_raster.h"
@@ -122,14 +123,16 @@ struct FrameTruth {
     FrameRaster raster;
 
     // --- told by the renderer
-    TimeTai time;                   // mid-exposure
-    Pose camera;                    // pointing jitter included
-    Vec3d camera_velocity_m_s;      // in the world
-    Vec3d camera_rate_rad_s;        // about the camera's axes
-    ImageGeometry geometry;         // of the radiance image
-    Vec3d sun_world_dir;            // from the camera
-    Vec3d sun_camera_dir;           // the same in camera axes
-    double sun_distance_m = 0;      // from the camera
+    TimeTai time;               // mid-exposure
+    Pose camera;                // pointing jitter included
+    Vec3d camera_velocity_m_s;  // in the world
+    Vec3d camera_rate_rad_s;    // about the camera's axes
+    ImageGeometry geometry;     // of the radiance image
+    Vec3d sun_world_dir;        // from the camera
+    Vec3d sun_camera_dir;       // the same in camera axes
+    double sun_distance_m = 0;  // from the camera
+    std::optional<double>
+        height_above_ground_m;      // of the camera, over the terrain's map; none: no terrain there
     std::vector<SeenThing> things;  // objects by number, then the Sun, then bodies
     std::vector<SeenPart> parts;
     std::vector<SeenStar> stars;       // that are drawn in the frame, in the catalogue's order

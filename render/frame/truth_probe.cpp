@@ -69,6 +69,7 @@ void TruthProbe::tell() {
     truth_.camera_velocity_m_s = world_.camera_velocity_m_s;
     truth_.camera_rate_rad_s = world_.camera_rate_rad_s;
     truth_.geometry = frame_.geometry;
+    truth_.height_above_ground_m = placer_.height_above_ground_m();
     truth_.things.clear();
     truth_.parts.clear();
     tell_objects();

@@ -41,6 +41,7 @@ Pose ShownTerrain::update(const WorldSnapshot& world, double focal_length_px, Sh
     const Pose& camera = world.camera;
     const Mat3d world_from_terrain = to_matrix(pose.world_from_body);
     const Vec3d camera_m = transposed(world_from_terrain) * (camera.position_world_m - pose.position_world_m);
+    seen_from_m_ = camera_m;
     const TerrainView view{camera_m, 1 / focal_length_px, terrain_->edge_px, terrain_->most_triangles};
     // Other terrain is needed once the camera has moved by a fiftieth of its distance to the ground under it.
     const bool stale = !any_ || length(camera_m - camera_m_) > 0.02 * length(camera_m - anchor_m_);

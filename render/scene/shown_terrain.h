@@ -25,6 +25,11 @@ class ShownTerrain {
     // calls.
     Pose update(const WorldSnapshot& world, double focal_length_px, ShownObject& object);
 
+    // Of the camera at the last update(), as the map has the ground; none beside the map. Loop.
+    std::optional<double> height_above_ground_m() const {
+        return hilcam::height_above_ground_m(*terrain_->map, terrain_->radius_m, seen_from_m_);
+    }
+
   private:
     EmbreeScene& embree_;
     std::unique_ptr<SceneTerrain> terrain_;
@@ -32,6 +37,7 @@ class ShownTerrain {
     TerrainStreamer streamer_;
     bool any_ = false;
     Vec3d anchor_m_, camera_m_;  // of what is shown
+    Vec3d seen_from_m_;          // the camera at the last update(), terrain axes
 
     void adopt(PreparedTerrain& prepared, ShownObject& object);
 };

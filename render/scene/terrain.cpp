@@ -19,6 +19,20 @@ struct TerrainTile {
     friend bool operator<(const TerrainTile& a, const TerrainTile& b) { return a.edge_px < b.edge_px; }
 };
 
+// Along the ground from the middle to what is under a point.
+Vec2d ground_m(double radius_m, Vec3d p) {
+    if (radius_m <= 0) return {p.x, p.y};
+    const double across = std::hypot(p.x, p.y);
+    const double angle = std::atan2(across, radius_m + p.z);
+    return across > 0 ? Vec2d{p.x / across * angle * radius_m, p.y / across * angle * radius_m} : Vec2d{};
+}
+// The same in columns and rows of the map.
+Vec2d post_of(const HeightMap& map, double radius_m, Vec3d p) {
+    const Vec2d at = ground_m(radius_m, p);
+    return {at.x / map.spacing_m() + 0.5 * (map.columns() - 1),
+            0.5 * (map.rows() - 1) - at.y / map.spacing_m()};
+}
+
 class TerrainBuilder {
   public:
     TerrainBuilder(const HeightMap& map, double radius_m, const TerrainView& view)
@@ -84,20 +98,8 @@ class TerrainBuilder {
     int clamped(double value, int count) const {
         return static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(count - 1)));
     }
-    // Along the ground from the middle to what is under a point.
-    Vec2d ground_m(Vec3d p) const {
-        if (radius_m_ <= 0) return {p.x, p.y};
-        const double across = std::hypot(p.x, p.y);
-        const double angle = std::atan2(across, radius_m_ + p.z);
-        return across > 0 ? Vec2d{p.x / across * angle * radius_m_, p.y / across * angle * radius_m_}
-                          : Vec2d{};
-    }
-    int column_of(Vec3d p) const {
-        return clamped(ground_m(p).x / map_.spacing_m() + 0.5 * (map_.columns() - 1), map_.columns());
-    }
-    int row_of(Vec3d p) const {
-        return clamped(0.5 * (map_.rows() - 1) - ground_m(p).y / map_.spacing_m(), map_.rows());
-    }
+    int column_of(Vec3d p) const { return clamped(post_of(map_, radius_m_, p).x, map_.columns()); }
+    int row_of(Vec3d p) const { return clamped(post_of(map_, radius_m_, p).y, map_.rows()); }
     // A point of the map in terrain axes.
     Vec3d place(int column, int row) const {
         const double x = (column - 0.5 * (map_.columns() - 1)) * map_.spacing_m();
@@ -211,6 +213,23 @@ class TerrainBuilder {
 
 TerrainMesh terrain_mesh(const HeightMap& map, double radius_m, const TerrainView& view) {
     return TerrainBuilder(map, radius_m, view).build();
+}
+
+std::optional<double> height_above_ground_m(const HeightMap& map, double radius_m, Vec3d point_m) {
+    const Vec2d post = post_of(map, radius_m, point_m);
+    // The negation catches what is no number, too.
+    if (!(post.x >= 0 && post.y >= 0 && post.x <= map.columns() - 1 && post.y <= map.rows() - 1)) return {};
+    const int column = std::min(static_cast<int>(post.x), map.columns() - 2);
+    const int row = std::min(static_cast<int>(post.y), map.rows() - 2);
+    const double right = post.x - column, down = post.y - row;
+    const auto height = [&](int c, int r) { return static_cast<double>(map.height_m(column + c, row + r)); };
+    const double ground_m = (1 - down) * ((1 - right) * height(0, 0) + right * height(1, 0)) +
+                            down * ((1 - right) * height(0, 1) + right * height(1, 1));
+    if (radius_m <= 0) return point_m.z - ground_m;
+    // |p + (0, 0, R)| - R without losing digits.
+    const double z = point_m.z, across_squared = point_m.x * point_m.x + point_m.y * point_m.y;
+    const double from_center = std::sqrt(across_squared + (radius_m + z) * (radius_m + z));
+    return (across_squared + z * (2 * radius_m + z)) / (from_center + radius_m) - ground_m;
 }
 
 }  // namespace hilcam

@@ -9,6 +9,8 @@
 // one its border lies on that one's edges; small skirts keep rounding from opening gaps. Normals are those of
 // the heights at the tile's own spacing. Not modelled: overhangs, and what lies beyond the map's edge.
 
+#include <optional>
+
 #include "render/scene/height_map.h"
 #include "render/vocabulary/mesh.h"
 
@@ -28,5 +30,9 @@ struct TerrainMesh {
 
 // radius_m: of the sphere under the map; 0: a plane. Any thread; allocates.
 TerrainMesh terrain_mesh(const HeightMap& map, double radius_m, const TerrainView& view);
+
+// How high a point, in terrain axes, is above the ground along its own vertical [m], bilinear between the
+// map's four posts around; negative: below it. None beside the map. Loop, any thread; no allocation.
+std::optional<double> height_above_ground_m(const HeightMap& map, double radius_m, Vec3d point_m);
 
 }  // namespace hilcam

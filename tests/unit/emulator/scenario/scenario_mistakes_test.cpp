@@ -107,6 +107,10 @@ constexpr Mistake kMistakes[] = {
     {"FreeSpaceWithoutSun", 3, "origin: {kind: free}", "1:1", "sun: does not say where the Sun is"},
     {"TwoFormsOfAttitude", 17, "  attitude_radec_deg: [1, 2, 0]\n  attitude_mrp: [0, 0, 0]", "17:23",
      "camera_pose.attitude_radec_deg: found besides 'attitude_mrp'"},
+    {"KeyframesWithoutAnAttitude", 23,
+     "    motion: {kind: keyframes, keyframes: [{at_s: 0, position_m: [0, 0, 0]}], attitude: {law: "
+     "keyframes}}",
+     "23:94", "is keyframes, and none of them has an attitude"},
     // Ports.
     {"TwoOnOnePort", 25, "outputs: {truth: {port: 5733}, preview: {port: 5733}}", "25:25",
      "found TCP '127.0.0.1:5733', where outputs.preview.port listens, too"},

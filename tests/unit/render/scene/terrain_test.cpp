@@ -58,6 +58,29 @@ TEST(Terrain, AMapLargerThanMemoryIsReadWhereItIsLookedAt) {
     EXPECT_NEAR(farthest, 999'999 / std::sqrt(2.0), 50);
 }
 
+// Between posts the ground is where a line from one to the next has it, not at the nearest post; on a sphere
+// down is to its middle.
+TEST(Terrain, HeightAboveGroundIsThatUnderThePoint) {
+    class Slope final : public HeightMap {
+      public:
+        int columns() const override { return 101; }
+        int rows() const override { return 101; }
+        double spacing_m() const override { return 20; }
+        float height_m(int column, int row) const override {
+            return static_cast<float>(6 * column - 4 * row);
+        }
+    } map;
+    // 0.3 m up a metre to the east, 0.2 m to the north; the middle is at 100 m.
+    EXPECT_NEAR(*height_above_ground_m(map, 0, {13, -7, 150}), 150 - (100 + 0.3 * 13 - 0.2 * 7), 1e-9);
+    EXPECT_NEAR(*height_above_ground_m(map, 0, {1000, 1000, 0}), -600, 1e-9);  // the map's corner
+    EXPECT_FALSE(height_above_ground_m(map, 0, {1001, 0, 150}));
+    EXPECT_FALSE(height_above_ground_m(map, 0, {std::nan(""), 0, 150}));
+    constexpr double kMoon_m = 1737.4e3;
+    const double angle = 500 / kMoon_m, r = kMoon_m + 100 + 0.3 * 500 + 42;
+    EXPECT_NEAR(*height_above_ground_m(map, kMoon_m, {r * std::sin(angle), 0, r * std::cos(angle) - kMoon_m}),
+                42, 1e-6);
+}
+
 // On a sphere, points of the map keep their distance along the ground and their height.
 TEST(Terrain, OnASphereDistancesAlongTheGroundStay) {
     constexpr double kMoon_m = 1737.4e3;
