@@ -78,7 +78,7 @@ class Installed(unittest.TestCase):
             self.hilcam("render", name, "--out", "frame.png", "--set", "camera.width_px=64", "--set", "camera.height_px=48")
             self.assertEqual((self.work / "frame.png").read_bytes()[16:24], b"\0\0\0\x40\0\0\0\x30")
             (self.work / "frame.png").unlink()
-        self.assertIn("no such file", self.hilcam("check", "smal", status=2))
+        self.assertIn("nearest: small", self.hilcam("check", "smal", status=2))
 
     def test_a_scenario_of_ones_own_names_shipped_files(self):
         text = (SOURCE / "configs/scenarios/small.yaml").read_text().replace("../", "")
