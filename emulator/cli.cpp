@@ -204,8 +204,7 @@ int check(const Options& o) {
     }
     const ScenarioConfig scenario = load_scenario(o.config, o.overrides);
     require_camera(o, scenario);
-    CheckReport report = in_memory(scenario, [&] { return check_scenario(scenario, o.camera); });
-    for (std::string& line : late_warnings(report)) report.warnings.push_back(std::move(line));
+    const CheckReport report = in_memory(scenario, [&] { return check_scenario(scenario, o.camera); });
     fmt::print("{}", o.json ? to_json(report) : to_text(report));
     return 0;
 }

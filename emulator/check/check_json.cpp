@@ -139,7 +139,8 @@ std::string to_json(const CheckReport& report) {
                            {"sheet", sheet_of(c.sheet)},
                            {"frame_ms", c.frame_time ? Json{{"render", c.frame_time->render_ms},
                                                             {"sensor", c.frame_time->sensor_ms},
-                                                            {"threads", c.frame_time->threads}}
+                                                            {"threads", c.frame_time->threads},
+                                                            {"late", c.is_late()}}
                                                      : Json()},
                            {"share_in_bins", c.share_in_bins},
                            {"plan", c.plan}});

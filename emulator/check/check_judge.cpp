@@ -140,20 +140,4 @@ std::vector<std::string> judge(const ScenarioConfig& s, const CameraReport& came
     return out;
 }
 
-// Both stages share the cores, also where one frame's rendering overlaps the sensing of the one before.
-std::vector<std::string> late_warnings(const CheckReport& report) {
-    std::vector<std::string> out;
-    for (const CameraReport& c : report.reports) {
-        if (!c.frame_time || !(c.period_s > 0)) continue;
-        const double frame_ms = c.frame_time->render_ms + c.frame_time->sensor_ms;
-        if (frame_ms <= 1e3 * c.period_s) continue;
-        out.push_back(
-            fmt::format("camera {}: a frame takes {:.3g} ms on this machine, and {:.4g} frames/s leave "
-                        "{:.3g} ms: exposures will "
-                        "be missed (camera.frame_rate_hz, quality, loop.frame_budget_ms)",
-                        c.number, frame_ms, 1 / c.period_s, 1e3 * c.period_s));
-    }
-    return out;
-}
-
 }  // namespace hilcam

@@ -22,6 +22,13 @@ struct CameraReport {
     double period_s = 0;  // from frame to frame; 0: frames are asked for
     std::optional<FrameTime> frame_time;
     std::vector<std::string> plan;  // a line each, with its reason
+
+    // A frame took longer on this machine than it has. Not a warning: it depends on what else the machine
+    // did. Both stages share the cores, also where one frame's rendering overlaps the sensing of the one
+    // before.
+    bool is_late() const {
+        return frame_time && period_s > 0 && frame_time->render_ms + frame_time->sensor_ms > 1e3 * period_s;
+    }
 };
 
 struct CheckReport {
@@ -36,10 +43,6 @@ struct CheckReport {
 
 // What is probably not meant in what a camera sees. scenario: as that camera has it.
 std::vector<std::string> judge(const ScenarioConfig& scenario, const CameraReport& camera);
-
-// Cameras whose frames took longer on this machine than they have: a line each. Unlike the report's own
-// warnings these depend on what else the machine did.
-std::vector<std::string> late_warnings(const CheckReport& report);
 
 std::string to_text(const CheckReport& report);
 std::string to_json(const CheckReport& report);

@@ -115,6 +115,10 @@ void add_frame_time(const CameraReport& c, std::string& out) {
         c.frame_time->render_ms, c.frame_time->sensor_ms, c.frame_time->threads,
         c.period_s > 0 ? fmt::format("; {:.4g} frames/s leave {:.3g} ms", 1 / c.period_s, 1e3 * c.period_s)
                        : "");
+    if (c.is_late())
+        out +=
+            "              longer than it has: exposures will be missed here (camera.frame_rate_hz, quality, "
+            "loop.frame_budget_ms)\n";
 }
 
 void add_camera(const CameraReport& c, std::span<const CameraReport> earlier, std::size_t cameras,
