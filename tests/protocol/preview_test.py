@@ -555,7 +555,7 @@ class PageInBrowser(unittest.TestCase):
         page.wait("preview.frame.frameWidth === 128 && preview.frame.frameHeight === 96")
         # A refused value is said, and the old one stays.
         page.run("{" + change.format("gain_db", 99) + "}")
-        page.wait("document.getElementById('settings-answer').textContent.includes('refuses')")
+        page.wait("document.getElementById('settings-answer').textContent.includes('gain_db: found 99; accepted: ')")
         self.assertEqual(status()["settings"]["gain_db"], 3)
         self.forgive(" 409 ")
 
