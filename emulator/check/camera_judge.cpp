@@ -13,7 +13,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// The smallest pixels sold, of 0.6 um, hold a few thousand electrons.
+// Sensors of cameras hold thousands.
 constexpr double kLeastWell_e = 500;
 // Designers let the converter end near the full well; a gain at power-up may leave a tenth of it.
 constexpr double kLeastShare = 0.02;
@@ -24,10 +24,10 @@ void judge_well(const CameraSheet& s, Lines& out) {
     const double converter_share = s.converter_e / s.well_e;
     const double well_share = (s.well_dn - s.camera.offset_dn) / (s.most_dn - s.camera.offset_dn);
     if (s.well_e < kLeastWell_e)
-        out.push_back(fmt::format(
-            "camera.full_well_e is {:.4g}: the smallest pixels hold thousands of electrons; does the "
-            "data sheet count in ke-?",
-            s.well_e));
+        out.push_back(
+            fmt::format("camera.full_well_e is {:.4g}: sensors of cameras hold thousands of electrons; does "
+                        "the data sheet count in ke-?",
+                        s.well_e));
     else if (converter_share < kLeastShare)
         out.push_back(fmt::format(
             "the camera's converter ends at {:.4g} e-, {:.2g} % of its full well of {:.4g} e-: "
@@ -46,8 +46,8 @@ void judge_black(const CameraSheet& s, Lines& out) {
     const double noise_dn = std::hypot(s.dark_shot_e, s.camera.dark_noise_e()) * s.gain_dn_e;
     const double black_dn = s.camera.offset_dn + s.dark_e_s * s.exposure_s * s.gain_dn_e;
     if (black_dn + 0.5 >= kSigmasBelowBlack * noise_dn) return;
-    // Of a Gaussian that is cut off at 0, Johnson, Kotz & Balakrishnan, Continuous Univariate Distributions 1
-    // (1994), section 13.10.1: the mean rises by sigma (phi(x) - x Phi(-x)), x = black / sigma.
+    // The mean of max(n, 0), n a Gaussian about black with this sigma, is above black by
+    // sigma (phi(x) - x Phi(-x)), x = black / sigma: the integral of -n over n < 0.
     const double x = black_dn / noise_dn;
     const double rise_dn =
         noise_dn * (std::exp(-0.5 * x * x) / std::sqrt(2 * kPi) - 0.5 * x * std::erfc(x / std::sqrt(2.0)));

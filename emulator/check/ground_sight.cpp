@@ -30,8 +30,8 @@ std::optional<BodyId> first_body(const ScenarioConfig& s, const Bodies& bodies, 
     return nearest;
 }
 
-// Of a surface, over a white Lambert one that faces the Sun: the mean over the camera's band, by the
-// electrons that it makes of sunlight.
+// Returns the electrons that the ground makes of sunlight, over those of a white Lambert surface that faces
+// the Sun, in the camera's band.
 double over_white(const BodyLook& look, const CameraModel& camera, const SpectralGrid& band,
                   const GroundSight& ground, double phase_rad) {
     const Spectrum sun = solar_irradiance_1au_w_m2_um(band);

@@ -25,7 +25,8 @@ class ShownTerrain {
     // calls.
     Pose update(const WorldSnapshot& world, double focal_length_px, ShownObject& object);
 
-    // Of the camera at the last update(), as the map has the ground; none beside the map. Loop.
+    // Returns the camera's height at the last update(), over the ground as the map has it; none beside the
+    // map. Loop.
     std::optional<double> height_above_ground_m() const {
         return hilcam::height_above_ground_m(*terrain_->map, terrain_->radius_m, seen_from_m_);
     }

@@ -194,8 +194,8 @@ typedef struct {
     hilcam_clock_reading clock;
 } hilcam_acknowledgement;
 
-// Bits of `faults` beside those of the faults on demand: light between surfaces is not kept yet, simulated time
-// stood, no poses came, a time tag went back.
+// Bits of `faults` beside those of the faults on demand: light between surfaces is not kept yet, simulated
+// time stood, no poses came, a time tag went back.
 #define HILCAM_NO_KEPT_LIGHT ((uint64_t)1 << 59)
 #define HILCAM_TIME_STANDS ((uint64_t)1 << 60)
 #define HILCAM_POSES_STALE ((uint64_t)1 << 61)
