@@ -61,7 +61,7 @@ class FramePlacer {
     double radius_m(std::size_t object) const { return radii_m_[object]; }
     // The last of the objects is the ground.
     bool has_terrain() const { return terrain_ != nullptr; }
-    // Of the camera; none without terrain, and beside its map.
+    // Returns the camera's height over the terrain; none without terrain, and beside its map.
     std::optional<double> height_above_ground_m() const {
         return terrain_ ? terrain_->height_above_ground_m() : std::nullopt;
     }

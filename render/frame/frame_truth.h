@@ -131,8 +131,8 @@ struct FrameTruth {
     Vec3d sun_world_dir;        // from the camera
     Vec3d sun_camera_dir;       // the same in camera axes
     double sun_distance_m = 0;  // from the camera
-    std::optional<double>
-        height_above_ground_m;      // of the camera, over the terrain's map; none: no terrain there
+    // The camera's, over the map of the terrain; none: there is no terrain below it.
+    std::optional<double> height_above_ground_m;
     std::vector<SeenThing> things;  // objects by number, then the Sun, then bodies
     std::vector<SeenPart> parts;
     std::vector<SeenStar> stars;       // that are drawn in the frame, in the catalogue's order

@@ -5,11 +5,10 @@ namespace hilcam {
 Fields fields(RenderQuality& q) {
     return {
         integer("samples_per_axis", q.samples_per_axis, {1, 16}, "n: each pixel is an n x n grid of rays"),
-        text(
-            "visibility", q.visibility,
-            "rays, or buffer: what the camera sees by sixteen samples a pixel at once, where all rows have "
-            "one "
-            "instant, there is no terrain and the lens bends lines little within 16 pixels (elsewhere rays)"),
+        text("visibility", q.visibility,
+             "rays, or buffer: what the camera sees by sixteen samples a pixel at once, where all rows have "
+             "one instant, there is no terrain and the lens bends lines little within 16 pixels (elsewhere "
+             "rays)"),
         text("path_model", q.path_model, "kept | direct | hemisphere | path, or a plug-in's"),
         integer("max_depth", q.max_depth, {1, 64},
                 "surfaces that a light path may meet; 1: direct sunlight only"),

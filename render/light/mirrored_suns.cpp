@@ -43,8 +43,8 @@ struct Reflected {
     Spectrum light;
 };
 
-// Of all that a vertex reflects to the viewer from there, per unit of irradiance across the direction; and
-// where a ray begins.
+// What a vertex reflects to the viewer of light from a direction, per unit of irradiance across it, and where
+// a ray that asks for that light begins.
 struct Scattered {
     Spectrum light;
     Vec3f start_m;

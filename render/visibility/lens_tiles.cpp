@@ -118,7 +118,7 @@ Fit fit(const ImageGeometry& g, int tile_x, int tile_y) {
 
 int tiles_in(int size_px) { return (size_px + kVisibilityTile_px - 1) / kVisibilityTile_px; }
 
-// Of every fourth tile and the last ones: lenses change slowly.
+// Returns the greatest error of every fourth tile and the last ones: lenses change slowly.
 double tile_error_px(const ImageGeometry& g) {
     double most_px = 0;
     const int across = tiles_in(g.padded_width()), down = tiles_in(g.padded_height());
