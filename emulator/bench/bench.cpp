@@ -1,28 +1,24 @@
 #include "emulator/bench/bench.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "emulator/bench/pilot.h"
 #include "emulator/progress/progress.h"
-#include "emulator/recording/machine_report.h"
 #include "emulator/run/emulator.h"
-#include "emulator/run/report.h"
-#include "render/frame/render_bench.h"
 #include "render/vocabulary/median.h"
 
 namespace hilcam {
 namespace {
 
-using nlohmann::json;
-
 struct Run {
     double rate_hz, p50_ms, p99_ms, core_ms;
-    json stages, latency;
+    StageTimes stages;
+    Percentiles latency;
     RenderStats render;
-    double floor_render_ms, fft_ms, copy_ms;
+    BenchFloor floor;
     std::size_t triangles;
-    json path_models, within_budget;
+    std::vector<PathModelSpeed> path_models;
+    std::optional<double> within_budget;
 };
 
 // The world at nine places of the circle, the first one where it begins.
@@ -53,19 +49,6 @@ double copy_ms(const ScenarioConfig& scenario) {
     return median(times);
 }
 
-json path_models(Renderer& renderer, const WorldSnapshot& world) {
-    json out;
-    for (const PathModelSpeed& speed : renderer.path_model_speeds(world, Modules(), 5)) {
-        const auto rays = static_cast<double>(speed.rays);
-        out[speed.name] = {{"rays", speed.rays},
-                           {"frame_ms", speed.frame_ms},
-                           {"mrays_s", rays / speed.frame_ms * 1e-3},
-                           {"bare_mrays_s", rays / speed.bare_ms * 1e-3},
-                           {"ratio_to_bare", speed.frame_ms / speed.bare_ms}};
-    }
-    return out;
-}
-
 Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     constexpr std::uint64_t kWarmUp = 20;
     RunLimits limits;
@@ -93,8 +76,8 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     run.p50_ms = meters.interval.quantile_ms(0.5);
     run.p99_ms = meters.interval.quantile_ms(0.99);
     run.rate_hz = static_cast<double>(limits.frames) / emulator.seconds();
-    run.stages = stages_report(meters);
-    run.latency = percentiles_report(meters.latency);
+    run.stages = stage_times(meters);
+    run.latency = percentiles_of(meters.latency);
     run.render = emulator.loop().render_stats();
     run.within_budget = within_budget(emulator.loop().counters());
     const std::vector<WorldSnapshot> snapshots = around(emulator, flight);
@@ -103,83 +86,65 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
         floor.push_back(emulator.renderer().floor_ms(snapshot));
         fft.push_back(emulator.chain().fft_pair_ms());
     }
-    run.floor_render_ms = median(floor);
-    run.fft_ms = median(fft);
-    run.copy_ms = copy_ms(scenario);
+    run.floor = {median(floor), median(fft), copy_ms(scenario)};
     run.triangles = emulator.renderer().triangles();
-    if (options.path_models) run.path_models = path_models(emulator.renderer(), snapshots.front());
+    if (options.path_models)
+        run.path_models = emulator.renderer().path_model_speeds(snapshots.front(), Modules(), 5);
     return run;
 }
 
-// Of figures that each run has in an object of the same keys, at any depth.
-json medians(const std::vector<json>& runs) {
-    if (!runs.front().is_object()) {
-        std::vector<double> values;
-        for (const json& run : runs) values.push_back(run.get<double>());
-        return median(values);
-    }
-    json out;
-    for (const auto& [key, ignored] : runs.front().items()) {
-        std::vector<json> parts;
-        for (const json& run : runs) parts.push_back(run[key]);
-        out[key] = medians(parts);
-    }
+// Returns the median over the runs of what `figure` says of each.
+template <class Figure>
+double median_of(const std::vector<Run>& runs, const Figure& figure) {
+    std::vector<double> values;
+    for (const Run& run : runs) values.push_back(figure(run));
+    return median(values);
+}
+
+template <class Figure>
+Percentiles median_percentiles(const std::vector<Run>& runs, const Figure& figure) {
+    Percentiles out;
+    for (double Percentiles::*part :
+         {&Percentiles::p50_ms, &Percentiles::p99_ms, &Percentiles::p999_ms, &Percentiles::max_ms})
+        out.*part = median_of(runs, [&](const Run& run) { return figure(run).*part; });
+    return out;
+}
+
+Bench over_runs(const std::vector<Run>& runs) {
+    Bench out;
+    const Run& last = runs.back();
+    out.triangles = last.triangles;
+    out.rendered = last.render;
+    out.frame_rate_hz = median_of(runs, [](const Run& r) { return r.rate_hz; });
+    out.p50_ms = median_of(runs, [](const Run& r) { return r.p50_ms; });
+    out.p99_ms = median_of(runs, [](const Run& r) { return r.p99_ms; });
+    for (const Run& run : runs) out.runs_p50_ms.push_back(run.p50_ms);
+    out.core_ms_per_frame = median_of(runs, [](const Run& r) { return r.core_ms; });
+    for (const auto& [stage, ignored] : last.stages)
+        out.stages[stage] = median_percentiles(runs, [&](const Run& r) { return r.stages.at(stage); });
+    out.latency = median_percentiles(runs, [](const Run& r) { return r.latency; });
+    out.floor = {median_of(runs, [](const Run& r) { return r.floor.embree_ms; }),
+                 median_of(runs, [](const Run& r) { return r.floor.fft_pair_ms; }),
+                 median_of(runs, [](const Run& r) { return r.floor.copy_ms; })};
+    out.within_noise_budget = last.within_budget;
+    out.path_models = last.path_models;
     return out;
 }
 
 }  // namespace
 
-json bench(const ScenarioConfig& scenario, const BenchOptions& options) {
+Bench bench(const ScenarioConfig& scenario, const BenchOptions& options) {
     std::vector<Run> runs;
     Progress progress("bench", options.runs);
     for (int i = 0; i < options.runs; ++i) {
         runs.push_back(run_once(scenario, options));
         progress.done(i + 1);
     }
-    const auto median_of = [&](auto member) {
-        std::vector<double> values;
-        for (const Run& run : runs) values.push_back(run.*member);
-        return median(values);
-    };
-    const auto figures_of = [&](auto member) {
-        std::vector<json> values;
-        for (const Run& run : runs) values.push_back(run.*member);
-        return values;
-    };
-    const double p50 = median_of(&Run::p50_ms);
-    const double floor =
-        median_of(&Run::floor_render_ms) + median_of(&Run::fft_ms) + median_of(&Run::copy_ms);
-    const Run& last = runs.back();
-    return {
-        {"scenario", scenario.name},
-        {"width", scenario.camera.width_px},
-        {"height", scenario.camera.height_px},
-        {"triangles", last.triangles},
-        {"coverage", last.render.coverage},
-        {"frame_rate_hz", median_of(&Run::rate_hz)},
-        {"frame_ms",
-         {{"p50", p50}, {"p99", median_of(&Run::p99_ms)}, {"runs_p50", figures_of(&Run::p50_ms)}}},
-        {"core_ms_per_frame", median_of(&Run::core_ms)},
-        {"stages_ms", medians(figures_of(&Run::stages))},
-        {"latency_ms", medians(figures_of(&Run::latency))},
-        {"floor_ms", floor},
-        {"floor_parts_ms",
-         {{"embree", median_of(&Run::floor_render_ms)},
-          {"fft_pair", median_of(&Run::fft_ms)},
-          {"copy", median_of(&Run::copy_ms)}}},
-        {"ratio_to_floor", p50 / floor},
-        {"rays",
-         {{"primary", last.render.primary_rays},
-          {"shadow", last.render.shadow_rays},
-          {"bounce_shadow", last.render.bounce_shadow_rays},
-          {"lamp", last.render.lamp_rays},
-          {"path", last.render.secondary_rays}}},
-        {"within_noise_budget", last.within_budget},
-        {"path_models", last.path_models},
-        {"runs", options.runs},
-        {"frames_per_run", options.frames},
-        {"machine", machine_report()},
-    };
+    Bench out = over_runs(runs);
+    out.scenario = scenario.name;
+    out.width_px = scenario.camera.width_px, out.height_px = scenario.camera.height_px;
+    out.options = options;
+    return out;
 }
 
 }  // namespace hilcam

@@ -2,10 +2,14 @@
 // `hilcam bench`: how fast a scenario runs here, and how far that is from what cannot be avoided.
 
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "emulator/run/report.h"
 #include "emulator/scenario/app_config.h"
+#include "render/frame/render_bench.h"
+#include "render/frame/renderer.h"
 
 namespace hilcam {
 
@@ -15,12 +19,37 @@ struct BenchOptions {
     bool path_models = false;    // also a frame with each path model, against bare Embree on the same rays
 };
 
+// The time that cannot be avoided: bare Embree on the primary and shadow rays of such frames (the median of
+// nine places of the circle), one FFT pair, one copy of the frame.
+struct BenchFloor {
+    double embree_ms = 0, fft_pair_ms = 0, copy_ms = 0;
+
+    double sum_ms() const { return embree_ms + fft_pair_ms + copy_ms; }
+};
+
+// Times are medians over the runs, counts those of the last.
+struct Bench {
+    std::string scenario;
+    std::int64_t width_px = 0, height_px = 0;
+    BenchOptions options;
+    std::size_t triangles = 0;
+    RenderStats rendered;  // of the last frame
+    double frame_rate_hz = 0, p50_ms = 0, p99_ms = 0;
+    std::vector<double> runs_p50_ms;
+    // The processor time of all the process's threads over the timed frames, the pilot's (pilot.h) among
+    // them; not in it are loading, warming up and the floor's measurement.
+    double core_ms_per_frame = 0;
+    StageTimes stages;
+    Percentiles latency;  // from a pose's arrival to the first frame that shows it, handed over
+    BenchFloor floor;
+    std::optional<double> within_noise_budget;
+    std::vector<PathModelSpeed> path_models;  // where the options ask for them
+
+    double ratio_to_floor() const { return p50_ms / floor.sum_ms(); }
+};
+
 // The camera flies once around the first object while frames are computed as fast as the pipeline goes,
-// without outputs. Figures are medians over the runs, counts those of the last. latency_ms: from a pose's
-// arrival to the first frame that shows it, handed over. core_ms_per_frame: processor time of all the
-// process's threads over the timed frames, the pilot's (pilot.h) among them; not in it are loading, warming
-// up and the floor's measurement. floor_ms: bare Embree on the primary and shadow rays
-// of such frames (the median of nine places of the circle), plus one FFT pair, plus one copy of the frame.
-nlohmann::json bench(const ScenarioConfig& scenario, const BenchOptions& options);
+// without outputs. Throws InputError, DeviceError. Owner thread.
+Bench bench(const ScenarioConfig& scenario, const BenchOptions& options);
 
 }  // namespace hilcam

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
-#include "emulator/recording/machine_report.h"
-#include "emulator/run/report.h"
 #include "emulator/world/clock.h"
 #include "render/vocabulary/median.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
-
-using nlohmann::json;
 
 struct Effect {
     const char* name;
@@ -142,12 +137,8 @@ class Rig {
     std::uint64_t frames_ = 0;
 };
 
-struct Stage {
-    double all_ms, collapse_ms, convolve_ms, points_ms, digitise_ms, fft_pair_ms;
-};
-
 // The bare FFT pair in turn with the stage, so that both see the same machine.
-Stage time_stage(Rig& rig, int runs) {
+SensorStageTimes time_stage(Rig& rig, int runs) {
     std::vector<double> all, collapse, convolve, points, digitise, pair;
     for (int i = 0; i < runs; ++i) {
         all.push_back(rig.run());
@@ -185,7 +176,7 @@ double copy_ms(const CameraModel& camera, int runs) {
 
 }  // namespace
 
-json bench_sensor(const ScenarioConfig& scenario, int runs) {
+SensorBench bench_sensor(const ScenarioConfig& scenario, int runs) {
     const SpectralGrid grid(scenario.spectrum_edges_um);
     const SensorSampling sampling = sampling_of(scenario.quality);
     CameraModel common = scenario.camera;
@@ -194,28 +185,18 @@ json bench_sensor(const ScenarioConfig& scenario, int runs) {
     const Exposure plain{.exposure_s = common.exposure_s};
     Rig base_rig(common, grid, sampling, picture, plain);
     for (int i = 0; i < 5; ++i) base_rig.run();  // warming up
-    const Stage base = time_stage(base_rig, runs);
-    const double floor_ms = base.fft_pair_ms + copy_ms(common, runs);
-    json out = {{"camera", common.name},
-                {"width", frame_size(common)[0]},
-                {"height", frame_size(common)[1]},
-                {"sensor_ms", base.all_ms},
-                {"stages_ms",
-                 {{"collapse", base.collapse_ms},
-                  {"convolve", base.convolve_ms},
-                  {"points", base.points_ms},
-                  {"digitise", base.digitise_ms}}},
-                {"floor_ms", floor_ms},
-                {"fft_pair_ms", base.fft_pair_ms},
-                {"ratio_to_floor", base.all_ms / floor_ms},
-                {"runs", runs},
-                {"machine", machine_report()}};
+    SensorBench out;
+    out.camera = common.name;
+    out.width_px = frame_size(common)[0], out.height_px = frame_size(common)[1];
+    out.runs = runs;
+    out.base = time_stage(base_rig, runs);
+    out.floor_ms = out.base.fft_pair_ms + copy_ms(common, runs);
     for (const Effect& effect : effects()) {
         CameraModel camera = common;
         Exposure exposure = plain;
         effect.turn_on(camera, exposure);
         Rig rig(camera, grid, sampling, picture, exposure);
-        out["effects"].push_back({{"name", effect.name}, {"extra_ms", extra_ms(base_rig, rig, runs)}});
+        out.effects.push_back({effect.name, extra_ms(base_rig, rig, runs)});
     }
     return out;
 }

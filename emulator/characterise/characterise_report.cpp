@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "emulator/run/page_maker.h"
 #include "emulator/run/report.h"
@@ -18,10 +17,10 @@ namespace {
 
 using nlohmann::json;
 
-json figure(std::optional<double> configured, const Measured& measured) {
-    return {{"configured", configured ? json(*configured) : json(nullptr)},
-            {"measured", measured.value},
-            {"uncertainty", measured.uncertainty}};
+json figure_json(const SheetFigure& f) {
+    return {{"configured", f.configured},
+            {"measured", f.measured.value},
+            {"uncertainty", f.measured.uncertainty}};
 }
 
 json parts(const Nonuniformity& n) {
@@ -113,14 +112,18 @@ json dark_json(const Characterisation& r) {
     return out;
 }
 
-json mtf_json(const MtfCurve& m) {
+json mtf_points(const MtfCurve& m) {
     json points = json::array();
     for (std::size_t i = 0; i < m.measured.size(); ++i)
         points.push_back({{"frequency_cy_px", m.frequency_cy_px[i]},
                           {"configured", m.configured[i]},
                           {"measured", m.measured[i]},
                           {"uncertainty", m.uncertainty[i]}});
-    return {{"normal_deg", m.normal_rad / kDegree_rad}, {"points", points}};
+    return points;
+}
+
+json mtf_json(const MtfCurve& m) {
+    return {{"normal_deg", m.normal_rad / kDegree_rad}, {"points", mtf_points(m)}};
 }
 
 json settings_json(const Characterisation& r) {
@@ -143,44 +146,52 @@ json settings_json(const Characterisation& r) {
 
 }  // namespace
 
-json characterisation_json(const Characterisation& r, const DetectorPictures& pictures) {
+std::vector<SheetFigure> sheet_figures(const Characterisation& r, const DetectorPictures& pictures) {
     const CameraModel& c = r.setup.camera;
     const double gain = c.system_gain_dn_e(r.setup.gain_db);
     const double saturation_e = configured_saturation_e(c, r.setup.gain_db);
     const double noise_e = c.dark_noise_e();
     const double dark_e_s =
         pictures.dark_e_s.width() > 0 ? statistics_of(pictures.dark_e_s, c).mean : c.dark_current_now_e_s();
+    const double prnu = std::hypot(c.prnu_fraction, statistics_of(pictures.prnu, c).deviation);
+    const double dsnu_e = std::hypot(c.dsnu_e, statistics_of(pictures.offset_e, c).deviation);
+    const double linearity = without_rounding(r.configured_linearity.error_fraction.value);
     // The lines of a line camera are all of one row of pixels: what differs from pixel to pixel are columns.
     const bool lines = c.shutter.kind == ShutterKind::kLineScan;
-    const Measured& prnu = lines ? r.prnu_fraction.column : r.prnu_fraction.pixel;
-    const Measured& dsnu = lines ? r.dsnu_e.column : r.dsnu_e.pixel;
     const Measured threshold = absolute_threshold_e(r.dark_noise_e, r.gain_dn_e);
-    const Measured threshold_configured = absolute_threshold_e({noise_e, 0}, {gain, 0});
+    const Measured threshold_made = absolute_threshold_e({noise_e, 0}, {gain, 0});
     const std::size_t nyquist = r.horizontal.nyquist();
-    const auto mtf_at = [&](const MtfCurve& m) {
-        return figure(m.configured[nyquist], {m.measured[nyquist], m.uncertainty[nyquist]});
+    const auto mtf = [&](const char* key, const char* label, const MtfCurve& m) {
+        return SheetFigure{
+            key, label, "", 1, m.configured[nyquist], {m.measured[nyquist], m.uncertainty[nyquist]}};
     };
     return {
-        {"camera", c.name},
-        {"gain_dn_e", figure(gain, r.gain_dn_e)},
-        {"qe_peak", figure(configured_quantum_efficiency(r.setup), r.quantum_efficiency)},
-        {"read_noise_e", figure(noise_e, r.dark_noise_e)},
-        {"dark_current_e_s", figure(dark_e_s, r.dark_current.from_mean_e_s)},
-        {"full_well_e", figure(saturation_e, r.full_well_e)},
-        {"prnu_fraction",
-         figure(std::hypot(c.prnu_fraction, statistics_of(pictures.prnu, c).deviation), prnu)},
-        {"dsnu_e", figure(std::hypot(c.dsnu_e, statistics_of(pictures.offset_e, c).deviation), dsnu)},
-        {"linearity_error",
-         figure(without_rounding(r.configured_linearity.error_fraction.value), r.linearity.error_fraction)},
-        {"mtf_nyquist", mtf_at(r.horizontal)},
-        {"mtf_nyquist_vertical", mtf_at(r.vertical)},
-        {"snr_max_db", figure(snr_max_db({saturation_e, 0}).value, snr_max_db(r.saturation_capacity_e))},
-        {"dynamic_range_db", figure(dynamic_range_db({saturation_e, 0}, threshold_configured).value,
-                                    dynamic_range_db(r.saturation_capacity_e, threshold))},
-        {"saturation_capacity_e", figure(saturation_e, r.saturation_capacity_e)},
-        {"absolute_threshold_e", figure(threshold_configured.value, threshold)},
-        {"gain_standard_dn_e", figure(gain, r.standard_gain_dn_e)},
-        {"dark_current_from_variance_e_s", figure(dark_e_s, r.dark_current.from_variance_e_s)},
+        {"gain_dn_e", "System gain K", "DN/e-", 1, gain, r.gain_dn_e},
+        {"qe_peak", "Quantum efficiency", "%", 100, configured_quantum_efficiency(r.setup),
+         r.quantum_efficiency},
+        {"read_noise_e", "Temporal dark noise", "e-", 1, noise_e, r.dark_noise_e},
+        {"dark_current_e_s", "Dark current", "e-/s", 1, dark_e_s, r.dark_current.from_mean_e_s},
+        {"full_well_e", "Full well", "e-", 1, saturation_e, r.full_well_e},
+        {"saturation_capacity_e", "Saturation capacity", "e-", 1, saturation_e, r.saturation_capacity_e},
+        {"snr_max_db", "SNR max", "dB", 1, snr_max_db({saturation_e, 0}).value,
+         snr_max_db(r.saturation_capacity_e)},
+        {"absolute_threshold_e", "Absolute threshold", "e-", 1, threshold_made.value, threshold},
+        {"dynamic_range_db", "Dynamic range", "dB", 1,
+         dynamic_range_db({saturation_e, 0}, threshold_made).value,
+         dynamic_range_db(r.saturation_capacity_e, threshold)},
+        {"prnu_fraction", "PRNU", "%", 100, prnu, lines ? r.prnu_fraction.column : r.prnu_fraction.pixel},
+        {"dsnu_e", "DSNU", "e-", 1, dsnu_e, lines ? r.dsnu_e.column : r.dsnu_e.pixel},
+        {"linearity_error", "Linearity error", "%", 100, linearity, r.linearity.error_fraction},
+        mtf("mtf_nyquist", "MTF at Nyquist, rows", r.horizontal),
+        mtf("mtf_nyquist_vertical", "MTF at Nyquist, columns", r.vertical),
+        {"gain_standard_dn_e", nullptr, "DN/e-", 1, gain, r.standard_gain_dn_e},
+        {"dark_current_from_variance_e_s", nullptr, "e-/s", 1, dark_e_s, r.dark_current.from_variance_e_s},
+    };
+}
+
+json characterisation_json(const Characterisation& r, const DetectorPictures& pictures) {
+    json out = {
+        {"camera", r.setup.camera.name},
         {"linearity_extremes_fraction", {r.linearity.least_fraction, r.linearity.most_fraction}},
         {"prnu", parts(r.prnu_fraction)},
         {"dsnu", parts(r.dsnu_e)},
@@ -193,61 +204,32 @@ json characterisation_json(const Characterisation& r, const DetectorPictures& pi
         {"mtf", {{"horizontal", mtf_json(r.horizontal)}, {"vertical", mtf_json(r.vertical)}}},
         {"settings", settings_json(r)},
     };
-}
-
-// --- a table
-// ---------------------------------------------------------------------------------------------------------
-
-namespace {
-
-struct TableRow {
-    const char* key;
-    const char* label;
-    const char* unit;
-    double factor;
-};
-constexpr TableRow kRows[] = {
-    {"gain_dn_e", "System gain K", "DN/e-", 1},
-    {"qe_peak", "Quantum efficiency", "%", 100},
-    {"read_noise_e", "Temporal dark noise", "e-", 1},
-    {"dark_current_e_s", "Dark current", "e-/s", 1},
-    {"full_well_e", "Full well", "e-", 1},
-    {"saturation_capacity_e", "Saturation capacity", "e-", 1},
-    {"snr_max_db", "SNR max", "dB", 1},
-    {"absolute_threshold_e", "Absolute threshold", "e-", 1},
-    {"dynamic_range_db", "Dynamic range", "dB", 1},
-    {"prnu_fraction", "PRNU", "%", 100},
-    {"dsnu_e", "DSNU", "e-", 1},
-    {"linearity_error", "Linearity error", "%", 100},
-    {"mtf_nyquist", "MTF at Nyquist, rows", "", 1},
-    {"mtf_nyquist_vertical", "MTF at Nyquist, columns", "", 1},
-};
-
-}  // namespace
-
-std::string characterisation_table(const json& report) {
-    std::string out =
-        fmt::format("{}\n\n{:<26}{:>6}{:>14}{:>14}{:>14}{:>12}\n", report["camera"].get<std::string>(), "",
-                    "", "measured", "configured", "uncertainty", "deviation");
-    for (const TableRow& row : kRows) {
-        const json& f = report[row.key];
-        const double measured = f["measured"].get<double>(), configured = f["configured"].get<double>();
-        const std::string deviation =
-            std::abs(configured) > 1e-9 ? fmt::format("{:+.2f} %", 100 * (measured / configured - 1)) : "-";
-        out += fmt::format("{:<26}{:>6}{:>14.5g}{:>14.5g}{:>14.2g}{:>12}\n", row.label, row.unit,
-                           row.factor * measured, row.factor * configured,
-                           row.factor * f["uncertainty"].get<double>(), deviation);
-    }
-    const json& s = report["settings"];
-    out +=
-        fmt::format("\n{} pixels, {} defects left out; light of {:.0f} nm\n", s["pixels"].get<std::size_t>(),
-                    report["defects"].get<std::size_t>(), 1000 * s["wavelength_um"].get<double>());
-    for (const json& remark : s["remarks"]) out += remark.get<std::string>() + "\n";
+    for (const SheetFigure& f : sheet_figures(r, pictures)) out[f.key] = figure_json(f);
     return out;
 }
 
-// --- a folder
-// --------------------------------------------------------------------------------------------------------
+// --- a table ---
+
+std::string characterisation_table(const Characterisation& r, const DetectorPictures& pictures) {
+    std::string out = fmt::format("{}\n\n{:<26}{:>6}{:>14}{:>14}{:>14}{:>12}\n", r.setup.camera.name, "", "",
+                                  "measured", "configured", "uncertainty", "deviation");
+    for (const SheetFigure& f : sheet_figures(r, pictures)) {
+        if (!f.label) continue;
+        const double measured = f.measured.value;
+        const std::string deviation = std::abs(f.configured) > 1e-9
+                                          ? fmt::format("{:+.2f} %", 100 * (measured / f.configured - 1))
+                                          : "-";
+        out += fmt::format("{:<26}{:>6}{:>14.5g}{:>14.5g}{:>14.2g}{:>12}\n", f.label, f.unit,
+                           f.factor * measured, f.factor * f.configured, f.factor * f.measured.uncertainty,
+                           deviation);
+    }
+    out += fmt::format("\n{} pixels, {} defects left out; light of {:.0f} nm\n", r.pixels, r.defects,
+                       1000 * r.setup.wavelength_um);
+    for (const std::string& remark : r.setup.remarks) out += remark + "\n";
+    return out;
+}
+
+// --- a folder ---
 
 namespace {
 
@@ -268,16 +250,17 @@ void write_csv(const std::filesystem::path& file, const json& points) {
 
 }  // namespace
 
-void write_characterisation(const json& report, const std::filesystem::path& folder) {
+void write_characterisation(const Characterisation& r, const DetectorPictures& pictures,
+                            const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw DeviceError(folder.string() + ": cannot be made: " + error.message());
-    write_json(folder / "characterise.json", report);
-    write_csv(folder / "photon_transfer.csv", report["photon_transfer"]);
-    write_csv(folder / "linearity.csv", report["linearity"]);
-    write_csv(folder / "dark.csv", report["dark"]);
-    write_csv(folder / "mtf_horizontal.csv", report["mtf"]["horizontal"]["points"]);
-    write_csv(folder / "mtf_vertical.csv", report["mtf"]["vertical"]["points"]);
+    write_json(folder / "characterise.json", characterisation_json(r, pictures));
+    write_csv(folder / "photon_transfer.csv", light_json(r));
+    write_csv(folder / "linearity.csv", linearity_json(r));
+    write_csv(folder / "dark.csv", dark_json(r));
+    write_csv(folder / "mtf_horizontal.csv", mtf_points(r.horizontal));
+    write_csv(folder / "mtf_vertical.csv", mtf_points(r.vertical));
     run_page_maker("hilcam-plot-characterise",
                    {(folder / "characterise.json").string(), (folder / "index.html").string()});
 }

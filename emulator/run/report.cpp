@@ -15,39 +15,53 @@ double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
 }  // namespace
 
-json percentiles_report(const DurationHistogram& h) {
-    return {{"p50", rounded(h.quantile_ms(0.5))},
-            {"p99", rounded(h.quantile_ms(0.99))},
-            {"p99.9", rounded(h.quantile_ms(0.999))},
-            {"max", rounded(h.quantile_ms(1))}};
+Percentiles percentiles_of(const DurationHistogram& h) {
+    return {rounded(h.quantile_ms(0.5)), rounded(h.quantile_ms(0.99)), rounded(h.quantile_ms(0.999)),
+            rounded(h.quantile_ms(1))};
 }
 
-json stages_report(const StageMeters& m) {
-    return {{"setup", percentiles_report(m.setup)},       {"trace", percentiles_report(m.trace)},
-            {"stars", percentiles_report(m.stars)},       {"collapse", percentiles_report(m.collapse)},
-            {"convolve", percentiles_report(m.convolve)}, {"points", percentiles_report(m.points)},
-            {"digitise", percentiles_report(m.digitise)}, {"publish", percentiles_report(m.publish)},
-            {"render", percentiles_report(m.render)},     {"sense", percentiles_report(m.sense)}};
+StageTimes stage_times(const StageMeters& meters) {
+    using M = StageMeters;
+    constexpr std::pair<const char*, DurationHistogram M::*> kStages[] = {
+        {"setup", &M::setup},       {"trace", &M::trace},       {"stars", &M::stars},
+        {"collapse", &M::collapse}, {"convolve", &M::convolve}, {"points", &M::points},
+        {"digitise", &M::digitise}, {"publish", &M::publish},   {"render", &M::render},
+        {"sense", &M::sense}};
+    StageTimes out;
+    for (const auto& [name, stage] : kStages) out[name] = percentiles_of(meters.*stage);
+    return out;
 }
 
-json within_budget(const LoopCounters& counters) {
+void to_json(json& out, const Percentiles& p) {
+    out = {{"p50", p.p50_ms}, {"p99", p.p99_ms}, {"p99.9", p.p999_ms}, {"max", p.max_ms}};
+}
+
+std::optional<double> within_budget(const LoopCounters& counters) {
     const std::uint64_t lit_px = counters.lit_px.load();
-    if (lit_px == 0) return nullptr;
+    if (lit_px == 0) return {};
     return rounded(static_cast<double>(counters.within_budget_px.load()) / static_cast<double>(lit_px));
 }
 
+json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
 namespace {
 
-json outputs_report(const CameraStation& station, json& faults) {
+json outputs_report(const CameraStation& station) {
     json outputs = json::array();
     for (const FrameSink* sink : station.sinks()) {
         const SinkReport r = sink->report();
         json output = {{"name", r.name}, {"frames", r.frames}, {"dropped", r.dropped}};
         for (const auto& [name, value] : r.figures) output[name] = value;
         outputs.push_back(output);
-        if (!r.fault.empty()) faults.push_back(r.fault);
     }
     return outputs;
+}
+
+std::vector<std::string> output_faults(const CameraStation& station) {
+    std::vector<std::string> out;
+    for (const FrameSink* sink : station.sinks())
+        if (const std::string fault = sink->report().fault; !fault.empty()) out.push_back(fault);
+    return out;
 }
 
 // Faults on demand: how often each kind struck, and the first strike of each frame.
@@ -83,8 +97,8 @@ json quality_report(CameraStation& station) {
                    {"level_changes", counters.level_changes.load()},
                    {"frames_at_level", frames_at_level},
                    {"noise_budget", quality.noise_budget},
-                   {"within_noise_budget", within_budget(counters)}};
-    if (!report["within_noise_budget"].is_null())
+                   {"within_noise_budget", or_null(within_budget(counters))}};
+    if (within_budget(counters))
         report["worst_within_noise_budget"] = rounded(counters.worst_within_budget.load());
     return report;
 }
@@ -93,8 +107,6 @@ json camera_report(CameraStation& station, double seconds) {
     const FrameLoop& loop = station.loop();
     const DeliveryMeter& delivery = station.delivery();
     const auto frames = loop.counters().frames.load();
-    json faults = json::array();
-    json outputs = outputs_report(station, faults);
     return {
         {"camera", station.name()},
         {"frames", frames},
@@ -103,18 +115,26 @@ json camera_report(CameraStation& station, double seconds) {
         {"stale_frames", loop.counters().stale.load()},
         {"standing_frames", loop.counters().standing.load()},
         {"latency_ms",
-         {{"first_packet", percentiles_report(delivery.command_to_first)},
-          {"last_packet", percentiles_report(delivery.command_to_last)},
-          {"exposure_mid_to_last_packet", percentiles_report(delivery.exposure_to_last)}}},
-        {"outputs", outputs},
-        {"faults", faults},
+         {{"first_packet", percentiles_of(delivery.command_to_first)},
+          {"last_packet", percentiles_of(delivery.command_to_last)},
+          {"exposure_mid_to_last_packet", percentiles_of(delivery.exposure_to_last)}}},
+        {"outputs", outputs_report(station)},
+        {"faults", output_faults(station)},
         {"fault_strikes", strikes_report(station)},
         {"quality", quality_report(station)},
-        {"stages_ms", stages_report(loop.meters())},
+        {"stages_ms", stage_times(loop.meters())},
     };
 }
 
 }  // namespace
+
+RunOutcome run_outcome(const Emulator& emulator) {
+    const LoopCounters& counters = emulator.first().loop().counters();
+    RunOutcome out{counters.frames.load(), counters.deadline_misses.load(), output_faults(emulator.first())};
+    if (const Recorder* recorder = emulator.recorder())
+        if (const std::string fault = recorder->report().fault; !fault.empty()) out.faults.push_back(fault);
+    return out;
+}
 
 json run_report(const Emulator& emulator) {
     json report = camera_report(emulator.first(), emulator.seconds());
@@ -127,11 +147,11 @@ json run_report(const Emulator& emulator) {
         {"received", commands.received}, {"refused", commands.refused}, {"lost", commands.lost}};
     report["poses"] = {{"went_back", emulator.poses().went_back()}};
     report["machine"] = machine_report();
+    report["faults"] = run_outcome(emulator).faults;
     if (const Recorder* recorder = emulator.recorder()) {
         const RecorderReport r = recorder->report();
         report["recording"] = {{"file", r.file},   {"frames", r.frames}, {"commands", r.commands},
                                {"bytes", r.bytes}, {"lost", r.lost},     {"complete", r.fault.empty()}};
-        if (!r.fault.empty()) report["faults"].push_back(r.fault);
     }
     for (const auto& replay : emulator.replays()) {
         const Replay::Outcome outcome = replay->outcome();

@@ -1,19 +1,37 @@
 #pragma once
 // Reports that scripts read: the JSON of `run --report` and `bench --json`. Keys are part of the interface.
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "emulator/run/emulator.h"
 
 namespace hilcam {
 
-// p50, p99, p99.9 and max [ms].
-nlohmann::json percentiles_report(const DurationHistogram& histogram);
-// The same of every stage.
-nlohmann::json stages_report(const StageMeters& meters);
-// Share of the lit pixels of all frames whose rendering error was within the noise budget; null without one.
-nlohmann::json within_budget(const LoopCounters& counters);
+// Percentiles of durations, rounded to 0.1 us.
+struct Percentiles {
+    double p50_ms = 0, p99_ms = 0, p999_ms = 0, max_ms = 0;
+};
+Percentiles percentiles_of(const DurationHistogram& histogram);
+void to_json(nlohmann::json& out, const Percentiles& percentiles);
+// Holds each stage's percentiles by the stage's name.
+using StageTimes = std::map<std::string, Percentiles>;
+StageTimes stage_times(const StageMeters& meters);
+// Returns the share of the lit pixels of all frames whose rendering error was within the noise budget;
+// nothing where there is no budget.
+std::optional<double> within_budget(const LoopCounters& counters);
+// Returns null for nothing.
+nlohmann::json or_null(const std::optional<double>& value);
+
+// Says how the first camera's run went, and the recording with it.
+struct RunOutcome {
+    std::uint64_t frames = 0, deadline_misses = 0;
+    std::vector<std::string> faults;  // of outputs and the recording, a line each
+};
+RunOutcome run_outcome(const Emulator& emulator);
 // Of the whole run: the first camera's figures at the top, with several cameras each one's under `cameras`.
 nlohmann::json run_report(const Emulator& emulator);
 // A folder for files, before anything is measured for them. Throws DeviceError when it cannot be made.

@@ -183,7 +183,7 @@ std::string run_status(const StatusSources& s) {
                           {{"first_packet", histogram(s.delivery.command_to_first)},
                            {"last_packet", histogram(s.delivery.command_to_last)},
                            {"exposure_mid_to_last_packet", histogram(s.delivery.exposure_to_last)}}},
-                         {"stages_ms", stages_report(s.loop.meters())},
+                         {"stages_ms", stage_times(s.loop.meters())},
                          {"commands", commands_status(s.receivers)},
                          {"outputs", outputs_status(s.sinks)},
                          {"faults", faults_status(s.faults, s.scenario)},

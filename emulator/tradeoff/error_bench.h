@@ -24,14 +24,37 @@ struct ErrorBenchOptions {
     std::vector<std::string> reference_set;  // KEY=VALUE, in place of reference_overrides()
 };
 
-// A view's figures are means over its frames, those in sensor noise over all lit pixels of its frames
-// together. Over all views: in sensor noise over all lit pixels of all views together; false lights, the sum;
-// the others, the mean over the views that have them. Null: there is no such thing in the picture. Throws
-// InputError, DeviceError. Owner thread.
-nlohmann::json error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
-                           const std::filesystem::path& cache_folder,
-                           const std::function<void(const std::string&)>& log);
-// The same as a table.
-std::string error_bench_text(const nlohmann::json& report);
+// How far pictures are off. Of a view: means over its frames, those in sensor noise over all lit pixels of
+// its frames together. Over all views: in sensor noise over all lit pixels of all views together; false
+// lights, the sum; the others, the mean over the views that have them.
+struct ErrorFigures {
+    PictureErrors picture;  // but for its noise
+    NoiseError error, scatter;
+};
+
+struct ErrorView : ErrorFigures {
+    double angle_deg = 0;
+    Vec3d position_m;  // of the camera, in the world
+    int reference_frames = 0;
+    double reference_seconds = 0;
+    NoiseError reference_standard_error;
+};
+
+struct ErrorBench {
+    std::string scenario;
+    std::int64_t width_px = 0, height_px = 0;
+    std::vector<ErrorView> views;
+    ErrorFigures all_views;
+    std::uint64_t frames_per_view = 0;
+    std::vector<std::string> reference_set;  // KEY=VALUE, what the references have in place of the scenario's
+};
+
+// Throws InputError, DeviceError. Owner thread.
+ErrorBench error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
+                       const std::filesystem::path& cache_folder,
+                       const std::function<void(const std::string&)>& log);
+// Null in it: there is no such thing in the picture.
+nlohmann::json error_bench_json(const ErrorBench& result);
+std::string error_bench_text(const ErrorBench& result);
 
 }  // namespace hilcam

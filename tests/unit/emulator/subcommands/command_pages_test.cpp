@@ -1,7 +1,7 @@
 // A small command line as data, as manual pages, as a completion. How man and bash take those of the program:
 // tests/install/pages_test.py.
 
-#include "emulator/command_pages.h"
+#include "emulator/subcommands/command_pages.h"
 
 #include <gmock/gmock.h>
 

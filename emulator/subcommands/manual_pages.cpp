@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "emulator/command_pages.h"
+#include "emulator/subcommands/command_pages.h"
 
 namespace hilcam {
 namespace {

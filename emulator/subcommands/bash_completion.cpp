@@ -1,6 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
-#include "emulator/command_pages.h"
+#include "emulator/subcommands/command_pages.h"
 #include "io/contract/fault.h"
 
 namespace hilcam {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/option_tree.h"
+#include "emulator/subcommands/option_tree.h"
 
 namespace hilcam {
 

@@ -1,12 +1,13 @@
-#include "emulator/manual_command.h"
+// `hilcam manual`: every key of a scenario file; and `make-pages`.
 
 #include <spdlog/fmt/fmt.h>
 
 #include <fstream>
 
-#include "emulator/command_pages.h"
 #include "emulator/recording/program_version.h"
 #include "emulator/scenario/app_config.h"
+#include "emulator/subcommands/arguments.h"
+#include "emulator/subcommands/command_pages.h"
 #include "io/config/config_keys.h"
 #include "io/config/config_manual.h"
 #include "io/config/config_schema.h"
@@ -15,12 +16,12 @@
 namespace hilcam {
 namespace {
 
-struct ManualOptions {
+struct ManualArguments {
     std::string prefix;
     bool json = false, schema = false;
 };
 
-int print_manual(const ManualOptions& o) {
+int carry_out(const ManualArguments& o) {
     ScenarioConfig scenario;
     const SectionField root = section_of(scenario);
     if (o.schema)
@@ -50,8 +51,8 @@ int make_pages(const CLI::App& app, const std::filesystem::path& folder) {
 
 }  // namespace
 
-void add_manual_command(CLI::App& app, std::function<int()>& action) {
-    auto o = std::make_shared<ManualOptions>();
+void add_manual_command(CLI::App& app, Action& action) {
+    auto o = std::make_shared<ManualArguments>();
     CLI::App* manual = app.add_subcommand("manual", "the keys of a scenario file as a Markdown table");
     manual->add_option("prefix", o->prefix,
                        "only this key and those below it, as camera.shutter or objects.N.pose");
@@ -61,10 +62,10 @@ void add_manual_command(CLI::App& app, std::function<int()>& action) {
             "--schema", o->schema,
             "a JSON Schema (draft 2020-12) of a scenario file, or of a file that holds the section PREFIX")
         ->excludes(json);
-    manual->callback([&action, o] { action = [o] { return print_manual(*o); }; });
+    when_named(manual, action, o, carry_out);
 }
 
-void add_pages_command(CLI::App& app, std::function<int()>& action) {
+void add_pages_command(CLI::App& app, Action& action) {
     auto folder = std::make_shared<std::filesystem::path>();
     CLI::App* pages = app.add_subcommand("make-pages", "manual pages and completion, into a folder");
     pages->group("");

@@ -1,4 +1,4 @@
-#include "emulator/option_tree.h"
+#include "emulator/subcommands/option_tree.h"
 
 #include <algorithm>
 #include <regex>

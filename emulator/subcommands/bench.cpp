@@ -1,0 +1,141 @@
+// `hilcam bench`: how fast a scenario runs here, or how far off its frames are.
+
+#include <spdlog/spdlog.h>
+
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "emulator/bench/bench_report.h"
+#include "emulator/bench/soak_report.h"
+#include "emulator/run/report.h"
+#include "emulator/subcommands/arguments.h"
+#include "emulator/subcommands/scenario_use.h"
+#include "emulator/tradeoff/error_bench.h"
+#include "io/files/mesh_cache.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+struct BenchArguments {
+    ConfigArguments config;
+    bool json = false, sensor = false, error = false;
+    BenchOptions speed;
+    SoakOptions soak;
+    std::filesystem::path out;  // of the soak
+    ErrorBenchOptions errors;
+};
+
+void print_lines(const std::string& text, const nlohmann::json& report, bool as_json) {
+    fmt::print("{}", as_json ? report.dump(2) + "\n" : text);
+}
+
+int soak_and_write(const BenchArguments& o, const ScenarioConfig& scenario) {
+    make_folder(o.out);
+    spdlog::info("soaking {} for {:.0f} s", scenario.name, o.soak.seconds);
+    const Soak result = soak(scenario, o.soak);
+    if (result.slices.empty()) throw DeviceError("ended before the first slice: there is nothing to write");
+    const nlohmann::json report = soak_json(scenario, o.soak, result);
+    print_lines(soak_text(result) + "\n", report, o.json);
+    write_soak(result, report, o.out);
+    return 0;
+}
+
+int carry_out(const BenchArguments& o) {
+    const ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
+    const auto threads = limit_threads(scenario);
+    if (o.error) {
+        const ErrorBench result =
+            error_bench({o.config.file, o.config.overrides}, o.errors, cache_folder(), log_info);
+        print_lines(error_bench_text(result), error_bench_json(result), o.json);
+    } else if (o.soak.seconds > 0) {
+        return soak_and_write(o, scenario);
+    } else if (o.sensor) {
+        const SensorBench result = bench_sensor(scenario, static_cast<int>(o.speed.frames));
+        print_lines(bench_text(result), bench_json(result), o.json);
+    } else {
+        const Bench result = bench(scenario, o.speed);
+        print_lines(bench_text(result), bench_json(result), o.json);
+    }
+    return 0;
+}
+
+// A reference's frames come in halves and halves of halves.
+CLI::Validator power_of_two_from_4() {
+    return {[](std::string& text) {
+                int value = 0;
+                const bool ok = CLI::detail::lexical_cast(text, value) && value >= 4 && value <= 65536 &&
+                                std::has_single_bit(static_cast<unsigned>(value));
+                return ok ? std::string()
+                          : "found " + in_quotes(text) + "; accepted: a power of two from 4 to 65536";
+            },
+            "a power of two from 4 to 65536"};
+}
+
+CLI::Option* add_soak_options(CLI::App* bench, BenchArguments& o) {
+    CLI::Option* soak =
+        bench
+            ->add_option("--soak", o.soak.seconds,
+                         "for so many seconds at the camera's frame rate: what changes with time, to --out")
+            ->check(CLI::PositiveNumber);
+    CLI::Option* out =
+        bench->add_option("--out", o.out, "of --soak: folder for CSV, JSON and a page with a plot");
+    soak->needs(out)->excludes("--sensor", "--path-models");
+    out->needs(soak);
+    bench
+        ->add_option("--slice-s", o.soak.slice_s,
+                     "of --soak: seconds of a slice (default: a sixtieth of the soak, at least 10)")
+        ->check(CLI::PositiveNumber)
+        ->needs(soak);
+    bench->add_flag("--outputs", o.soak.outputs, "of --soak: also the scenario's outputs and command ports")
+        ->needs(soak);
+    return soak;
+}
+
+void add_error_options(CLI::App* bench, BenchArguments& o, CLI::Option* soak) {
+    CLI::Option* errors =
+        bench
+            ->add_flag(
+                "--error", o.error,
+                "not how fast but how far off: views around the first object against references, which "
+                "are kept in the cache folder")
+            ->excludes(soak)
+            ->excludes("--sensor", "--path-models", "--frames", "--runs");
+    bench->add_option("--views", o.errors.views, "of --error: how many, evenly around")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str()
+        ->needs(errors);
+    bench
+        ->add_option(
+            "--reference-frames", o.errors.reference.most_frames,
+            "of --error, for each view's reference, at most; fewer where its standard error is small "
+            "before")
+        ->check(power_of_two_from_4())
+        ->capture_default_str()
+        ->needs(errors);
+    bench
+        ->add_option("--reference-set", o.errors.reference_set,
+                     "of --error: KEY=VALUE, replaces a value of the references; may be repeated")
+        ->allow_extra_args(false)
+        ->needs(errors);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Action& action) {
+    auto o = std::make_shared<BenchArguments>();
+    CLI::App* bench =
+        app.add_subcommand("bench", "measure how fast a scenario runs here, or how far off its frames are");
+    add_config(bench, o->config);
+    bench->add_flag("--json", o->json, "machine-readable");
+    bench->add_flag("--path-models", o->speed.path_models,
+                    "also each path model against bare Embree on the same rays");
+    bench->add_flag("--sensor", o->sensor, "the sensor stage alone, and what each of its effects costs");
+    bench->add_option("--frames", o->speed.frames, "frames of a run")->check(CLI::Range(1, 1000000));
+    bench->add_option("--runs", o->speed.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
+    add_error_options(bench, *o, add_soak_options(bench, *o));
+    when_named(bench, action, o, carry_out);
+}
+
+}  // namespace hilcam

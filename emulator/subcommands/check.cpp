@@ -1,0 +1,70 @@
+// `hilcam check`: what a scenario needs and why; a camera's data sheet; calibrations.
+
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+
+#include "emulator/check/calibration.h"
+#include "emulator/check/check_command.h"
+#include "emulator/send/choice_option.h"
+#include "emulator/subcommands/arguments.h"
+#include "emulator/subcommands/scenario_use.h"
+#include "io/config/config_yaml.h"
+
+namespace hilcam {
+namespace {
+
+struct CheckArguments {
+    ConfigArguments config;
+    std::size_t camera = 0;  // from 1; 0: all of them
+    bool json = false;
+    CalibrationFormat calibration = CalibrationFormat::kNone;
+};
+
+std::string calibrations(const CheckArguments& o) {
+    if (is_camera_file(o.config.file)) {
+        CameraModel camera;
+        read_config(o.config.file, section_of(camera), o.config.overrides);
+        return calibration_text(std::array{calibration_of(camera)}, o.calibration);
+    }
+    const ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
+    require_camera(o.camera, scenario);
+    return calibration_text(calibrations_of(scenario, o.camera), o.calibration);
+}
+
+std::string sheet_of_scenario(const CheckArguments& o) {
+    const ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
+    require_camera(o.camera, scenario);
+    const CheckReport report = in_memory(scenario, [&] { return check_scenario(scenario, o.camera); });
+    return o.json ? to_json(report) : to_text(report);
+}
+
+int carry_out(const CheckArguments& o) {
+    if (o.calibration != CalibrationFormat::kNone)
+        fmt::print("{}", calibrations(o));
+    else if (is_camera_file(o.config.file))
+        fmt::print("{}", check_camera(o.config.file, o.config.overrides, o.json));
+    else
+        fmt::print("{}", sheet_of_scenario(o));
+    return 0;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Action& action) {
+    auto o = std::make_shared<CheckArguments>();
+    CLI::App* check = app.add_subcommand(
+        "check", "validate a scenario and say what it needs; of a camera's file, print its data sheet");
+    add_config(check, o->config);
+    add_camera(check, o->camera);
+    CLI::Option* json = check->add_flag("--json", o->json, "machine-readable");
+    add_choice<CalibrationFormat>(*check, "--calibration", o->calibration,
+                                  {{"opencv", CalibrationFormat::kOpencv},
+                                   {"ros", CalibrationFormat::kRos},
+                                   {"kalibr", CalibrationFormat::kKalibr}},
+                                  "print the cameras' calibration instead (YAML; docs/check.md)")
+        ->excludes(json);
+    when_named(check, action, o, carry_out);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,52 @@
+// `hilcam doctor`: what this machine lacks to run a bench.
+
+#include <spdlog/fmt/fmt.h>
+
+#include "emulator/check/doctor.h"
+#include "emulator/check/doctor_facts.h"
+#include "emulator/subcommands/arguments.h"
+#include "io/files/mesh_cache.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+struct DoctorArguments {
+    ConfigArguments config;  // no file: nothing is required
+    bool json = false, clear_cache = false;
+};
+
+int clear_and_say() {
+    const CacheSize gone = clear_cache();
+    fmt::print("{}: {} files removed, {:.0f} MB\n", harmless(cache_folder().string()), gone.files,
+               static_cast<double>(gone.bytes) * 1e-6);
+    return 0;
+}
+
+int carry_out(const DoctorArguments& o) {
+    if (o.clear_cache) return clear_and_say();
+    const BenchNeeds needs =
+        o.config.file.empty() ? BenchNeeds{} : needs_of(load_scenario(o.config.file, o.config.overrides));
+    const std::vector<Finding> findings = diagnose(needs, look_at_machine(needs));
+    fmt::print("{}", o.json ? findings_json(findings) : findings_text(findings));
+    return all_there(findings) ? 0 : 1;
+}
+
+}  // namespace
+
+void add_doctor_command(CLI::App& app, Action& action) {
+    auto o = std::make_shared<DoctorArguments>();
+    CLI::App* doctor = app.add_subcommand(
+        "doctor", "what this machine lacks to run a bench, and what to do; status 1: something CONFIG needs");
+    doctor
+        ->add_option("config", o->config.file,
+                     "scenario file (YAML), or the name of a shipped one; none: nothing is required")
+        ->transform(name_of_shipped());
+    add_overrides(doctor, o->config.overrides, "the scenario");
+    doctor->add_flag("--json", o->json, "machine-readable");
+    doctor->add_flag("--clear-cache", o->clear_cache,
+                     "only remove what earlier runs have kept ($HILCAM_CACHE, else ~/.cache/hilcam)");
+    when_named(doctor, action, o, carry_out);
+}
+
+}  // namespace hilcam

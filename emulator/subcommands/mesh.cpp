@@ -1,0 +1,33 @@
+// `hilcam mesh`: what a mesh file holds, and what is wrong with it.
+
+#include <spdlog/fmt/fmt.h>
+
+#include "emulator/check/mesh_survey.h"
+#include "emulator/subcommands/arguments.h"
+
+namespace hilcam {
+namespace {
+
+struct MeshArguments {
+    std::filesystem::path file;
+    bool json = false;
+};
+
+int carry_out(const MeshArguments& o) {
+    const MeshSurvey found = survey_mesh(load_mesh_contents(o.file), o.file.string());
+    fmt::print("{}", o.json ? to_json(found) : to_text(found));
+    return 0;
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app, Action& action) {
+    auto o = std::make_shared<MeshArguments>();
+    CLI::App* mesh =
+        app.add_subcommand("mesh", "how large a mesh file is, what it is made of, what is wrong with it");
+    mesh->add_option("file", o->file, "GLB, glTF, OBJ, STL or PLY file")->required();
+    mesh->add_flag("--json", o->json, "machine-readable");
+    when_named(mesh, action, o, carry_out);
+}
+
+}  // namespace hilcam

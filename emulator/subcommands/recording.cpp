@@ -1,0 +1,30 @@
+// `hilcam recording`: what a recording holds.
+
+#include <spdlog/fmt/fmt.h>
+
+#include "emulator/recording/recording_text.h"
+#include "emulator/subcommands/arguments.h"
+
+namespace hilcam {
+namespace {
+
+struct RecordingArguments {
+    std::filesystem::path file;
+};
+
+int carry_out(const RecordingArguments& o) {
+    RecordingReader recording(o.file);
+    list_recording(recording, [](const std::string& line) { fmt::print("{}\n", line); });
+    return 0;
+}
+
+}  // namespace
+
+void add_recording_command(CLI::App& app, Action& action) {
+    auto o = std::make_shared<RecordingArguments>();
+    CLI::App* recording = app.add_subcommand("recording", "what is in a recording, as JSON lines");
+    recording->add_option("file", o->file, "made by run --record")->required();
+    when_named(recording, action, o, carry_out);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,72 @@
+// `hilcam render`: one picture.
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "emulator/recording/run_seed.h"
+#include "emulator/run/render_command.h"
+#include "emulator/scenario/scenario_warnings.h"
+#include "emulator/scenario/scene_loader.h"
+#include "emulator/send/choice_option.h"
+#include "emulator/subcommands/arguments.h"
+#include "emulator/subcommands/scenario_use.h"
+
+namespace hilcam {
+namespace {
+
+struct RenderArguments {
+    ConfigArguments config;
+    RenderFiles files;
+    RenderStage stage = RenderStage::kFrame;
+    double time_offset_s = 0;
+    std::size_t camera = 0;  // from 1; 0: not told
+};
+
+int carry_out(const RenderArguments& o) {
+    ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
+    const auto threads = limit_threads(scenario);
+    require_camera(o.camera, scenario);
+    log_info(settle_seed(scenario));
+    log_warnings(place_warnings(scenario));
+    if (o.camera == 0 && !scenario.more_cameras.empty())
+        spdlog::info("camera 1 of {}; --camera N for another", 1 + scenario.more_cameras.size());
+    return in_memory(scenario, [&] {
+        const std::size_t camera = std::max<std::size_t>(1, o.camera);
+        render_to_files(scenario, o.stage, o.time_offset_s, o.files, camera);
+        if (o.stage == RenderStage::kFrame && o.files.view.empty())
+            log_warning(dark_picture_warning(o.files.out,
+                                             scenario_of_camera(scenario, camera - 1).camera.frame_bits(),
+                                             "--view FILE.png writes one to look at"));
+        return 0;
+    });
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+    auto o = std::make_shared<RenderArguments>();
+    CLI::App* render = app.add_subcommand("render", "one picture of the first instant");
+    add_config(render, o->config);
+    add_choice<RenderStage>(*render, "--stage", o->stage,
+                            {{"radiance", RenderStage::kRadiance},
+                             {"electrons", RenderStage::kElectrons},
+                             {"frame", RenderStage::kFrame}},
+                            "how far light goes: to the lens, into the pixels, out of the converter");
+    render
+        ->add_option("--out", o->files.out,
+                     "FILE.exr for radiance and electrons (.fits, too), FILE.png, .tiff, .fits or .raw for a "
+                     "frame")
+        ->required();
+    render->add_option("--view", o->files.view,
+                       "also write the frame as an 8-bit PNG to look at (docs/pictures.md)");
+    render->add_option("--time-offset-s", o->time_offset_s, "seconds after the scenario's start");
+    render->add_option("--truth", o->files.truth,
+                       "also write what the picture shows to this folder, named after it (docs/truth.md)");
+    add_camera(render, o->camera);
+    render->add_flag("--overwrite", o->files.overwrite,
+                     "replace a run's frame, or a truth that is there already");
+    when_named(render, action, o, carry_out);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,30 @@
+#pragma once
+// The subcommands of the program, in the order in which `hilcam --help` lists them; each has a file of its
+// name.
+//
+// Each function adds one subcommand to `app`. When the command line names it, `action` is set to what it
+// does: that returns the exit status and throws InputError, DeviceError. `app` and `action` outlive both.
+// `hilcam send` has a room of its own (emulator/send/send_command.h).
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace hilcam {
+
+using Action = std::function<int()>;
+
+void add_run_command(CLI::App& app, Action& action);
+void add_recording_command(CLI::App& app, Action& action);
+void add_render_command(CLI::App& app, Action& action);
+void add_check_command(CLI::App& app, Action& action);
+void add_mesh_command(CLI::App& app, Action& action);
+void add_bench_command(CLI::App& app, Action& action);
+void add_tradeoff_command(CLI::App& app, Action& action);
+void add_characterise_command(CLI::App& app, Action& action);
+void add_doctor_command(CLI::App& app, Action& action);
+void add_manual_command(CLI::App& app, Action& action);
+// Adds `make-pages`, which is hidden: by it the build makes manual pages and the completion out of the
+// command line itself.
+void add_pages_command(CLI::App& app, Action& action);
+
+}  // namespace hilcam
