@@ -38,7 +38,7 @@ class AemLaw final : public AttitudeLaw {
             case CcsdsFrame::kEme2000:
                 return eme2000_;
             case CcsdsFrame::kTeme:  // turns by 50 arcsec a year
-                return {icrf_from_teme(context.frame.time()), {}};
+                return {context.frame.icrf_from_teme(), {}};
             case CcsdsFrame::kEarthFixed:
                 return context.frame.body_fixed(BodyId::kEarth);
             case CcsdsFrame::kLvlh:

@@ -72,7 +72,7 @@ class OemTrajectory final : public Trajectory {
             case CcsdsFrame::kEme2000:
                 return turned(icrf_from_eme2000_, s);
             case CcsdsFrame::kTeme:
-                return turned(icrf_from_teme(time), s);
+                return turned(context.frame.icrf_from_teme(), s);
             case CcsdsFrame::kEarthFixed:
                 return world_state({{}, context.frame.body_fixed(BodyId::kEarth)}, s);
             case CcsdsFrame::kIcrf:

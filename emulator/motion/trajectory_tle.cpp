@@ -32,7 +32,7 @@ class TleTrajectory final : public Trajectory {
         StateVector teme;
         const double minutes = static_cast<double>(context.frame.time() - epoch_) / kMinute_ns;
         if (sgp4_.at(minutes, teme) != Sgp4Status::kOk) sgp4_.at(0, teme);  // limit() found none such
-        const Mat3d icrf = icrf_from_teme(context.frame.time());
+        const Mat3d icrf = context.frame.icrf_from_teme();
         const StateVector earth = context.frame.center({});
         return {earth.position_m + icrf * teme.position_m, earth.velocity_m_s + icrf * teme.velocity_m_s};
     }

@@ -22,14 +22,16 @@ double gravity_m3_s2(const OrbitCenter& center) {
 
 TurningAxes WorldFrame::body_fixed(BodyId body) const {
     if (body == BodyId::kEarth) {
-        if (!earth_) earth_ = {transposed(earth_fixed_from_icrf(time_)), earth_rate_rad_s(time_)};
+        if (!earth_)
+            earth_ = {transposed(earth_fixed_from_icrf(time_, origin_.earth)),
+                      earth_rate_rad_s(time_, origin_.earth)};
         return *earth_;
     }
     // Other bodies turn about a pole that is at rest for days: by difference over a minute, good to 1e-9 of
     // the rate.
     constexpr std::int64_t kStep_ns = 30'000'000'000;
-    const Mat3d before = body_fixed_from_icrf(body, time_ + -kStep_ns),
-                after = body_fixed_from_icrf(body, time_ + kStep_ns);
+    const Mat3d before = body_fixed_from_icrf(body, time_ + -kStep_ns, origin_.earth),
+                after = body_fixed_from_icrf(body, time_ + kStep_ns, origin_.earth);
     const Mat3d turn = transposed(after) * before;
     const Quat q = to_quat(turn);
     const Vec3d sine{q.x, q.y, q.z};
@@ -37,8 +39,10 @@ TurningAxes WorldFrame::body_fixed(BodyId body) const {
     const double angle = 2 * std::atan2(size, q.w);
     const double per_s = 1 / (2 * kStep_ns * kSecondsPerNs);
     const Vec3d rate = size > 0 ? (angle / size * per_s) * sine : Vec3d{};
-    return {transposed(body_fixed_from_icrf(body, time_)), rate};
+    return {transposed(body_fixed_from_icrf(body, time_, origin_.earth)), rate};
 }
+
+Mat3d WorldFrame::icrf_from_teme() const { return hilcam::icrf_from_teme(time_, origin_.earth); }
 
 StateVector WorldFrame::center(const OrbitCenter& center) const {
     const std::optional<BodyId> home = origin_.center();

@@ -37,6 +37,8 @@ class WorldFrame {
     StateVector center(const OrbitCenter& center) const;
     // A body's own axes; the Earth's are ITRF.
     TurningAxes body_fixed(BodyId body) const;
+    // The axes of SGP4's orbits (earth_frames.h).
+    Mat3d icrf_from_teme() const;
 
   private:
     TimeTai time_;

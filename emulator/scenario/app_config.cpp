@@ -1,7 +1,5 @@
 #include "emulator/scenario/app_config.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -16,6 +14,7 @@
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
+#include "render/vocabulary/time_system.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -162,7 +161,7 @@ Fields fields(ScenarioConfig& s) {
                  s.has_camera_motion),
         optional(section("leap_seconds", s.leap_seconds, "a table of them, instead of the built-in one"),
                  s.has_leap_seconds),
-        section("earth_orientation", s.earth_orientation,
+        section("earth_orientation", s.origin.earth,
                 "as the IERS measures it (Bulletin A); without it UT1 is UTC and the pole stands"),
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
         optional(section("terrain", s.terrain, "ground from a height map"), s.has_terrain),
@@ -356,6 +355,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const 
         throw InputError(file.string() +
                          ": is a camera's data sheet; accepted: a scenario, which has it as 'camera: " +
                          file.filename().string() + "'");
+    use_leap_seconds({});  // those of a scenario that was read before end here
     ScenarioConfig scenario;
     SectionField root = section_of(scenario);
     root.validate = [&scenario] {
@@ -366,9 +366,8 @@ ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const 
     read_config(file, root, overrides);
     if (scenario.has_leap_seconds) {
         const std::string warning = apply_leap_seconds(scenario.leap_seconds, scenario.time_utc);
-        if (!warning.empty()) spdlog::warn("{}", warning);
+        if (!warning.empty()) scenario.warnings.push_back(warning);
     }
-    use_earth_orientation(scenario.earth_orientation);
     return scenario;
 }
 

@@ -128,13 +128,14 @@ struct ScenarioConfig {
     ScenarioConfig();
 
     std::string name;
+    std::vector<std::string> warnings;  // no key: what reading it found that need not be meant, a line each
     std::string time_utc = "2026-01-01T00:00:00Z";
     ClockConfig clock;
     std::int64_t seed = 1;
     bool has_seed = false;  // stated, or settled by settle_seed()
     std::int64_t threads = 0;
-    OriginConfig origin;
-    PlaceConfig site;  // where local axes stand (site.h)
+    OriginConfig origin;  // with the key `earth_orientation`
+    PlaceConfig site;     // where local axes stand (site.h)
     bool has_site = false;
     CameraModel camera;
     PoseConfig camera_pose;
@@ -142,7 +143,6 @@ struct ScenarioConfig {
     bool has_camera_pose = false, has_camera_motion = false;
     LeapSecondsConfig leap_seconds;
     bool has_leap_seconds = false;
-    EarthOrientation earth_orientation;
     std::vector<ObjectConfig> objects;
     TerrainConfig terrain;
     bool has_stars = false;
@@ -196,7 +196,9 @@ SensorSampling sampling_of(const ScenarioConfig& scenario);
 // The models to render with: rays as the camera's shutter has them, unless the scenario gives its own.
 RenderModels models_of(const ScenarioConfig& scenario);
 
-// Reads and checks a scenario, and puts its leap seconds in place. Throws InputError.
+// Reads and checks a scenario; what is worth a warning is in its `warnings`. Throws InputError. From then on
+// the whole program's leap seconds are those of this scenario (use_leap_seconds): before other threads ask
+// for a time.
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides);
 
 }  // namespace hilcam

@@ -43,7 +43,7 @@ int soak_and_write(const BenchArguments& o, const ScenarioConfig& scenario) {
 }
 
 int carry_out(const BenchArguments& o) {
-    const ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
+    const ScenarioConfig scenario = load_and_warn(o.config);
     const auto threads = limit_threads(scenario);
     if (o.error) {
         const ErrorBench result =

@@ -27,13 +27,13 @@ std::string calibrations(const CheckArguments& o) {
         read_config(o.config.file, section_of(camera), o.config.overrides);
         return calibration_text(std::array{calibration_of(camera)}, o.calibration);
     }
-    const ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
+    const ScenarioConfig scenario = load_and_warn(o.config);
     require_camera(o.camera, scenario);
     return calibration_text(calibrations_of(scenario, o.camera), o.calibration);
 }
 
 std::string sheet_of_scenario(const CheckArguments& o) {
-    const ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
+    const ScenarioConfig scenario = load_and_warn(o.config);
     require_camera(o.camera, scenario);
     const CheckReport report = in_memory(scenario, [&] { return check_scenario(scenario, o.camera); });
     return o.json ? to_json(report) : to_text(report);

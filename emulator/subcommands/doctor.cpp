@@ -5,6 +5,7 @@
 #include "emulator/check/doctor.h"
 #include "emulator/check/doctor_facts.h"
 #include "emulator/subcommands/arguments.h"
+#include "emulator/subcommands/scenario_use.h"
 #include "io/files/mesh_cache.h"
 #include "render/vocabulary/quoted.h"
 
@@ -25,8 +26,7 @@ int clear_and_say() {
 
 int carry_out(const DoctorArguments& o) {
     if (o.clear_cache) return clear_and_say();
-    const BenchNeeds needs =
-        o.config.file.empty() ? BenchNeeds{} : needs_of(load_scenario(o.config.file, o.config.overrides));
+    const BenchNeeds needs = o.config.file.empty() ? BenchNeeds{} : needs_of(load_and_warn(o.config));
     const std::vector<Finding> findings = diagnose(needs, look_at_machine(needs));
     fmt::print("{}", o.json ? findings_json(findings) : findings_text(findings));
     return all_there(findings) ? 0 : 1;

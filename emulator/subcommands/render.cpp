@@ -24,7 +24,7 @@ struct RenderArguments {
 };
 
 int carry_out(const RenderArguments& o) {
-    ScenarioConfig scenario = load_scenario(o.config.file, o.config.overrides);
+    ScenarioConfig scenario = load_and_warn(o.config);
     const auto threads = limit_threads(scenario);
     require_camera(o.camera, scenario);
     log_info(settle_seed(scenario));

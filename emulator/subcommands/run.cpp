@@ -56,9 +56,10 @@ int conclude(const Emulator& emulator, const std::filesystem::path& report_file)
 }
 
 int carry_out(const RunArguments& o) {
-    std::vector<std::string> overrides = o.config.overrides;
-    if (o.preview_port > 0) overrides.push_back(fmt::format("outputs.preview.port={}", o.preview_port));
-    ScenarioConfig scenario = load_scenario(o.config.file, overrides);
+    ConfigArguments config = o.config;
+    if (o.preview_port > 0)
+        config.overrides.push_back(fmt::format("outputs.preview.port={}", o.preview_port));
+    ScenarioConfig scenario = load_and_warn(config);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.limits;
     limits.light_beside = limits.frames == 0;  // so many frames are wanted for what they show

@@ -15,6 +15,12 @@ std::optional<tbb::global_control> limit_threads(const ScenarioConfig& scenario)
     return limit;
 }
 
+ScenarioConfig load_and_warn(const ConfigArguments& config) {
+    ScenarioConfig scenario = load_scenario(config.file, config.overrides);
+    log_warnings(scenario.warnings);
+    return scenario;
+}
+
 void log_info(const std::string& line) {
     if (!line.empty()) spdlog::info("{}", line);
 }

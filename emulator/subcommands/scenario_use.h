@@ -9,11 +9,15 @@
 #include <vector>
 
 #include "emulator/scenario/app_config.h"
+#include "emulator/subcommands/arguments.h"
 
 namespace hilcam {
 
 // Holds oneTBB to the scenario's number of threads for as long as it lives.
 std::optional<tbb::global_control> limit_threads(const ScenarioConfig& scenario);
+
+// Reads and checks a scenario, and logs the warnings of that. Throws InputError.
+ScenarioConfig load_and_warn(const ConfigArguments& config);
 
 // Each line is logged; an empty one says nothing.
 void log_info(const std::string& line);

@@ -18,7 +18,7 @@ struct TradeoffArguments {
 
 int carry_out(const TradeoffArguments& o) {
     const ScenarioSource source{o.config.file, o.config.overrides};
-    const ScenarioConfig scenario = source.load();
+    const ScenarioConfig scenario = load_and_warn(o.config);
     const auto threads = limit_threads(scenario);
     make_folder(o.out);
     const Tradeoff result = measure_tradeoff(source, o.options, log_info);

@@ -7,7 +7,6 @@
 
 #include "render/sky/planet_series.h"
 #include "render/vocabulary/check.h"
-#include "render/vocabulary/earth_orientation.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -136,27 +135,20 @@ StateVector heliocentric(BodyId id, TimeTai time) {
 
 Vec3d sun_from_earth_m(TimeTai time) { return -heliocentric(BodyId::kEarth, time).position_m; }
 
-namespace {
-
-Mat3d earth_from_icrf(TimeTai time, double pole_x_rad, double pole_y_rad) {
+Mat3d earth_fixed_from_icrf(TimeTai time, const EarthOrientation& measured) {
     const JulianDate tt = julian_tt(time);
-    const JulianDate ut1 = julian_ut1(time);
+    const JulianDate ut1 = julian_ut1(time, measured.ut1_minus_utc_s);
     double m[3][3];
-    eraC2t00b(tt.day, tt.fraction, ut1.day, ut1.fraction, pole_x_rad, pole_y_rad, m);
+    eraC2t00b(tt.day, tt.fraction, ut1.day, ut1.fraction, measured.pole_x_rad, measured.pole_y_rad, m);
     return {{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
 }
 
-}  // namespace
-
-Mat3d earth_fixed_from_icrf(TimeTai time) {
-    const EarthOrientation& measured = earth_orientation();
-    return earth_from_icrf(time, measured.pole_x_rad, measured.pole_y_rad);
+Mat3d earth_rotated_from_icrf(TimeTai time, const EarthOrientation& measured) {
+    return earth_fixed_from_icrf(time, {measured.ut1_minus_utc_s, 0, 0});
 }
 
-Mat3d earth_rotated_from_icrf(TimeTai time) { return earth_from_icrf(time, 0, 0); }
-
-Mat3d body_fixed_from_icrf(BodyId id, TimeTai time) {
-    if (id == BodyId::kEarth) return earth_fixed_from_icrf(time);
+Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const EarthOrientation& measured) {
+    if (id == BodyId::kEarth) return earth_fixed_from_icrf(time, measured);
     const double d = tdb_days(time);
     const Rotation r = planet_rotation(id, d / 36525, d);
     // Archinal et al. 2018, figure 1: node on the ICRF equator at RA + 90, tilt 90 - Dec, then W along the
@@ -237,7 +229,9 @@ StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
     constexpr std::int64_t kStep_ns = 30'000'000'000;
     const BodyId center = *origin.center();
     const Vec3d fixed_m = body_fixed_position_m(center, origin.place);
-    const auto at = [&](TimeTai t) { return transposed(body_fixed_from_icrf(center, t)) * fixed_m; };
+    const auto at = [&](TimeTai t) {
+        return transposed(body_fixed_from_icrf(center, t, origin.earth)) * fixed_m;
+    };
     return {at(time), (at(time + kStep_ns) - at(time + -kStep_ns)) / (2 * kStep_ns * kSecondsPerNs)};
 }
 
@@ -272,7 +266,8 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         const auto id = static_cast<BodyId>(i);
         if (id == center) {
-            out.body[i] = {-place.position_m, body_fixed_from_icrf(id, time), -place.velocity_m_s};
+            out.body[i] = {-place.position_m, body_fixed_from_icrf(id, time, origin.earth),
+                           -place.velocity_m_s};
             continue;
         }
         // One step of light time: the planet moves less than 1e-4 of the way meanwhile. Its velocity is that
@@ -281,7 +276,8 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
         const double light_s = length(there.position_m - home.position_m) / kSpeedOfLight_m_s;
         there.position_m = there.position_m - light_s * (there.velocity_m_s + sun.velocity_m_s);
         const TimeTai then = time + -static_cast<std::int64_t>(light_s * 1e9);
-        out.body[i] = {apparent(there.position_m - home.position_m), body_fixed_from_icrf(id, then), {}};
+        out.body[i] = {
+            apparent(there.position_m - home.position_m), body_fixed_from_icrf(id, then, origin.earth), {}};
     }
     return out;
 }

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "render/vocabulary/config_field.h"
+#include "render/vocabulary/earth_orientation.h"
 #include "render/vocabulary/mesh.h"
 #include "render/vocabulary/pose.h"
 #include "render/vocabulary/spectrum.h"
@@ -65,13 +66,13 @@ struct StateVector {
 StateVector heliocentric(BodyId id, TimeTai time);
 
 // The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
-// angle (ERFA eraC2t00b), with the pole and UT1 that earth_orientation() has.
-Mat3d earth_fixed_from_icrf(TimeTai time);
+// angle (ERFA eraC2t00b), with the pole and UT1 as measured.
+Mat3d earth_fixed_from_icrf(TimeTai time, const EarthOrientation& measured);
 // Without the pole's motion: into the Earth's axes about the celestial intermediate pole.
-Mat3d earth_rotated_from_icrf(TimeTai time);
+Mat3d earth_rotated_from_icrf(TimeTai time, const EarthOrientation& measured);
 // Into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by Archinal et al. 2018
 // (the Moon's mean-Earth frame by its series, 0.01 deg).
-Mat3d body_fixed_from_icrf(BodyId id, TimeTai time);
+Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const EarthOrientation& measured);
 
 // A place on a body: angles in rad, height above its ellipsoid in m; latitude is geodetic (of the normal).
 struct Geodetic {
@@ -89,8 +90,9 @@ Mat3d body_fixed_from_local(const Geodetic& place);
 struct OriginConfig {
     enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed, kFree } kind = Kind::kEarthCenter;
     BodyId body = BodyId::kEarth;
-    Geodetic place;  // of the fixed ones: a geostationary longitude with height 35 786 km, say
-    Vec3d sun_m;     // of kFree: where the Sun is; no key of this section (emulator/scenario/free_space.h)
+    Geodetic place;          // of the fixed ones: a geostationary longitude with height 35 786 km, say
+    EarthOrientation earth;  // no key of this section either: `earth_orientation` of the scenario
+    Vec3d sun_m;  // of kFree: where the Sun is; no key of this section (emulator/scenario/free_space.h)
     bool has_body = false, has_longitude = false, has_latitude = false, has_height = false;
 
     // The body that the origin belongs to; none: free space.

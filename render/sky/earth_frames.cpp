@@ -6,10 +6,10 @@
 
 namespace hilcam {
 
-Mat3d icrf_from_teme(TimeTai time) {
-    const JulianDate ut1 = julian_ut1(time);
+Mat3d icrf_from_teme(TimeTai time, const EarthOrientation& measured) {
+    const JulianDate ut1 = julian_ut1(time, measured.ut1_minus_utc_s);
     const double angle = eraGmst82(ut1.day, ut1.fraction), c = std::cos(angle), s = std::sin(angle);
-    return transposed(earth_rotated_from_icrf(time)) * Mat3d{{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+    return transposed(earth_rotated_from_icrf(time, measured)) * Mat3d{{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
 Mat3d icrf_from_eme2000() {
@@ -20,6 +20,8 @@ Mat3d icrf_from_eme2000() {
                             {bias[2][0], bias[2][1], bias[2][2]}});
 }
 
-Vec3d earth_rate_rad_s(TimeTai time) { return kEarthRate_rad_s * earth_rotated_from_icrf(time).z; }
+Vec3d earth_rate_rad_s(TimeTai time, const EarthOrientation& measured) {
+    return kEarthRate_rad_s * earth_rotated_from_icrf(time, measured).z;
+}
 
 }  // namespace hilcam

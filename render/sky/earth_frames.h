@@ -13,11 +13,11 @@ inline constexpr double kEarthRate_rad_s = 7.292115146706979e-5;
 // time of 1982 into the Earth's axes (AIAA 2006-6753, appendix C), then by earth_rotated_from_icrf(). UT1 -
 // UTC and its error fall out, as both turns have it. Against the way through IAU 1976/1980 the axes differ by
 // some tens of mas: a metre at most in low orbits, where SGP4 is good to a kilometre.
-Mat3d icrf_from_teme(TimeTai time);
+Mat3d icrf_from_teme(TimeTai time, const EarthOrientation& measured);
 // Mean equator and equinox of J2000 into ICRF: the frame bias of IAU 2006 (ERFA eraBp06), 23 mas.
 Mat3d icrf_from_eme2000();
 
 // The Earth's rotation in ICRF axes: about the celestial intermediate pole, which is not quite ITRF's z.
-Vec3d earth_rate_rad_s(TimeTai time);
+Vec3d earth_rate_rad_s(TimeTai time, const EarthOrientation& measured);
 
 }  // namespace hilcam

@@ -10,8 +10,4 @@ struct EarthOrientation {
     friend bool operator==(const EarthOrientation&, const EarthOrientation&) = default;
 };
 
-// For the whole program and all of a run: before any other thread asks where the Earth's axes are.
-void use_earth_orientation(const EarthOrientation& orientation);
-const EarthOrientation& earth_orientation();
-
 }  // namespace hilcam

@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "render/vocabulary/check.h"
-#include "render/vocabulary/earth_orientation.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/time_system.h"
 
@@ -72,12 +71,12 @@ JulianDate julian_tt(TimeTai time) {
             static_cast<double>(ns - days * kDay_ns) / static_cast<double>(kDay_ns)};
 }
 
-JulianDate julian_ut1(TimeTai time) {
+JulianDate julian_ut1(TimeTai time, double ut1_minus_utc_s) {
     const JulianDate tt = julian_tt(time);
     double tai1, tai2, utc1, utc2, ut11, ut12;
     eraTttai(tt.day, tt.fraction, &tai1, &tai2);
     eraTaiutc(tai1, tai2, &utc1, &utc2);
-    eraUtcut1(utc1, utc2, earth_orientation().ut1_minus_utc_s, &ut11, &ut12);
+    eraUtcut1(utc1, utc2, ut1_minus_utc_s, &ut11, &ut12);
     return {ut11, ut12};
 }
 

@@ -41,7 +41,8 @@ struct JulianDate {
     double fraction = 0;
 };
 JulianDate julian_tt(TimeTai time);
-// UTC and earth_orientation()'s UT1 - UTC: without that 14 arcsec of Earth rotation at most.
-JulianDate julian_ut1(TimeTai time);
+// UT1 - UTC is measured (earth_orientation.h); 0 in its place is wrong by 14 arcsec of Earth rotation at
+// most.
+JulianDate julian_ut1(TimeTai time, double ut1_minus_utc_s);
 
 }  // namespace hilcam

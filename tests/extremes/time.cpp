@@ -127,7 +127,7 @@ Group poles() {
                  // The pole of date: theta from the old one towards right ascension -zeta.
                  const Vec3d truth{std::sin(theta) * std::cos(zeta), -std::sin(theta) * std::sin(zeta),
                                    std::cos(theta)};
-                 const Vec3d pole = earth_fixed_from_icrf(time).z;
+                 const Vec3d pole = earth_fixed_from_icrf(time, {}).z;
                  return std::vector<Found>{
                      {std::abs(theta) / kArcsecond_rad, angle_between(pole, truth) / kArcsecond_rad}};
              }});

@@ -34,7 +34,7 @@ TEST(TleTrajectory, TheIssIsWhereAnotherProgramSays) {
     const StateVector found = state_of(*iss, time);
     EXPECT_LT(length(found.position_m - Vec3d{-3918876.50458, -1887648.38745, 5209088.01512}), 0.2);
     // Over the ground: 0.05" of printing, and of longitude UT1 - UTC, below 0.9 s by definition, 13.5".
-    const Vec3d place = earth_fixed_from_icrf(time) * found.position_m;
+    const Vec3d place = earth_fixed_from_icrf(time, {}) * found.position_m;
     const Vec3d expected = earth_fixed_position_m({-(86 + 23 / 60.0 + 23.3 / 3600) * kDegree_rad,
                                                    (50 + 14 / 60.0 + 37.4 / 3600) * kDegree_rad, 420.874e3});
     const double north = std::asin(normalized(place).z) - std::asin(normalized(expected).z);
@@ -64,9 +64,9 @@ TEST(TleTrajectory, EndsWhereTheTheoryEnds) {
 // day's orientation of the Earth, and in GCRF.
 TEST(WorldFrame, EarthFixedStatesAreThePublishedOnes) {
     const TimeTai time = from_calendar({2004, 4, 6, 7, 51, 28.386009}, TimeSystem::kUtc).value();
-    use_earth_orientation({-0.4399619, -0.140682 * kArcsecond_rad, 0.333309 * kArcsecond_rad});
-    const TurningAxes earth = WorldFrame(time, {}).body_fixed(BodyId::kEarth);
-    use_earth_orientation({});
+    OriginConfig origin;
+    origin.earth = {-0.4399619, -0.140682 * kArcsecond_rad, 0.333309 * kArcsecond_rad};
+    const TurningAxes earth = WorldFrame(time, origin).body_fixed(BodyId::kEarth);
     const StateVector found = world_state({{}, earth}, {{-1033479.3830, 7901295.2754, 6380356.5958},
                                                         {-3225.636520, -2872.451450, 5531.924446}});
     // Nutation of 2000B and printing.
@@ -91,10 +91,10 @@ TEST(OemTrajectory, TurnsEveryFrameIntoTheWorlds) {
             StateVector in = icrf;
             if (frame == CcsdsFrame::kEme2000 || frame == CcsdsFrame::kTeme) {
                 const Mat3d turn =
-                    transposed(frame == CcsdsFrame::kTeme ? icrf_from_teme(time) : icrf_from_eme2000());
+                    transposed(frame == CcsdsFrame::kTeme ? icrf_from_teme(time, {}) : icrf_from_eme2000());
                 in = {turn * icrf.position_m, turn * icrf.velocity_m_s};
             } else if (frame == CcsdsFrame::kEarthFixed) {
-                const Mat3d turn = earth_fixed_from_icrf(time);
+                const Mat3d turn = earth_fixed_from_icrf(time, {});
                 const Vec3d position = turn * icrf.position_m;
                 in = {position, turn * icrf.velocity_m_s - cross(Vec3d{0, 0, kEarthRate_rad_s}, position)};
             }

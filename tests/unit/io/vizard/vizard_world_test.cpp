@@ -90,10 +90,10 @@ TEST_F(VizardWorldTest, AnOriginThatTurnsIsTakenOffInPlaceAndVelocity) {
     VizardUpdate u = update();
     const TimeTai time = kEpoch + u.elapsed_ns;
     const Vec3d place_m =
-        transposed(earth_fixed_from_icrf(time)) * earth_fixed_position_m(bench.origin.place);
+        transposed(earth_fixed_from_icrf(time, {})) * earth_fixed_position_m(bench.origin.place);
     // At rest above the Earth: at the origin, at the Earth's velocity plus w x r, w = 7.292115e-5 rad/s (WGS
     // 84) about the pole of date.
-    const Vec3d pole = transposed(earth_fixed_from_icrf(time)) * Vec3d{0, 0, 1};
+    const Vec3d pole = transposed(earth_fixed_from_icrf(time, {})) * Vec3d{0, 0, 1};
     u.spacecraft[1].position_n_m = u.bodies[0].position_n_m + place_m;
     u.spacecraft[1].velocity_n_m_s = u.bodies[0].velocity_n_m_s + cross(7.292115e-5 * pole, place_m);
     VizardWorld w = world();

@@ -30,7 +30,7 @@ TEST(Time, RefusesWhatIsNoTime) {
 // arcsec of aberration and the minute's rounding stay below 0.005 deg of declination.
 TEST(Bodies, SunStandsOnTheEquatorAtTheEquinox) {
     const TimeTai time = parse_utc("2026-03-20T14:46:00Z");
-    const Vec3d sun = normalized(earth_fixed_from_icrf(time) * sun_from_earth_m(time));
+    const Vec3d sun = normalized(earth_fixed_from_icrf(time, {}) * sun_from_earth_m(time));
     EXPECT_NEAR(std::asin(sun.z) / kDegree_rad, 0, 0.006);
     // Equation of time that day: -7.4 min (Astronomical Almanac); the Sun is over longitude -15 (14.767 - 12
     // - 0.123) deg.
