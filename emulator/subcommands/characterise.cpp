@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/characterise/characterise_report.h"
+#include "emulator/scenario/scene_loader.h"
 #include "emulator/subcommands/arguments.h"
 #include "io/config/config_yaml.h"
 #include "render/vocabulary/check.h"
