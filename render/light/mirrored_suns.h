@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "render/light/material_albedo.h"
-#include "render/light/mirror_beam.h"
 #include "render/light/tile.h"
 #include "render/scene/flat_mirrors.h"
+#include "render/scene/mirror_beam.h"
 #include "render/scene/shown_object.h"
 
 namespace hilcam {

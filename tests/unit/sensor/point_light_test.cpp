@@ -41,9 +41,10 @@ std::vector<float> one_by_one(Bench& bench, const Exposure& exposure, std::span<
 }
 
 // tolerance: of the brightest pixel; 0: bit by bit. What a point adds to a pixel in several parts is summed
-// in another order when it is by itself.
+// in another order when it is by itself: of some thousand parts each rounds the sum by 6e-8 at most, up or
+// down.
 void expect_the_same(Bench& bench, const Exposure& exposure, std::span<const PointSource> points,
-                     float tolerance = 2e-6f) {
+                     float tolerance = 1e-5f) {
     const std::vector<float> expected = one_by_one(bench, exposure, points);
     const float most = *std::max_element(expected.begin(), expected.end());
     ASSERT_GT(most, 0);

@@ -1,4 +1,4 @@
-#include "render/light/mirror_beam.h"
+#include "render/scene/mirror_beam.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ HILCAM_CLONES void MirrorBeams::find_in(const Block& block, const PlaceBox& box,
     const Vec3f farthest{std::abs(m.x) + h.x, std::abs(m.y) + h.y, std::abs(m.z) + h.z};
     std::array<std::int32_t, kTogether> met;
     for (std::size_t i = 0; i < kTogether; ++i) {
-        struct Range {
+        struct Span {
             float least, most;
         };
         const auto range = [&](const Lines& l) {
@@ -67,9 +67,9 @@ HILCAM_CLONES void MirrorBeams::find_in(const Block& block, const PlaceBox& box,
             const float middle = bx * m.x + by * m.y + bz * m.z + c;
             const float size = ax * farthest.x + ay * farthest.y + az * farthest.z + std::abs(c);
             const float half = ax * h.x + ay * h.y + az * h.z + kRounding * size;
-            return Range{middle - half, middle + half};
+            return Span{middle - half, middle + half};
         };
-        const Range away = range(block.distance), x = range(block.x), y = range(block.y);
+        const Span away = range(block.distance), x = range(block.x), y = range(block.y);
         const float more_x = (block.margin_x_m[i] + block.margin_x[i] * away.most) * (1 + kRounding);
         const float more_y = (block.margin_y_m[i] + block.margin_y[i] * away.most) * (1 + kRounding);
         const bool meets_box = (away.most > block.least_m[i]) & (x.most > -more_x) &

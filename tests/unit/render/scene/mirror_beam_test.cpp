@@ -1,6 +1,6 @@
 // What is told of many mirrors at once, against each mirror and each place.
 
-#include "render/light/mirror_beam.h"
+#include "render/scene/mirror_beam.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sensor/psf.h"
+#include "sensor/convolution/psf.h"
 
 #include <algorithm>
 #include <array>
