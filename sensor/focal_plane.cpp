@@ -376,7 +376,7 @@ void FocalPlane::gather(std::span<const PointSource> sources, const Exposure& ex
         }
     });
     for (const BrightPixel& pixel : my.bright) my.points.add(pixel, light_e);
-    for (const PointSource& source : sources) my.points.add(source, light_e);
+    my.points.add(sources, light_e);
     my.points.finish(light_e);
 }
 

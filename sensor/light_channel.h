@@ -7,10 +7,10 @@
 
 #include "sensor/convolution/compact_kernel.h"
 #include "sensor/convolution/convolve.h"
+#include "sensor/convolution/psf.h"
 #include "sensor/exposure.h"
 #include "sensor/mosaic.h"
 #include "sensor/optics.h"
-#include "sensor/psf.h"
 #include "sensor/stray_light.h"
 #include "sensor/system_mtf.h"
 

@@ -75,6 +75,11 @@ double RelativeIllumination::at(double x_px, double y_px) const {
 }
 
 double RelativeIllumination::of_point(double x_px, double y_px) const {
+    // Without distortion a pixel's solid angle falls with the third power of the cosine.
+    if (geometry_.distortion.none() && cos_power_ == 4) {
+        const double lens = vignetting_.empty() ? 1 : vignetting_.at(field_fraction(x_px, y_px));
+        return lens / length(geometry_.direction_camera(x_px, on_sensor(y_px)));
+    }
     return at(x_px, y_px) * axis_solid_angle_ / solid_angle(x_px, on_sensor(y_px));
 }
 

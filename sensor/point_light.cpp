@@ -1,25 +1,20 @@
 #include "sensor/point_light.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "render/vocabulary/pose.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
 
-// Points of a trail. Their row has its first harmonic at this frequency, where a full pixel's own transfer
-// function is zero along both axes.
-constexpr double kPerPixel = 2;
-
-// Drawn together, in so many bands of rows: enough for the threads of a bench machine, and bands that are
-// much higher than the images that lie across two of them.
-constexpr std::size_t kMostSpots = 4096;
-constexpr int kBands = 16;
+constexpr std::size_t kSourcesAtOnce = 8192;
+// Drawn together, in bands of rows: enough for the threads of a bench machine, and bands that are much higher
+// than the images that lie across two of them.
+constexpr std::size_t kSpotsAtOnce = 8192;
 constexpr std::size_t kFewSpots = 64;  // not worth waking threads for
 
 constexpr int kReach = PointSpread::kMostRadius_px;
@@ -54,8 +49,11 @@ PointLight::PointLight(const DetectorView& view, std::vector<LightChannel>& chan
       channels_(channels),
       bins_(bins),
       glare_e_(channels.size()),
+      trails_(view),
       patch_(std::size_t{kAcross} * kAcross) {
-    spots_.reserve(kMostSpots);
+    sources_.reserve(kSourcesAtOnce), spots_until_.reserve(kSourcesAtOnce);
+    spots_.reserve(kSpotsAtOnce);
+    for (std::vector<std::uint32_t>& spots : band_spots_) spots.reserve(kSpotsAtOnce);
     for (const FarWings& w : wings) near_wings_.push_back(near_wings(w));
 }
 
@@ -65,30 +63,36 @@ void PointLight::begin(const Exposure& exposure) {
                  view_.detector.focal_length_px;
     // A hundredth of a pixel is not seen.
     if (jitter_px_ < 0.01) jitter_px_ = 0;
+    trails_.begin(exposure, jitter_px_);
     std::fill(glare_e_.begin(), glare_e_.end(), 0.0);
 }
 
-void PointLight::add(const PointSource& point, ElectronImage& light_e) {
+PointLight::Source PointLight::source_of(const PointSource& point, std::size_t c) const {
     const double m = view_.sampling.oversampling;
     const Vec2d middle_px{static_cast<double>(point.position_px.x) / m,
                           static_cast<double>(point.position_px.y) / m};
-    if (!std::isfinite(middle_px.x) || !std::isfinite(middle_px.y)) return;
+    Source out{{middle_px, {}, false, 0}, 0, static_cast<int>(c)};
+    if (!std::isfinite(middle_px.x) || !std::isfinite(middle_px.y)) return out;
+    out.electrons =
+        std::min(channels_[c].electrons_of(point.irradiance_w_m2_um, bins_, exposure_.exposure_s), 1e9);
+    if (!(out.electrons > 0)) return out;
     const double way = exposure_.exposure_s / m;
-    const Vec2d drift_px{way * static_cast<double>(point.drift_px_s.x),
-                         way * static_cast<double>(point.drift_px_s.y)};
-    const Vec3d turn_rad = -exposure_.exposure_s * exposure_.camera_rate_rad_s;
-    for (std::size_t c = 0; c < channels_.size(); ++c) {
-        const double all =
-            std::min(channels_[c].electrons_of(point.irradiance_w_m2_um, bins_, exposure_.exposure_s), 1e9);
-        if (!(all > 0)) continue;
-        along_trail(middle_px, drift_px, turn_rad, [&](Vec2d at_px, double part) {
-            if (std::abs(at_px.x) > 1e6 || std::abs(at_px.y) > 1e6) return;
-            const double electrons = all * part * view_.lens.of_point(at_px.x, at_px.y);
-            scatter(at_px, [&](Vec2d px, double share) {
-                spots_.push_back(spot_of(static_cast<int>(c), px, electrons * share));
-                if (spots_.size() == kMostSpots) draw_spots(light_e);
-            });
+    out.trail = trails_.of_sky(middle_px, {way * static_cast<double>(point.drift_px_s.x),
+                                           way * static_cast<double>(point.drift_px_s.y)});
+    return out;
+}
+
+void PointLight::add(std::span<const PointSource> points, ElectronImage& light_e) {
+    const std::size_t channels = channels_.size(), at_once = kSourcesAtOnce / channels;
+    for (std::size_t first = 0; first < points.size(); first += at_once) {
+        const std::span<const PointSource> some =
+            points.subspan(first, std::min(at_once, points.size() - first));
+        sources_.resize(some.size() * channels);
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, some.size(), kFewSpots), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                for (std::size_t c = 0; c < channels; ++c) sources_[i * channels + c] = source_of(some[i], c);
         });
+        draw_sources(light_e);
     }
 }
 
@@ -96,85 +100,112 @@ void PointLight::add(const PointSource& point, ElectronImage& light_e) {
 void PointLight::add(const BrightPixel& pixel, ElectronImage& light_e) {
     const Vec2d way_px{exposure_.image_rate_px_s.x * exposure_.exposure_s,
                        exposure_.image_rate_px_s.y * exposure_.exposure_s};
-    along_trail(pixel.position_px, way_px, {}, [&](Vec2d at_px, double part) {
-        scatter(at_px, [&](Vec2d px, double share) {
-            // Its electrons count the fill factor already.
-            draw(spot_of(pixel.channel, px, pixel.electrons * part * share / view_.camera.fill_factor),
-                 all_rows(), light_e);
-            take_off_wings(px, pixel.channel, pixel.electrons * part * share, light_e);
-        });
+    const PointTrails::Trail trail = PointTrails::straight(pixel.position_px, way_px);
+    for (int part = 0; part < trail.parts; ++part)
+        for (std::size_t i = 0; i < trails_.scattered(); ++i) {
+            const Vec2d px = trails_.scattered_px(trails_.place(trail, part), i);
+            const double electrons = pixel.electrons * (1.0 / trail.parts) * trails_.share(i);
+            // They count the fill factor already.
+            const Spot spot = spot_of(pixel.channel, px, electrons / view_.camera.fill_factor);
+            glare_e_[static_cast<std::size_t>(pixel.channel)] += spot.glare_e;
+            draw(spot, all_rows(), light_e);
+            take_off_wings(px, pixel.channel, electrons, light_e);
+        }
+}
+
+// Spots are numbered through all sources.
+void PointLight::draw_sources(ElectronImage& light_e) {
+    spots_until_.clear();
+    std::size_t count = 0;
+    for (const Source& source : sources_)
+        spots_until_.push_back(count += static_cast<std::size_t>(source.trail.parts) * trails_.scattered());
+    for (std::size_t first = 0; first < count; first += kSpotsAtOnce) {
+        spots_.resize(std::min(kSpotsAtOnce, count - first));
+        make_spots(first);
+        if (view_.camera.stray_light.veiling_glare_fraction > 0)
+            for (const Spot& spot : spots_) glare_e_[static_cast<std::size_t>(spot.channel)] += spot.glare_e;
+        draw_spots(light_e);
+    }
+}
+
+void PointLight::make_spots(std::size_t first_spot) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, spots_.size(), kFewSpots), [&](const auto& range) {
+        const std::size_t first = first_spot + range.begin();
+        auto until = std::upper_bound(spots_until_.begin(), spots_until_.end(), first);
+        auto s = static_cast<std::size_t>(until - spots_until_.begin());
+        std::size_t in_source = first - (s > 0 ? spots_until_[s - 1] : 0);
+        Vec2d place_px;
+        double electrons = 0;
+        bool known = false;  // these two, of the present part
+        for (std::size_t i = range.begin(); i < range.end(); ++i, ++in_source) {
+            for (; first_spot + i >= spots_until_[s]; ++s) in_source = 0, known = false;
+            const Source& source = sources_[s];
+            const std::size_t of_part = in_source % trails_.scattered();
+            if (of_part == 0 || !known) {
+                place_px = trails_.place(source.trail, static_cast<int>(in_source / trails_.scattered()));
+                known = true;
+                electrons = source.electrons * (1.0 / source.trail.parts);
+                const bool near = std::abs(place_px.x) <= 1e6 && std::abs(place_px.y) <= 1e6;
+                electrons = near ? electrons * view_.lens.of_point(place_px.x, place_px.y) : 0;
+            }
+            spots_[i] = electrons > 0 ? spot_of(source.channel, trails_.scattered_px(place_px, of_part),
+                                                electrons * trails_.share(of_part))
+                                      : Spot{};
+        }
     });
 }
 
-// drift_px: the point's own way, over that of a sky which turns by turn_rad.
-template <class Draw>
-void PointLight::along_trail(Vec2d middle_px, Vec2d drift_px, const Vec3d& turn_rad, const Draw& draw) const {
-    const bool turns = turn_rad.x != 0 || turn_rad.y != 0 || turn_rad.z != 0;
-    if (!turns && drift_px.x == 0 && drift_px.y == 0) return draw(middle_px, 1.0);
-    const Vec3d dir = view_.detector.direction_camera(middle_px.x, middle_px.y);
-    const auto at = [&](double time) {
-        Vec2d px = middle_px;
-        if (turns) {
-            const Vec3d moved = to_matrix(from_rotation_vector(time * turn_rad)) * dir;
-            px = moved.z > 0 ? view_.detector.project_px(moved) : Vec2d{-1e9, -1e9};
-        }
-        return Vec2d{px.x + time * drift_px.x, px.y + time * drift_px.y};
-    };
-    const Vec2d from = at(-0.5), to = at(0.5);
-    const double length_px = std::hypot(to.x - from.x, to.y - from.y);
-    const double parts = std::clamp(std::ceil(length_px * kPerPixel), 1.0, 4096.0);
-    for (double i = 0.5; i < parts; i += 1) draw(at(i / parts - 0.5), 1 / parts);
-}
-
-template <class Draw>
-void PointLight::scatter(Vec2d at_px, const Draw& draw) const {
-    if (jitter_px_ <= 0) return draw(at_px, 1.0);
-    constexpr int kSteps = 6;
-    std::array<double, 2 * kSteps + 1> weights;
-    double sum = 0;
-    for (int i = -kSteps; i <= kSteps; ++i)
-        sum += weights[static_cast<std::size_t>(i + kSteps)] = std::exp(-0.125 * i * i);
-    for (int j = -kSteps; j <= kSteps; ++j)
-        for (int i = -kSteps; i <= kSteps; ++i)
-            draw({at_px.x + 0.5 * i * jitter_px_, at_px.y + 0.5 * j * jitter_px_},
-                 weights[static_cast<std::size_t>(i + kSteps)] *
-                     weights[static_cast<std::size_t>(j + kSteps)] / (sum * sum));
-}
-
-// Counts those of its electrons that glare takes.
-PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) {
+PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) const {
     const StrayLightConfig& stray = view_.camera.stray_light;
+    Spot out{at_px, electrons, 0, c, 0};
     if (stray.glare_radius_px <= 0) {
-        glare_e_[static_cast<std::size_t>(c)] +=
-            electrons * view_.camera.fill_factor * stray.veiling_glare_fraction;
-        electrons *= 1 - stray.veiling_glare_fraction;
+        out.glare_e = electrons * view_.camera.fill_factor * stray.veiling_glare_fraction;
+        out.electrons *= 1 - stray.veiling_glare_fraction;
     }
-    int radius_px = 0;
     for (const PointSpread& spread : channels_[static_cast<std::size_t>(c)].spreads)
-        radius_px = std::max(radius_px, spread.radius_for(electrons));
-    return {at_px, electrons, c, radius_px};
+        out.radius_px = std::max(out.radius_px, spread.radius_for(out.electrons));
+    return out;
+}
+
+// By the rows that its image touches; charge may cross over to the row before and after.
+void PointLight::sort_into_bands() {
+    constexpr auto kBandCount = static_cast<int>(kBands);
+    const int height = view_.detector.height_px;
+    for (std::vector<std::uint32_t>& spots : band_spots_) spots.clear();
+    for (std::size_t i = 0; i < spots_.size(); ++i) {
+        const Spot& spot = spots_[i];
+        if (spot.radius_px == Spot::kNone) continue;
+        const int y = static_cast<int>(std::floor(spot.at_px.y)), reach = spot.radius_px + 1;
+        if (y + reach < 0 || y - reach >= height) continue;
+        // A row's band is the last that begins at it or before.
+        const auto band_of = [&](int row) {
+            return static_cast<std::size_t>((kBandCount * (std::clamp(row, 0, height - 1) + 1) - 1) / height);
+        };
+        for (std::size_t band = band_of(y - reach); band <= band_of(y + reach); ++band)
+            band_spots_[band].push_back(static_cast<std::uint32_t>(i));
+    }
 }
 
 void PointLight::draw_spots(ElectronImage& light_e) {
-    const int bands = spots_.size() < kFewSpots ? 1 : kBands;
-    const int height = view_.detector.height_px;
-    tbb::parallel_for(0, bands, [&](int band) {
-        const Rows rows{height * band / bands, height * (band + 1) / bands};
-        for (const Spot& spot : spots_) {
-            // Charge may cross over to the row before and after.
-            const double reach = spot.radius_px + 2;
-            if (spot.at_px.y + reach >= rows.begin && spot.at_px.y - reach <= rows.end)
-                draw(spot, rows, light_e);
-        }
+    if (spots_.size() < kFewSpots) {
+        for (const Spot& spot : spots_)
+            if (spot.radius_px != Spot::kNone) draw(spot, all_rows(), light_e);
+        return;
+    }
+    sort_into_bands();
+    const auto height = static_cast<std::size_t>(view_.detector.height_px);
+    tbb::parallel_for(std::size_t{0}, kBands, [&](std::size_t band) {
+        const Rows rows{static_cast<int>(height * band / kBands),
+                        static_cast<int>(height * (band + 1) / kBands)};
+        for (const std::uint32_t i : band_spots_[band]) draw(spots_[i], rows, light_e);
     });
-    spots_.clear();
 }
 
 void PointLight::draw(const Spot& spot, Rows rows, ElectronImage& light_e) const {
     PointSpread::Room room;
     const Vec2d at_px = spot.at_px;
-    const double field = view_.lens.field_fraction(at_px.x, at_px.y);
     const LightChannel& channel = channels_[static_cast<std::size_t>(spot.channel)];
+    const double field = channel.spreads.size() > 1 ? view_.lens.field_fraction(at_px.x, at_px.y) : 0;
     for (std::size_t z = 0; z < channel.spreads.size(); ++z) {
         const double weight = zone_weight(view_.camera.field_zones, z, field);
         if (weight > 0)
@@ -198,7 +229,16 @@ void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronIm
     const int width = view_.detector.width_px;
     const auto left = static_cast<int>(view_.camera.black_columns),
                top = static_cast<int>(view_.camera.black_rows);
-    const auto crosstalk = static_cast<float>(view_.mosaic.one_color() ? 0 : view_.camera.crosstalk_fraction);
+    const auto crosstalk = static_cast<float>(view_.camera.crosstalk_fraction);
+    if (view_.mosaic.one_color()) {
+        const int from = std::max(0, -patch.left), to = std::min(patch.size, width - patch.left);
+        for (int y = std::max(rows.begin, patch.top); y < std::min(rows.end, patch.top + patch.size); ++y) {
+            const float* in = patch.electrons + (y - patch.top) * patch.size;
+            float* out = light_e.row(y + top).data() + left;
+            for (int i = from; i < to; ++i) out[patch.left + i] += in[i];
+        }
+        return;
+    }
     const auto add = [&](int x, int y, float electrons) {
         if (x < 0 || y < rows.begin || x >= width || y >= rows.end) return;
         light_e.row(y + top)[static_cast<std::size_t>(x + left)] += electrons;
@@ -217,12 +257,7 @@ void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronIm
         }
 }
 
-void PointLight::finish(ElectronImage& light_e) {
-    draw_spots(light_e);
-    add_glare(light_e);
-}
-
-void PointLight::add_glare(ElectronImage& light_e) const {
+void PointLight::finish(ElectronImage& light_e) const {
     if (std::all_of(glare_e_.begin(), glare_e_.end(), [](double e) { return e == 0; })) return;
     const double pixels = static_cast<double>(view_.detector.padded_width()) * view_.detector.padded_height();
     for (int y = 0; y < view_.detector.height_px; ++y) {

@@ -2,12 +2,12 @@
 // Light of points on the detector: stars, things smaller than a pixel, and pixels of the picture that are far
 // too bright for its FFT (the Sun, a mirror's glint of it).
 //
-// A point that moves through the exposure is drawn as many, half a pixel apart; one that jitters, as a grid
-// of them half a standard deviation apart, out to three, by the normal density.
-//
-// Images of points are drawn by all threads, a band of rows each: what falls on a pixel is added in the
-// points' order, whatever the number of threads.
+// A point that moves through the exposure or jitters is drawn as many (point_trail.h). Where their images lie
+// is worked out by all threads, some points each, and the images are drawn by all threads, a band of rows
+// each: what falls on a pixel is added in the points' order, whatever the number of threads.
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,6 +15,7 @@
 #include "render/vocabulary/point_source.h"
 #include "sensor/far_wings.h"
 #include "sensor/light_channel.h"
+#include "sensor/point_trail.h"
 
 namespace hilcam {
 
@@ -34,36 +35,44 @@ class PointLight {
     // In this order each frame; loop, one thread. light_e: the read-out array.
     void begin(const Exposure& exposure);
     void add(const BrightPixel& pixel, ElectronImage& light_e);
-    void add(const PointSource& point, ElectronImage& light_e);
-    // The last of the points, and what glare spreads evenly of all that was added.
-    void finish(ElectronImage& light_e);
+    void add(std::span<const PointSource> points, ElectronImage& light_e);
+    // What glare spreads evenly of all that was added.
+    void finish(ElectronImage& light_e) const;
 
     // Of this exposure: standard deviation of what a jitter's density leaves within it [px], 0 if not seen.
     double jitter_px() const { return jitter_px_; }
 
   private:
-    // An image of a point that is still to be drawn.
+    // A point in a channel.
+    struct Source {
+        PointTrails::Trail trail;
+        double electrons;
+        int channel;
+    };
+    // An image that is still to be drawn.
     struct Spot {
         Vec2d at_px;
         double electrons = 0;
+        double glare_e = 0;  // what glare has taken of it
         int channel = 0;
-        int radius_px = 0;
+        int radius_px = kNone;
+        static constexpr int kNone = -1;  // nothing is drawn
     };
     // Rows of the window that a thread draws on.
     struct Rows {
         int begin, end;
     };
+    static constexpr std::size_t kBands = 16;
 
-    template <class Draw>
-    void along_trail(Vec2d middle_px, Vec2d drift_px, const Vec3d& turn_rad, const Draw& draw) const;
-    template <class Draw>
-    void scatter(Vec2d at_px, const Draw& draw) const;
-    Spot spot_of(int channel, Vec2d at_px, double electrons);
+    Source source_of(const PointSource& point, std::size_t channel) const;
+    void draw_sources(ElectronImage& light_e);
+    void make_spots(std::size_t first_spot);
+    Spot spot_of(int channel, Vec2d at_px, double electrons) const;
+    void sort_into_bands();
     void draw(const Spot& spot, Rows rows, ElectronImage& light_e) const;
     void draw_spots(ElectronImage& light_e);
     void add_patch(const PointPatch& patch, int channel, Rows rows, ElectronImage& light_e) const;
     Rows all_rows() const { return {0, view_.detector.height_px}; }
-    void add_glare(ElectronImage& light_e) const;
     void take_off_wings(Vec2d at_px, int channel, double electrons, ElectronImage& light_e);
 
     const DetectorView& view_;
@@ -72,7 +81,11 @@ class PointLight {
     Exposure exposure_;
     double jitter_px_ = 0;
     std::vector<double> glare_e_;  // by channel
-    std::vector<Spot> spots_;      // with room for kMostSpots
+    PointTrails trails_;
+    std::vector<Source> sources_;                                // some points at a time
+    std::vector<std::size_t> spots_until_;                       // of all sources up to each
+    std::vector<Spot> spots_;                                    // some of theirs, in order
+    std::array<std::vector<std::uint32_t>, kBands> band_spots_;  // that lie in a band of rows, in order
     // Of each channel: what the wings give near a point, and what the table has folded in of them.
     std::vector<std::vector<double>> near_wings_;
     std::vector<float> patch_;

@@ -9,7 +9,6 @@
 #include "render/light/kept_light.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/shadow_rays.h"
-#include "render/vocabulary/clones.h"
 
 namespace hilcam {
 namespace {
@@ -203,7 +202,7 @@ void MirroredSuns::add(const ShownObject& object, std::size_t number, std::span<
     for (const FlatMirror& mirror : mirrors)
         mirrors_.push_back({&object, static_cast<std::uint32_t>(number), &mirror, &albedos[mirror.surface],
                             object.materials()[mirror.surface].ggx_alpha});
-    shown_.reserve(mirrors_.size());
+    shown_.reserve(mirrors_.size()), beams_.reserve(mirrors_.size());
 }
 
 namespace {
@@ -226,15 +225,18 @@ Vec2f blur_of(const MirroredSuns::Shown& shown, Vec3f sun) {
 }
 
 // least: what is to be added at least, of the Sun.
-void find_lines(Vec3f sun, float least, MirroredSuns::Shown& out) {
-    using Line = MirroredSuns::Shown::Line;
+void find_beam(Vec3f sun, float least, MirroredSuns::Shown& out) {
+    using Line = MirrorBeam::Line;
     const float cosine = dot(sun, out.normal);
     const Vec3f dir = out.dir = sun - 2 * cosine * out.normal;
+    MirrorBeam& beam = out.beam;
+    beam.least_m = out.tolerance_m;
+    beam.width_m = out.mirror.shape->width_m, beam.height_m = out.mirror.shape->height_m;
     const auto line = [&](Vec3f by_place) { return Line{by_place, -dot(by_place, out.corner_m)}; };
     const Vec3f per_m = (1 / cosine) * out.normal;
-    out.distance = line(per_m);
-    out.x = line(out.across + dot(dir, out.across) * per_m);
-    out.y = line(out.down + dot(dir, out.down) * per_m);
+    beam.distance = line(per_m);
+    beam.x = line(out.across + dot(dir, out.across) * per_m);
+    beam.y = line(out.down + dot(dir, out.down) * per_m);
     // The farthest that any rectangle reaches which counts, or the edge of the Sun's disk.
     const float disk = 2 * kHalfSun_rad / cosine;
     float widest = 0, share = 0;
@@ -242,15 +244,15 @@ void find_lines(Vec3f sun, float least, MirroredSuns::Shown& out) {
         share += part->share;
         if (share * largest(out.reflectance) > least) widest = part->half;
     }
-    out.margin = {std::max(widest * out.blur.x, disk), std::max(widest * out.blur.y, disk)};
+    beam.margin = {std::max(widest * out.blur.x, disk), std::max(widest * out.blur.y, disk)};
     const Vec2f cell = out.mirror.shape->cell_m();
-    out.margin_m = {2 * (cell.x + out.tolerance_m), 2 * (cell.y + out.tolerance_m)};
+    beam.margin_m = {2 * (cell.x + out.tolerance_m), 2 * (cell.y + out.tolerance_m)};
 }
 
 }  // namespace
 
 void MirroredSuns::place(const FrameView& frame, const WorldSnapshot& world) {
-    shown_.clear();
+    shown_.clear(), beams_.clear();
     if (!(largest(frame.background->sun_irradiance_w_m2_um()) > 0)) return;
     const Vec3f sun = to_float(frame.background->sun_world_dir());
     for (const Mirror& mirror : mirrors_) {
@@ -276,63 +278,62 @@ void MirroredSuns::place(const FrameView& frame, const WorldSnapshot& world) {
         // Rounding: a place in ray space is good to some 1e-7 of how far it is away.
         out.tolerance_m += 32 * std::numeric_limits<float>::epsilon() * length(out.corner_m);
         if (2 * mirror.alpha > kHalfSun_rad) out.blur = blur_of(out, sun);
-        find_lines(sun, frame.contribution_threshold, out);
+        find_beam(sun, frame.contribution_threshold, out);
         shown_.push_back(out);
+        beams_.add(out.beam);
     }
 }
 
 namespace {
 
-// Vertices side by side: nearly all of them see no mirror, and are to cost nothing.
-struct Places {
-    static constexpr std::size_t kMost = 256;
-    alignas(64) std::array<float, kMost> x, y, z;
-    alignas(64) std::array<std::uint8_t, kMost> may_see;
-};
-
-HILCAM_CLONES void look_for(const MirroredSuns::Shown& shown, Places& places) {
-    using Line = MirroredSuns::Shown::Line;
-    const Line d = shown.distance, u = shown.x, v = shown.y;
-    const float nearest_m = shown.tolerance_m, width_m = shown.mirror.shape->width_m,
-                height_m = shown.mirror.shape->height_m;
-    const Vec2f margin = shown.margin, margin_m = shown.margin_m;
-    for (std::size_t i = 0; i < Places::kMost; ++i) {
-        const float px = places.x[i], py = places.y[i], pz = places.z[i];
-        const auto at = [&](const Line& line) {
-            return line.by_place.x * px + line.by_place.y * py + line.by_place.z * pz + line.constant;
-        };
-        const float away_m = at(d), x = at(u), y = at(v);
-        const float more_x = margin_m.x + margin.x * away_m, more_y = margin_m.y + margin.y * away_m;
-        const bool sees = (away_m > nearest_m) & (x > -more_x) & (x < width_m + more_x) & (y > -more_y) &
-                          (y < height_m + more_y);
-        places.may_see[i] = sees ? 1 : 0;
+PlaceBox box_of(std::span<const Vertex> vertices) {
+    Vec3f least = vertices.front().point_m, most = least;
+    for (const Vertex& at : vertices) {
+        least = {std::min(least.x, at.point_m.x), std::min(least.y, at.point_m.y),
+                 std::min(least.z, at.point_m.z)};
+        most = {std::max(most.x, at.point_m.x), std::max(most.y, at.point_m.y),
+                std::max(most.z, at.point_m.z)};
     }
+    return {0.5f * (least + most), 0.5f * (most - least)};
 }
 
 }  // namespace
 
 void MirroredSuns::add_light(Tile& tile, std::span<const Vertex> vertices) const {
-    if (shown_.empty()) return;
+    BeamPlaces places;
+    for (std::size_t first = 0; first < vertices.size() && !shown_.empty(); first += BeamPlaces::kMost) {
+        const std::span<const Vertex> some =
+            vertices.subspan(first, std::min(BeamPlaces::kMost, vertices.size() - first));
+        for (std::size_t i = 0; i < BeamPlaces::kMost; ++i) {
+            const Vec3f point_m = some[std::min(i, some.size() - 1)].point_m;
+            places.x[i] = point_m.x, places.y[i] = point_m.y, places.z[i] = point_m.z;
+        }
+        const PlaceBox box = box_of(some);
+        std::array<std::uint8_t, MirrorBeams::kTogether> meets;
+        for (std::size_t block = 0; block < beams_.blocks(); ++block) {
+            beams_.find(box, block, meets);
+            for (auto met = meets.begin(); (met = std::find(met, meets.end(), 1)) != meets.end(); ++met) {
+                const auto in_block = static_cast<std::size_t>(met - meets.begin());
+                add_light_of(shown_[block * MirrorBeams::kTogether + in_block], tile, some, places);
+            }
+        }
+    }
+}
+
+// vertices: as many as places at most, and at those.
+void MirroredSuns::add_light_of(const Shown& shown, Tile& tile, std::span<const Vertex> vertices,
+                                BeamPlaces& places) const {
+    find_places_in_beam(shown.beam, places);
+    const auto* const all = places.in_beam.data();
+    const auto* const end = all + vertices.size();
+    const auto* seen = std::find(all, end, 1);
+    if (seen == end) return;
     const auto lit = [&](const Reflected& by, const Spectrum* glass) {
         tile.pixels[by.at->pixel] += glass ? by.light * *glass : by.light;
     };
-    Places places;
-    for (std::size_t first = 0; first < vertices.size(); first += Places::kMost) {
-        const std::size_t count = std::min(Places::kMost, vertices.size() - first);
-        for (std::size_t i = 0; i < Places::kMost; ++i) {
-            const Vec3f point_m = vertices[first + std::min(i, count - 1)].point_m;
-            places.x[i] = point_m.x, places.y[i] = point_m.y, places.z[i] = point_m.z;
-        }
-        for (const Shown& shown : shown_) {
-            look_for(shown, places);
-            const auto* const end = places.may_see.data() + count;
-            const auto* seen = std::find(static_cast<const std::uint8_t*>(places.may_see.data()), end, 1);
-            if (seen == end) continue;
-            Asker<decltype(lit)> asker(tile, shown, lit);
-            for (; seen != end; seen = std::find(seen + 1, end, 1))
-                asker.ask(vertices[first + static_cast<std::size_t>(seen - places.may_see.data())]);
-        }
-    }
+    Asker<decltype(lit)> asker(tile, shown, lit);
+    for (; seen != end; seen = std::find(seen + 1, end, 1))
+        asker.ask(vertices[static_cast<std::size_t>(seen - all)]);
 }
 
 }  // namespace hilcam

@@ -22,6 +22,7 @@
 #include "render/light/material_albedo.h"
 #include "render/light/tile.h"
 #include "render/scene/flat_mirrors.h"
+#include "render/scene/mirror_beam.h"
 #include "render/scene/shown_object.h"
 
 namespace hilcam {
@@ -46,16 +47,8 @@ class MirroredSuns {
         // How far a facet that leans by alpha moves the place where the Sun is seen, over the distance, along
         // across and down; 0: the mirror is as sharp as its edge.
         Vec2f blur{};
-        Vec3f dir{};  // towards the mirrored Sun's middle
-        // Where a place of ray space sees the Sun's middle, along across and down from the corner, and how
-        // far away: each a product with the place and a constant. margin: over the distance, how far about
-        // there anything of the mirror counts.
-        struct Line {
-            Vec3f by_place;
-            float constant = 0;
-        };
-        Line distance{}, x{}, y{};
-        Vec2f margin{}, margin_m{};
+        Vec3f dir{};        // towards the mirrored Sun's middle
+        MirrorBeam beam{};  // where anything of it counts
     };
 
     // An object's mirrors and its materials' albedos, by surface; all outlive this. Owner thread.
@@ -71,6 +64,10 @@ class MirroredSuns {
   private:
     std::vector<Mirror> mirrors_;
     std::vector<Shown> shown_;
+    MirrorBeams beams_;  // of shown_
+
+    void add_light_of(const Shown& shown, Tile& tile, std::span<const Vertex> vertices,
+                      BeamPlaces& places) const;
 };
 
 }  // namespace hilcam

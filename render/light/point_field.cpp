@@ -103,7 +103,7 @@ void PointField::add(Vec3d dir, double distance_m, const Spectrum& irradiance,
                      std::vector<PointSource>& points, std::uint32_t object) const {
     Sighting sighting;
     Spectrum seen;
-    if (look(dir, distance_m, irradiance, sighting, seen)) push(sighting, {{}, seen, object, {}}, points);
+    if (look(dir, distance_m, irradiance, sighting, seen)) push(sighting, {{}, {}, object, seen}, points);
 }
 
 void PointField::add_stars(const StarSky& stars, std::vector<PointSource>& points) const {

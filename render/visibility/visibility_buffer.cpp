@@ -83,14 +83,25 @@ bool VisibilityBuffer::take(const Pose& camera, std::span<const Shown> shown) {
     return true;
 }
 
+// All vertices in runs, whatever object they are of: many small ones take as many threads as a large one.
 void VisibilityBuffer::project() {
-    for (const Placed& object : placed_) {
-        const std::span<const Vec3f> all = object.shown.mesh.vertices_m;
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, all.size(), kVertexRun), [&](const auto& part) {
-            const std::size_t i = object.first_vertex + part.begin();
-            project_vertices(all.subspan(part.begin(), part.size()), object.projection, vertices_.data() + i);
-        });
-    }
+    const auto project_part = [this](std::size_t begin, std::size_t end) {
+        auto object =
+            std::upper_bound(placed_.begin(), placed_.end(), begin,
+                             [](std::size_t at, const Placed& placed) { return at < placed.first_vertex; });
+        for (--object; object != placed_.end() && object->first_vertex < end; ++object) {
+            const std::span<const Vec3f> all = object->shown.mesh.vertices_m;
+            const std::size_t first = object->first_vertex;
+            const std::size_t from = std::max(begin, first), to = std::min(end, first + all.size());
+            if (from < to)
+                project_vertices(all.subspan(from - first, to - from), object->projection,
+                                 vertices_.data() + from);
+        }
+    };
+    if (placed_.empty()) return;
+    const std::size_t count = placed_.back().first_vertex + placed_.back().shown.mesh.vertices_m.size();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kVertexRun),
+                      [&](const auto& part) { project_part(part.begin(), part.end()); });
 }
 
 // Puts one group of triangles into the tiles that may see them.

@@ -66,7 +66,8 @@ TEST(Chain, ExtremesStayFiniteAndInRange) {
         Bench bench(c);
         bench.radiance.row(40)[40] = 1e30f;
         bench.radiance.row(10)[10] = 1e-12f;
-        PointSource point{{10, 10}, {}};
+        PointSource point;
+        point.position_px = {10, 10};
         point.irradiance_w_m2_um[0] = 1e20f;
         for (const double exposure_s : {1e-6, 1000.0}) {
             const Exposure exposure{.exposure_s = exposure_s,

@@ -4,11 +4,11 @@
 // all.
 //
 // The PSF is the inverse transform of MTF_sys up to 8 cycles/px, tabulated at 1/16 px over 64 px and
-// interpolated by cubic convolution (Keys, IEEE Trans. ASSP 29(6), 1981). Every electron is kept: what falls
-// farther than 32 px from the point (Airy wings, halo: about 1 % at f/4 and 5.5 um) is folded into the 64 px,
-// and what a smaller square leaves out is given to those inside. With a fill factor of 1 the sum over the
-// pixels is then 1 within 1e-6 wherever the point falls; with gaps between pixels it varies as on a real
-// detector, about the fill factor.
+// interpolated by cubic convolution (Keys, IEEE Trans. ASSP 29(6), 1981), for faint points by lines. Every
+// electron is kept: what falls farther than 32 px from the point (Airy wings, halo: about 1 % at f/4 and 5.5
+// um) is folded into the 64 px, and what a smaller square leaves out is given to those inside. With a fill
+// factor of 1 the sum over the pixels is then 1 within 1e-6 wherever the point falls; with gaps between
+// pixels it varies as on a real detector, about the fill factor.
 
 #include <array>
 #include <complex>
@@ -42,11 +42,20 @@ class PointSpread {
 
   private:
     static constexpr int kOversampling = 16;
+    static constexpr int kLeastRadius_px = 3;
+    // Points are interpolated linearly where that is off by less [e-] in any pixel.
+    static constexpr double kLinear_e = 0.005;
+    // What the least images can ask for of a phase: eight rows of eight pixels, four lines of a cache.
+    static constexpr int kCoreAcross_px = 8, kCoreSize = kCoreAcross_px * kCoreAcross_px;
+    static_assert(kCoreAcross_px >= 2 * kLeastRadius_px + 2);
 
     // Samples of one phase lie together: phases_[py][px][y][x].
     const float* phase(int px, int py) const;
+    void copy_core();
 
     std::vector<float> phases_;
+    std::vector<float> core_;  // core_[py][px][y][x], and two rows that are read but not used
+    double linear_error_ = 0;  // of a line between phases, of a point's electrons
     std::vector<double> phase_sums_;
     std::vector<double> outside_;  // share of the light outside a square of half width r
 };

@@ -1,0 +1,76 @@
+#pragma once
+// Where the light goes that flat mirrors throw (mirrored_suns.h): a beam for each of them. Nearly all places
+// are in none, and are to cost nothing: a look at one mirror and many places, and one at many mirrors and a
+// box of places.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+// Ray space, metres. A place is in the beam where it is farther than least_m from the mirror's plane, along
+// the beam, and where it sees the Sun's middle within the mirror's rectangle or a margin about it, which
+// grows with that distance.
+struct MirrorBeam {
+    // A product with a place, and a constant.
+    struct Line {
+        Vec3f by_place;
+        float constant = 0;
+    };
+    Line distance{}, x{},
+        y{};  // of the place; where on the mirror, along its sides, it sees the Sun's middle
+    float least_m = 0, width_m = 0, height_m = 0;
+    Vec2f margin{}, margin_m{};  // over the distance, and what there is of it at the mirror
+};
+
+// Places side by side.
+struct BeamPlaces {
+    static constexpr std::size_t kMost = 256;
+    alignas(64) std::array<float, kMost> x, y, z;
+    alignas(64) std::array<std::uint8_t, kMost> in_beam;  // 1: it is
+};
+// Sets in_beam of all kMost. Loop, any thread.
+void find_places_in_beam(const MirrorBeam& beam, BeamPlaces& places);
+
+// A box along the axes.
+struct PlaceBox {
+    Vec3f middle_m, half_m;
+};
+
+// Beams side by side.
+class MirrorBeams {
+  public:
+    static constexpr std::size_t kTogether = 64;
+
+    // Makes room. Owner thread.
+    void reserve(std::size_t beams) { blocks_.reserve((beams + kTogether - 1) / kTogether); }
+    // Loop; no allocation while there is room.
+    void clear() { blocks_.clear(), count_ = 0; }
+    void add(const MirrorBeam& beam);
+
+    std::size_t blocks() const { return blocks_.size(); }
+    // Tells the beams of a block, number 64 x block and on, that can meet the box: 1 in `meets`. It may name
+    // one that does not, and leaves out none in which find_places_in_beam() finds a place of the box. Loop,
+    // any thread.
+    void find(const PlaceBox& box, std::size_t block, std::array<std::uint8_t, kTogether>& meets) const;
+
+  private:
+    using Numbers = std::array<float, kTogether>;
+    struct Lines {
+        Numbers by_x, by_y, by_z, constant;
+    };
+    struct alignas(64) Block {
+        Lines distance, x, y;
+        Numbers least_m, width_m, height_m, margin_x, margin_y, margin_x_m, margin_y_m;
+    };
+    std::vector<Block> blocks_;
+    std::size_t count_ = 0;
+
+    static void find_in(const Block& block, const PlaceBox& box, std::array<std::uint8_t, kTogether>& meets);
+};
+
+}  // namespace hilcam
