@@ -14,6 +14,7 @@
 
 #include "render/light/kept_source.h"
 #include "render/light/material_albedo.h"
+#include "render/light/sky_light.h"
 #include "render/scene/brdf_microfacet.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
@@ -120,6 +121,10 @@ class KeptLight {
             sum += about.weight[i] * irradiance_[about.node[i] * terms_.size() + term].unpacked();
         return sum;
     }
+    // The same, at one node.
+    Spectrum irradiance(std::size_t term, std::uint32_t node) const {
+        return irradiance_[node * terms_.size() + term].unpacked();
+    }
     // Share of a cone's light that comes without a way.
     float seen(std::size_t term, const NodesAbout& about) const {
         float sum = 0;
@@ -138,12 +143,18 @@ class KeptLight {
     // light along them. Shares are of what an even sky would give, Fresnel's term left out. normal, view_dir:
     // body axes, unit.
     struct Lobe {
-        Spectrum kept;       // mean radiance of the term, times the share that meets it
-        float free = 1;      // share of the whole lobe that goes free
-        float occupied = 0;  // share that meets a node
+        Spectrum kept;  // mean radiance of the term, times the share that meets it
+        // Share of what each cone gives to the whole lobe that comes without a way.
+        std::array<float, SkyLight::kMostBodies> free{1, 1};
+        float of_irradiance = 0;  // radiance of what it meets, times the share, over the node's irradiance
+    };
+    struct Cone {
+        Vec3f dir;  // body axes
+        float cosine;
     };
     static constexpr std::size_t kNoTerm = ~std::size_t{0};
-    Lobe lobe(std::size_t sun, std::uint32_t node, Vec3f normal, Vec3f view_dir, float alpha) const;
+    Lobe lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t node, Vec3f normal, Vec3f view_dir,
+              float alpha) const;
     // Whether anything stands near a direction from a node, within about 20 degrees.
     bool is_near(std::uint32_t node, Vec3f dir) const;
     std::size_t bytes() const;

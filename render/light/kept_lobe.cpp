@@ -7,6 +7,7 @@
 #include "render/light/kept_light.h"
 #include "render/light/kept_links.h"
 #include "render/vocabulary/clones.h"
+#include "render/vocabulary/lane_sum.h"
 
 namespace hilcam {
 namespace {
@@ -47,6 +48,18 @@ void lobe_weights(const float* x, const float* y, const float* z, const float* c
     for (std::size_t i = 0; i < kDirectionLanes; ++i) query.whole += wholes[i], query.kept += kepts[i];
 }
 
+// The weights of the directions in a cone. n is a multiple of kDirectionLanes.
+HILCAM_CLONES
+float cone_sum(const float* x, const float* y, const float* z, const float* weight, std::size_t n,
+               const ConeShare& share) {
+    const ConeShare cone = share;
+    std::array<float, kDirectionLanes> sums{};
+    for (std::size_t d = 0; d < n; d += kDirectionLanes)
+        for (std::size_t i = 0; i < kDirectionLanes; ++i)
+            sums[i] += weight[d + i] * cone.of(x[d + i], y[d + i], z[d + i]);
+    return lane_sum(sums);
+}
+
 }  // namespace
 
 void KeptLight::prefetch_along(std::size_t t, std::uint32_t n) const {
@@ -59,8 +72,8 @@ void KeptLight::prefetch_along(std::size_t t, std::uint32_t n) const {
             __builtin_prefetch(terms_[t].along.data() + node.first_along + i);
 }
 
-KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::uint32_t n, Vec3f normal, Vec3f view_dir,
-                                float alpha) const {
+KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t n, Vec3f normal,
+                                Vec3f view_dir, float alpha) const {
     const LobeNode& node = lobes_[n];
     if (node.all_free) return {};
     const Local axes = local(node);
@@ -83,11 +96,19 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::uint32_t n, Vec3f normal, 
     if (!(query.whole > 0)) return out;
     // Sixty directions are too few for a sum over a lobe; for its tails they are enough.
     const float all = query.narrow ? static_cast<float>(node.counted) / kPiF : std::max(query.kept, 1e-20f);
-    float met = 0;
-    for_each_met(n, [&](std::size_t d) { met += whole[d]; });
+    for (std::size_t c = 0; c < cones.size(); ++c) {
+        const ConeShare cone(axes.dir(cones[c].dir), cones[c].cosine, table_->directions());
+        const float of_cone =
+            cone_sum(local_x_.data(), local_y_.data(), local_z_.data(), whole.data(), counts_.size(), cone);
+        float met = 0;
+        for_each_met(
+            n, [&](std::size_t d) { met += whole[d] * cone.of(local_x_[d], local_y_[d], local_z_[d]); });
+        out.free[c] = of_cone > 0 ? std::clamp(1 - met / of_cone, 0.0f, 1.0f) : 0.0f;
+    }
     const bool facets = sun != kNoTerm && node.first_along != kNoLobe;
     const PackedSpectrum* along = facets ? terms_[sun].along.data() + node.first_along : nullptr;
     float occupied = 0;
+    std::size_t met_nodes = node.entries;
     const TransferTable::Entry* const entries = table_->entry(node.first_entry);
     for (std::size_t i = 0; i < node.entries; ++i) {
         const float weight = kept[entries[i].direction];
@@ -98,13 +119,17 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::uint32_t n, Vec3f normal, 
         const PackedSpectrum* there =
             sun != kNoTerm ? terms_[sun].along_links.data() + links_->first(n) : nullptr;
         for (const KeptLinks::Link& link : links_->of(n)) {
+            ++met_nodes;
             occupied += kept[link.direction];
             if (there) out.kept += kept[link.direction] * (there++)->unpacked();
         }
     }
     out.kept = (1 / all) * out.kept;
-    out.free = std::clamp(1 - met / query.whole, 0.0f, 1.0f);
-    out.occupied = occupied / all;
+    // What comes along the directions that meet something makes the node's irradiance: pi / counted of each
+    // one's radiance.
+    if (met_nodes > 0)
+        out.of_irradiance =
+            occupied / all * static_cast<float>(node.counted) / (kPiF * static_cast<float>(met_nodes));
     return out;
 }
 

@@ -225,8 +225,21 @@ void KeptScene::find(const FrameView& frame, std::span<Place> places) const {
     }
 }
 
+// The irradiance of all sources but the Sun by way of other surfaces, at a node or about a place.
+template <class Where>
+Spectrum KeptScene::others(const FrameView& frame, const KeptLight& light, const Where& where) const {
+    Spectrum sum;
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        sum += sky_.bodies()[b].irradiance_w_m2_um * light.irradiance(KeptTerms::kBodies + b, where);
+    if (frame.lamps)
+        for (const PlacedLamp& lamp : frame.lamps->lit())
+            sum += lamp.intensity_w_sr_um * light.irradiance(KeptTerms::kLamps + lamp.number, where);
+    if (terms_.emission) sum += light.irradiance(terms_.glow(), where);
+    return sum;
+}
+
 // This is what a surface reflects without its facets.
-Spectrum KeptScene::reflect_diffuse(const FrameView& frame, Place& place) const {
+Spectrum KeptScene::reflect_diffuse(const FrameView& frame, const Place& place) const {
     const Vertex& at = *place.at;
     const Object& object = objects_[at.object];
     const KeptLight& light = *object.light;
@@ -236,18 +249,11 @@ Spectrum KeptScene::reflect_diffuse(const FrameView& frame, Place& place) const 
     if (at.surface.material->has_facets() && at.surface.alpha >= kNarrowestLobe && place.found)
         light.prefetch_along(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, place.nearest);
 
-    place.others = {};
-    Spectrum sky;  // irradiance of the bodies without a way
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
-        place.others += sky_.bodies()[b].irradiance_w_m2_um * light.irradiance(KeptTerms::kBodies + b, about);
-        sky +=
+    Spectrum all = others(frame, light, about);
+    // The bodies' light without a way.
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+        all +=
             (place.found ? light.seen(KeptTerms::kBodies + b, about) : 1.0f) * sky_.irradiance(b, at.normal);
-    }
-    if (frame.lamps)
-        for (const PlacedLamp& lamp : frame.lamps->lit())
-            place.others += lamp.intensity_w_sr_um * light.irradiance(KeptTerms::kLamps + lamp.number, about);
-    if (terms_.emission) place.others += light.irradiance(terms_.glow(), about);
-    Spectrum all = place.others + sky;
     if (sunlit) all += sun * light.irradiance(KeptTerms::kSun, about);
 
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
@@ -266,17 +272,24 @@ Spectrum KeptScene::reflect_lobe(const FrameView& frame, const Place& place) con
     KeptLight::Lobe lobe;
     if (place.found) {
         const Mat3f& axes = frame.world_from_body[at.object];
-        lobe = light.lobe(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, place.nearest,
-                          to_body(axes, at.normal), to_body(axes, at.view_dir), at.surface.alpha);
+        std::array<KeptLight::Cone, SkyLight::kMostBodies> cones;
+        const std::size_t bodies = sky_.bodies().size();
+        for (std::size_t b = 0; b < bodies; ++b)
+            cones[b] = {to_body(axes, sky_.bodies()[b].light_dir), sky_.bodies()[b].light_cosine};
+        lobe =
+            light.lobe(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, {cones.data(), bodies}, place.nearest,
+                       to_body(axes, at.normal), to_body(axes, at.view_dir), at.surface.alpha);
     }
-    Spectrum radiance = (lobe.occupied / kPiF) * place.others;
+    Spectrum radiance;
+    if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
     if (sunlit) radiance += sun * lobe.kept;
     // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle.
     const bool narrow = at.surface.alpha < kNarrowestKept;
-    float free = lobe.free;
-    if (narrow) free = at.mirrors_near ? tail_share(at.surface.alpha) * lobe.free : 1.0f;
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b)
+    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
+        float free = lobe.free[b];
+        if (narrow) free = at.mirrors_near ? tail_share(at.surface.alpha) * free : 1.0f;
         radiance += free * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(reflectance));
+    }
     const Spectrum out = reflectance * radiance;
     return at.surface.material->texture >= 0 ? tint(at.surface) * out : out;
 }

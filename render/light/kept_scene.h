@@ -84,14 +84,15 @@ class KeptScene {
         NodesAbout about;
         std::uint32_t nearest;  // node, where there is one
         bool found;
-        Spectrum others;         // irradiance of all but the Sun, by way of other surfaces
         Spectrum diffuse, lobe;  // radiance that is reflected to the viewer
     };
     Place* shared_place(const Tile& tile, std::span<Place> places, const Vertex& at) const;
     void find(const FrameView& frame, std::span<Place> places) const;
     static bool is_lit(const Place& place) { return !place.found || place.about.count > 0; }
     bool is_near(const FrameView& frame, const Place& place) const;
-    Spectrum reflect_diffuse(const FrameView& frame, Place& place) const;
+    template <class Where>
+    Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
+    Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
     Spectrum reflect_lobe(const FrameView& frame, const Place& place) const;
 };
 

@@ -220,27 +220,17 @@ void KeptSolver::store(const Member& member) {
     });
 }
 
-// This counts directions in the cone, and those beside it by falling weights.
 float KeptSolver::seen_of_cone(const Member& member, const KeptLight& light, std::size_t n) {
     const TransferTable& table = light.table();
-    const KeptSource& source = member.source;
     const std::span<const std::uint64_t> is_free = member.links->free(table, n);
-    const float half_angle = std::acos(std::clamp(source.cone_cosine, -1.0f, 1.0f));
+    const ConeShare cone(KeptLight::local(light.lobes_[n]).dir(member.source.dir), member.source.cone_cosine,
+                         table.directions());
     float all = 0, free = 0;
-    const Vec3f axis = KeptLight::local(light.lobes_[n]).dir(source.dir);
-    // So far beside it that there are half a dozen: of all directions, sin^2 of a cone's half angle times the
-    // cosine of its axis are in it.
-    constexpr float kEnough = 6, kLeastCosine = 0.25f, kSoft_rad = 0.05f;
-    const float share = kEnough / (static_cast<float>(table.directions()) * std::max(axis.z, kLeastCosine));
-    const float outside =
-        std::cos(std::max(half_angle + kSoft_rad, std::asin(std::sqrt(std::min(share, 1.0f)))));
     for (std::size_t d = 0; d < static_cast<std::size_t>(table.directions()); ++d) {
-        const float cosine =
-            light.local_x_[d] * axis.x + light.local_y_[d] * axis.y + light.local_z_[d] * axis.z;
-        if (cosine <= outside || !table.is_live(n, table.point_of(d))) continue;
-        const float in = std::min(1.0f, (cosine - outside) / std::max(source.cone_cosine - outside, 1e-3f));
-        all += in * in;
-        if (is_free[d / 64] >> (d % 64) & 1u) free += in * in;
+        if (!table.is_live(n, table.point_of(d))) continue;
+        const float in = cone.of(light.local_x_[d], light.local_y_[d], light.local_z_[d]);
+        all += in;
+        if (is_free[d / 64] >> (d % 64) & 1u) free += in;
     }
     return all > 0 ? free / all : 0;
 }

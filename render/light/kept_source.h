@@ -56,6 +56,27 @@ struct KeptSource {
     KeptSource rounded(float step_rad) const;
 };
 
+// How much each of a node's directions counts for a cone of light: those within it whole, and those beside it
+// by falling weights, so far that there are half a dozen: of all directions, sin^2 of a cone's half angle
+// times the cosine of its axis are in it.
+struct ConeShare {
+    Vec3f axis{0, 0, 1};  // node axes
+    float inside = 1, outside = 1;
+
+    ConeShare() = default;
+    ConeShare(Vec3f node_axis, float cone_cosine, int directions) : axis(node_axis), inside(cone_cosine) {
+        constexpr float kEnough = 6, kLeastCosine = 0.25f, kSoft_rad = 0.05f;
+        const float share = kEnough / (static_cast<float>(directions) * std::max(axis.z, kLeastCosine));
+        const float half_angle = std::acos(std::clamp(cone_cosine, -1.0f, 1.0f));
+        outside = std::cos(std::max(half_angle + kSoft_rad, std::asin(std::sqrt(std::min(share, 1.0f)))));
+    }
+    float of(float x, float y, float z) const {
+        const float past = x * axis.x + y * axis.y + z * axis.z - outside;
+        const float in = std::clamp(past / std::max(inside - outside, 1e-3f), 0.0f, 1.0f);
+        return in * in;
+    }
+};
+
 inline KeptSource KeptSource::rounded(float step_rad) const {
     KeptSource out = *this;
     if (kind == Kind::kNone || kind == Kind::kGlow) return out;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/scene/brdf_microfacet.h"
+#include "render/scene/material.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/lane_sum.h"
 
@@ -55,6 +56,23 @@ Vec3f spiral(Vec3f axis, float one_minus_cosine, std::size_t i, std::size_t coun
     return Frame(axis).to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
+// What a lobe without Fresnel's term reflects of an even sky: facets that are wide shadow each other, and
+// what they then reflect again is not the lobe's. Between 17 widths, linear.
+float whole_lobe(float alpha, float no) {
+    constexpr int kSteps = 16;
+    static const std::array<LobeAlbedo, kSteps + 1> by_alpha = [] {
+        std::array<LobeAlbedo, kSteps + 1> out;
+        for (int i = 0; i <= kSteps; ++i)
+            out[static_cast<std::size_t>(i)] = ggx_albedo(static_cast<float>(i) / kSteps, 0);
+        return out;
+    }();
+    const float x = std::min(alpha, 1.0f) * kSteps;
+    const int i = std::min(static_cast<int>(x), kSteps - 1);
+    const LobeAlbedo* const at = by_alpha.data() + i;
+    const float below = at[0](no);
+    return below + (x - static_cast<float>(i)) * (at[1](no) - below);
+}
+
 float sign(float x) { return x >= 0 ? 1.0f : -1.0f; }
 
 // Bilinear in a square of steps + 1 values a side; x and y below steps.
@@ -68,7 +86,7 @@ Spectrum interpolated(const std::vector<Spectrum>& value, int steps, float x, fl
 
 }  // namespace
 
-SkyLight::SkyLight() = default;
+SkyLight::SkyLight() { whole_lobe(0, 1); }  // so that no frame makes its table
 
 Vec3f SkyLight::DirectionMap::direction(int index) {
     const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
@@ -242,7 +260,7 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
     lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), count, normal, view_dir, alpha, weight.data());
     Spectrum sum;
     weighted_sums(weight.data(), disk.by_bin[0].data(), kPatches, count, sum);
-    return sum;
+    return (1 / whole_lobe(alpha, no)) * sum;
 }
 
 }  // namespace hilcam

@@ -38,8 +38,9 @@ class SkyLight {
     Spectrum irradiance(std::size_t body, Vec3f world_normal) const {
         return irradiance_[body].at(world_normal);
     }
-    // Radiance that a facet lobe (GGX alpha; 0: a mirror) sends towards the viewer of it, Fresnel's term left
-    // out. Unit vectors, world. reflectance: what is not worth it with that is zero.
+    // The mean radiance of the body over a facet lobe (GGX alpha; 0: a mirror) as its viewer sees it: times
+    // all that the lobe reflects, Fresnel's term included, it is what is sent. Unit vectors, world.
+    // reflectance: what is not worth it with that is zero.
     Spectrum glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha, float reflectance) const;
 
   private:

@@ -101,11 +101,13 @@ TEST(KeptLight, AFrameIsAFunctionOfItsWorld) {
     EXPECT_TRUE(std::equal(first.begin(), first.end(), s.radiance.plane(0).begin()));
 }
 
-// The Earth over a floor that its wall hides half of it from: as random paths find it.
+// The Earth over a floor that its wall hides half of it from: as random paths find it, on paint, and by
+// facets, which see part of it past the wall and the rest as the wall mirrors it.
 TEST(KeptLight, EarthshineIsHiddenByTheObjectsOwnParts) {
-    const auto light = [](const char* model, int samples) {
-        Stage s = corner_stage(model, lambert(0.8), samples);
+    const auto light = [](const char* model, const MaterialConfig& material, int samples) {
+        Stage s = corner_stage(model, material, samples);
         s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
+        s.quality.facets_behind_diffuse = 0;
         s.earth(0.3);
         // A disk of 68 degrees to the right, for the floor behind the wall in part; the Sun behind the floor.
         s.world.bodies[BodyId::kEarth].world_m = {9e6, 0, -7e6};
@@ -113,9 +115,46 @@ TEST(KeptLight, EarthshineIsHiddenByTheObjectsOwnParts) {
         s.render();
         return s.mean();
     };
-    const double paths = light("path", 8);
-    EXPECT_GT(paths, 0);
-    EXPECT_NEAR(light("kept", 2) / paths, 1, 0.06);
+    MaterialConfig metal = lambert(0.8);
+    metal.model = ReflectionModel::kMetal;
+    metal.roughness = 0.6;
+    for (const MaterialConfig& material : {lambert(0.8), metal}) {
+        const double paths = light("path", material, 8);
+        EXPECT_GT(paths, 0);
+        // What the wall mirrors is kept as paint's.
+        const double error = material.model == ReflectionModel::kMetal ? 0.08 : 0.06;
+        EXPECT_NEAR(light("kept", material, 2) / paths, 1, error);
+    }
+}
+
+// Rough metal reflects all of the Earth's light that it does: facets that shade each other are counted once.
+TEST(KeptLight, RoughMetalSendsAllOfTheEarthsLight) {
+    const auto light = [](const char* model, double roughness, int samples) {
+        Stage s;
+        s.quality.path_model = model;
+        s.quality.max_depth = 2;
+        s.quality.contribution_threshold = 0;
+        s.quality.samples_per_axis = samples;
+        s.quality.rays_across = 0;
+        s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
+        MaterialConfig metal = lambert(0.8);
+        metal.model = ReflectionModel::kMetal;
+        metal.roughness = roughness;
+        s.camera(48, 0.5);
+        s.add(sphere(40, metal, s.grid), {0, 0, 5});
+        s.earth(0.3);
+        // Behind the camera, 70 degrees of half angle; the Sun behind the sphere.
+        s.world.bodies[BodyId::kEarth].world_m = {0, 0, -6.7875e6};
+        s.sun({0, 0, 1});
+        s.render();
+        return s.mean();
+    };
+    for (const double roughness : {0.3, 0.5, 0.75, 1.0}) {
+        const double paths = light("path", roughness, 8);
+        EXPECT_GT(paths, 0);
+        // Fresnel's term has one mean for all of the lobe.
+        EXPECT_NEAR(light("kept", roughness, 2) / paths, 1, 0.025) << roughness;
+    }
 }
 
 // Polished metal beside the Earth's limb: the tails of its lobe, narrow against the disk, reach over it.
