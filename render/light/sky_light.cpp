@@ -143,6 +143,7 @@ void SkyLight::place_disks(const Background& background, const BodyLamp& lamp, D
     disks.half_angle_rad = half_angle;
     Disk& whole = disks.of.back();
     const Vec3f axis = to_float(lamp.world_dir);
+    find_limb(background, axis, disks);
     Spectrum each_sr;
     each_sr.bin.fill(2 * kPiF * lamp.one_minus_cosine / kPatches);
     for (std::size_t i = 0; i < kPatches; ++i) {
@@ -161,6 +162,35 @@ void SkyLight::place_disks(const Background& background, const BodyLamp& lamp, D
             for (std::size_t i = 0; i < kParts[k]; ++i)
                 disks.of[k].by_bin[b][i] = disks.of[k].irradiance[i][static_cast<int>(b)];
     }
+}
+
+// By bisection, to a thousandth of the half angle.
+void SkyLight::find_limb(const Background& background, Vec3f axis, Disks& disks) {
+    constexpr int kHalvings = 10;
+    constexpr double kFar_m = 1e20;
+    const Frame frame(axis);
+    for (std::size_t i = 0; i < Disks::kPlanes; ++i) {
+        const float phi = 2 * kPiF * static_cast<float>(i) / Disks::kPlanes;
+        const Vec3f way = std::cos(phi) * frame.t + std::sin(phi) * frame.b;
+        float inside = 0, outside = disks.half_angle_rad;
+        for (int k = 0; k < kHalvings; ++k) {
+            const float angle = 0.5f * (inside + outside);
+            const bool met =
+                background.hides({}, to_double(std::cos(angle) * axis + std::sin(angle) * way), kFar_m);
+            (met ? inside : outside) = angle;
+        }
+        disks.limb_rad[i] = outside;
+    }
+}
+
+// way: unit, across the axis.
+float SkyLight::Disks::limb_in(Vec3f axis, Vec3f way) const {
+    const Frame frame(axis);
+    const float turn = std::atan2(dot(way, frame.b), dot(way, frame.t)) / (2 * kPiF);
+    const float x = (turn < 0 ? turn + 1 : turn) * static_cast<float>(kPlanes);
+    const std::size_t i = static_cast<std::size_t>(x) % kPlanes;
+    const float part = std::min(x - std::floor(x), 1.0f);
+    return limb_rad[i] + part * (limb_rad[(i + 1) % kPlanes] - limb_rad[i]);
 }
 
 // Each patch's light goes to the nearest of fewer, which stand in the middle of what they have of it.
@@ -194,8 +224,8 @@ Spectrum SkyLight::past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, flo
     const Vec3f way = sine > 1e-6f ? across / sine : Frame(axis).t;
     // Along the great circle from the disk's middle through the mirror's direction.
     const auto at = [&](float angle) { return std::cos(angle) * axis + std::sin(angle) * way; };
-    const float outside = std::acos(cosine) - disks.half_angle_rad;
-    const Vec3f limb = at(disks.half_angle_rad);
+    const float limb_rad = disks.limb_in(axis, way), outside = std::acos(cosine) - limb_rad;
+    const Vec3f limb = at(limb_rad);
     if (outside > 0 && (alpha == 0 || dot(limb, normal) <= 0)) return {};
     // GGX slopes along one axis: density a^2 / (2 (a^2 + s^2)^1.5) (Heitz, JCGT 3(2), 2014, sec. 5,
     // integrated over the other axis).
@@ -205,9 +235,9 @@ Spectrum SkyLight::past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, flo
         const float slope = std::sqrt(std::max(1 / std::max(nh * nh, 1e-6f) - 1, 0.0f));
         share = 0.5f + std::copysign(0.5f, -outside) * slope / std::sqrt(slope * slope + alpha * alpha);
     }
-    // Past the limb the lobe sees it about as deep as it is away.
-    const float depth = std::clamp(outside, 0.01f * disks.half_angle_rad, disks.half_angle_rad);
-    const Vec3f seen = outside > 0 ? at(disks.half_angle_rad - depth) : mirror;
+    // Past the limb the lobe sees it about as deep as it is away; within, not before its own width.
+    const float depth = std::clamp(std::max(outside, alpha), 0.01f * limb_rad, limb_rad);
+    const Vec3f seen = outside > -depth ? at(limb_rad - depth) : mirror;
     Spectrum weight, out;
     weight.bin.fill(share);
     background_->add_bodies({}, to_double(seen), weight, out);

@@ -62,8 +62,13 @@ class SkyLight {
         float least_alpha = 0;
     };
     struct Disks {
-        std::array<Disk, kParts.size()> of;  // by kParts
-        float cosine = 1, sine = 0, half_angle_rad = 0;
+        std::array<Disk, kParts.size()> of;              // by kParts
+        float cosine = 1, sine = 0, half_angle_rad = 0;  // of a cone that holds it
+        // Where its limb is in the planes through its middle, from the first axis of its frame on: a body
+        // that is flattened fills no cone.
+        static constexpr std::size_t kPlanes = 32;
+        std::array<float, kPlanes> limb_rad{};
+        float limb_in(Vec3f axis, Vec3f way) const;
     };
 
     const Background* background_ = nullptr;
@@ -75,6 +80,7 @@ class SkyLight {
     Spectrum past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);
     static void place_disks(const Background& background, const BodyLamp& lamp, Disks& disks);
+    static void find_limb(const Background& background, Vec3f axis, Disks& disks);
     static void place_parts(const Disk& whole, Vec3f axis, float one_minus_cosine, std::size_t count,
                             Disk& out);
 };
