@@ -127,25 +127,32 @@ TEST(KeptLight, EarthshineIsHiddenByTheObjectsOwnParts) {
     }
 }
 
+// Metal of 0.8 under an Earth of 70 degrees of half angle, behind a camera with this field; what there is to
+// see is added by the test.
+struct MetalStage : Stage {
+    MaterialConfig metal = lambert(0.8);
+
+    MetalStage(const char* model, double roughness, int samples, int size_px, double half_width) {
+        metal.model = ReflectionModel::kMetal;
+        metal.roughness = roughness;
+        quality.path_model = model;
+        quality.max_depth = 2;
+        quality.contribution_threshold = 0;
+        quality.samples_per_axis = samples;
+        quality.rays_across = 0;
+        scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
+        camera(size_px, half_width);
+        earth(0.3);
+        world.bodies[BodyId::kEarth].world_m = {0, 0, -6.7875e6};
+    }
+};
+
 // Rough metal reflects all of the Earth's light that it does: facets that shade each other are counted once.
 TEST(KeptLight, RoughMetalSendsAllOfTheEarthsLight) {
     const auto light = [](const char* model, double roughness, int samples) {
-        Stage s;
-        s.quality.path_model = model;
-        s.quality.max_depth = 2;
-        s.quality.contribution_threshold = 0;
-        s.quality.samples_per_axis = samples;
-        s.quality.rays_across = 0;
-        s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
-        MaterialConfig metal = lambert(0.8);
-        metal.model = ReflectionModel::kMetal;
-        metal.roughness = roughness;
-        s.camera(48, 0.5);
-        s.add(sphere(40, metal, s.grid), {0, 0, 5});
-        s.earth(0.3);
-        // Behind the camera, 70 degrees of half angle; the Sun behind the sphere.
-        s.world.bodies[BodyId::kEarth].world_m = {0, 0, -6.7875e6};
-        s.sun({0, 0, 1});
+        MetalStage s(model, roughness, samples, 48, 0.5);
+        s.add(sphere(40, s.metal, s.grid), {0, 0, 5});
+        s.sun({0, 0, 1});  // behind the sphere
         s.render();
         return s.mean();
     };
@@ -160,22 +167,9 @@ TEST(KeptLight, RoughMetalSendsAllOfTheEarthsLight) {
 // Polished metal beside the Earth's limb: the tails of its lobe, narrow against the disk, reach over it.
 TEST(KeptLight, PolishedMetalSeesTheEarthPastItsLimb) {
     const auto light = [](const char* model, int samples, double tilt_rad) {
-        Stage s;
-        s.quality.path_model = model;
-        s.quality.max_depth = 2;
-        s.quality.contribution_threshold = 0;
-        s.quality.samples_per_axis = samples;
-        s.quality.rays_across = 0;
-        s.scene.sun_irradiance_1au_w_m2_um.bin.fill(kSun_w_m2_um);
-        MaterialConfig metal = lambert(0.8);
-        metal.model = ReflectionModel::kMetal;
-        metal.roughness = 0.15;  // alpha 0.0225
-        s.camera(16, 0.05);
-        s.add(plate(metal, s.grid), {0, 0, 4}, {kPi + tilt_rad, 0, 0});
-        s.earth(0.3);
-        // Behind the camera, 70 degrees of half angle; lit from above.
-        s.world.bodies[BodyId::kEarth].world_m = {0, 0, -6.7875e6};
-        s.sun({0, 0.2, 1});
+        MetalStage s(model, 0.15, samples, 16, 0.05);  // alpha 0.0225
+        s.add(plate(s.metal, s.grid), {0, 0, 4}, {kPi + tilt_rad, 0, 0});
+        s.sun({0, 0.2, 1});  // from above
         s.render();
         return s.mean();
     };
