@@ -164,9 +164,9 @@ void SkyLight::place_disks(const Background& background, const BodyLamp& lamp, D
     }
 }
 
-// By bisection, to a thousandth of the half angle.
+// By bisection, to a ten-thousandth of the half angle.
 void SkyLight::find_limb(const Background& background, Vec3f axis, Disks& disks) {
-    constexpr int kHalvings = 10;
+    constexpr int kHalvings = 14;
     constexpr double kFar_m = 1e20;
     const Frame frame(axis);
     for (std::size_t i = 0; i < Disks::kPlanes; ++i) {
@@ -179,7 +179,7 @@ void SkyLight::find_limb(const Background& background, Vec3f axis, Disks& disks)
                 background.hides({}, to_double(std::cos(angle) * axis + std::sin(angle) * way), kFar_m);
             (met ? inside : outside) = angle;
         }
-        disks.limb_rad[i] = outside;
+        disks.limb_rad[i] = 0.5f * (inside + outside);
     }
 }
 

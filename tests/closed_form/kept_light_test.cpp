@@ -182,6 +182,25 @@ TEST(KeptLight, PolishedMetalSeesTheEarthPastItsLimb) {
     }
 }
 
+// A polished plate that mirrors the limb over a pole, 21 km nearer to the middle than over the equator, which
+// is 8 mrad from here: as wide as its lobe.
+TEST(KeptLight, PolishedMetalSeesALimbThatIsFlattened) {
+    const auto light = [](const char* model, int samples, double tilt_deg) {
+        MetalStage s(model, 0.07, samples, 16, 0.002);  // alpha 0.0049
+        s.add(plate(s.metal, s.grid), {0, 0, 4}, {kPi + tilt_deg * kDegree_rad, 0, 0});
+        // The pole upwards.
+        s.world.bodies[BodyId::kEarth].fixed_from_world = {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+        s.sun({0, 0.2, 1});
+        s.render();
+        return s.mean();
+    };
+    const double inside = light("path", 16, 34.2);
+    EXPECT_GT(inside, 0);
+    for (const double tilt_deg : {34.4, 34.6, 34.8, 35.0, 35.2})
+        EXPECT_NEAR(light("kept", 2, tilt_deg) / inside, light("path", 16, tilt_deg) / inside, 0.05)
+            << tilt_deg;
+}
+
 // A white floor under tiles that cover most of it, a hair above: what is seen of it are the gaps, and those
 // have their light.
 TEST(KeptLight, TheGapsBetweenTilesAreLit) {
