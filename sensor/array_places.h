@@ -1,7 +1,7 @@
 #pragma once
-// Where the pixels of the read-out array lie on the sensor. What is drawn for a pixel is keyed by that place,
-// so that a window shows the very pixels that it shows on the real sensor. Black columns and rows count
-// beyond the greatest numbers of the light-sensitive ones.
+// This file says where the pixels of the read-out array lie on the sensor. What is drawn for a pixel is keyed
+// by that place, so that a window shows the very pixels that it shows on the real sensor. Black columns and
+// rows count beyond the greatest numbers of the light-sensitive ones.
 
 #include <cstdint>
 

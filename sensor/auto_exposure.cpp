@@ -9,11 +9,14 @@ namespace hilcam {
 
 Fields fields(AutoExposureConfig& c) {
     return {
-        flag("on", c.on, "the camera sets its exposure time itself"),
-        number("target_fraction", c.target_fraction, 1, {0.01, 0.95}, "of full scale, of the percentile"),
-        number("percentile", c.percentile, 1, {1, 99.99}, "of the frame's pixels, that is to be there"),
-        number("speed", c.speed, 1, {0.01, 1}, "share of the way that a frame goes, in stops"),
-        number("tolerance_stops", c.tolerance_stops, 1, {0, 2}, "nothing is changed within"),
+        flag("on", c.on, "true: the camera sets its exposure time itself"),
+        number("target_fraction", c.target_fraction, 1, {0.01, 0.95},
+               "share of full scale that the percentile is brought to"),
+        number("percentile", c.percentile, 1, {1, 99.99},
+               "percentile of the frame's pixels that is brought to the target"),
+        number("speed", c.speed, 1, {0.01, 1}, "share of the remaining way, in stops, that one frame goes"),
+        number("tolerance_stops", c.tolerance_stops, 1, {0, 2},
+               "distance from the target within which nothing is changed"),
     };
 }
 

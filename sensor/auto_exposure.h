@@ -20,8 +20,8 @@ struct Exposure;     // exposure.h
 
 struct AutoExposureConfig {
     bool on = false;
-    double target_fraction = 0.5;  // of full scale, of the percentile below
-    double percentile = 99;        // of the frame's pixels
+    double target_fraction = 0.5;  // share of full scale, for the percentile below
+    double percentile = 99;        // percentile of the frame's pixels
     double speed = 0.5;            // share of the way, in stops, that each frame goes; 1: at once
     double tolerance_stops = 0.1;  // nothing is changed within this
 };
@@ -41,15 +41,15 @@ struct ExposureLimits {
 double next_exposure_s(const AutoExposureConfig& config, Brightness seen, double present_s,
                        const ExposureLimits& limits);
 
-// What digital numbers of a frame stand for.
+// The scale tells what a frame's digital numbers stand for.
 struct DnScale {
     double black_dn = 0;
-    double full_dn = 4095;     // where the camera saturates
-    double most_dn = 4095;     // of the converter
+    double full_dn = 4095;     // number at which the camera saturates
+    double most_dn = 4095;     // greatest number of the converter
     bool square_root = false;  // 8-bit numbers are 255 sqrt(dn / most_dn)
 };
 
-// Of a camera's frames, taken as the exposure says.
+// Returns the scale of a camera's frames, taken as the exposure says.
 DnScale dn_scale_of(const CameraModel& camera, const Exposure& exposure);
 
 // Counts a frame's numbers. Memory for them is taken at construction.

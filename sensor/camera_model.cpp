@@ -9,21 +9,25 @@ namespace hilcam {
 
 Fields fields(FieldZone& z) {
     return {
-        required(number("field_fraction", z.field_fraction, 1, {0, 1}, "image height over the corner's")),
-        number("defocus_um", z.defocus_m, 1e-6, {-10000, 10000}, "added to the camera's"),
-        number("wavefront_rms_nm", z.wavefront_rms_m, 1e-9, {0, 1e5}, "in place of the camera's"),
+        required(number("field_fraction", z.field_fraction, 1, {0, 1},
+                        "image height of the zone over that of the corner")),
+        number("defocus_um", z.defocus_m, 1e-6, {-10000, 10000},
+               "defocus of the zone, added to the camera's"),
+        number("wavefront_rms_nm", z.wavefront_rms_m, 1e-9, {0, 1e5},
+               "wavefront error of the zone; replaces the camera's"),
     };
 }
 
 Fields fields(MeasuredMtf& m) {
     return {table("mtf", m.mtf, {"cycles_mm", "modulation"}, {0, 1e5}, {0, 1},
-                  "of the lens, from frequency 0 on")};
+                  "MTF of the lens, from frequency 0 on")};
 }
 
 Fields fields(SettingsStep& s) {
     return {
-        required(number("exposure_ms", s.exposure_s, 1e-3, {1e-3, 1e6}, "of this step's frame")),
-        number("gain_db", s.gain_db, 1, {-60, 60}, "of this step's frame"),
+        required(
+            number("exposure_ms", s.exposure_s, 1e-3, {1e-3, 1e6}, "exposure time of this step's frame")),
+        number("gain_db", s.gain_db, 1, {-60, 60}, "gain of this step's frame"),
     };
 }
 
@@ -32,32 +36,34 @@ namespace {
 Fields optics_fields(CameraModel& c) {
     return {
         required(number("focal_length_mm", c.focal_length_m, 1e-3, {0.1, 100000}, "focal length")),
-        choice("projection", c.projection, {"rectilinear", "fisheye"}, "of the lens"),
+        choice("projection", c.projection, {"rectilinear", "fisheye"}, "projection of the lens"),
         numbers("distortion", c.distortion, 1, {-100, 100}, {1, 5},
-                "k1, k2, p1, p2, k3 (Brown, as OpenCV); fisheye: k1 to k4"),
+                "distortion coefficients k1, k2, p1, p2, k3 (Brown, as OpenCV); fisheye: k1 to k4"),
         numbers("principal_point_px", c.principal_point_px, 1, {-16384, 32768}, {2, 2},
-                "where the boresight meets the sensor; default its middle"),
+                "point where the boresight meets the sensor; default: its middle"),
         required(number("f_number", c.f_number, 1, {0.5, 100}, "focal length over aperture diameter")),
         optional(number("t_number", c.t_number, 1, {0.5, 1000},
-                        "f-number over the root of the transmission, in place of transmission"),
+                        "f-number over the root of the transmission; replaces transmission"),
                  c.has_t_number),
         optional(curve("transmission", c.transmission, {0, 1},
-                       "of all glass and filters; number or [[um, value], ...]"),
+                       "transmission of all glass and filters together; number or [[um, value], ...]"),
                  c.has_transmission),
         number("central_obscuration_ratio", c.central_obscuration_ratio, 1, {0, 0.95},
-               "of aperture diameters"),
-        number("defocus_um", c.defocus_m, 1e-6, {-10000, 10000}, "shift of the detector from focus"),
-        number("wavefront_rms_nm", c.wavefront_rms_m, 1e-9, {0, 1e5}, "of the lens as built (Shannon)"),
+               "diameter of the central obscuration over that of the aperture"),
+        number("defocus_um", c.defocus_m, 1e-6, {-10000, 10000}, "shift of the detector out of focus"),
+        number("wavefront_rms_nm", c.wavefront_rms_m, 1e-9, {0, 1e5},
+               "rms wavefront error of the lens as built (Shannon)"),
         numbers("zernike_nm", c.zernike_m, 1e-9, {-1e5, 1e5}, {1, 34},
-                "rms of the wavefront's terms from Noll's 4 on"),
+                "rms coefficients of the wavefront's Zernike terms, from Noll's 4 on"),
         section("measured_mtf", c.measured_mtf,
-                "of the lens, in place of what follows from diffraction and aberrations"),
-        sections("field_zones", c.field_zones, "the lens at image heights, blended between"),
+                "measured MTF of the lens; replaces what follows from diffraction and aberrations"),
+        sections("field_zones", c.field_zones,
+                 "properties of the lens at several image heights, blended in between"),
         number("cos_power", c.cos_power, 1, {0, 8}, "n: irradiance falls as cos^n of the field angle"),
         table("vignetting", c.vignetting, {"field_fraction", "transmission"}, {0, 1}, {0, 1},
-              "over image height, on top of cos^n"),
-        section("stray_light", c.stray_light, "glare and ghost"),
-        section("jitter", c.jitter, "of the line of sight"),
+              "transmission over image height, on top of cos^n"),
+        section("stray_light", c.stray_light, "glare and ghost of the lens"),
+        section("jitter", c.jitter, "jitter of the line of sight"),
     };
 }
 
@@ -67,59 +73,70 @@ Fields detector_fields(CameraModel& c) {
                        "electrons per photon; number or curve")),
         number("fill_factor", c.fill_factor, 1, {0.01, 1}, "light-sensitive share of a pixel"),
         numbers("pixel_aperture_um", c.pixel_aperture_m, 1e-6, {0.05, 100}, {2, 2},
-                "width and height of what a pixel sees; default a square of the fill factor"),
+                "width and height of the area that a pixel sees; default: a square of the fill factor"),
         number("diffusion_um", c.diffusion_m, 1e-6, {0, 100}, "standard deviation of charge diffusion"),
         number("crosstalk_fraction", c.crosstalk_fraction, 1, {0, 0.2},
-               "of a pixel's charge to each of its four neighbours"),
-        section("color_filter", c.color_filter, "a colour filter array"),
+               "share of a pixel's charge that goes to each of its four neighbours"),
+        section("color_filter", c.color_filter, "colour filter array"),
         required(number("full_well_e", c.full_well_e, 1, {10, 1e8}, "saturation capacity")),
         numbers("nonlinearity", c.nonlinearity, 1, {-0.5, 0.5}, {1, 2},
                 "a2, a3: charge is read as q (1 + a2 x + a3 x^2), x = q / full well"),
-        number("dark_current_e_s", c.dark_current_e_s, 1, {0, 1e8}, "mean, at dark_reference_c"),
-        number("dark_reference_c", c.dark_reference_c, 1, {-200, 150}, "where dark_current_e_s holds"),
-        number("dark_doubling_k", c.dark_doubling_k, 1, {1, 50}, "warmer that doubles the dark current"),
-        number("temperature_c", c.temperature_c, 1, {-200, 150}, "of the detector"),
+        number("dark_current_e_s", c.dark_current_e_s, 1, {0, 1e8}, "mean dark current, at dark_reference_c"),
+        number("dark_reference_c", c.dark_reference_c, 1, {-200, 150},
+               "temperature at which dark_current_e_s holds"),
+        number("dark_doubling_k", c.dark_doubling_k, 1, {1, 50},
+               "rise of temperature that doubles the dark current"),
+        number("temperature_c", c.temperature_c, 1, {-200, 150}, "temperature of the detector"),
         number("prnu_fraction", c.prnu_fraction, 1, {0, 0.5}, "standard deviation of the pixels' gains"),
         number("dsnu_e", c.dsnu_e, 1, {0, 1e5}, "standard deviation of the pixels' offsets"),
-        section("fixed_pattern", c.fixed_pattern, "what else differs from pixel to pixel"),
+        section("fixed_pattern", c.fixed_pattern, "further differences from pixel to pixel"),
         section("defects", c.defects, "pixels that do not work"),
-        section("ccd", c.ccd, "charge on its way out"),
-        section("cosmic_rays", c.cosmic_rays, "charged particles"),
-        section("shutter", c.shutter, "when rows are exposed"),
-        number("read_noise_e", c.read_noise_e, 1, {0, 1e5}, "temporal, standard deviation"),
-        number("reset_noise_e", c.reset_noise_e, 1, {0, 1e5}, "kTC, where it is not sampled away"),
-        number("row_noise_e", c.row_noise_e, 1, {0, 1e5}, "one draw per row and frame"),
-        number("flicker_noise_e", c.flicker_noise_e, 1, {0, 1e5}, "1/f along the read-out"),
+        section("ccd", c.ccd, "charge transfer and blooming of a CCD"),
+        section("cosmic_rays", c.cosmic_rays, "charged particles that strike the detector"),
+        section("shutter", c.shutter, "shutter: times at which rows are exposed"),
+        number("read_noise_e", c.read_noise_e, 1, {0, 1e5}, "standard deviation of the temporal read noise"),
+        number("reset_noise_e", c.reset_noise_e, 1, {0, 1e5},
+               "kTC noise, in sensors where it is not sampled away"),
+        number("row_noise_e", c.row_noise_e, 1, {0, 1e5}, "row noise: one draw per row and frame"),
+        number("flicker_noise_e", c.flicker_noise_e, 1, {0, 1e5}, "1/f noise along the read-out"),
     };
 }
 
 Fields electronics_fields(CameraModel& c) {
     return {
-        section("filters", c.filters, "along the rows, after the noise"),
+        section("filters", c.filters, "analogue filters along the rows, after the noise"),
         optional(number("gain_dn_e", c.gain_dn_e, 1, {1e-6, 1e4}, "DN per electron at 0 dB"),
                  c.has_gain_dn_e),
-        optional(number("gain_e_dn", c.gain_e_dn, 1, {1e-4, 1e6}, "its inverse, in its place"),
-                 c.has_gain_e_dn),
+        optional(
+            number("gain_e_dn", c.gain_e_dn, 1, {1e-4, 1e6}, "electrons per DN at 0 dB; replaces gain_dn_e"),
+            c.has_gain_e_dn),
         number("offset_dn", c.offset_dn, 1, {0, 65535}, "black level"),
-        required(integer("bits", c.bits, {8, 16}, "of the ADC")),
-        integer("container_bits", c.container_bits, {8, 16}, "of a pixel in memory: 8 or 16"),
+        required(integer("bits", c.bits, {8, 16}, "bits of the ADC")),
+        integer("container_bits", c.container_bits, {8, 16}, "bits of a pixel in memory: 8 or 16"),
         choice("packing", c.packing, {"none", "pfnc", "gige"},
-               "of pixels in memory: container_bits each; a bit stream (Mono12p); two in three bytes"),
-        section("converter", c.converter, "errors of the ADC's steps, companding"),
-        numbers("window_px", c.window_px, 1, {0, 16384}, {4, 4}, "left, top, width, height; default all"),
-        integer("black_rows", c.black_rows, {0, 1024}, "optically black, published above the picture"),
-        integer("black_columns", c.black_columns, {0, 1024}, "optically black, left of the picture"),
-        integer("binning_x", c.binning_x, {1, 16}, "columns to one"),
-        integer("binning_y", c.binning_y, {1, 16}, "rows to one"),
-        choice("binning", c.binning, {"charge", "sum", "mean"}, "of charge, or of numbers"),
-        number("exposure_ms", c.exposure_s, 1e-3, {1e-3, 1e6}, "at power-up"),
-        number("gain_db", c.gain_db, 1, {-60, 60}, "at power-up, over gain_dn_e"),
-        number("frame_rate_hz", c.frame_rate_hz, 1, {1e-3, 10000}, "at power-up"),
-        numbers("exposure_range_ms", c.exposure_range_s, 1e-3, {1e-3, 1e6}, {2, 2}, "least and most"),
-        numbers("gain_range_db", c.gain_range_db, 1, {-60, 60}, {2, 2}, "least and most"),
-        numbers("frame_rate_range_hz", c.frame_rate_range_hz, 1, {1e-3, 10000}, {2, 2}, "least and most"),
-        section("auto_exposure", c.auto_exposure, "the camera's own choice of exposure"),
-        sections("sequence", c.sequence, "settings of one frame after the other, over and over"),
+               "packing of pixels in memory. none: container_bits each; pfnc: a bit stream (Mono12p); gige: "
+               "two pixels in three bytes"),
+        section("converter", c.converter, "errors of the ADC's steps, and companding"),
+        numbers("window_px", c.window_px, 1, {0, 16384}, {4, 4},
+                "left, top, width and height of the window that is read out; default: all"),
+        integer("black_rows", c.black_rows, {0, 1024},
+                "number of optically black rows, published above the picture"),
+        integer("black_columns", c.black_columns, {0, 1024},
+                "number of optically black columns, left of the picture"),
+        integer("binning_x", c.binning_x, {1, 16}, "number of columns binned into one"),
+        integer("binning_y", c.binning_y, {1, 16}, "number of rows binned into one"),
+        choice("binning", c.binning, {"charge", "sum", "mean"},
+               "quantity that is binned: charge, or numbers by sum or mean"),
+        number("exposure_ms", c.exposure_s, 1e-3, {1e-3, 1e6}, "exposure time at power-up"),
+        number("gain_db", c.gain_db, 1, {-60, 60}, "gain at power-up, on top of gain_dn_e"),
+        number("frame_rate_hz", c.frame_rate_hz, 1, {1e-3, 10000}, "frame rate at power-up"),
+        numbers("exposure_range_ms", c.exposure_range_s, 1e-3, {1e-3, 1e6}, {2, 2},
+                "least and greatest exposure time"),
+        numbers("gain_range_db", c.gain_range_db, 1, {-60, 60}, {2, 2}, "least and greatest gain"),
+        numbers("frame_rate_range_hz", c.frame_rate_range_hz, 1, {1e-3, 10000}, {2, 2},
+                "least and greatest frame rate"),
+        section("auto_exposure", c.auto_exposure, "automatic exposure by the camera itself"),
+        sections("sequence", c.sequence, "settings of successive frames, repeated over and over"),
     };
 }
 
@@ -127,11 +144,12 @@ Fields electronics_fields(CameraModel& c) {
 
 Fields fields(CameraModel& c) {
     Fields list = {
-        text("name", c.name, "what clients see as the model"),
+        text("name", c.name, "model name that clients see"),
         text("source", c.source, "where the figures come from"),
-        required(integer("width_px", c.width_px, {1, 16384}, "columns")),
-        required(integer("height_px", c.height_px, {1, 16384}, "rows; line_scan: lines of a frame")),
-        required(number("pitch_um", c.pitch_m, 1e-6, {0.5, 100}, "distance of pixel centres")),
+        required(integer("width_px", c.width_px, {1, 16384}, "number of columns")),
+        required(integer("height_px", c.height_px, {1, 16384},
+                         "number of rows; line_scan: number of lines in a frame")),
+        required(number("pitch_um", c.pitch_m, 1e-6, {0.5, 100}, "distance between pixel centres")),
     };
     for (Fields part : {optics_fields(c), detector_fields(c), electronics_fields(c)})
         std::move(part.begin(), part.end(), std::back_inserter(list));

@@ -50,22 +50,22 @@ Fields fields(SettingsStep& step);
 
 struct CameraModel {
     std::string name;
-    std::string source;  // where the figures come from
+    std::string source;  // source of the figures
 
     // Geometry.
     std::int64_t width_px = 1024;
     std::int64_t height_px = 1024;
     double pitch_m = 5.5e-6;
     double focal_length_m = 0.016;
-    std::vector<double> principal_point_px;  // of the sensor; empty: its middle
+    std::vector<double> principal_point_px;  // place on the sensor; empty: its middle
     Projection projection = Projection::kRectilinear;
     std::vector<double> distortion;  // k1, k2, p1, p2, k3 (or k1..k4 of a fisheye) as OpenCV orders them
 
     // Optics.
     double f_number = 4;
     double t_number = 0;                        // instead of transmission; 0: not given
-    Curve transmission = Curve::constant(0.9);  // of all glass and filters, 0..1
-    double central_obscuration_ratio = 0;       // of diameters
+    Curve transmission = Curve::constant(0.9);  // transmission of all glass and filters, 0..1
+    double central_obscuration_ratio = 0;       // diameter of the obstruction over the aperture's
     double defocus_m = 0;                       // shift of the image plane from focus
     double wavefront_rms_m = 0;
     std::vector<double> zernike_m;  // rms coefficients from Noll's fourth on
@@ -84,7 +84,7 @@ struct CameraModel {
     double fill_factor = 1;                // light-sensitive share of the pixel
     std::vector<double> pixel_aperture_m;  // width, height; empty: a centred square of the fill factor
     double diffusion_m = 0;                // standard deviation of where charge is collected
-    double crosstalk_fraction = 0;         // of a pixel's charge to each of its four neighbours
+    double crosstalk_fraction = 0;  // share of a pixel's charge that goes to each of its four neighbours
     ColorFilterArrayConfig color_filter;
     double full_well_e = 1e4;
     std::vector<double> nonlinearity;  // a2, a3: charge q becomes q (1 + a2 x + a3 x^2), x = q / full well
@@ -110,9 +110,9 @@ struct CameraModel {
     double gain_dn_e = 0;  // DN per electron at 0 dB (EMVA's K)
     double gain_e_dn = 0;  // or its inverse, as many data sheets give it
     double offset_dn = 0;
-    std::int64_t bits = 12;            // of the converter
-    std::int64_t container_bits = 16;  // of a pixel in memory
-    Packing packing = Packing::kNone;  // of pixels in memory
+    std::int64_t bits = 12;            // bits of the converter
+    std::int64_t container_bits = 16;  // bits of a pixel in memory
+    Packing packing = Packing::kNone;  // packing of pixels in memory
     ConverterConfig converter;
 
     // Read-out.
@@ -165,7 +165,8 @@ std::array<int, 2> array_size(const CameraModel& camera);
 std::array<int, 2> frame_size(const CameraModel& camera, std::int64_t binning_x = 0,
                               std::int64_t binning_y = 0);
 
-// Of the window, each pixel in `oversampling` x `oversampling` parts; guard_px in pixels.
+// Returns the geometry of the window, each pixel in `oversampling` x `oversampling` parts; guard_px in
+// pixels.
 ImageGeometry geometry_of(const CameraModel& camera, int guard_px, int oversampling = 1);
 
 }  // namespace hilcam

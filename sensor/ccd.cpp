@@ -11,8 +11,10 @@ namespace hilcam {
 Fields fields(CcdConfig& c) {
     return {
         flag("blooming", c.blooming, "a full pixel spills into its column; false: it drains"),
-        number("parallel_inefficiency", c.parallel_inefficiency, 1, {0, 1e-2}, "per row transfer"),
-        number("serial_inefficiency", c.serial_inefficiency, 1, {0, 1e-2}, "per column transfer"),
+        number("parallel_inefficiency", c.parallel_inefficiency, 1, {0, 1e-2},
+               "share of the charge left behind per row transfer"),
+        number("serial_inefficiency", c.serial_inefficiency, 1, {0, 1e-2},
+               "share of the charge left behind per column transfer"),
     };
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How charge packets spill and smear on their way out of a CCD.
+// Charge packets spill and smear on their way out of a CCD.
 //
 // Blooming: what a full pixel cannot hold goes to its neighbours in the column, half each way, until there is
 // room. Transfer inefficiency: each of n transfers leaves a share c of a packet behind; k pixels late arrives

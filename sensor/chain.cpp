@@ -158,7 +158,7 @@ struct SensorChain::Implementation {
                              [](const TelegraphPixel& a, const TelegraphPixel& b) { return a.y < b.y; });
         return {from, to};
     }
-    // How a frame's numbers come from its charge.
+    // A reading is the way in which a frame's numbers come from its charge.
     struct Reading {
         double gain_dn_e, black_level_dn;
         int binning_x, binning_y;

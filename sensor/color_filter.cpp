@@ -7,15 +7,16 @@ namespace hilcam {
 
 Fields fields(ColorFilterConfig& c) {
     return {
-        required(text("name", c.name, "one letter")),
-        required(curve("transmission", c.transmission, {0, 1}, "number or curve")),
+        required(text("name", c.name, "letter of the filter")),
+        required(
+            curve("transmission", c.transmission, {0, 1}, "transmission of the filter; number or curve")),
     };
 }
 
 Fields fields(ColorFilterArrayConfig& c) {
     return {
-        text("pattern", c.pattern, "rows of filters' letters, a space between rows: RG GB"),
-        sections("filters", c.filters, "the filters, at most 8"),
+        text("pattern", c.pattern, "filters by letter, row by row, with a space between rows: RG GB"),
+        sections("filters", c.filters, "filters of the array, at most 8"),
     };
 }
 

@@ -61,7 +61,7 @@ class Converter {
 
     float most_dn_;
     float inl_lsb_;
-    std::vector<float> edge_error_lsb_;      // of the lower edge of each step; empty: none
+    std::vector<float> edge_error_lsb_;      // error of the lower edge of each step; empty: none
     std::vector<std::uint16_t> companding_;  // by converted number; empty: none
 };
 

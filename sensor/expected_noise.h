@@ -18,7 +18,7 @@ class ExpectedNoise {
   public:
     ExpectedNoise(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling);
 
-    // Of one pixel of the radiance image. Loop.
+    // Returns the noise of one pixel of the radiance image. Loop.
     PixelNoise of(const Exposure& exposure) const;
 
   private:

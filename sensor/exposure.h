@@ -1,5 +1,5 @@
 #pragma once
-// How one frame is taken.
+// An exposure says how one frame is taken.
 
 #include <cstdint>
 #include <optional>
@@ -13,12 +13,12 @@ namespace hilcam {
 using RayGrid = int;
 inline constexpr RayGrid kScatteredRays = 0;
 
-// How the radiance image was made.
+// The sampling says how the radiance image was made.
 struct SensorSampling {
     int guard_px = 0;                    // the image's border on each side, in pixels of the detector
     RayGrid samples_per_axis = 1;        // in each of its pixels
     int oversampling = 1;                // pixels of the radiance image across one of the detector
-    std::vector<RayGrid> other_grids{};  // that single frames may have instead
+    std::vector<RayGrid> other_grids{};  // grids that single frames may have instead
     bool always_fft = false;             // no compact kernel in place of the FFT pair, even where one will do
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What very bright light, the Sun above all, sends across the whole picture: the wings of its image, which
-// the point spread function's table ends before and which an FFT would fold over the picture's edges.
+// Very bright light, the Sun above all, reaches across the whole picture by the wings of its image, which the
+// point spread function's table ends before and which an FFT would fold over the picture's edges.
 //
 // Far out an image is what its transfer function's cusp at zero frequency says: with slope -s there, s / (4
 // pi^2 r^3) averaged over the rings (the transform of |f|; for a clear aperture s = 4 lambda N / pi and this

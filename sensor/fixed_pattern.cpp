@@ -12,7 +12,8 @@ namespace hilcam {
 
 Fields fields(FixedPatternConfig& c) {
     return {
-        integer("seed", c.seed, {0, 9e15}, "of the camera's own pattern: another seed, another specimen"),
+        integer("seed", c.seed, {0, 9e15},
+                "seed of the camera's own pattern: another seed, another specimen"),
         number("dark_current_fraction", c.dark_current_fraction, 1, {0, 10},
                "standard deviation of the pixels' dark currents over their mean"),
         number("row_e", c.row_e, 1, {0, 1e5}, "standard deviation of the rows' offsets"),
@@ -27,14 +28,18 @@ Fields fields(FixedPatternConfig& c) {
 
 Fields fields(DefectsConfig& c) {
     return {
-        number("hot_fraction", c.hot_fraction, 1, {0, 1}, "of the pixels"),
-        number("hot_e_s", c.hot_e_s, 1, {0, 1e9}, "mean of their extra dark current"),
-        number("dead_fraction", c.dead_fraction, 1, {0, 1}, "of the pixels"),
-        numbers("dead_columns", c.dead_columns, 1, {0, 16383}, {0, 1024}, "counted from 0"),
-        numbers("hot_columns", c.hot_columns, 1, {0, 16383}, {0, 1024}, "counted from 0"),
-        number("telegraph_fraction", c.telegraph_fraction, 1, {0, 1}, "of the pixels"),
-        number("telegraph_e", c.telegraph_e, 1, {0, 1e5}, "between a telegraph pixel's two states"),
-        integer("telegraph_frames", c.telegraph_frames, {1, 1e6}, "between two draws of its state"),
+        number("hot_fraction", c.hot_fraction, 1, {0, 1}, "share of the pixels that are hot"),
+        number("hot_e_s", c.hot_e_s, 1, {0, 1e9}, "mean extra dark current of the hot pixels"),
+        number("dead_fraction", c.dead_fraction, 1, {0, 1}, "share of the pixels that are dead"),
+        numbers("dead_columns", c.dead_columns, 1, {0, 16383}, {0, 1024},
+                "numbers of the dead columns, counted from 0"),
+        numbers("hot_columns", c.hot_columns, 1, {0, 16383}, {0, 1024},
+                "numbers of the hot columns, counted from 0"),
+        number("telegraph_fraction", c.telegraph_fraction, 1, {0, 1},
+               "share of the pixels that are telegraph pixels"),
+        number("telegraph_e", c.telegraph_e, 1, {0, 1e5}, "charge between a telegraph pixel's two states"),
+        integer("telegraph_frames", c.telegraph_frames, {1, 1e6},
+                "frames between two draws of a telegraph pixel's state"),
     };
 }
 
@@ -70,7 +75,7 @@ bool listed(const std::vector<double>& columns, std::uint32_t column) {
     return std::find(columns.begin(), columns.end(), static_cast<double>(column)) != columns.end();
 }
 
-// What one pixel's draws make of the means.
+// One pixel's draws turn the means into its own values.
 class PixelDraw {
   public:
     PixelDraw(const CameraModel& c, const DetectorPictures& pictures)

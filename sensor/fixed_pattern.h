@@ -1,5 +1,6 @@
 #pragma once
-// What is different from pixel to pixel and stays: a camera's maps, drawn from its seed or read from files.
+// A camera's maps hold what differs from pixel to pixel and stays; they are drawn from its seed or read from
+// files.
 //
 // EMVA 1288 release 4.0 terms: PRNU is the standard deviation of the pixels' gains over their mean, DSNU that
 // of their dark signals. All draws are Gaussian and keyed by the pixel's place on the whole sensor, so a
@@ -20,8 +21,8 @@ struct FixedPatternConfig {
     std::int64_t seed = 1;
     double dark_current_fraction = 0;  // standard deviation of the pixels' dark currents over their mean
     double row_e = 0;                  // standard deviation of the rows' offsets
-    double column_e = 0;               // of the columns'
-    double column_gain_fraction = 0;   // of the columns' gains
+    double column_e = 0;               // spread of the columns' offsets
+    double column_gain_fraction = 0;   // spread of the columns' gains
     std::filesystem::path prnu_map;    // pictures of the whole sensor: gain of each pixel (mean 1)
     std::filesystem::path offset_map;  // offset of each pixel [e-]
     std::filesystem::path dark_map;    // dark current of each pixel at the operating temperature [e-/s]
@@ -30,7 +31,7 @@ Fields fields(FixedPatternConfig& config);
 
 // A number for every pixel of the sensor.
 using PixelMap = Image<float, struct PixelMapQuantity>;
-// What the files hold; of no size: not given.
+// The files' pictures; one without a size was not given.
 struct DetectorPictures {
     PixelMap prnu, offset_e, dark_e_s;
 };
@@ -60,7 +61,7 @@ struct CameraModel;
 
 // The read-out array's maps, drawn once. A map of no size is the same for all pixels (gain 1, offset 0).
 struct FixedPattern {
-    PixelMap gain;                          // of light to charge
+    PixelMap gain;                          // gain from light to charge
     PixelMap dark_e_s;                      // mean dark current
     PixelMap offset_e;                      // added to the charge when it is read
     double uniform_dark_e_s = 0;            // when there is no map

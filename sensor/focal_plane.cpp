@@ -19,8 +19,8 @@ namespace {
 
 const tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 
-constexpr float kMost_e = 1e9f;         // of a pixel's mean charge
-constexpr float kMostBefore_e = 1e12f;  // of a radiance pixel
+constexpr float kMost_e = 1e9f;         // greatest mean charge of a pixel
+constexpr float kMostBefore_e = 1e12f;  // greatest charge of a radiance pixel
 // Brighter pixels than so many full wells are drawn as points: in the FFT the Sun would ring along its rows
 // and columns and come back over the picture's edges.
 constexpr float kBrightWells = 10;
@@ -60,11 +60,11 @@ struct FocalPlane::Implementation {
     DetectorView view;
     int bins;
     std::vector<LightChannel> channels;
-    std::vector<FarWings> wings;  // of what is bright, by channel
+    std::vector<FarWings> wings;  // far wings of bright light, by channel
     PointLight points;
     std::vector<float> illumination;               // over the radiance image
     std::vector<std::vector<float>> zone_weights;  // over the FFT's image, by zone; empty with one zone
-    std::vector<double> cell_sums;                 // of a ghost
+    std::vector<double> cell_sums;                 // sums of a ghost's cells
     std::vector<float> row_peaks;                  // brightest pixel of each row of a channel
     std::vector<BrightPixel> bright;
     bool dark = false;  // nothing in the radiance image
@@ -178,8 +178,8 @@ struct FocalPlane::Implementation {
         }
     }
 
-    // What is over the limit becomes points, the limit stays in the picture. Where more than kMostBright
-    // pixels are over it, ten times the limit.
+    // Turns what is over the limit into points and leaves the limit in the picture. Where more than
+    // kMostBright pixels are over it, ten times the limit.
     void take_out_bright(LightChannel& channel) {
         auto limit = kBrightWells * static_cast<float>(view.camera.full_well_e);
         const std::size_t before = bright.size();
@@ -247,7 +247,7 @@ struct FocalPlane::Implementation {
             }
         }
     }
-    // What points add far from them.
+    // Collects what points add far from them.
     void collect_ghosts(std::span<const PointSource> sources, double exposure_s) {
         const double m = view.sampling.oversampling;
         for (LightChannel& channel : channels) {
@@ -289,8 +289,8 @@ struct FocalPlane::Implementation {
             if (!wings[c].empty()) add(wings[c]);
         }
     }
-    // Of each pixel its own channel; under a mosaic, charge that crosses over comes from neighbours of other
-    // colours. At the window's edge a pixel is its own neighbour.
+    // Each pixel gets its own channel; under a mosaic, charge that crosses over comes from neighbours of
+    // other colours. At the window's edge a pixel is its own neighbour.
     void mix_row(int y, float* out) const {
         const int m = view.sampling.oversampling, width = view.detector.width_px;
         const auto c = view.mosaic.one_color() ? 0.0f : static_cast<float>(view.camera.crosstalk_fraction);

@@ -33,8 +33,8 @@ class FocalPlane {
     double mtf(double u, double v) const;
     // One bare FFT pair, for benchmarks.
     void run_fft_pair();
-    // Whether the picture is convolved by a compact kernel, and of what radius [px of the radiance image]; 0:
-    // by FFT.
+    // The radius of the compact kernel by which the picture is convolved [px of the radiance image]; 0: by
+    // FFT.
     int kernel_radius() const;
 
   private:

@@ -54,7 +54,7 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
         spreads.emplace_back([&](double u, double v) { return mtf.of_point(u, v); }, view.camera.fill_factor);
         transfers.push_back(transfer_of(mtf, sampling.samples_per_axis));
     }
-    // What is over beside the picture and below it stays dark.
+    // Light that runs over the picture's right and lower edges stays dark.
     const int width = fft_size(view.image.padded_width()), height = fft_size(view.image.padded_height());
     convolver.emplace(width, height, transfers);
     // A kernel's border of nothing must lie in the guard band.

@@ -16,7 +16,7 @@
 
 namespace hilcam {
 
-// What all parts of the focal plane look at.
+// The view is shared by all parts of the focal plane.
 struct DetectorView {
     DetectorView(const CameraModel& camera, const SensorSampling& sampling);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Which filter lies over each pixel of the window: the colour filter array's pattern from the sensor's corner
-// on.
+// The mosaic says which filter lies over each pixel of the window: the colour filter array's pattern from the
+// sensor's corner on.
 
 #include <vector>
 

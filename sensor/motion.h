@@ -1,5 +1,5 @@
 #pragma once
-// What moves the picture during an exposure and from one exposure to the next: jitter of the line of sight.
+// Jitter of the line of sight moves the picture during an exposure and from one exposure to the next.
 //
 // Gaussian of a fixed standard deviation within any exposure, or from a one-sided power spectral density S(f)
 // per axis, linear between its samples and zero outside them. Of the latter an exposure of T blurs what is

@@ -13,7 +13,8 @@ namespace hilcam {
 //   shift: 0 .. 2 in pupil radii, = 2 nu lambda N; beyond 2 the result is 0.
 double pupil_otf(double shift, double obscuration_ratio, double defocus_waves);
 
-// What random aberrations of a wavefront error leave of the diffraction MTF: Shannon's empirical formula
+// Returns the share of the diffraction MTF that random aberrations of a wavefront error leave: Shannon's
+// empirical formula
 //     1 - (W / 0.18)^2 (1 - 4 (s / 2 - 1/2)^2)
 // (Shannon, The Art and Science of Optical Design, 1997, ch. 3), W the error in waves rms. Published for W up
 // to 0.18; not below zero.
@@ -29,10 +30,9 @@ double gaussian_mtf(double frequency_cy_px, double sigma_px);
 // pi v).
 double crosstalk_mtf(double u, double v, double fraction);
 
-// What sampling each pixel on a regular grid of n rays along an axis has done to the image already:
+// Returns what sampling each pixel on a regular grid of n rays along an axis has already done to the image:
 // sin(pi f) / (n sin(pi f / n)), the Dirichlet kernel; 1 for n = 1, the unit box for n to infinity and for
-// kScatteredRays. MTF_sys
-// divides by it, so that ray grid and pixel aperture together count once.
+// kScatteredRays. MTF_sys divides by it, so that ray grid and pixel aperture together count once.
 double ray_grid_mtf(double frequency_cy_px, RayGrid rays);
 
 }  // namespace hilcam

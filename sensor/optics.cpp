@@ -83,7 +83,7 @@ double RelativeIllumination::of_point(double x_px, double y_px) const {
     return at(x_px, y_px) * axis_solid_angle_ / solid_angle(x_px, on_sensor(y_px));
 }
 
-// Of the plane z = 1 a pixel covers an area a along its normal; seen from the lens that is a cos / d^2.
+// A pixel covers an area a of the plane z = 1, along its normal; seen from the lens that is a cos / d^2.
 double RelativeIllumination::solid_angle(double x_px, double y_px) const {
     constexpr double kHalf_px = 0.5;
     const Vec3d d = geometry_.direction_camera(x_px, y_px);

@@ -33,13 +33,13 @@ Spectrum electrons_per_s_per_radiance(const CameraModel& camera, const SpectralG
 Spectrum electrons_per_s_per_irradiance(const CameraModel& camera, const SpectralGrid& grid,
                                         const Curve* filter = nullptr);
 
-// How the lens illuminates the image at a place [px of the geometry], 1 on the axis.
+// The lens illuminates the image at a place [px of the geometry] by this factor, 1 on the axis.
 class RelativeIllumination {
   public:
     RelativeIllumination(const CameraModel& camera, const ImageGeometry& geometry);
-    // Of an extended source.
+    // Returns the factor for an extended source.
     double at(double x_px, double y_px) const;
-    // Of a point source.
+    // Returns the factor for a point source.
     double of_point(double x_px, double y_px) const;
     // Image height over that of the sensor's farthest corner, 0 .. 1 on the sensor. All lines of a line
     // camera lie on the axis.

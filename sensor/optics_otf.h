@@ -14,7 +14,7 @@
 
 namespace hilcam {
 
-// What may differ over the field.
+// The lens's state holds what may differ over the field.
 struct LensState {
     double defocus_m = 0;
     double wavefront_rms_m = 0;
@@ -35,8 +35,8 @@ class OpticsOtf {
   private:
     void tabulate(const std::function<double(double)>& radial);
     struct Bin;
-    std::vector<Bin> bins_;  // with Zernike coefficients
-    double last_cy_px_ = 0;  // of the table; 0 from there on
+    std::vector<Bin> bins_;  // spectral bins, with their Zernike coefficients
+    double last_cy_px_ = 0;  // end of the table; 0 from there on
     std::vector<double> table_;
 };
 

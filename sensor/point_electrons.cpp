@@ -3,7 +3,7 @@
 namespace hilcam {
 namespace {
 
-// With the mean of the filters over the pattern.
+// Returns the mean over the pattern's filters.
 Spectrum mean_per_irradiance(const CameraModel& camera, const SpectralGrid& grid) {
     const ColorFilterArrayConfig& array = camera.color_filter;
     if (array.pattern.empty()) return electrons_per_s_per_irradiance(camera, grid);

@@ -1,7 +1,7 @@
 #pragma once
-// How many photo-electrons a point of light makes in one exposure, all of its image together, as FocalPlane
-// draws it: mean over where it falls in a pixel and in a colour filter array's pattern. Not in it: what falls
-// outside the frame, saturation, and what glare spreads evenly.
+// Returns how many photo-electrons a point of light makes in one exposure, all of its image together, as
+// FocalPlane draws it: mean over where it falls in a pixel and in a colour filter array's pattern. Not in it:
+// what falls outside the frame, saturation, and what glare spreads evenly.
 
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/spectrum.h"

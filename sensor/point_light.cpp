@@ -15,7 +15,7 @@ constexpr std::size_t kSourcesAtOnce = 8192;
 // Drawn together, in bands of rows: enough for the threads of a bench machine, and bands that are much higher
 // than the images that lie across two of them.
 constexpr std::size_t kSpotsAtOnce = 8192;
-constexpr std::size_t kFewSpots = 64;  // not worth waking threads for
+constexpr std::size_t kFewSpots = 64;  // fewer spots are not worth waking threads for
 
 constexpr int kReach = PointSpread::kMostRadius_px;
 constexpr int kAcross = 2 * kReach + 1;
@@ -223,7 +223,7 @@ void PointLight::take_off_wings(Vec2d at_px, int c, double electrons, ElectronIm
               c, all_rows(), light_e);
 }
 
-// Of a mosaic's channel only its own pixels have the light; some of their charge crosses over to the
+// In a mosaic's channel only its own pixels have the light; some of their charge crosses over to the
 // neighbours.
 void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronImage& light_e) const {
     const int width = view_.detector.width_px;

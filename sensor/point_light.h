@@ -21,7 +21,7 @@ namespace hilcam {
 
 // A pixel of the picture that is drawn as a point.
 struct BrightPixel {
-    Vec2d position_px;  // of the detector's frame
+    Vec2d position_px;  // place in the detector's frame
     double electrons = 0;
     int channel = 0;
 };
@@ -36,10 +36,11 @@ class PointLight {
     void begin(const Exposure& exposure);
     void add(const BrightPixel& pixel, ElectronImage& light_e);
     void add(std::span<const PointSource> points, ElectronImage& light_e);
-    // What glare spreads evenly of all that was added.
+    // Adds the share of all added light that glare spreads evenly.
     void finish(ElectronImage& light_e) const;
 
-    // Of this exposure: standard deviation of what a jitter's density leaves within it [px], 0 if not seen.
+    // Returns, for this exposure, the standard deviation of what a jitter's density leaves within it [px], 0
+    // if not seen.
     double jitter_px() const { return jitter_px_; }
 
   private:
@@ -53,7 +54,7 @@ class PointLight {
     struct Spot {
         Vec2d at_px;
         double electrons = 0;
-        double glare_e = 0;  // what glare has taken of it
+        double glare_e = 0;  // charge that glare has taken of it
         int channel = 0;
         int radius_px = kNone;
         static constexpr int kNone = -1;  // nothing is drawn
@@ -83,10 +84,11 @@ class PointLight {
     std::vector<double> glare_e_;  // by channel
     PointTrails trails_;
     std::vector<Source> sources_;                                // some points at a time
-    std::vector<std::size_t> spots_until_;                       // of all sources up to each
+    std::vector<std::size_t> spots_until_;                       // number of spots of all sources up to each
     std::vector<Spot> spots_;                                    // some of theirs, in order
-    std::array<std::vector<std::uint32_t>, kBands> band_spots_;  // that lie in a band of rows, in order
-    // Of each channel: what the wings give near a point, and what the table has folded in of them.
+    std::array<std::vector<std::uint32_t>, kBands> band_spots_;  // spots that lie in a band of rows, in order
+    // Each channel keeps two things: what the wings give near a point, and what the table has folded in of
+    // them.
     std::vector<std::vector<double>> near_wings_;
     std::vector<float> patch_;
 };

@@ -21,7 +21,7 @@ class PointTrails {
     struct Trail {
         Vec2d middle_px;
         Vec2d drift_px;  // its own way through the exposure, over that of the sky
-        bool turns;      // with the sky, as the camera turns
+        bool turns;      // true: moves with the sky, as the camera turns
         int parts;       // places along it; they have equal light
     };
     Trail of_sky(Vec2d middle_px, Vec2d drift_px) const;

@@ -12,7 +12,7 @@
 
 namespace hilcam {
 
-// How a frame is given out.
+// The layout says how a frame is given out.
 struct FrameLayout {
     std::int64_t binning_x = 1, binning_y = 1;  // at least 1
     bool reverse_x = false, reverse_y = false;

@@ -13,7 +13,7 @@ namespace {
 struct Amplifier {
     float full_well_e, a2, a3;
     float noise_e;   // times a deviate
-    float offset_e;  // of the whole row
+    float offset_e;  // offset of the whole row
 };
 
 HILCAM_CLONES void amplify(float* charge, const float* deviate, std::size_t count,

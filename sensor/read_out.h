@@ -22,7 +22,7 @@ namespace hilcam {
 
 // A row as it is read.
 struct ReadOutRow {
-    int y = 0;                        // of the array, or of the binned one
+    int y = 0;                        // row of the array, or of the binned one
     std::uint32_t sensor_row = 0;     // keys the row's own noise
     std::span<float> charge_e;        // changed on the way
     std::span<const float> deviates;  // standard normal, one for each pixel

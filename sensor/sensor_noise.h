@@ -1,6 +1,6 @@
 #pragma once
-// How far a pixel's number is from its mean charge by the sensor alone: shot, read and fixed noise together,
-// in electrons. What a rendering error is measured by.
+// A pixel's number is off its mean charge by a noise that the sensor alone makes: shot, read and fixed noise
+// together, in electrons. What a rendering error is measured by.
 //
 // EMVA 1288 Release 4.0 (linear), the noise of its total signal-to-noise ratio:
 //   sigma^2 = q + sigma_d^2 + 1/(12 K^2)              shot, all temporal noise in the dark,
@@ -21,14 +21,15 @@ class SensorNoise {
     // variance.
     SensorNoise(const CameraModel& camera, double gain_db, int charges_per_reading = 1);
 
-    // Of a pixel with that mean charge [e-, 0 or more], of which dark_e is dark current. Any thread.
+    // Returns the variance of a pixel with that mean charge [e-, 0 or more], of which dark_e is dark current.
+    // Any thread.
     double variance_e2(double mean_e, double dark_e) const;
     double sigma_e(double mean_e, double dark_e) const;
     // Standard deviation of the pixels' answers to the same light, over its mean.
     double light_share() const;
 
   private:
-    double floor_e2_;     // what does not depend on the charge
+    double floor_e2_;     // the part that does not depend on the charge
     double dark_share2_;  // squares of shares
     double light_share2_;
 };

@@ -20,8 +20,9 @@ struct ShutterConfig {
     double line_time_s = 20e-6;
     bool has_line_time = false;
     std::int64_t tdi_stages = 1;
-    std::int64_t tdi_phases = 1;       // clock phases: the charge moves in steps of 1 / phases of a pixel
-    double tdi_mismatch_fraction = 0;  // of the image's speed from the charge's: it drifts stages x this [px]
+    std::int64_t tdi_phases = 1;  // clock phases: the charge moves in steps of 1 / phases of a pixel
+    // Difference of the image's speed from the charge's: it drifts stages x this [px].
+    double tdi_mismatch_fraction = 0;
 };
 Fields fields(ShutterConfig& config);
 

@@ -10,13 +10,14 @@ namespace hilcam {
 Fields fields(StrayLightConfig& c) {
     return {
         number("veiling_glare_fraction", c.veiling_glare_fraction, 1, {0, 0.9},
-               "of all light, spread over the picture"),
+               "share of all light that is spread over the picture as glare"),
         number("glare_radius_px", c.glare_radius_px, 1, {0, 10000},
-               "r of the halo r / (r^2 + x^2)^1.5; 0: evenly"),
-        number("ghost_fraction", c.ghost_fraction, 1, {0, 0.5}, "of a source's light, in its ghost"),
+               "r of the halo r / (r^2 + x^2)^1.5; 0: the glare is spread evenly"),
+        number("ghost_fraction", c.ghost_fraction, 1, {0, 0.5},
+               "share of a source's light that goes into its ghost"),
         number("ghost_scale", c.ghost_scale, 1, {-5, 5},
                "the ghost's distance from the principal point over its source's; negative: mirrored"),
-        number("ghost_radius_px", c.ghost_radius_px, 1, {8, 2000}, "of the blurred ghost of a point"),
+        number("ghost_radius_px", c.ghost_radius_px, 1, {8, 2000}, "radius of the blurred ghost of a point"),
     };
 }
 

@@ -19,7 +19,7 @@ namespace hilcam {
 struct StrayLightConfig {
     double veiling_glare_fraction = 0;
     double glare_radius_px = 0;  // 0: even
-    double ghost_fraction = 0;   // of a source's light
+    double ghost_fraction = 0;   // share of a source's light
     double ghost_scale = -1;     // image height of the ghost over that of its source; negative: mirrored
     double ghost_radius_px = 32;
 };

@@ -20,11 +20,11 @@ class SystemMtf {
 
     // Frequencies [cycles/px of the detector]. With glare: its even part leaves 1 - glare of all but (0, 0).
     std::complex<double> at(double u, double v) const;
-    // Of a point's image without what glare spreads evenly: 1 at (0, 0).
+    // Returns the transfer function of a point's image, without what glare spreads evenly: 1 at (0, 0).
     std::complex<double> of_point(double u, double v) const;
 
-    // How steeply the lens's modulation falls from frequency 0 on [px]: what makes the far wings of its
-    // images.
+    // Returns how steeply the lens's modulation falls from frequency 0 on [px], which makes the far wings of
+    // its images.
     double wing_slope_px() const;
 
   private:
@@ -35,7 +35,7 @@ class SystemMtf {
     double diffusion_px_, jitter_x_px_, jitter_y_px_;
     double crosstalk_;
     double glare_, glare_radius_px_;
-    double step_px_ = 0, drift_px_ = 0;  // of a line camera, along the track
+    double step_px_ = 0, drift_px_ = 0;  // step and drift of a line camera, along the track
 };
 
 }  // namespace hilcam

@@ -11,7 +11,7 @@ namespace hilcam {
 namespace {
 
 constexpr int kAcross = 256;             // samples of the pupil's diameter
-constexpr int kSize = 2 * kAcross;       // of the grid: the autocorrelation is twice as wide
+constexpr int kSize = 2 * kAcross;       // size of the grid: the autocorrelation is twice as wide
 constexpr double kStep = 2.0 / kAcross;  // pupil radii per sample
 
 struct Order {

@@ -16,7 +16,7 @@ namespace hilcam {
 // Noll's j = 1, 2, ... at a point of the unit disk.
 double zernike(int noll, double x, double y);
 
-// Of one wavelength.
+// The pupil's transfer function at one wavelength.
 class PupilTransfer {
   public:
     // waves: rms coefficients of Noll's 4, 5, ... [waves]; W20 as in pupil_otf. Owner thread.

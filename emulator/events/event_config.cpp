@@ -19,10 +19,10 @@ constexpr Range kDistance_m{0, 1e16}, kAngle_deg{0, 180};
 void add_limits(Fields& list, const std::string& word, const std::string& unit, EventLimitsConfig& limits,
                 double si_per_unit, Range range, const std::string& meaning) {
     list.push_back(optional(
-        number(word + "_below_" + unit, limits.below, si_per_unit, range, meaning + ": smaller than this"),
+        number(word + "_below_" + unit, limits.below, si_per_unit, range, meaning + " is smaller than this"),
         limits.has_below));
     list.push_back(optional(
-        number(word + "_above_" + unit, limits.above, si_per_unit, range, meaning + ": larger than this"),
+        number(word + "_above_" + unit, limits.above, si_per_unit, range, meaning + " is larger than this"),
         limits.has_above));
 }
 
@@ -34,20 +34,22 @@ void check_limits(const EventLimitsConfig& limits, const std::string& word) {
 }  // namespace
 
 Fields fields(EventConditionConfig& c) {
-    Fields list = {text("object", c.object, "what it is about: an object's name, a body's, or sun")};
-    add_limits(list, "distance", "m", c.distance_m, 1, kDistance_m, "from the camera to its origin");
+    Fields list = {text("object", c.object, "subject of the condition: an object's name, a body's, or sun")};
+    add_limits(list, "distance", "m", c.distance_m, 1, kDistance_m,
+               "true while the distance from the camera to the object's origin");
     add_limits(list, "off_boresight", "deg", c.off_boresight_rad, kDegree_rad, kAngle_deg,
-               "angle between the camera's +z and the way to it");
+               "true while the angle between the camera's +z and the way to the object");
     add_limits(list, "phase", "deg", c.phase_rad, kDegree_rad, kAngle_deg,
-               "angle at it between Sun and camera");
+               "true while the angle at the object between Sun and camera");
     add_limits(list, "sun_off_boresight", "deg", c.sun_off_boresight_rad, kDegree_rad, kAngle_deg,
-               "angle between the camera's +z and the Sun");
-    list.push_back(
-        choice("light", c.light, {"any", "lit", "eclipsed"},
-               "whether a body hides the Sun's middle from it; without an object, from the camera"));
+               "true while the angle between the camera's +z and the Sun");
+    list.push_back(choice("light", c.light, {"any", "lit", "eclipsed"},
+                          "condition on sunlight: lit where no body hides the Sun's middle from the object, "
+                          "eclipsed where one does; without an object, from the camera"));
     list.push_back(number("margin_m", c.margin_m, 1, kDistance_m,
-                          "a distance that held ends to hold when it is past its limit by this"));
-    list.push_back(number("margin_deg", c.margin_rad, kDegree_rad, kAngle_deg, "the same of angles"));
+                          "distance past its limit at which a condition that held ceases to hold"));
+    list.push_back(number("margin_deg", c.margin_rad, kDegree_rad, kAngle_deg,
+                          "angle past its limit at which a condition that held ceases to hold"));
     return list;
 }
 
@@ -66,20 +68,31 @@ void validate(const EventConditionConfig& c) {
 
 Fields fields(EventConfig& e) {
     return {
-        text("name", e.name, "for 'after' and the log"),
-        optional(number("at_s", e.at_s, 1, {0, 1e9}, "simulated time, from the start"), e.has_at_s),
-        optional(text("at_utc", e.at_utc, "simulated time"), e.has_at_utc),
-        optional(integer("at_frame", e.at_frame, {1, 9e15}, "for this frame of the first camera"),
+        text("name", e.name, "name of the event, for 'after' and the log"),
+        optional(number("at_s", e.at_s, 1, {0, 1e9}, "simulated time of the event, from the start"),
+                 e.has_at_s),
+        optional(text("at_utc", e.at_utc, "simulated time of the event, in UTC"), e.has_at_utc),
+        optional(integer("at_frame", e.at_frame, {1, 9e15},
+                         "frame of the first camera for which the event happens"),
                  e.has_at_frame),
-        optional(text("after", e.after, "another event's name: each time that has happened"), e.has_after),
-        number("delay_s", e.delay_s, 1, {0, 1e9}, "of 'after'"),
-        optional(section("when", e.when, "once this has become true of a frame of the first camera"),
-                 e.has_when),
-        number("every_s", e.every_s, 1, {0, 1e9}, "of 'at_s' and 'at_utc': again and again"),
-        integer("times", e.times, {0, 9e15}, "how often it may happen; 0: without end"),
-        number("again_after_s", e.again_after_s, 1, {0, 1e9}, "of 'when': not sooner after the time before"),
-        integer("camera", e.camera, {0, 65535}, "that settings, faults and triggers are for; 0: every one"),
-        required(texts("do", e.actions, "commands in the words of 'hilcam send', or end: ends the run")),
+        optional(
+            text("after", e.after, "name of another event: this one happens each time that has happened"),
+            e.has_after),
+        number("delay_s", e.delay_s, 1, {0, 1e9}, "delay behind the event named by 'after'"),
+        optional(
+            section("when", e.when,
+                    "condition: the event happens once this has become true of a frame of the first camera"),
+            e.has_when),
+        number("every_s", e.every_s, 1, {0, 1e9},
+               "time after which an event with 'at_s' or 'at_utc' happens again and again"),
+        integer("times", e.times, {0, 9e15},
+                "greatest number of times that the event happens; 0: without end"),
+        number("again_after_s", e.again_after_s, 1, {0, 1e9},
+               "least time between two happenings of an event with 'when'"),
+        integer("camera", e.camera, {0, 65535},
+                "camera that the settings, faults and triggers are for; 0: every camera"),
+        required(
+            texts("do", e.actions, "commands in the words of 'hilcam send'; or end, which ends the run")),
     };
 }
 

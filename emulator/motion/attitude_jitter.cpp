@@ -11,9 +11,10 @@ namespace hilcam {
 
 Fields fields(JitterBand& j) {
     return {
-        vector3("rms_arcsec", j.rms_rad, kArcsecond_rad, {0, 36000}, "about the body's axes"),
-        number("least_hz", j.least_hz, 1, {0, 1e5}, "where the flat spectrum begins"),
-        number("most_hz", j.most_hz, 1, {1e-6, 1e5}, "where it ends"),
+        vector3("rms_arcsec", j.rms_rad, kArcsecond_rad, {0, 36000},
+                "rms jitter about each of the body's axes"),
+        number("least_hz", j.least_hz, 1, {0, 1e5}, "frequency at which the flat spectrum begins"),
+        number("most_hz", j.most_hz, 1, {1e-6, 1e5}, "frequency at which the flat spectrum ends"),
     };
 }
 

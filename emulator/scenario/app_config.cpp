@@ -21,8 +21,9 @@ namespace hilcam {
 
 Fields fields(StarsConfig& s) {
     return {
-        path("catalogue", s.catalogue, "CSV as configs/stars/hipparcos.csv; none: no stars"),
-        number("faintest_magnitude", s.faintest_magnitude, 1, {-2, 30}, "fainter ones are left out"),
+        path("catalogue", s.catalogue, "CSV in the form of configs/stars/hipparcos.csv; left out: no stars"),
+        number("faintest_magnitude", s.faintest_magnitude, 1, {-2, 30},
+               "magnitude of the faintest stars shown; fainter ones are left out"),
     };
 }
 
@@ -31,16 +32,17 @@ Fields fields(QualityConfig& q) {
     list.push_back(integer("guard_px", q.guard_px, {0, 512},
                            "border around the frame that takes the FFT's wrap-around"));
     list.push_back(integer("oversampling", q.oversampling, {1, 8},
-                           "radiance pixels across one of the detector: what is finer than a pixel then "
-                           "aliases as on a real sensor"));
+                           "number of radiance pixels across one of the detector: detail finer than a pixel "
+                           "then aliases as on a real sensor"));
     list.push_back(choice("psf", q.psf, {"auto", "fft"},
-                          "how the picture is blurred. auto: by a compact kernel where its transfer function "
-                          "is within 0.0025 of the exact one; fft: always exactly"));
-    list.push_back(choice("motion", q.motion, {"off", "fast", "exact"},
-                          "during the exposure. off: its middle; fast: the middle, blurred along the "
-                          "picture's way; exact: the mean of several instants"));
+                          "method of blurring the picture. auto: by a compact kernel where its transfer "
+                          "function is within 0.0025 of the exact one; fft: always exactly"));
+    list.push_back(
+        choice("motion", q.motion, {"off", "fast", "exact"},
+               "treatment of motion during the exposure. off: the middle instant; fast: the middle instant, "
+               "blurred along the picture's way; exact: the mean of several instants"));
     list.push_back(number("motion_error_px", q.motion_error_px, 1, {0.01, 16},
-                          "exact: an instant for each so many pixels that anything moves"));
+                          "exact: greatest movement, in pixels, of anything between two instants"));
     return list;
 }
 
@@ -60,16 +62,17 @@ Fields fields(FaultConfig& f) {
     };
     return {
         required(
-            Field{"kind", "what goes wrong (docs/faults.md)",
+            Field{"kind", "kind of fault (docs/faults.md)",
                   ChoiceField{std::move(words), [&f](std::size_t i) { f.kind = kAllFaults[i]; }, present}}),
         number("rate", f.order.rate, 1, {0, 1},
                "share of packets, messages, frames or pixels that it strikes"),
-        number("value", f.order.value, 1, {-1e9, 1e9}, "by kind"),
-        number("at_s", f.at_s, 1, {0, 1e7}, "after the start, when it is ordered"),
+        number("value", f.order.value, 1, {-1e9, 1e9}, "value of the fault; its meaning depends on the kind"),
+        number("at_s", f.at_s, 1, {0, 1e7}, "time after the start at which the fault is ordered"),
         integer("from_frame", f.from_frame, {0, 9e15},
-                "first frame that it strikes; 0: at once, and with frames the next that begins"),
-        integer("frames", f.frames, {0, 9e15}, "how many frames it lasts; 0: no end"),
-        number("duration_s", f.order.duration_s, 1, {0, 1e7}, "how long it lasts; 0: no end"),
+                "first frame that the fault strikes; 0: it strikes at once, or with frames from the next "
+                "that begins"),
+        integer("frames", f.frames, {0, 9e15}, "number of frames that the fault lasts; 0: no end"),
+        number("duration_s", f.order.duration_s, 1, {0, 1e7}, "time that the fault lasts; 0: no end"),
     };
 }
 
@@ -95,27 +98,28 @@ void validate(const FaultConfig& f) {
 
 Fields fields(CommandsConfig& c) {
     return {
-        optional(section("udp", c.udp, "listen for commands"), c.has_udp),
-        optional(section("tcp", c.tcp, "the same over TCP, for several clients"), c.has_tcp),
-        optional(section("unix", c.unix_socket, "the same over a Unix socket"), c.has_unix),
-        optional(section("usb", c.usb, "the same from a USB device with a bulk pair"), c.has_usb),
-        optional(section("functionfs", c.functionfs, "the same as a USB device (FunctionFS)"),
+        optional(section("udp", c.udp, "commands over UDP"), c.has_udp),
+        optional(section("tcp", c.tcp, "commands over TCP, from several clients"), c.has_tcp),
+        optional(section("unix", c.unix_socket, "commands over a Unix socket"), c.has_unix),
+        optional(section("usb", c.usb, "commands from a USB device with a bulk pair"), c.has_usb),
+        optional(section("functionfs", c.functionfs, "commands received as a USB device (FunctionFS)"),
                  c.has_functionfs),
         optional(section("vizard", c.vizard,
-                         "take Vizard's place for Basilisk (docs/vizard.md); with mode: lockstep"),
+                         "commands from Basilisk, in Vizard's place (docs/vizard.md); needs mode: lockstep"),
                  c.has_vizard),
-        section("poses", c.poses, "what is done when poses stop or their time goes back"),
+        section("poses", c.poses, "treatment of poses that stop or whose time goes back"),
     };
 }
 
 Fields fields(OutputsConfig& o) {
     return {
-        optional(section("gige", o.gige, "be a GigE Vision camera"), o.has_gige),
-        optional(section("v4l2", o.v4l2, "feed a v4l2loopback device"), o.has_v4l2),
-        optional(section("uvc", o.uvc, "be a USB camera, with a USB device controller"), o.has_uvc),
-        optional(section("files", o.files, "write pictures"), o.has_files),
-        optional(section("preview", o.preview, "a web page with the live picture"), o.has_preview),
-        optional(section("truth", o.truth, "what each frame shows, as the renderer had it (docs/truth.md)"),
+        optional(section("gige", o.gige, "frames sent as a GigE Vision camera"), o.has_gige),
+        optional(section("v4l2", o.v4l2, "frames fed to a v4l2loopback device"), o.has_v4l2),
+        optional(section("uvc", o.uvc, "frames sent as a USB camera, with a USB device controller"),
+                 o.has_uvc),
+        optional(section("files", o.files, "frames written as pictures"), o.has_files),
+        optional(section("preview", o.preview, "web page with the live picture"), o.has_preview),
+        optional(section("truth", o.truth, "truth about each frame, known by the renderer (docs/truth.md)"),
                  o.has_truth),
     };
 }
@@ -137,62 +141,64 @@ ScenarioConfig::ScenarioConfig() {
 
 Fields fields(ScenarioConfig& s) {
     Fields list = {
-        beside_frames(text("name", s.name, "for reports")),
-        required(text(
-            "time_utc", s.time_utc,
-            "simulated time at the start, in UTC: 2026-03-20T12:00:00Z, of which the Z may be left out")),
-        beside_frames(section("clock", s.clock, "how fast simulated time goes")),
+        beside_frames(text("name", s.name, "name of the scenario in reports")),
+        required(text("time_utc", s.time_utc,
+                      "simulated time at the start, in UTC: 2026-03-20T12:00:00Z; the Z may be left out")),
+        beside_frames(section("clock", s.clock, "rate of simulated time")),
         optional(integer("seed", s.seed, {0, 9e15},
-                         "of a run's random numbers; without the key run and render draw one of their own, "
-                         "all else takes 1"),
+                         "seed of all random numbers of a run; without the key, run and render draw a seed "
+                         "of their own, and all other commands take 1"),
                  s.has_seed),
-        beside_frames(integer("threads", s.threads, {0, 1024}, "for rendering and sensing; 0: one per core")),
-        section("origin", s.origin, "what the world's origin is; its axes are ICRF"),
+        beside_frames(integer("threads", s.threads, {0, 1024},
+                              "number of threads that render and sense; 0: one per core")),
+        section("origin", s.origin, "choice of the world's origin; the world's axes are ICRF"),
         optional(section("site", s.site,
-                         "where local axes stand, on the origin's body; none: at terrain.place, or at an "
-                         "origin that turns"),
+                         "place of the local axes, on the origin's body; left out: at terrain.place, or at "
+                         "an origin that turns"),
                  s.has_site),
-        required(section("camera", s.camera, "the camera's data sheet")),
-        optional(
-            section("camera_pose", s.camera_pose, "where the camera stands until commands say otherwise"),
-            s.has_camera_pose),
+        required(section("camera", s.camera, "data sheet of the camera")),
+        optional(section("camera_pose", s.camera_pose,
+                         "place and attitude of the camera until commands say otherwise"),
+                 s.has_camera_pose),
         optional(section("camera_motion", s.camera_motion,
-                         "how the camera's body moves until commands say otherwise, instead of camera_pose"),
+                         "motion of the camera's body until commands say otherwise; replaces camera_pose"),
                  s.has_camera_motion),
-        optional(section("leap_seconds", s.leap_seconds, "a table of them, instead of the built-in one"),
+        optional(section("leap_seconds", s.leap_seconds, "table of leap seconds; replaces the built-in one"),
                  s.has_leap_seconds),
         section("earth_orientation", s.origin.earth,
-                "as the IERS measures it (Bulletin A); without it UT1 is UTC and the pole stands"),
+                "orientation of the Earth as the IERS measures it (Bulletin A); without it UT1 is UTC and "
+                "the pole stands still"),
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
         optional(section("terrain", s.terrain, "ground from a height map"), s.has_terrain),
-        sections("lamps", s.lamps, "light sources on things; commands number them from 1 (docs/lamps.md)"),
-        section("sun", s.sun, "the Sun"),
-        section("atmosphere", s.atmosphere, "the Earth's air"),
-        optional(section("stars", s.stars, "the stars"), s.has_stars),
+        sections("lamps", s.lamps,
+                 "light sources carried by things; commands number them from 1 (docs/lamps.md)"),
+        section("sun", s.sun, "light and place of the Sun"),
+        section("atmosphere", s.atmosphere, "air of the Earth"),
+        optional(section("stars", s.stars, "stars in the sky"), s.has_stars),
         numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
                 "edges of the spectral bins"),
-        optional(
-            section("rays", s.models.rays, "how pixels become rays, if not as the camera's shutter says"),
-            s.has_rays),
-        text("radiance", s.models.radiance, "reflected | emissive, or a plug-in's"),
+        optional(section("rays", s.models.rays,
+                         "way in which pixels become rays, where it is not the one of the camera's shutter"),
+                 s.has_rays),
+        text("radiance", s.models.radiance, "radiance model: reflected | emissive, or a plug-in's"),
         sections("plugins", s.plugins, "shared libraries that add models"),
-        section("quality", s.quality, "speed against accuracy"),
-        section("loop", s.loop, "how the frame loop keeps its time"),
-        choice(
-            "mode", s.mode, {"free_run", "triggered", "lockstep"},
-            "what makes the camera take frames: its rate, triggers, or each `expose` one in simulated time"),
-        sections("more_cameras", s.more_cameras, "beside the first, in the same world"),
-        beside_frames(sections("faults", s.faults, "what goes wrong by itself")),
-        beside_frames(
-            sections("events", s.events, "what happens by itself, at a time or when something becomes true")),
-        beside_frames(section("commands", s.commands, "where commands come from")),
-        beside_frames(
-            optional(section("telemetry", s.telemetry, "who gets frame reports and housekeeping unasked"),
-                     s.has_telemetry)),
-        beside_frames(section("outputs", s.outputs, "where frames go")),
+        section("quality", s.quality, "trade of speed against accuracy"),
+        section("loop", s.loop, "timing of the frame loop"),
+        choice("mode", s.mode, {"free_run", "triggered", "lockstep"},
+               "cause of a frame: the camera's rate (free_run), a trigger (triggered), or an `expose` "
+               "command, one frame each, in simulated time (lockstep)"),
+        sections("more_cameras", s.more_cameras, "further cameras beside the first, in the same world"),
+        beside_frames(sections("faults", s.faults, "faults that strike by themselves")),
+        beside_frames(sections("events", s.events,
+                               "things that happen by themselves, at a time or when something becomes true")),
+        beside_frames(section("commands", s.commands, "sources of commands")),
+        beside_frames(optional(
+            section("telemetry", s.telemetry, "receivers that get frame reports and housekeeping unasked"),
+            s.has_telemetry)),
+        beside_frames(section("outputs", s.outputs, "destinations of frames")),
     };
     for (std::size_t i = 0; i < kBodyCount; ++i)
-        list.push_back(section(std::string(kBodyNames[i]), s.bodies[i], "the body of that name"));
+        list.push_back(section(std::string(kBodyNames[i]), s.bodies[i], "look of the body of that name"));
     return list;
 }
 

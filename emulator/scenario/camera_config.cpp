@@ -14,13 +14,13 @@ constexpr AttitudeWords kMountWords{"camera", "that body", "attitude", false};
 
 Fields fields(CameraConfig& c) {
     Fields list = {
-        required(section("camera", c.camera, "its data sheet")),
+        required(section("camera", c.camera, "data sheet of this camera")),
         integer("on", c.thing, {0, 65535},
-                "what it is fixed to; 0: the body of the first camera, or an object"),
-        vector3("position_m", c.position_m, 1, {-1e6, 1e6}, "in that body's axes"),
+                "carrier of this camera: 0 is the body of the first camera, another number an object"),
+        vector3("position_m", c.position_m, 1, {-1e6, 1e6}, "position in the carrier's axes"),
     };
     for (Field& field : attitude_keys(c.attitude, kMountWords)) list.push_back(std::move(field));
-    list.push_back(beside_frames(section("outputs", c.outputs, "where its frames go")));
+    list.push_back(beside_frames(section("outputs", c.outputs, "destinations of this camera's frames")));
     return list;
 }
 

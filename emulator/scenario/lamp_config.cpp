@@ -7,28 +7,34 @@ namespace hilcam {
 
 Fields fields(LampConfig& l) {
     return {
-        required(text("name", l.name, "for messages")),
-        text("on", l.on, "what carries it: an object's name, or camera: the body of the first camera"),
-        integer("joint", l.joint, {0, 65535}, "of that object, on whose part it is, from 1; 0: the object"),
-        vector3("position_m", l.position_m, 1, {-1e6, 1e6}, "in that thing's axes; outside of its mesh"),
-        vector3("axis", l.axis, 1, {-1e6, 1e6}, "where the beam goes, in that thing's axes"),
+        required(text("name", l.name, "name of the lamp in messages")),
+        text("on", l.on, "carrier of the lamp: an object's name, or camera: the body of the first camera"),
+        integer("joint", l.joint, {0, 65535},
+                "joint of that object whose part carries the lamp, counted from 1; 0: the object itself"),
+        vector3("position_m", l.position_m, 1, {-1e6, 1e6},
+                "position in the carrier's axes, outside of its mesh"),
+        vector3("axis", l.axis, 1, {-1e6, 1e6}, "direction of the beam, in the carrier's axes"),
         optional(curve("intensity_w_sr_um", l.spectral_intensity_w_sr_um, {0, 1e9},
                        "radiant intensity on the axis by wavelength"),
                  l.has_spectral_intensity),
         optional(number("intensity_w_sr", l.intensity_w_sr, 1, {0, 1e9},
-                        "instead: that of all wavelengths together, with spectrum"),
+                        "radiant intensity of all wavelengths together, used with spectrum; replaces "
+                        "intensity_w_sr_um"),
                  l.has_intensity),
-        optional(curve("spectrum", l.spectrum, {0, 1e9}, "how it is spread over wavelength, in any unit"),
+        optional(curve("spectrum", l.spectrum, {0, 1e9},
+                       "distribution of intensity_w_sr over wavelength, in any unit"),
                  l.has_spectrum),
         optional(number("beam_angle_deg", l.beam_angle_rad, kDegree_rad, {0.1, 179},
-                        "the full one, to half the intensity, by cos^n; without it and beam: the same in all "
-                        "directions"),
+                        "full angle of the beam to half the intensity, by cos^n; without it and beam, the "
+                        "lamp shines equally in all directions"),
                  l.has_beam_angle),
         optional(table("beam", l.beam, {"angle_deg", "intensity_ratio"}, {0, 180}, {0, 1e3},
-                       "instead: intensity off the axis over that on it; dark beyond the last angle"),
+                       "intensity off the axis over that on the axis, by angle; dark beyond the last angle; "
+                       "replaces beam_angle_deg"),
                  l.has_beam),
-        flag("lit", l.lit, "whether it is when the run begins"),
-        number("level", l.level, 1, {0, 1}, "of the intensity when the run begins and it is lit"),
+        flag("lit", l.lit, "true: the lamp is lit when the run begins"),
+        number("level", l.level, 1, {0, 1},
+               "share of the full intensity with which a lit lamp begins the run"),
     };
 }
 

@@ -21,16 +21,18 @@ std::vector<std::string> frame_names() { return {"world", "body_fixed", "lvlh", 
 
 constexpr const char* kRadecIsWorlds =
     "is against ICRF; accepted: with frame: world, or another form of attitude";
-constexpr const char* kOf = "the thing that frames lvlh and object belong to: an object's name, or camera";
+constexpr const char* kOf = "thing that the frames lvlh and object belong to: an object's name, or camera";
 
 }  // namespace
 
 Fields fields(KeyframeConfig& k) {
     Fields list = {
-        required(number("at_s", k.at_s, 1, {-1e9, 1e9}, "after the scenario's start")),
-        vector3("position_m", k.position_m, 1, {-1e13, 1e13}, "in the motion's frame"),
-        optional(vector3("velocity_m_s", k.velocity_m_s, 1, {-1e9, 1e9}, "none: by its neighbours"),
-                 k.has_velocity),
+        required(number("at_s", k.at_s, 1, {-1e9, 1e9}, "time after the scenario's start")),
+        vector3("position_m", k.position_m, 1, {-1e13, 1e13}, "position in the motion's frame"),
+        optional(
+            vector3("velocity_m_s", k.velocity_m_s, 1, {-1e9, 1e9},
+                    "velocity in the motion's frame; left out: worked out from the neighbouring keyframes"),
+            k.has_velocity),
     };
     for (Field& field : attitude_keys(k.attitude, {.frame = "the frame"})) {
         if (field.key == "attitude_wxyz") field.meaning += "; no form given: as before";
@@ -44,17 +46,18 @@ void validate(const KeyframeConfig& k) { check_attitude(k.attitude); }
 Fields fields(KeplerConfig& k) {
     return {
         required(number("semi_major_axis_km", k.semi_major_axis_m, 1e3, {-1e10, 1e10},
-                        "negative with an eccentricity above 1")),
-        number("eccentricity", k.eccentricity, 1, {0, 1e3}, "not 1"),
-        number("inclination_deg", k.inclination_rad, kDegree_rad, {0, 180}, "against ICRF's equator"),
+                        "semi-major axis; negative where the eccentricity is above 1")),
+        number("eccentricity", k.eccentricity, 1, {0, 1e3}, "eccentricity; 1 is refused"),
+        number("inclination_deg", k.inclination_rad, kDegree_rad, {0, 180}, "inclination to ICRF's equator"),
         number("node_deg", k.node_rad, kDegree_rad, {-360, 360}, "right ascension of the ascending node"),
         number("periapsis_deg", k.periapsis_rad, kDegree_rad, {-360, 360}, "argument of periapsis"),
-        optional(number("mean_anomaly_deg", k.mean_anomaly_rad, kDegree_rad, {-1e6, 1e6}, "at epoch"),
+        optional(number("mean_anomaly_deg", k.mean_anomaly_rad, kDegree_rad, {-1e6, 1e6},
+                        "mean anomaly at the epoch"),
                  k.has_mean),
-        optional(
-            number("true_anomaly_deg", k.true_anomaly_rad, kDegree_rad, {-360, 360}, "at epoch, instead"),
-            k.has_true),
-        text("epoch_utc", k.epoch_utc, "none: the scenario's start"),
+        optional(number("true_anomaly_deg", k.true_anomaly_rad, kDegree_rad, {-360, 360},
+                        "true anomaly at the epoch; replaces mean_anomaly_deg"),
+                 k.has_true),
+        text("epoch_utc", k.epoch_utc, "epoch of the anomaly, in UTC; left out: the scenario's start"),
     };
 }
 
@@ -73,39 +76,44 @@ void validate(const KeplerConfig& k) {
 
 Fields fields(TleConfig& t) {
     return {
-        required(path("file", t.file, "of two-line element sets")),
-        text("satellite", t.satellite, "its number, or its name in the file; of several sets the newest"),
-        choice("checksum", t.checksum, {"verify", "ignore"}, "of each line"),
-        number("valid_days", t.valid_s, 86400, {0.01, 400}, "before and after the set's epoch"),
+        required(path("file", t.file, "file of two-line element sets")),
+        text("satellite", t.satellite,
+             "the satellite's number, or its name in the file; of several sets the newest is taken"),
+        choice("checksum", t.checksum, {"verify", "ignore"}, "treatment of each line's checksum"),
+        number("valid_days", t.valid_s, 86400, {0.01, 400},
+               "days before and after its epoch for which the set is valid"),
     };
 }
 
 Fields fields(EphemerisFileConfig& f) {
     return {
-        required(path("file", f.file, "a CCSDS message, keyword = value")),
-        text("object", f.object, "OBJECT_NAME or OBJECT_ID, in a message of several"),
+        required(path("file", f.file, "CCSDS message in the keyword = value form")),
+        text("object", f.object, "OBJECT_NAME or OBJECT_ID to take from a message that has several"),
     };
 }
 
 Fields fields(AttitudeConfig& a) {
     Fields list = {
         choice("law", a.law, {"held", "nadir", "object", "sun", "velocity", "keyframes", "aem"},
-               "held: the attitude given here and rate_deg_s against frame (inertial, spin, lvlh, ...); "
-               "nadir, object, sun, velocity: axis looks there; keyframes, aem: by them"),
-        choice("frame", a.frame, frame_names(), "of held; keyframes have the motion's"),
-        text("of", a.of, std::string(kOf) + ", or that law object looks at"),
+               "law of the attitude. held: the attitude given here, turned by rate_deg_s, relative to frame "
+               "(inertial, spin, lvlh, ...); nadir, object, sun, velocity: axis points there; keyframes, "
+               "aem: attitudes are taken from there"),
+        choice("frame", a.frame, frame_names(),
+               "axes that the law held refers to; keyframes use the motion's"),
+        text("of", a.of, std::string(kOf) + "; with the law object, what it looks at"),
     };
     for (Field& field : attitude_keys(a.attitude, {.frame = "the frame"})) list.push_back(std::move(field));
     Fields rest = {
-        vector3("rate_deg_s", a.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "of held: about the body axes"),
+        vector3("rate_deg_s", a.rate_body_rad_s, kDegree_rad, {-1e5, 1e5},
+                "rate of turn about the body axes, for the law held"),
         optional(choice("nadir_of", a.nadir_of, center_names(),
-                        "the body to whose centre law nadir looks; none: center, or the site's body with the "
-                        "motion's frame local"),
+                        "body whose centre the law nadir looks at; left out: center, or with the motion's "
+                        "frame local the site's body"),
                  a.has_nadir_of),
-        vector3("axis", a.axis, 1, {-1e6, 1e6}, "of the body, that looks"),
-        vector3("second_axis", a.second_axis, 1, {-1e6, 1e6}, "of the body, that looks near 'second'"),
+        vector3("axis", a.axis, 1, {-1e6, 1e6}, "axis of the body that points at the law's target"),
+        vector3("second_axis", a.second_axis, 1, {-1e6, 1e6}, "axis of the body that points near 'second'"),
         choice("second", a.second, {"north", "velocity", "orbit_normal", "nadir", "sun"},
-               "where; north: the world's +z"),
+               "direction that second_axis is turned to; north: the world's +z"),
         optional(section("aem", a.aem, "attitude ephemeris message, CCSDS 504.0-B"), a.has_aem),
         optional(section("jitter", a.jitter, "unsteadiness about the body's axes"), a.has_jitter),
     };
@@ -128,21 +136,22 @@ void validate(const AttitudeConfig& a) {
 Fields fields(MotionConfig& m) {
     return {
         required(choice("kind", m.kind, {"fixed", "keyframes", "kepler", "tle", "oem", "cw"},
-                        "where positions come from; cw: drift near a thing on a circular orbit")),
-        choice("frame", m.frame, frame_names(), "of fixed and keyframes; local: east, north, up at the site"),
+                        "source of the positions; cw: drift near a thing on a circular orbit")),
+        choice("frame", m.frame, frame_names(),
+               "axes of the motions fixed and keyframes; local: east, north, up at the site"),
         text("of", m.of, kOf),
-        choice("center", m.center, center_names(), "of the orbit, of lvlh, or the body of body_fixed"),
-        vector3("position_m", m.position_m, 1, {-1e13, 1e13}, "of fixed and cw, at the start"),
-        vector3("velocity_m_s", m.velocity_m_s, 1, {-1e9, 1e9}, "of fixed and cw, in the frame"),
-        sections("keyframes", m.keyframes, "places on the way, in time"),
+        choice("center", m.center, center_names(),
+               "body at the centre of the orbit or of lvlh, or the body of body_fixed"),
+        vector3("position_m", m.position_m, 1, {-1e13, 1e13}, "position at the start, for fixed and cw"),
+        vector3("velocity_m_s", m.velocity_m_s, 1, {-1e9, 1e9}, "velocity in the frame, for fixed and cw"),
+        sections("keyframes", m.keyframes, "places on the way, in order of time"),
         optional(section("kepler", m.kepler, "elements of an unperturbed orbit"), m.has_kepler),
-        optional(section("tle", m.tle, "element set, SGP4"), m.has_tle),
+        optional(section("tle", m.tle, "two-line element set, propagated by SGP4"), m.has_tle),
         optional(section("oem", m.oem, "orbit ephemeris message, CCSDS 502.0-B"), m.has_oem),
-        section("attitude", m.attitude, "how it is turned"),
-        choice(
-            "outside", m.outside, {"refuse", "hold"},
-            "of the times that a file knows. refuse: gaps and a start outside are errors; hold: stand still "
-            "there"),
+        section("attitude", m.attitude, "attitude along the motion"),
+        choice("outside", m.outside, {"refuse", "hold"},
+               "treatment of times outside those that a file covers. refuse: gaps and a start outside are "
+               "errors; hold: the body stands still there"),
     };
 }
 
@@ -188,16 +197,19 @@ void validate(const MotionConfig& m) {
 
 Fields fields(EarthOrientation& o) {
     return {
-        number("ut1_minus_utc_s", o.ut1_minus_utc_s, 1, {-0.9, 0.9}, "of the run's day"),
-        number("pole_x_arcsec", o.pole_x_rad, kArcsecond_rad, {-2, 2}, "of the pole, towards Greenwich"),
-        number("pole_y_arcsec", o.pole_y_rad, kArcsecond_rad, {-2, 2}, "of the pole, towards 90 deg west"),
+        number("ut1_minus_utc_s", o.ut1_minus_utc_s, 1, {-0.9, 0.9}, "UT1 - UTC on the day of the run"),
+        number("pole_x_arcsec", o.pole_x_rad, kArcsecond_rad, {-2, 2},
+               "coordinate x of the pole, towards Greenwich"),
+        number("pole_y_arcsec", o.pole_y_rad, kArcsecond_rad, {-2, 2},
+               "coordinate y of the pole, towards 90 deg west"),
     };
 }
 
 Fields fields(LeapSecondsConfig& l) {
     return {
         required(path("file", l.file, "the IERS's leap-seconds.list, as in /usr/share/zoneinfo")),
-        choice("expired", l.expired, {"refuse", "warn"}, "when the scenario begins after the file's expiry"),
+        choice("expired", l.expired, {"refuse", "warn"},
+               "treatment of a scenario that begins after the file's expiry"),
     };
 }
 

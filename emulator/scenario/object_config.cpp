@@ -8,23 +8,30 @@ namespace hilcam {
 Fields fields(PoseConfig& p) {
     Fields list = {
         choice("frame", p.frame, {"world", "local"},
-               "of all that is given here; local: x east, y north, z up at the site, with which it turns"),
-        vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "in the frame"),
+               "axes in which everything here is given. local: x east, y north, z up at the site, turning "
+               "with it"),
+        vector3("position_m", p.position_m, 1, {-1e13, 1e13}, "position in the frame"),
         optional(choice("attitude", p.attitude, {"quaternion", "look_at", "nadir"},
-                        "quaternion: by attitude_wxyz or another form; look_at: +z to a point, -y near up; "
-                        "nadir: +z to the centre of nadir_of, +y south; with look_at_m or up it is look_at"),
+                        "way to give the attitude. quaternion: by attitude_wxyz or another form; look_at: +z "
+                        "points to a point, -y is near up; nadir: +z points to the centre of nadir_of, +y "
+                        "south. Where look_at_m or up is given, it is look_at"),
                  p.has_attitude),
     };
     for (Field& field : attitude_keys(p.forms, {.frame = "the frame"})) list.push_back(std::move(field));
     Fields rest = {
         optional(
             choice("nadir_of", p.nadir_of, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
-                   "the body of nadir; none: the origin's, or the site's body in frame local"),
+                   "body that nadir looks at; left out: the origin's, or with frame local the site's"),
             p.has_nadir_of),
-        optional(vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "a point in the frame"), p.has_look_at),
-        optional(vector3("up", p.up, 1, {-1e13, 1e13}, "a direction in the frame"), p.has_up),
-        optional(vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "in the frame"), p.has_velocity),
-        optional(vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5}, "about the body axes"),
+        optional(vector3("look_at_m", p.look_at_m, 1, {-1e13, 1e13}, "point in the frame that +z looks at"),
+                 p.has_look_at),
+        optional(
+            vector3("up", p.up, 1, {-1e13, 1e13}, "direction in the frame that is near up in the picture"),
+            p.has_up),
+        optional(vector3("velocity_m_s", p.velocity_m_s, 1, {-1e9, 1e9}, "velocity in the frame"),
+                 p.has_velocity),
+        optional(vector3("rate_deg_s", p.rate_body_rad_s, kDegree_rad, {-1e5, 1e5},
+                         "rate of turn about the body axes"),
                  p.has_rate),
     };
     for (Field& field : rest) list.push_back(std::move(field));
@@ -90,11 +97,12 @@ Motion initial_motion(const PoseConfig& p, TimeTai time, const Bodies& bodies) {
 
 Fields fields(GeneratedMeshConfig& g) {
     return {
-        required(text("program", g.program, "a generator beside hilcam, as hilcam-make-spacecraft")),
-        integer("triangles", g.triangles, {5000, 20000000}, "how many it shall make"),
-        integer("seed", g.seed, {0, 1e9}, "of its random details"),
+        required(
+            text("program", g.program, "name of a generator beside hilcam, such as hilcam-make-spacecraft")),
+        integer("triangles", g.triangles, {5000, 20000000}, "number of triangles to make"),
+        integer("seed", g.seed, {0, 1e9}, "seed of the mesh's random details"),
         number("wing_angle_deg", g.wing_angle_deg, 1, {-360, 360},
-               "solar wings about +y: cells look along +z at 0, +x at 90"),
+               "angle of the solar wings about +y: cells face +z at 0, +x at 90"),
     };
 }
 
@@ -104,13 +112,14 @@ Fields fields(MaterialSet& set) {
 
 Fields fields(JointConfig& j) {
     return {
-        required(text("node", j.node,
-                      "of the mesh file that turns, with all below it; a trailing * matches any ending")),
-        vector3("pivot_m", j.pivot_m, 1, {-1e6, 1e6}, "a point of the axis, in the object's axes"),
-        vector3("axis", j.axis, 1, {-1e6, 1e6}, "its direction, in the object's axes"),
+        required(text(
+            "node", j.node,
+            "node of the mesh file that turns, with everything below it; a trailing * matches any ending")),
+        vector3("pivot_m", j.pivot_m, 1, {-1e6, 1e6}, "point on the axis, in the object's axes"),
+        vector3("axis", j.axis, 1, {-1e6, 1e6}, "direction of the axis, in the object's axes"),
         number("angle_deg", j.angle_rad, kDegree_rad, {-36000, 36000},
-               "turned from the file's own state, right-handed"),
-        number("rate_deg_s", j.rate_rad_s, kDegree_rad, {-1e5, 1e5}, "how fast it turns from the start on"),
+               "angle from the file's own state, right-handed"),
+        number("rate_deg_s", j.rate_rad_s, kDegree_rad, {-1e5, 1e5}, "rate of turn from the start on"),
     };
 }
 
@@ -120,15 +129,19 @@ void validate(const JointConfig& j) {
 
 Fields fields(ObjectConfig& o) {
     return {
-        required(text("name", o.name, "for messages")),
-        optional(path("mesh", o.mesh, o.mesh_where, "GLB, glTF, OBJ, STL or PLY file in metres"), o.has_mesh),
-        optional(section("generate", o.generate, "a mesh made at first use and cached, instead of a file"),
+        required(text("name", o.name, "name of the object in messages")),
+        optional(path("mesh", o.mesh, o.mesh_where, "mesh file in metres: GLB, glTF, OBJ, STL or PLY"),
+                 o.has_mesh),
+        optional(section("generate", o.generate,
+                         "mesh made by a program at first use and cached; replaces a file"),
                  o.has_generate),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
-        optional(section("pose", o.pose, "where it stands until commands say otherwise"), o.has_pose),
-        optional(section("motion", o.motion, "how it moves until commands say otherwise, instead of pose"),
-                 o.has_motion),
-        section("materials", o.materials, "replaces the mesh's own looks"),
+        optional(section("pose", o.pose, "place and attitude of the object until commands say otherwise"),
+                 o.has_pose),
+        optional(
+            section("motion", o.motion, "motion of the object until commands say otherwise; replaces pose"),
+            o.has_motion),
+        section("materials", o.materials, "materials that replace the mesh's own"),
         sections("joints", o.joints, "parts that turn; commands number them from 1"),
     };
 }
@@ -144,11 +157,13 @@ void validate(const ObjectConfig& o) {
 Fields fields(PlaceConfig& p) {
     return {
         required(choice("body", p.body, std::vector<std::string>(kBodyNames.begin(), kBodyNames.end()),
-                        "it turns with it")),
-        required(number("longitude_deg", p.place.longitude_rad, kDegree_rad, {-360, 360}, "east positive")),
-        required(number("latitude_deg", p.place.latitude_rad, kDegree_rad, {-90, 90}, "geodetic")),
+                        "body on which the place lies and with which it turns")),
+        required(number("longitude_deg", p.place.longitude_rad, kDegree_rad, {-360, 360},
+                        "longitude of the place, east positive")),
+        required(number("latitude_deg", p.place.latitude_rad, kDegree_rad, {-90, 90},
+                        "geodetic latitude of the place")),
         number("height_km", p.place.height_m, 1e3, {-100, 1e5},
-               "over the body's ellipsoid; of terrain: of its map's height 0"),
+               "height of the place above the body's ellipsoid; for terrain, that of its map's height 0"),
     };
 }
 
@@ -164,19 +179,22 @@ void validate(const TerrainConfig& t) {
 
 Fields fields(TerrainConfig& t) {
     return {
-        text("name", t.name, "for messages"),
-        required(section("heights", t.heights, "the map")),
-        number("radius_km", t.radius_m, 1000, {0, 1e6}, "of the sphere under the map; 0: a plane"),
+        text("name", t.name, "name of the terrain in messages"),
+        required(section("heights", t.heights, "height map")),
+        number("radius_km", t.radius_m, 1000, {0, 1e6}, "radius of the sphere under the map; 0: a plane"),
         optional(
-            section(
-                "pose", t.pose,
-                "of the map's middle at height 0 in the world, where it stays; axes x east, y north, z up"),
+            section("pose", t.pose,
+                    "fixed pose in the world of the map's middle at height 0; axes x east, y north, z up"),
             t.has_pose),
-        optional(section("place", t.place, "the same on a body, with which it turns"), t.has_place),
-        section("material", t.material, "what the ground is made of"),
-        number("edge_px", t.edge_px, 1, {0.25, 64}, "of its triangles on the screen, at most"),
-        integer("most_triangles", t.most_triangles, {10'000, 50'000'000}, "at a time"),
-        flag("wait", t.wait, "frames wait for the terrain that fits them: the same every run, not real time"),
+        optional(section("place", t.place, "place on a body, with which the terrain turns; replaces pose"),
+                 t.has_place),
+        section("material", t.material, "material of the ground"),
+        number("edge_px", t.edge_px, 1, {0.25, 64}, "greatest edge of the terrain's triangles on the screen"),
+        integer("most_triangles", t.most_triangles, {10'000, 50'000'000},
+                "greatest number of triangles at a time"),
+        flag("wait", t.wait,
+             "true: frames wait for the terrain that fits them, which gives the same frames every run but "
+             "not real time"),
     };
 }
 

@@ -34,19 +34,16 @@ Fields fields(LoopConfig& l) {
             "each with all threads")),
         beside_frames(
             flag("wait_for_light", l.wait_for_light,
-                 "free_run, triggered, with quality.path_model kept: false: frames come at once, with random "
-                 "paths and "
-                 "the flag no_kept_light, while tables that are not on disk are made beside them; true: none "
-                 "comes "
-                 "before. Lockstep, --frames, --record, --replay and all other commands always wait")),
-        number(
-            "frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
-            "a frame may take so long (with throughput: the longer of its two stages); the governor lowers "
-            "the quality until it does, and raises it again; 0: no governor"),
-        sections(
-            "levels", l.levels,
-            "what it may choose, best first: mappings of what is different from `quality` (or files with "
-            "them); none: the program's own"),
+                 "false: frames come at once while tables that are not on disk are still being made; they "
+                 "are rendered by random paths and have the flag no_kept_light. true: no frame comes before. "
+                 "Counts for free_run and triggered with quality.path_model kept; lockstep, --frames, "
+                 "--record, --replay and all other commands always wait")),
+        number("frame_budget_ms", l.frame_budget_s, 1e-3, {0, 1e6},
+               "time that a frame may take (with throughput: the longer of its two stages); the governor "
+               "lowers the quality until it is kept, and raises it again; 0: no governor"),
+        sections("levels", l.levels,
+                 "levels of quality that the governor may choose, best first: mappings of what differs from "
+                 "`quality` (or files with them); left out: the program's own"),
     };
     for (Field& field : fields(l.real_time)) list.push_back(beside_frames(std::move(field)));
     return list;

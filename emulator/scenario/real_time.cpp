@@ -101,7 +101,7 @@ Fields fields(RealTime& w) {
                 "scheduling"),
         numbers("cores", w.cores, 1, {0, CPU_SETSIZE - 1}, {0, CPU_SETSIZE},
                 "numbers of the processor cores that those threads keep to; none: all"),
-        flag("lock_memory", w.lock_memory, "no memory of the program is paged out"),
+        flag("lock_memory", w.lock_memory, "true: no memory of the program is paged out"),
     };
 }
 

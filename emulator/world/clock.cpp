@@ -23,12 +23,13 @@ std::int64_t scaled(std::int64_t ns, double scale) {
 Fields fields(ClockConfig& c) {
     return {
         number("scale", c.scale, 1, {kLeastClockScale, kMostClockScale},
-               "simulated seconds in one of the machine's; frame rate and exposure are simulated time. 0.1: "
-               "ten times slower"),
-        flag("paused", c.paused, "simulated time stands at the start, until a clock command lets it run"),
+               "simulated seconds per second of the machine; frame rate and exposure are in simulated time. "
+               "0.1: ten times slower"),
+        flag("paused", c.paused,
+             "true: simulated time stands still at the start, until a clock command lets it run"),
         choice("camera_in_pause", c.camera_in_pause, {"streams", "waits"},
-               "while simulated time stands. streams: frames of the standing world at the camera's rate; "
-               "waits: none begin"),
+               "what the camera does while simulated time stands still. streams: it sends frames of the "
+               "standing world at its rate; waits: it begins none"),
     };
 }
 

@@ -10,21 +10,22 @@ namespace hilcam {
 Fields fields(PoseRules& r) {
     return {
         number("horizon_s", r.horizon_s, 1, {1e-3, 1e8},
-               "how far a time tag may lie from the simulated now; farther ones are refused"),
+               "greatest distance of a time tag from the simulated now; farther ones are refused"),
         number("stale_after_s", r.stale_after_s, 1, {0, 1e7},
                "simulated time without a pose after which frames are stale; 0: never. In lockstep: from the "
                "newest time tag"),
         choice("when_stale", r.when_stale, {"propagate", "hold", "black", "stop"},
-               "propagate: motion goes on; hold: the world stands; black: the shutter is closed; stop: no "
-               "frames"),
+               "treatment of stale frames. propagate: motion goes on; hold: the world stands still; black: "
+               "the shutter is closed; stop: no frames"),
         choice("watch", r.watch, {"any", "camera"},
-               "whose poses count for that: any thing's and joint's, or those of the camera's body alone"),
-        number(
-            "late_s", r.late_s, 1, {0, 1e6},
-            "a time tag so much before the newest of its thing is late; farther back, time went backwards"),
+               "poses that count for stale_after_s: those of any thing and joint, or those of the camera's "
+               "body alone"),
+        number("late_s", r.late_s, 1, {0, 1e6},
+               "time by which a tag may lie before the newest of its thing and be merely late; farther back, "
+               "time went backwards"),
         choice("backwards", r.backwards, {"flag", "accept", "refuse"},
-               "what then. flag: the pose counts, frame and acknowledgement say so; accept: it counts; "
-               "refuse: it does not"),
+               "treatment of poses whose time went backwards. flag: the pose counts, and frame and "
+               "acknowledgement say so; accept: it counts; refuse: it does not"),
     };
 }
 

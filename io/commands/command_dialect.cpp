@@ -33,10 +33,11 @@ bool is_cfs(const DialectConfig& dialect) { return dialect.dialect == Dialect::k
 }  // namespace
 
 void add_fields(DialectConfig& d, Fields& fields) {
-    fields.push_back(choice("dialect", d.dialect, {"hilcam", "cfs"},
-                            "headers of the packets: hilcam's own, or NASA cFS's (function code, checksum)"));
+    fields.push_back(
+        choice("dialect", d.dialect, {"hilcam", "cfs"},
+               "headers of the packets: hilcam's own, or those of NASA's cFS (function code, checksum)"));
     fields.push_back(choice("checksum", d.checksum, {"required", "optional"},
-                            "dialect cfs: whether a wrong checksum byte refuses a command"));
+                            "dialect cfs: required refuses a command whose checksum byte is wrong"));
 }
 
 void validate(const DialectConfig& d) {

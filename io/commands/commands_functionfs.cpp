@@ -274,10 +274,10 @@ void FunctionFsReceiver::follow_detach_fault() {
 
 Fields fields(FunctionFsConfig& c) {
     Fields list = {
-        path("mount", c.mount, "where FunctionFS is mounted"),
+        path("mount", c.mount, "folder in which FunctionFS is mounted"),
         path("gadget", c.gadget,
-             "the gadget's folder in configfs, to bind and unbind it; left out: the user does"),
-        text("controller", c.controller, "of /sys/class/udc; left out: the first"),
+             "folder of the gadget in configfs, to bind and unbind it; left out: the user does so"),
+        text("controller", c.controller, "name of the controller in /sys/class/udc; left out: the first"),
     };
     add_fields(c.dialect, list);
     return list;

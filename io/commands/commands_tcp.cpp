@@ -35,7 +35,8 @@ Fields fields(TcpCommandConfig& c) {
         text("address", c.address, "IPv4 address of this machine to listen on"),
         integer("port", c.port, {1, 65535}, "TCP port to listen on"),
         allow_field(c.allow),
-        integer("clients", c.clients, {1, 1000}, "connections at a time; more are closed at once"),
+        integer("clients", c.clients, {1, 1000},
+                "greatest number of connections at a time; more are closed at once"),
     };
     add_fields(c.dialect, list);
     return list;

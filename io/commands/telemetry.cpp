@@ -16,7 +16,7 @@ Fields fields(TelemetryConfig& c) {
         if (field.key == "port")
             field = integer("port", c.port.port, {0, 65535},
                             "TCP port whose clients get all telemetry and are not listened to; 0: none");
-    list.push_back(texts("udp_to", c.udp_to, "ADDRESS:PORT of those that get all telemetry as datagrams"));
+    list.push_back(texts("udp_to", c.udp_to, "receivers of all telemetry as datagrams, each ADDRESS:PORT"));
     return list;
 }
 

@@ -17,15 +17,17 @@ const char* ending_of(FilesConfig::Format format) {
 
 Fields fields(FilesConfig& c) {
     return {
-        path("folder", c.folder, "made when missing"),
+        path("folder", c.folder, "folder of the pictures, made when missing"),
         choice("format", c.format, {"png", "tiff", "raw", "fits"},
-               "kind of picture (docs/pictures.md); raw: the camera's memory, packed as it says"),
+               "kind of picture (docs/pictures.md); raw: the camera's memory, in its own packing"),
         text("name", c.name,
-             "of each file: %08d or {frame:8} is the frame's number; {camera}, {camera_name}, {time_tai_ns}"),
-        flag("view", c.view, "beside each frame NAME.view.png, 8 bits, to look at"),
-        integer("every_nth", c.every_nth, {1, 1e9}, "write every n-th frame only"),
+             "name of each file: %08d or {frame:8} is the frame's number; {camera}, {camera_name}, "
+             "{time_tai_ns}"),
+        flag("view", c.view, "true: beside each frame stands NAME.view.png, 8 bits, to look at"),
+        integer("every_nth", c.every_nth, {1, 1e9}, "n: only every n-th frame is written"),
         flag("overwrite", c.overwrite,
-             "a folder that holds another run's frames: false: is refused; true: they are removed first"),
+             "treatment of a folder that holds another run's frames. false: it is refused; true: they are "
+             "removed first"),
     };
 }
 

@@ -57,8 +57,8 @@ bool AllowList::allows(std::uint32_t address) const {
 
 Field allow_field(std::vector<std::string>& allow) {
     return texts("allow", allow,
-                 "senders that are listened to: IPv4 addresses and networks, or any; needed when the address "
-                 "is not loopback");
+                 "IPv4 addresses and networks of the senders that are listened to, or any; needed when the "
+                 "address is not loopback");
 }
 
 }  // namespace hilcam

@@ -37,17 +37,21 @@ Fields fields(TruthConfig& c) {
                 "TCP port whose clients get a line of JSON for each frame; 0: none"),
         allow_field(c.allow),
         integer("clients", c.clients, {1, 1000}, "connections at a time; more are closed at once"),
-        texts("udp_to", c.udp_to, "ADDRESS:PORT of those that get the lines as datagrams"),
+        texts("udp_to", c.udp_to, "receivers of the lines as datagrams, each ADDRESS:PORT"),
         path("folder", c.folder,
-             "for truth.jsonl and the layers' pictures, made when missing; none: no files"),
+             "folder for truth.jsonl and the layers' pictures, made when missing; left out: no files"),
         texts("layers", c.layers,
-              "for each pixel, as truth_00000001.exr: object, range, depth, normal, position"),
-        flag("visibility", c.visibility, "pixels, boxes and visible share of each thing: a ray per pixel"),
-        flag("stars", c.stars, "the stars in view"),
-        number("faintest_magnitude", c.faintest_magnitude, 1, {-2, 30}, "of those stars"),
-        integer("every_nth", c.every_nth, {1, 1e9}, "of every n-th frame only"),
+              "layers written for each pixel, in files like truth_00000001.exr: object, range, depth, "
+              "normal, position"),
+        flag("visibility", c.visibility,
+             "true: pixels, boxes and visible share of each thing are worked out, by a ray per pixel"),
+        flag("stars", c.stars, "true: the stars in view are listed"),
+        number("faintest_magnitude", c.faintest_magnitude, 1, {-2, 30},
+               "magnitude of the faintest stars listed"),
+        integer("every_nth", c.every_nth, {1, 1e9}, "n: truth is given for every n-th frame only"),
         flag("overwrite", c.overwrite,
-             "a folder that holds another run's truth: false: is refused; true: it is removed first"),
+             "treatment of a folder that holds another run's truth. false: it is refused; true: it is "
+             "removed first"),
     };
 }
 

@@ -42,15 +42,18 @@ void check_metadata_row(const V4l2Config& c, std::size_t bytes_per_line) {
 
 Fields fields(V4l2Config& c) {
     return {
-        text("device", c.device, "an output device of v4l2loopback"),
+        text("device", c.device, "output device of v4l2loopback"),
         choice("format", c.format, {"GREY", "Y16", "BAYER8", "BAYER10", "BAYER12", "YUYV", "RGB24"},
-               "GREY: the upper 8 bits; Y16: the DN in the upper ones of 16 bits; BAYER10 and 12: 16-bit "
-               "words, from v4l2loopback 0.14 on"),
+               "pixel format. GREY: the upper 8 bits; Y16: the DN in the upper ones of 16 bits; BAYER10 and "
+               "12: 16-bit words, from v4l2loopback 0.14 on"),
         choice("io", c.io, {"mmap", "write"},
-               "mmap: exposure time stamps; write: times by the module, and frames counted by all versions"),
-        choice("metadata_row", c.metadata_row, {"off", "top", "bottom"},
-               "one more row in the picture, with frame id, times, pose and faults (docs/devices.md)"),
-        integer("buffers", c.buffers, {2, 32}, "that go round; before v4l2loopback 0.14 its own max_buffers"),
+               "way into the device. mmap: time stamps are those of the exposure; write: times are the "
+               "module's, and frames are counted by all its versions"),
+        choice(
+            "metadata_row", c.metadata_row, {"off", "top", "bottom"},
+            "place of one more row in the picture, with frame id, times, pose and faults (docs/devices.md)"),
+        integer("buffers", c.buffers, {2, 32},
+                "number of buffers that go round; before v4l2loopback 0.14 its own max_buffers"),
     };
 }
 

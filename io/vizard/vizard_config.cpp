@@ -9,16 +9,17 @@ namespace hilcam {
 Fields fields(VizardConfig& c) {
     return {
         text("address", c.address, "ZeroMQ endpoint to listen at: tcp://ADDRESS:PORT or ipc://PATH"),
-        choice(
-            "depth", c.depth, {"16_bits", "8_bits"},
-            "of the PNG pictures; 16_bits: the number in the upper ones, so that readers of 8 bits see the "
-            "same"),
+        choice("depth", c.depth, {"16_bits", "8_bits"},
+               "depth of the PNG pictures; 16_bits: the number is in the upper bits, so that readers of 8 "
+               "bits see the same"),
         choice("time", c.time, {"message", "scenario"},
-               "where a run begins: at the epoch of its first message, or at time_utc"),
+               "instant at which a run begins: the epoch of its first message, or time_utc"),
         number("tolerance_deg", c.tolerance_rad, kDegree_rad, {0, 180},
-               "a body further than this from the scenario's ephemerides is remarked on"),
-        flag("stay", c.stay, "goes on when the simulator tells Vizard to end (terminateVizard)"),
-        sections("cameras", c.cameras, "which camera is which; none: in the messages' order"),
+               "angle from the scenario's ephemerides beyond which a body's place is remarked on"),
+        flag("stay", c.stay,
+             "true: the program goes on when the simulator tells Vizard to end (terminateVizard)"),
+        sections("cameras", c.cameras,
+                 "table of the simulator's cameras and the bench's; left out: in the messages' order"),
     };
 }
 

@@ -48,8 +48,9 @@ std::string size_text(std::int64_t width, std::int64_t height) {
 
 Fields fields(VizardCameraConfig& c) {
     return {
-        required(integer("id", c.id, {0, 9e15}, "the simulator's cameraID")),
-        required(integer("camera", c.camera, {1, 255}, "the bench's that takes its pictures, from 1")),
+        required(integer("id", c.id, {0, 9e15}, "cameraID in the simulator")),
+        required(integer("camera", c.camera, {1, 255},
+                         "number of the bench's camera that takes its pictures, from 1")),
     };
 }
 

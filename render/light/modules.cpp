@@ -9,8 +9,9 @@ namespace hilcam {
 
 Fields fields(RayConfig& c) {
     return {
-        text("model", c.model, "pinhole | rolling | pushbroom, or a plug-in's"),
-        number("line_time_us", c.line_time_s, 1e-6, {0, 1e6}, "rolling, pushbroom: from one row to the next"),
+        text("model", c.model, "ray model: pinhole | rolling | pushbroom, or a plug-in's"),
+        number("line_time_us", c.line_time_s, 1e-6, {0, 1e6},
+               "rolling, pushbroom: time from one row to the next"),
     };
 }
 

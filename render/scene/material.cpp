@@ -56,11 +56,11 @@ float lobe_albedo(float alpha, float refractive_index, float cosine) {
 Fields fields(MaterialConfig& c) {
     const Range fraction{0, 1};
     return {
-        text("source", c.source, "where the figures come from"),
+        text("source", c.source, "source of the figures"),
         choice("model", c.model,
                {"lambert", "metal", "dielectric", "mirror", "glass", "oren_nayar", "phong", "lommel_seeliger",
                 "hapke", "table"},
-               "how it reflects; docs/materials.md explains each"),
+               "reflection model; docs/materials.md explains each"),
         curve("reflectance", c.reflectance, fraction,
               "albedo (lambert, oren_nayar, body of a dielectric), reflectance at normal incidence (metal, "
               "mirror), k_d "
@@ -69,10 +69,11 @@ Fields fields(MaterialConfig& c) {
               "...]"),
         number(
             "roughness", c.roughness, 1, fraction,
-            "of metal and dielectric, GGX alpha is its square; of oren_nayar, slope deviation over 90 deg"),
+            "roughness. metal, dielectric: GGX alpha is its square; oren_nayar: slope deviation over 90 deg"),
         number("refractive_index", c.refractive_index, 1, {1, 4},
-               "of a dielectric's clear layer, or of glass"),
-        curve("transmittance", c.transmittance, fraction, "inside a glass sheet, at normal incidence"),
+               "refractive index of glass or of a dielectric's clear layer"),
+        curve("transmittance", c.transmittance, fraction,
+              "transmittance inside a glass sheet, at normal incidence"),
         curve("specular", c.specular, fraction, "k_s of phong"),
         number("exponent", c.exponent, 1, {0, 1e5}, "n of phong"),
         number("lobe_width", c.lobe_width, 1, {0, 0.95}, "b of hapke"),
@@ -83,7 +84,7 @@ Fields fields(MaterialConfig& c) {
         number("slope_deg", c.slope_rad, kDegree_rad, {0, 60},
                "theta-bar of hapke: mean slope of the surface"),
         number("temperature_k", c.temperature_k, 1, {0, 6000},
-               "for its emission, with radiance: emissive; 0: none"),
+               "temperature for the surface's thermal emission, used with radiance: emissive; 0: none"),
         path("table", c.table, "a measured BRDF: MERL .binary, or CSV as docs/materials.md describes"),
     };
 }
@@ -105,9 +106,10 @@ void validate(const MaterialConfig& c) {
 
 Fields fields(SurfaceConfig& c) {
     return {
-        required(text("name", c.name, "surface of the mesh that it covers; a trailing * matches any ending")),
-        required(
-            section("material", c.material, "what covers it; a mapping or a file of configs/materials/")),
+        required(text("name", c.name,
+                      "name of the mesh's surface that is covered; a trailing * matches any ending")),
+        required(section("material", c.material,
+                         "material of the surface: a mapping, or a file of configs/materials/")),
     };
 }
 

@@ -54,21 +54,24 @@ double rayleigh_optical_depth(double wavelength_um) {
 
 Fields fields(AtmosphereConfig& c) {
     return {
-        text("model", c.model, "none | precomputed | table, or a plug-in's"),
-        number("pressure_hpa", c.pressure_pa, 100, {0, 1100}, "precomputed: at the ground"),
+        text("model", c.model, "atmosphere model: none | precomputed | table, or a plug-in's"),
+        number("pressure_hpa", c.pressure_pa, 100, {0, 1100}, "precomputed: air pressure at the ground"),
         number("aerosol_optical_depth", c.aerosol_optical_depth, 1, {0, 5},
-               "precomputed: vertical, at 0.55 um"),
+               "precomputed: vertical optical depth of the aerosol at 0.55 um"),
         number("angstrom_exponent", c.angstrom_exponent, 1, {-1, 4},
-               "precomputed: of the aerosol's optical depth"),
-        number("aerosol_scale_height_km", c.aerosol_scale_height_m, 1000, {0.1, 20}, "precomputed"),
+               "precomputed: Angstrom exponent of the aerosol's optical depth"),
+        number("aerosol_scale_height_km", c.aerosol_scale_height_m, 1000, {0.1, 20},
+               "precomputed: scale height of the aerosol"),
         number("aerosol_asymmetry", c.aerosol_asymmetry, 1, {-0.95, 0.95},
-               "precomputed: g of the phase function"),
+               "precomputed: asymmetry g of the aerosol's phase function"),
         number("aerosol_single_albedo", c.aerosol_single_albedo, 1, {0, 1},
-               "precomputed: share that is scattered"),
-        number("ozone_du", c.ozone_du, 1, {0, 1000}, "precomputed: Dobson units"),
-        number("ground_albedo", c.ground_albedo, 1, {0, 1}, "precomputed: for light between ground and sky"),
-        path("cache", c.cache, "precomputed: folder for its tables; none: hilcam's own"),
-        path("table", c.table, "table: CSV of values or of MODTRAN runs, as docs/atmosphere.md describes"),
+               "precomputed: share of the light meeting aerosol that is scattered"),
+        number("ozone_du", c.ozone_du, 1, {0, 1000}, "precomputed: ozone column in Dobson units"),
+        number("ground_albedo", c.ground_albedo, 1, {0, 1},
+               "precomputed: albedo of the ground for light going between ground and sky"),
+        path("cache", c.cache, "precomputed: folder for its tables; left out: hilcam's own"),
+        path("table", c.table,
+             "table: CSV of values or of MODTRAN runs, in a form that docs/atmosphere.md describes"),
     };
 }
 

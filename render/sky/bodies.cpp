@@ -187,18 +187,18 @@ Fields fields(OriginConfig& c) {
     std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
     return {
         choice("kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed", "free"},
-               "what the world's origin is: the centre of a body, a place that turns with it, or free space, "
-               "at rest against the Sun, which stands where sun.direction says; bodies are then shown where "
-               "their 'visible' is true"),
-        optional(choice("body", c.body, names, "of body_center and body_fixed"), c.has_body),
+               "kind of origin: the centre of a body, a place that turns with it, or free space. In free "
+               "space the origin is at rest relative to the Sun, which stands where sun.direction says, and "
+               "only bodies whose 'visible' is true are shown"),
+        optional(choice("body", c.body, names, "body that body_center and body_fixed refer to"), c.has_body),
         optional(number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
-                        "of a fixed origin, east positive"),
+                        "longitude of a fixed origin, east positive"),
                  c.has_longitude),
         optional(number("latitude_deg", c.place.latitude_rad, kDegree_rad, {-90, 90},
-                        "of a fixed origin, geodetic"),
+                        "geodetic latitude of a fixed origin"),
                  c.has_latitude),
         optional(number("height_km", c.place.height_m, 1e3, {-10, 1e9},
-                        "of a fixed origin above the body's ellipsoid (Earth: WGS 84)"),
+                        "height of a fixed origin above the body's ellipsoid (Earth: WGS 84)"),
                  c.has_height),
     };
 }

@@ -95,16 +95,17 @@ BodyConfig default_body(BodyId id) {
 Fields fields(BodyConfig& c) {
     return {
         optional(flag("visible", c.visible,
-                      "whether it is drawn, reflected, shines on the objects and casts shadow; with "
-                      "origin.kind free false unless given"),
+                      "true: the body is drawn and reflected, shines on the objects and casts shadow; with "
+                      "origin.kind free it is false unless given"),
                  c.has_visible),
-        choice("law", c.law, {"lambert", "lommel_seeliger"}, "how its surface reflects"),
+        choice("law", c.law, {"lambert", "lommel_seeliger"}, "law by which the surface reflects"),
         flag("measured_magnitude", c.measured_magnitude,
-             "scale it to its measured V magnitude at every phase; albedo is then a factor (not for the "
-             "Earth)"),
+             "true: the body is scaled to its measured V magnitude at every phase, and albedo is then a "
+             "factor (not for the Earth)"),
         curve("albedo", c.albedo, {0, 2},
-              "lambert: albedo; lommel_seeliger: w; or a factor on magnitude or map"),
-        path("albedo_map", c.albedo_map, "equirectangular picture, left edge 180 W, top 90 N; none: uniform"),
+              "albedo (lambert) or w (lommel_seeliger), or a factor on magnitude or map"),
+        path("albedo_map", c.albedo_map,
+             "equirectangular picture, left edge 180 W, top 90 N; left out: uniform"),
     };
 }
 

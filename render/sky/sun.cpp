@@ -108,26 +108,27 @@ Spectrum solar_irradiance_1au_w_m2_um(const SpectralGrid& grid) {
 
 Fields fields(SunConfig& c) {
     return {
-        optional(
-            curve("spectrum", c.spectrum, {0, 1e5}, "irradiance at 1 au in W m^-2 um^-1; none: ASTM G173-03"),
-            c.has_spectrum),
-        flag("limb_darkening", c.limb_darkening, "whether the Sun's disk is darker at its edge"),
+        optional(curve("spectrum", c.spectrum, {0, 1e5},
+                       "irradiance at 1 au in W m^-2 um^-1; left out: ASTM G173-03"),
+                 c.has_spectrum),
+        flag("limb_darkening", c.limb_darkening, "true: the Sun's disk is darker at its edge"),
         optional(vector3("direction", c.direction, 1, {-1e13, 1e13},
-                         "with origin.kind free: where the Sun is, in world axes; the length does not count"),
+                         "direction of the Sun in world axes, used where origin.kind is free; its length "
+                         "does not count"),
                  c.has_direction),
         optional(number("distance_au", c.distance_m, kAstronomicalUnit_m, {0.01, 1e3},
-                        "with origin.kind free: from the world's origin; its light falls with the square"),
+                        "distance of the Sun from the world's origin, used where origin.kind is free; "
+                        "sunlight falls with its square"),
                  c.has_distance),
         optional(
             number("phase_deg", c.phase_rad, kDegree_rad, {0, 180},
-                   "with origin.kind free, instead of direction: phase angle of what stands in the middle "
-                   "of the picture that camera_pose begins with; 0: the Sun is behind the camera"),
+                   "phase angle of what stands in the middle of the picture that camera_pose begins with; 0: "
+                   "the Sun is behind the camera. Used where origin.kind is free; replaces direction"),
             c.has_phase),
-        optional(
-            number("azimuth_deg", c.azimuth_rad, kDegree_rad, {-360, 360},
-                   "of phase_deg: where sunlight comes from in that picture, clockwise; 0: from the top, "
-                   "90: from the right"),
-            c.has_azimuth),
+        optional(number("azimuth_deg", c.azimuth_rad, kDegree_rad, {-360, 360},
+                        "direction in that picture from which sunlight comes, clockwise; 0: from the top, "
+                        "90: from the right. Used with phase_deg"),
+                 c.has_azimuth),
     };
 }
 

@@ -15,9 +15,9 @@ Quat from_mrp(Vec3d sigma);
 // The short way round: of length 1 at most.
 Vec3d mrp_of(Quat frame_from_body);
 
-// How far a matrix is from being a rotation: the largest entry of |M M^T - 1|, or 2 when it mirrors.
+// Returns how far a matrix is from being a rotation: the largest entry of |M M^T - 1|, or 2 when it mirrors.
 double rotation_error(const Mat3d& m);
-// What is taken for a rotation that was written with few digits.
+// A matrix within this error is taken for a rotation that was written with few digits.
 inline constexpr double kDcmTolerance = 1e-4;
 // A direction cosine matrix [BN], which takes a vector's components in the frame to those in the body: its
 // rows are the body's axes in the frame. Of a matrix that is nearly one the nearest rotation counts.
@@ -32,9 +32,9 @@ inline constexpr std::array<const char*, 12> kEulerSequences = {"121", "123", "1
                                                                 "231", "232", "312", "313", "321", "323"};
 std::array<int, 3> euler_axes(std::size_t index);
 
-// Where camera axes (x right, y down, z ahead) look, in ICRF [rad]: right ascension, declination, and roll,
-// the position angle of the image's up direction: from north (ICRF's +z) through east. With roll 0 north is
-// up and east is left.
+// The direction that camera axes (x right, y down, z ahead) look in, in ICRF [rad]: right ascension,
+// declination, and roll, the position angle of the image's up direction: from north (ICRF's +z) through east.
+// With roll 0 north is up and east is left.
 struct RaDecRoll {
     double right_ascension_rad = 0, declination_rad = 0, roll_rad = 0;
 };

@@ -28,7 +28,7 @@ namespace hilcam {
     std::abort();
 }
 
-// What the user gave cannot be used: a configuration, a mesh, a catalogue, a command line. Thrown while
+// The user's input cannot be used: a configuration, a mesh, a catalogue, a command line. Thrown while
 // starting, never in the loop. The message is one line: what, where, found, accepted. Exit status 2.
 class InputError : public std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -94,7 +94,7 @@ struct TableField {
     std::string x_name, y_name;
     Range x_range, y_range;
 };
-// What a section's `validate` has against one of its keys, "up", or one further down, "objects.0.name": the
+// A section's `validate` objects to one of its keys, "up", or to one further down, "objects.0.name": the
 // reader says where that stands.
 class KeyError : public InputError {
   public:
@@ -107,7 +107,7 @@ class KeyError : public InputError {
     std::string key_, reason_;
 };
 
-// What an InputError of check() says is against that key.
+// Turns what an InputError of check() says into an objection to that key.
 template <class Check>
 void at_key(const std::string& key, const Check& check) {
     try {

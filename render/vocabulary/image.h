@@ -88,7 +88,7 @@ class RadianceImage : public Image<float, struct RadianceQuantity> {
                     static_cast<std::size_t>((height + kBlock_px - 1) / kBlock_px),
                 0) {}
 
-    // Of the block that holds pixel (x, y).
+    // Returns the flag of the block that holds pixel (x, y).
     bool dark(int x, int y) const { return dark_[block(x, y)] != 0; }
     void mark_dark(int x, int y, bool dark) { dark_[block(x, y)] = dark ? 1 : 0; }
     void clear_marks() { std::fill(dark_.begin(), dark_.end(), std::uint8_t{0}); }

@@ -23,7 +23,7 @@ enum class Projection { kRectilinear, kFisheye };
 
 struct LensDistortion {
     double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
-    double k4 = 0;  // of a fisheye
+    double k4 = 0;  // fourth coefficient of a fisheye
     Projection projection = Projection::kRectilinear;
 
     bool none() const {
@@ -70,7 +70,7 @@ struct LensDistortion {
         const double scale = fisheye_radius(std::atan(r)) / r;
         return {p.x * scale, p.y * scale};
     }
-    // What would lie at 90 degrees or more has no place on the plane z = 1: 89.99 degrees stand for it.
+    // The plane z = 1 has no place for directions at 90 degrees or more: 89.99 degrees stand for it.
     Vec2d from_fisheye(Vec2d q) const {
         const double radius = std::sqrt(q.x * q.x + q.y * q.y);
         if (radius < 1e-12) return q;
@@ -93,30 +93,30 @@ struct ImageGeometry {
     int guard_px = 0;            // on each side
     double focal_length_px = 0;  // focal length / pixel pitch
     LensDistortion distortion;
-    Vec2d principal_offset_px{};  // of the boresight's place from the image's middle
+    Vec2d principal_offset_px{};  // offset of the boresight's place from the image's middle
 
     Vec2d center_px() const {
         return {0.5 * width_px + principal_offset_px.x, 0.5 * height_px + principal_offset_px.y};
     }
     int padded_width() const { return width_px + 2 * guard_px; }
     int padded_height() const { return height_px + 2 * guard_px; }
-    // Not normalised: z = 1, so the same plane carries interpolation and projection. x, y in px of the sensor
-    // frame.
+    // Returns a direction that is not normalised: z = 1, so the same plane carries interpolation and
+    // projection. x, y in px of the sensor frame.
     Vec3d direction_camera(double x_px, double y_px) const {
         const Vec2d center = center_px();
         Vec2d p{(x_px - center.x) / focal_length_px, (y_px - center.y) / focal_length_px};
         if (!distortion.none()) p = distortion.undistorted(p);
         return {p.x, p.y, 1.0};
     }
-    // Where a direction with z > 0 meets the image [px of the sensor frame].
+    // Returns the place where a direction with z > 0 meets the image [px of the sensor frame].
     Vec2d project_px(Vec3d direction_camera) const {
         Vec2d p{direction_camera.x / direction_camera.z, direction_camera.y / direction_camera.z};
         if (!distortion.none()) p = distortion.distorted(p);
         const Vec2d center = center_px();
         return {center.x + focal_length_px * p.x, center.y + focal_length_px * p.y};
     }
-    // Whether the lens has that direction, z > 0, at the place that project_px() gives. Far beside the field
-    // a polynomial of distortion folds back, into the picture even.
+    // True when the lens has that direction, z > 0, at the place that project_px() gives. Far beside the
+    // field a polynomial of distortion folds back, into the picture even.
     bool shows(Vec3d dir, Vec2d place_px) const {
         if (distortion.none()) return true;
         constexpr double kSame_rad = 1e-6;

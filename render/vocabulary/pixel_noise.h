@@ -1,7 +1,7 @@
 #pragma once
-// What the renderer is told of the sensor behind it, in plain numbers, so that it can weigh its own error
-// against that sensor's noise. Radiance L becomes electrons q = sum over bins of electrons_per_radiance L; a
-// pixel of q electrons has the variance
+// The renderer knows the sensor behind it by these plain numbers, so that it can weigh its own error against
+// that sensor's noise. Radiance L becomes electrons q = sum over bins of electrons_per_radiance L; a pixel of
+// q electrons has the variance
 //     sigma^2 = dark_variance_e2 + q + (gain_fraction q)^2
 // of read-out, photons (Poisson) and unequal pixels (EMVA 1288 release 4.0: dark noise, shot noise, PRNU).
 
@@ -14,7 +14,7 @@ namespace hilcam {
 // For one exposure.
 struct PixelNoise {
     Spectrum electrons_per_radiance;  // per W m^-2 sr^-1 um^-1 of each bin; 0: not told
-    float dark_variance_e2 = 0;       // of a pixel without light [e-^2]
+    float dark_variance_e2 = 0;       // variance of a pixel without light [e-^2]
     float gain_fraction = 0;          // standard deviation of the pixels' gains over their mean
     // Independent values of radiance that are averaged to one pixel of the detector: its parts, the instants
     // of the exposure. Errors of each may be larger by the root of it.

@@ -14,7 +14,7 @@ struct PointSource {
     // In the sensor frame: the centre of pixel (0, 0) is (0.5, 0.5), the guard band is not counted; may lie
     // outside.
     Vec2f position_px;
-    // How it moves against the stars [px/s]; of the sky 0.
+    // The motion against the stars [px/s]; of the sky 0.
     Vec2f drift_px_s{};
     // The object it is part of; of the sky it stands still against the stars.
     std::uint32_t object = kSky;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a thing is, how it is turned and how it moves.
+// A pose says where a thing is, how it is turned and how it moves.
 
 #include "render/vocabulary/time.h"
 #include "render/vocabulary/vec.h"

@@ -8,22 +8,22 @@
 
 namespace hilcam {
 
-// What a number is drawn for; each is an independent stream. Values are part of a deterministic frame: never
-// reuse one.
+// The purpose says what a number is drawn for; each is an independent stream. Values are part of a
+// deterministic frame: never reuse one.
 enum class RandomPurpose : std::uint32_t {
     kSensorNoise = 1,   // word 0: shot noise, word 1: read noise
-    kPathSample = 2,    // of the light paths; index: sample and depth
-    kFixedPattern = 3,  // of a pixel; index 0: gain, offset, dark current, kind; 1: how hot
-    kRowPattern = 4,    // of a row (index 0) or column (index 1)
-    kConverter = 5,     // of a converter's step
-    kRowNoise = 6,      // of a row in a frame
+    kPathSample = 2,    // light paths; index: sample and depth
+    kFixedPattern = 3,  // fixed pattern of a pixel; index 0: gain, offset, dark current, kind; 1: how hot
+    kRowPattern = 4,    // pattern of a row (index 0) or column (index 1)
+    kConverter = 5,     // error of a converter's step
+    kRowNoise = 6,      // noise of a row in a frame
     kFlicker = 7,       // index: octave
-    kTelegraph = 8,     // of a pixel; the frame counts the draws
+    kTelegraph = 8,     // state of a pixel; the frame counts the draws
     kCosmicRay = 9,     // pixel: number of the track
-    kFault = 10,        // of a fault on demand; index: its kind
-    kPixelPlace = 11,   // of the sequence of rays in a pixel (place_sequence.h)
-    kPointing = 32,     // of the camera's line of sight; pixel: sinusoid, index: axis
-    kAttitude = 33,     // of a body's attitude; pixel: sinusoid, index: thing and axis
+    kFault = 10,        // draws of a fault on demand; index: its kind
+    kPixelPlace = 11,   // start of the sequence of rays in a pixel (place_sequence.h)
+    kPointing = 32,     // pointing of the camera's line of sight; pixel: sinusoid, index: axis
+    kAttitude = 33,     // attitude of a body; pixel: sinusoid, index: thing and axis
 };
 
 struct RandomKey {

@@ -33,7 +33,7 @@ class SharedLatest {
             const Slot& slot = slots_[turn % kSlots];
             Words words;
             for (std::size_t i = 0; i < words.size(); ++i) words[i] = slot[i].load(std::memory_order_acquire);
-            // Who has read a word of the slot's next value sees here the number of the one written before
+            // A reader of any word of the slot's next value sees here the number of the one written before
             // that.
             if (newest_.load(std::memory_order_relaxed) - turn < kSlots - 1) return std::bit_cast<T>(words);
         }

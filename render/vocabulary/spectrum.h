@@ -10,7 +10,7 @@
 
 namespace hilcam {
 
-// As many bins as fit half a cache line of floats; loops over all of them are two vector instructions.
+// This many bins fit half a cache line of floats; loops over all of them are two vector instructions.
 inline constexpr int kMaxBins = 8;
 
 // A value per bin; entries past the grid's size are zero.

@@ -77,7 +77,8 @@ void use_leap_seconds(std::span<const LeapSecond> table) {
     static std::vector<eraLEAPSECOND> kept;
     eraSetLeapSeconds(nullptr, 0);
     if (table.empty()) return;
-    // What ERFA knows from before the table: the years to 1972, when seconds were of varying length.
+    // ERFA knows the years before the table by itself: the years to 1972, when seconds were of varying
+    // length.
     eraLEAPSECOND* own = nullptr;
     const int own_count = eraGetLeapSeconds(&own);
     kept.clear();

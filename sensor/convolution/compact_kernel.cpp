@@ -50,7 +50,7 @@ double largest_error(const CompactKernel& kernel, const Transfer& transfer) {
     return most;
 }
 
-// count outputs from the input that begins `radius` before them.
+// Computes count outputs from the input that begins `radius` before them.
 HILCAM_CLONES void along(const float* in, std::size_t count, const float* weights, std::size_t taps,
                          float* out) {
     for (std::size_t x = 0; x < count; ++x) out[x] = weights[0] * in[x];

@@ -23,7 +23,7 @@ class CompactKernel {
     static std::optional<CompactKernel> find(const Transfer& transfer, int width, int height);
 
     int radius() const { return static_cast<int>(across_.size() / 2); }
-    // What run() does to a frequency [cycles/px].
+    // Returns the factor that run() applies to a frequency [cycles/px].
     double at(double u, double v) const;
     // In place of image.run(): layer 0's rows. Beyond the image is nothing. Loop: no allocation, no lock.
     void run(Convolver& image);

@@ -48,7 +48,7 @@ struct Convolver::Implementation {
     std::unique_ptr<PlaneFourier> fourier;
     std::size_t lanes, groups, stride;  // groups of frequencies along y; floats per row
     std::vector<Layer> layers;
-    // What a thread works in.
+    // A thread works in this scratch memory.
     struct Scratch {
         Block room, block, sum;
     };

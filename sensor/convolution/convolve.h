@@ -17,11 +17,11 @@
 
 namespace hilcam {
 
-// Of frequencies u, v in -0.5 .. 0.5 [cycles/px of the image].
+// A transfer function takes the frequencies u, v in -0.5 .. 0.5 [cycles/px of the image].
 using Transfer = std::function<std::complex<double>(double u, double v)>;
 
-// What is different for one frame: motion while it is taken, of all of it alike, and what else is a product
-// of the same function of u and of v.
+// One frame's own blur: motion while it is taken, of all of it alike, and what else is a product of the same
+// function of u and of v.
 struct FrameBlur {
     Vec2d smear_px{};                      // from start to end, at constant speed
     Vec2d sigma_px{};                      // Gaussian, along x and y

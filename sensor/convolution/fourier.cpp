@@ -40,7 +40,7 @@ constexpr std::size_t kLanes = HWY_LANES(float);
 static_assert(PlaneFourier::kMostLanes % kLanes == 0);
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
-// What a transform of this thread may use beside its values.
+// A transform of this thread may use this memory beside its values.
 thread_local void* room_of_transform = nullptr;
 
 }  // namespace HWY_NAMESPACE

@@ -160,11 +160,11 @@ PointPatch PointSpread::at(double x_px, double y_px, double electrons, Room& roo
     const int iy = static_cast<int>(std::floor(sy));
     const bool least = radius == kLeastRadius_px;
     static_assert(kLeastAcross == 2 * kLeastRadius_px + 1);
-    // Of faint points nothing is seen of the cubic's outer samples.
+    // The cubic's outer samples are lost to sight in faint points.
     const bool linear = least && electrons * linear_error_ < kLinear_e;
     const auto wx = linear ? linear_weights(sx - ix) : cubic_weights(sx - ix);
     const auto wy = linear ? linear_weights(sy - iy) : cubic_weights(sy - iy);
-    double whole = 0;  // what the full field would take, at this place in a pixel
+    double whole = 0;  // value of the full field at this place in a pixel
 
     // All pixels share one sub-pixel phase: the kernel is a sum of shifted tables.
     std::array<ShiftedTable, 16> tables;

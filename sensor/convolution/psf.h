@@ -45,7 +45,7 @@ class PointSpread {
     static constexpr int kLeastRadius_px = 3;
     // Points are interpolated linearly where that is off by less [e-] in any pixel.
     static constexpr double kLinear_e = 0.005;
-    // What the least images can ask for of a phase: eight rows of eight pixels, four lines of a cache.
+    // The smallest images need at least this of a phase: eight rows of eight pixels, four lines of a cache.
     static constexpr int kCoreAcross_px = 8, kCoreSize = kCoreAcross_px * kCoreAcross_px;
     static_assert(kCoreAcross_px >= 2 * kLeastRadius_px + 2);
 
@@ -55,7 +55,7 @@ class PointSpread {
 
     std::vector<float> phases_;
     std::vector<float> core_;  // core_[py][px][y][x], and two rows that are read but not used
-    double linear_error_ = 0;  // of a line between phases, of a point's electrons
+    double linear_error_ = 0;  // error of a line between phases, per electron of a point
     std::vector<double> phase_sums_;
     std::vector<double> outside_;  // share of the light outside a square of half width r
 };

@@ -10,7 +10,7 @@
 namespace hilcam {
 namespace {
 
-// Of a uniform rounding error of one DN (section 2.4).
+// The variance of a uniform rounding error of one DN (section 2.4).
 constexpr double kQuantisation_dn2 = 1.0 / 12;
 // Fourth degree takes away falloff and vignetting over a window to 1e-5; of a random pattern it takes fifteen
 // degrees of freedom.
@@ -155,7 +155,8 @@ Measured dark_noise_e(const TemporalStatistics& dark, double dark_signal_dn, con
     const double shot_dn2 = gain.value * dark_signal_dn;
     const double white = (dark.pixel_dn2() - kQuantisation_dn2) / bandwidth - shot_dn2;
     const double noise_dn = std::sqrt(std::max(white, 0.0) + dark.row_dn2 + dark.frame_dn2);
-    // With too little noise to cross a step the rounding error is not uniform: nothing but a bound is known.
+    // The rounding error is not uniform where there is too little noise to cross a step: nothing but a bound
+    // is known.
     if (dark.variance_dn2.value < 0.24 || noise_dn == 0)
         return {noise_dn / gain.value, std::sqrt(0.24) / gain.value};
     // K errs in the scale, and in what is taken off for the dark current.

@@ -20,8 +20,8 @@ struct LightPoint {
 
     double signal_dn() const { return light.mean_dn.value - dark.mean_dn.value; }
     double shot_dn2() const { return light.variance_dn2.value - dark.variance_dn2.value; }
-    double signal_variance() const;  // of signal_dn's error
-    double shot_variance() const;    // of shot_dn2's error
+    double signal_variance() const;  // variance of signal_dn's error
+    double shot_variance() const;    // variance of shot_dn2's error
 };
 
 // Section 6.6: the last point before the temporal variance falls: saturation.
@@ -48,7 +48,7 @@ class ResponseCurve {
     double offset_dn() const { return coefficient_[0]; }
 
   private:
-    std::vector<double> coefficient_;  // of (photons / scale_)^k
+    std::vector<double> coefficient_;  // coefficient of (photons / scale_)^k
     double scale_ = 1, slope_uncertainty_ = 0;
 };
 
@@ -110,8 +110,8 @@ Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& fl
                             const FrameStack& dark, const TemporalStatistics& dark_temporal,
                             const PixelSelection& selection, double bandwidth = 1);
 
-// What follows from the others, section 6.6 and annex: mu_e.min = sqrt(sigma_d^2 + 1/(12 K^2)) + 1/2, the
-// dynamic range saturation over it, SNR_max = sqrt(mu_e.sat), both in dB of 20 log10.
+// These figures follow from the others (section 6.6 and annex): mu_e.min = sqrt(sigma_d^2 + 1/(12 K^2)) +
+// 1/2, the dynamic range saturation over it, SNR_max = sqrt(mu_e.sat), both in dB of 20 log10.
 Measured absolute_threshold_e(const Measured& dark_noise_e, const Measured& gain_dn_e);
 Measured dynamic_range_db(const Measured& saturation_e, const Measured& threshold_e);
 Measured snr_max_db(const Measured& saturation_e);

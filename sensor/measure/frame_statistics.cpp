@@ -74,7 +74,7 @@ TemporalStatistics PairSeries::result() const {
     TemporalStatistics out;
     out.pairs = pairs_;
     const double variance = square_ / pairs;
-    // With the row noise that chance alone may pretend left out, uncertainties are those of white noise.
+    // The uncertainties are those of white noise: the row noise that chance alone may pretend is left out.
     const double rows = selection_.height;
     const double chance = variance / (pixels / rows) * std::sqrt(2 / (rows * pairs));
     out.row_dn2 = row_ / pairs > 4 * chance ? row_ / pairs : 0;
@@ -85,7 +85,7 @@ TemporalStatistics PairSeries::result() const {
     const double white = variance - out.row_dn2 - out.frame_dn2;
     out.mean_dn = {sum_ / pairs,
                    std::sqrt((white / pixels + out.row_dn2 / rows + out.frame_dn2) / (2 * pairs))};
-    // Of a variance s^2 of n independent Gaussian values: s^2 sqrt(2 / n).
+    // The error of a variance s^2 of n independent Gaussian values is s^2 sqrt(2 / n).
     out.variance_dn2 = {variance, std::sqrt(2 / pairs *
                                             (square(white) / pixels + square(out.row_dn2) / rows +
                                              square(out.frame_dn2) + 2 * white * out.row_dn2 / pixels))};

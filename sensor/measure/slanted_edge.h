@@ -42,8 +42,8 @@ struct EdgeMtf {
     double normal_rad = 0;            // direction of the edge's normal, from +x towards +y
 };
 
-// Of an edge within 45 degrees of the columns or of the rows, not within 1 degree of either. InputError when
-// the picture is too small for it or shows none. Owner thread.
+// Returns the MTF of an edge within 45 degrees of the columns or of the rows, not within 1 degree of either.
+// InputError when the picture is too small for it or shows none. Owner thread.
 EdgeMtf slanted_edge_mtf(const EdgePicture& picture, const SlantedEdgeOptions& options);
 
 }  // namespace hilcam
