@@ -269,27 +269,27 @@ Spectrum KeptScene::reflect_lobe(const FrameView& frame, const Place& place) con
     const bool sunlit = largest(sun) > 0;
     const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
     const Spectrum reflectance = light.albedo(at.surface_number).lobe(no);
+    // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle; where nothing
+    // does, it has all of them.
+    const bool narrow = at.surface.alpha < kNarrowestKept, whole = narrow && !at.mirrors_near;
+    const float share = narrow && !whole ? tail_share(at.surface.alpha) : 1.0f;
+    const std::size_t bodies = sky_.bodies().size();
     KeptLight::Lobe lobe;
     if (place.found) {
         const Mat3f& axes = frame.world_from_body[at.object];
         std::array<KeptLight::Cone, SkyLight::kMostBodies> cones;
-        const std::size_t bodies = sky_.bodies().size();
         for (std::size_t b = 0; b < bodies; ++b)
             cones[b] = {to_body(axes, sky_.bodies()[b].light_dir), sky_.bodies()[b].light_cosine};
         lobe =
-            light.lobe(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, {cones.data(), bodies}, place.nearest,
-                       to_body(axes, at.normal), to_body(axes, at.view_dir), at.surface.alpha);
+            light.lobe(sunlit ? KeptTerms::kSun : KeptLight::kNoTerm, {cones.data(), whole ? 0 : bodies},
+                       place.nearest, to_body(axes, at.normal), to_body(axes, at.view_dir), at.surface.alpha);
     }
     Spectrum radiance;
     if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
     if (sunlit) radiance += sun * lobe.kept;
-    // Where something stands near, rays find what is left of the bodies by a narrow lobe's middle.
-    const bool narrow = at.surface.alpha < kNarrowestKept;
-    for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
-        float free = lobe.free[b];
-        if (narrow) free = at.mirrors_near ? tail_share(at.surface.alpha) * free : 1.0f;
-        radiance += free * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(reflectance));
-    }
+    for (std::size_t b = 0; b < bodies; ++b)
+        radiance += (share * lobe.free[b]) *
+                    sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(reflectance));
     const Spectrum out = reflectance * radiance;
     return at.surface.material->texture >= 0 ? tint(at.surface) * out : out;
 }

@@ -112,10 +112,11 @@ Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
 void SkyLight::place(const Background& background) {
     background_ = &background;
     count_ = 0;
-    for (const BodyLamp& lamp : background.lamps()) {
+    for (std::size_t number = 0; number < background.lamps().size(); ++number) {
+        const BodyLamp& lamp = background.lamps()[number];
         const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
         if (count_ == kMostBodies || largest(lamp.most_over_sun) * solid_angle < kLeastOverSun) continue;
-        place_disks(background, lamp, disks_[count_]);
+        place_disks(background, number, disks_[count_]);
         const Disk& disk = disks_[count_].of.back();
         Body& body = bodies_[count_];
         body = {to_float(lamp.world_dir), {}, 1, {}};
@@ -137,13 +138,14 @@ void SkyLight::place(const Background& background) {
 }
 
 // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
-void SkyLight::place_disks(const Background& background, const BodyLamp& lamp, Disks& disks) {
+void SkyLight::place_disks(const Background& background, std::size_t number, Disks& disks) {
+    const BodyLamp& lamp = background.lamps()[number];
     const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
     disks.cosine = std::cos(half_angle), disks.sine = std::sin(half_angle);
     disks.half_angle_rad = half_angle;
     Disk& whole = disks.of.back();
     const Vec3f axis = to_float(lamp.world_dir);
-    find_limb(background, axis, disks);
+    find_limb(background, number, disks);
     Spectrum each_sr;
     each_sr.bin.fill(2 * kPiF * lamp.one_minus_cosine / kPatches);
     for (std::size_t i = 0; i < kPatches; ++i) {
@@ -164,22 +166,12 @@ void SkyLight::place_disks(const Background& background, const BodyLamp& lamp, D
     }
 }
 
-// By bisection, to a ten-thousandth of the half angle.
-void SkyLight::find_limb(const Background& background, Vec3f axis, Disks& disks) {
-    constexpr int kHalvings = 14;
-    constexpr double kFar_m = 1e20;
-    const Frame frame(axis);
+void SkyLight::find_limb(const Background& background, std::size_t lamp, Disks& disks) {
+    const Frame frame(to_float(background.lamps()[lamp].world_dir));
     for (std::size_t i = 0; i < Disks::kPlanes; ++i) {
         const float phi = 2 * kPiF * static_cast<float>(i) / Disks::kPlanes;
         const Vec3f way = std::cos(phi) * frame.t + std::sin(phi) * frame.b;
-        float inside = 0, outside = disks.half_angle_rad;
-        for (int k = 0; k < kHalvings; ++k) {
-            const float angle = 0.5f * (inside + outside);
-            const bool met =
-                background.hides({}, to_double(std::cos(angle) * axis + std::sin(angle) * way), kFar_m);
-            (met ? inside : outside) = angle;
-        }
-        disks.limb_rad[i] = 0.5f * (inside + outside);
+        disks.limb_rad[i] = static_cast<float>(background.limb_angle_rad(lamp, to_double(way)));
     }
 }
 

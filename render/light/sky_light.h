@@ -79,8 +79,8 @@ class SkyLight {
 
     Spectrum past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);
-    static void place_disks(const Background& background, const BodyLamp& lamp, Disks& disks);
-    static void find_limb(const Background& background, Vec3f axis, Disks& disks);
+    static void place_disks(const Background& background, std::size_t number, Disks& disks);
+    static void find_limb(const Background& background, std::size_t lamp, Disks& disks);
     static void place_parts(const Disk& whole, Vec3f axis, float one_minus_cosine, std::size_t count,
                             Disk& out);
 };

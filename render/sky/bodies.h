@@ -156,6 +156,25 @@ inline double intersect_earth(Vec3d origin_m, Vec3d dir) {
     return intersect_ellipsoid(kFigures[index_of(BodyId::kEarth)], origin_m, dir);
 }
 
+// Returns the angle [rad], in [0, pi/2], from an axis that meets an ellipsoid to where rays in a plane through it
+// just touch; pi/2 where none do. Origin in its axes, metres from its centre; axis and way unit, at right angles,
+// way in the plane. A line along d meets a sphere of radius a where a^2 d.d - (o x d).(o x d) >= 0: a quadratic in
+// the tangent of the angle, whose terms keep their digits for far origins.
+inline double limb_angle_rad(const Figure& figure, Vec3d origin_m, Vec3d axis, Vec3d way) {
+    const double a = figure.equatorial_radius_m, stretch = a / figure.polar_radius_m;
+    const auto stretched = [stretch](Vec3d v) { return Vec3d{v.x, v.y, v.z * stretch}; };
+    const Vec3d o = stretched(origin_m), along = stretched(axis), across = stretched(way);
+    const Vec3d u = cross(o, along), v = cross(o, across);
+    const double c0 = a * a * dot(along, along) - dot(u, u);
+    const double c1 = a * a * dot(along, across) - dot(u, v);
+    const double c2 = a * a * dot(across, across) - dot(v, v);
+    if (c0 <= 0) return 0;
+    // The least root above zero of c2 t^2 + 2 c1 t + c0.
+    const double rest = c1 * c1 - c2 * c0;
+    const double below = rest >= 0 ? std::sqrt(rest) - c1 : 0;
+    return below > 0 ? std::atan2(c0, below) : 0.5 * kPi;
+}
+
 // The outward unit normal of an ellipsoid at a point on it.
 inline Vec3d ellipsoid_normal(const Figure& figure, Vec3d point_m) {
     // Gradient of x^2/a^2 + y^2/a^2 + z^2/b^2.

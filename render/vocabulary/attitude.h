@@ -34,7 +34,7 @@ std::array<int, 3> euler_axes(std::size_t index);
 
 // The direction that camera axes (x right, y down, z ahead) look in, in ICRF [rad]: right ascension,
 // declination, and roll, the position angle of the image's up direction: from north (ICRF's +z) through east.
-// With roll 0 north is up and east is left.
+// At roll 0 the image has north up and east left.
 struct RaDecRoll {
     double right_ascension_rad = 0, declination_rad = 0, roll_rad = 0;
 };

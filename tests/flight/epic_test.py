@@ -57,7 +57,7 @@ AZIMUTHS = numpy.radians(numpy.arange(0, 360, 2.0))
 
 
 def edges(image):
-    """Returns the radius about the picture's middle where each azimuth crosses half of what lies 12 px inside; nan where that is dark."""
+    """Returns the radius about the picture's middle where each azimuth crosses half of what lies 8 to 14 px inside; nan where that is dark."""
     radii = numpy.arange(390, 490, 0.1)
     profile = sampled(image, 539.5 + numpy.cos(AZIMUTHS)[:, None] * radii, 539.5 + numpy.sin(AZIMUTHS)[:, None] * radii)
     steepest = radii[numpy.argmin(profile[:, 20:] - profile[:, :-20], axis=1) + 10]

@@ -49,6 +49,29 @@ TEST(Bodies, GeostationaryPlaceIsWhereItShouldBe) {
     EXPECT_NEAR(p.x, 0, 1e-6);
 }
 
+// Rays a metre at the limb to either side of it meet the ellipsoid and pass it, from the ground's next to the Moon
+// and beyond, and about an axis that leads beside the middle.
+TEST(Bodies, LimbIsWhereRaysTouch) {
+    const Figure& figure = kFigures[index_of(BodyId::kEarth)];
+    for (const double distance_m : {6.4e6, 6.8e6, 4.2e7, 3.8e8, 1.5e11})
+        for (const Vec3d towards : {Vec3d{1, 0, 0}, Vec3d{0.3, 0.5, -0.8}, Vec3d{0, 0, 1}})
+            for (int plane = 0; plane < 16; ++plane) {
+                const Vec3d origin_m = distance_m * normalized(towards);
+                const double off = 0.2 * figure.equatorial_radius_m / distance_m;
+                const Vec3d axis = normalized(-1.0 * normalized(towards) + off * Vec3d{0.6, -0.64, 0.48});
+                const Vec3d across = normalized(cross(axis, Vec3d{0.1, 1, 0.2}));
+                const double phi = 2 * kPi * plane / 16;
+                const Vec3d way = std::cos(phi) * across + std::sin(phi) * cross(axis, across);
+                const double limb = limb_angle_rad(figure, origin_m, axis, way), metre = 1 / distance_m;
+                const auto met = [&](double angle) {
+                    return intersect_ellipsoid(figure, origin_m,
+                                               std::cos(angle) * axis + std::sin(angle) * way) >= 0;
+                };
+                EXPECT_TRUE(met(limb - metre)) << distance_m << " " << plane;
+                EXPECT_FALSE(met(limb + metre)) << distance_m << " " << plane;
+            }
+}
+
 TEST(Bodies, EarthIsHitAtItsSurfaceAndMissedBesideIt) {
     constexpr double a = kEarthEquatorialRadius_m, b = a * (1 - kEarthFlattening);
     EXPECT_NEAR(intersect_earth({2 * a, 0, 0}, {-1, 0, 0}), a, 1e-6);
