@@ -7,6 +7,7 @@
 #include "emulator/world/clock.h"
 #include "render/vocabulary/median.h"
 #include "render/vocabulary/units.h"
+#include "sensor/chain.h"
 
 namespace hilcam {
 namespace {

@@ -150,7 +150,8 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
         report.period_s = ShutterTiming(s.camera).period_s(s.camera.frame_rate_hz, report.sheet.exposure_s);
     WorldState world(initial_motions(s, time), s.origin, joints_of(s), s.mount, load_motion_sources(s),
                      lamp_mounts(s));
-    ExposureRenderer exposures(station->renderer(), s, grid, world.placed_objects());
+    ExposureRenderer exposures(station->renderer(), exposure_config_of(s), s.camera, grid,
+                               world.placed_objects());
     report.frame_time = frame_time(*station, world, exposures);
     if (const std::string light = light_line(s, station->light()); !light.empty())
         report.plan.push_back(light);

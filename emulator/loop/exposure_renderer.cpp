@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/scenario/quality_ladder.h"
+
 namespace hilcam {
 namespace {
 
@@ -67,18 +69,19 @@ Vec3d mean_rate(Quat from, Quat to, double seconds) {
 
 }  // namespace
 
-ExposureRenderer::ExposureRenderer(Renderer& renderer, const ScenarioConfig& s, const SpectralGrid& grid,
+ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& config,
+                                   const CameraModel& camera, const SpectralGrid& grid,
                                    std::size_t placed_objects)
     : renderer_(renderer),
-      motion_(s.quality.motion),
-      motion_error_px_(s.quality.motion_error_px),
-      shutter_(s.camera.shutter),
-      rows_pass_object_(!s.has_terrain && (s.camera.shutter.kind == ShutterKind::kRolling ||
-                                           s.camera.shutter.kind == ShutterKind::kLineScan)),
-      focal_length_px_(s.camera.focal_length_m / s.camera.pitch_m),
-      oversampling_(static_cast<double>(s.quality.oversampling)),
-      jitter_(s.camera.jitter, static_cast<std::uint64_t>(s.seed), parse_utc(s.time_utc)),
-      noise_(s.camera, grid, sampling_of(s)),
+      motion_(config.motion),
+      motion_error_px_(config.motion_error_px),
+      shutter_(camera.shutter),
+      rows_pass_object_(!config.has_terrain && (camera.shutter.kind == ShutterKind::kRolling ||
+                                                camera.shutter.kind == ShutterKind::kLineScan)),
+      focal_length_px_(camera.focal_length_m / camera.pitch_m),
+      oversampling_(static_cast<double>(config.sampling.oversampling)),
+      jitter_(camera.jitter, config.seed, config.start),
+      noise_(camera, grid, config.sampling),
       bins_(static_cast<std::size_t>(grid.size())) {
     if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
         motion_ = MotionQuality::kFast;

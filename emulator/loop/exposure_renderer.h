@@ -21,9 +21,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "emulator/scenario/app_config.h"
+#include "emulator/scenario/exposure_config.h"
 #include "emulator/world/world_state.h"
 #include "render/frame/renderer.h"
+#include "sensor/camera_model.h"
 #include "sensor/chain.h"
 #include "sensor/expected_noise.h"
 #include "sensor/motion.h"
@@ -42,8 +43,8 @@ class ExposureRenderer {
     static constexpr int kMostParts = 64;
 
     // Allocates all that render() needs. Owner thread.
-    ExposureRenderer(Renderer& renderer, const ScenarioConfig& scenario, const SpectralGrid& grid,
-                     std::size_t placed_objects);
+    ExposureRenderer(Renderer& renderer, const ExposureConfig& config, const CameraModel& camera,
+                     const SpectralGrid& grid, std::size_t placed_objects);
 
     // Fits what render() fills. Owner thread.
     RadianceImage make_image() const;

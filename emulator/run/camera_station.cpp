@@ -90,7 +90,8 @@ void CameraStation::load(const SpectralGrid& grid) {
                                           joints_of(scenario_), scenario_.mount,
                                           load_motion_sources(scenario_), lamp_mounts(scenario_));
     renderer_->require_air(snapshot_at(scenario_, start, start));
-    exposures_ = std::make_unique<ExposureRenderer>(*renderer_, scenario_, grid, world_->placed_objects());
+    exposures_ = std::make_unique<ExposureRenderer>(*renderer_, exposure_config_of(scenario_),
+                                                    scenario_.camera, grid, world_->placed_objects());
     if (limits_.outputs && (scenario_.outputs.has_truth || preview_)) {
         auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id, preview_);
         truth_ = truth.get();

@@ -30,7 +30,7 @@ StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
       snapshot_(snapshot_at(scenario, parse_utc(scenario.time_utc), time_)),
       world_(initial_motions(scenario, parse_utc(scenario.time_utc)), scenario.origin, joints_of(scenario),
              scenario.mount, load_motion_sources(scenario), lamp_mounts(scenario)),
-      exposures_(*renderer_, scenario, grid_, world_.placed_objects()),
+      exposures_(*renderer_, exposure_config_of(scenario), scenario.camera, grid_, world_.placed_objects()),
       radiance_(exposures_.make_image()),
       exposure_(first_exposure(scenario.camera)) {
     renderer_->require_air(snapshot_);

@@ -15,7 +15,6 @@
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/time_system.h"
-#include "render/vocabulary/units.h"
 
 namespace hilcam {
 
@@ -24,103 +23,6 @@ Fields fields(StarsConfig& s) {
         path("catalogue", s.catalogue, "CSV in the form of configs/stars/hipparcos.csv; left out: no stars"),
         number("faintest_magnitude", s.faintest_magnitude, 1, {-2, 30},
                "magnitude of the faintest stars shown; fainter ones are left out"),
-    };
-}
-
-Fields fields(QualityConfig& q) {
-    Fields list = fields(q.render);
-    list.push_back(integer("guard_px", q.guard_px, {0, 512},
-                           "border around the frame that takes the FFT's wrap-around"));
-    list.push_back(integer("oversampling", q.oversampling, {1, 8},
-                           "number of radiance pixels across one of the detector: detail finer than a pixel "
-                           "then aliases as on a real sensor"));
-    list.push_back(choice("psf", q.psf, {"auto", "fft"},
-                          "method of blurring the picture. auto: by a compact kernel where its transfer "
-                          "function is within 0.0025 of the exact one; fft: always exactly"));
-    list.push_back(
-        choice("motion", q.motion, {"off", "fast", "exact"},
-               "treatment of motion during the exposure. off: the middle instant; fast: the middle instant, "
-               "blurred along the picture's way; exact: the mean of several instants"));
-    list.push_back(number("motion_error_px", q.motion_error_px, 1, {0.01, 16},
-                          "exact: greatest movement, in pixels, of anything between two instants"));
-    return list;
-}
-
-SensorSampling sampling_of(const QualityConfig& q) {
-    SensorSampling sampling{static_cast<int>(q.guard_px), ray_grid_of(q.render),
-                            static_cast<int>(q.oversampling)};
-    sampling.always_fft = q.psf == PsfMethod::kFft;
-    return sampling;
-}
-
-Fields fields(FaultConfig& f) {
-    std::vector<std::string> words;
-    for (const FaultKind kind : kAllFaults) words.emplace_back(name_of(kind));
-    const auto present = [&f] {
-        return static_cast<std::size_t>(std::find(kAllFaults.begin(), kAllFaults.end(), f.kind) -
-                                        kAllFaults.begin());
-    };
-    return {
-        required(
-            Field{"kind", "kind of fault (docs/faults.md)",
-                  ChoiceField{std::move(words), [&f](std::size_t i) { f.kind = kAllFaults[i]; }, present}}),
-        number("rate", f.order.rate, 1, {0, 1},
-               "share of packets, messages, frames or pixels that it strikes"),
-        number("value", f.order.value, 1, {-1e9, 1e9}, "value of the fault; its meaning depends on the kind"),
-        number("at_s", f.at_s, 1, {0, 1e7}, "time after the start at which the fault is ordered"),
-        integer("from_frame", f.from_frame, {0, 9e15},
-                "first frame that the fault strikes; 0: it strikes at once, or with frames from the next "
-                "that begins"),
-        integer("frames", f.frames, {0, 9e15}, "number of frames that the fault lasts; 0: no end"),
-        number("duration_s", f.order.duration_s, 1, {0, 1e7}, "time that the fault lasts; 0: no end"),
-    };
-}
-
-FaultOrder order_of(const FaultConfig& f) {
-    FaultOrder order = f.order;
-    order.kind = f.kind;
-    order.from_frame = static_cast<std::uint64_t>(f.from_frame);
-    order.frames = static_cast<std::uint64_t>(f.frames);
-    return order;
-}
-
-void validate(const QualityConfig& q) {
-    const std::int64_t n = q.render.kept_directions;
-    if (n != 16 && n != 60 && n != 256)
-        throw InputError("kept_directions: found " + std::to_string(n) + "; accepted: 16, 60, 256");
-}
-
-void validate(const FaultConfig& f) {
-    if (const std::string_view reason = refusal_of(order_of(f)); !reason.empty())
-        throw InputError(std::string(name_of(f.kind)) + ": " + std::string(reason) + "; it " +
-                         std::string(meaning_of(f.kind)));
-}
-
-Fields fields(CommandsConfig& c) {
-    return {
-        optional(section("udp", c.udp, "commands over UDP"), c.has_udp),
-        optional(section("tcp", c.tcp, "commands over TCP, from several clients"), c.has_tcp),
-        optional(section("unix", c.unix_socket, "commands over a Unix socket"), c.has_unix),
-        optional(section("usb", c.usb, "commands from a USB device with a bulk pair"), c.has_usb),
-        optional(section("functionfs", c.functionfs, "commands received as a USB device (FunctionFS)"),
-                 c.has_functionfs),
-        optional(section("vizard", c.vizard,
-                         "commands from Basilisk, in Vizard's place (docs/vizard.md); needs mode: lockstep"),
-                 c.has_vizard),
-        section("poses", c.poses, "treatment of poses that stop or whose time goes back"),
-    };
-}
-
-Fields fields(OutputsConfig& o) {
-    return {
-        optional(section("gige", o.gige, "frames sent as a GigE Vision camera"), o.has_gige),
-        optional(section("v4l2", o.v4l2, "frames fed to a v4l2loopback device"), o.has_v4l2),
-        optional(section("uvc", o.uvc, "frames sent as a USB camera, with a USB device controller"),
-                 o.has_uvc),
-        optional(section("files", o.files, "frames written as pictures"), o.has_files),
-        optional(section("preview", o.preview, "web page with the live picture"), o.has_preview),
-        optional(section("truth", o.truth, "truth about each frame, known by the renderer (docs/truth.md)"),
-                 o.has_truth),
     };
 }
 

@@ -10,33 +10,25 @@
 
 #include "emulator/events/event_condition.h"
 #include "emulator/events/event_config.h"
+#include "emulator/scenario/camera_config.h"
+#include "emulator/scenario/commands_config.h"
+#include "emulator/scenario/fault_config.h"
 #include "emulator/scenario/lamp_config.h"
 #include "emulator/scenario/motion_config.h"
 #include "emulator/scenario/object_config.h"
+#include "emulator/scenario/outputs_config.h"
+#include "emulator/scenario/quality_config.h"
 #include "emulator/scenario/quality_ladder.h"
 #include "emulator/world/clock.h"
-#include "emulator/world/pose_watch.h"
 #include "emulator/world/world_state.h"
-#include "io/commands/commands_functionfs.h"
-#include "io/commands/commands_tcp.h"
-#include "io/commands/commands_udp.h"
-#include "io/commands/commands_unix.h"
-#include "io/commands/commands_usb.h"
 #include "io/commands/telemetry.h"
-#include "io/files/sink_files.h"
-#include "io/gige/sink_gige.h"
-#include "io/preview/sink_preview.h"
-#include "io/truth/truth_config.h"
-#include "io/uvc/sink_uvc.h"
-#include "io/v4l2/sink_v4l2.h"
-#include "io/vizard/commands_vizard.h"
-#include "render/frame/renderer.h"
+#include "render/frame/render_quality.h"
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/bodies.h"
 #include "render/sky/body_light.h"
 #include "render/sky/sun.h"
 #include "sensor/camera_model.h"
-#include "sensor/chain.h"
+#include "sensor/exposure.h"
 
 namespace hilcam {
 
@@ -46,78 +38,8 @@ struct StarsConfig {
 };
 Fields fields(StarsConfig& stars);
 
-// What is shown of the world's motion while the shutter is open (exposure_renderer.h).
-enum class MotionQuality { kOff, kFast, kExact };
-
-// How the picture gets its point spread function. kAuto: by a compact kernel where that is as accurate
-// (sensor/convolution/compact_kernel.h).
-enum class PsfMethod { kAuto, kFft };
-
-struct QualityConfig {
-    RenderQuality render;
-    std::int64_t guard_px = 28;
-    std::int64_t oversampling = 1;
-    PsfMethod psf = PsfMethod::kAuto;
-    MotionQuality motion = MotionQuality::kFast;
-    double motion_error_px = 0.25;
-};
-Fields fields(QualityConfig& quality);
-void validate(const QualityConfig& quality);
-// How the radiance images of that quality are made.
-SensorSampling sampling_of(const QualityConfig& quality);
-
 // What makes the camera take frames (frame_starter.h).
 enum class CameraMode { kFreeRun, kTriggered, kLockstep };
-
-// A fault on demand (io/contract/fault.h) that the scenario orders by itself.
-struct FaultConfig {
-    FaultKind kind = FaultKind::kPacketDrop;
-    FaultOrder order;
-    double at_s = 0;  // after the start, CLOCK_MONOTONIC
-    std::int64_t from_frame = 0, frames = 0;
-};
-Fields fields(FaultConfig& fault);
-void validate(const FaultConfig& fault);
-FaultOrder order_of(const FaultConfig& fault);
-
-struct CommandsConfig {
-    bool has_udp = false, has_tcp = false, has_unix = false, has_usb = false, has_functionfs = false,
-         has_vizard = false;
-    UdpCommandConfig udp;
-    TcpCommandConfig tcp;
-    UnixCommandConfig unix_socket;
-    UsbCommandConfig usb;
-    FunctionFsConfig functionfs;
-    VizardConfig vizard;
-    PoseRules poses;
-};
-Fields fields(CommandsConfig& commands);
-
-struct OutputsConfig {
-    bool has_gige = false, has_v4l2 = false, has_uvc = false, has_files = false, has_preview = false,
-         has_truth = false;
-    GigeConfig gige;
-    V4l2Config v4l2;
-    UvcConfig uvc;
-    FilesConfig files;
-    PreviewConfig preview;
-    TruthConfig truth;
-};
-Fields fields(OutputsConfig& outputs);
-
-// All of a bench: telemetry numbers them by a byte, from 1.
-inline constexpr std::size_t kMostCameras = 255;
-
-// A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
-struct CameraConfig {
-    CameraModel camera;
-    Vec3d position_m;  // with `attitude` its mount
-    AttitudeForms attitude;
-    std::int64_t thing = 0;
-    OutputsConfig outputs;
-};
-Fields fields(CameraConfig& camera);
-void validate(const CameraConfig& camera);
 
 struct PluginConfig {
     std::filesystem::path file;

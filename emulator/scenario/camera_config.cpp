@@ -1,5 +1,7 @@
 // Cameras beside the first, and the scenario as each of a bench's cameras has it.
 
+#include "emulator/scenario/camera_config.h"
+
 #include <cmath>
 
 #include "emulator/scenario/app_config.h"

@@ -109,7 +109,7 @@ struct LoopRig {
           faults(1),
           clock(start, monotonic_ns(), scenario.mode == CameraMode::kLockstep, scenario.clock),
           poses(scenario.commands.poses, scenario.mode == CameraMode::kLockstep),
-          exposures(*renderer, scenario, grid, world.placed_objects()),
+          exposures(*renderer, exposure_config_of(scenario), scenario.camera, grid, world.placed_objects()),
           dispatch({{&world, &settings, &faults}}, clock, &poses),
           truth(scenario.outputs.has_truth ? make_truth_sink(scenario, grid, 1, *renderer) : nullptr),
           loop(exposures, chain, scenario.camera, world, settings, faults, clock, sinks(), 1, limits,

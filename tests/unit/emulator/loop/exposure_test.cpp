@@ -31,7 +31,7 @@ Shot shoot(const std::filesystem::path& file, const std::vector<std::string>& ov
                                                     static_cast<int>(s.quality.oversampling)));
     const TimeTai start = parse_utc(s.time_utc);
     WorldState world(initial_motions(s, start), s.origin, joints_of(s), {}, {}, lamp_mounts(s));
-    ExposureRenderer exposures(*renderer, s, grid, world.placed_objects());
+    ExposureRenderer exposures(*renderer, exposure_config_of(s), s.camera, grid, world.placed_objects());
     Shot shot;
     shot.radiance = exposures.make_image();
     shot.points.reserve(exposures.most_points());

@@ -249,7 +249,7 @@ TEST_F(LampsTest, ASwitchDuringTheExposureCountsForItsShareOfTheTime) {
         if (switched) {
             EXPECT_TRUE(world.set_lamp(1, {start + 5'000'000, 1}, {1, 1}));
         }
-        ExposureRenderer exposures(*renderer, s, grid, world.placed_objects());
+        ExposureRenderer exposures(*renderer, exposure_config_of(s), s.camera, grid, world.placed_objects());
         RadianceImage radiance = exposures.make_image();
         std::vector<PointSource> points;
         points.reserve(exposures.most_points());

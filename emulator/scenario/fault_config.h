@@ -1,0 +1,22 @@
+#pragma once
+// The section `faults`: faults that strike by themselves.
+
+#include <cstdint>
+
+#include "io/contract/fault.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+// A fault on demand (io/contract/fault.h) that the scenario orders by itself.
+struct FaultConfig {
+    FaultKind kind = FaultKind::kPacketDrop;
+    FaultOrder order;
+    double at_s = 0;  // after the start, CLOCK_MONOTONIC
+    std::int64_t from_frame = 0, frames = 0;
+};
+Fields fields(FaultConfig& fault);
+void validate(const FaultConfig& fault);
+FaultOrder order_of(const FaultConfig& fault);
+
+}  // namespace hilcam

@@ -1,0 +1,42 @@
+#include "emulator/scenario/quality_config.h"
+
+#include <string>
+
+#include "emulator/scenario/quality_ladder.h"
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+
+Fields fields(QualityConfig& q) {
+    Fields list = fields(q.render);
+    list.push_back(integer("guard_px", q.guard_px, {0, 512},
+                           "border around the frame that takes the FFT's wrap-around"));
+    list.push_back(integer("oversampling", q.oversampling, {1, 8},
+                           "number of radiance pixels across one of the detector: detail finer than a pixel "
+                           "then aliases as on a real sensor"));
+    list.push_back(choice("psf", q.psf, {"auto", "fft"},
+                          "method of blurring the picture. auto: by a compact kernel where its transfer "
+                          "function is within 0.0025 of the exact one; fft: always exactly"));
+    list.push_back(
+        choice("motion", q.motion, {"off", "fast", "exact"},
+               "treatment of motion during the exposure. off: the middle instant; fast: the middle instant, "
+               "blurred along the picture's way; exact: the mean of several instants"));
+    list.push_back(number("motion_error_px", q.motion_error_px, 1, {0.01, 16},
+                          "exact: greatest movement, in pixels, of anything between two instants"));
+    return list;
+}
+
+SensorSampling sampling_of(const QualityConfig& q) {
+    SensorSampling sampling{static_cast<int>(q.guard_px), ray_grid_of(q.render),
+                            static_cast<int>(q.oversampling)};
+    sampling.always_fft = q.psf == PsfMethod::kFft;
+    return sampling;
+}
+
+void validate(const QualityConfig& q) {
+    const std::int64_t n = q.render.kept_directions;
+    if (n != 16 && n != 60 && n != 256)
+        throw InputError("kept_directions: found " + std::to_string(n) + "; accepted: 16, 60, 256");
+}
+
+}  // namespace hilcam
