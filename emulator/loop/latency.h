@@ -15,6 +15,7 @@ namespace hilcam {
 class DurationHistogram {
   public:
     void record(std::int64_t ns);  // any thread
+    void record_ms(double ms) { record(static_cast<std::int64_t>(ms * 1e6)); }
     // Forgets what was recorded. Any thread; what is recorded meanwhile may stay or go.
     void clear();
     std::uint64_t count() const { return count_.load(std::memory_order_relaxed); }

@@ -74,8 +74,8 @@ void CameraStation::make_sinks() {
 }
 
 std::string CameraStation::status() const {
-    return run_status({scenario_, number_, cameras_, *loop_, delivery_, receivers_, sinks(), settings_,
-                       faults_, light_maker_});
+    return run_status({scenario_, number_, links_->pages, *loop_, delivery_, links_->receivers, sinks(),
+                       settings_, faults_, links_->light_maker});
 }
 
 void CameraStation::load(const SpectralGrid& grid) {
@@ -99,19 +99,33 @@ void CameraStation::load(const SpectralGrid& grid) {
     }
 }
 
-void CameraStation::prepare(SimulatedClock& clock, const PoseWatch& poses) {
+void CameraStation::prepare(const StationLinks& links) {
+    links_.emplace(links);
     serve_faults(0);
-    loop_ = std::make_unique<FrameLoop>(*exposures_, *chain_, scenario_.camera, *world_, settings_, faults_,
-                                        clock, sinks(), seed_of_camera(scenario_, number_ - 1),
-                                        LoopLimits{limits_.frames, limits_.warm_up, limits_.paced,
-                                                   governor_of(scenario_), scenario_.loop.prefer},
-                                        &poses);
-    if (truth_) loop_->tell_truth_to(*truth_);
+    if (links.recorder) record_changes(*links.recorder);
+    loop_ = std::make_unique<FrameLoop>(LoopParts{
+        .exposures = *exposures_,
+        .chain = *chain_,
+        .camera = scenario_.camera,
+        .world = *world_,
+        .settings = settings_,
+        .faults = faults_,
+        .clock = links.clock,
+        .poses = &links.poses,
+        .sinks = sinks(),
+        .seed = seed_of_camera(scenario_, number_ - 1),
+        .limits = {limits_.frames, limits_.warm_up, limits_.paced, governor_of(scenario_),
+                   scenario_.loop.prefer},
+        .script = links.script,
+        .observers = {.watcher = links.watcher,
+                      .truth = truth_,
+                      .recorder = links.recorder,
+                      .recorded_camera = static_cast<std::uint16_t>(number_)},
+    });
 }
 
-void CameraStation::record_to(Recorder& recorder) {
+void CameraStation::record_changes(Recorder& recorder) {
     const auto camera = static_cast<std::uint16_t>(number_);
-    loop_->record_to(recorder, camera);
     settings_.on_change([&recorder, camera](const SettingsChange& change) {
         recorder.put(RecordedChange{camera, monotonic_ns(), change});
     });

@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -38,6 +39,21 @@ struct RunLimits {
 
 class LightMaker;
 
+// What the cameras of a bench share, and who dictates, watches and keeps what this one's loop does. All that
+// is referred to outlives the station; pointers may be null.
+struct StationLinks {
+    SimulatedClock& clock;
+    const PoseWatch& poses;
+    const std::vector<std::unique_ptr<CommandReceiver>>& receivers;
+    std::vector<CameraPage> pages{};          // of all cameras, by number
+    const LightMaker* light_maker = nullptr;  // null: nothing is made beside the run
+    FrameScript* script = nullptr;            // a replay's
+    FrameWatcher* watcher = nullptr;
+    Recorder* recorder = nullptr;  // gets what the loop and the settings do
+};
+
+// It is built in three steps, as the bench's parts need each other: constructed (settings and outputs are
+// there), loaded (world, renderer and sensor, too), prepared (and the loop).
 class CameraStation {
   public:
     // Makes settings and outputs, so that what can be wrong with them is said before minutes go into a scene.
@@ -47,16 +63,8 @@ class CameraStation {
 
     // Loads the scene and allocates all the loop needs; may take seconds. Throws InputError.
     void load(const SpectralGrid& grid);
-    // After all stations have loaded: the simulation's time begins. Both outlive the station. Throws
-    // InputError.
-    void prepare(SimulatedClock& clock, const PoseWatch& poses);
-    // What the preview tells of the bench's commands.
-    void set_receivers(const std::vector<std::unique_ptr<CommandReceiver>>& all) { receivers_ = &all; }
-    void set_cameras(const std::vector<CameraPage>& all) { cameras_ = all; }
-    void set_light_maker(const LightMaker& maker) { light_maker_ = &maker; }
-
-    // What the loop and the settings do goes into a recording. After prepare().
-    void record_to(Recorder& recorder);
+    // Makes the loop, after load() and when all outputs are there. Throws InputError.
+    void prepare(const StationLinks& links);
 
     // Opens the outputs. Throws DeviceError.
     void start_outputs();
@@ -89,12 +97,13 @@ class CameraStation {
     // Why outputs cannot deliver, of each of them once. Allocates nothing while there is nothing to tell.
     // Owner thread.
     std::vector<std::string> new_faults();
-    // An output that others feed too (telemetry); before start_outputs().
+    // An output that others feed too (telemetry); before prepare().
     void add_sink(std::unique_ptr<FrameSink> sink) { sinks_.push_back(std::move(sink)); }
     SinkContext sink_context() { return {settings_, faults_, &delivery_}; }
 
   private:
     void make_sinks();
+    void record_changes(Recorder& recorder);
     std::string status() const;
 
     static constexpr std::size_t kMostLogged = 100'000;
@@ -105,19 +114,17 @@ class CameraStation {
     LiveSettings settings_;
     FaultBoard faults_;
     DeliveryMeter delivery_;
-    const std::vector<std::unique_ptr<CommandReceiver>>* receivers_ = nullptr;  // the bench's
-    std::vector<CameraPage> cameras_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::set<const FrameSink*> told_faults_;
     std::vector<LoadedObject> objects_;
     LightLoading light_;
-    const LightMaker* light_maker_ = nullptr;  // the bench's; null: nothing is made beside the run
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<ExposureRenderer> exposures_;
     PreviewSink* preview_ = nullptr;  // of the sinks, as is the next; may be null
     TruthSink* truth_ = nullptr;
+    std::optional<StationLinks> links_;  // once it is prepared
     std::unique_ptr<FrameLoop> loop_;
     std::vector<FaultConfig> timed_faults_;  // by time
     std::size_t next_fault_ = 0;

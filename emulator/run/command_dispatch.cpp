@@ -226,9 +226,12 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
                        [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); });
 }
 
-// With events each frame is an order of its own, so that they come between any two.
+// With events each frame is an order of its own, so that they come between any two. A picture that an event
+// takes is part of the sender's order that is under way, or nobody but the events can order one
+// (event_director.h).
 CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, const CommandSource& source) {
-    const std::lock_guard one(lockstep_);
+    std::unique_lock one(lockstep_, std::defer_lock);
+    if (source.event == 0) one.lock();
     if (!events_) return run_order(order, source);
     TriggerOrder frame = order;
     frame.frames = 1;

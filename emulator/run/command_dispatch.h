@@ -72,8 +72,7 @@ class CommandDispatch : public CommandHandler {
     Recorder* recorder_ = nullptr;     // may be null
     EventDirector* events_ = nullptr;  // may be null
     std::mutex recording_;             // commands take effect in the order in which they are noted
-    // One order at a time; an event that takes a picture has its own order within one.
-    std::recursive_mutex lockstep_;
+    std::mutex lockstep_;              // one sender's order at a time, with what events do before its frames
 };
 
 }  // namespace hilcam

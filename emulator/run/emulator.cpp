@@ -53,37 +53,21 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     require_rights(wishes);
     if (!wishes.cores.empty())
         threads_.emplace(tbb::global_control::max_allowed_parallelism, wishes.cores.size());
-    std::vector<CommandedCamera> bench;
-    std::vector<CameraPage> pages;
-    for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
-        stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits_));
-        bench.push_back({nullptr, &stations_.back()->settings(), &stations_.back()->faults()});
-        const OutputsConfig& outputs = stations_.back()->scenario().outputs;
-        pages.push_back({stations_.back()->name(), outputs.has_preview ? outputs.preview.port : 0});
-    }
-    for (std::size_t i = 0; i < stations_.size(); ++i) {
-        stations_[i]->load(grid_);
-        stations_[i]->set_receivers(receivers_);
-        stations_[i]->set_cameras(pages);
-        bench[i].world = &stations_[i]->world();
-    }
-    if (limits.outputs)
-        for (const LoadedObject& object : first().objects())
-            if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
+    load_stations();
     // Loading took its time; the simulation starts now.
     clock_start_ns_ = monotonic_ns();
     clock_.restart(parse_utc(scenario.time_utc), clock_start_ns_);
-    dispatch_ = std::make_unique<CommandDispatch>(std::move(bench), clock_, &poses_);
+    dispatch_ = std::make_unique<CommandDispatch>(commanded_cameras(), clock_, &poses_);
     if (limits.outputs && limits.replay.empty()) {
         receivers_ = make_receivers(scenario.commands, *dispatch_, first().faults());
         if (scenario.commands.has_vizard) receivers_.push_back(make_vizard(scenario, stations_, *dispatch_));
     }
     if (limits.outputs) make_telemetry();
-    for (const auto& station : stations_) station->prepare(clock_, poses_);
     make_replays();
     make_recorder();
     make_events();
     make_light_maker();
+    prepare_stations();
 }
 
 // Before minutes go into a scene.
@@ -94,6 +78,24 @@ void Emulator::prepare_recording() {
     for (const std::string& warning :
          check_recording(recording.header(), limits_.replay.string(), recording_, limits_.replay_force))
         spdlog::warn("{}", warning);
+}
+
+// Mistakes of any camera are told before the first scene is loaded.
+void Emulator::load_stations() {
+    for (std::size_t i = 0; i <= scenario_.more_cameras.size(); ++i)
+        stations_.push_back(
+            std::make_unique<CameraStation>(scenario_of_camera(scenario_, i), i + 1, limits_));
+    for (const auto& station : stations_) station->load(grid_);
+    if (!limits_.outputs) return;
+    for (const LoadedObject& object : first().objects())
+        if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
+}
+
+std::vector<CommandedCamera> Emulator::commanded_cameras() const {
+    std::vector<CommandedCamera> cameras;
+    for (const auto& station : stations_)
+        cameras.push_back({&station->world(), &station->settings(), &station->faults()});
+    return cameras;
 }
 
 void Emulator::make_replays() {
@@ -107,7 +109,6 @@ void Emulator::make_replays() {
                                     station->settings().settings(),
                                     1 + lower_levels(own).size()};
         replays_.push_back(std::make_unique<Replay>(limits_.replay, camera, limits_.replay_fast));
-        station->loop().follow(*replays_.back());
     }
 }
 
@@ -117,7 +118,6 @@ void Emulator::make_recorder() {
     recording_.monotonic_start_ns = clock_start_ns_;
     recorder_ = std::make_unique<Recorder>(limits_.record, recording_);
     dispatch_->record_to(*recorder_);
-    for (const auto& station : stations_) station->record_to(*recorder_);
 }
 
 // A replay has what they did in its recording.
@@ -131,7 +131,6 @@ void Emulator::make_events() {
                                      receivers_.empty()};
     events_ = std::make_unique<EventDirector>(
         EventSequence(scenario_.events, event_world(scenario_), clock_.start()), bench);
-    loop().tell(*events_);
     if (clock_.lockstep()) dispatch_->ask_events(*events_);
 }
 
@@ -142,7 +141,25 @@ void Emulator::make_light_maker() {
             jobs.push_back({&station->renderer(), std::move(light.orders)});
     if (jobs.empty()) return;
     light_maker_ = std::make_unique<LightMaker>(std::move(jobs));
-    for (const auto& station : stations_) station->set_light_maker(*light_maker_);
+}
+
+void Emulator::prepare_stations() {
+    std::vector<CameraPage> pages;
+    for (const auto& station : stations_) {
+        const OutputsConfig& outputs = station->scenario().outputs;
+        pages.push_back({station->name(), outputs.has_preview ? outputs.preview.port : 0});
+    }
+    for (std::size_t i = 0; i < stations_.size(); ++i)
+        stations_[i]->prepare({
+            .clock = clock_,
+            .poses = poses_,
+            .receivers = receivers_,
+            .pages = pages,
+            .light_maker = light_maker_.get(),
+            .script = replays_.empty() ? nullptr : replays_[i].get(),
+            .watcher = i == 0 ? events_.get() : nullptr,
+            .recorder = recorder_.get(),
+        });
 }
 
 // When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.

@@ -52,10 +52,13 @@ class Emulator {
 
   private:
     void prepare_recording();
+    void load_stations();
+    std::vector<CommandedCamera> commanded_cameras() const;
     void make_replays();
     void make_recorder();
     void make_events();
     void make_light_maker();
+    void prepare_stations();
     void print_replays() const;
     void make_telemetry();
     HousekeepingFigures housekeeping();

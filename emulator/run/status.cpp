@@ -102,17 +102,16 @@ json counts(const CommandReport& r) {
             {"went_back", r.went_back}};
 }
 
-json commands_status(const std::vector<std::unique_ptr<CommandReceiver>>* receivers) {
+json commands_status(const std::vector<std::unique_ptr<CommandReceiver>>& receivers) {
     CommandReport all;
     json links = json::array();
-    if (receivers)
-        for (const auto& receiver : *receivers) {
-            const CommandReport report = receiver->report();
-            all += report;
-            json link = counts(report);
-            link["name"] = receiver->name();
-            links.push_back(link);
-        }
+    for (const auto& receiver : receivers) {
+        const CommandReport report = receiver->report();
+        all += report;
+        json link = counts(report);
+        link["name"] = receiver->name();
+        links.push_back(link);
+    }
     json commands = counts(all);
     commands["links"] = links;
     return commands;

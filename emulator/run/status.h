@@ -27,7 +27,7 @@ struct StatusSources {
     const std::vector<CameraPage>& cameras;  // by number
     const FrameLoop& loop;
     const DeliveryMeter& delivery;
-    const std::vector<std::unique_ptr<CommandReceiver>>* receivers;  // null: none
+    const std::vector<std::unique_ptr<CommandReceiver>>& receivers;
     std::vector<FrameSink*> sinks;
     const CameraControl& camera;
     const FaultBoard& faults;

@@ -1,6 +1,7 @@
 #pragma once
 // A small scene and the frame loop around it, for tests of timing and modes.
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "emulator/run/command_dispatch.h"
 #include "emulator/run/emulator.h"
+#include "emulator/run/event_director.h"
 #include "emulator/run/truth_source.h"
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/lamp_setup.h"
@@ -76,6 +78,24 @@ class Collector : public FrameSink {
     std::condition_variable more_;
 };
 
+inline PoseCommand camera_pose_at(TimeTai time, double x_m, double velocity_m_s = 0) {
+    PoseCommand command;
+    command.motion.time = time;
+    command.motion.pose.position_world_m = {x_m, 0, 0};
+    command.motion.velocity_world_m_s = {velocity_m_s, 0, 0};
+    return command;
+}
+
+// The middle of the plate's light. 10 mm of the camera's way are 1.6 px of it, the other way.
+inline double plate_x_px(const Collector::Frame& f) {
+    double sum = 0, light = 0;
+    for (std::size_t i = 0; i < f.dn.size(); ++i) {
+        const double dn = std::max(0.0, f.dn[i] - 100.0);  // above noise
+        light += dn, sum += dn * (static_cast<double>(i % static_cast<std::size_t>(f.width)) + 0.5);
+    }
+    return sum / light;
+}
+
 // The loop with all it needs; nothing runs before loop.start().
 struct LoopRig {
     ScenarioConfig scenario;
@@ -112,15 +132,29 @@ struct LoopRig {
           exposures(*renderer, exposure_config_of(scenario), scenario.camera, grid, world.placed_objects()),
           dispatch({{&world, &settings, &faults}}, clock, &poses),
           truth(scenario.outputs.has_truth ? make_truth_sink(scenario, grid, 1, *renderer) : nullptr),
-          loop(exposures, chain, scenario.camera, world, settings, faults, clock, sinks(), 1, limits,
-               &poses) {
-        if (!truth) return;
-        truth->start();
-        loop.tell_truth_to(*truth);
+          loop(parts(limits)) {
+        if (truth) truth->start();
     }
     ~LoopRig() {
         loop.stop();
         if (truth) truth->stop();
+    }
+
+    // What its loop is made of; another loop may be made of it, with other sinks or observers.
+    LoopParts parts(const LoopLimits& limits) {
+        LoopParts parts{.exposures = exposures,
+                        .chain = chain,
+                        .camera = scenario.camera,
+                        .world = world,
+                        .settings = settings,
+                        .faults = faults,
+                        .clock = clock,
+                        .poses = &poses,
+                        .sinks = {&collector},
+                        .limits = limits,
+                        .observers = {.truth = truth.get()}};
+        if (truth) parts.sinks.push_back(truth.get());
+        return parts;
     }
 
     CommandStatus send(const Command& command) {
@@ -128,11 +162,39 @@ struct LoopRig {
     }
 
   private:
-    std::vector<FrameSink*> sinks() {
-        if (truth) return {&collector, truth.get()};
-        return {&collector};
-    }
     std::uint32_t sequence_ = 0;
+};
+
+// A rig in lockstep whose scenario's events happen between the frames that a sender orders.
+struct EventRig {
+    LoopRig rig;
+    EventDirector events;
+    FrameLoop loop;
+
+    explicit EventRig(const std::filesystem::path& file)
+        : rig(file, {}, {"mode=lockstep"}),
+          events(EventSequence(rig.scenario.events, event_world(rig.scenario), rig.start),
+                 {rig.dispatch, rig.settings, rig.clock, ShutterTiming(rig.scenario.camera),
+                  rig.world.placed_objects(), false}),
+          loop(watched_parts()) {
+        rig.dispatch.ask_events(events);
+        events.start();
+        loop.start();
+    }
+    ~EventRig() { stop(); }
+
+    void stop() {
+        events.ask_to_stop();
+        loop.stop();
+        events.stop();
+    }
+
+  private:
+    LoopParts watched_parts() {
+        LoopParts parts = rig.parts({});
+        parts.observers.watcher = &events;
+        return parts;
+    }
 };
 
 }  // namespace hilcam

@@ -311,6 +311,28 @@ TEST_F(EventsTest, InLockstepTheyMakeARunOfTheirOwn) {
     }
 }
 
+// The picture of an event comes between two frames that a sender orders, also of one burst.
+TEST_F(EventsTest, InLockstepTheyTakePicturesBetweenASendersFrames) {
+    EventRig bench(scenario(", frame_rate_hz: 1",
+                            "events:\n"
+                            "  - {at_s: 1.5, do: expose}\n"
+                            "  - {at_s: 3.5, do: [expose, settings --gain-db 6]}\n"));
+    LoopRig& rig = bench.rig;
+    EXPECT_EQ(rig.send(ExposeCommand{rig.start + kSecond_ns, 1}), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(ExposeCommand{rig.start + 2 * kSecond_ns, 3}), CommandStatus::kAccepted);
+    ASSERT_TRUE(rig.collector.wait_for(6));
+    bench.stop();
+    const auto& frames = rig.collector.frames;
+    ASSERT_EQ(frames.size(), 6u);
+    // The burst goes on a period after the event's picture.
+    const double middle_s[] = {1, 1.5, 2, 3, 3.5, 4.5};
+    const double gain_db[] = {0, 0, 0, 0, 0, 6};
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(frames[i].record.exposure_mid, rig.start + to_ns(middle_s[i])) << i;
+        EXPECT_EQ(frames[i].record.gain_db, gain_db[i]) << i;
+    }
+}
+
 // Of a burst, too, no frame is taken after the end: that of frame 10 comes before it.
 TEST_F(EventsTest, InLockstepTheEndIsExact) {
     const auto file = scenario("",

@@ -118,8 +118,9 @@ TEST_F(PlateTest, LockstepWaitsForOutputsAtTheEndAsWell) {
     for (const std::uint64_t limit : {0u, 4u}) {
         LoopRig rig(scenario(), {}, {"mode=lockstep"});
         Slow slow;
-        FrameLoop loop(rig.exposures, rig.chain, rig.scenario.camera, rig.world, rig.settings, rig.faults,
-                       rig.clock, {&slow}, 1, {limit, 0, false}, &rig.poses);
+        LoopParts parts = rig.parts({limit, 0, false});
+        parts.sinks = {&slow};
+        FrameLoop loop(parts);
         loop.start();
         EXPECT_EQ(rig.send(expose({}, 4)), CommandStatus::kAccepted);
         loop.stop();

@@ -213,23 +213,15 @@ TEST_F(LampsTest, ACommandSwitchesAtItsTime) {
 }
 
 TEST_F(LampsTest, AnEventSwitchesAtItsTime) {
-    LoopRig rig(dark("events:\n"
-                     "  - {at_s: 2.5, do: lamp on --level 0.5}\n"
-                     "  - {at_frame: 4, do: lamp off}\n"),
-                {}, {"mode=lockstep"});
-    EventDirector events(EventSequence(rig.scenario.events, event_world(rig.scenario), rig.start),
-                         {rig.dispatch, rig.settings, rig.clock, ShutterTiming(rig.scenario.camera),
-                          rig.world.placed_objects(), false});
-    rig.loop.tell(events);
-    rig.dispatch.ask_events(events);
-    events.start();
-    rig.loop.start();
+    EventRig bench(
+        dark("events:\n"
+             "  - {at_s: 2.5, do: lamp on --level 0.5}\n"
+             "  - {at_frame: 4, do: lamp off}\n"));
+    LoopRig& rig = bench.rig;
     for (int s = 1; s <= 5; ++s)
         EXPECT_EQ(rig.send(ExposeCommand{rig.start + s * kSecond_ns, 1}), CommandStatus::kAccepted);
     ASSERT_TRUE(rig.collector.wait_for(5));
-    events.ask_to_stop();
-    rig.loop.stop();
-    events.stop();
+    bench.stop();
     const bool lit[] = {false, false, true, false, false};
     for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(brightest(rig.collector.frames[i]) > 100, lit[i]) << i;
 }
