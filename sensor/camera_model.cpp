@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 
@@ -161,13 +162,6 @@ Fields fields(CameraModel& c) {
 
 namespace {
 
-std::string show(double value) {
-    std::string text = std::to_string(value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text;
-}
-
 void check_range(double value, const std::vector<double>& range, const char* key, const char* range_key) {
     if (range[0] > range[1]) throw InputError(std::string(range_key) + ": the least is above the most");
     if (value < range[0] || value > range[1])
@@ -207,12 +201,12 @@ void check_lens(const CameraModel& c) {
     if (c.has_t_number && c.has_transmission)
         throw InputError("t_number and transmission say the same; accepted: one of them");
     if (c.has_t_number && c.t_number < c.f_number)
-        throw InputError("t_number " + show(c.t_number) + " is below f_number " + show(c.f_number) +
+        throw InputError("t_number " + plain(c.t_number) + " is below f_number " + plain(c.f_number) +
                          ": the lens would make light");
     if (!c.measured_mtf.mtf.empty()) {
         if (c.measured_mtf.mtf.x.front() != 0 || std::abs(c.measured_mtf.mtf.y.front() - 1) > 1e-6)
-            throw InputError("measured_mtf.mtf begins at [" + show(c.measured_mtf.mtf.x.front()) + ", " +
-                             show(c.measured_mtf.mtf.y.front()) + "]; accepted: [0, 1]");
+            throw InputError("measured_mtf.mtf begins at [" + plain(c.measured_mtf.mtf.x.front()) + ", " +
+                             plain(c.measured_mtf.mtf.y.front()) + "]; accepted: [0, 1]");
         if (!c.field_zones.empty() || !c.zernike_m.empty() || c.wavefront_rms_m > 0 || c.defocus_m != 0)
             throw InputError(
                 "measured_mtf stands in place of defocus_um, wavefront_rms_nm, zernike_nm and field_zones; "
@@ -227,15 +221,15 @@ void check_detector(const CameraModel& c) {
     if (c.pixel_aperture_m.size() == 2)
         for (const double side : c.pixel_aperture_m)
             if (side > c.pitch_m)
-                throw InputError("pixel_aperture_um: found " + show(side * 1e6) +
-                                 "; accepted: no more than pitch_um " + show(c.pitch_m * 1e6));
+                throw refused("pixel_aperture_um", plain(side * 1e6),
+                              "no more than pitch_um " + plain(c.pitch_m * 1e6));
     // The curve of charge read over charge must rise to the full well.
     const double a2 = c.nonlinearity.empty() ? 0 : c.nonlinearity[0];
     const double a3 = c.nonlinearity.size() > 1 ? c.nonlinearity[1] : 0;
     for (int i = 0; i <= 100; ++i) {
         const double x = i / 100.0;
         if (1 + 2 * a2 * x + 3 * a3 * x * x <= 0)
-            throw InputError("nonlinearity: what is read falls while the charge rises, at " + show(x) +
+            throw InputError("nonlinearity: what is read falls while the charge rises, at " + plain(x) +
                              " of the full well");
     }
     if (c.shutter.kind != ShutterKind::kLineScan &&
@@ -248,7 +242,7 @@ void check_detector(const CameraModel& c) {
     for (const auto* columns : {&c.defects.dead_columns, &c.defects.hot_columns})
         for (const double column : *columns)
             if (column >= static_cast<double>(c.width_px) || column != std::floor(column))
-                throw InputError("defects: column " + show(column) + "; accepted: whole, below width_px " +
+                throw InputError("defects: column " + plain(column) + "; accepted: whole, below width_px " +
                                  std::to_string(c.width_px));
 }
 
@@ -265,7 +259,7 @@ void check_electronics(const CameraModel& c) {
         throw InputError("packing gige with " + std::to_string(c.frame_bits()) + " bits; accepted: 10 or 12");
     const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     if (c.offset_dn >= most_dn)
-        throw InputError("offset_dn " + show(c.offset_dn) + " leaves nothing of the ADC's " +
+        throw InputError("offset_dn " + plain(c.offset_dn) + " leaves nothing of the ADC's " +
                          std::to_string(c.bits) + " bits");
     if (c.converter.companding != Companding::kNone && c.bits == 8)
         throw InputError("converter.companding to 8 bits; found bits 8");

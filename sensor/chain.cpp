@@ -5,13 +5,13 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
+#include "render/vocabulary/stopwatch.h"
 #include "sensor/array_places.h"
 #include "sensor/focal_plane.h"
 #include "sensor/noise.h"
@@ -19,11 +19,6 @@
 
 namespace hilcam {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 const tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 
@@ -241,21 +236,21 @@ SensorChain::~SensorChain() = default;
 void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSource> points,
                          const Exposure& exposure, ElectronImage& mean_e) {
     Implementation& my = *implementation_;
-    auto start = Clock::now();
+    const Stopwatch collapse;
     my.focal_plane.collapse(radiance, exposure);
-    times_.collapse_ms = ms_since(start);
+    times_.collapse_ms = collapse.ms();
 
-    start = Clock::now();
+    const Stopwatch convolve;
     my.focal_plane.convolve(exposure);
-    times_.convolve_ms = ms_since(start);
+    times_.convolve_ms = convolve.ms();
 
-    start = Clock::now();
+    const Stopwatch gather;
     my.focal_plane.gather(points, exposure, mean_e);
     if (my.camera.shutter.kind == ShutterKind::kFrameTransfer) my.smear(mean_e, exposure.exposure_s);
     tbb::parallel_for(rows_of(mean_e.height()), [&](const tbb::blocked_range<int>& range) {
         for (int y = range.begin(); y < range.end(); ++y) my.charge_row(y, mean_e, exposure.exposure_s);
     });
-    times_.points_ms = ms_since(start);
+    times_.points_ms = gather.ms();
 }
 
 void SensorChain::digitise(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key,
@@ -264,12 +259,12 @@ void SensorChain::digitise(const ElectronImage& mean_e, const Exposure& exposure
     const auto [width, height] = frame_size(my.camera, exposure.binning_x, exposure.binning_y);
     HILCAM_CHECK(mean_e.width() == my.array_width && mean_e.height() == my.array_height &&
                  frame.width() == width && frame.height() == height);
-    const auto start = Clock::now();
+    const Stopwatch digitise;
     if (my.charge_moves) my.move_charge(mean_e, exposure, key);
     tbb::parallel_for(rows_of(frame.height()), [&](const tbb::blocked_range<int>& range) {
         for (int y = range.begin(); y < range.end(); ++y) my.read_frame_row(y, mean_e, exposure, key, frame);
     });
-    times_.digitise_ms = ms_since(start);
+    times_.digitise_ms = digitise.ms();
 }
 
 double SensorChain::mtf(double u, double v) const {
@@ -279,9 +274,9 @@ double SensorChain::mtf(double u, double v) const {
 int SensorChain::kernel_radius() const { return implementation_->focal_plane.kernel_radius(); }
 
 double SensorChain::fft_pair_ms() {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     implementation_->focal_plane.run_fft_pair();
-    return ms_since(start);
+    return watch.ms();
 }
 
 }  // namespace hilcam

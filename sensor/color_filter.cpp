@@ -22,8 +22,7 @@ Fields fields(ColorFilterArrayConfig& c) {
 
 void validate(const ColorFilterArrayConfig& c) {
     if (c.filters.size() > 8)
-        throw InputError("color_filter.filters: found " + std::to_string(c.filters.size()) +
-                         "; accepted: at most 8");
+        throw refused("color_filter.filters", std::to_string(c.filters.size()), "at most 8");
     for (const ColorFilterConfig& filter : c.filters)
         if (filter.name.size() != 1 || filter.name == " ")
             throw InputError("color_filter.filters: name " + in_quotes(filter.name) +

@@ -20,7 +20,7 @@ Fields fields(JitterConfig& c) {
 }
 
 void validate(const JitterConfig& c) {
-    if (c.psd_arcsec2_hz.x.size() == 1) throw InputError("psd: found one sample; accepted: two or more");
+    if (c.psd_arcsec2_hz.x.size() == 1) throw refused("psd", "one sample", "two or more");
 }
 
 // --- blur within an exposure

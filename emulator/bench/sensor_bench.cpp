@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "emulator/world/clock.h"
 #include "render/vocabulary/median.h"
+#include "render/vocabulary/stopwatch.h"
 #include "render/vocabulary/units.h"
 #include "sensor/chain.h"
 
@@ -122,10 +122,10 @@ class Rig {
 
     // Milliseconds of one frame.
     double run() {
-        const std::int64_t start_ns = monotonic_ns();
+        const Stopwatch watch;
         chain_.expose(picture_.radiance, picture_.points, exposure_, mean_e_);
         chain_.digitise(mean_e_, exposure_, {1, ++frames_}, frame_);
-        return static_cast<double>(monotonic_ns() - start_ns) * 1e-6;
+        return watch.ms();
     }
     SensorChain& chain() { return chain_; }
 
@@ -168,9 +168,9 @@ double copy_ms(const CameraModel& camera, int runs) {
     DnImage to(width, height);
     std::vector<double> times;
     for (int i = 0; i < runs; ++i) {
-        const std::int64_t start_ns = monotonic_ns();
+        const Stopwatch watch;
         std::copy(from.all().begin(), from.all().end(), to.all().begin());
-        times.push_back(static_cast<double>(monotonic_ns() - start_ns) * 1e-6);
+        times.push_back(watch.ms());
     }
     return median(times);
 }

@@ -4,8 +4,8 @@
 
 #include "emulator/loop/shutter_timing.h"
 #include "emulator/scenario/quality_ladder.h"
-#include "emulator/world/clock.h"
 #include "render/vocabulary/median.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 namespace {
@@ -21,9 +21,9 @@ double primary_rays(const ScenarioConfig& s) {
 
 template <class Work>
 double milliseconds(const Work& work) {
-    const std::int64_t start_ns = monotonic_ns();
+    const Stopwatch watch;
     work();
-    return static_cast<double>(monotonic_ns() - start_ns) * 1e-6;
+    return watch.ms();
 }
 
 }  // namespace

@@ -42,8 +42,7 @@ EventCondition::Target EventCondition::target_named(const std::string& name, con
         return {Target::Kind::kBody, 0, static_cast<BodyId>(body - kBodyNames.begin())};
     std::string accepted;
     for (const std::string& o : world.objects) accepted += in_quotes(o) + ", ";
-    throw InputError("object: found " + in_quotes(name) + "; accepted: " + accepted +
-                     "sun, earth, moon, a planet");
+    throw refused("object", in_quotes(name), accepted + "sun, earth, moon, a planet");
 }
 
 Vec3d EventCondition::place_of(const WorldSnapshot& world) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "emulator/scenario/quality_ladder.h"
+#include "render/vocabulary/random.h"
 
 namespace hilcam {
 namespace {
@@ -232,7 +233,7 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
         world.average_lamps(begin, end, part_world_);
         RenderStats stats;
         // Each part draws its own samples.
-        const RandomKey part_key{key.seed + static_cast<std::uint64_t>(k) * 0x9E3779B97F4A7C15u, key.frame};
+        const RandomKey part_key{seed_of_nth(key.seed, static_cast<std::uint64_t>(k)), key.frame};
         renderer_.render(part_world_, part_key, k == 0 ? radiance : part_, part_points_, stats);
         renderer_.set_drifts(before_, after_, per_s, part_points_);
         if (k > 0) add(part_, radiance);

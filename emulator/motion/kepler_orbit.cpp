@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "io/system/plain_number.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -61,8 +61,8 @@ double mean_anomaly(double true_anomaly_rad, double e) {
     }
     const double argument = std::sqrt((e - 1) / (e + 1)) * half;
     if (!(std::abs(argument) < 1))
-        throw InputError("true anomaly: found " + plain(true_anomaly_rad / kDegree_rad) +
-                         " deg; accepted: inside the hyperbola's asymptotes");
+        throw refused("true anomaly", plain(true_anomaly_rad / kDegree_rad) + " deg",
+                      "inside the hyperbola's asymptotes");
     const double f = 2 * std::atanh(argument);
     return e * std::sinh(f) - f;
 }

@@ -29,7 +29,7 @@ Vec3d rate_between(const Motion& a, const Motion& b) {
 }  // namespace
 
 Keyframes::Keyframes(const std::vector<Keyframe>& keyframes) {
-    if (keyframes.empty()) throw InputError("keyframes: found none; accepted: one at least");
+    if (keyframes.empty()) throw refused("keyframes", "none", "one at least");
     Quat attitude;
     for (const Keyframe& k : keyframes) {
         if (!motions_.empty() && k.time <= motions_.back().time)

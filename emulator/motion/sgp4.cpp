@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "emulator/motion/sgp4_deep_space.h"
-#include "io/system/plain_number.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -60,7 +60,7 @@ double solve_kepler(double u, double axn, double ayn) {
 
 Sgp4::Sgp4(const Sgp4Elements& elements) : epoch_(elements) {
     const auto refuse = [](const char* name, double found, const char* accepted) {
-        throw InputError(std::string(name) + ": found " + plain(found) + "; accepted: " + accepted);
+        throw refused(std::string(name), plain(found), accepted);
     };
     if (!(epoch_.mean_motion_rad_min > 0))
         refuse("mean motion", epoch_.mean_motion_rad_min, "above 0 rad/min");

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "emulator/scenario/scenario_listing.h"
-#include "emulator/world/clock.h"
+#include "io/system/monotonic.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
 

@@ -6,9 +6,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "emulator/progress/progress.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 
@@ -37,12 +37,12 @@ void LightMaker::run() {
     constexpr int kNicer = 10;  // than the program, which may be nice itself
     setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
     tbb::task_arena alone(1, 1);
-    const auto begun = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     try {
         alone.execute([this] {
             for (Job& job : jobs_) make(job);
         });
-        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        seconds_ = watch.seconds();
         done_.store(true, std::memory_order_release);
     } catch (const GivenUp&) {
     } catch (const std::exception& error) {

@@ -10,9 +10,9 @@
 #include "emulator/scenario/listening_ports.h"
 #include "emulator/scenario/site.h"
 #include "io/config/config_yaml.h"
-#include "io/system/plain_number.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/time_system.h"
 
@@ -140,8 +140,7 @@ void check_folders(const ScenarioConfig& s) {
     std::set<std::string> taken;
     const auto take = [&](const std::string& key, const std::filesystem::path& folder) {
         if (!folder.empty() && !taken.insert(key + folder.lexically_normal().string()).second)
-            throw InputError(key + ": found '" + folder.string() +
-                             "' for two cameras; accepted: a folder for each");
+            throw refused(key, "'" + folder.string() + "' for two cameras", "a folder for each");
     };
     const auto take_all = [&](const OutputsConfig& o) {
         if (o.has_files) take("outputs.files.folder", o.files.folder);
@@ -158,8 +157,8 @@ void check_vizard(const ScenarioConfig& s) {
     const std::size_t cameras = 1 + s.more_cameras.size();
     for (const VizardCameraConfig& c : s.commands.vizard.cameras)
         if (c.camera > static_cast<std::int64_t>(cameras))
-            throw InputError("commands.vizard.cameras: camera: found " + std::to_string(c.camera) +
-                             "; accepted: 1 to " + std::to_string(cameras));
+            throw refused("commands.vizard.cameras: camera", std::to_string(c.camera),
+                          "1 to " + std::to_string(cameras));
     for (const CameraConfig& c : s.more_cameras)
         if (c.thing != 0)
             throw InputError("more_cameras: on: found " + std::to_string(c.thing) +
@@ -223,19 +222,17 @@ void validate(const ScenarioConfig& s) {
     check_site(s);
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
     if (s.more_cameras.size() > kMostCameras - 1)
-        throw InputError("more_cameras: found " + std::to_string(s.more_cameras.size()) +
-                         "; accepted: at most " + std::to_string(kMostCameras - 1));
+        throw refused("more_cameras", std::to_string(s.more_cameras.size()),
+                      "at most " + std::to_string(kMostCameras - 1));
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
         if (const std::int64_t on = s.more_cameras[i].thing; on > static_cast<std::int64_t>(s.objects.size()))
-            throw KeyError("more_cameras." + std::to_string(i) + ".on",
-                           "found " + std::to_string(on) + "; accepted: 0 to " +
-                               std::to_string(s.objects.size()) + ", the number of objects");
+            throw refused_key("more_cameras." + std::to_string(i) + ".on", std::to_string(on),
+                              "0 to " + std::to_string(s.objects.size()) + ", the number of objects");
     for (std::size_t i = 0; i < s.events.size(); ++i)
         if (const std::int64_t camera = s.events[i].camera;
             camera > static_cast<std::int64_t>(1 + s.more_cameras.size()))
-            throw KeyError("events." + std::to_string(i) + ".camera",
-                           "found " + std::to_string(camera) + "; accepted: 0 to " +
-                               std::to_string(1 + s.more_cameras.size()));
+            throw refused_key("events." + std::to_string(i) + ".camera", std::to_string(camera),
+                              "0 to " + std::to_string(1 + s.more_cameras.size()));
     const EventSequence events(s.events, event_world(s), parse_utc(s.time_utc));
     lamp_mounts(s);
     check_folders(s);

@@ -1,6 +1,6 @@
 #include "emulator/scenario/attitude_keys.h"
 
-#include "io/system/plain_number.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -70,9 +70,8 @@ void check_attitude(const AttitudeForms& a, const AttitudeWords& words) {
                        "has no effect without 'attitude_euler_deg'; accepted: with it, or no "
                        "'euler_sequence'");
     if (a.has_radec && !(std::abs(a.radec_rad.y) <= 0.5 * kPi))
-        throw KeyError("attitude_radec_deg", "found a declination of " + plain(a.radec_rad.y / kDegree_rad) +
-                                                 "; accepted: [right ascension, declination, roll] with a "
-                                                 "declination from -90 to 90");
+        throw refused_key("attitude_radec_deg", "a declination of " + plain(a.radec_rad.y / kDegree_rad),
+                          "[right ascension, declination, roll] with a declination from -90 to 90");
     if (a.has_dcm)
         if (const double error = rotation_error(matrix_of(a.dcm)); !(error <= kDcmTolerance))
             throw KeyError(

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "emulator/scenario/app_config.h"
+#include "render/vocabulary/random.h"
 
 namespace hilcam {
 
@@ -44,7 +45,7 @@ ScenarioConfig scenario_of_camera(const ScenarioConfig& scenario, std::size_t in
 }
 
 std::uint64_t seed_of_camera(const ScenarioConfig& scenario, std::size_t index) {
-    return static_cast<std::uint64_t>(scenario.seed) + index * 0x9E3779B97F4A7C15u;
+    return seed_of_nth(static_cast<std::uint64_t>(scenario.seed), index);
 }
 
 VizardBench vizard_bench(const ScenarioConfig& s) {

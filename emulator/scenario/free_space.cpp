@@ -35,7 +35,7 @@ Vec3d direction_by_phase(const ScenarioConfig& s) {
 Vec3d sun_direction(const ScenarioConfig& s) {
     const SunConfig& sun = s.sun;
     if (sun.has_direction && sun.has_phase)
-        throw KeyError("sun.phase_deg", "found besides 'direction'; accepted: one of them");
+        throw refused_key("sun.phase_deg", "besides 'direction'", "one of them");
     if (sun.has_azimuth && !sun.has_phase)
         throw KeyError("sun.azimuth_deg",
                        "has no effect without 'phase_deg'; accepted: with it, or no "
@@ -46,7 +46,7 @@ Vec3d sun_direction(const ScenarioConfig& s) {
                        "does not say where the Sun is, which origin.kind free needs; accepted: "
                        "sun.direction: [x, y, z], or sun.phase_deg");
     if (!(length(sun.direction) > 0))
-        throw KeyError("sun.direction", "found a vector without a direction; accepted: one that is not 0");
+        throw refused_key("sun.direction", "a vector without a direction", "one that is not 0");
     return sun.direction;
 }
 

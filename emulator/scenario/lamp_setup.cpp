@@ -73,8 +73,7 @@ LampBeam beam_of(const LampConfig& lamp) {
 
 std::vector<LampMount> lamp_mounts(const ScenarioConfig& s) {
     if (s.lamps.size() > kMostLamps)
-        throw InputError("lamps: found " + std::to_string(s.lamps.size()) + "; accepted: at most " +
-                         std::to_string(kMostLamps));
+        throw refused("lamps", std::to_string(s.lamps.size()), "at most " + std::to_string(kMostLamps));
     std::vector<LampMount> mounts;
     for (const LampConfig& lamp : s.lamps)
         mounts.push_back(

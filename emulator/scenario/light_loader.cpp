@@ -1,12 +1,12 @@
 #include "emulator/scenario/light_loader.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "emulator/progress/progress.h"
 #include "io/files/mesh_cache.h"
 #include "io/files/transfer_cache.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 namespace {
@@ -60,7 +60,7 @@ void load_table(std::vector<SceneObject>& objects, std::size_t i, TableOrder ord
 void load_tables(Scene& scene, const ScenarioConfig& scenario, LightLoading& light) {
     if (!wants_kept_light(scenario)) return;
     constexpr double kLeast = 1000;
-    const auto begun = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     std::vector<SceneObject>& objects = scene.objects;
     std::vector<double> area_m2;
     double all_m2 = 0;
@@ -73,7 +73,7 @@ void load_tables(Scene& scene, const ScenarioConfig& scenario, LightLoading& lig
         load_table(objects, i, order_of(objects[i], static_cast<std::size_t>(nodes), scenario), light);
     }
     scene.light_later = !light.orders.empty();
-    light.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    light.seconds = watch.seconds();
 }
 
 std::shared_ptr<const TransferTable> make_table(const TableOrder& order, const WorkWatcher& watcher) {

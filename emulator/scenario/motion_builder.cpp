@@ -72,7 +72,7 @@ class Builder {
         if (at != names_.end()) return static_cast<std::size_t>(at - names_.begin());
         std::string all;
         for (const std::string& n : names_) all += (all.empty() ? "" : ", ") + n;
-        throw InputError("of: found " + in_quotes(name) + "; accepted: " + all);
+        throw refused("of", in_quotes(name), all);
     }
 
     PlacedFrame frame_of(MotionFrame kind, const std::string& of, const MotionConfig& m,

@@ -54,8 +54,7 @@ void check_look_at(const PoseConfig& p) {
     const Vec3d along = p.look_at_m - p.position_m;
     if (!(length(along) > 0))
         throw KeyError("look_at_m", "is where it stands, position_m; accepted: another point to look at");
-    if (!(length(p.up) > 0))
-        throw KeyError("up", "found a vector without a direction; accepted: one that is not 0");
+    if (!(length(p.up) > 0)) throw refused_key("up", "a vector without a direction", "one that is not 0");
     if (!(length(cross(along, p.up)) > 1e-9 * length(along) * length(p.up)))
         throw KeyError(
             "up",
@@ -171,7 +170,7 @@ void validate(const TerrainConfig& t) {
     if (t.has_pose && t.has_place)
         throw KeyError("place", "terrain has either 'pose' or 'place'; found both");
     if (t.pose.frame != PoseConfig::Frame::kWorld)
-        throw KeyError("pose.frame", "found 'local'; accepted: terrain.place, which has local axes");
+        throw refused_key("pose.frame", "'local'", "terrain.place, which has local axes");
     for (const auto& [key, given] :
          {std::pair{"velocity_m_s", t.pose.has_velocity}, {"rate_deg_s", t.pose.has_rate}})
         if (given) throw KeyError(std::string("pose.") + key, "has no effect: terrain stays where it is");

@@ -35,8 +35,7 @@ SensorSampling sampling_of(const QualityConfig& q) {
 
 void validate(const QualityConfig& q) {
     const std::int64_t n = q.render.kept_directions;
-    if (n != 16 && n != 60 && n != 256)
-        throw InputError("kept_directions: found " + std::to_string(n) + "; accepted: 16, 60, 256");
+    if (n != 16 && n != 60 && n != 256) throw refused("kept_directions", std::to_string(n), "16, 60, 256");
 }
 
 }  // namespace hilcam

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "io/system/plain_number.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 
@@ -51,8 +51,8 @@ Fields fields(LoopConfig& l) {
 
 void validate(const LoopConfig& l) {
     if (l.levels.size() >= kMostLevels)
-        throw InputError("levels: found " + std::to_string(l.levels.size()) + "; accepted: at most " +
-                         std::to_string(kMostLevels - 1));
+        throw refused("levels", std::to_string(l.levels.size()),
+                      "at most " + std::to_string(kMostLevels - 1));
 }
 
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& l) {

@@ -55,9 +55,9 @@ void check_site(const ScenarioConfig& s) {
     if (key.empty()) return;
     const std::optional<PlaceConfig> site = site_of(s);
     if (!site)
-        throw KeyError(key,
-                       "found 'local', and no site for its axes; accepted: with site: {body, longitude_deg, "
-                       "latitude_deg}, terrain.place, or an origin of kind earth_fixed or body_fixed");
+        throw refused_key(key, "'local', and no site for its axes",
+                          "with site: {body, longitude_deg, latitude_deg}, terrain.place, or an origin of "
+                          "kind earth_fixed or body_fixed");
     check_rates(s, site->body);
     if (s.origin.center() == site->body) return;
     const std::string body = body_name(site->body);

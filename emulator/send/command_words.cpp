@@ -96,16 +96,15 @@ Quat world_from_body(const AttitudeOptions& o, std::span<CLI::Option* const> for
         const std::array<double, 9>& m = o.dcm;
         const Mat3d dcm{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
         if (const double error = rotation_error(dcm); !(error <= kDcmTolerance))
-            throw InputError("--dcm: found a matrix that is off a rotation by " + std::to_string(error) +
-                             "; accepted: " + std::to_string(kDcmTolerance) + " or less");
+            throw refused("--dcm", "a matrix that is off a rotation by " + std::to_string(error),
+                          std::to_string(kDcmTolerance) + " or less");
         return from_dcm(dcm);
     }
     if (forms[3]->count()) return from_euler(euler_axes(o.sequence), kDegree_rad * vec(o.euler_deg));
     if (forms[4]->count()) {
         const Vec3d p = kDegree_rad * vec(o.radec_deg);
         if (!(std::abs(p.y) <= 0.5 * kPi))
-            throw InputError("--radec-deg: found a declination of " + std::to_string(o.radec_deg[1]) +
-                             "; accepted: -90 to 90");
+            throw refused("--radec-deg", "a declination of " + std::to_string(o.radec_deg[1]), "-90 to 90");
         return from_radec({p.x, p.y, p.z});
     }
     return {o.wxyz[0], o.wxyz[1], o.wxyz[2], o.wxyz[3]};
@@ -182,8 +181,7 @@ void add_lamp(CLI::App& app, const Take& take) {
     on(lamp, take, [=] {
         const bool off = o->what == "off";
         if (off && level->count()) throw InputError("'off' and --level do not go together");
-        if (!(o->level >= 0 && o->level <= 1))
-            throw InputError("--level: found " + std::to_string(o->level) + "; accepted: 0 to 1");
+        if (!(o->level >= 0 && o->level <= 1)) throw refused("--level", std::to_string(o->level), "0 to 1");
         return LampCommand{static_cast<std::uint16_t>(o->lamp),
                            o->utc.empty() ? TimeTai{} : parse_utc(o->utc), off ? 0 : o->level};
     });
@@ -228,7 +226,7 @@ void add_clock(CLI::App& app, const Take& take) {
             command.action = Action::kScale;
             command.scale = o->scale;
             if (!(o->scale >= kLeastClockScale && o->scale <= kMostClockScale))
-                throw InputError("--scale: found " + std::to_string(o->scale) + "; accepted: 0.001 to 1000");
+                throw refused("--scale", std::to_string(o->scale), "0.001 to 1000");
         }
         if (o->what == "pause") command.action = Action::kPause;
         if (o->what == "resume") command.action = Action::kResume;
@@ -237,7 +235,7 @@ void add_clock(CLI::App& app, const Take& take) {
             throw InputError("'step' and --seconds go together");
         if (command.action != Action::kStep) return command;
         if (!(o->seconds >= 1e-9 && o->seconds <= 1e7))
-            throw InputError("--seconds: found " + std::to_string(o->seconds) + "; accepted: 1e-9 to 1e7");
+            throw refused("--seconds", std::to_string(o->seconds), "1e-9 to 1e7");
         command.step_ns = std::llround(o->seconds * 1e9);
         return command;
     });

@@ -10,9 +10,9 @@
 #include "emulator/send/send_clock.h"
 #include "emulator/send/send_fly.h"
 #include "emulator/send/send_watch.h"
-#include "emulator/world/clock.h"
 #include "io/commands/command_sender.h"
 #include "io/system/input_file.h"
+#include "io/system/monotonic.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 

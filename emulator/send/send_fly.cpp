@@ -7,8 +7,8 @@
 
 #include "emulator/motion/flight.h"
 #include "emulator/send/send_clock.h"
-#include "emulator/world/clock.h"
 #include "io/commands/command_sender.h"
+#include "io/system/monotonic.h"
 
 namespace hilcam {
 namespace {

@@ -8,8 +8,8 @@
 #include "emulator/characterise/characterise_setup.h"
 #include "emulator/progress/progress.h"
 #include "emulator/tradeoff/structural_similarity.h"
-#include "emulator/world/clock.h"
 #include "render/visibility/screen_bounds.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 namespace {
@@ -81,7 +81,7 @@ double saturation_of(const CameraModel& camera) {
 
 ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, const ReferenceLimits& limits,
                                   const std::function<void(const std::string&)>& log) {
-    const std::int64_t start_ns = monotonic_ns();
+    const Stopwatch watch;
     const SensorNoise noise = noise_of(s.camera);
     const auto seed = static_cast<std::uint64_t>(s.seed);
     ReferencePicture out;
@@ -98,7 +98,7 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
             saturate(picture, saturation_of(s.camera));
             halves[out.frames % 2].add(picture);
             if (out.frames > 0) continue;
-            const double frame_s = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
+            const double frame_s = watch.seconds();
             log(fmt::format("a frame of the reference takes {:.2g} s: {:.2g} s for 4, up to {:.2g} s for {}",
                             frame_s, 4 * frame_s, limits.most_frames * frame_s, limits.most_frames));
         }
@@ -112,7 +112,7 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
     }
     halves[0].add(halves[1]);
     out.mean = halves[0].mean();
-    out.seconds = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
+    out.seconds = watch.seconds();
     return out;
 }
 

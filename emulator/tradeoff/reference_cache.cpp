@@ -11,15 +11,15 @@
 
 #include "emulator/scenario/scenario_listing.h"
 #include "io/system/crc32.h"
+#include "render/vocabulary/fnv.h"
 
 namespace hilcam {
 namespace {
 
-// FNV-1a (Fowler, Noll & Vo, 1991).
 std::uint64_t hash_of(const std::string& text) {
-    std::uint64_t hash = 14695981039346656037u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    return hash;
+    Fnv1a hash;
+    hash.take_bytes(text);
+    return hash.value();
 }
 
 // No holes between the members: all bytes are checked.

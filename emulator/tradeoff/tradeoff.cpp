@@ -9,8 +9,8 @@
 #include "emulator/tradeoff/mean_errors.h"
 #include "emulator/tradeoff/pareto.h"
 #include "emulator/tradeoff/tradeoff_combinations.h"
-#include "emulator/world/clock.h"
 #include "render/vocabulary/median.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 namespace {
@@ -18,19 +18,17 @@ namespace {
 using Log = std::function<void(const std::string&)>;
 using Kind = MeasuredSetting::Kind;
 
-double seconds_since(std::int64_t start_ns) { return static_cast<double>(monotonic_ns() - start_ns) * 1e-9; }
-
 // One frame of a setting: whole, and its rendering [ms].
 struct FrameTime {
     double frame_ms, render_ms;
 };
 FrameTime take_frame(StillCamera& camera, RandomKey key, const ElectronImage*& electrons) {
-    const std::int64_t start_ns = monotonic_ns();
+    const Stopwatch watch;
     camera.render(key);
-    const double render_ms = 1e3 * seconds_since(start_ns);
+    const double render_ms = watch.ms();
     electrons = &camera.expose();
     camera.digitise(key);
-    return {1e3 * seconds_since(start_ns), render_ms};
+    return {watch.ms(), render_ms};
 }
 
 std::size_t single_changes(const Tradeoff& t) {
@@ -46,7 +44,6 @@ class Sweep {
           judge_(judge),
           options_(options),
           log_(log),
-          start_ns_(monotonic_ns()),
           planned_(1 + single_changes(out) + static_cast<std::size_t>(options.combinations)) {}
 
     void run() {
@@ -64,7 +61,7 @@ class Sweep {
     }
 
   private:
-    double left_s() const { return options_.budget_s - seconds_since(start_ns_); }
+    double left_s() const { return options_.budget_s - watch_.seconds(); }
 
     void try_all(Kind kind, const std::vector<std::vector<std::size_t>>& list) {
         for (std::size_t i = 0; i < list.size(); ++i) {
@@ -151,7 +148,7 @@ class Sweep {
     const PictureJudge& judge_;
     const TradeoffOptions& options_;
     const Log& log_;
-    std::int64_t start_ns_;
+    Stopwatch watch_;
     std::size_t planned_;
     std::atomic<std::size_t> tried_{0};
 };

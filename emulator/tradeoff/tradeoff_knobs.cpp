@@ -7,7 +7,7 @@
 
 #include "io/config/config_manual.h"
 #include "io/config/config_yaml.h"
-#include "io/system/plain_number.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 namespace {

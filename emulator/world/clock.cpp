@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/system/plain_number.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 namespace {

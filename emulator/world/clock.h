@@ -34,8 +34,6 @@
 //
 // Threads: any, without a lock, but for order(), which takes one and returns when the change is in effect.
 
-#include <time.h>
-
 #include <atomic>
 #include <cstdint>
 #include <limits>
@@ -48,12 +46,6 @@
 #include "render/vocabulary/time.h"
 
 namespace hilcam {
-
-inline void sleep_until_monotonic_ns(std::int64_t ns) {
-    const timespec t{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) != 0) {
-    }
-}
 
 enum class CameraInPause : std::uint8_t { kStreams, kWaits };
 struct ClockConfig {

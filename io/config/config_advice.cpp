@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/config/config_keys.h"
-#include "io/system/plain_number.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 namespace {

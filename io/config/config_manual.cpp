@@ -6,9 +6,9 @@
 #include <variant>
 
 #include "io/config/config_advice.h"
-#include "io/system/plain_number.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {

@@ -12,10 +12,10 @@
 #include "io/config/config_advice.h"
 #include "io/config/config_manual.h"
 #include "io/system/input_file.h"
-#include "io/system/plain_number.h"
 #include "io/system/program_files.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {

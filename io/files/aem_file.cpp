@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "io/system/input_file.h"
-#include "io/system/plain_number.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "io/system/input_file.h"
-#include "io/system/plain_number.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
 

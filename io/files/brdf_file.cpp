@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "io/system/input_file.h"
-#include "io/system/plain_number.h"
 #include "render/scene/color_bands.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <string>
 
+#include "render/vocabulary/fnv.h"
+
 namespace hilcam {
 
 CacheReader::CacheReader(const std::filesystem::path& file) {
@@ -31,16 +33,18 @@ void write_cache_file(const std::filesystem::path& file, const std::function<voi
 
 std::uint64_t hash_of(std::uint64_t hash, const void* data, std::size_t size) {
     const auto* bytes = static_cast<const unsigned char*>(data);
+    Fnv1a out(hash);
     for (std::size_t i = 0; i < size; i += 8) {
         std::uint64_t word = 0;
         std::memcpy(&word, bytes + i, std::min<std::size_t>(8, size - i));
-        hash = (hash ^ word) * 1099511628211u;
+        out.take(word);
     }
-    return (hash ^ size) * 1099511628211u;
+    out.take(size);
+    return out.value();
 }
 
 std::uint64_t hash_of(const Mesh& mesh) {
-    std::uint64_t hash = 14695981039346656037u;
+    std::uint64_t hash = Fnv1a().value();
     const auto add = [&](const auto& values) {
         hash = hash_of(hash, values.data(), values.size() * sizeof(values[0]));
     };

@@ -75,7 +75,7 @@ class CacheReader {
 // written is no failure.
 void write_cache_file(const std::filesystem::path& file, const std::function<void(CacheWriter&)>& write);
 
-// FNV-1a (Fowler, Noll & Vo, 1991) over words, of all that a mesh is made of but its looks.
+// FNV-1a (fnv.h) over words, of all that a mesh is made of but its looks.
 std::uint64_t hash_of(const Mesh& mesh);
 // Goes on from a hash.
 std::uint64_t hash_of(std::uint64_t hash, const void* data, std::size_t size);

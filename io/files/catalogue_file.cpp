@@ -107,8 +107,7 @@ StarCatalogue load_catalogue(const std::filesystem::path& file) {
         const std::string_view line = without_line_end(text);
         if (line.empty() || line.starts_with('#')) continue;
         const auto refuse = [&](const std::string& accepted) {
-            throw InputError(file.string() + ":" + std::to_string(number) + ": found " + in_quotes(line) +
-                             "; accepted: " + accepted);
+            throw refused(file.string() + ":" + std::to_string(number), in_quotes(line), accepted);
         };
         if (columns.empty()) {
             columns = parse_header(line);

@@ -106,8 +106,8 @@ void FileNamePattern::add_field(std::string_view field) {
         {{"camera", Kind::kCamera}, {"camera_name", Kind::kCameraName}, {"time_tai_ns", Kind::kTime}}};
     for (const auto& [word, kind] : kFields)
         if (field == word) return pieces_.push_back({kind, {}, 1});
-    throw InputError("name: found the field " + in_quotes(field) +
-                     "; accepted: {frame}, {frame:8}, {camera}, {camera_name}, {time_tai_ns}");
+    throw refused("name", "the field " + in_quotes(field),
+                  "{frame}, {frame:8}, {camera}, {camera_name}, {time_tai_ns}");
 }
 
 std::string FileNamePattern::stem(const FrameRecord& record, const Camera& camera) const {

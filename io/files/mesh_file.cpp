@@ -124,8 +124,7 @@ ConfinedResult read_confined(const std::filesystem::path& file, const Work& work
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": no such mesh file");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-        throw InputError(file.string() + ": found a file of kind " + in_quotes(kind) +
-                         "; accepted: .glb .gltf .obj .stl .ply");
+        throw refused(file.string(), "a file of kind " + in_quotes(kind), ".glb .gltf .obj .stl .ply");
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
     const ConfinedLimits limits{kLeastMemory_bytes + kMeshMemoryPerByte * bytes,
                                 kLeastCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};

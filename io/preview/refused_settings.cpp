@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "io/system/plain_number.h"
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 namespace {

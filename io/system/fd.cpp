@@ -16,8 +16,7 @@ namespace hilcam {
 std::uint32_t parse_ipv4(const std::string& text, const std::string& key) {
     in_addr address{};
     if (inet_pton(AF_INET, text.c_str(), &address) != 1)
-        throw InputError(key + ": found " + in_quotes(text) +
-                         "; accepted: an IPv4 address of this machine, as 127.0.0.1");
+        throw refused(key, in_quotes(text), "an IPv4 address of this machine, as 127.0.0.1");
     return ntohl(address.s_addr);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The machine's clocks as nanoseconds.
+// The machine's clocks as nanoseconds. Loop.
 
 #include <time.h>
 
@@ -13,6 +13,12 @@ inline std::int64_t clock_ns(clockid_t clock) {
     return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
 inline std::int64_t monotonic_ns() { return clock_ns(CLOCK_MONOTONIC); }
+// Returns when it is that late, however often a signal comes.
+inline void sleep_until_monotonic_ns(std::int64_t ns) {
+    const timespec t{static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) != 0) {
+    }
+}
 // How long the process's threads have had a processor, all together.
 inline std::int64_t processor_ns() { return clock_ns(CLOCK_PROCESS_CPUTIME_ID); }
 

@@ -62,8 +62,7 @@ void validate(const TruthConfig& c) {
     for (const std::string& to : c.udp_to) parse_endpoint(to);
     for (const std::string& word : c.layers)
         if (!layer_named(word))
-            throw InputError("layers: found " + in_quotes(word) +
-                             "; accepted: object, range, depth, normal, position");
+            throw refused("layers", in_quotes(word), "object, range, depth, normal, position");
     if (!c.layers.empty() && c.folder.empty())
         throw InputError("'layers' are written as pictures: they need 'folder'");
 }

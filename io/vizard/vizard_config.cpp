@@ -25,8 +25,7 @@ Fields fields(VizardConfig& c) {
 
 void validate(const VizardConfig& c) {
     if (!c.address.starts_with("tcp://") && !c.address.starts_with("ipc://"))
-        throw InputError("address: found " + in_quotes(c.address) +
-                         "; accepted: tcp://ADDRESS:PORT, ipc://PATH");
+        throw refused("address", in_quotes(c.address), "tcp://ADDRESS:PORT, ipc://PATH");
     for (std::size_t i = 0; i < c.cameras.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (c.cameras[i].id == c.cameras[j].id)

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "io/system/plain_number.h"
 #include "io/vizard/vizard_geometry.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
 #include "vizard.pb.h"
@@ -33,8 +33,7 @@ struct Numbers {
     std::string what;
 
     [[noreturn]] void refuse(const std::string& accepted) const {
-        throw InputError(what + ": found " + std::to_string(values.size()) +
-                         " numbers; accepted: " + accepted);
+        throw refused(what, std::to_string(values.size()) + " numbers", accepted);
     }
     Vec3d vector(double most) const {
         if (values.size() != 3) refuse("3");
@@ -107,7 +106,7 @@ TimeTai epoch_of(const hilcam_vizard::EpochDateTime& e) {
 
 std::int64_t elapsed_of(double ns) {
     if (!(ns >= 0 && ns <= kLongest_ns))
-        throw InputError("simTimeElapsed: found " + plain(ns) + " ns; accepted: 0 to " + plain(kLongest_ns));
+        throw refused("simTimeElapsed", plain(ns) + " ns", "0 to " + plain(kLongest_ns));
     return std::llround(ns);
 }
 

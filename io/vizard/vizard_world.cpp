@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "io/system/plain_number.h"
 #include "io/vizard/vizard_geometry.h"
+#include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
 

@@ -1,18 +1,12 @@
 #include "render/frame/render_bench.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "render/vocabulary/median.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 PathModelSpeed speed_of(const std::string& name, FramePlacer& placer, FrameTracer& tracer,
                         RadianceImage& radiance, int runs) {
@@ -20,9 +14,9 @@ PathModelSpeed speed_of(const std::string& name, FramePlacer& placer, FrameTrace
     // The first round is for the caches, the last one is recorded.
     for (int run = 0; run < runs + 2; ++run) {
         if (run == runs + 1) placer.embree().start_recording();
-        const auto start = Clock::now();
+        const Stopwatch watch;
         tracer.trace(placer, radiance);
-        if (run > 0 && run <= runs) frame_ms.push_back(ms_since(start));
+        if (run > 0 && run <= runs) frame_ms.push_back(watch.ms());
     }
     const EmbreeScene::Replay replay = placer.embree().replay();
     return {name, replay.rays, median(frame_ms), replay.milliseconds};

@@ -9,15 +9,10 @@
 #include "render/frame/truth_probe.h"
 #include "render/light/point_field.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 std::vector<RenderQuality> all_levels(const RenderQuality& quality, std::span<const RenderQuality> lower) {
     std::vector<RenderQuality> levels = {quality};
@@ -94,19 +89,19 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     const ImageGeometry& g = geometry();
     HILCAM_CHECK(radiance.width() == g.padded_width() && radiance.height() == g.padded_height() &&
                  radiance.planes() == my.placer.frame().bins);
-    const auto start = Clock::now();
+    const Stopwatch setup;
     my.placer.place(world, key);
     my.placer.place_visibility();
-    stats.setup_ms = ms_since(start);
+    stats.setup_ms = setup.ms();
 
-    const auto traced = Clock::now();
+    const Stopwatch trace;
     TileStats sum = my.tracer.trace(my.placer, radiance);
-    stats.trace_ms = ms_since(traced);
+    stats.trace_ms = trace.ms();
 
-    const auto pointed = Clock::now();
+    const Stopwatch adding;
     points.clear();
     sum += my.add_points(points);
-    stats.points_ms = ms_since(pointed);
+    stats.points_ms = adding.ms();
 
     static_cast<RayCounts&>(stats) = sum;
     stats.coverage = sum.covered_px / (static_cast<double>(g.padded_width()) * g.padded_height());

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 namespace {
@@ -63,7 +63,7 @@ TruthProbe::TruthProbe(const FramePlacer& placer, FrameTruth& truth)
       camera_from_world_(transposed(to_matrix(placer.world().camera.world_from_body))) {}
 
 void TruthProbe::tell() {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     truth_.time = world_.time;
     truth_.camera = world_.camera;
     truth_.camera_velocity_m_s = world_.camera_velocity_m_s;
@@ -80,8 +80,7 @@ void TruthProbe::tell() {
         for (SeenThing& thing : truth_.things) measure_outline(thing);
     }
     if (truth_.wishes.stars) tell_stars();
-    const auto took = std::chrono::steady_clock::now() - start;
-    truth_.took_ms = std::chrono::duration<double, std::milli>(took).count();
+    truth_.took_ms = watch.ms();
 }
 
 // --- poses and places

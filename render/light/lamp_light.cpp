@@ -50,8 +50,7 @@ bool PlacedLamp::shines_on(Vec3d place_m, LampRay& ray) const {
 
 Lamps::Lamps(std::vector<SceneLamp> lamps) : lamps_(std::move(lamps)) {
     if (lamps_.size() > kMostLamps)
-        throw InputError("lamps: found " + std::to_string(lamps_.size()) + "; accepted: at most " +
-                         std::to_string(kMostLamps));
+        throw refused("lamps", std::to_string(lamps_.size()), "at most " + std::to_string(kMostLamps));
 }
 
 void Lamps::place(const WorldSnapshot& world, Vec3d ray_space_world_m) {

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -20,6 +19,7 @@
 #include <vector>
 
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
 namespace {
@@ -308,7 +308,7 @@ EmbreeScene::Replay EmbreeScene::replay(Replayed which) {
     Replay out;
     for (const Implementation::Recorded& packet : packets)
         out.rays += static_cast<std::uint64_t>(packet.rays.count);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets.size(), 64),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           HitPacket hits;
@@ -320,8 +320,7 @@ EmbreeScene::Replay EmbreeScene::replay(Replayed which) {
                                   intersect(packet.rays, packet.coherence, hits);
                           }
                       });
-    out.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    out.milliseconds = watch.ms();
     return out;
 }
 

@@ -23,6 +23,7 @@
 #include "render/sky/atmosphere_models.h"
 #include "render/sky/atmosphere_physics.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/fnv.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -396,9 +397,9 @@ class PrecomputedAtmosphere final : public Atmosphere {
     static std::filesystem::path cache_file(const AtmosphereConfig& c, const std::vector<char>& key) {
         std::filesystem::path folder = c.cache;
         if (folder.empty()) return {};
-        std::uint64_t hash = 14695981039346656037u;  // FNV-1a (Fowler, Noll & Vo, 1991)
-        for (const char byte : key) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211u;
-        return folder / ("atmosphere_" + std::to_string(hash) + ".bin");
+        Fnv1a hash;
+        hash.take_bytes(key);
+        return folder / ("atmosphere_" + std::to_string(hash.value()) + ".bin");
     }
     std::array<Table*, 3> tables() { return {&transmittance_, &multiple_, &sky_}; }
 

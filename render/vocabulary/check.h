@@ -34,6 +34,11 @@ class InputError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// "KEY: found FOUND; accepted: ACCEPTED"
+inline InputError refused(const std::string& key, const std::string& found, const std::string& accepted) {
+    return InputError(key + ": found " + found + "; accepted: " + accepted);
+}
+
 // Something outside failed while starting or running: a device is busy, a disk is full. Exit status 1.
 class DeviceError : public std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -107,6 +107,11 @@ class KeyError : public InputError {
     std::string key_, reason_;
 };
 
+// The same as refused() (check.h), of a key.
+inline KeyError refused_key(const std::string& key, const std::string& found, const std::string& accepted) {
+    return KeyError(key, "found " + found + "; accepted: " + accepted);
+}
+
 // Turns what an InputError of check() says into an objection to that key.
 template <class Check>
 void at_key(const std::string& key, const Check& check) {

@@ -31,6 +31,12 @@ struct RandomKey {
     std::uint64_t frame = 0;
 };
 
+// Seeds of things that draw apart from each other, from one seed: 0 has it itself. Steps are of 2^64 over the
+// golden ratio, so that no two are near (Knuth, The Art of Computer Programming 3, 6.4).
+inline std::uint64_t seed_of_nth(std::uint64_t seed, std::uint64_t index) {
+    return seed + index * 0x9E3779B97F4A7C15u;
+}
+
 // Four independent 32-bit words. `pixel` and `index` (bounce, sample, ...) are free counters.
 inline std::array<std::uint32_t, 4> random_words(RandomKey key, RandomPurpose purpose, std::uint32_t pixel,
                                                  std::uint32_t index = 0) {

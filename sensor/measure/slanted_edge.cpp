@@ -154,7 +154,7 @@ EdgeMtf slanted_edge_mtf(const EdgePicture& picture, const SlantedEdgeOptions& o
     const Upright p = upright(picture, transpose);
     const Line line = find_edge(p, options.half_width_px);
     if (std::abs(line.slope) < std::tan(1 * kDegree_rad) || std::abs(line.slope) > 1)
-        throw InputError("slanted edge: found along a row or a column, or none; accepted: 1 to 45 degrees");
+        throw refused("slanted edge", "along a row or a column, or none", "1 to 45 degrees");
     const SpreadFunction esf = spread_function(p, line, options.half_width_px);
 
     const std::size_t steps = esf.value.size() - 1;

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "render/vocabulary/fnv.h"
+
 namespace hilcam {
 namespace {
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo).
 std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
-    std::uint64_t hash = 0xCBF29CE484222325;
-    for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001B3;
-    return hash;
+    Fnv1a hash;
+    hash.take_bytes(bytes);
+    return hash.value();
 }
 
 }  // namespace
