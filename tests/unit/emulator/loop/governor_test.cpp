@@ -171,7 +171,9 @@ TEST(Governor, StopsAtTheLastLevel) {
 
 // --- in the loop
 
-TEST_F(PlateTest, FramesThatAreTooSlowGoDownTheLadderAndSaySo) {
+class GovernedLoopTest : public PlateTest {};
+
+TEST_F(GovernedLoopTest, FramesThatAreTooSlowGoDownTheLadderAndSaySo) {
     const auto file = scenario("",
                                "loop: {frame_budget_ms: 0.001, levels: [{max_depth: 1}, {max_depth: 1, "
                                "path_model: direct}]}\n");
@@ -205,7 +207,7 @@ TEST_F(PlateTest, FramesThatAreTooSlowGoDownTheLadderAndSaySo) {
 
 // With latency frames are made one after the other: none begins before the one before is out. Their pixels
 // are those of throughput.
-TEST_F(PlateTest, PreferringLatencyFramesDoNotOverlapAndAreTheSame) {
+TEST_F(GovernedLoopTest, PreferringLatencyFramesDoNotOverlapAndAreTheSame) {
     const auto file = scenario("", "mode: lockstep\n");
     std::vector<std::vector<std::uint16_t>> pictures[2];
     for (const LoopPreference prefer : {LoopPreference::kThroughput, LoopPreference::kLatency}) {
@@ -228,7 +230,7 @@ TEST_F(PlateTest, PreferringLatencyFramesDoNotOverlapAndAreTheSame) {
     EXPECT_EQ(pictures[0], pictures[1]);
 }
 
-TEST_F(PlateTest, InLockstepTheGovernorIsOff) {
+TEST_F(GovernedLoopTest, InLockstepTheGovernorIsOff) {
     const auto file = scenario("", "mode: lockstep\nloop: {frame_budget_ms: 0.001}\n");
     const ScenarioConfig config = load_scenario(file, {});
     EXPECT_TRUE(lower_levels(config).empty());

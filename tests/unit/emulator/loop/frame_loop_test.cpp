@@ -12,21 +12,7 @@ namespace {
 
 ExposeCommand expose(TimeTai time = {}, std::uint16_t frames = 0) { return {time, frames}; }
 
-PoseCommand pose_at(TimeTai time, double x_m) {
-    PoseCommand command;
-    command.motion.time = time;
-    command.motion.pose.position_world_m = {x_m, 0, 0};
-    return command;
-}
-
-double mean_x(const Collector::Frame& f) {
-    double sum = 0, light = 0;
-    for (std::size_t i = 0; i < f.dn.size(); ++i) {
-        const double dn = std::max(0.0, f.dn[i] - 100.0);  // above noise
-        light += dn, sum += dn * (static_cast<double>(i % static_cast<std::size_t>(f.width)) + 0.5);
-    }
-    return sum / light;
-}
+class FrameLoopTest : public PlateTest {};
 
 // --- lockstep
 
@@ -35,7 +21,7 @@ std::vector<Collector::Frame> fly_in_lockstep(const std::filesystem::path& file,
     rig.loop.start();
     for (int i = 0; i < 6; ++i) {
         const TimeTai time = rig.start + (i + 1) * 100'000'000;
-        EXPECT_EQ(rig.send(pose_at(time, 0.01 * i)), CommandStatus::kAccepted);
+        EXPECT_EQ(rig.send(camera_pose_at(time, 0.01 * i)), CommandStatus::kAccepted);
         EXPECT_EQ(rig.send(expose(time)), CommandStatus::kAccepted);
         if (slowly && i % 2 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(30));
     }
@@ -44,7 +30,7 @@ std::vector<Collector::Frame> fly_in_lockstep(const std::filesystem::path& file,
     return std::move(rig.collector.frames);
 }
 
-TEST_F(PlateTest, LockstepGivesOneFrameACommandAndTheSameAtAnyPace) {
+TEST_F(FrameLoopTest, LockstepGivesOneFrameACommandAndTheSameAtAnyPace) {
     const auto file = scenario();
     const auto quick = fly_in_lockstep(file, false), slow = fly_in_lockstep(file, true);
     ASSERT_EQ(quick.size(), 6u);
@@ -58,11 +44,11 @@ TEST_F(PlateTest, LockstepGivesOneFrameACommandAndTheSameAtAnyPace) {
         EXPECT_EQ(quick[i].record.pose_sequence, 2 * i + 1);
         EXPECT_EQ(quick[i].record.trigger_sequence, 2 * i + 2);
         // 10 mm a step at 4 m and 640 px: the plate goes 1.6 px to the left.
-        EXPECT_NEAR(mean_x(quick[i]), 32 - 1.6 * static_cast<double>(i), 0.2) << i;
+        EXPECT_NEAR(plate_x_px(quick[i]), 32 - 1.6 * static_cast<double>(i), 0.2) << i;
     }
 }
 
-TEST_F(PlateTest, LockstepGoesOnByTheFramePeriodAndNeverBack) {
+TEST_F(FrameLoopTest, LockstepGoesOnByTheFramePeriodAndNeverBack) {
     LoopRig rig(scenario(", frame_rate_hz: 10"), {}, {"mode=lockstep"});
     rig.loop.start();
     EXPECT_EQ(rig.send(expose()), CommandStatus::kAccepted);
@@ -82,7 +68,7 @@ TEST_F(PlateTest, LockstepGoesOnByTheFramePeriodAndNeverBack) {
 }
 
 // Frames that name no time go on from the one before; a time that these have passed is over.
-TEST_F(PlateTest, LockstepNeverGoesBackBehindFramesWithoutATime) {
+TEST_F(FrameLoopTest, LockstepNeverGoesBackBehindFramesWithoutATime) {
     LoopRig rig(scenario(", frame_rate_hz: 10", "mode: lockstep\n"), {});
     rig.loop.start();
     const auto at_ms = [&](std::int64_t ms) { return rig.start + ms * 1'000'000; };
@@ -100,7 +86,7 @@ TEST_F(PlateTest, LockstepNeverGoesBackBehindFramesWithoutATime) {
 
 // An output that has no room yet gets the last frames, too, when the loop is stopped or has taken all that it
 // was to take.
-TEST_F(PlateTest, LockstepWaitsForOutputsAtTheEndAsWell) {
+TEST_F(FrameLoopTest, LockstepWaitsForOutputsAtTheEndAsWell) {
     class Slow : public Collector {
       public:
         bool has_room() const noexcept override { return monotonic_ns() >= room_ns_; }
@@ -131,7 +117,7 @@ TEST_F(PlateTest, LockstepWaitsForOutputsAtTheEndAsWell) {
 
 // A rolling shutter sees two that fly together as it sees two at rest, at a satellite's speed, too: to the
 // rounding of single precision, and to numbers that noise rounds the other way.
-TEST_F(PlateTest, RowsMoveAgainstWhatIsSeen) {
+TEST_F(FrameLoopTest, RowsMoveAgainstWhatIsSeen) {
     const auto file =
         scenario(", frame_rate_hz: 10, shutter: {kind: rolling, line_time_us: 100}", "mode: lockstep\n");
     const auto picture = [&](double speed_m_s) {
@@ -159,13 +145,13 @@ TEST_F(PlateTest, RowsMoveAgainstWhatIsSeen) {
 }
 
 // For simulators that tell the whole world for each frame, and start anew.
-TEST_F(PlateTest, LockstepGoesToAnyTimeForWhoAsksAndForgetsWhatWasThere) {
+TEST_F(FrameLoopTest, LockstepGoesToAnyTimeForWhoAsksAndForgetsWhatWasThere) {
     LoopRig rig(scenario(), {}, {"mode=lockstep"});
     rig.loop.start();
     const std::int64_t times_s[] = {100, 100, 40, -1000};
     for (int i = 0; i < 4; ++i) {
         const TimeTai time = rig.start + times_s[i] * 1'000'000'000;
-        PoseCommand pose = pose_at(time, 0.01 * i);
+        PoseCommand pose = camera_pose_at(time, 0.01 * i);
         pose.alone = true;
         EXPECT_EQ(rig.send(pose), CommandStatus::kAccepted);
         EXPECT_EQ(rig.send(ExposeCommand{time, 1, true}), CommandStatus::kAccepted) << i;
@@ -177,13 +163,13 @@ TEST_F(PlateTest, LockstepGoesToAnyTimeForWhoAsksAndForgetsWhatWasThere) {
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(rig.collector.frames[i].record.exposure_mid - rig.start, times_s[i] * 1'000'000'000) << i;
         // As above: with what was known before, the pose would be a mixture.
-        EXPECT_NEAR(mean_x(rig.collector.frames[i]), 32 - 1.6 * static_cast<double>(i), 0.2) << i;
+        EXPECT_NEAR(plate_x_px(rig.collector.frames[i]), 32 - 1.6 * static_cast<double>(i), 0.2) << i;
     }
 }
 
 // --- triggers
 
-TEST_F(PlateTest, EveryTriggerGivesItsFramesAndEarlyOnesAreMissed) {
+TEST_F(FrameLoopTest, EveryTriggerGivesItsFramesAndEarlyOnesAreMissed) {
     LoopRig rig(scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50]"), {0, true}, {"mode=triggered"});
     std::vector<std::int64_t> missed;
     rig.settings.on_missed_trigger([&](std::int64_t ns) { missed.push_back(ns); });
@@ -218,7 +204,7 @@ TEST_F(PlateTest, EveryTriggerGivesItsFramesAndEarlyOnesAreMissed) {
     }
 }
 
-TEST_F(PlateTest, ATriggeredCameraListensToItsSourceOnly) {
+TEST_F(FrameLoopTest, ATriggeredCameraListensToItsSourceOnly) {
     LoopRig rig(scenario(), {0, true});
     EXPECT_EQ(rig.send(expose()), CommandStatus::kNotNow);  // free-run
     ASSERT_TRUE(rig.settings.change({.triggered = true}));
@@ -236,7 +222,7 @@ TEST_F(PlateTest, ATriggeredCameraListensToItsSourceOnly) {
 
 // --- live settings
 
-TEST_F(PlateTest, BinnedLiveAFrameIsWhatACameraBinnedByItsFileTakes) {
+TEST_F(FrameLoopTest, BinnedLiveAFrameIsWhatACameraBinnedByItsFileTakes) {
     const auto take = [&](const std::string& camera, std::int64_t binning) {
         LoopRig rig(scenario(camera), {1, false});
         EXPECT_TRUE(rig.settings.change({.binning_x = binning, .binning_y = binning}));
@@ -255,7 +241,7 @@ TEST_F(PlateTest, BinnedLiveAFrameIsWhatACameraBinnedByItsFileTakes) {
     }
 }
 
-TEST_F(PlateTest, SettingsBelongToTheFrameThatTheyWereTakenWith) {
+TEST_F(FrameLoopTest, SettingsBelongToTheFrameThatTheyWereTakenWith) {
     LoopRig rig(scenario(), {0, false});
     rig.loop.start();
     ASSERT_TRUE(rig.collector.wait_for(3));
@@ -274,7 +260,7 @@ TEST_F(PlateTest, SettingsBelongToTheFrameThatTheyWereTakenWith) {
     EXPECT_GE(white, 5u);
 }
 
-TEST_F(PlateTest, ANewFrameRateHoldsFromTheLastFrameOn) {
+TEST_F(FrameLoopTest, ANewFrameRateHoldsFromTheLastFrameOn) {
     LoopRig rig(scenario(", frame_rate_hz: 20"), {0, true});
     rig.loop.start();
     ASSERT_TRUE(rig.collector.wait_for(4));
@@ -295,7 +281,7 @@ TEST_F(PlateTest, ANewFrameRateHoldsFromTheLastFrameOn) {
     }
 }
 
-TEST_F(PlateTest, BlackLevelAndReversalAreThoseAskedFor) {
+TEST_F(FrameLoopTest, BlackLevelAndReversalAreThoseAskedFor) {
     const auto take = [&](const SettingsChange& change) {
         LoopRig rig(scenario(), {1, false});
         EXPECT_TRUE(rig.settings.change(change));
@@ -316,7 +302,7 @@ TEST_F(PlateTest, BlackLevelAndReversalAreThoseAskedFor) {
         }
 }
 
-TEST_F(PlateTest, WhatDoesNotFitChangesNothing) {
+TEST_F(FrameLoopTest, WhatDoesNotFitChangesNothing) {
     LoopRig rig(scenario(), {1, false});
     EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01, .binning_x = 3}));
     EXPECT_FALSE(rig.settings.change({.exposure_s = 0.01, .black_level_dn = 4000}));
@@ -334,7 +320,7 @@ TEST_F(PlateTest, WhatDoesNotFitChangesNothing) {
 
 // --- faults of the picture
 
-TEST_F(PlateTest, FaultsStrikeTheFramesTheyAreOrderedFor) {
+TEST_F(FrameLoopTest, FaultsStrikeTheFramesTheyAreOrderedFor) {
     LoopRig rig(scenario(), {8, 0, false});
     const auto order = [&](FaultKind kind, std::uint64_t frame, double rate = 1, double value = 0) {
         EXPECT_EQ(rig.send(FaultCommand{{kind, rate, value, frame, 1, 0}, false}), CommandStatus::kAccepted);

@@ -72,7 +72,9 @@ double difference(const RadianceImage& a, const RadianceImage& b) {
 // quality of all the shots below
 const std::string kQuality = "quality.samples_per_axis=16";
 
-TEST_F(PlateTest, FastAndExactHaveTheSameBlurForASmallTurn) {
+class ExposureRendererTest : public PlateTest {};
+
+TEST_F(ExposureRendererTest, FastAndExactHaveTheSameBlurForASmallTurn) {
     // 640 px/rad x 0.6 rad/s x 20 ms = 7.68 px to the right.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, -34.377, 0]}\n");
     const Shot off = shoot(file, {kQuality, "quality.motion=off"});
@@ -123,7 +125,7 @@ double rms(const ElectronImage& a, const ElectronImage& b) {
     return std::sqrt(sum / static_cast<double>(a.pixels())) / peak;
 }
 
-TEST_F(PlateTest, FastAndExactGiveTheSameElectronsForASmallTurn) {
+TEST_F(ExposureRendererTest, FastAndExactGiveTheSameElectronsForASmallTurn) {
     // Down and to the right, 7.7 and 3.2 px.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [14.3, -34.377, 0]}\n");
     const auto frame = [&](const std::string& motion, const std::string& error_px, const std::string& finer) {
@@ -143,7 +145,7 @@ TEST_F(PlateTest, FastAndExactGiveTheSameElectronsForASmallTurn) {
     EXPECT_LT(left_over("4", "exact", "2"), 0.01);  // the image rate covers the step
 }
 
-TEST_F(PlateTest, FastMissesATurnAboutTheBoresightAndExactDoesNot) {
+TEST_F(ExposureRendererTest, FastMissesATurnAboutTheBoresightAndExactDoesNot) {
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, 0, 1146], position_m: [0.06, 0.03, 0]}\n");
     const auto frame = [&](const std::string& motion, const std::string& error_px) {
         return electrons_of(file, {"quality.samples_per_axis=8", "quality.motion=" + motion,
@@ -155,7 +157,7 @@ TEST_F(PlateTest, FastMissesATurnAboutTheBoresightAndExactDoesNot) {
     EXPECT_LT(rms(frame("exact", "2"), reference), 0.1 * all);
 }
 
-TEST_F(PlateTest, ExactConvergesWhereFastCannotFollow) {
+TEST_F(ExposureRendererTest, ExactConvergesWhereFastCannotFollow) {
     // About the boresight: 23 degrees in an exposure; the plate lies off the middle.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, 0, 1146], position_m: [0.06, 0.03, 0]}\n");
     const auto at = [&](const std::string& error_px) {
@@ -174,7 +176,7 @@ TEST_F(PlateTest, ExactConvergesWhereFastCannotFollow) {
               difference(coarser.radiance, reference.radiance) / 2);
 }
 
-TEST_F(PlateTest, AStillSceneIsTheSameToTheBitInEveryMode) {
+TEST_F(ExposureRendererTest, AStillSceneIsTheSameToTheBitInEveryMode) {
     const auto file = scenario();
     const Shot off = shoot(file, {"quality.motion=off"});
     for (const char* mode : {"quality.motion=fast", "quality.motion=exact"}) {
@@ -188,14 +190,14 @@ TEST_F(PlateTest, AStillSceneIsTheSameToTheBitInEveryMode) {
     }
 }
 
-TEST_F(PlateTest, TooMuchMotionIsLimitedAndTold) {
+TEST_F(ExposureRendererTest, TooMuchMotionIsLimitedAndTold) {
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, -34.377, 0]}\n");
     const Shot exact = shoot(file, {"quality.motion=exact", "quality.motion_error_px=0.01"});
     EXPECT_EQ(exact.result.parts, ExposureRenderer::kMostParts);
     EXPECT_TRUE(exact.result.parts_limited);
 }
 
-TEST_F(PlateTest, ALineScannerIsBlurredByWhatItsLinesDoNotExpect) {
+TEST_F(ExposureRendererTest, ALineScannerIsBlurredByWhatItsLinesDoNotExpect) {
     // 640 px/rad, lines of 1 ms: 1 px per line is 1.5625 rad/s; the boresight goes down at 1.1 times that.
     const auto file = scenario("", "camera_pose: {rate_deg_s: [-98.475, 0, 0]}\n");
     const auto rate = [&](const std::string& shutter) {
@@ -219,7 +221,7 @@ TEST_F(PlateTest, ALineScannerIsBlurredByWhatItsLinesDoNotExpect) {
     EXPECT_EQ(at_rest(""), 0);
 }
 
-TEST_F(PlateTest, JitterTurnsTheCameraAsItsPsdSays) {
+TEST_F(ExposureRendererTest, JitterTurnsTheCameraAsItsPsdSays) {
     // 0.3 deg rms below 1 Hz, an exposure of 20 ms: all of it is displacement.
     const auto file = scenario(", jitter: {psd: [[0.1, 1300000], [1, 1300000]]}");
     const ScenarioConfig s = load_scenario(file, {});
@@ -231,7 +233,7 @@ TEST_F(PlateTest, JitterTurnsTheCameraAsItsPsdSays) {
     EXPECT_NEAR(shaken.x - calm.x, -640 * angle.y, 0.05);
 }
 
-TEST_F(PlateTest, TheShutterOfTheCameraChoosesTheRays) {
+TEST_F(ExposureRendererTest, TheShutterOfTheCameraChoosesTheRays) {
     const auto rolling = scenario(", shutter: {kind: rolling, line_time_us: 30}");
     const auto rays = [&](const std::vector<std::string>& overrides) {
         return models_of(load_scenario(rolling, overrides)).rays;
@@ -308,7 +310,7 @@ std::vector<Collector::Frame> run_loop(const std::filesystem::path& file, std::u
     return std::move(rig.collector.frames);
 }
 
-TEST_F(PlateTest, FramesOfARollingAndALineCameraFollowTheirTiming) {
+TEST_F(ExposureRendererTest, FramesOfARollingAndALineCameraFollowTheirTiming) {
     const auto rolling = run_loop(scenario(", shutter: {kind: rolling, line_time_us: 100}"), 3);
     ASSERT_EQ(rolling.size(), 3u);
     EXPECT_DOUBLE_EQ(rolling[0].record.exposure_s, 0.02);
@@ -317,7 +319,7 @@ TEST_F(PlateTest, FramesOfARollingAndALineCameraFollowTheirTiming) {
     EXPECT_DOUBLE_EQ(line[0].record.exposure_s, 300e-6);
 }
 
-TEST_F(PlateTest, TheLoopTakesTheStepsOfASequenceInTurn) {
+TEST_F(ExposureRendererTest, TheLoopTakesTheStepsOfASequenceInTurn) {
     const auto frames = run_loop(
         scenario(", sequence: [{exposure_ms: 1}, {exposure_ms: 4, gain_db: 6}, {exposure_ms: 16}]"), 8);
     ASSERT_EQ(frames.size(), 8u);
@@ -333,7 +335,7 @@ TEST_F(PlateTest, TheLoopTakesTheStepsOfASequenceInTurn) {
     EXPECT_GT(middle(1), 5 * middle(0));
 }
 
-TEST_F(PlateTest, AutomaticExposureTakesEffectTwoFramesLater) {
+TEST_F(ExposureRendererTest, AutomaticExposureTakesEffectTwoFramesLater) {
     const auto frames = run_loop(scenario(", auto_exposure: {on: true, speed: 1, percentile: 98}"), 12,
                                  {"camera.exposure_ms=2"});
     ASSERT_EQ(frames.size(), 12u);

@@ -1,11 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "render/vocabulary/check.h"
-#include "render/vocabulary/latest.h"
 #include "render/vocabulary/pose.h"
-#include "render/vocabulary/random.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/near.h"
 
@@ -59,40 +55,6 @@ TEST(Pose, LookAlongPointsTheBoresightAndKeepsUpUp) {
     expect_near(m * Vec3d{0, 0, 1}, {0, 1, 0}, 1e-15);
     expect_near(m * Vec3d{0, 1, 0}, {0, 0, -1}, 1e-15);
     EXPECT_THROW(look_along({0, 0, 2}, {0, 0, 1}), InputError);
-}
-
-// Known answers of Random123's kat_vectors for philox4x32-10 (Salmon et al., 2011): key 0, counter 0. Purpose
-// 0 is not a stream of ours, so the words are asked for with a cast.
-TEST(Random, IsPhiloxAsPublished) {
-    const auto w = random_words({0, 0}, static_cast<RandomPurpose>(0), 0, 0);
-    EXPECT_EQ(w[0], 0x6627e8d5u);
-    EXPECT_EQ(w[1], 0xe169c58du);
-    EXPECT_EQ(w[2], 0xbc57ac4cu);
-    EXPECT_EQ(w[3], 0x9b00dbd8u);
-}
-
-TEST(Random, UniformNeverReachesItsEnds) {
-    EXPECT_GT(uniform01(0), 0.0f);
-    EXPECT_LT(uniform01(0xFFFFFFFFu), 1.0f);
-}
-
-TEST(Latest, ReaderSeesWholeValuesThatNeverGoBack) {
-    struct Pair {
-        std::uint64_t a = 0, b = 0;
-    };
-    Latest<Pair> latest;
-    constexpr std::uint64_t kLast = 200000;
-    std::thread writer([&] {
-        for (std::uint64_t i = 1; i <= kLast; ++i) latest.write({i, ~i});
-    });
-    std::uint64_t before = 0;
-    while (before < kLast) {
-        const Pair seen = latest.read();
-        ASSERT_TRUE(seen.b == ~seen.a || seen.a == 0);
-        ASSERT_GE(seen.a, before);
-        before = seen.a;
-    }
-    writer.join();
 }
 
 }  // namespace

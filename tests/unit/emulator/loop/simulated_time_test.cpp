@@ -17,32 +17,17 @@ using Action = ClockCommand::Action;
 
 constexpr std::int64_t kMs_ns = 1'000'000;
 
-PoseCommand pose_at(TimeTai time, double x_m, double velocity_m_s = 0) {
-    PoseCommand command;
-    command.motion.time = time;
-    command.motion.pose.position_world_m = {x_m, 0, 0};
-    command.motion.velocity_world_m_s = {velocity_m_s, 0, 0};
-    return command;
-}
 ClockCommand step(std::int64_t ns) { return {Action::kStep, 0, 1, ns}; }
 void sleep_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
-// Of the light; the plate's 10 mm are 1.6 px, the other way.
-double mean_x(const Collector::Frame& f) {
-    double sum = 0, light = 0;
-    for (std::size_t i = 0; i < f.dn.size(); ++i) {
-        const double dn = std::max(0.0, f.dn[i] - 100.0);  // above noise
-        light += dn, sum += dn * (static_cast<double>(i % static_cast<std::size_t>(f.width)) + 0.5);
-    }
-    return sum / light;
-}
+class SimulatedTimeTest : public PlateTest {};
 
 // --- scale
 
 // A camera that flies past the plate, triggered at simulated instants.
 std::vector<Collector::Frame> fly_by(const std::filesystem::path& file, const std::string& scale) {
     LoopRig rig(file, {0, true}, {"mode=triggered", "clock.scale=" + scale});
-    EXPECT_EQ(rig.send(pose_at(rig.start, 0, 0.05)), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(camera_pose_at(rig.start, 0, 0.05)), CommandStatus::kAccepted);
     rig.loop.start();
     for (const std::int64_t at_ms : {1000, 1100, 1500})
         EXPECT_EQ(rig.send(ExposeCommand{rig.start + at_ms * kMs_ns, 1}), CommandStatus::kAccepted);
@@ -51,7 +36,7 @@ std::vector<Collector::Frame> fly_by(const std::filesystem::path& file, const st
     return std::move(rig.collector.frames);
 }
 
-TEST_F(PlateTest, AtAnyScaleTheSameInstantsGiveTheSameFrames) {
+TEST_F(SimulatedTimeTest, AtAnyScaleTheSameInstantsGiveTheSameFrames) {
     const auto file = scenario(", frame_rate_hz: 50, frame_rate_range_hz: [1, 50]");
     const auto real = fly_by(file, "1"), fast = fly_by(file, "5"), slow = fly_by(file, "0.5");
     const TimeTai start = parse_utc("2026-12-21T00:00:00Z");
@@ -60,7 +45,7 @@ TEST_F(PlateTest, AtAnyScaleTheSameInstantsGiveTheSameFrames) {
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(real[i].record.exposure_mid - start, expected_ms[i] * kMs_ns);
         // 50 mm/s at 4 m and 640 px: 8 px/s.
-        EXPECT_NEAR(mean_x(real[i]), 32 - 8e-3 * static_cast<double>(expected_ms[i]), 0.2);
+        EXPECT_NEAR(plate_x_px(real[i]), 32 - 8e-3 * static_cast<double>(expected_ms[i]), 0.2);
         for (const auto* other : {&fast, &slow}) {
             EXPECT_EQ((*other)[i].record.exposure_mid, real[i].record.exposure_mid);
             EXPECT_EQ((*other)[i].record.exposure_s, 0.02);
@@ -76,7 +61,7 @@ TEST_F(PlateTest, AtAnyScaleTheSameInstantsGiveTheSameFrames) {
     EXPECT_NEAR(static_cast<double>(machine_ns(slow)), 1000e6, 1);
 }
 
-TEST_F(PlateTest, FreeRunKeepsItsSimulatedRasterThroughChangesOfScale) {
+TEST_F(SimulatedTimeTest, FreeRunKeepsItsSimulatedRasterThroughChangesOfScale) {
     LoopRig rig(scenario(", frame_rate_hz: 50"), {0, true}, {"clock.scale=0.5"});
     rig.loop.start();
     ASSERT_TRUE(rig.collector.wait_for(3));
@@ -97,7 +82,7 @@ TEST_F(PlateTest, FreeRunKeepsItsSimulatedRasterThroughChangesOfScale) {
 
 // --- standing and stepping
 
-TEST_F(PlateTest, WhileTimeStandsFramesOfTheStandingWorldKeepComing) {
+TEST_F(SimulatedTimeTest, WhileTimeStandsFramesOfTheStandingWorldKeepComing) {
     LoopRig rig(scenario(", frame_rate_hz: 50", "camera_pose: {velocity_m_s: [0.2, 0, 0]}\n"), {0, true},
                 {"clock.paused=true"});
     rig.loop.start();
@@ -122,7 +107,7 @@ TEST_F(PlateTest, WhileTimeStandsFramesOfTheStandingWorldKeepComing) {
         EXPECT_LE(r.exposure_mid, end);
         // 200 mm/s: 32 px/s.
         const double at_s = static_cast<double>(r.exposure_mid - rig.start) * 1e-9;
-        EXPECT_NEAR(mean_x(frames[i]), 32 - 32 * at_s, 0.2) << i;
+        EXPECT_NEAR(plate_x_px(frames[i]), 32 - 32 * at_s, 0.2) << i;
         const bool stands = r.exposure_mid == rig.start || r.exposure_mid == end;
         EXPECT_EQ(r.faults, stands ? kTimeStandsBit : 0u) << i << " at " << at_s;
     }
@@ -131,7 +116,7 @@ TEST_F(PlateTest, WhileTimeStandsFramesOfTheStandingWorldKeepComing) {
     EXPECT_GE(rig.loop.counters().standing.load(), 5u);
 }
 
-TEST_F(PlateTest, ACameraThatWaitsTakesTheFramesOfAStepAndNoMore) {
+TEST_F(SimulatedTimeTest, ACameraThatWaitsTakesTheFramesOfAStepAndNoMore) {
     // 200 ms of the machine's for each frame.
     LoopRig rig(scenario(", frame_rate_hz: 50"), {0, true},
                 {"clock.paused=true", "clock.camera_in_pause=waits", "clock.scale=0.1"});
@@ -153,13 +138,13 @@ TEST_F(PlateTest, ACameraThatWaitsTakesTheFramesOfAStepAndNoMore) {
 
 // A simulator that tells a pose, lets time go on by a frame's period, and again: each frame shows the pose
 // that came before its step, and the one at a step's end the pose of the next.
-TEST_F(PlateTest, WhatIsToldWhileTheCameraWaitsCountsForTheFrameThatTimeGoesOnWith) {
+TEST_F(SimulatedTimeTest, WhatIsToldWhileTheCameraWaitsCountsForTheFrameThatTimeGoesOnWith) {
     LoopRig rig(scenario(", frame_rate_hz: 50"), {0, true},
                 {"clock.paused=true", "clock.camera_in_pause=waits"});
     rig.loop.start();
     for (std::size_t i = 1; i <= 4; ++i) {
         sleep_ms(100);
-        ASSERT_EQ(rig.send(pose_at({}, 0.01 * static_cast<double>(i))), CommandStatus::kAccepted);
+        ASSERT_EQ(rig.send(camera_pose_at({}, 0.01 * static_cast<double>(i))), CommandStatus::kAccepted);
         ASSERT_EQ(rig.send(step(20 * kMs_ns)), CommandStatus::kAccepted);
         ASSERT_TRUE(rig.collector.wait_for(i));
     }
@@ -173,7 +158,7 @@ TEST_F(PlateTest, WhatIsToldWhileTheCameraWaitsCountsForTheFrameThatTimeGoesOnWi
     }
 }
 
-TEST_F(PlateTest, AStandingWorldHasNoBlur) {
+TEST_F(SimulatedTimeTest, AStandingWorldHasNoBlur) {
     LoopRig rig(scenario("", "camera_pose: {rate_deg_s: [0, 20, 0]}\n"), {1, false});
     RadianceImage radiance = rig.exposures.make_image();
     std::vector<PointSource> points;
@@ -192,7 +177,7 @@ TEST_F(PlateTest, AStandingWorldHasNoBlur) {
     EXPECT_EQ(length(exposure.camera_rate_rad_s), 0);
 }
 
-TEST_F(PlateTest, ATriggerWaitsForItsSimulatedInstantAlsoWhileTimeStands) {
+TEST_F(SimulatedTimeTest, ATriggerWaitsForItsSimulatedInstantAlsoWhileTimeStands) {
     LoopRig rig(scenario(", frame_rate_hz: 50"), {0, true}, {"mode=triggered", "clock.paused=true"});
     rig.loop.start();
     ASSERT_EQ(rig.send(ExposeCommand{rig.start + 50 * kMs_ns, 1}), CommandStatus::kAccepted);
@@ -219,10 +204,10 @@ std::vector<Collector::Frame> go_silent(const std::filesystem::path& file, const
         file, {},
         {"mode=lockstep", "commands.poses.stale_after_s=0.5", "commands.poses.when_stale=" + when_stale});
     rig.loop.start();
-    EXPECT_EQ(rig.send(pose_at(rig.start, 0, 0.02)), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(camera_pose_at(rig.start, 0, 0.02)), CommandStatus::kAccepted);
     for (const std::int64_t at_ms : {400, 1000, 2000})
         EXPECT_EQ(rig.send(ExposeCommand{rig.start + at_ms * kMs_ns, 1}), CommandStatus::kAccepted);
-    EXPECT_EQ(rig.send(pose_at(rig.start + 3000 * kMs_ns, 0)), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(camera_pose_at(rig.start + 3000 * kMs_ns, 0)), CommandStatus::kAccepted);
     EXPECT_EQ(rig.send(ExposeCommand{rig.start + 3000 * kMs_ns, 1}), CommandStatus::kAccepted);
     EXPECT_TRUE(rig.collector.wait_for(4));
     EXPECT_EQ(rig.loop.counters().stale.load(), 2u);
@@ -236,22 +221,22 @@ std::vector<Collector::Frame> go_silent(const std::filesystem::path& file, const
     return std::move(rig.collector.frames);
 }
 
-TEST_F(PlateTest, WithoutPosesTheWorldMovesOnOrStandsOrIsDark) {
+TEST_F(SimulatedTimeTest, WithoutPosesTheWorldMovesOnOrStandsOrIsDark) {
     const auto file = scenario();
     // 20 mm/s: 3.2 px/s.
     const auto moving = go_silent(file, "propagate"), held = go_silent(file, "hold"),
                black = go_silent(file, "black");
     for (const auto* frames : {&moving, &held, &black}) {
-        EXPECT_NEAR(mean_x((*frames)[0]), 32 - 3.2 * 0.4, 0.2);
-        EXPECT_NEAR(mean_x((*frames)[3]), 32, 0.2);
+        EXPECT_NEAR(plate_x_px((*frames)[0]), 32 - 3.2 * 0.4, 0.2);
+        EXPECT_NEAR(plate_x_px((*frames)[3]), 32, 0.2);
         EXPECT_EQ((*frames)[0].dn, moving[0].dn);
         EXPECT_EQ((*frames)[3].dn, moving[3].dn);
     }
-    EXPECT_NEAR(mean_x(moving[1]), 32 - 3.2, 0.2);
-    EXPECT_NEAR(mean_x(moving[2]), 32 - 6.4, 0.2);
+    EXPECT_NEAR(plate_x_px(moving[1]), 32 - 3.2, 0.2);
+    EXPECT_NEAR(plate_x_px(moving[2]), 32 - 6.4, 0.2);
     // Since 0.5 s, where they were then.
-    EXPECT_NEAR(mean_x(held[1]), 32 - 1.6, 0.2);
-    EXPECT_NEAR(mean_x(held[2]), 32 - 1.6, 0.2);
+    EXPECT_NEAR(plate_x_px(held[1]), 32 - 1.6, 0.2);
+    EXPECT_NEAR(plate_x_px(held[2]), 32 - 1.6, 0.2);
     for (const std::size_t i : {1u, 2u}) {
         // Offset 50 DN, read noise 5 e- at 0.2 DN/e-: 1 DN; six of them and the rounding.
         const auto [least, most] = std::minmax_element(black[i].dn.begin(), black[i].dn.end());
@@ -263,12 +248,12 @@ TEST_F(PlateTest, WithoutPosesTheWorldMovesOnOrStandsOrIsDark) {
     }
 }
 
-TEST_F(PlateTest, FramesStopWithoutPosesAndComeAgainWithThem) {
+TEST_F(SimulatedTimeTest, FramesStopWithoutPosesAndComeAgainWithThem) {
     LoopRig rig(scenario(", frame_rate_hz: 50"), {0, true},
                 {"commands.poses.stale_after_s=0.2", "commands.poses.when_stale=stop"});
     rig.loop.start();
     ASSERT_TRUE(rig.collector.wait_for(15));  // 300 ms: before the first pose nothing is missed
-    ASSERT_EQ(rig.send(pose_at({}, 0)), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(camera_pose_at({}, 0)), CommandStatus::kAccepted);
     for (int i = 0; i < 1000 && !rig.poses.stops(rig.clock.now()); ++i) sleep_ms(10);
     sleep_ms(500);  // what had begun is out
     const std::size_t stopped = rig.collector.count();
@@ -277,19 +262,19 @@ TEST_F(PlateTest, FramesStopWithoutPosesAndComeAgainWithThem) {
     ASSERT_TRUE(rig.settings.change({.triggered = true, .trigger_source = TriggerSource::kLine0}));
     EXPECT_EQ(rig.send(ExposeCommand{}), CommandStatus::kNotNow);
     ASSERT_TRUE(rig.settings.change({.triggered = false}));
-    ASSERT_EQ(rig.send(pose_at({}, 0)), CommandStatus::kAccepted);
+    ASSERT_EQ(rig.send(camera_pose_at({}, 0)), CommandStatus::kAccepted);
     EXPECT_TRUE(rig.collector.wait_for(stopped + 2));
     rig.loop.stop();
     for (const auto& f : rig.collector.frames) EXPECT_EQ(f.record.faults, 0u);
 }
 
-TEST_F(PlateTest, TheFirstFrameAfterTagsWentBackSaysSo) {
+TEST_F(SimulatedTimeTest, TheFirstFrameAfterTagsWentBackSaysSo) {
     LoopRig rig(scenario(), {}, {"mode=lockstep"});
     rig.loop.start();
     const auto at = [&](std::int64_t s) { return rig.start + s * 1000 * kMs_ns; };
-    EXPECT_EQ(rig.send(pose_at(at(10), 0)), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(camera_pose_at(at(10), 0)), CommandStatus::kAccepted);
     EXPECT_EQ(rig.send(ExposeCommand{at(10), 1}), CommandStatus::kAccepted);
-    EXPECT_EQ(rig.send(pose_at(at(5), 0.01)), CommandStatus::kAccepted);
+    EXPECT_EQ(rig.send(camera_pose_at(at(5), 0.01)), CommandStatus::kAccepted);
     EXPECT_EQ(rig.send(ExposeCommand{at(11), 1}), CommandStatus::kAccepted);
     EXPECT_EQ(rig.send(ExposeCommand{at(12), 1}), CommandStatus::kAccepted);
     ASSERT_TRUE(rig.collector.wait_for(3));
@@ -298,7 +283,7 @@ TEST_F(PlateTest, TheFirstFrameAfterTagsWentBackSaysSo) {
     EXPECT_EQ(frames[0].record.faults, 0u);
     EXPECT_EQ(frames[1].record.faults, kTagsWentBackBit);
     EXPECT_EQ(frames[2].record.faults, 0u);
-    EXPECT_NEAR(mean_x(frames[1]), 32 - 1.6, 0.2);
+    EXPECT_NEAR(plate_x_px(frames[1]), 32 - 1.6, 0.2);
 }
 
 }  // namespace

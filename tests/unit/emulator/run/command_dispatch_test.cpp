@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "emulator/run/command_dispatch.h"
+#include "tests/support/world_at.h"
+
+namespace hilcam {
+namespace {
+
+TEST(CommandDispatch, SettingsAreAllOrNothingAndTimeTagsAreBounded) {
+    CameraModel camera;
+    LiveSettings settings(camera);
+    const Motion initial = motion_at(0, 0);
+    WorldState world(std::span(&initial, 1), {});
+    SimulatedClock clock({1'000'000'000'000'000}, 0);
+    FaultBoard faults;
+    CommandDispatch dispatch({{&world, &settings, &faults}}, clock);
+    SettingsCommand command;
+    command.gain_db = 3;
+    command.exposure_s = 1e9;
+    EXPECT_EQ(dispatch.handle(command, {1, 0}), CommandStatus::kBadArgument);
+    EXPECT_EQ(settings.settings().gain_db, camera.gain_db);
+    PoseCommand pose;
+    pose.motion.time.ns = std::numeric_limits<std::int64_t>::min();
+    EXPECT_EQ(dispatch.handle(pose, {1, 0}), CommandStatus::kTimeOutOfRange);
+    pose.motion.time.ns = 0;
+    EXPECT_EQ(dispatch.handle(pose, {1, 0}), CommandStatus::kAccepted);
+    pose.object = 9;
+    EXPECT_EQ(dispatch.handle(pose, {1, 0}), CommandStatus::kUnknownObject);
+    dispatch.handle(StopCommand{}, {1, 0});
+    EXPECT_FALSE(settings.settings().running);
+}
+
+TEST(CommandDispatch, ACommandIsForTheCameraItNamesAndAPoseForAll) {
+    CameraModel camera;
+    LiveSettings left(camera), right(camera);
+    const Motion initial = motion_at(0, 0);
+    WorldState left_world(std::span(&initial, 1), {}), right_world(std::span(&initial, 1), {});
+    FaultBoard left_faults, right_faults;
+    SimulatedClock clock({1'000'000'000'000'000}, 0);
+    CommandDispatch dispatch({{&left_world, &left, &left_faults}, {&right_world, &right, &right_faults}},
+                             clock);
+    SettingsCommand settings;
+    settings.gain_db = 3;
+    EXPECT_EQ(dispatch.handle(settings, {1, 0, 2}), CommandStatus::kAccepted);
+    EXPECT_EQ(left.settings().gain_db, 0);
+    EXPECT_EQ(right.settings().gain_db, 3);
+    settings.gain_db = 6;
+    EXPECT_EQ(dispatch.handle(settings, {2, 0, 0}), CommandStatus::kAccepted);
+    EXPECT_EQ(left.settings().gain_db, 6);
+    EXPECT_EQ(right.settings().gain_db, 6);
+    EXPECT_EQ(dispatch.handle(settings, {3, 0, 3}), CommandStatus::kUnknownObject);
+    EXPECT_EQ(dispatch.handle(FaultCommand{{FaultKind::kFrameDrop, 1, 0, 0, 0, 0}, false}, {4, 0, 1}),
+              CommandStatus::kAccepted);
+    EXPECT_TRUE(left_faults.order_of(FaultKind::kFrameDrop));
+    EXPECT_FALSE(right_faults.order_of(FaultKind::kFrameDrop));
+    PoseCommand pose;
+    pose.motion = motion_at(1'000'000'000'000'000, 7);
+    EXPECT_EQ(dispatch.handle(pose, {5, 1, 1}), CommandStatus::kAccepted);
+    EXPECT_EQ(camera_x_m(left_world, 1'000'000'000'000'000), 7);
+    EXPECT_EQ(camera_x_m(right_world, 1'000'000'000'000'000), 7);
+}
+
+}  // namespace
+}  // namespace hilcam
