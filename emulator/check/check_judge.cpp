@@ -92,7 +92,7 @@ void judge_light(const ScenarioConfig& s, const SeenObject& o, const CameraRepor
 }
 
 void judge_terrain(const ScenarioConfig& s, const FirstSight& sight, std::vector<std::string>& out) {
-    if (!s.has_terrain) return;
+    if (!s.terrain) return;
     if (!sight.height_above_ground_m)
         out.push_back(
             "the camera is beside the terrain's map: terrain.place or pose, heights.spacing_m, or where the "
@@ -104,7 +104,7 @@ void judge_terrain(const ScenarioConfig& s, const FirstSight& sight, std::vector
 
 // Whether anything in the picture sends light.
 bool shows_light(const ScenarioConfig& s, const FirstSight& sight) {
-    if (sight.shows_sun || sight.shows_body || s.has_terrain || !s.stars.catalogue.empty() ||
+    if (sight.shows_sun || sight.shows_body || s.terrain || (s.stars && !s.stars->catalogue.empty()) ||
         any_lamp_lit(s) || models_of(s).radiance != "reflected")
         return true;
     return std::any_of(sight.objects.begin(), sight.objects.end(), [](const SeenObject& o) {

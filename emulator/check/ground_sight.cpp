@@ -77,7 +77,7 @@ std::optional<GroundSight> ground_sight(const ScenarioConfig& s, const Pose& cam
     out.high_m = 2 * out.distance_m * std::tan(0.5 * std::min(sheet.field_y_rad, 3.0));
     out.off_vertical_rad = angle(-sight_dir, up);
     out.sun_elevation_rad = 0.5 * kPi - angle(to_sun_m, up);
-    if (s.has_terrain) return out;
+    if (s.terrain) return out;
     const SpectralGrid band = band_of(sheet);
     const BodyLook look(*id, s.bodies[index_of(*id)], band);
     const double sun_au = length(to_sun_m) / kAstronomicalUnit_m;

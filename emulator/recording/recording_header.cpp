@@ -37,7 +37,7 @@ RecordingHeader recording_header(const ScenarioConfig& scenario) {
 
 std::vector<std::string> recording_warnings(const ScenarioConfig& scenario) {
     std::vector<std::string> out;
-    if (scenario.has_terrain && !scenario.terrain.wait)
+    if (scenario.terrain && !scenario.terrain->wait)
         out.push_back(
             "terrain comes when it is ready, so a replay may show it differently; 'terrain.wait: true' makes "
             "frames wait for it");

@@ -171,9 +171,9 @@ Emulator::~Emulator() {
 }
 
 void Emulator::make_telemetry() {
-    if (!scenario_.has_telemetry && receivers_.empty()) return;
-    TelemetryConfig config = scenario_.telemetry;
-    if (!scenario_.has_telemetry) config.port.port = 0;
+    if (!scenario_.telemetry && receivers_.empty()) return;
+    TelemetryConfig config = scenario_.telemetry.value_or(TelemetryConfig{});
+    if (!scenario_.telemetry) config.port.port = 0;
     telemetry_ = std::make_unique<TelemetrySender>(config, [this] { return housekeeping(); });
     std::vector<CommandReceiver*> receivers;
     for (const auto& receiver : receivers_) receivers.push_back(receiver.get());

@@ -17,9 +17,9 @@ TruthSource truth_source(const ScenarioConfig& s, const SpectralGrid& grid, std:
     source.parts = source.things;
     for (const ObjectConfig& object : s.objects)
         for (const JointConfig& joint : object.joints) source.parts.push_back(object.name + "/" + joint.node);
-    if (s.has_terrain) {
-        source.things.push_back(s.terrain.name);
-        source.parts.push_back(s.terrain.name);
+    if (s.terrain) {
+        source.things.push_back(s.terrain->name);
+        source.parts.push_back(s.terrain->name);
     }
     return source;
 }
@@ -30,7 +30,7 @@ TruthWishes truth_wishes(const ScenarioConfig& s) {
     for (std::uint32_t i = 0; i < objects; ++i) wishes.thing_of_object.push_back(i);
     for (std::uint32_t i = 0; i < objects; ++i)
         wishes.thing_of_object.insert(wishes.thing_of_object.end(), s.objects[i].joints.size(), i);
-    if (s.has_terrain) wishes.thing_of_object.push_back(objects);
+    if (s.terrain) wishes.thing_of_object.push_back(objects);
     return wishes;
 }
 

@@ -54,29 +54,26 @@ Fields fields(ScenarioConfig& s) {
         beside_frames(integer("threads", s.threads, {0, 1024},
                               "number of threads that render and sense; 0: one per core")),
         section("origin", s.origin, "choice of the world's origin; the world's axes are ICRF"),
-        optional(section("site", s.site,
-                         "place of the local axes, on the origin's body; left out: at terrain.place, or at "
-                         "an origin that turns"),
-                 s.has_site),
+        section("site", s.site,
+                "place of the local axes, on the origin's body; left out: at terrain.place, or at "
+                "an origin that turns"),
         required(section("camera", s.camera, "data sheet of the camera")),
         optional(section("camera_pose", s.camera_pose,
                          "place and attitude of the camera until commands say otherwise"),
                  s.has_camera_pose),
-        optional(section("camera_motion", s.camera_motion,
-                         "motion of the camera's body until commands say otherwise; replaces camera_pose"),
-                 s.has_camera_motion),
-        optional(section("leap_seconds", s.leap_seconds, "table of leap seconds; replaces the built-in one"),
-                 s.has_leap_seconds),
+        section("camera_motion", s.camera_motion,
+                "motion of the camera's body until commands say otherwise; replaces camera_pose"),
+        section("leap_seconds", s.leap_seconds, "table of leap seconds; replaces the built-in one"),
         section("earth_orientation", s.origin.earth,
                 "orientation of the Earth as the IERS measures it (Bulletin A); without it UT1 is UTC and "
                 "the pole stands still"),
         sections("objects", s.objects, "meshes in the scene; commands number them from 1"),
-        optional(section("terrain", s.terrain, "ground from a height map"), s.has_terrain),
+        section("terrain", s.terrain, "ground from a height map"),
         sections("lamps", s.lamps,
                  "light sources carried by things; commands number them from 1 (docs/lamps.md)"),
         section("sun", s.sun, "light and place of the Sun"),
         section("atmosphere", s.atmosphere, "air of the Earth"),
-        optional(section("stars", s.stars, "stars in the sky"), s.has_stars),
+        section("stars", s.stars, "stars in the sky"),
         numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
                 "edges of the spectral bins"),
         optional(section("rays", s.models.rays,
@@ -94,9 +91,8 @@ Fields fields(ScenarioConfig& s) {
         beside_frames(sections("events", s.events,
                                "things that happen by themselves, at a time or when something becomes true")),
         beside_frames(section("commands", s.commands, "sources of commands")),
-        beside_frames(optional(
-            section("telemetry", s.telemetry, "receivers that get frame reports and housekeeping unasked"),
-            s.has_telemetry)),
+        beside_frames(
+            section("telemetry", s.telemetry, "receivers that get frame reports and housekeeping unasked")),
         beside_frames(section("outputs", s.outputs, "destinations of frames")),
     };
     for (std::size_t i = 0; i < kBodyCount; ++i)
@@ -177,7 +173,7 @@ RenderQuality render_quality_of(const ScenarioConfig& s) {
     RenderQuality quality = s.quality.render;
     const ImageGeometry image =
         geometry_of(s.camera, static_cast<int>(s.quality.guard_px), static_cast<int>(s.quality.oversampling));
-    if (!VisibilityBuffer::takes(image) || models_of(s).rays.model != "pinhole" || s.has_terrain ||
+    if (!VisibilityBuffer::takes(image) || models_of(s).rays.model != "pinhole" || s.terrain ||
         quality.noise_budget > 0)
         quality.visibility = "rays";
     return quality;
@@ -217,7 +213,7 @@ RenderModels models_of(const ScenarioConfig& s) {
 void validate(const ScenarioConfig& s) {
     at_key("time_utc", [&] { parse_utc(s.time_utc); });
     SpectralGrid grid(s.spectrum_edges_um);
-    if (s.has_camera_pose && s.has_camera_motion)
+    if (s.has_camera_pose && s.camera_motion)
         throw KeyError("camera_motion", "a scenario has either 'camera_pose' or 'camera_motion'; found both");
     check_site(s);
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
@@ -269,8 +265,8 @@ ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const 
         validate(scenario);
     };
     read_config(file, root, overrides);
-    if (scenario.has_leap_seconds) {
-        const std::string warning = apply_leap_seconds(scenario.leap_seconds, scenario.time_utc);
+    if (scenario.leap_seconds) {
+        const std::string warning = apply_leap_seconds(*scenario.leap_seconds, scenario.time_utc);
         if (!warning.empty()) scenario.warnings.push_back(warning);
     }
     return scenario;

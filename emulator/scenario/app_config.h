@@ -56,24 +56,20 @@ struct ScenarioConfig {
     std::int64_t seed = 1;
     bool has_seed = false;  // stated, or settled by settle_seed()
     std::int64_t threads = 0;
-    OriginConfig origin;  // with the key `earth_orientation`
-    PlaceConfig site;     // where local axes stand (site.h)
-    bool has_site = false;
+    OriginConfig origin;              // with the key `earth_orientation`
+    std::optional<PlaceConfig> site;  // where local axes stand (site.h)
     CameraModel camera;
     PoseConfig camera_pose;
-    MotionConfig camera_motion;
-    bool has_camera_pose = false, has_camera_motion = false;
-    LeapSecondsConfig leap_seconds;
-    bool has_leap_seconds = false;
+    bool has_camera_pose = false;
+    std::optional<MotionConfig> camera_motion;
+    std::optional<LeapSecondsConfig> leap_seconds;
     std::vector<ObjectConfig> objects;
-    TerrainConfig terrain;
-    bool has_stars = false;
-    bool has_terrain = false;
+    std::optional<TerrainConfig> terrain;
     std::vector<LampConfig> lamps;
     SunConfig sun;
     std::array<BodyConfig, kBodyCount> bodies;
     AtmosphereConfig atmosphere;
-    StarsConfig stars;
+    std::optional<StarsConfig> stars;
     std::vector<double> spectrum_edges_um = {0.40, 0.52, 0.62, 0.75, 0.95};
     RenderModels models;
     bool has_rays = false;
@@ -86,8 +82,7 @@ struct ScenarioConfig {
     std::vector<FaultConfig> faults;
     std::vector<EventConfig> events;
     CommandsConfig commands;
-    TelemetryConfig telemetry;
-    bool has_telemetry = false;
+    std::optional<TelemetryConfig> telemetry;
     OutputsConfig outputs;
 };
 Fields fields(ScenarioConfig& scenario);

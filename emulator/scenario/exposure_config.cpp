@@ -8,7 +8,7 @@ ExposureConfig exposure_config_of(const ScenarioConfig& s) {
     return {.motion = s.quality.motion,
             .motion_error_px = s.quality.motion_error_px,
             .sampling = sampling_of(s),
-            .has_terrain = s.has_terrain,
+            .has_terrain = s.terrain.has_value(),
             .seed = static_cast<std::uint64_t>(s.seed),
             .start = parse_utc(s.time_utc)};
 }

@@ -20,7 +20,7 @@ void refuse_places(const SunConfig& sun) {
 // Sunlight comes from behind the camera's right shoulder at azimuth 90 and a phase angle below 90.
 Vec3d direction_by_phase(const ScenarioConfig& s) {
     const PoseConfig& pose = s.camera_pose;
-    const bool fixed = !s.has_camera_motion && pose.frame == PoseConfig::Frame::kWorld &&
+    const bool fixed = !s.camera_motion && pose.frame == PoseConfig::Frame::kWorld &&
                        attitude_of(pose) != PoseConfig::Attitude::kNadir;
     if (!fixed)
         throw KeyError("sun.phase_deg",

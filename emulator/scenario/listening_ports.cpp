@@ -41,8 +41,8 @@ void check_listening_ports(const ScenarioConfig& s) {
         listeners.add("UDP", "commands.udp.port", s.commands.udp.address, s.commands.udp.port);
     if (s.commands.has_tcp)
         listeners.add("TCP", "commands.tcp.port", s.commands.tcp.address, s.commands.tcp.port);
-    if (s.has_telemetry)
-        listeners.add("TCP", "telemetry.port", s.telemetry.port.address, s.telemetry.port.port);
+    if (s.telemetry)
+        listeners.add("TCP", "telemetry.port", s.telemetry->port.address, s.telemetry->port.port);
     add_outputs("", s.outputs, listeners);
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
         add_outputs("more_cameras." + std::to_string(i) + ".", s.more_cameras[i].outputs, listeners);

@@ -62,9 +62,9 @@ class Builder {
 
     const MotionConfig* config_of(std::size_t thing) const {
         if (local_[thing]) return &*local_[thing];
-        if (thing == 0) return scenario_.has_camera_motion ? &scenario_.camera_motion : nullptr;
+        if (thing == 0) return scenario_.camera_motion ? &*scenario_.camera_motion : nullptr;
         const ObjectConfig& object = scenario_.objects[thing - 1];
-        return object.has_motion ? &object.motion : nullptr;
+        return object.motion ? &*object.motion : nullptr;
     }
 
     std::size_t thing_named(const std::string& name) const {
@@ -88,8 +88,8 @@ class Builder {
 
     std::unique_ptr<MotionSource> source_of(const MotionConfig& m, std::size_t thing) {
         AttitudeJitter jitter;
-        if (m.attitude.has_jitter)
-            jitter = AttitudeJitter(m.attitude.jitter, static_cast<std::uint64_t>(scenario_.seed),
+        if (m.attitude.jitter)
+            jitter = AttitudeJitter(*m.attitude.jitter, static_cast<std::uint64_t>(scenario_.seed),
                                     static_cast<std::uint32_t>(thing), start_);
         auto source =
             std::make_unique<MotionSource>(trajectory_of(m, thing), attitude_of(m, thing), std::move(jitter));
@@ -117,15 +117,16 @@ class Builder {
             case MotionConfig::Kind::kKepler:
                 return kepler_of(m);
             case MotionConfig::Kind::kTle: {
-                const std::string file = m.tle.file.string();
-                const std::vector<Tle> sets = load_tles(m.tle.file, m.tle.checksum);
-                return make_tle(choose_tle(sets, m.tle.satellite, start_, file), m.tle.valid_s, file);
+                const TleConfig& tle = m.tle.value();
+                const std::string file = tle.file.string();
+                const std::vector<Tle> sets = load_tles(tle.file, tle.checksum);
+                return make_tle(choose_tle(sets, tle.satellite, start_, file), tle.valid_s, file);
             }
             case MotionConfig::Kind::kOem: {
-                std::vector<OemSegment> segments = load_oem(m.oem.file, m.oem.object);
-                if (m.outside == MotionConfig::Outside::kRefuse)
-                    require_no_gap(segments, m.oem.file.string());
-                return make_oem(std::move(segments), m.oem.file.string());
+                const EphemerisFileConfig& oem = m.oem.value();
+                std::vector<OemSegment> segments = load_oem(oem.file, oem.object);
+                if (m.outside == MotionConfig::Outside::kRefuse) require_no_gap(segments, oem.file.string());
+                return make_oem(std::move(segments), oem.file.string());
             }
             case MotionConfig::Kind::kCw: {
                 PlacedFrame lvlh{PlacedFrame::Kind::kLvlh, thing_named(m.of), center_of(m)};
@@ -140,7 +141,7 @@ class Builder {
     }
 
     std::unique_ptr<Trajectory> kepler_of(const MotionConfig& m) const {
-        const KeplerConfig& k = m.kepler;
+        const KeplerConfig& k = m.kepler.value();
         const double mean =
             k.has_true ? mean_anomaly(k.true_anomaly_rad, k.eccentricity) : k.mean_anomaly_rad;
         const TimeTai epoch = k.epoch_utc.empty() ? start_ : parse_utc(k.epoch_utc);
@@ -185,9 +186,10 @@ class Builder {
         if (a.law == Law::kKeyframes)
             return make_keyframed_attitude(frame_of(m.frame, m.of, m, thing), keyframes_of(m));
         if (a.law == Law::kAem) {
-            std::vector<AemSegment> segments = load_aem(a.aem.file, a.aem.object);
-            if (m.outside == MotionConfig::Outside::kRefuse) require_no_gap(segments, a.aem.file.string());
-            return make_aem(std::move(segments), center_of(m), a.aem.file.string());
+            const EphemerisFileConfig& aem = a.aem.value();
+            std::vector<AemSegment> segments = load_aem(aem.file, aem.object);
+            if (m.outside == MotionConfig::Outside::kRefuse) require_no_gap(segments, aem.file.string());
+            return make_aem(std::move(segments), center_of(m), aem.file.string());
         }
         return make_pointing(pointing_of(m));
     }

@@ -114,8 +114,8 @@ Fields fields(AttitudeConfig& a) {
         vector3("second_axis", a.second_axis, 1, {-1e6, 1e6}, "axis of the body that points near 'second'"),
         choice("second", a.second, {"north", "velocity", "orbit_normal", "nadir", "sun"},
                "direction that second_axis is turned to; north: the world's +z"),
-        optional(section("aem", a.aem, "attitude ephemeris message, CCSDS 504.0-B"), a.has_aem),
-        optional(section("jitter", a.jitter, "unsteadiness about the body's axes"), a.has_jitter),
+        section("aem", a.aem, "attitude ephemeris message, CCSDS 504.0-B"),
+        section("jitter", a.jitter, "unsteadiness about the body's axes"),
     };
     for (Field& field : rest) list.push_back(std::move(field));
     return list;
@@ -145,9 +145,9 @@ Fields fields(MotionConfig& m) {
         vector3("position_m", m.position_m, 1, {-1e13, 1e13}, "position at the start, for fixed and cw"),
         vector3("velocity_m_s", m.velocity_m_s, 1, {-1e9, 1e9}, "velocity in the frame, for fixed and cw"),
         sections("keyframes", m.keyframes, "places on the way, in order of time"),
-        optional(section("kepler", m.kepler, "elements of an unperturbed orbit"), m.has_kepler),
-        optional(section("tle", m.tle, "two-line element set, propagated by SGP4"), m.has_tle),
-        optional(section("oem", m.oem, "orbit ephemeris message, CCSDS 502.0-B"), m.has_oem),
+        section("kepler", m.kepler, "elements of an unperturbed orbit"),
+        section("tle", m.tle, "two-line element set, propagated by SGP4"),
+        section("oem", m.oem, "orbit ephemeris message, CCSDS 502.0-B"),
         section("attitude", m.attitude, "attitude along the motion"),
         choice("outside", m.outside, {"refuse", "hold"},
                "treatment of times outside those that a file covers. refuse: gaps and a start outside are "
@@ -166,13 +166,13 @@ void validate(const MotionConfig& m) {
                                     "; accepted: kind: " + key + ", or no '" + key + "'");
     };
     forbid(!m.keyframes.empty() && m.kind != Kind::kKeyframes, "keyframes");
-    forbid(m.has_kepler && m.kind != Kind::kKepler, "kepler");
-    forbid(m.has_tle && m.kind != Kind::kTle, "tle");
-    forbid(m.has_oem && m.kind != Kind::kOem, "oem");
+    forbid(m.kepler && m.kind != Kind::kKepler, "kepler");
+    forbid(m.tle && m.kind != Kind::kTle, "tle");
+    forbid(m.oem && m.kind != Kind::kOem, "oem");
     if (m.kind == Kind::kKeyframes) need(!m.keyframes.empty(), "keyframes", "keyframes");
-    if (m.kind == Kind::kKepler) need(m.has_kepler, "kepler", "kepler");
-    if (m.kind == Kind::kTle) need(m.has_tle, "tle", "tle");
-    if (m.kind == Kind::kOem) need(m.has_oem, "oem", "oem");
+    if (m.kind == Kind::kKepler) need(m.kepler.has_value(), "kepler", "kepler");
+    if (m.kind == Kind::kTle) need(m.tle.has_value(), "tle", "tle");
+    if (m.kind == Kind::kOem) need(m.oem.has_value(), "oem", "oem");
     if (m.kind == Kind::kCw) need(!m.of.empty(), "of", "cw");
     if (m.frame == MotionFrame::kLvlh || m.frame == MotionFrame::kThing)
         need(!m.of.empty(), "of", "with frames lvlh and object");
@@ -180,7 +180,7 @@ void validate(const MotionConfig& m) {
         if (m.keyframes[i].attitude.has_radec && m.frame != MotionFrame::kWorld)
             throw KeyError("keyframes." + std::to_string(i) + ".attitude_radec_deg", kRadecIsWorlds);
     const AttitudeConfig& a = m.attitude;
-    if (a.law == AttitudeConfig::Law::kAem && !a.has_aem)
+    if (a.law == AttitudeConfig::Law::kAem && !a.aem)
         throw InputError("attitude has no 'aem'; law aem needs it");
     if (a.law == AttitudeConfig::Law::kKeyframes && m.kind != Kind::kKeyframes)
         throw InputError("attitude: law keyframes needs kind keyframes");

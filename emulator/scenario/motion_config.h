@@ -2,6 +2,7 @@
 // `motion` in a scenario: where a thing's positions and attitudes come from until commands say otherwise.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,9 +58,9 @@ struct AttitudeConfig {
     Vec3d rate_body_rad_s;
     Vec3d axis{0, 0, 1}, second_axis{0, -1, 0};
     enum class Second { kNorth, kVelocity, kOrbitNormal, kNadir, kSun } second = Second::kNorth;
-    EphemerisFileConfig aem;
-    JitterBand jitter;
-    bool has_aem = false, has_jitter = false, has_nadir_of = false;
+    std::optional<EphemerisFileConfig> aem;
+    std::optional<JitterBand> jitter;
+    bool has_nadir_of = false;
 };
 Fields fields(AttitudeConfig& attitude);
 void validate(const AttitudeConfig& attitude);
@@ -71,12 +72,11 @@ struct MotionConfig {
     std::size_t center = 2;  // a BodyId's index, or kBodyCount for the Sun: the Earth
     Vec3d position_m, velocity_m_s;
     std::vector<KeyframeConfig> keyframes;
-    KeplerConfig kepler;
-    TleConfig tle;
-    EphemerisFileConfig oem;
+    std::optional<KeplerConfig> kepler;
+    std::optional<TleConfig> tle;
+    std::optional<EphemerisFileConfig> oem;
     AttitudeConfig attitude;
     enum class Outside { kRefuse, kHold } outside = Outside::kRefuse;
-    bool has_kepler = false, has_tle = false, has_oem = false;
 };
 Fields fields(MotionConfig& motion);
 void validate(const MotionConfig& motion);

@@ -131,25 +131,21 @@ Fields fields(ObjectConfig& o) {
         required(text("name", o.name, "name of the object in messages")),
         optional(path("mesh", o.mesh, o.mesh_where, "mesh file in metres: GLB, glTF, OBJ, STL or PLY"),
                  o.has_mesh),
-        optional(section("generate", o.generate,
-                         "mesh made by a program at first use and cached; replaces a file"),
-                 o.has_generate),
+        section("generate", o.generate, "mesh made by a program at first use and cached; replaces a file"),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
         optional(section("pose", o.pose, "place and attitude of the object until commands say otherwise"),
                  o.has_pose),
-        optional(
-            section("motion", o.motion, "motion of the object until commands say otherwise; replaces pose"),
-            o.has_motion),
+        section("motion", o.motion, "motion of the object until commands say otherwise; replaces pose"),
         section("materials", o.materials, "materials that replace the mesh's own"),
         sections("joints", o.joints, "parts that turn; commands number them from 1"),
     };
 }
 
 void validate(const ObjectConfig& o) {
-    if (o.has_mesh == o.has_generate)
+    if (o.has_mesh == o.generate.has_value())
         throw InputError("an object has either 'mesh' or 'generate'; found " +
                          std::string(o.has_mesh ? "both" : "neither"));
-    if (o.has_pose && o.has_motion)
+    if (o.has_pose && o.motion)
         throw KeyError("motion", "an object has either 'pose' or 'motion'; found both");
 }
 
@@ -167,8 +163,7 @@ Fields fields(PlaceConfig& p) {
 }
 
 void validate(const TerrainConfig& t) {
-    if (t.has_pose && t.has_place)
-        throw KeyError("place", "terrain has either 'pose' or 'place'; found both");
+    if (t.has_pose && t.place) throw KeyError("place", "terrain has either 'pose' or 'place'; found both");
     if (t.pose.frame != PoseConfig::Frame::kWorld)
         throw refused_key("pose.frame", "'local'", "terrain.place, which has local axes");
     for (const auto& [key, given] :
@@ -185,8 +180,7 @@ Fields fields(TerrainConfig& t) {
             section("pose", t.pose,
                     "fixed pose in the world of the map's middle at height 0; axes x east, y north, z up"),
             t.has_pose),
-        optional(section("place", t.place, "place on a body, with which the terrain turns; replaces pose"),
-                 t.has_place),
+        section("place", t.place, "place on a body, with which the terrain turns; replaces pose"),
         section("material", t.material, "material of the ground"),
         number("edge_px", t.edge_px, 1, {0.25, 64}, "greatest edge of the terrain's triangles on the screen"),
         integer("most_triangles", t.most_triangles, {10'000, 50'000'000},

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,15 +66,14 @@ struct ObjectConfig {
     std::string name;
     std::filesystem::path mesh;
     std::string mesh_where;  // the key's place in the scenario
-    GeneratedMeshConfig generate;
+    std::optional<GeneratedMeshConfig> generate;
     double scale = 1;
     PoseConfig pose;
-    MotionConfig motion;
+    std::optional<MotionConfig> motion;
     MaterialSet materials;
     std::vector<JointConfig> joints;
     bool has_mesh = false;
-    bool has_generate = false;
-    bool has_pose = false, has_motion = false;
+    bool has_pose = false;
 };
 Fields fields(ObjectConfig& object);
 void validate(const ObjectConfig& object);
@@ -91,8 +91,8 @@ struct TerrainConfig {
     HeightMapConfig heights;
     double radius_m = 0;
     PoseConfig pose;
-    PlaceConfig place;
-    bool has_pose = false, has_place = false;
+    std::optional<PlaceConfig> place;
+    bool has_pose = false;
     MaterialConfig material;
     double edge_px = 2;
     std::int64_t most_triangles = 1'000'000;

@@ -87,9 +87,11 @@ void list(const SectionField& section, const std::string& prefix, std::string& o
     for (const Field& field : section.fields) {
         if (!field.changes_frames) continue;
         const std::string key = prefix + field.key;
-        if (field.present && !*field.present && !field.required) {
+        const auto* may_lack = std::get_if<OptionalSectionField>(&field.target);
+        const bool lacks = may_lack ? !may_lack->given() : field.present && !*field.present;
+        if (lacks && !field.required) {
             out += key + " = (not given)\n";
-        } else if (const auto* nested = std::get_if<SectionField>(&field.target)) {
+        } else if (const std::optional<SectionField> nested = section_in(field)) {
             list(*nested, key + ".", out);
         } else if (const auto* many = std::get_if<SectionsField>(&field.target)) {
             for (std::size_t i = 0; i < many->count(); ++i)

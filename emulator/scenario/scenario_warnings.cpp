@@ -107,9 +107,9 @@ void look_at_shutters(const ScenarioConfig& s, Lines& out) {
 
 // What is said of places and bodies that the scenario does not have.
 void look_at_frames(const ScenarioConfig& s, Lines& out) {
-    if (s.has_site && !uses_local_axes(s))
+    if (s.site && !uses_local_axes(s))
         out.push_back("site: nothing is in its local axes: give a pose or a motion 'frame: local'");
-    if (s.has_stars && s.stars.catalogue.empty())
+    if (s.stars && s.stars->catalogue.empty())
         out.push_back("stars: there are none without stars.catalogue; hipparcos.csv is shipped");
     if (s.atmosphere.model != "none" && !s.bodies[index_of(BodyId::kEarth)].visible)
         out.push_back("atmosphere: has no effect, as the Earth is not shown: earth.visible");

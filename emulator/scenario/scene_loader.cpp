@@ -32,7 +32,7 @@ namespace {
 
 std::filesystem::path mesh_path(const ObjectConfig& object) {
     if (object.has_mesh) return object.mesh;
-    const GeneratedMeshConfig& g = object.generate;
+    const GeneratedMeshConfig& g = object.generate.value();
     std::string angle = std::to_string(g.wing_angle_deg);
     angle.resize(angle.find('.') + 3);
     return generated_mesh(g.program, {"--triangles", std::to_string(g.triangles), "--seed",
@@ -260,20 +260,19 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     scene.objects = load_objects(scenario, grid, found ? *found : objects);
     load_tables(scene, scenario, light ? *light : at_once);
     const TimeTai time = parse_utc(scenario.time_utc);
-    if (scenario.has_terrain) {
-        const TerrainConfig& t = scenario.terrain;
+    if (scenario.terrain) {
+        const TerrainConfig& t = *scenario.terrain;
         const Progress progress("terrain " + t.name);
         const Pose pose = initial_motion(t.pose, time, bodies_at(time, scenario.origin)).pose;
         scene.terrain = std::make_unique<SceneTerrain>(SceneTerrain{
             t.name, open_height_map(t.heights), t.radius_m, pose,
-            t.has_place ? std::optional(t.place.body) : std::nullopt, t.place.place,
+            t.place ? std::optional(t.place->body) : std::nullopt, t.place ? t.place->place : Geodetic{},
             load_material(t.material, grid), t.edge_px, static_cast<std::size_t>(t.most_triangles), t.wait});
     }
     scene.lamps = scene_lamps(scenario, grid);
     scene.stars_time = time;
-    if (!scenario.stars.catalogue.empty())
-        scene.stars =
-            stars_at(load_catalogue(scenario.stars.catalogue), time, scenario.stars.faintest_magnitude, grid);
+    if (const auto& stars = scenario.stars; stars && !stars->catalogue.empty())
+        scene.stars = stars_at(load_catalogue(stars->catalogue), time, stars->faintest_magnitude, grid);
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         const BodyConfig& config = scenario.bodies[i];
         SceneBody& body = scene.bodies[i];

@@ -14,11 +14,11 @@ bool is_local(const MotionConfig& m) {
 // The key of the first thing in local axes, or empty.
 std::string first_local_key(const ScenarioConfig& s) {
     if (s.camera_pose.frame == PoseConfig::Frame::kLocal) return "camera_pose.frame";
-    if (s.has_camera_motion && is_local(s.camera_motion)) return "camera_motion.frame";
+    if (s.camera_motion && is_local(*s.camera_motion)) return "camera_motion.frame";
     for (std::size_t i = 0; i < s.objects.size(); ++i) {
         const std::string object = "objects." + std::to_string(i);
         if (s.objects[i].pose.frame == PoseConfig::Frame::kLocal) return object + ".pose.frame";
-        if (s.objects[i].has_motion && is_local(s.objects[i].motion)) return object + ".motion.frame";
+        if (s.objects[i].motion && is_local(*s.objects[i].motion)) return object + ".motion.frame";
     }
     return "";
 }
@@ -42,8 +42,8 @@ std::string body_name(BodyId id) { return std::string(kBodyNames[index_of(id)]);
 }  // namespace
 
 std::optional<PlaceConfig> site_of(const ScenarioConfig& s) {
-    if (s.has_site) return s.site;
-    if (s.has_terrain && s.terrain.has_place) return s.terrain.place;
+    if (s.site) return s.site;
+    if (s.terrain && s.terrain->place) return s.terrain->place;
     if (s.origin.turns()) return PlaceConfig{*s.origin.center(), s.origin.place};
     return {};
 }

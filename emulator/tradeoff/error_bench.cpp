@@ -24,8 +24,8 @@ struct View {
 std::vector<View> views_of(const ScenarioConfig& scenario, const WorldSnapshot& world, int count) {
     if (scenario.objects.empty()) return {View{}};
     CircleFlight flight = flight_around_target(scenario);
-    if (scenario.has_camera_motion) flight.start_m = world.camera.position_world_m;
-    if (scenario.objects.front().has_motion) flight.center_m = world.objects.front().position_world_m;
+    if (scenario.camera_motion) flight.start_m = world.camera.position_world_m;
+    if (scenario.objects.front().motion) flight.center_m = world.objects.front().position_world_m;
     std::vector<View> out;
     for (int i = 0; i < count; ++i) {
         const double share = static_cast<double>(i) / count;
@@ -145,7 +145,7 @@ class AllViews {
 ErrorBench error_bench(const ScenarioSource& source, const ErrorBenchOptions& options,
                        const std::filesystem::path& cache_folder, const Log& log) {
     std::vector<std::string> wait;
-    if (source.load().has_terrain) wait.emplace_back("terrain.wait=true");
+    if (source.load().terrain) wait.emplace_back("terrain.wait=true");
     const ScenarioConfig scenario = source.load(wait);
     const std::vector<std::string> overrides =
         joined_overrides(reference_overrides(scenario), options.reference_set);

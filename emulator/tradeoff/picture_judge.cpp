@@ -162,7 +162,7 @@ void PictureJudge::find_limbs(const StillCamera& camera, const ScenarioConfig& s
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         if (!s.bodies[i].visible) continue;
         // Where terrain stands the smooth body's limb is not what is seen.
-        if (s.has_terrain && s.terrain.has_place && i == index_of(s.terrain.place.body)) continue;
+        if (s.terrain && s.terrain->place && i == index_of(s.terrain->place->body)) continue;
         for (const LimbPlace& place :
              limb_places(world.bodies.body[i], kFigures[i], world.camera, geometry)) {
             const double x = place.position_px.x + offset_px_.x, y = place.position_px.y + offset_px_.y;

@@ -140,7 +140,7 @@ class Sweep {
     }
     ScenarioConfig scenario_of(const std::vector<std::size_t>& choices) const {
         std::vector<std::string> overrides = out_.overrides_of(choices);
-        if (out_.scenario.has_terrain) overrides.emplace_back("terrain.wait=true");
+        if (out_.scenario.terrain) overrides.emplace_back("terrain.wait=true");
         return out_.source.load(overrides);
     }
 
@@ -174,7 +174,7 @@ Tradeoff measure_tradeoff(const ScenarioSource& source, const TradeoffOptions& o
     out.error_sigma = options.error_sigma;
 
     std::vector<std::string> overrides = out.reference_overrides;
-    if (out.scenario.has_terrain) overrides.emplace_back("terrain.wait=true");
+    if (out.scenario.terrain) overrides.emplace_back("terrain.wait=true");
     log(
         fmt::format("first the reference, then {} single changes and up to {} combinations in {:g} s, the "
                     "reference not counted",

@@ -64,11 +64,11 @@ bool useful(Needs needs, const ScenarioConfig& s) {
         case Needs::kNothing:
             return true;
         case Needs::kSurfaces:
-            return !s.objects.empty() || s.has_terrain;
+            return !s.objects.empty() || s.terrain;
         case Needs::kMeshes:
             return !s.objects.empty();
         case Needs::kTerrain:
-            return s.has_terrain;
+            return s.terrain.has_value();
         case Needs::kAir:
             return s.atmosphere.model != "none";
     }
@@ -218,7 +218,7 @@ std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
     const std::size_t bins = s.spectrum_edges_um.size() - 1;
     const std::size_t most = static_cast<std::size_t>(kMaxBins) / bins * bins;
     if (most > bins) out.push_back(edges_override(regrouped_edges_um(s.spectrum_edges_um, most)));
-    if (s.has_terrain) out.emplace_back("terrain.edge_px=1");
+    if (s.terrain) out.emplace_back("terrain.edge_px=1");
     return out;
 }
 

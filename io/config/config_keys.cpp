@@ -7,7 +7,7 @@ void add_keys(const Fields& fields, const std::string& prefix, std::vector<std::
     for (const Field& field : fields) {
         const std::string key = prefix + field.key;
         out.push_back(key);
-        if (const auto* nested = std::get_if<SectionField>(&field.target))
+        if (const std::optional<SectionField> nested = section_in(field))
             add_keys(nested->fields, key + ".", out);
         if (const auto* many = std::get_if<SectionsField>(&field.target))
             add_keys(many->append().fields, key + ".N.", out);

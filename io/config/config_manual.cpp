@@ -32,7 +32,9 @@ std::string accepted_text(const Field& field) {
                           [](const QuatField&) { return std::string("[w, x, y, z]"); },
                           [](const CurveField& f) { return "number or curve, " + accepted(f.range); },
                           [](const TableField& f) { return "[[" + f.x_name + ", " + f.y_name + "], ...]"; },
-                          [](const SectionField&) { return std::string("mapping or file"); },
+                          [](const OneOf<SectionField, OptionalSectionField> auto&) {
+                              return std::string("mapping or file");
+                          },
                           [](const SectionsField&) { return std::string("list of mappings"); },
                       },
                       field.target);
@@ -80,7 +82,7 @@ const char* kind_of(const Field& field) {
                           [](const QuatField&) { return "quaternion"; },
                           [](const CurveField&) { return "curve"; },
                           [](const TableField&) { return "table"; },
-                          [](const SectionField&) { return "section"; },
+                          [](const OneOf<SectionField, OptionalSectionField> auto&) { return "section"; },
                           [](const SectionsField&) { return "list of sections"; },
                       },
                       field.target);
@@ -100,7 +102,7 @@ std::vector<Entry> entries_of(const SectionField& section, const std::string& pr
     for (const Field& field : section.fields) {
         Entry entry{prefix + field.key,  field.key,     kind_of(field), accepted_text(field),
                     default_text(field), field.meaning, field.required, {}};
-        if (const auto* nested = std::get_if<SectionField>(&field.target))
+        if (const std::optional<SectionField> nested = section_in(field))
             entry.below = entries_of(*nested, entry.key + ".");
         if (const auto* many = std::get_if<SectionsField>(&field.target))
             entry.below = entries_of(many->append(), entry.key + ".N.");
@@ -210,7 +212,7 @@ std::string value_text(const SectionField& root, std::string_view key) {
     for (const Field& field : root.fields) {
         if (field.key != key.substr(0, dot)) continue;
         if (dot == std::string_view::npos) return present_text(field);
-        const auto* nested = std::get_if<SectionField>(&field.target);
+        const std::optional<SectionField> nested = section_in(field);
         return nested ? value_text(*nested, key.substr(dot + 1)) : std::string();
     }
     return {};

@@ -74,6 +74,7 @@ Json type_of(const Field& field) {
                           },
                           [](const TableField& f) { return pairs_of(f.x_range, f.y_range); },
                           [](const SectionField& f) { return section_of_field(f); },
+                          [](const OptionalSectionField& f) { return section_of_field(f.open()); },
                           [](const SectionsField& f) {
                               return Json{{"type", "array"}, {"items", section_of_field(f.append())}};
                           },
@@ -118,8 +119,7 @@ std::optional<SectionField> section_at(const SectionField& root, std::string_vie
     for (const Field& field : root.fields) {
         if (field.key != key.substr(0, dot)) continue;
         std::string_view rest = dot == std::string_view::npos ? std::string_view() : key.substr(dot + 1);
-        std::optional<SectionField> here;
-        if (const auto* nested = std::get_if<SectionField>(&field.target)) here = *nested;
+        std::optional<SectionField> here = section_in(field);
         if (const auto* many = std::get_if<SectionsField>(&field.target); many && rest.starts_with("N")) {
             here = many->append();
             rest = rest.size() > 2 ? rest.substr(2) : std::string_view();

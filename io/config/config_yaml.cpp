@@ -121,7 +121,7 @@ class Reader {
         if (field == known.end()) return "unknown key" + advice_for(word, known, root_);
         if (std::holds_alternative<SectionsField>(field->target))
             return "the list '" + field->key + "' has no such element in the file";
-        const auto* nested = std::get_if<SectionField>(&field->target);
+        const std::optional<SectionField> nested = section_in(*field);
         if (!nested || word.size() == path.size()) return "'" + field->key + "' has no keys below it";
         return why_unused(path.substr(word.size() + 1), nested->fields);
     }
@@ -187,8 +187,7 @@ class Reader {
             // yaml-cpp's nodes are references: one is only ever made, never assigned.
             const YAML::Node given = override ? override->value : map[field.key];
             const bool absent = !given.IsDefined() || given.IsNull();
-            const bool opened =
-                absent && std::holds_alternative<SectionField>(field.target) && override_below(field_path);
+            const bool opened = absent && holds_section(field) && override_below(field_path);
             if (absent && !opened) {
                 if (field.required)
                     fail(place, map, field_path, "the key is missing; it is " + field.meaning);
@@ -338,6 +337,7 @@ class Reader {
                 },
                 [&](const TableField& f) { *f.value = table(node, f, number, refuse); },
                 [&](const SectionField& f) { section(node, place, f, path, depth, refuse); },
+                [&](const OptionalSectionField& f) { section(node, place, f.open(), path, depth, refuse); },
                 [&](const SectionsField& f) {
                     if (!node.IsSequence()) refuse(node, "a list of mappings");
                     for (std::size_t i = 0; i < node.size(); ++i)

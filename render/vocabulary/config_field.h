@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -128,6 +129,12 @@ struct SectionField {
     Fields fields;
     std::function<void()> validate;
 };
+// A nested mapping that may be left out, and is then not there at all. `open` gives it, made with its defaults
+// where it is not there yet.
+struct OptionalSectionField {
+    std::function<SectionField()> open;
+    std::function<bool()> given;
+};
 // A list of mappings. `append` adds one default element to the owner and gives its section; references into
 // earlier elements need not stay valid, because each element is read before the next is appended.
 struct SectionsField {
@@ -141,12 +148,24 @@ struct Field {
     std::string key;
     std::string meaning;  // one line, with the unit where the key has none
     std::variant<NumberField, IntegerField, FlagField, TextField, TextsField, PathField, ChoiceField,
-                 NumbersField, Vec3Field, QuatField, CurveField, TableField, SectionField, SectionsField>
+                 NumbersField, Vec3Field, QuatField, CurveField, TableField, SectionField,
+                 OptionalSectionField, SectionsField>
         target;
     bool required = false;
     bool* present = nullptr;     // set when the key is given
     bool changes_frames = true;  // false: frames do not depend on it, so that a replay may have another value
 };
+
+inline bool holds_section(const Field& field) {
+    return std::holds_alternative<SectionField>(field.target) ||
+           std::holds_alternative<OptionalSectionField>(field.target);
+}
+// The section that stands at a key, opened where it is not there yet; nothing where the key is of another kind.
+inline std::optional<SectionField> section_in(const Field& field) {
+    if (const auto* section = std::get_if<SectionField>(&field.target)) return *section;
+    if (const auto* section = std::get_if<OptionalSectionField>(&field.target)) return section->open();
+    return {};
+}
 
 // --- makers, so that a list reads as a table ---
 inline Field number(std::string key, double& value, double si_per_unit, Range range, std::string meaning) {
@@ -205,6 +224,12 @@ SectionField section_of(T& value) {
 template <class T>
 Field section(std::string key, T& value, std::string meaning) {
     return {std::move(key), std::move(meaning), section_of(value)};
+}
+template <class T>
+Field section(std::string key, std::optional<T>& value, std::string meaning) {
+    return {std::move(key), std::move(meaning),
+            OptionalSectionField{[&value] { return section_of(value ? *value : value.emplace()); },
+                                 [&value] { return value.has_value(); }}};
 }
 template <class T>
 Field sections(std::string key, std::vector<T>& value, std::string meaning) {

@@ -249,7 +249,7 @@ void add_keys_beside_frames(const SectionField& section, const std::string& pref
     for (const Field& field : section.fields) {
         if (!field.changes_frames)
             keys.push_back(prefix + field.key);
-        else if (const auto* nested = std::get_if<SectionField>(&field.target))
+        else if (const std::optional<SectionField> nested = section_in(field))
             add_keys_beside_frames(*nested, prefix + field.key + ".", keys);
         else if (const auto* many = std::get_if<SectionsField>(&field.target))
             add_keys_beside_frames(many->append(), prefix + field.key + ".N.", keys);
@@ -276,7 +276,8 @@ TEST(ScenarioListing, HasNothingOfHowTheMachineIsUsed) {
     there.loop.prefer = LoopPreference::kLatency;
     there.loop.real_time = {50, {0, 1}, true};
     there.outputs.has_files = there.more_cameras[0].outputs.has_files = true;
-    there.commands.has_udp = there.has_telemetry = true;
+    there.commands.has_udp = true;
+    there.telemetry.emplace();
     there.faults.resize(1), there.events.resize(1);
     EXPECT_EQ(listing_difference(scenario_listing(there), scenario_listing(here)), "");
     there.loop.frame_budget_s = 0.01;
