@@ -165,7 +165,7 @@ void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSourc
 }
 
 ExposureRenderer::Plan ExposureRenderer::plan(WorldState& world, TimeTai middle, double exposure_s) {
-    const Span span{middle, std::llround(exposure_s * 1e9), exposure_s};
+    const Span span{middle, to_ns(exposure_s), exposure_s};
     ShownCommand ignored;
     sample_middle(world, span, ignored);
     sample_ends(world, span, true);
@@ -175,7 +175,7 @@ ExposureRenderer::Plan ExposureRenderer::plan(WorldState& world, TimeTai middle,
 ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const ShownWorld& shown, RandomKey key,
                                                   RadianceImage& radiance, std::vector<PointSource>& points,
                                                   Exposure& exposure, FrameTruth* truth) {
-    const Span span{shown.middle, std::llround(shown.moving * exposure.exposure_s * 1e9), exposure.exposure_s,
+    const Span span{shown.middle, to_ns(shown.moving * exposure.exposure_s), exposure.exposure_s,
                     shown.moving};
     Result result;
     sample_middle(world, span, result.shown);

@@ -3,13 +3,13 @@
 #include <sys/random.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <optional>
 
 #include "emulator/recording/recording_reader.h"
 #include "emulator/scenario/scenario_listing.h"
+#include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -27,10 +27,8 @@ std::int64_t drawn_seed() { return static_cast<std::int64_t>(drawn_bits() >> 12)
 
 std::optional<std::int64_t> recorded_seed(const std::filesystem::path& recording) {
     const std::string text = listed_value(RecordingReader(recording).header().scenario, "seed");
-    std::int64_t seed = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    if (error != std::errc() || end != text.data() + text.size() || seed < 0) return {};
-    return seed;
+    const auto seed = parsed_as<std::int64_t>(text);
+    return seed && *seed >= 0 ? seed : std::nullopt;
 }
 
 }  // namespace

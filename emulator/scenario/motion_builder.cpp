@@ -101,7 +101,7 @@ class Builder {
         std::vector<Keyframe> keyframes;
         for (const KeyframeConfig& k : m.keyframes) {
             Keyframe& out = keyframes.emplace_back();
-            out.time = start_ + std::llround(k.at_s * 1e9);
+            out.time = start_ + to_ns(k.at_s);
             out.position_m = k.position_m;
             if (k.has_velocity) out.velocity_m_s = k.velocity_m_s;
             if (k.attitude.given()) out.attitude = frame_from_body(k.attitude);

@@ -236,7 +236,7 @@ void add_clock(CLI::App& app, const Take& take) {
         if (command.action != Action::kStep) return command;
         if (!(o->seconds >= 1e-9 && o->seconds <= 1e7))
             throw refused("--seconds", std::to_string(o->seconds), "1e-9 to 1e7");
-        command.step_ns = std::llround(o->seconds * 1e9);
+        command.step_ns = to_ns(o->seconds);
         return command;
     });
 }

@@ -3,7 +3,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "io/config/config_manual.h"
 #include "io/system/input_file.h"
 #include "io/system/program_files.h"
+#include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/overloaded.h"
 #include "render/vocabulary/plain_number.h"
@@ -41,13 +41,7 @@ std::string show(const YAML::Node& node) {
 }
 
 std::optional<double> to_number(const YAML::Node& node) {
-    if (!node.IsScalar()) return {};
-    std::string_view text = node.Scalar();
-    if (text.starts_with('+')) text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
-    return value;
+    return node.IsScalar() ? number_of(node.Scalar()) : std::nullopt;
 }
 
 struct Override {
@@ -349,14 +343,11 @@ class Reader {
 
     template <class Refuse>
     static std::int64_t integer(const YAML::Node& node, const Range& range, const Refuse& refuse) {
-        std::int64_t value = 0;
-        const std::string text = node.IsScalar() ? node.Scalar() : "";
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const auto as_double = static_cast<double>(value);
-        if (text.empty() || error != std::errc{} || end != text.data() + text.size() ||
-            as_double < range.least || as_double > range.most)
+        const auto value = node.IsScalar() ? parsed_as<std::int64_t>(node.Scalar()) : std::nullopt;
+        const auto as_double = static_cast<double>(value.value_or(0));
+        if (!value || as_double < range.least || as_double > range.most)
             refuse(node, "a whole number, " + accepted(range));
-        return value;
+        return *value;
     }
 
     template <class Number, class Refuse>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include <string_view>
 
 #include "io/system/input_file.h"
+#include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/quoted.h"
@@ -42,9 +42,9 @@ using Samples = std::map<Geometry, std::vector<Sample>>;
 bool to_number(std::string_view text, double& value) {
     while (text.starts_with(' ')) text.remove_prefix(1);
     while (text.ends_with(' ') || text.ends_with('\r')) text.remove_suffix(1);
-    if (text.starts_with('+')) text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+    const std::optional<double> number = number_of(text);
+    if (number) value = *number;
+    return number.has_value();
 }
 
 std::vector<std::string> split(const std::string& line, char separator) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/system/input_file.h"
+#include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 #include "render/vocabulary/units.h"
@@ -85,13 +85,9 @@ std::vector<const Column*> parse_header(std::string_view line) {
 bool parse_row(std::string_view line, const std::vector<const Column*>& columns, CatalogueStar& star) {
     if (std::count(line.begin(), line.end(), ',') + 1 != std::ssize(columns)) return false;
     for (const Column* column : columns) {
-        const std::string_view field = take_field(line);
-        double value = 0;
-        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-        if (error != std::errc{} || end != field.data() + field.size() ||
-            !(value >= column->least && value <= column->most))
-            return false;
-        column->set(star, value);
+        const auto value = parsed_as<double>(take_field(line));
+        if (!value || !(*value >= column->least && *value <= column->most)) return false;
+        column->set(star, *value);
     }
     return true;
 }

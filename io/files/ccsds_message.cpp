@@ -96,7 +96,7 @@ TimeTai ccsds_epoch(const TextLines& lines, std::string_view text, TimeSystem sy
         refuse();
     // from_chars() takes a minus sign, which no field may have.
     const auto field = [&](std::size_t at, std::size_t size) {
-        const auto value = integer_of(rest.substr(at, size));
+        const auto value = parsed_as<int>(rest.substr(at, size));
         if (!value || *value < 0) refuse();
         return value.value_or(0);
     };
@@ -193,7 +193,7 @@ Interpolation KvnSection::interpolation(const TextLines& lines, std::string_view
     else
         lines.refuse(method->value, std::string(key) + " of LINEAR, LAGRANGE, HERMITE", method->line);
     if (!degree && out.method == InterpolationMethod::kLinear) return out;
-    const auto number = integer_of(require(lines, "INTERPOLATION_DEGREE").value);
+    const auto number = parsed_as<int>(require(lines, "INTERPOLATION_DEGREE").value);
     const bool odd = number && *number % 2 == 1;
     const bool linear = out.method == InterpolationMethod::kLinear;
     if (!number || *number < 1 || *number > (linear ? 1 : kMostInterpolationDegree) ||

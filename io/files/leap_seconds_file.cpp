@@ -16,10 +16,8 @@ constexpr std::int64_t kNtpToUnix_s = 2208988800;
 constexpr std::int64_t kLatest_s = 300 * 366 * kSecondsPerDay;
 
 std::optional<std::int64_t> seconds_of(std::string_view text) {
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || value < 0 || value > kLatest_s) return {};
-    return value;
+    const auto value = parsed_as<std::int64_t>(text);
+    return value && *value >= 0 && *value <= kLatest_s ? value : std::nullopt;
 }
 
 // The date of a day, counted from 1900-01-01.
@@ -35,7 +33,8 @@ LeapSecond leap_of(const TextLines& lines, std::string_view line) {
     const std::string_view data = trimmed(line.substr(0, line.find('#')));
     const std::size_t gap = data.find_first_of(" \t");
     const auto seconds = seconds_of(data.substr(0, gap));
-    const auto offset = gap == std::string_view::npos ? std::nullopt : integer_of(trimmed(data.substr(gap)));
+    const auto offset =
+        gap == std::string_view::npos ? std::nullopt : parsed_as<int>(trimmed(data.substr(gap)));
     if (!seconds || !offset || *offset < 10 || *offset > 1000)
         lines.refuse(data, "seconds since 1900 and TAI - UTC, 10 s or more");
     const CalendarTime date = date_of(*seconds / kSecondsPerDay);

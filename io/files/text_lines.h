@@ -1,12 +1,10 @@
 #pragma once
 // Text files line by line, with the place for messages.
 
-#include <charconv>
-#include <cmath>
-#include <optional>
 #include <string>
 #include <string_view>
 
+#include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -17,21 +15,6 @@ inline std::string_view trimmed(std::string_view text) {
     while (!text.empty() && blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && blank(text.back())) text.remove_suffix(1);
     return text;
-}
-
-// The whole of a text as a finite number; nothing else.
-inline std::optional<double> number_of(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
-    return value;
-}
-inline std::optional<int> integer_of(std::string_view text) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return {};
-    return value;
 }
 
 class TextLines {

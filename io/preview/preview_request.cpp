@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
+#include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -33,16 +33,15 @@ bool is_plain(char c) {
 
 template <class Number>
 Number parse_number(std::string_view key, std::string_view text, Number least, Number most) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto value = parsed_as<Number>(text);
     // Negated, so that NaN is refused.
-    if (error != std::errc{} || end != text.data() + text.size() || !(value >= least && value <= most)) {
+    if (!value || !(*value >= least && *value <= most)) {
         if constexpr (std::is_floating_point_v<Number>)
             refuse(key, text, "a number");
         else
             refuse(key, text, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
     }
-    return value;
+    return *value;
 }
 
 double parse_real(std::string_view key, std::string_view text) {

@@ -2,8 +2,6 @@
 
 #include <httplib.h>
 
-#include <charconv>
-
 #include "io/pictures/image_file.h"
 #include "io/preview/preview_assets.h"
 #include "io/preview/preview_guard.h"
@@ -16,6 +14,7 @@
 #include "io/preview/refused_settings.h"
 #include "io/system/allow_list.h"
 #include "io/system/fd.h"
+#include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -68,10 +67,7 @@ std::string machine_name() {
 // As announced; what is no number is too many.
 std::uint64_t body_bytes(const httplib::Request& request) {
     const std::string text = request.get_header_value("Content-Length");
-    std::uint64_t bytes = 0;
-    if (text.empty()) return 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
-    return error == std::errc{} && end == text.data() + text.size() ? bytes : ~std::uint64_t{0};
+    return text.empty() ? 0 : parsed_as<std::uint64_t>(text).value_or(~std::uint64_t{0});
 }
 
 void refuse(httplib::Response& response, int status, const std::string& why) {

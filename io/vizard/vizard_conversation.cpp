@@ -1,11 +1,11 @@
 #include "io/vizard/vizard_conversation.h"
 
 #include <array>
-#include <charconv>
 #include <limits>
 #include <string_view>
 
 #include "io/system/bytes.h"
+#include "io/system/text_number.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -54,21 +54,19 @@ VizardConversation::Answer VizardConversation::take_update(const VizardParts& as
 }
 
 VizardConversation::Answer VizardConversation::take_picture(const std::string& id_text) {
-    std::int64_t id = 0;
-    const char* const end = id_text.data() + id_text.size();
-    const auto [at, error] = std::from_chars(id_text.data(), end, id);
+    const auto id = parsed_as<std::int64_t>(id_text);
     Answer without{picture_parts({}), true};
-    if (error != std::errc{} || at != end) {
+    if (!id) {
         world_.remark("no picture for " + in_quotes(id_text) + ": accepted: the number of a camera");
         return without;
     }
     VizardShot shot;
-    if (!world_.shot(id, shot)) return without;
+    if (!world_.shot(*id, shot)) return without;
     Picture picture = photograph_(shot);
     if (picture.bytes.size() > std::numeric_limits<std::int32_t>::max())
         picture = {{}, "it has more bytes than its length field can say"};
     if (picture.bytes.empty()) {
-        world_.remark("camera " + std::to_string(id) + ": no picture: " + picture.trouble);
+        world_.remark("camera " + std::to_string(*id) + ": no picture: " + picture.trouble);
         return without;
     }
     return {picture_parts(std::move(picture.bytes))};

@@ -77,7 +77,7 @@ class RowRays : public RayGenerator {
     // At the instant of a place down the image; the middle of row i is at i + 0.5.
     RowPose pose_at(double y_px) const {
         const double dt_s = (y_px - 0.5 * geometry_.height_px) * line_time_s_;
-        const Pose pose = propagate(camera_, camera_.time + std::llround(dt_s * 1e9));
+        const Pose pose = propagate(camera_, camera_.time + to_ns(dt_s));
         return {pose.position_world_m - camera_.pose.position_world_m, to_matrix(pose.world_from_body)};
     }
     // Where the sensor has a thing at that instant. False: behind it.

@@ -39,8 +39,7 @@ std::optional<TimeTai> from_calendar(const CalendarTime& t, TimeSystem system) {
         return {};
     // Nanoseconds in integers: a day in double counts to 15 ns.
     const std::int64_t minutes_ns = (t.hour * 60 + t.minute) * 60'000'000'000LL;
-    const TimeTai same{std::llround(day + mjd - kEpochJulianDay) * kDay_ns + minutes_ns +
-                       std::llround(t.second * 1e9)};
+    const TimeTai same{std::llround(day + mjd - kEpochJulianDay) * kDay_ns + minutes_ns + to_ns(t.second)};
     constexpr std::int64_t kTtMinusTai_ns = 32'184'000'000, kTaiMinusGps_ns = 19'000'000'000;
     switch (system) {
         case TimeSystem::kTai:
@@ -53,7 +52,7 @@ std::optional<TimeTai> from_calendar(const CalendarTime& t, TimeSystem system) {
         case TimeSystem::kTdb: {
             // TDB - TT changes by 3e-10 a second: taken at the date as if it were TT it is right to 1 ps.
             const TimeTai tt = same + -kTtMinusTai_ns;
-            return tt + -std::llround(tdb_minus_tt_s(tt) * 1e9);
+            return tt + -to_ns(tdb_minus_tt_s(tt));
         }
     }
     return same;

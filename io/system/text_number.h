@@ -1,0 +1,28 @@
+#pragma once
+// A text that is a number and nothing else: no blank, no unit, nothing after it. Any thread.
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace hilcam {
+
+// Nothing for what is no such number, or too large for it. A floating-point number may be infinite or NaN.
+template <class Number>
+std::optional<Number> parsed_as(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
+    return value;
+}
+
+// A finite number; a plus sign may stand before it.
+inline std::optional<double> number_of(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const auto value = parsed_as<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+}  // namespace hilcam
