@@ -19,7 +19,7 @@ Json plain_end(double end) {
     return end;
 }
 
-Json number_of(const Range& range, const char* type = "number") {
+Json number_in(const Range& range, const char* type = "number") {
     Json out = {{"type", type}};
     if (std::isfinite(range.least)) out["minimum"] = plain_end(range.least);
     if (std::isfinite(range.most)) out["maximum"] = plain_end(range.most);
@@ -32,7 +32,7 @@ Json list_of(const Json& items, std::size_t fewest, std::size_t most) {
 
 Json pairs_of(const Range& x, const Range& y) {
     const Json pair = {
-        {"type", "array"}, {"prefixItems", {number_of(x), number_of(y)}}, {"minItems", 2}, {"maxItems", 2}};
+        {"type", "array"}, {"prefixItems", {number_in(x), number_in(y)}}, {"minItems", 2}, {"maxItems", 2}};
     return {{"type", "array"}, {"items", pair}, {"minItems", 1}};
 }
 
@@ -45,8 +45,8 @@ Json section_of_field(const SectionField& section) {
 
 Json type_of(const Field& field) {
     return std::visit(Overloaded{
-                          [](const NumberField& f) { return number_of(f.range); },
-                          [](const IntegerField& f) { return number_of(f.range, "integer"); },
+                          [](const NumberField& f) { return number_in(f.range); },
+                          [](const IntegerField& f) { return number_in(f.range, "integer"); },
                           [](const FlagField&) {
                               return Json{{"type", "boolean"}};
                           },
@@ -64,13 +64,13 @@ Json type_of(const Field& field) {
                           [](const ChoiceField& f) {
                               return Json{{"enum", f.words}};
                           },
-                          [](const NumbersField& f) { return list_of(number_of(f.range), f.fewest, f.most); },
-                          [](const Vec3Field& f) { return list_of(number_of(f.range), 3, 3); },
+                          [](const NumbersField& f) { return list_of(number_in(f.range), f.fewest, f.most); },
+                          [](const Vec3Field& f) { return list_of(number_in(f.range), 3, 3); },
                           [](const QuatField&) {
-                              return list_of(number_of({-1.001, 1.001}), 4, 4);
+                              return list_of(number_in({-1.001, 1.001}), 4, 4);
                           },
                           [](const CurveField& f) {
-                              return Json{{"anyOf", {number_of(f.range), pairs_of({0.1, 100}, f.range)}}};
+                              return Json{{"anyOf", {number_in(f.range), pairs_of({0.1, 100}, f.range)}}};
                           },
                           [](const TableField& f) { return pairs_of(f.x_range, f.y_range); },
                           [](const SectionField& f) { return section_of_field(f); },
