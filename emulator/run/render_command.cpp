@@ -76,13 +76,13 @@ void require_unused(const RenderFiles& files) {
 }
 
 // Refuses names that cannot be, before minutes of rendering.
-void check_names(RenderStage stage, const RenderFiles& files) {
+void check_names(PictureStage stage, const RenderFiles& files) {
     const auto is_one_of = [&](std::initializer_list<const char*> endings) {
         return std::any_of(endings.begin(), endings.end(),
                            [&](const char* ending) { return files.out.extension() == ending; });
     };
-    const bool fits = stage == RenderStage::kRadiance ? is_one_of({".exr"})
-                      : stage == RenderStage::kElectrons
+    const bool fits = stage == PictureStage::kRadiance ? is_one_of({".exr"})
+                      : stage == PictureStage::kElectrons
                           ? is_one_of({".exr", ".fits", ".fit"})
                           : is_one_of({".png", ".tiff", ".tif", ".fits", ".fit", ".raw"});
     if (!fits)
@@ -90,7 +90,7 @@ void check_names(RenderStage stage, const RenderFiles& files) {
                          ": accepted: .exr for radiance, .exr or .fits for electrons, .png, .tiff, .fits or "
                          ".raw for a frame");
     if (files.view.empty()) return;
-    if (stage != RenderStage::kFrame)
+    if (stage != PictureStage::kFrame)
         throw InputError("--view " + files.view.string() + ": shows a frame; accepted with --stage frame");
     if (files.view.extension() != ".png")
         throw InputError("--view " + files.view.string() + ": accepted: .png");
@@ -100,7 +100,7 @@ void check_names(RenderStage stage, const RenderFiles& files) {
 
 }  // namespace
 
-void render_to_files(const ScenarioConfig& bench, RenderStage stage, double time_offset_s,
+void render_to_files(const ScenarioConfig& bench, PictureStage stage, double time_offset_s,
                      const RenderFiles& files, std::size_t number) {
     const ScenarioConfig scenario = scenario_of_camera(bench, number - 1);
     check_names(stage, files);
@@ -122,13 +122,13 @@ void render_to_files(const ScenarioConfig& bench, RenderStage stage, double time
         write_truth(picture_truth_files(files.truth, files.out),
                     truth_source(scenario, camera.grid(), number, drawn_run_id()), *truth, record);
     const auto oversampling = static_cast<int>(scenario.quality.oversampling);
-    if (stage == RenderStage::kRadiance)
+    if (stage == PictureStage::kRadiance)
         return writer.write_radiance(
             files.out, radiance,
             frame_in_radiance(scenario.camera, camera.renderer().geometry(), oversampling), oversampling,
             record);
     const ElectronImage& electrons = camera.expose();
-    if (stage == RenderStage::kElectrons) return writer.write_electrons(files.out, electrons, record);
+    if (stage == PictureStage::kElectrons) return writer.write_electrons(files.out, electrons, record);
     const DnImage& frame = camera.digitise(key);
     writer.write_frame(files.out, frame, record);
     if (!files.view.empty()) writer.write_view(files.view, frame, record);

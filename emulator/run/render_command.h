@@ -8,7 +8,7 @@
 
 namespace hilcam {
 
-enum class RenderStage { kRadiance, kElectrons, kFrame };
+enum class PictureStage { kRadiance, kElectrons, kFrame };
 
 struct RenderFiles {
     std::filesystem::path out;  // radiance .exr; mean electrons .exr, .fits; a frame .png, .tiff, .fits, .raw
@@ -21,7 +21,7 @@ struct RenderFiles {
 
 // Writes what the camera of that number, from 1, sees first. Throws InputError, DeviceError; names of files
 // that cannot be, before anything is rendered.
-void render_to_files(const ScenarioConfig& scenario, RenderStage stage, double time_offset_s,
+void render_to_files(const ScenarioConfig& scenario, PictureStage stage, double time_offset_s,
                      const RenderFiles& files, std::size_t camera = 1);
 
 }  // namespace hilcam

@@ -18,7 +18,7 @@ namespace {
 struct RenderArguments {
     ConfigArguments config;
     RenderFiles files;
-    RenderStage stage = RenderStage::kFrame;
+    PictureStage stage = PictureStage::kFrame;
     double time_offset_s = 0;
     std::size_t camera = 0;  // from 1; 0: not told
 };
@@ -34,7 +34,7 @@ int carry_out(const RenderArguments& o) {
     return in_memory(scenario, [&] {
         const std::size_t camera = std::max<std::size_t>(1, o.camera);
         render_to_files(scenario, o.stage, o.time_offset_s, o.files, camera);
-        if (o.stage == RenderStage::kFrame && o.files.view.empty())
+        if (o.stage == PictureStage::kFrame && o.files.view.empty())
             log_warning(dark_picture_warning(o.files.out,
                                              scenario_of_camera(scenario, camera - 1).camera.frame_bits(),
                                              "--view FILE.png writes one to look at"));
@@ -48,11 +48,11 @@ void add_render_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<RenderArguments>();
     CLI::App* render = app.add_subcommand("render", "one picture of the first instant");
     add_config(render, o->config);
-    add_choice<RenderStage>(*render, "--stage", o->stage,
-                            {{"radiance", RenderStage::kRadiance},
-                             {"electrons", RenderStage::kElectrons},
-                             {"frame", RenderStage::kFrame}},
-                            "how far light goes: to the lens, into the pixels, out of the converter");
+    add_choice<PictureStage>(*render, "--stage", o->stage,
+                             {{"radiance", PictureStage::kRadiance},
+                              {"electrons", PictureStage::kElectrons},
+                              {"frame", PictureStage::kFrame}},
+                             "how far light goes: to the lens, into the pixels, out of the converter");
     render
         ->add_option("--out", o->files.out,
                      "FILE.exr for radiance and electrons (.fits, too), FILE.png, .tiff, .fits or .raw for a "

@@ -61,9 +61,9 @@ TEST_F(RenderToFile, EveryStageAndTheTruthPutTheFrameAtTheSamePlace) {
                                                     "objects.0.pose.position_m=[0.05, -0.03, 4]",
                                                     "quality.oversampling=" + std::to_string(oversampling)};
         const ScenarioConfig s = load_scenario(file, overrides);
-        render_to_files(s, RenderStage::kRadiance, 0,
+        render_to_files(s, PictureStage::kRadiance, 0,
                         {.out = folder_ / "radiance.exr", .truth = folder_ / "truth", .overwrite = true});
-        render_to_files(s, RenderStage::kElectrons, 0, {.out = folder_ / "electrons.exr"});
+        render_to_files(s, PictureStage::kElectrons, 0, {.out = folder_ / "electrons.exr"});
         const Picture radiance = read(folder_ / "radiance.exr", "Y"),
                       electrons = read(folder_ / "electrons.exr", "Y"),
                       object = read(folder_ / "truth" / "radiance.truth.exr", "object.ID");
@@ -88,7 +88,7 @@ TEST_F(RenderToFile, NothingOfARunOrOfAnotherPictureIsLost) {
     const ScenarioConfig s = load_scenario(scenario(), {});
     const auto render = [&](const char* out, const char* truth, bool overwrite = false) {
         return error_of([&] {
-            render_to_files(s, RenderStage::kFrame, 0,
+            render_to_files(s, PictureStage::kFrame, 0,
                             {.out = folder_ / out,
                              .truth = *truth ? folder_ / truth : std::filesystem::path(),
                              .overwrite = overwrite});
@@ -130,8 +130,8 @@ TEST_F(RenderToFile, AnyCameraOfABench) {
             "quantum_efficiency: 0.5, full_well_e: 20000,\n      gain_dn_e: 0.2, bits: 12, exposure_ms: "
             "20}}\n"),
         {});
-    render_to_files(s, RenderStage::kElectrons, 0, {.out = folder_ / "left.exr"}, 1);
-    render_to_files(s, RenderStage::kElectrons, 0, {.out = folder_ / "right.exr"}, 2);
+    render_to_files(s, PictureStage::kElectrons, 0, {.out = folder_ / "left.exr"}, 1);
+    render_to_files(s, PictureStage::kElectrons, 0, {.out = folder_ / "right.exr"}, 2);
     const Picture left = read(folder_ / "left.exr", "Y"), right = read(folder_ / "right.exr", "Y");
     EXPECT_EQ(left.data.max.x, 63);
     EXPECT_EQ(right.data.max.x, 31);
