@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uint16_t kTelecommand = 0x1800, kTelemetry = 0x0800;  // with a secondary header
+constexpr std::uint16_t kTelecommand = 0x1800, kTelemetry = 0x0800;  // packets with a secondary header
 constexpr std::array<std::uint16_t, 1> kCommandKinds = {kTelecommand | kCommandApid};
 constexpr std::array<std::uint16_t, 3> kAnswerKinds = {
     kTelemetry | kAcknowledgeApid, kTelemetry | kFrameReportApid, kTelemetry | kHousekeepingApid};

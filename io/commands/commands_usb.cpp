@@ -79,7 +79,7 @@ class UsbCommandReceiver : public CommandReceiver {
     PacketStream stream_;
     UsbAnswers answers_;
     TelemetryQueue telemetry_;
-    std::mutex context_mutex_;  // of its coming and going
+    std::mutex context_mutex_;  // guards the context's coming and going
     UsbContext context_;
     std::atomic<bool> stopping_{false};
     std::thread thread_;

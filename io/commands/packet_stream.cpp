@@ -49,7 +49,7 @@ PacketStream::Verdict PacketStream::judge(std::size_t at, bool known_kind_only, 
     return rule_.intact(bytes.first(size)) ? Verdict::kIntact : Verdict::kNone;
 }
 
-// Where an intact packet begins, or end_.
+// Returns where an intact packet begins, or end_.
 std::size_t PacketStream::find_intact(std::size_t from) const {
     std::size_t size = 0;
     for (std::size_t at = from; at + rule_.fewest_bytes <= end_; ++at)

@@ -19,10 +19,10 @@
 namespace hilcam {
 
 struct StreamServerSetup {
-    std::string name;  // of the receiver
+    std::string name;  // name of the receiver
     // A non-blocking listening socket. Throws InputError, DeviceError.
     std::function<Fd()> listen;
-    // Whether a client that has connected may stay; gives its name and prepares the socket.
+    // True when a client that has connected may stay; gives its name and prepares the socket.
     std::function<bool(int socket, std::string& peer)> admit;
     std::function<void()> closed = [] {};  // the listening socket is no more
     std::size_t most_clients = 8;

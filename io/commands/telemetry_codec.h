@@ -23,7 +23,7 @@ std::size_t encode_telemetry(const Telemetry& telemetry, std::uint16_t count, st
 // False when the bytes are no telemetry packet.
 bool decode_telemetry(std::span<const std::uint8_t> packet, Telemetry& telemetry);
 
-// From the protocol version on, without the check at the end.
+// Writes everything from the protocol version on, without the check at the end.
 void write_telemetry_body(const Telemetry& telemetry, ByteWriter& out);
 bool read_telemetry_body(std::span<const std::uint8_t> body, Telemetry& telemetry);
 

@@ -5,7 +5,8 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kLeastPacketSize = 64;  // of a bulk endpoint at full speed; the others are multiples
+// Least size of a bulk endpoint at full speed; the others are multiples.
+constexpr std::size_t kLeastPacketSize = 64;
 
 }  // namespace
 

@@ -38,7 +38,7 @@ std::string accepted_text(const Field& field) {
                       field.target);
 }
 
-// As YAML would have it; empty where it has no short text.
+// Returns the value as YAML would have it; empty where it has no short text.
 std::string present_text(const Field& field) {
     return std::visit(Overloaded{
                           [](const NumberField& f) { return plain(*f.value / f.si_per_unit); },
@@ -109,7 +109,7 @@ std::vector<Entry> entries_of(const SectionField& section, const std::string& pr
     return out;
 }
 
-// What two sections have in common that are described alike: all but their defaults.
+// Returns what two sections have in common that are described alike: all but their defaults.
 std::string shape_of(const Entry& section) {
     std::string out;
     for (const Entry& e : section.below)

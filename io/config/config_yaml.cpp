@@ -27,7 +27,7 @@ constexpr int kDeepest = 16;
 constexpr const char* kYamlRules =
     " (tabs are not allowed; a space comes after the colon; the keys of one mapping begin in one column)";
 
-// Where a value stands: in a file, or on the command line.
+// The place of a value: in a file, or on the command line.
 struct Place {
     std::string name;  // file, or "--set KEY"
     std::filesystem::path folder;

@@ -28,8 +28,8 @@ class CommandReceiver {
     virtual std::string trouble() const { return {}; }
     // Its peer has asked for the run's end. Any thread.
     virtual bool asks_to_end() const { return false; }
-    // To the senders that subscribed to it; never waits for one of them. Any thread but the loop, also before
-    // start() and after stop().
+    // Sends to the senders that subscribed to it; never waits for one of them. Any thread but the loop, also
+    // before start() and after stop().
     virtual void tell(const Telemetry& telemetry) noexcept = 0;
 };
 

@@ -12,7 +12,7 @@ struct Kind {
     FaultKind kind;
     std::string_view name, meaning;
     bool once = false;
-    double least = 0, most = 0;  // of the value; equal: it has none
+    double least = 0, most = 0;  // range of the value; equal: it has none
 };
 
 constexpr std::array<Kind, kAllFaults.size()> kKinds = {{
@@ -105,7 +105,7 @@ std::string_view refusal_of(const FaultOrder& o) {
 
 struct FaultBoard::State {
     FaultOrder order;
-    std::uint64_t number = 0;  // of the order; 0: none yet
+    std::uint64_t number = 0;  // number of the order; 0: none yet
     std::int64_t since_ns = 0, until_ns = 0;
 
     bool covers(std::uint64_t frame) const {

@@ -37,7 +37,7 @@ constexpr std::array<TypeName, 7> kTypes = {
      {"EULER_ANGLE/ANGVEL", AttitudeType::kEulerAngvel, 6, true},
      {"SPIN", AttitudeType::kSpin, 4, true}}};
 
-// How the numbers of a data line are meant.
+// Metadata say how the numbers of a data line are meant.
 struct Metadata {
     AemSegment segment;
     TimeSystem system = TimeSystem::kUtc;

@@ -28,7 +28,7 @@ constexpr std::array<double, kAxes> kAxisUnit = {kDegree_rad, kDegree_rad, kDegr
 
 using Geometry = std::array<double, kAxes>;
 
-// What one wavelength of one geometry says.
+// The values of one wavelength of one geometry.
 struct Sample {
     double wavelength_um = 0;
     double tau_1 = 0, tau_2 = 0, radiance_sr = 0, sky = 0;

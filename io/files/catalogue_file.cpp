@@ -66,7 +66,7 @@ std::string all_columns() {
     return names;
 }
 
-// What each column of the file is; empty: no header.
+// Returns what each column of the file is; empty: no header.
 std::vector<const Column*> parse_header(std::string_view line) {
     std::vector<const Column*> found;
     while (!line.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-// What CCSDS ephemeris messages have in common in their KVN form (keyword = value notation): lines, epochs,
+// The common part of CCSDS ephemeris messages in their KVN form (keyword = value notation): lines, epochs,
 // frames, time systems. CCSDS 502.0-B-3 (2023) section 7 and 504.0-B-2 (2024) section 6; earlier issues
 // differ in the keywords their readers name.
 
@@ -17,7 +17,7 @@ namespace hilcam {
 // A line that says something; blank ones and comments are passed over.
 struct KvnLine {
     std::string_view text;        // trimmed
-    std::string_view key, value;  // of "KEY = VALUE", trimmed; empty in other lines
+    std::string_view key, value;  // the parts of "KEY = VALUE", trimmed; empty in other lines
 };
 
 // A keyword and where it stands.
@@ -57,7 +57,7 @@ struct Interpolation {
     int degree = 0;
 };
 inline constexpr int kMostInterpolationDegree = 31;
-// How many states it takes: degree + 1, of Hermite half as many, as each has a rate, too.
+// Returns how many states it takes: degree + 1, or for Hermite half as many, as each has a rate, too.
 int interpolation_nodes(const Interpolation& interpolation);
 
 // The span of a segment: from START_TIME to STOP_TIME, which data must not leave, and what of it is to be

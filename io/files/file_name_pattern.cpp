@@ -17,7 +17,7 @@ std::string padded(const std::string& number, std::size_t digits) {
     return std::string(digits - std::min(digits, number.size()), '0') + number;
 }
 
-// As a part of a file's name on any system.
+// Turns a name into a part of a file's name on any system.
 std::string plain_name(std::string_view name) {
     std::string out(name);
     for (char& c : out) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uintmax_t kMostListBytes = 1u << 20;
 constexpr std::int64_t kSecondsPerDay = 86400;
-// From NTP's epoch, 1900-01-01, to 1970-01-01 (RFC 5905).
+// Seconds from NTP's epoch, 1900-01-01, to 1970-01-01 (RFC 5905).
 constexpr std::int64_t kNtpToUnix_s = 2208988800;
 constexpr std::int64_t kLatest_s = 300 * 366 * kSecondsPerDay;
 

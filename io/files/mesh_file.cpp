@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// What any mesh may take: a node or a material is a kilobyte and more, and libraries have tables.
+// The memory that any mesh may take: a node or a material is a kilobyte and more, and libraries have tables.
 constexpr std::uint64_t kLeastMemory_bytes = std::uint64_t{512} << 20;
 constexpr double kLeastCpu_s = 10;
 
@@ -66,7 +66,7 @@ void write_mesh(const Mesh& m, ConfinedOutput& out) {
     for (const Texture& t : m.textures) write_texture(t, out);
 }
 
-// What would lead astray whoever uses it: the child may have been broken by the file.
+// Checks for what would lead astray whoever uses it: the child may have been broken by the file.
 bool is_whole(const Mesh& m) {
     const auto all_below = [](const auto& values, std::size_t end) {
         return std::all_of(values.begin(), values.end(), [&](auto v) { return v < end; });

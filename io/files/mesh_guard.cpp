@@ -27,8 +27,8 @@ std::uint64_t little(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-// How many nodes there are at and below each node, and how deep they lie. What is no index is left to the
-// reader.
+// Counts how many nodes there are at and below each node, and how deep they lie. A value that is no index is
+// left to the reader.
 class NodeCounter {
   public:
     NodeCounter(const json& nodes, const std::string& name)

@@ -20,7 +20,7 @@ inline constexpr std::uint64_t kMostNodes = 200'000;
 // 120 bytes each in memory, before the tree of the ray tracer.
 inline constexpr std::uint64_t kMostTriangles = 100'000'000;
 
-// What is in a binary glTF: its parts lie in the file, or it is refused. `binary` is empty without that
+// The contents of a binary glTF: its parts lie in the file, or it is refused. `binary` is empty without that
 // chunk.
 struct GlbChunks {
     std::string_view json, binary;

@@ -303,7 +303,7 @@ Source source_of(const std::filesystem::path& file, const std::string& kind) {
     return source;
 }
 
-// What the parts have once their nodes place them.
+// Returns the number of triangles that the parts have once their nodes place them.
 std::uint64_t placed_triangles(const aiNode& node, const std::vector<std::uint64_t>& of_mesh) {
     std::uint64_t sum = 0;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) sum += of_mesh[node.mMeshes[i]];

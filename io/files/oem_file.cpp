@@ -66,7 +66,7 @@ void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     states.push_back({time, kKilometre_m * Vec3d{v[0], v[1], v[2]}, kKilometre_m * Vec3d{v[3], v[4], v[5]}});
 }
 
-// Whether the states reach over the usable span and are enough to interpolate.
+// Checks that the states reach over the usable span and are enough to interpolate.
 void check_states(const KvnLines& lines, const OemSegment& s) {
     const auto fewest = static_cast<std::size_t>(std::max(2, interpolation_nodes(s.interpolation)));
     if (s.states.size() < fewest)

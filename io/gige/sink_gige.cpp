@@ -62,7 +62,7 @@ struct GigeSink::Implementation {
     GigeSender sender;
     std::unique_ptr<GigeSockets> sockets, next_sockets;  // next: after a change of the address
     std::unique_ptr<GigeDevice> device;
-    Fd wakeup = open_wakeup();  // of the control thread
+    Fd wakeup = open_wakeup();  // wakes the control thread
     std::thread control_thread;
     std::atomic<bool> stopping{false}, running{false};  // running: the sender takes frames
 
@@ -71,7 +71,7 @@ struct GigeSink::Implementation {
     std::atomic<std::uint64_t> finished{0};
     struct Told {
         CameraEvent event;
-        std::uint64_t block = 0;  // of the event's frame; 0: none, or not known yet
+        std::uint64_t block = 0;  // block of the event's frame; 0: none, or not known yet
     };
     BoundedQueue<Told, 1024> events;
     std::optional<CameraEvent> exposure_end;  // the loop's: told when publish() knows its frame's block

@@ -24,7 +24,7 @@ struct GigeConfig {
     std::int64_t packet_bytes = 7680;  // before a client negotiates another; no more than the interface's MTU
     double rate_bytes_s = 400e6;       // upper limit of the stream
     bool multipart = false;            // announce it
-    double spread_fraction = 0.5;      // of a frame period: what a frame's packets may be spread over
+    double spread_fraction = 0.5;      // share of a frame period over which a frame's packets may be spread
 };
 Fields fields(GigeConfig& config);
 

@@ -13,8 +13,8 @@
 namespace hilcam {
 namespace {
 
-// What a pixel may take while it is decoded and copied: its colours twice, a strip of it as it is stored, and
-// what progressive JPEG and lossless WebP keep of all of it.
+// The bytes that a pixel may take while it is decoded and copied: its colours twice, a strip of it as it is
+// stored, and what progressive JPEG and lossless WebP keep of all of it.
 constexpr std::uint64_t kBytesPerPixel = 16;
 
 PictureKind require_size(PictureBytes bytes) {

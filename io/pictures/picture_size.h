@@ -1,5 +1,5 @@
 #pragma once
-// What kind a picture is and how large, from its header alone: before anything is decoded.
+// Finds what kind a picture is and how large, from its header alone: before anything is decoded.
 
 #include <cstdint>
 #include <optional>

@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// What libtiff reads from or writes to, and what it complained of first.
+// The bytes that libtiff reads or writes, and its first complaint.
 struct TiffPort {
     PictureBytes in;
     std::string* out = nullptr;
@@ -105,7 +105,7 @@ std::uint16_t short_field(TIFF* tiff, std::uint32_t tag) {
     return value;
 }
 
-// How the samples of a picture of numbers lie in its file.
+// The layout of the samples of a picture of numbers in its file.
 struct NumberLayout {
     std::uint32_t width, height;
     std::uint16_t bits, format;

@@ -33,7 +33,7 @@ CodeTable code_table(const DnScale& scale, const ViewLevels& levels, double gain
     return table;
 }
 
-// What a letter's pixels collect of sunlight on a white surface.
+// Returns the electrons that a letter's pixels collect of sunlight on a white surface.
 double sunlit_electrons(const PictureRun& run, const ColorFilterConfig& filter) {
     const Spectrum response = electrons_per_s_per_irradiance(run.model, run.grid, &filter.transmission);
     const Spectrum sun = solar_irradiance_1au_w_m2_um(run.grid);

@@ -1,6 +1,6 @@
 #pragma once
-// What the preview's page comes back for: frames that a viewer has frozen, and lines of truth. Both are
-// bounded; the oldest goes first. Any thread but the loop.
+// The shelf keeps what the preview's page comes back for: frames that a viewer has frozen, and lines of
+// truth. Both are bounded; the oldest goes first. Any thread but the loop.
 
 #include <algorithm>
 #include <chrono>

@@ -85,7 +85,7 @@ class PreviewSlot {
     std::counting_semaphore<> full_{0};
     std::atomic<std::uint64_t> copies_{0};
 
-    std::mutex mutex_;  // of what follows
+    std::mutex mutex_;  // guards what follows
     std::condition_variable asked_, news_;
     Frame shown_;
     Clock::time_point asked_until_{}, truth_until_{};

@@ -1,5 +1,5 @@
 #pragma once
-// Who looks at the preview: the page's own numbers, forgotten after a while. Any thread.
+// The viewers of the preview: the page's own numbers, forgotten after a while. Any thread.
 
 #include <algorithm>
 #include <chrono>

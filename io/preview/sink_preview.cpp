@@ -65,7 +65,7 @@ std::string machine_name() {
     return name;
 }
 
-// As announced; what is no number is too many.
+// Returns the length of the body as announced; a text that is no number counts as too many.
 std::uint64_t body_bytes(const httplib::Request& request) {
     const std::string text = request.get_header_value("Content-Length");
     std::uint64_t bytes = 0;
@@ -144,7 +144,7 @@ struct PreviewSink::Implementation {
     void order_fault(const httplib::Request& request, httplib::Response& response);
 };
 
-// Before the body is read. True: answered.
+// Refuses strangers before the body is read. True: answered.
 bool PreviewSink::Implementation::refuse_stranger(const httplib::Request& request,
                                                   httplib::Response& response) {
     const std::string host = request.get_header_value("Host");

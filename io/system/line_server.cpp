@@ -81,7 +81,7 @@ void LineServer::run() {
     drop_gone();
 }
 
-// What it says is thrown away.
+// Reads from a client and throws it away.
 void LineServer::serve(Client& client, short events) {
     if (events & POLLOUT) client.gone |= !client.output.flush(client.socket.get());
     if (!(events & ~POLLOUT)) return;

@@ -22,7 +22,7 @@ struct LineServerSetup {
     std::uint16_t port = 0;
     std::vector<std::string> allow;
     std::size_t most_clients = 8;
-    std::string key;  // of the configuration, for messages
+    std::string key;  // key of the configuration, for messages
 };
 
 class LineServer {
@@ -36,7 +36,7 @@ class LineServer {
     // Throws DeviceError when the port is taken. Owner thread, as stop().
     void start();
     void stop() noexcept;
-    // To every client; `line` ends with a newline. Any thread but the loop.
+    // Sends to every client; `line` ends with a newline. Any thread but the loop.
     void tell(std::string_view line);
 
     // Any thread.
@@ -58,7 +58,7 @@ class LineServer {
     AllowList allow_;
     std::uint32_t address_;
     Fd listener_, wakeup_ = open_wakeup();
-    std::mutex mutex_;  // of the clients
+    std::mutex mutex_;  // guards the clients
     std::list<Client> clients_;
     std::atomic<std::size_t> connected_{0};
     std::atomic<std::uint64_t> cut_off_{0};

@@ -27,7 +27,7 @@ class OutputQueue {
     std::size_t most_bytes_;
     bool whole_packets_;
     std::vector<std::uint8_t> bytes_;
-    std::deque<std::size_t> sizes_;  // of packets, when they are sent whole
+    std::deque<std::size_t> sizes_;  // sizes of packets, when they are sent whole
     std::size_t begin_ = 0;
 };
 

@@ -10,9 +10,9 @@
 namespace hilcam {
 namespace {
 
-// Than those that make frames; the preview's threads are nicer still.
+// Niceness above the threads that make frames; the preview's threads are nicer still.
 constexpr int kNicer = 10;
-// Of an IPv4 datagram: 65535 bytes less the headers of IP and UDP.
+// The bytes that an IPv4 datagram holds: 65535 less the headers of IP and UDP.
 constexpr std::size_t kMostDatagramBytes = 65507;
 
 LineServerSetup port_of(const TruthConfig& c) {
@@ -53,7 +53,7 @@ void TruthSink::start() {
         nice_.release();
         run();
     });
-    nice_.acquire();  // who raises threads later leaves this one as it is
+    nice_.acquire();  // whoever raises threads later leaves this one as it is
 }
 
 FrameTruth* TruthSink::begin(const FrameRecord& record) noexcept {
@@ -135,7 +135,7 @@ void TruthSink::send_datagrams(const FrameTruth& truth, const FrameRecord& recor
             not_sent_.fetch_add(1, std::memory_order_relaxed);
 }
 
-// What was handed over is still delivered.
+// Stops the thread; what was handed over is still delivered.
 void TruthSink::stop() noexcept {
     if (!thread_.joinable()) return;
     open_.store(false);

@@ -162,7 +162,7 @@ void V4l2Output::prepare_buffers() {
             throw DeviceError(request_.device + ": its buffers are smaller than a frame");
 }
 
-// How many buffers go round now: a reader may have taken some away.
+// Counts how many buffers go round now: a reader may have taken some away.
 void V4l2Output::recount() {
     std::size_t distinct = 0;
     for (std::uint32_t i = 0; i < buffers_.size(); ++i) {

@@ -21,8 +21,8 @@ namespace {
 // Twice what is read of a SIM_UPDATE (vizard_message.h), so that one too large is answered.
 constexpr std::int64_t kMostMessageBytes = 16 << 20;
 constexpr std::size_t kMostConnections = 8, kMostMessageParts = 1000;
-constexpr std::size_t kMostParts = 16;  // of a request; further ones are left out
-// From the frame rendered (the command's answer) to the frame published: the sensor's part.
+constexpr std::size_t kMostParts = 16;  // most parts of a request; further ones are left out
+// The time from the frame rendered (the command's answer) to the frame published: the sensor's part.
 constexpr std::chrono::seconds kPatience{60};
 constexpr std::chrono::milliseconds kStopStep{50};
 
@@ -79,7 +79,7 @@ class VizardReceiver : public CommandReceiver {
     VizardConversation conversation_;
     zmq::context_t context_{1};
     zmq::socket_t socket_;
-    std::unique_ptr<ZmqGuard> guard_;  // of connections by TCP
+    std::unique_ptr<ZmqGuard> guard_;  // guards connections by TCP
     Fd wakeup_ = open_wakeup();
     std::atomic<bool> stopping_{false}, over_{false};
     std::thread thread_;
@@ -109,7 +109,8 @@ void VizardReceiver::start() {
     thread_ = std::thread([this] { run(); });
 }
 
-// Who may connect to a Unix socket's file is the file system's to say; by TCP comes whoever reaches the port.
+// Listens behind a guard. The file system decides who may connect to a Unix socket's file; by TCP comes
+// whoever reaches the port.
 void VizardReceiver::listen_behind_guard() {
     const pid_t own = getpid();
     ZmqGuardSetup setup{config_.address,

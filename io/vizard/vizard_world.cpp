@@ -14,11 +14,11 @@
 namespace hilcam {
 namespace {
 
-// Of a run, and of all: a flood of them says no more.
+// The greatest number of remarks of a run, and of all runs: a flood of them says no more.
 constexpr std::size_t kMostRemarks = 100, kMostRemarksInAll = 1000;
 constexpr std::size_t kMostNamed = 10;  // that are not shown: a constellation's leave room for other remarks
 constexpr std::size_t kNoCamera = SIZE_MAX;
-// Of the fields of view: pitch and focal length of data sheets are rounded.
+// Tolerance between the fields of view: pitch and focal length of data sheets are rounded.
 constexpr double kViewTolerance_ratio = 0.01;
 
 // "mars barycenter", "Mars", "mars_planet_data": mars.

@@ -101,7 +101,7 @@ void ZmqGuard::accept_connection() {
         return setup_.ended("there are " + std::to_string(connections_.size()) + " connections already");
     Fd inner = connect_abstract(setup_.inner);
     if (!inner) return;
-    const int yes = 1;  // what comes in pieces goes on in pieces
+    const int yes = 1;  // a stream that comes in pieces goes on in pieces
     setsockopt(outer.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
     connections_.push_back({std::move(outer), std::move(inner), {}, {}, ZmtpMeter(setup_.limits)});
 }

@@ -32,7 +32,7 @@
 namespace hilcam {
 
 struct NoiseBudget {
-    double share = 0;  // of the sensor's noise; 0: none
+    double share = 0;  // share of the sensor's noise; 0: none
     int most_passes = 1;
     PixelNoise noise;
 };
@@ -52,7 +52,7 @@ class AdaptiveSampler {
 
     FacetList facets_;
     std::vector<Spectrum> pass_, mean_;
-    // Of the passes' means [e-].
+    // Mean and sum of squares of the passes' means [e-].
     std::array<float, kMost> mean_e_, squares_e2_;
     std::array<std::uint16_t, kMost> passes_;
     std::array<std::uint8_t, kMost> wanted_;

@@ -78,7 +78,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.has_emission = emission;
 }
 
-// What is shown in more triangles is for rays: they hardly cost more for more.
+// Objects shown in more triangles than this are left to rays, which hardly cost more for more.
 VisibilityBuffer::Room FramePlacer::visibility_room() const {
     constexpr std::size_t kMostTriangles = 8'000'000;
     VisibilityBuffer::Room room{objects_.size(), 0, 0};
@@ -100,7 +100,7 @@ void FramePlacer::set_paths(const PathModel& paths) {
     frame_.kept = uses_kept_light_ ? kept_.get() : nullptr;
 }
 
-// What the loop reads of the objects meanwhile is not touched.
+// Nothing is touched that the loop reads of the objects meanwhile.
 void FramePlacer::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
     for (std::size_t i = 0; i < tables.size(); ++i)
         if (tables[i]) objects_[i].transfer = tables[i];
@@ -136,7 +136,7 @@ void FramePlacer::choose_levels() {
     }
 }
 
-// Of the sphere that holds it.
+// The box is that of the sphere that holds the object.
 PixelBox FramePlacer::box_of(std::size_t i) const {
     const Vec3d to_object_m = world_.objects[i].position_world_m - world_.camera.position_world_m;
     const double sine = std::min(1.0, radii_m_[i] / plans_[i].distance_m);

@@ -87,7 +87,7 @@ void TruthProbe::tell() {
 // --- poses and places
 // ---------------------------------------------------------------------------------------------------------
 
-// Where the picture shows what lies there.
+// Finds where the picture shows what lies there.
 bool TruthProbe::project(Vec3d from_camera_m, Vec2d& frame_px) const {
     const double distance_m = length(from_camera_m);
     Sighting seen;
@@ -222,7 +222,7 @@ void TruthProbe::trace_pixels() {
     });
 }
 
-// What pixels of the frame cover of the radiance image.
+// Returns the box of the radiance image that pixels of the frame cover.
 PixelBox TruthProbe::padded_box(int x0, int y0, int x1, int y1) const {
     const Vec2d a = truth_.raster.image_px({static_cast<double>(x0), static_cast<double>(y0)});
     const Vec2d b = truth_.raster.image_px({static_cast<double>(x1), static_cast<double>(y1)});

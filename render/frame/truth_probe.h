@@ -12,7 +12,7 @@
 
 namespace hilcam {
 
-// Of the stars of a frame, at most.
+// The greatest number of stars that a frame's truth holds.
 inline constexpr std::size_t kMostTruthStars = 16384;
 
 // A record with room for all that TruthProbe tells of the placer's frames, up to a size. Owner thread.

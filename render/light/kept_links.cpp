@@ -13,7 +13,7 @@ constexpr float kFarthest = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBlock = 256;  // nodes
 
 struct Probe {
-    std::size_t node;  // of the block
+    std::size_t node;  // number of the node in the block
     std::uint16_t direction;
     Vec3f origin_m, dir;
     float distance_m = kFarthest;

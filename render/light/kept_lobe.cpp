@@ -1,4 +1,4 @@
-// What of the kept light a facet lobe finds: KeptLight's lookup.
+// KeptLight's lookup by a facet lobe.
 
 #include <algorithm>
 #include <bit>

@@ -14,7 +14,7 @@ namespace {
 
 Vec3f to_body(const Mat3f& world_from_body, Vec3f world) { return transposed(world_from_body) * world; }
 
-// What a texture makes of a material's own spectrum there.
+// Returns the ratio of the texture's spectrum to the material's own there.
 Spectrum tint(const Scatterer& at) {
     Spectrum out;
     const bool shiny =

@@ -1,4 +1,4 @@
-// What the nodes of an object send of a source that shines on them: KeptSolver's first step.
+// Finds what the nodes of an object send of a source that shines on them: KeptSolver's first step.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -46,7 +46,7 @@ void KeptSolver::light_nodes(const Member& member) {
                       });
 }
 
-// By the object itself, or by one that stands near.
+// Returns which rays are blocked by the object itself, or by one that stands near.
 std::uint32_t KeptSolver::blocked(const Member& member, const RayPacket& rays) const {
     std::uint32_t out = scene_.occluded_by(member.object, rays);
     for (const KeptNeighbour& other : member.links->near()) {
@@ -74,7 +74,7 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
         float received = 0;
         int points = 0, rays = 0, lit = 0;
         Vec3f dir;
-        Vec3f normal{};  // of the points that face the source, by how much they receive; not unit
+        Vec3f normal{};  // mean normal of the points that face the source, by how much they receive; not unit
     };
     std::array<Asked, kSendBlock> asked;
     RayPacket rays;

@@ -36,8 +36,8 @@ Spectrum at_least_zero(Spectrum s) {
     return s;
 }
 
-// Where a source is, seen from an object. A lamp is taken as seen from its middle: it differs by node, but
-// little.
+// Returns the direction in which a source is seen from an object. A lamp is taken as seen from its middle: it
+// differs by node, but little.
 Vec3f direction_to(const KeptSource& source) {
     const bool lamp = source.kind == KeptSource::Kind::kLamp && length(source.position_m) > 0;
     return lamp ? normalized(source.position_m) : source.dir;

@@ -23,7 +23,7 @@ constexpr std::size_t kMostLinked = 64;
 // An object that covers less than this of the sky, where it is nearest, is not looked for.
 constexpr float kLeastShare = 0.004f;
 
-// Whether the other is worth a look from this object; both in the other's axes.
+// True when the other is worth a look from this object; both are in the other's axes.
 bool is_near(const KeptLight& self, const KeptLight& other, const KeptNeighbour& there) {
     const float gap_m =
         length(there.place(self.bounds().middle_m) - other.bounds().middle_m) - self.bounds().radius_m;

@@ -1,6 +1,6 @@
 #pragma once
-// What light is to be kept for (kept_light.h): where the sources are and how the objects stand to each other,
-// all of it rounded.
+// The target that light is kept for (kept_light.h): where the sources are and how the objects stand to each
+// other, all of it rounded.
 
 #include <array>
 #include <span>
@@ -23,7 +23,7 @@ struct KeptTerms {
     KeptSource::Kind kind(std::size_t term) const;
 };
 
-// Where all that matters stands in a frame, as it is; world axes.
+// The places of all that matters in a frame, as they are; world axes.
 struct KeptInputs {
     struct Lamp {
         std::size_t number;
@@ -42,8 +42,9 @@ struct KeptInputs {
     std::array<Body, SkyLight::kMostBodies> bodies;
     std::vector<Lamp> lamps;
 
-    // What comes after `now`, as far from it as `by` times what lies between it and `then`, everything moving
-    // on as it did. False where they have not the same things in them. No allocation but at the first calls.
+    // Finds what comes after `now`, as far from it as `by` times what lies between it and `then`, everything
+    // moving on as it did. False where they have not the same things in them. No allocation but at the first
+    // calls.
     static bool extrapolate(const KeptInputs& then, const KeptInputs& now, double by, KeptInputs& out);
 };
 

@@ -55,7 +55,7 @@ void KeptUpdates::wait() {
 
 void KeptUpdates::work() {
     // Frames come first; and one core of those that they leave is enough.
-    constexpr int kNicer = 10;  // than the program, which may be nice itself
+    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
     setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
     tbb::task_arena alone(1, 1);
     while (true) {

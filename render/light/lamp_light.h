@@ -25,7 +25,7 @@ namespace hilcam {
 
 inline constexpr double kLampClearance_m = 1e-3;
 
-// What comes from a lamp to a place.
+// The light that comes from a lamp to a place.
 struct LampRay {
     Vec3d dir;  // to the lamp, unit
     double distance_m = 0;
@@ -53,7 +53,7 @@ class Lamps {
     Lamps(const Lamps&) = delete;  // what is placed points to the beams
     Lamps& operator=(const Lamps&) = delete;
 
-    // For a frame; world.lamps are these. Loop.
+    // Places the lamps for a frame; world.lamps are these. Loop.
     void place(const WorldSnapshot& world, Vec3d ray_space_world_m);
 
     const std::vector<SceneLamp>& all() const { return lamps_; }

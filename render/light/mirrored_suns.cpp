@@ -16,7 +16,7 @@ namespace {
 // Half of the light of the Sun's disk comes from within this of its middle [rad]: 4.65 mrad over the root of
 // two.
 constexpr float kHalfSun_rad = 0.0033f;
-// At flatter angles a mirror throws next to nothing.
+// A mirror throws next to nothing at flatter angles.
 constexpr float kLeastCosine = 0.01f;
 // GGX's slopes in one direction are spread by a^2 / (2 (a^2 + x^2)^1.5) (its density of both, Heitz, JCGT
 // 3(2), 2014, integrated): the share within x is x / (a^2 + x^2)^0.5. Even spreads of these half widths, in
@@ -29,12 +29,12 @@ constexpr std::array<Rectangle, 3> kRectangles{{{0.65f, 0.357f}, {1.55f, 0.437f}
 // A vertex on its way to a mirror.
 struct Asked {
     const Vertex* at;
-    Spectrum light;    // what it sends towards the viewer if it sees all of the mirrored Sun
-    Vec3f start_m;     // of the ray
+    Spectrum light;    // light that it sends towards the viewer if it sees all of the mirrored Sun
+    Vec3f start_m;     // start of the ray
     Vec3f dir, sun;    // towards the mirrored Sun, and from the mirror to the Sun
-    float cosine;      // of the ray to the plane
+    float cosine;      // cosine between the ray and the plane's normal
     float distance_m;  // to the plane
-    float filled;      // how much of its lobe the mirror fills
+    float filled;      // share of its lobe that the mirror fills
     float even;        // 1: that share counts, 0: whether the ray meets the mirror
 };
 struct Reflected {
@@ -42,8 +42,8 @@ struct Reflected {
     Spectrum light;
 };
 
-// What a vertex reflects to the viewer of light from a direction, per unit of irradiance across it, and where
-// a ray that asks for that light begins.
+// The light from a direction that a vertex reflects to the viewer, per unit of irradiance across it, and the
+// start of a ray that asks for that light.
 struct Scattered {
     Spectrum light;
     Vec3f start_m;

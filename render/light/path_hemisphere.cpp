@@ -23,7 +23,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kDirections = 60;
-constexpr std::size_t kMostRays = kDirections + 2;  // and the exact two
+constexpr std::size_t kMostRays = kDirections + 2;  // the fixed directions and the two exact ones
 
 // All 120 triangles' middles: the orbit of one point under the symmetries of the dodecahedron, kept where z >
 // 0. The plane z = 0 is one of its 15 planes of symmetry, so that exactly half of them are above it.
@@ -117,7 +117,7 @@ class HemispherePaths final : public PathModel {
         const float no = std::max(dot(at.normal, at.view_dir), 1e-4f);
         Scatterer surface = at.surface;
         const bool narrow = surface.alpha > 0 && surface.alpha < kNarrowAlpha;
-        float share = 1;  // of the lobe that the one direction stands for
+        float share = 1;  // share of the lobe for which the one direction stands
         if (narrow) {
             share = surface.material->model == ReflectionModel::kMirror ? 1 : surface.material->facets(no);
             if (surface.material->model == ReflectionModel::kDielectric)

@@ -27,8 +27,8 @@ struct NextRay {
     const Vertex* from;
     Vec3f origin_m;
     Vec3f dir;
-    float density;      // of the direction [sr^-1]; 0: exact
-    float alpha_least;  // of the next vertex's facet lobe
+    float density;      // density of the direction [sr^-1]; 0: exact
+    float alpha_least;  // least alpha of the next vertex's facet lobe
     bool meets_sun;     // where exact: the Sun's disk has not been counted as a highlight
     Spectrum weight;
     bool whole_lobe = false;  // it stands for all of a narrow facet lobe about it
@@ -55,7 +55,7 @@ class TracedPaths final : public PathModel {
   private:
     bool kept_;
     static constexpr auto kMost = static_cast<std::size_t>(kMostSamples);
-    static constexpr int kLobeRays = 4;  // of a narrow lobe at the first surface
+    static constexpr int kLobeRays = 4;  // rays that follow a narrow lobe at the first surface
     std::array<Vertex, kLobeRays * kMost> a_, b_;
     std::array<NextRay, kLobeRays * kMost> next_;
     Vertex* current_ = a_.data();

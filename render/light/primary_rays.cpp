@@ -85,9 +85,9 @@ class PrimaryRays {
     Vec3d corner_;
     RayPacket rays_;
     HitPacket hits_;
-    std::array<float, kPacketSize> x_of_{}, y_of_{};  // of the packet's pixels, from the tile's corner
-    std::array<float, kPacketSize> x_at_{}, y_at_{};  // of their samples
-    std::array<std::uint32_t, kPacketSize> word_x_{}, word_y_{};  // of their sequences
+    std::array<float, kPacketSize> x_of_{}, y_of_{};  // places of the packet's pixels, from the tile's corner
+    std::array<float, kPacketSize> x_at_{}, y_at_{};  // places of their samples
+    std::array<std::uint32_t, kPacketSize> word_x_{}, word_y_{};  // words of their sequences
     std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
     std::size_t count_ = 0;
 

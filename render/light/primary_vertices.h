@@ -1,7 +1,7 @@
 #pragma once
-// What the camera sees of a tile, as vertices: by rays (primary_rays.h), or out of the frame's visibility
-// buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the weight of so
-// many samples.
+// Finds what the camera sees of a tile, as vertices: by rays (primary_rays.h), or out of the frame's
+// visibility buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the
+// weight of so many samples.
 
 #include <array>
 #include <cstdint>
@@ -29,7 +29,7 @@ class PrimaryVertices {
     };
     Tile& tile_;
     bool begun_ = false, ended_ = false;
-    PixelBox part_{};  // of the tile, as the buffer has it
+    PixelBox part_{};  // the part of the tile that the buffer has
     static constexpr int kPartPixels = kVisibilityTile_px * kVisibilityTile_px;
     int next_pixel_ = kPartPixels;  // there
     std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;

@@ -27,7 +27,7 @@ bool is_weighed(const FrameView& frame, const Vertex& at) {
     return frame.paths_sample_lobes && !at.keeps_light && at.depth < frame.max_depth;
 }
 
-// Whether the whole of a body could add what the threshold asks for, against white paint in the Sun, and
+// True when the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
 bool lamp_counts(const FrameView& frame, const Vertex& at, const BodyLamp& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;

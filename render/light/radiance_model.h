@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-// Who finds the light of the Earth, the Moon and the planets on the objects.
+// The rays that find the light of the Earth, the Moon and the planets on the objects.
 enum class LampLight {
     kNone,        // nobody
     kSampled,     // one random direction to each, weighed against the path's own direction

@@ -56,8 +56,8 @@ Vec3f spiral(Vec3f axis, float one_minus_cosine, std::size_t i, std::size_t coun
     return Frame(axis).to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});
 }
 
-// What a lobe without Fresnel's term reflects of an even sky: facets that are wide shadow each other, and
-// what they then reflect again is not the lobe's. Between 17 widths, linear.
+// Returns the share of an even sky that a lobe without Fresnel's term reflects: facets that are wide shadow
+// each other, and what they then reflect again is not the lobe's. Between 17 widths, linear.
 float whole_lobe(float alpha, float no) {
     constexpr int kSteps = 16;
     static const std::array<LobeAlbedo, kSteps + 1> by_alpha = [] {
@@ -86,7 +86,7 @@ Spectrum interpolated(const std::vector<Spectrum>& value, int steps, float x, fl
 
 }  // namespace
 
-SkyLight::SkyLight() { whole_lobe(0, 1); }  // so that no frame makes its table
+SkyLight::SkyLight() { whole_lobe(0, 1); }  // the table is made here, so that no frame makes it
 
 Vec3f SkyLight::DirectionMap::direction(int index) {
     const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
@@ -205,8 +205,8 @@ void SkyLight::place_parts(const Disk& whole, Vec3f axis, float one_minus_cosine
     }
 }
 
-// By a lobe that is narrow against the disk: what it sees of the disk has one radiance, and the limb cuts off
-// the rest as a straight line does.
+// Returns the light that a lobe reflects which is narrow against the disk: all that it sees of the disk has
+// one radiance, and the limb cuts off the rest as a straight line does.
 Spectrum SkyLight::past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
     const Disks& disks = disks_[body];
     const Vec3f axis = bodies_[body].world_dir, mirror = normalized(reflect(view_dir, normal));
@@ -273,7 +273,7 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
     const float limb =
         off >= disks.cosine ? 1.0f : off * disks.cosine + std::sqrt(1 - off * off) * disks.sine;
     const float no = std::max(dot(normal, view_dir), 1e-2f);
-    constexpr float kNextToNothing = 1e-3f;  // of the irradiance, as radiance
+    constexpr float kNextToNothing = 1e-3f;  // radiance as a share of the irradiance
     if (reflectance * ggx_distribution(alpha, std::sqrt(0.5f + 0.5f * limb)) * 0.5f /
             (no * std::max(alpha, 1e-4f)) <
         kNextToNothing)

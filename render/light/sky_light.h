@@ -18,7 +18,7 @@ class SkyLight {
 
     SkyLight();
 
-    // For a frame: the background is placed. Loop.
+    // Prepares a frame; the background is placed. Loop.
     void place(const Background& background);
 
     struct Body {
@@ -56,16 +56,16 @@ class SkyLight {
     static constexpr std::array<std::size_t, 3> kParts = {4, 16, kPatches};
     struct Disk {
         alignas(64) std::array<float, kPatches> x{}, y{}, z{};
-        std::array<Spectrum, kPatches> irradiance{};  // of each, on a surface that faces it
+        std::array<Spectrum, kPatches> irradiance{};  // irradiance by each, on a surface that faces it
         alignas(
             64) std::array<std::array<float, kPatches>, kMaxBins> by_bin{};  // the same, for sums in vectors
         float least_alpha = 0;
     };
     struct Disks {
         std::array<Disk, kParts.size()> of;              // by kParts
-        float cosine = 1, sine = 0, half_angle_rad = 0;  // of a cone that holds it
-        // Where its limb is in the planes through its middle, from the first axis of its frame on: a body
-        // that is flattened fills no cone.
+        float cosine = 1, sine = 0, half_angle_rad = 0;  // a cone that holds it
+        // The directions of its limb in the planes through its middle, from the first axis of its frame on: a
+        // body that is flattened fills no cone.
         static constexpr std::size_t kPlanes = 32;
         std::array<float, kPlanes> limb_rad{};
         float limb_in(Vec3f axis, Vec3f way) const;

@@ -22,7 +22,7 @@ double cone_cosine_of(double radius_m, double distance_m) {
     return std::sqrt(1 - sine * sine);
 }
 
-// Whether a body as large as this, in this direction, can touch the Sun's disk.
+// True when a body as large as this, in this direction, can touch the Sun's disk.
 bool can_cover(double cosine_to_sun, double body_cone_cosine, double sun_disk_cosine) {
     return std::acos(std::clamp(cosine_to_sun, -1.0, 1.0)) <
            std::acos(std::clamp(body_cone_cosine, -1.0, 1.0)) +

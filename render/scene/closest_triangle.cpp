@@ -64,7 +64,7 @@ struct ClosestTriangle::Implementation {
     struct Search {
         const Mesh* mesh;
         const Query* query;
-        float distance = 0;  // of what is found
+        float distance = 0;  // distance of what is found
         std::optional<Found> found;
     };
     // It takes the first of equally near ones: which is met first depends on the tree.

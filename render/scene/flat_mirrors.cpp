@@ -15,7 +15,7 @@ constexpr float kFlatCorner = 0.99985f;  // cosine of a degree: corner normals a
 // Mirrors that are smaller than this share of the object's radius, squared, throw too little; so do those
 // that fill less than this of their rectangle, as bars do.
 constexpr double kLeastArea = 1e-2, kLeastFilled = 0.2;
-// So many of the largest parts are looked at, each with all that lies in its plane.
+// The number of the largest parts that are looked at, each with all that lies in its plane.
 constexpr std::size_t kMostSeeds = 64;
 
 // Triangles that lie in one plane to the last digits that count.
@@ -33,7 +33,7 @@ struct FlatTriangle {
     Vec3d area;  // vector
 };
 
-// Of two opposite vectors the one that points up, or else along y, or else along x.
+// Returns that one of two opposite vectors which points up, or else along y, or else along x.
 Vec3d upwards(Vec3d v) {
     const bool down = v.z < 0 || (v.z == 0 && (v.y < 0 || (v.y == 0 && v.x < 0)));
     return down ? -v : v;

@@ -14,7 +14,8 @@
 namespace hilcam {
 namespace {
 
-// What leans less apart than this is one facet: a sixth of the narrowest lobe that is kept (kept_light.h).
+// Normals that lean less apart than this are one facet: a sixth of the narrowest lobe that is kept
+// (kept_light.h).
 constexpr double kApart = 0.02;
 
 // The shading normal at a place in a triangle; `geometric` where it has none.

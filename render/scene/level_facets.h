@@ -1,7 +1,7 @@
 #pragma once
-// How the parts of a mesh lean that a triangle of a coarser level stands for. A level is flat where the mesh
-// is wrinkled, and wrinkles are seen by how they lean long before they are by their shape: so a level's
-// triangle keeps up to four of their normals, each with its share of their area.
+// The normals of the parts of a mesh for which a triangle of a coarser level stands. A level is flat where
+// the mesh is wrinkled, and wrinkles are seen by how they lean long before they are by their shape: so a
+// level's triangle keeps up to four of their normals, each with its share of their area.
 //
 // The parts of the mesh belong to the triangle of the same surface that is nearest to them and faces as they
 // do. Their normals are divided twice across the axis in which they scatter most, at their mean (as colours
@@ -21,7 +21,7 @@ class LevelFacets {
     static constexpr std::size_t kMost = 4;
     struct Facet {
         Vec3f lean;   // added to the level's own normal there, before it is made a unit vector; body axes
-        float share;  // of the area of all; 0: there are no more
+        float share;  // share of the area of all; 0: there are no more
     };
     // alpha: GGX's, of how normals scatter about the facets' own.
     static LevelFacets of(const std::array<Facet, kMost>& facets, float alpha);

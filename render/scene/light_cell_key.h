@@ -10,9 +10,9 @@
 
 namespace hilcam {
 
-// Where on an object's surface: what tells cells of a cube apart.
+// The side of an object's surface, which tells cells of a cube apart.
 struct SurfaceSide {
-    Vec3f geometric_normal;  // of this side, body axes
+    Vec3f geometric_normal;  // normal of this side, body axes
     std::uint16_t surface = 0;
     bool back = false;  // the triangle's own normal (right-handed) points to the other side
 };

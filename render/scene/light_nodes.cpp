@@ -17,9 +17,9 @@ namespace {
 
 // The cells about a corner of the grid, and which corner of which cell's cube that is.
 struct CornerUse {
-    std::uint64_t key;  // of the cube above it in all axes
+    std::uint64_t key;  // key of the cube above it in all axes
     std::uint32_t cell;
-    std::uint32_t corner;  // of the cell's cube: x + 2 y + 4 z
+    std::uint32_t corner;  // corner of the cell's cube: x + 2 y + 4 z
 };
 
 std::vector<CornerUse> corners_of(std::span<const FoundCell> cells) {
@@ -57,8 +57,8 @@ struct TextureReader {
     }
 };
 
-// How far above the surface points are: as rays leave it in path_vertex.cpp, with room for the triangles' own
-// rounding.
+// Returns how far above the surface points are: as rays leave it in path_vertex.cpp, with room for the
+// triangles' own rounding.
 float above_of(const Mesh& mesh) {
     float greatest = 0;
     for (const Vec3f v : mesh.vertices_m)
@@ -149,7 +149,7 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     const std::vector<CornerUse> uses = corners_of(cells);
     struct Group {
         CellSet set;
-        std::size_t first;  // of its uses
+        std::size_t first;  // number of the first of its uses
     };
     std::vector<Group> groups;
     for (std::size_t i = 0; i < uses.size();) {

@@ -1,7 +1,7 @@
 #pragma once
-// Where the light goes that flat mirrors throw (mirrored_suns.h): a beam for each of them. Nearly all places
-// are in none, and are to cost nothing: a look at one mirror and many places, and one at many mirrors and a
-// box of places.
+// The beams of light that flat mirrors throw (mirrored_suns.h), one for each of them. Nearly all places are
+// in none, and are to cost nothing: a look at one mirror and many places, and one at many mirrors and a box
+// of places.
 
 #include <array>
 #include <cstdint>
@@ -22,7 +22,7 @@ struct MirrorBeam {
         float constant = 0;
     };
     Line distance{}, x{},
-        y{};  // of the place; where on the mirror, along its sides, it sees the Sun's middle
+        y{};  // coordinates of the place; where on the mirror, along its sides, it sees the Sun's middle
     float least_m = 0, width_m = 0, height_m = 0;
     Vec2f margin{}, margin_m{};  // over the distance, and what there is of it at the mirror
 };

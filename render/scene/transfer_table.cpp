@@ -17,8 +17,8 @@ namespace {
 constexpr float kGolden = 0.61803399f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
-// What a direction meets, while it is being traced: a node, whether it is nearer than half a cube, and which
-// of the node's points is next to the place; or one of these.
+// The state of a direction while it is being traced: the node that it meets, whether it is nearer than half a
+// cube, and which of the node's points is next to the place; or one of these.
 struct Met {
     static std::uint32_t pack(std::uint32_t node, bool close, std::size_t point) {
         return node << 3 | static_cast<std::uint32_t>(close) << 2 | static_cast<std::uint32_t>(point);
@@ -30,14 +30,14 @@ struct Met {
 static_assert(LightNode::kPoints == 4);
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::uint32_t kDark = kFree - 1;
-constexpr std::uint32_t kBuried = kFree - 2;  // of a point that does not count
+constexpr std::uint32_t kBuried = kFree - 2;  // index of a point that does not count
 constexpr std::uint32_t kUnder = kFree - 3;   // below the surface at its point: does not count
 constexpr std::uint32_t kTracing = kFree - 4;
 
 struct Ray {
     std::size_t direction;
     Vec3f origin_m, dir;
-    int sheets = 0;  // of glass that it has passed
+    int sheets = 0;  // number of sheets of glass that it has passed
 };
 
 // Traces a block of nodes.
@@ -161,7 +161,7 @@ class Tracer {
     }
 };
 
-// By sixteen directions; glass is clear.
+// Returns the openness by sixteen directions; glass is clear.
 float openness(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene, Vec3f point_m,
                Vec3f normal, float within_m) {
     static const std::vector<Vec3f> kDirections = transfer_directions(kPacketSize);
@@ -257,8 +257,8 @@ void TransferTable::for_each_node(std::vector<Block>& blocks,
     }
 }
 
-// What is met at once beside a point that is buried is buried, too: the node's light is that of its other
-// points.
+// Darkens links that meet a buried point at once: they are buried, too, and the node's light is that of its
+// other points.
 void TransferTable::drop_dead_ends(std::vector<Block>& blocks) {
     for_each_node(blocks, [&](std::size_t, std::span<Link> links) {
         for (Link& link : links)

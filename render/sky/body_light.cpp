@@ -14,7 +14,7 @@ constexpr double kSunColorBv = 0.653;
 // Mercury ... Neptune; the Earth's is not used.
 constexpr std::array<double, kBodyCount> kColorBv = {0.93, 0.82, 0.0, 0.92, 1.36, 0.83, 1.04, 0.56, 0.41};
 
-// Where the disk is a thin crescent its brightness against a sphere's is not known; it is held from here on.
+// The brightness of a thin crescent against a sphere's is not known; it is held from this phase on.
 constexpr double kMostPhase_deg = 165;
 
 double disk_phase(SurfaceLaw law, double phase_rad) {

@@ -11,8 +11,8 @@ constexpr double kStarsPerCell = 100;
 // A face has at most so many by as many: more would cost a frame more to look through than they save.
 constexpr int kMostCellsAcross = 64;
 
-// On the face of the cube that the direction meets, in cells that are about equally wide as seen from the
-// middle.
+// Returns the cell on the face of the cube that the direction meets; cells are about equally wide as seen
+// from the middle.
 std::uint32_t cell_of(Vec3d dir, int across) {
     const std::array<double, 3> d{dir.x, dir.y, dir.z};
     std::size_t axis = 0;
@@ -64,9 +64,9 @@ StarSky::Cone StarSky::cone_of(std::size_t begin, std::size_t end) const {
     return {axis_dir, angle_rad + 1e-9};
 }
 
-// How far proper motion, parallax and aberration move any star. Aberration, with w the angle to the velocity:
-// sin(seen) = sin(w) / (gamma (1 + beta cos w)), which is asin(beta) from w at most (Rindler, Relativity,
-// 2006, 4.3).
+// Returns how far proper motion, parallax and aberration move any star. Aberration, with w the angle to the
+// velocity: sin(seen) = sin(w) / (gamma (1 + beta cos w)), which is asin(beta) from w at most (Rindler,
+// Relativity, 2006, 4.3).
 double StarSky::farthest_shift_rad(const StarObserver& observer) const {
     // A unit vector that is displaced by less than its length turns by the arc sine of that at most.
     const double displaced =

@@ -23,7 +23,7 @@ class StarSky {
     std::size_t size() const { return stars_.size(); }
     bool empty() const { return stars_.empty(); }
     TimeTai time() const { return time_; }
-    // At most so many stars are in a cone of this half angle, wherever it points. Slow.
+    // Returns the greatest number of stars in a cone of this half angle, wherever it points. Slow.
     std::size_t most_within(double angle_rad) const;
 
     // Calls use(star, apparent direction) for each star that the observer may see within a cone, and for some

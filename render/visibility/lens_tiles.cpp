@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kSide_px = kVisibilityTile_px;
 constexpr double kMostError_px = 0.05;
-constexpr int kSteps = 32;  // of the grid on which the lens's derivatives are looked at
-// What lies between the grid's places may be curved more.
+constexpr int kSteps = 32;  // steps of the grid on which the lens's derivatives are looked at
+// Between the grid's places the lens may be curved more, by this factor.
 constexpr double kSafety = 1.3;
 
 // The middle of the picture, padded px.
@@ -44,7 +44,7 @@ Box ideal_box(const ImageGeometry& g) {
     return box;
 }
 
-// Over the whole box: the greatest second derivative of the place on the screen by the ideal one, along any
+// The greatest second derivative, over the whole box, of the place on the screen by the ideal one, along any
 // line [1/px].
 struct Curvature {
     double bend_per_px = 0;
@@ -81,7 +81,7 @@ Curvature curvature_in(const ImageGeometry& g, const Box& box) {
 // A tile of the screen as an affine map, and how far the lens is from that.
 struct Fit {
     Vec2d middle, right, down;  // ideal places: of the tile's middle, by a pixel to the right, and down
-    Box ideal;                  // of the whole tile
+    Box ideal;                  // the box of the whole tile
     double error_px = 0;        // on the screen, at most
 };
 Fit fit(const ImageGeometry& g, int tile_x, int tile_y) {

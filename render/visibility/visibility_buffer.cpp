@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kRun = 512;             // triangles that are looked at between two visits of the tiles
 constexpr std::size_t kVertexRun = 1 << 14;   // vertices that a task projects
 constexpr std::uint32_t kBlocksAtOnce = 32;   // that a group takes for itself
-constexpr std::size_t kBlocksTogether = 256;  // of a tile, that are put in order
+constexpr std::size_t kBlocksTogether = 256;  // blocks of a tile that are put in order together
 
 ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_body, Vec3d origin_m,
                                double radius_m, double depth_origin_m) {
@@ -273,7 +273,7 @@ bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
     return any;
 }
 
-// From near to far, so that what is hidden is found to be so before it is looked at.
+// Fills blocks from near to far, so that what is hidden is found to be so before it is looked at.
 void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px,
                                    VisibilityTile& tile) const {
     std::sort(blocks.begin(), blocks.end(), [](const NearBlock& a, const NearBlock& b) {

@@ -95,7 +95,7 @@ HWY_INLINE Corners corners_of(const ScreenVertex* vertices, const TriangleCorner
 HWY_INLINE V least(const V* of) { return hn::Min(hn::Min(of[0], of[1]), of[2]); }
 HWY_INLINE V most(const V* of) { return hn::Max(hn::Max(of[0], of[1]), of[2]); }
 
-// Whether a place is beside a triangle, and not by rounding.
+// True when a place is beside a triangle, and not by rounding.
 HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y, V place_px) {
     V side[3];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -108,7 +108,7 @@ HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y, V place_px) {
     return hn::And(hn::Lt(least(side), hn::Neg(margin)), hn::Gt(most(side), margin));
 }
 
-// From ideal places to those on the screen (LensDistortion::distorted).
+// Moves corners from ideal places to those on the screen (LensDistortion::distorted).
 HWY_INLINE void distort(const ScreenLens& lens, Corners& c) {
     const auto number = [](float value) { return hn::Set(Floats(), value); };
     const V inverse = number(1 / lens.focal_px);
@@ -130,7 +130,7 @@ HWY_INLINE void distort(const ScreenLens& lens, Corners& c) {
     }
 }
 
-// What triangles are on the screen of a bent lens.
+// The triangles as they are on the screen of a bent lens.
 struct Bent {
     hn::Mask<Floats> unknown, beside_picture;
     V margin_px;
@@ -167,7 +167,7 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
             corners_of(vertices, triangles.data(), [&](std::size_t k) { return std::min(t + k, last); });
         const V sum = hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2]);
         auto unknown = hn::IsNaN(sum);
-        auto outside = unknown;  // of a bent lens only
+        auto outside = unknown;  // used with a bent lens only
         V place_px = hn::Set(d, kPlace_px);
         if constexpr (kBent) {
             const Bent bent = bend(*lens, c);
@@ -231,7 +231,7 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
                 : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens, ranges);
 }
 
-// Of corners in a tile, from its corner.
+// Bends corners in a tile, counted from its corner.
 HWY_INLINE void bend_in_tile(const TileLens& lens, Corners& c) {
     const auto number = [](float value) { return hn::Set(Floats(), value); };
     const V half = number(0.5f * kSide_px);
@@ -331,7 +331,7 @@ Span span_of_row(const TriangleSetup& s, std::size_t k, int row) {
     return {static_cast<int>(from), static_cast<int>(std::floor(to))};
 }
 
-// Whether all that a triangle may cover is nearer.
+// True when everything that a triangle may cover is nearer.
 bool is_hidden(const TriangleSetup& s, std::size_t k, const VisibilityTile& tile) {
     constexpr int kHalf = kSide_px / 2;
     const float nearest = s.most_depth[k];
@@ -345,7 +345,7 @@ void farthest(VisibilityTile& tile) {
     const Floats d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
     constexpr int kHalf = kSide_px / 2;
-    constexpr std::size_t kRun = kHalf * kVisibilitySamples;  // of half a row
+    constexpr std::size_t kRun = kHalf * kVisibilitySamples;  // samples of half a row
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         V least = hn::Set(d, std::numeric_limits<float>::infinity());
         for (std::size_t row = 0; row < kHalf; ++row) {

@@ -25,7 +25,8 @@ class CompactKernel {
     int radius() const { return static_cast<int>(across_.size() / 2); }
     // Returns the factor that run() applies to a frequency [cycles/px].
     double at(double u, double v) const;
-    // In place of image.run(): layer 0's rows. Beyond the image is nothing. Loop: no allocation, no lock.
+    // Convolves layer 0's rows in place of image.run(). Beyond the image is nothing. Loop: no allocation, no
+    // lock.
     void run(Convolver& image);
 
   private:

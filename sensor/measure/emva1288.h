@@ -43,7 +43,7 @@ class ResponseCurve {
     double slope_dn_photon(double photons) const;
     // The light of a signal, by Newton's method; for signals up to a little beyond saturation.
     double photons(double signal_dn) const;
-    // For small signals: the slope at no light.
+    // Returns the responsivity to small signals: the slope at no light.
     Measured responsivity_dn_photon() const;
     double offset_dn() const { return coefficient_[0]; }
 

@@ -92,7 +92,7 @@ void GigeAcquisition::add_exposure() {
 // --- frame rate
 // ---------------------------------------------------------------------------------------------------------
 
-// Without AcquisitionFrameRateEnable the camera is as fast as it can be.
+// Adds the frame rate; without AcquisitionFrameRateEnable the camera is as fast as it can be.
 void GigeAcquisition::add_frame_rate() {
     GigeRegisterFile& r = core_.registers;
     r.number(

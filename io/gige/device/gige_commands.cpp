@@ -14,8 +14,8 @@ using gvcp::Status;
 
 namespace {
 
-// What fits into a datagram of 576 bytes with its IP and UDP headers, in the registers' own bytes: 135 read
-// or 67 written.
+// The bytes that fit into a datagram of 576 bytes with its IP and UDP headers, in the registers' own bytes:
+// 135 read or 67 written.
 constexpr std::size_t kMostPayloadBytes = gvcp::kMostDatagramBytes - 28 - gvcp::kHeaderBytes;
 constexpr std::uint32_t kEverybody = 0xFFFFFFFF;  // 255.255.255.255
 

@@ -35,8 +35,8 @@ class GigeMessages {
     void happened(gvcp::Event::Id id);
     void acknowledged(std::uint16_t request_id, const Endpoint& from);
     void tick();
-    std::int64_t deadline_ns() const;  // of the next repetition; INT64_MAX: none
-    void close();                      // and forget what waits
+    std::int64_t deadline_ns() const;  // deadline of the next repetition; INT64_MAX: none
+    void close();                      // closes the channel and forgets what waits
     void reset();
 
   private:
@@ -61,7 +61,7 @@ class GigeMessages {
     // Unacknowledged ones, the oldest first.
     std::array<Message, kMostWaiting> waiting_;
     std::size_t first_ = 0, count_ = 0;
-    std::uint32_t tries_left_ = 0;  // of the oldest
+    std::uint32_t tries_left_ = 0;  // number of tries left for the oldest
     std::int64_t due_ns_ = 0;
 };
 

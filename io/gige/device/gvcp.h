@@ -58,13 +58,13 @@ enum Status : std::uint16_t {
 struct Header {
     static constexpr std::uint8_t kKey = 0x42;
     static constexpr std::uint8_t kAcknowledgeFlag = 0x01;
-    static constexpr std::uint8_t kExtendedFlag = 0x10;  // of PACKETRESEND, EVENT, EVENTDATA: 64-bit ids
-    static constexpr std::uint8_t kBroadcastAnswerFlag = 0x10;  // of DISCOVERY, FORCEIP
-    static constexpr std::uint8_t kScheduledFlag = 0x80;        // of ACTION
+    static constexpr std::uint8_t kExtendedFlag = 0x10;  // flag of PACKETRESEND, EVENT, EVENTDATA: 64-bit ids
+    static constexpr std::uint8_t kBroadcastAnswerFlag = 0x10;  // flag of DISCOVERY, FORCEIP
+    static constexpr std::uint8_t kScheduledFlag = 0x80;        // flag of ACTION
 
     std::uint8_t flags = 0;
     std::uint16_t command = 0;
-    std::uint16_t length = 0;  // of the payload
+    std::uint16_t length = 0;  // length of the payload
     std::uint16_t request_id = 0;
 };
 // Nothing for what is no GVCP command: wrong key, too short, id 0.
@@ -89,7 +89,7 @@ struct ForceIp {
 };
 std::optional<ForceIp> read_force_ip(std::span<const std::uint8_t> payload);
 
-// What a PACKETRESEND asks for.
+// The packets that a PACKETRESEND asks for.
 struct ResendRequest {
     std::uint16_t channel = 0;
     std::uint64_t block = 0;
@@ -107,7 +107,7 @@ std::optional<MemoryRange> read_memory_range(std::span<const std::uint8_t> paylo
 
 struct Action {
     std::uint32_t device_key = 0, group_key = 0, group_mask = 0;
-    std::optional<std::uint64_t> at{};  // of the device's clock
+    std::optional<std::uint64_t> at{};  // time on the device's clock
 };
 std::optional<Action> read_action(std::span<const std::uint8_t> payload, bool scheduled);
 

@@ -24,7 +24,8 @@ gvsp::Image image_of(const GigeFrame& f) {
     return {pfnc_code(s.format, seen), s.width, s.height, s.offset_x, s.offset_y};
 }
 
-// Of the parts, in the order of the payload's bytes; 0: not there. A plain stream is one of a single part.
+// Returns the sizes of the parts, in the order of the payload's bytes; 0: not there. A plain stream is one of
+// a single part.
 std::array<std::size_t, gvsp::kMostParts> part_bytes(const GigeStreamState& s) {
     if (!s.multipart) return {s.payload_bytes()};
     return {s.image_bytes(), s.confidence_bytes(), s.chunk_data_bytes()};

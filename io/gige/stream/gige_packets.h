@@ -17,10 +17,10 @@
 
 namespace hilcam {
 
-// What the packets of a frame are made of. Refers to the payload, does not own it.
+// The contents from which the packets of a frame are made. Refers to the payload, does not own it.
 struct GigeFrame {
-    GigeStreamState stream;  // as it was when the frame was taken
-    BayerPattern pattern;    // of the camera's colour filter array; empty: none
+    GigeStreamState stream;  // state when the frame was taken
+    BayerPattern pattern;    // pattern of the camera's colour filter array; empty: none
     std::uint64_t block = 0;
     std::uint64_t timestamp_ns = 0;
     std::int32_t size_y_error = 0;  // added to the height in the trailer
@@ -42,7 +42,7 @@ std::uint32_t trailer_id(const GigeStreamState& stream);
 struct GigePacket {
     std::array<std::uint8_t, gvsp::kMostHeadBytes> head;
     std::size_t head_bytes = 0;
-    std::span<const std::uint8_t> data;  // of the frame's payload
+    std::span<const std::uint8_t> data;  // bytes of the frame's payload
 
     std::size_t bytes() const { return head_bytes + data.size(); }
 };

@@ -11,8 +11,8 @@
 
 namespace hilcam {
 
-// What the control side says, and to which acquisition it belongs: a number that never comes again, unlike
-// the device's own count, which a reset sets back. 0: none yet.
+// The orders of the control side, and the acquisition to which they belong: a number that never comes again,
+// unlike the device's own count, which a reset sets back. 0: none yet.
 struct GigeStreamNow {
     GigeStreamState state;
     std::uint64_t acquisition = 0;
@@ -23,7 +23,7 @@ class GigeSlot {
     GigeFrame frame;  // its payload lies in `bytes`
     FrameRecord record;
     std::uint64_t acquisition = 0;
-    bool last = false;         // of a counted acquisition
+    bool last = false;         // the last frame of a counted acquisition
     std::uint64_t resent = 0;  // packets of it that the sender was asked for again, since it was sent
     std::vector<std::uint8_t> bytes;
 

@@ -268,7 +268,8 @@ void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t m
     transmit(r.packet_bytes, resend_pacer_, r.to == slot.frame.stream.destination);
 }
 
-// What resend_ asks for, up to `last`; said of its first packets, for clients give up the block then.
+// Refuses what resend_ asks for, up to `last`. This is said of its first packets, for clients give up the
+// block then.
 void GigeSender::refuse(gvsp::Status reason, std::uint32_t last) {
     const GigeOrder& r = *resend_;
     counts_.packets_refused.fetch_add(std::uint64_t{last} - r.next + 1, std::memory_order_relaxed);
@@ -359,7 +360,7 @@ void GigeSender::pause_until(std::int64_t due_ns) {
     }
 }
 
-// Or until something is asked for.
+// Sleeps until then, or until something is asked for.
 void GigeSender::sleep_until(std::int64_t due_ns) {
     pollfd watched{wakeup_.get(), POLLIN, 0};
     const std::int64_t left_ns = std::max<std::int64_t>(0, due_ns - monotonic_ns());

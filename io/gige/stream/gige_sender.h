@@ -31,17 +31,17 @@ namespace hilcam {
 
 struct GigePaceConfig {
     double rate_bytes_s = 400e6;   // upper limit
-    double spread_fraction = 0.5;  // of the frame period that a frame may take; 0: as fast as the limit
+    double spread_fraction = 0.5;  // share of the frame period that a frame may take; 0: as fast as the limit
 };
 
-// What the control side asks for.
+// The orders of the control side.
 struct GigeOrder {
     enum class Kind : std::uint8_t { kResend, kTestPacket } kind = Kind::kResend;
     Endpoint to;
     std::uint64_t acquisition = 0, block = 0;
     std::uint32_t next = 0, last = 0;  // packet ids
     bool extended_ids = false;
-    std::uint32_t packet_bytes = 0;  // of the stream; kTestPacket: IP and UDP headers included
+    std::uint32_t packet_bytes = 0;  // size of the stream's packets; kTestPacket: IP and UDP headers included
     bool do_not_fragment = false;
 };
 
@@ -51,10 +51,10 @@ class GigeSender {
         std::atomic<std::uint64_t> frames{0};           // delivered
         std::atomic<std::uint64_t> packets{0};          // sent for the first time
         std::atomic<std::uint64_t> packets_dropped{0};  // by faults
-        std::atomic<std::uint64_t> packets_failed{0};   // not taken by the kernel
-        std::atomic<std::uint64_t> bytes{0};            // of all packets, IP and UDP headers included
+        std::atomic<std::uint64_t> packets_failed{0};   // packets that the kernel did not take
+        std::atomic<std::uint64_t> bytes{0};            // bytes of all packets, IP and UDP headers included
         std::atomic<std::uint64_t> resend_requests{0}, packets_resent{0}, packets_refused{0};
-        std::atomic<std::uint64_t> packets_over_limit{0};   // of those refused: their block had had its share
+        std::atomic<std::uint64_t> packets_over_limit{0};   // refused packets whose block had had its share
         std::atomic<std::uint64_t> requests_unanswered{0};  // too many of them, or of those that are refused
         std::atomic<std::uint64_t> test_packets{0};
     };
@@ -145,7 +145,7 @@ class GigeSender {
     std::optional<GigeOrder> resend_;
     BlockHistory history_;
     std::uint64_t history_of_ = 0;
-    std::vector<Delayed> delayed_;  // never longer than reserved
+    std::vector<Delayed> delayed_;  // holds no more than was reserved
 };
 
 }  // namespace hilcam
