@@ -19,7 +19,7 @@
 namespace hilcam {
 namespace {
 
-// In the order of the help.
+// Adds the subcommands in the order of the help.
 void add_subcommands(CLI::App& app, Action& action) {
     add_run_command(app, action);
     add_recording_command(app, action);

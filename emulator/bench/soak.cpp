@@ -82,7 +82,7 @@ class SliceWatch {
         }
     }
     bool sleep_until(std::int64_t ns) const {
-        constexpr std::int64_t kLongestSleep_ns = 50'000'000;  // how long a stop may have to wait
+        constexpr std::int64_t kLongestSleep_ns = 50'000'000;  // the longest that a stop may have to wait
         while (!stop_.load() && monotonic_ns() < ns)
             sleep_until_monotonic_ns(std::min(ns, monotonic_ns() + kLongestSleep_ns));
         return !stop_.load();

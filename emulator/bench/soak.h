@@ -22,7 +22,7 @@ struct SoakOptions {
 
     double seconds = 0;    // without warming up
     double slice_s = 0;    // 0: a sixtieth of the seconds, at least 10 s; no more than kMostSlices
-    bool outputs = false;  // also the scenario's outputs and command ports
+    bool outputs = false;  // true: the scenario's outputs and command ports run, too
 };
 
 struct SoakPercentiles {
@@ -48,7 +48,7 @@ struct Soak {
 // Throws what Emulator throws.
 Soak soak(const ScenarioConfig& scenario, const SoakOptions& options);
 
-// How a figure went over the slices.
+// The course of a figure over the slices.
 struct SoakCourse {
     double first = 0, last = 0;
     double per_hour = 0;  // trend.h

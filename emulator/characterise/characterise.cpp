@@ -15,7 +15,8 @@ constexpr SensorSampling kSampling{16, 1, 1};  // nothing to resolve
 constexpr int kStackFrames = 64;               // L of section 8
 // Pixels times pairs of a level: variances are known to 0.2 %, and K from some twenty levels to 0.07 %.
 constexpr double kLightPixels = 5e5;
-constexpr double kDefectSigmas = 6;  // of a Gaussian 2e-9: none of 262,144 good pixels
+// Sigmas of a Gaussian; a share of 2e-9 lies beyond: none of 262,144 good pixels.
+constexpr double kDefectSigmas = 6;
 // Relative error of the dark current that the longest exposures' frames are counted for.
 constexpr double kDarkCurrentError = 0.004;
 constexpr int kFewestDarkPairs = 4, kMostDarkPairs = 256;
@@ -60,7 +61,7 @@ std::vector<double> less(std::vector<double> a, const std::vector<double>& b) {
     return a;
 }
 
-// How far the measurements are; their shares of the whole time are those that inspector_1k takes.
+// The progress of the measurements; their shares of the whole time are those that inspector_1k takes.
 class Phases {
   public:
     void begin(const std::string& name, double share) {

@@ -13,7 +13,7 @@ namespace {
 constexpr int kAcross_px = 144, kAlong_px = 256;
 constexpr double kTilt_rad = 5 * kDegree_rad;
 constexpr double kBrightAlbedo = 0.8, kDarkAlbedo = 0.2;
-constexpr double kBright_fraction = 0.8;  // of saturation, by the bright plate
+constexpr double kBright_fraction = 0.8;  // brightness of the bright plate as a share of saturation
 // Pixels of the radiance image to one of the detector: what is above the detector's Nyquist frequency is not
 // folded down before the MTF acts on it. And rays, so that an edge's steps on their grid stay below 0.001.
 constexpr SensorSampling kFineSampling{16, 8, 2};
@@ -56,7 +56,7 @@ Picture take(CameraBench& bench, const Exposure& exposure, double filter, const 
 // whatever the exposure, and goes with the difference of two of them.
 struct LightPicture {
     std::vector<double> photons;
-    double variance = 0;  // of a pixel's mean
+    double variance = 0;  // variance of a pixel's mean
 };
 
 LightPicture light_of(CameraBench& bench, const BenchSetup& s, const ResponseCurve& response, double filter,

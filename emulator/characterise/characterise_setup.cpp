@@ -20,7 +20,7 @@ constexpr int kMargin_px = 8;
 // Least noise of a dark pixel [DN] at which rounding adds 1/12 DN^2 to its variance: what is missing is of
 // the order exp(-2 pi^2 sigma^2) (Widrow, Kollar & Liu, IEEE Trans. Instrum. Meas. 45, 1996), here 6e-5.
 constexpr double kLeastDarkNoise_dn = 0.7;
-// Of saturation: dark signal at the longest exposure, where the response is straight yet.
+// Share of saturation that the dark signal has at the longest exposure, where the response is straight yet.
 constexpr double kMostDark_fraction = 0.1;
 constexpr double kLine_um = 0.001;  // width of the lamp's line
 
@@ -42,7 +42,7 @@ char most_frequent_filter(const std::string& pattern) {
     return most;
 }
 
-// Of the greatest quantum efficiency among the wavelengths that the lens passes.
+// Returns the wavelength of the greatest quantum efficiency among those that the lens passes.
 double best_wavelength_um(const CameraModel& c, char letter) {
     const Curve* filter = filter_curve(c, letter);
     std::vector<double> candidates = c.quantum_efficiency.wavelength_um;

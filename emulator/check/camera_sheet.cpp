@@ -21,7 +21,7 @@ double sum_of(const Spectrum& a, const Spectrum& b) {
     return sum;
 }
 
-// What all the camera's curves cover; a constant covers silicon's range.
+// Returns the grid that all the camera's curves cover; a constant covers silicon's range.
 SpectralGrid own_grid(const CameraModel& c) {
     double from_um = 0.40, to_um = 0.95;
     bool any = false;

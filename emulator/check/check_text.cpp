@@ -67,7 +67,7 @@ void add_object(const SeenObject& o, std::size_t number, const CameraSheet& shee
     add_surfaces(o.loaded, out);
 }
 
-// What rounding leaves where two bodies' axes agree is no length.
+// Rounds away the length that rounding leaves where two bodies' axes agree.
 double to_a_nanometre(double length_m) { return std::round(length_m * 1e9) / 1e9 + 0.0; }
 
 // Rounded, and not to 360: "359.998" as 0.00.

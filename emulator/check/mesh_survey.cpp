@@ -17,7 +17,7 @@ constexpr double kLongest_m = 500;
 // Height over the longest side below which a triangle's corners are on a line: what single precision leaves.
 constexpr double kSliver = 1e-6;
 
-// For each vertex the number of its place; gives how many places there are.
+// Gives each vertex the number of its place, and returns how many places there are.
 std::uint64_t number_places(const std::vector<Vec3f>& vertices_m, std::vector<std::uint32_t>& place_of) {
     std::vector<std::uint32_t> order(vertices_m.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -36,7 +36,8 @@ std::uint64_t number_places(const std::vector<Vec3f>& vertices_m, std::vector<st
     return order.empty() ? 0 : places + 1u;
 }
 
-// Which places hang together: union by halving paths (Tarjan & van Leeuwen, J. ACM 31, 1984).
+// Finds which places hang together: union by halving paths (Tarjan & van Leeuwen, J. ACM 31, 1984). ACM 31,
+// 1984).
 class Shells {
   public:
     explicit Shells(std::uint64_t places) : parent_(places) { std::iota(parent_.begin(), parent_.end(), 0u); }

@@ -80,7 +80,7 @@ std::optional<EventSequence::Due> EventSequence::take(TimeTai until) {
     return first;
 }
 
-// What follows from an event's having happened.
+// Does what follows from an event's having happened.
 void EventSequence::finish(std::size_t index, TimeTai time, TimeTai until) {
     Event& event = events_[index];
     event.due.erase(event.due.begin());

@@ -242,9 +242,9 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
     scale(share, radiance);
 }
 
-// What the sensor does not expect of the picture along its columns. The line time goes with one pixel: the
-// charge of several stages follows at that rate and only the difference blurs; one stage alone blurs by that
-// pixel, which MTF_sys has (system_mtf.h), and here by what is more.
+// Returns the motion of the picture along its columns that the sensor does not expect. The line time goes
+// with one pixel: the charge of several stages follows at that rate and only the difference blurs; one stage
+// alone blurs by that pixel, which MTF_sys has (system_mtf.h), and here by what is more.
 double ExposureRenderer::unexpected_px_s(double rate_px_s) const {
     if (shutter_.kind != ShutterKind::kLineScan) return rate_px_s;
     const double expected_px_s = 1 / shutter_.line_time_s;

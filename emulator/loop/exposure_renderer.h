@@ -30,7 +30,7 @@
 
 namespace hilcam {
 
-// What an exposure sees of the world's time.
+// The world's time that an exposure sees.
 struct ShownWorld {
     ShownWorld(TimeTai instant, double share = 1) : middle(instant), moving(share) {}
     TimeTai middle;
@@ -56,7 +56,7 @@ class ExposureRenderer {
     bool take_light() { return renderer_.take_light(); }
 
     struct Result {
-        RenderStats stats;  // of all parts
+        RenderStats stats;  // figures of all parts
         ShownCommand shown;
         int parts = 1;
         bool parts_limited = false;  // more than kMostParts were asked for
@@ -71,9 +71,10 @@ class ExposureRenderer {
     // The world at the middle of the last exposure, the camera's jitter in it. Loop.
     const WorldSnapshot& middle_world() const { return middle_; }
 
-    // What exact motion would do, and how far things move [px of the detector]. Not for the loop.
+    // The plan says what exact motion would do, and how far things move [px of the detector]. Not for the
+    // loop.
     struct Plan {
-        double picture_px = 0;  // what fills most of the picture
+        double picture_px = 0;  // motion of what fills most of the picture
         double largest_px = 0;
         int parts = 1;
         bool parts_limited = false;
@@ -90,14 +91,14 @@ class ExposureRenderer {
     PointingJitter jitter_;
     ExpectedNoise noise_;
     WorldSnapshot middle_, before_, after_, part_world_;
-    double told_moving_ = 1;  // how fast the world moves in the camera's time
-    RadianceImage part_;      // of exact motion
+    double told_moving_ = 1;  // speed of the world in the camera's time
+    RadianceImage part_;      // a part of exact motion
     std::vector<PointSource> part_points_;
     std::size_t bins_;
 
     struct Span {
         TimeTai middle;
-        std::int64_t length_ns = 0;  // of the world's motion
+        std::int64_t length_ns = 0;  // length of the world's motion
         double exposure_s = 0;
         double moving = 1;
     };

@@ -133,7 +133,7 @@ void FrameLoop::take_settings(const FrameStarter::Start& start, Slot& slot) {
     slot.ends_order = start.ends_order;
 }
 
-// What a frame depends on, from here on its own.
+// Copies what a frame depends on; from here on it is the frame's own.
 void FrameLoop::latch(Slot& slot) {
     const FrameUse& use = slot.use;
     settings_.tell_own(use.exposure_s, use.gain_db);
@@ -180,7 +180,7 @@ void FrameLoop::place_in_time(const FrameStarter::Start& start, Slot& slot) {
     use.shutter_closed = poses_->rules().when_stale == WhenStale::kBlack;
 }
 
-// How long the slot's last frame kept the next one waiting.
+// Returns how long the slot's last frame kept the next one waiting.
 double FrameLoop::frame_ms(const Slot& slot) const {
     const std::int64_t ns = limits_.prefer == LoopPreference::kLatency
                                 ? slot.render_ns + slot.sense_ns
@@ -330,14 +330,14 @@ void FrameLoop::sense(Slot& slot) {
     }
 }
 
-// When the exposure was, on the machine's clock: the scale of time may have changed since it began.
+// Finds when the exposure was on the machine's clock: the scale of time may have changed since it began.
 void FrameLoop::know_machine_times(Slot& slot) const {
     slot.use.middle_ns = clock_.monotonic_of_camera(slot.middle_camera_ns);
     slot.use.end_ns = clock_.monotonic_of_camera(slot.end_camera_ns);
     slot.record.exposure_mid_monotonic_ns = slot.use.middle_ns;
 }
 
-// What the frame shows of commands, where that has changed, then the frame.
+// Records what the frame shows of commands, where that has changed, then the frame.
 void FrameLoop::keep(const Slot& slot) {
     for (std::size_t i = 0; i < recorded_shown_.size() && !slot.use.shutter_closed; ++i) {
         const std::uint64_t number = slot.shown_numbers[i];
@@ -348,7 +348,7 @@ void FrameLoop::keep(const Slot& slot) {
     recorder_->keep_frame(recorded_camera_, slot.use);
 }
 
-// What a camera does with its numbers on their way out.
+// Does what a camera does with its numbers on their way out.
 void FrameLoop::finish_picture(const Slot& slot) {
     draw_test_pattern(slot.use.test_pattern, slot.record.bits, slot.record.id, frame_);
     if (slot.use.reverse_x)
@@ -359,7 +359,7 @@ void FrameLoop::finish_picture(const Slot& slot) {
                              frame_.row(frame_.height() - 1 - y).begin());
 }
 
-// Not before the exposure is over; in lockstep and in a replay not before every output has room, as no frame
+// Waits until the exposure is over; in lockstep and in a replay also until every output has room, as no frame
 // may be lost, the last ones of a run as little as the others.
 void FrameLoop::wait_to_publish(const Slot& slot) const {
     const auto go_on = [&] { return !stopping_.load(std::memory_order_relaxed); };

@@ -71,15 +71,15 @@
 
 namespace hilcam {
 
-// How long each stage took, per frame.
+// The time that each stage took, per frame.
 struct StageMeters {
     DurationHistogram setup, trace, stars, collapse, convolve, points, digitise, publish, render, sense;
     DurationHistogram work;      // render, sense and publish: the frame without its waits
     DurationHistogram interval;  // from one frame handed over to the next
-    // From the arrival of the newest command that a frame is the first to show to the frame handed over.
+    // Time from the arrival of the newest command that a frame is the first to show to the frame handed over.
     DurationHistogram latency;
 
-    // After warming up.
+    // Is called after warming up.
     void clear() {
         for (DurationHistogram* meter : {&setup, &trace, &stars, &collapse, &convolve, &points, &digitise,
                                          &publish, &render, &sense, &work, &interval, &latency})
@@ -100,8 +100,8 @@ struct LoopCounters {
     // Quality levels: that of the newest frame, how often it changed, how many frames each has had.
     std::atomic<std::uint32_t> level{0}, level_changes{0};
     std::array<std::atomic<std::uint64_t>, kMostLevels> frames_at_level{};
-    // With a noise budget: pixels with light, those within it, of all frames; the share in the newest and the
-    // worst frame (1 without light).
+    // Figures of a noise budget: pixels with light and those within it, over all frames; the share in the
+    // newest and the worst frame (1 without light).
     std::atomic<std::uint64_t> lit_px{0}, within_budget_px{0};
     std::atomic<double> within_budget{1}, worst_within_budget{1};
 };
@@ -110,12 +110,12 @@ struct LoopCounters {
 struct LevelChange {
     std::uint64_t frame = 0;
     std::size_t from = 0, to = 0;
-    double mean_ms = 0;  // of the frames before it
+    double mean_ms = 0;  // mean over the frames before it
 };
 
 struct LoopLimits {
     std::uint64_t frames = 0;   // 0: no limit
-    std::uint64_t warm_up = 0;  // of them, the first: their times are not kept
+    std::uint64_t warm_up = 0;  // first frames, whose times are not kept
     bool paced = true;          // false: as fast as it goes, for benchmarks
     GovernorSettings governor{};
     LoopPreference prefer = LoopPreference::kThroughput;
@@ -129,7 +129,7 @@ class FrameLoop {
               const PoseWatch* poses = nullptr);
     ~FrameLoop() { stop(); }
 
-    // Before start(); they outlive the loop. Cameras count from 1.
+    // Is called before start(); they outlive the loop. Cameras count from 1.
     void record_to(FrameRecorder& recorder, std::uint16_t camera);
     void follow(FrameScript& script) { script_ = &script; }
     void tell(FrameWatcher& watcher) { watcher_ = &watcher; }
@@ -145,9 +145,9 @@ class FrameLoop {
     const StageMeters& meters() const { return meters_; }
     // One thread. False: there is none that was not taken yet.
     bool take_level_change(LevelChange& change) noexcept { return level_changes_.pop(change); }
-    // Of the frame rendered last; for benchmarks, when the loop is stopped.
+    // Returns the figures of the frame rendered last; for benchmarks, when the loop is stopped.
     const RenderStats& render_stats() const { return stats_; }
-    // What processor_ns() was after the last frame of warming up; likewise.
+    // Returns what processor_ns() was after the last frame of warming up; likewise.
     std::int64_t warm_processor_ns() const { return warm_processor_ns_; }
 
   private:
@@ -158,13 +158,13 @@ class FrameLoop {
         FrameRecord record;
         std::vector<std::uint64_t> shown_numbers;  // for the recorder: the newest command of each thing
         Exposure exposure;
-        std::int64_t not_before_ns = 0;  // of a script's frame: may be published; 0: at any time
-        std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // of the exposure, camera's time
-        bool until_end = false;                                // not to be published before
+        std::int64_t not_before_ns = 0;  // earliest time at which a script's frame may be published; 0: any
+        std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // instants of the exposure, camera's time
+        bool until_end = false;      // true: not published before the exposure's end
         double next_exposure_s = 0;  // automatic: of the slot's next frame; 0: not measured yet
         bool automatic = false;
         bool ends_order = false;
-        std::int64_t render_ns = 0, sense_ns = 0;  // how long its last frame took; 0: there was none
+        std::int64_t render_ns = 0, sense_ns = 0;  // time that its last frame took; 0: there was none
     };
 
     void render_frames();
@@ -217,7 +217,7 @@ class FrameLoop {
     std::counting_semaphore<> free_, rendered_{0};
     RenderStats stats_;
     std::int64_t shown_arrival_ns_ = 0;
-    std::uint64_t flagged_ = 0;  // of the time tags that went back, how many frames have told
+    std::uint64_t flagged_ = 0;  // time tags that went back, as frames have told them
     ElectronImage electrons_;
     DnImage frame_, before_;    // the one being finished, and the one published before it
     FrameHistogram histogram_;  // for automatic exposure

@@ -26,7 +26,7 @@ namespace hilcam {
 
 struct GovernorSettings {
     double budget_ms = 0;    // 0: no governor
-    std::size_t levels = 1;  // how many there are
+    std::size_t levels = 1;  // number of levels
 
     bool on() const { return budget_ms > 0 && levels > 1; }
 };
@@ -46,7 +46,7 @@ class Governor {
     // the level of the next frame.
     std::size_t take(std::size_t level, double frame_ms);
     std::size_t level() const { return level_; }
-    // Of the frames since a level was last entered; 0: not used yet.
+    // Returns the mean over the frames since a level was last entered; 0: not used yet.
     double mean_ms(std::size_t level) const { return measured_[level].mean_ms; }
 
   private:

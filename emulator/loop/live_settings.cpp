@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kMostBinning = 8;
 constexpr std::int64_t kLongestWait_ns = 50'000'000;
 
-// Whose three times are one.
+// The machine's own clock, on which all three times are one.
 const SimulatedClock& machine_clock() {
     static const SimulatedClock clock({0}, 0);
     return clock;
@@ -145,7 +145,7 @@ TriggerResult LiveSettings::trigger(const TriggerOrder& asked) {
     return result;
 }
 
-// Under the lock.
+// Is called under the lock.
 TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
     if (closed_.load() || !settings_.running || !settings_.triggered) return TriggerResult::kNotArmed;
     if (asked.source != (limits_.lockstep ? TriggerSource::kLine0 : settings_.trigger_source))
@@ -183,7 +183,7 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
 }
 
 TriggerResult LiveSettings::order_in_lockstep(const TriggerOrder& order) {
-    while (done_.try_acquire()) {  // of orders that were given up
+    while (done_.try_acquire()) {  // clears orders that were given up
     }
     const TriggerResult result = trigger(order);
     ordered_ = result == TriggerResult::kTaken;
@@ -202,7 +202,7 @@ bool LiveSettings::wait_for_order(double patience_s) {
     return true;
 }
 
-// If time goes on as it does now, and does not stand.
+// Returns the order's time if time goes on as it does now, and does not stand.
 std::int64_t LiveSettings::camera_time_of(const TriggerOrder& order, std::int64_t now_ns) const {
     if (order.at_simulated.ns == 0) return clock_->camera_at(order.at_monotonic_ns);
     return clock_->camera_at(now_ns) + (order.at_simulated - clock_->at(now_ns));

@@ -28,8 +28,9 @@ class LiveSettings : public CameraControl {
     };
     explicit LiveSettings(const CameraModel& camera) : LiveSettings(camera, Mode{}) {}
     LiveSettings(const CameraModel& camera, const Mode& mode);
-    // Whose time frames and triggers go by, and who says that there shall be none; without it, the machine's
-    // and nobody. Both outlive the settings. Before the threads start.
+    // Sets the clock that frames and triggers go by, and the watch that may say that there shall be none;
+    // without this call it is the machine's clock, and no watch. Both outlive the settings. Is called before
+    // the threads start.
     void follow(const SimulatedClock& clock, const PoseWatch* poses) { clock_ = &clock, poses_ = poses; }
 
     CameraSettings settings() const override;
@@ -76,7 +77,7 @@ class LiveSettings : public CameraControl {
     void order_done() { done_.release(); }
     // True at once when there is a change or a trigger, or after 50 ms; false when the instant has come.
     bool wait_for_news_until(std::int64_t until_ns);
-    // What a camera that sets them itself has set; settings() tells it.
+    // Takes over what a camera that sets them itself has set; settings() tells it.
     void tell_own(double exposure_s, double gain_db) {
         own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
         own_gain_db_.store(gain_db, std::memory_order_relaxed);

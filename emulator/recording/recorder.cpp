@@ -77,7 +77,8 @@ void Recorder::write(const Record& record) {
     filled_ += encode_record(record, std::span(buffer_).subspan(filled_, kMost));
 }
 
-// After an error nothing more is written: the file ends with a whole record, or inside one.
+// Writes what waits; after an error nothing more is written: the file ends with a whole record, or inside
+// one.
 void Recorder::flush() {
     std::size_t done = 0;
     while (done < filled_ && !failed_.load(std::memory_order_relaxed)) {

@@ -106,7 +106,7 @@ void maybe(A& a, T& value) {
     a.maybe(value, [&](auto& v) { a(v); });
 }
 
-// Of those commands whose payload on the wire is not all that they are: it rounds, checks or leaves out.
+// Codes those commands whose payload on the wire is not all that they are: it rounds, checks or leaves out.
 template <class A, class R>
 void pose(A& a, R& p) {
     a(p.object), a(p.motion.time.ns);

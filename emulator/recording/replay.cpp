@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-constexpr auto kPatience = std::chrono::milliseconds(50);  // how long a stop may have to wait
+constexpr auto kPatience = std::chrono::milliseconds(50);  // the longest that a stop may have to wait
 constexpr std::int64_t kStopsWithin_ns = 50'000'000;
 
 bool binning_fits(std::int64_t binning, std::int64_t at_power_up, std::int64_t most) {

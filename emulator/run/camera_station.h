@@ -22,8 +22,8 @@ class Recorder;
 
 struct RunLimits {
     double seconds = 0;         // 0: until a signal
-    std::uint64_t frames = 0;   // of each camera; 0: no limit
-    std::uint64_t warm_up = 0;  // of them, the first: their times are not kept
+    std::uint64_t frames = 0;   // frames of each camera; 0: no limit
+    std::uint64_t warm_up = 0;  // first frames, whose times are not kept
     bool paced = true;
     bool outputs = true;  // false: frames go nowhere, for benchmarks
     // A file to record to, or one whose frames to show once more; empty: none.
@@ -31,9 +31,9 @@ struct RunLimits {
     // Frames may come before the light between surfaces that they ask for is kept, where the scenario says
     // so, too.
     bool light_beside = false;
-    bool replay_fast = false;   // not by the recording's times
-    bool replay_force = false;  // of another program or scenario
-    std::string run_id{};       // what the truth of its frames is labelled with; empty: the emulator draws it
+    bool replay_fast = false;   // true: as fast as can be; false: by the recording's times
+    bool replay_force = false;  // true: also a recording of another program or scenario
+    std::string run_id{};       // label of its frames' truth; empty: the emulator draws it
 };
 
 class LightMaker;
@@ -47,15 +47,15 @@ class CameraStation {
 
     // Loads the scene and allocates all the loop needs; may take seconds. Throws InputError.
     void load(const SpectralGrid& grid);
-    // After all stations have loaded: the simulation's time begins. Both outlive the station. Throws
-    // InputError.
+    // Is called after all stations have loaded, when the simulation's time begins. Both outlive the station.
+    // Throws InputError.
     void prepare(SimulatedClock& clock, const PoseWatch& poses);
-    // What the preview tells of the bench's commands.
+    // Sets the receivers, for what the preview tells of the bench's commands.
     void set_receivers(const std::vector<std::unique_ptr<CommandReceiver>>& all) { receivers_ = &all; }
     void set_cameras(const std::vector<CameraPage>& all) { cameras_ = all; }
     void set_light_maker(const LightMaker& maker) { light_maker_ = &maker; }
 
-    // What the loop and the settings do goes into a recording. After prepare().
+    // Puts what the loop and the settings do into a recording. After prepare().
     void record_to(Recorder& recorder);
 
     // Opens the outputs. Throws DeviceError.
@@ -64,7 +64,7 @@ class CameraStation {
     void stop_loop() noexcept { loop_->stop(); }
     void stop_outputs() noexcept;
 
-    // To be called now and then while the loop runs: orders the scenario's own faults, keeps the log.
+    // Is called now and then while the loop runs: orders the scenario's own faults, keeps the log.
     void serve_faults(double seconds_since_start);
 
     const ScenarioConfig& scenario() const { return scenario_; }
@@ -73,9 +73,9 @@ class CameraStation {
     FrameLoop& loop() { return *loop_; }
     const FrameLoop& loop() const { return *loop_; }
     Renderer& renderer() { return *renderer_; }
-    // What was found when they were loaded, in the scenario's order.
+    // Returns what was found when they were loaded, in the scenario's order.
     const std::vector<LoadedObject>& objects() const { return objects_; }
-    // How it got its tables of directions; orders: those that it is still without.
+    // Says how it got its tables of directions; orders: those that it is still without.
     LightLoading& light() { return light_; }
     SensorChain& chain() { return *chain_; }
     WorldState& world() { return *world_; }
@@ -116,7 +116,7 @@ class CameraStation {
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<ExposureRenderer> exposures_;
-    PreviewSink* preview_ = nullptr;  // of the sinks, as is the next; may be null
+    PreviewSink* preview_ = nullptr;  // one of the sinks, as is the next; may be null
     TruthSink* truth_ = nullptr;
     std::unique_ptr<FrameLoop> loop_;
     std::vector<FaultConfig> timed_faults_;  // by time

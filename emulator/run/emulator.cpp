@@ -86,7 +86,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     make_light_maker();
 }
 
-// Before minutes go into a scene.
+// Is called before minutes go into a scene.
 void Emulator::prepare_recording() {
     if (!limits_.record.empty() || !limits_.replay.empty()) recording_ = recording_header(scenario_);
     if (limits_.replay.empty()) return;
@@ -145,7 +145,8 @@ void Emulator::make_light_maker() {
     for (const auto& station : stations_) station->set_light_maker(*light_maker_);
 }
 
-// When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.
+// Is also called when starting has failed half-way: outputs' threads ask for figures of what is destroyed
+// before them.
 Emulator::~Emulator() {
     if (telemetry_) telemetry_->stop();
     for (const auto& station : stations_) station->stop_outputs();
@@ -313,7 +314,8 @@ void Emulator::print_light() {
                      light_maker_->seconds());
 }
 
-// What an output begins to be unable to do: once, not for each frame. The report at the end has it whole.
+// Prints what an output begins to be unable to do: once, not for each frame. The report at the end has it
+// whole.
 void Emulator::print_output_faults(std::int64_t now_ns) {
     constexpr std::int64_t kBetweenLooks_ns = 250'000'000;
     if (now_ns < next_fault_look_ns_) return;
@@ -335,7 +337,7 @@ void Emulator::print_missed(std::int64_t now_ns) {
     next_missed_line_ns_ = now_ns + kBetweenLines_ns;
 }
 
-// Of the first camera.
+// Prints the line of the first camera.
 void Emulator::print_line() {
     const std::uint64_t frames = loop().counters().frames.load();
     const CommandReport commands = command_report();

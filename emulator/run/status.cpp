@@ -65,7 +65,7 @@ json settings_status(const CameraSettings& s) {
             {"binning_y", s.binning_y}};
 }
 
-// What the settings may be; a setting that the camera keeps to itself is fixed.
+// Says what the settings may be; a setting that the camera keeps to itself is fixed.
 json limits_status(const CameraLimits& l) {
     return {{"exposure_s", {l.least_exposure_s, l.most_exposure_s}},
             {"gain_db", {l.least_gain_db, l.most_gain_db}},

@@ -204,7 +204,7 @@ Fields fields(ScenarioConfig& s) {
 
 namespace {
 
-// What the camera's shutter makes of its rows.
+// Returns the name of the rays that the camera's shutter needs.
 const char* rays_of(ShutterKind kind) {
     switch (kind) {
         case ShutterKind::kRolling:

@@ -46,11 +46,11 @@ struct StarsConfig {
 };
 Fields fields(StarsConfig& stars);
 
-// What is shown of the world's motion while the shutter is open (exposure_renderer.h).
+// The part of the world's motion that is shown while the shutter is open (exposure_renderer.h).
 enum class MotionQuality { kOff, kFast, kExact };
 
-// How the picture gets its point spread function. kAuto: by a compact kernel where that is as accurate
-// (sensor/convolution/compact_kernel.h).
+// The way in which the picture gets its point spread function. kAuto: by a compact kernel where that is as
+// accurate (sensor/convolution/compact_kernel.h).
 enum class PsfMethod { kAuto, kFft };
 
 struct QualityConfig {
@@ -63,10 +63,10 @@ struct QualityConfig {
 };
 Fields fields(QualityConfig& quality);
 void validate(const QualityConfig& quality);
-// How the radiance images of that quality are made.
+// Returns how the radiance images of that quality are made.
 SensorSampling sampling_of(const QualityConfig& quality);
 
-// What makes the camera take frames (frame_starter.h).
+// The source that makes the camera take frames (frame_starter.h).
 enum class CameraMode { kFreeRun, kTriggered, kLockstep };
 
 // A fault on demand (io/contract/fault.h) that the scenario orders by itself.
@@ -111,7 +111,7 @@ inline constexpr std::size_t kMostCameras = 255;
 // A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
 struct CameraConfig {
     CameraModel camera;
-    Vec3d position_m;  // with `attitude` its mount
+    Vec3d position_m;  // the mount, with `attitude`
     AttitudeForms attitude;
     std::int64_t thing = 0;
     OutputsConfig outputs;
@@ -134,7 +134,7 @@ struct ScenarioConfig {
     std::int64_t seed = 1;
     bool has_seed = false;  // stated, or settled by settle_seed()
     std::int64_t threads = 0;
-    OriginConfig origin;  // with the key `earth_orientation`
+    OriginConfig origin;  // has the key `earth_orientation`, too
     PlaceConfig site;     // where local axes stand (site.h)
     bool has_site = false;
     CameraModel camera;
@@ -159,7 +159,7 @@ struct ScenarioConfig {
     QualityConfig quality;
     LoopConfig loop;
     CameraMode mode = CameraMode::kFreeRun;
-    Mount mount;  // of the camera that this scenario is about; the first sits where poses say
+    Mount mount;  // mount of the camera that this scenario is about; the first sits where poses say
     std::vector<CameraConfig> more_cameras;  // kMostCameras - 1 at most
     std::vector<FaultConfig> faults;
     std::vector<EventConfig> events;
@@ -171,10 +171,10 @@ struct ScenarioConfig {
 Fields fields(ScenarioConfig& scenario);
 void validate(const ScenarioConfig& scenario);
 
-// What events can name.
+// Returns what events can name.
 EventWorld event_world(const ScenarioConfig& scenario);
 
-// What the Vizard side is told of the bench.
+// Returns what the Vizard side is told of the bench.
 VizardBench vizard_bench(const ScenarioConfig& scenario);
 
 // The scenario as one of its cameras has it, counted from 0.
@@ -190,7 +190,7 @@ std::vector<RenderQuality> lower_levels(const ScenarioConfig& scenario);
 // The scenario's quality as its first camera can have it: a visibility buffer needs a lens that leaves
 // straight lines straight, rows of one instant, no terrain and no noise budget.
 RenderQuality render_quality_of(const ScenarioConfig& scenario);
-// How the radiance images of all of them are made.
+// Returns how the radiance images of all of them are made.
 SensorSampling sampling_of(const ScenarioConfig& scenario);
 
 // The models to render with: rays as the camera's shutter has them, unless the scenario gives its own.

@@ -14,7 +14,7 @@ namespace {
     throw InputError("lamp " + in_quotes(lamp.name) + ": " + what);
 }
 
-// As WorldState places things: the camera's body, objects, then all their turning parts.
+// Counts as WorldState places things: the camera's body, objects, then all their turning parts.
 std::size_t thing_of(const LampConfig& lamp, const ScenarioConfig& s) {
     if (lamp.on == "camera") {
         if (lamp.joint != 0)

@@ -26,7 +26,7 @@ double area_of(const Mesh& mesh) {
     return std::isfinite(twice) ? 0.5 * twice : 0;
 }
 
-// Without the mesh: that is copied only for who makes the table later.
+// Makes an order without the mesh, which is copied only for who makes the table later.
 TableOrder order_of(const SceneObject& object, std::size_t nodes, const ScenarioConfig& scenario) {
     TableOrder order;
     order.name = object.name;

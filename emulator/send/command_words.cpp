@@ -18,9 +18,10 @@ namespace {
 
 using Take = std::function<void(const Command&)>;
 
-constexpr double kLatest_s = 1e9;  // of a script's lines: 30 years, which 64 bits hold in nanoseconds
+// Latest time of a script's lines: 30 years, which 64 bits hold in nanoseconds.
+constexpr double kLatest_s = 1e9;
 
-// What cannot be made into a command is the user's error.
+// Words that cannot be made into a command are the user's error.
 template <class Make>
 void hand_over(const CLI::App* app, const Take& take, const Make& make) {
     Command command;

@@ -13,7 +13,8 @@
 namespace hilcam {
 namespace {
 
-// Until then a change of how time goes is not known, nor what clocks of two machines have drifted apart.
+// The time until the clock is asked again; until then a change of how time goes is not known, nor what clocks
+// of two machines have drifted apart.
 constexpr std::int64_t kAskAgain_ns = 500'000'000;
 
 Vec3d vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }

@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// Over UDP a subscription ends a minute after the last word from its sender.
+// Period of renewal: over UDP a subscription ends a minute after the last word from its sender.
 constexpr std::int64_t kRenew_ns = 20'000'000'000;
 constexpr int kWait_ms = 500;
 

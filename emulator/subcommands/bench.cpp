@@ -23,7 +23,7 @@ struct BenchArguments {
     bool json = false, sensor = false, error = false;
     BenchOptions speed;
     SoakOptions soak;
-    std::filesystem::path out;  // of the soak
+    std::filesystem::path out;  // folder of the soak
     ErrorBenchOptions errors;
 };
 

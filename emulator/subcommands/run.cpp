@@ -62,7 +62,7 @@ int carry_out(const RunArguments& o) {
     ScenarioConfig scenario = load_and_warn(config);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.limits;
-    limits.light_beside = limits.frames == 0;  // so many frames are wanted for what they show
+    limits.light_beside = limits.frames == 0;  // a limited number of frames is wanted for what they show
     log_info(settle_seed(scenario, limits.replay));
     if (limits.replay.empty()) {
         log_warnings(idle_warnings(scenario));

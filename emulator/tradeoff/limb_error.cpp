@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStep_px = 0.25;
 constexpr std::size_t kSamples = static_cast<std::size_t>(2 * kLimbReach_px / kStep_px) + 1;
-// Of the whole limb: enough that a narrow field, in which a thousandth of it is, still has some.
+// Places on the whole limb: enough that a narrow field, in which a thousandth of it is, still has some.
 constexpr int kCandidates = 65536;
 constexpr std::size_t kMost = 512, kFewest = 8;
 

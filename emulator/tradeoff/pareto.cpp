@@ -7,7 +7,7 @@
 namespace hilcam {
 namespace {
 
-// By time, of equal times the more accurate first, of equal points the first.
+// Sorts by time, of equal times the more accurate first, of equal points the first.
 std::vector<std::size_t> by_time(std::span<const TimedError> points) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

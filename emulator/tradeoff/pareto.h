@@ -1,5 +1,5 @@
 #pragma once
-// Which of many settings are worth having: those that no other beats in both time and error.
+// Finds which of many settings are worth having: those that no other beats in both time and error.
 
 #include <cstddef>
 #include <optional>
@@ -23,7 +23,7 @@ std::vector<std::size_t> pareto_front(std::span<const TimedError> points, double
 std::vector<std::size_t> by_fronts(std::span<const TimedError> points, std::size_t most,
                                    double least_gain = 0);
 
-// Of the least error that takes no longer; none if all take longer.
+// Returns the point of least error that takes no longer; none if all take longer.
 std::optional<std::size_t> best_within_time(std::span<const TimedError> points, double time_ms);
 // The fastest whose error is no greater; none if all have greater ones.
 std::optional<std::size_t> fastest_within_error(std::span<const TimedError> points, double error);

@@ -26,7 +26,7 @@ std::uint64_t hash_of(const std::string& text) {
 struct Header {
     std::array<char, 8> magic = {'h', 'i', 'l', 'c', 'a', 'm', 'R', 'P'};
     std::uint32_t version = kReferenceVersion;
-    std::uint32_t crc = 0;  // of the header, in which it is 0, and of both pictures
+    std::uint32_t crc = 0;  // check of the header, in which it is 0, and of both pictures
     std::uint64_t hash = 0;
     std::int32_t width = 0, height = 0;
     std::int64_t frames = 0;
@@ -104,7 +104,7 @@ std::optional<ReferencePicture> kept_reference(const std::filesystem::path& file
     return out;
 }
 
-// Beside it first, then renamed: two programs may do this at once.
+// Writes beside it first, then renames: two programs may do this at once.
 void keep_reference(const std::filesystem::path& file, const std::string& key, const ReferencePicture& p) {
     Header header;
     header.hash = hash_of(key);

@@ -59,7 +59,7 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
     return out;
 }
 
-// What differs from the scenario's own setting.
+// Says what differs from the scenario's own setting.
 std::string changes_of(const Tradeoff& t, const MeasuredSetting& s) {
     std::vector<std::string> words;
     for (std::size_t k = 0; k < t.knobs.size(); ++k)

@@ -23,7 +23,8 @@ struct Acknowledgement {
     std::uint64_t token = 0;  // token of a ping; sender_ns of a clock command
     TimeTai simulated_time;
     std::string reason;  // up to 96 bytes of it travel
-    // Clock reading, with an accepted clock command.
+    // Clock reading, with an accepted clock command. simulated_time and `departure` are one: both travel as
+    // the former.
     std::optional<ClockReading> clock{};
 };
 

@@ -9,7 +9,8 @@
 
 namespace hilcam {
 
-// Returns the descriptors, which are written to ep0 first, before the strings.
+// Returns the descriptors, which are written to ep0 first, before the strings. ep1 is the OUT endpoint, ep2
+// the IN endpoint.
 std::vector<std::uint8_t> functionfs_descriptors();
 // The interface's name, in US English.
 std::vector<std::uint8_t> functionfs_strings(const std::string& interface_name);

@@ -68,7 +68,7 @@ struct PingCommand {
 struct ClockCommand {
     enum class Action : std::uint8_t {
         kAsk = 0,
-        kScale = 1,   // so many simulated seconds pass in one of the machine's, now or when time goes on
+        kScale = 1,   // factor: simulated seconds in one of the machine's, now or when time goes on
         kPause = 2,   // simulated time stands
         kResume = 3,  // time goes on
         kStep = 4,    // goes on for so long; while it stands or such a step is on its way

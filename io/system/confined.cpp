@@ -120,7 +120,7 @@ bool wait_while_it_works(pid_t child, const Fd& alive, unsigned waiting_s) {
     }
 }
 
-// Says what a child's end means for the file.
+// Says what a child's end means for the file. worked: it was not ended for waiting.
 std::string reason_of(int status, bool worked) {
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (!worked) return "its reader waits for something that does not come";

@@ -17,8 +17,9 @@
 
 namespace hilcam {
 
-// The way in which a frame's numbers become a PNG's. A camera with a mosaic gives interpolated colours of 8
-// bits.
+// The way in which a frame's numbers become a PNG's. kDeep: 16 bits, the number in the most significant ones;
+// kBytes: its upper 8 bits, as readers of 8 bits take them from the other. A camera with a mosaic gives
+// interpolated colours of 8 bits.
 enum class VizardDepth { kDeep, kBytes };
 
 struct VizardConfig {

@@ -66,7 +66,7 @@ class KeptSolver {
     std::vector<Sender> senders_;
     std::vector<Spectrum> radiosity_;             // over pi
     std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
-    // What flat mirrors throw of the Sun on the first's nodes; empty: none does.
+    // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.
     std::vector<Spectrum> mirrored_;
 
     void light_nodes(const Member& member);

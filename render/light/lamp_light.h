@@ -50,7 +50,7 @@ class Lamps {
   public:
     // Throws InputError when there are more than kMostLamps.
     explicit Lamps(std::vector<SceneLamp> lamps);
-    Lamps(const Lamps&) = delete;  // what is placed points to the beams
+    Lamps(const Lamps&) = delete;  // not copied: what is placed points to the beams
     Lamps& operator=(const Lamps&) = delete;
 
     // Places the lamps for a frame; world.lamps are these. Loop.

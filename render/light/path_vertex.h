@@ -50,7 +50,7 @@ struct Vertex {
 
 // The orientation of the surface where a ray meets it.
 struct Lie {
-    Vec3f geometric_normal, normal, view_dir;  // as those of a vertex
+    Vec3f geometric_normal, normal, view_dir;  // those of a vertex
     bool back;
 };
 // Finds it for a lane that met an object. False where there is nothing to see: a triangle without an area.

@@ -9,8 +9,8 @@
 
 namespace hilcam {
 
-// Returns the share that sheets of glass within `until_m` let pass; zero where something else is met. Loop,
-// any thread.
+// Returns the share that sheets of glass within `until_m` let pass; zero where something else is met. dir:
+// unit. Loop, any thread.
 inline Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir,
                                      float until_m = std::numeric_limits<float>::infinity()) {
     constexpr int kMostSheets = 64;

@@ -1,5 +1,5 @@
 #pragma once
-// The material of a surface: a reflection model with its spectra.
+// The material of a surface: a reflection model with its spectra. brdf.h says how it scatters light.
 //
 // Models (`model:` in a material file), with what `reflectance` is in each:
 //   lambert          albedo of an ideal diffuse surface (Lambert 1760)

@@ -11,7 +11,7 @@ namespace {
 constexpr double kSide_px = kVisibilityTile_px;
 constexpr double kMostError_px = 0.05;
 constexpr int kSteps = 32;  // steps of the grid on which the lens's derivatives are looked at
-// Between the grid's places the lens may be curved more, by this factor.
+// The factor by which the lens may be curved more between the grid's places.
 constexpr double kSafety = 1.3;
 
 // The middle of the picture, padded px.

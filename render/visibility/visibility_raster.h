@@ -23,8 +23,9 @@ inline constexpr std::size_t kTrianglesAtOnce = 16;
 constexpr float sample_x(int sample) { return (static_cast<float>(sample % 4) + 0.5f) / 4; }
 constexpr float sample_y(int sample) { return (static_cast<float>(sample / 4) + 0.5f) / 4; }
 
-// Takes vertices of one object to the screen. Depth is (depth_origin - z) / z: linear on the screen, greater
-// is nearer.
+// Takes vertices of one object to the screen. x = offset_x + focal (p.x + lean_x p.z + start_x) / z with p =
+// axes * vertex and z = p.z + distance; y alike. Depth is (depth_origin - z) / z: linear on the screen,
+// greater is nearer.
 struct ScreenProjection {
     Mat3f axes;                             // camera from body
     float distance = 0, beyond_origin = 0;  // distance of the body's origin [m]; that less depth_origin
@@ -32,7 +33,8 @@ struct ScreenProjection {
     float offset_x = 0, offset_y = 0, lean_x = 0, lean_y = 0, start_x = 0, start_y = 0;
 };
 
-// A vertex on the screen [padded px].
+// A vertex on the screen [padded px]. x is NaN where a vertex is not before the camera, or far beside the
+// picture.
 struct alignas(16) ScreenVertex {
     float x, y, depth, unused;
 };

@@ -24,7 +24,7 @@ struct Motion {
 // Loop-safe.
 Pose propagate(const Motion& motion, TimeTai time);
 // Interpolates between two motions a.time < b.time: cubic Hermite in position (from both velocities), slerp
-// in attitude. Loop-safe.
+// in attitude. time is clamped to [a.time, b.time]. Loop-safe.
 Pose interpolate(const Motion& a, const Motion& b, TimeTai time);
 // The attitude whose +z axis points along `forward` and whose +y axis lies as near to -up as it can (camera
 // axes: +x right, +y down, +z boresight). Throws InputError when the two are parallel or zero.
