@@ -87,7 +87,6 @@ struct SensorChain::Implementation {
     }
 
     // --- mean charge
-    // ------------------------------------------------------------------------------------------------
 
     // While the rows are shifted under the light, every pixel passes the places of all others in its column:
     // on the way in before the exposure those on one side, on the way out those on the other.
@@ -113,7 +112,6 @@ struct SensorChain::Implementation {
     }
 
     // --- chance and read-out
-    // ------------------------------------------------------------------------------------------
 
     // Black columns have numbers of their own, so a row is drawn in two pieces.
     void draw_row(int y, std::span<const float> mean_e, RandomKey key, std::span<float> charge,

@@ -112,7 +112,6 @@ struct FocalPlane::Implementation {
     }
 
     // --- radiance to electrons
-    // ----------------------------------------------------------------------------------------
 
     void collapse(LightChannel& channel, const RadianceImage& radiance, double exposure_s) {
         Spectrum factor = channel.per_radiance;
@@ -263,7 +262,6 @@ struct FocalPlane::Implementation {
     }
 
     // --- sampling at the pixels
-    // ---------------------------------------------------------------------------------------
 
     int image_index(int px) const {
         const int m = view.sampling.oversampling;

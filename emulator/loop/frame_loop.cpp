@@ -67,7 +67,6 @@ void FrameLoop::stop() noexcept {
 }
 
 // --- stage 1
-// -------------------------------------------------------------------------------------------------------
 
 void FrameLoop::render_frames() {
     for (std::size_t turn = 0;; ++turn) {
@@ -276,7 +275,6 @@ void FrameLoop::tell_watcher(const Slot& slot) {
 }
 
 // --- stage 2
-// -------------------------------------------------------------------------------------------------------
 
 void FrameLoop::sense_frames() {
     for (std::size_t turn = 0;; ++turn) {

@@ -28,7 +28,7 @@ Fields fields(ClockConfig& c) {
         flag("paused", c.paused,
              "true: simulated time stands still at the start, until a clock command lets it run"),
         choice("camera_in_pause", c.camera_in_pause, {"streams", "waits"},
-               "what the camera does while simulated time stands still. streams: it sends frames of the "
+               "behaviour of the camera while simulated time stands still. streams: it sends frames of the "
                "standing world at its rate; waits: it begins none"),
     };
 }

@@ -101,7 +101,6 @@ std::string_view refusal_of(const FaultOrder& o) {
 }
 
 // --- the board
-// -----------------------------------------------------------------------------------------------------
 
 struct FaultBoard::State {
     FaultOrder order;

@@ -124,7 +124,6 @@ void GigeSink::Implementation::open() {
 }
 
 // --- what the device sets in motion
-// -------------------------------------------------------------------------------
 
 GigeDevice::Effects GigeSink::Implementation::effects() {
     GigeDevice::Effects e;
@@ -202,7 +201,6 @@ void GigeSink::Implementation::move_to_next_sockets() {
 }
 
 // --- control thread
-// ------------------------------------------------------------------------------------------------
 
 void GigeSink::Implementation::serve_control() {
     make_thread_urgent();
@@ -241,7 +239,6 @@ void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
 }
 
 // --- the sink
-// ------------------------------------------------------------------------------------------------------
 
 GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context) {
     const CameraLimits limits = context.camera.limits();

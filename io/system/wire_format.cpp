@@ -69,7 +69,6 @@ struct Source {
 };
 
 // --- one sample a pixel
-// ----------------------------------------------------------------------------------------------------------
 
 void write_bytes(const Source& s, std::uint8_t* out) {
     const std::size_t width = s.width();
@@ -115,7 +114,6 @@ void write_packed(const Source& s, const PixelLayout& layout, std::uint16_t* row
 }
 
 // --- colours
-// ---------------------------------------------------------------------------------------------------------------------
 
 constexpr int mirrored(int at, int size) {
     if (size == 1) return 0;

@@ -92,7 +92,6 @@ bool UvcSink::open_video() {
 }
 
 // --- the host's requests
-// -------------------------------------------------------------------------------------
 
 void UvcSink::answer_host() {
     pollfd waits[2] = {{wakeup_.get(), POLLIN, 0}, {-1, POLLPRI, 0}};
@@ -176,7 +175,6 @@ void UvcSink::take_data(const v4l2_event& event) {
 }
 
 // --- pictures
-// --------------------------------------------------------------------------------------------------
 
 void UvcSink::begin_stream() {
     const std::lock_guard lock(buffers_mutex_);

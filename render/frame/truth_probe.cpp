@@ -85,7 +85,6 @@ void TruthProbe::tell() {
 }
 
 // --- poses and places
-// ---------------------------------------------------------------------------------------------------------
 
 // Finds where the picture shows what lies there.
 bool TruthProbe::project(Vec3d from_camera_m, Vec2d& frame_px) const {
@@ -200,7 +199,6 @@ void TruthProbe::tell_stars() {
 }
 
 // --- a ray through the middle of every pixel
-// ---------------------------------------------------------------------------------------------------------
 
 void TruthProbe::size_layers() {
     size_layer(truth_.layers.object, truth_.raster);
@@ -300,7 +298,6 @@ void TruthProbe::write(int x, int y, const RayMet& met) {
 }
 
 // --- what is visible of each thing
-// ---------------------------------------------------------------------------------------------------------
 
 SeenThing* TruthProbe::thing_of(std::uint32_t id) {
     const auto found = std::find_if(truth_.things.begin(), truth_.things.end(),

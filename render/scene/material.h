@@ -50,7 +50,7 @@ enum class ReflectionModel {
 
 // A material as a file gives it.
 struct MaterialConfig {
-    std::string source;  // where the figures come from
+    std::string source;  // source of the figures
     ReflectionModel model = ReflectionModel::kLambert;
     Curve reflectance = Curve::constant(0.5);
     double roughness = 0.3;         // metal, dielectric: GGX alpha is its square; oren_nayar: r

@@ -94,7 +94,6 @@ PhotonTransfer photon_transfer(std::span<const LightPoint> points, double satura
 }
 
 // --- response
-// --------------------------------------------------------------------------------------------------------
 
 ResponseCurve::ResponseCurve(std::span<const LightPoint> points, double saturation_dn) {
     std::vector<double> x, y, weight, variance;
@@ -148,7 +147,6 @@ Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const Respon
 }
 
 // --- darkness
-// --------------------------------------------------------------------------------------------------------
 
 Measured dark_noise_e(const TemporalStatistics& dark, double dark_signal_dn, const Measured& gain,
                       double bandwidth) {
@@ -189,7 +187,6 @@ DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Measured& 
 }
 
 // --- linearity
-// --------------------------------------------------------------------------------------------------------
 
 std::vector<ResponsePoint> response_points(std::span<const LightPoint> points) {
     std::vector<ResponsePoint> out;
@@ -223,7 +220,6 @@ Linearity linearity(std::span<const ResponsePoint> points, double saturation_dn)
 }
 
 // --- what stays
-// --------------------------------------------------------------------------------------------------------
 
 Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
                      const PixelSelection& selection, const Measured& gain, double bandwidth) {
@@ -253,7 +249,6 @@ Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& fl
 }
 
 // --- what follows
-// --------------------------------------------------------------------------------------------------------
 
 Measured absolute_threshold_e(const Measured& noise, const Measured& gain) {
     const double dark = std::sqrt(square(noise.value) + kQuantisation_dn2 / square(gain.value));

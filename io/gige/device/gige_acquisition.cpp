@@ -15,7 +15,6 @@ GigeAcquisition::GigeAcquisition(GigeCore& core) : core_(core) {
 }
 
 // --- start and stop
-// ------------------------------------------------------------------------------------------------------
 
 void GigeAcquisition::add_control() {
     GigeRegisterFile& r = core_.registers;
@@ -63,7 +62,6 @@ void GigeAcquisition::stop() {
 }
 
 // --- exposure, gain, black level
-// ----------------------------------------------------------------------------------------
 
 void GigeAcquisition::add_exposure() {
     GigeRegisterFile& r = core_.registers;
@@ -90,7 +88,6 @@ void GigeAcquisition::add_exposure() {
 }
 
 // --- frame rate
-// ---------------------------------------------------------------------------------------------------------
 
 // Adds the frame rate; without AcquisitionFrameRateEnable the camera is as fast as it can be.
 void GigeAcquisition::add_frame_rate() {

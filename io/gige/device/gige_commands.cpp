@@ -33,7 +33,6 @@ bool may_be_broadcast(std::uint16_t command) {
 }  // namespace
 
 // --- messages
-// -------------------------------------------------------------------------------------------------------------
 
 std::size_t GigeDevice::handle(std::span<const std::uint8_t> datagram, Endpoint from, std::int64_t now_ns,
                                std::span<std::uint8_t> out, bool broadcast) {
@@ -143,7 +142,6 @@ GigeDevice::Answer GigeDevice::answer(const Header& header, std::span<const std:
 }
 
 // --- registers
-// ------------------------------------------------------------------------------------------------------------
 
 GigeDevice::Answer GigeDevice::read_registers(std::span<const std::uint8_t> payload,
                                               std::span<std::uint8_t> out) {
@@ -209,7 +207,6 @@ GigeDevice::Answer GigeDevice::write_memory(std::span<const std::uint8_t> payloa
 }
 
 // --- the other commands
-// ---------------------------------------------------------------------------------------------------
 
 GigeDevice::Answer GigeDevice::act(const Header& header, std::span<const std::uint8_t> payload) {
     const auto action = gvcp::read_action(payload, header.flags & Header::kScheduledFlag);

@@ -39,7 +39,6 @@ void GigeImage::reset() {
 }
 
 // --- the window
-// ----------------------------------------------------------------------------------------------------------
 
 GigeImage::Span GigeImage::columns() {
     const std::uint32_t most = static_cast<std::uint32_t>(core_.limits.width) / core_.stream.binning_x;
@@ -130,7 +129,6 @@ void GigeImage::add_window() {
 }
 
 // --- what the camera itself does
-// -----------------------------------------------------------------------------------------
 
 Status GigeImage::write_binning(std::uint64_t x, std::uint64_t y) {
     SettingsChange change;
@@ -179,7 +177,6 @@ void GigeImage::add_camera_settings() {
 }
 
 // --- chunks
-// --------------------------------------------------------------------------------------------------------------
 
 void GigeImage::add_chunks() {
     GigeRegisterFile& r = core_.registers;

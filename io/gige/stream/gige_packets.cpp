@@ -73,7 +73,6 @@ GigePacket trailer_of(const GigeFrame& f, const gvsp::PacketHeader& header) {
 }
 
 // --- chunks
-// ----------------------------------------------------------------------------------------------------------------------
 
 void write_confidence(const DnImage& frame, const Crop& crop, int bits, std::span<std::uint8_t> out) {
     const auto full_scale = static_cast<std::uint16_t>((1u << bits) - 1);

@@ -98,7 +98,6 @@ void GigeSender::run() {
 }
 
 // --- frames
-// ------------------------------------------------------------------------------------------------------
 
 void GigeSender::send_frame(GigeSlot& slot) {
     const GigeStreamState& s = slot.frame.stream;
@@ -194,7 +193,6 @@ Pace GigeSender::pace_of(const GigeSlot& slot) {
 }
 
 // --- what is asked for
-// --------------------------------------------------------------------------------------------
 
 bool GigeSender::serve_orders() {
     const std::int64_t now_ns = monotonic_ns();
@@ -305,7 +303,6 @@ void GigeSender::give_back(GigeSlot* slot) {
 }
 
 // --- packets held back
-// --------------------------------------------------------------------------------------------
 
 void GigeSender::delay(const GigeSlot& slot, std::uint32_t id, gvsp::Status status, const PacketFate& fate,
                        const sockaddr_in& to) {
@@ -350,7 +347,6 @@ void GigeSender::serve_delayed(std::int64_t now_ns) {
 }
 
 // --- waiting
-// -----------------------------------------------------------------------------------------------------
 
 void GigeSender::pause_until(std::int64_t due_ns) {
     while (!stopping_.load(std::memory_order_relaxed)) {

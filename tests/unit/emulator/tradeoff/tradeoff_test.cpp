@@ -111,7 +111,6 @@ TEST_F(TradeoffFiles, APresetReadsBackAsItWas) {
 }
 
 // --- combinations
-// -----------------------------------------------------------------------------------------------------
 
 MeasuredSetting measured(MeasuredSetting::Kind kind, Choices choices, double frame_ms, double error) {
     MeasuredSetting s;
