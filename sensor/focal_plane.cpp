@@ -17,7 +17,7 @@
 namespace hilcam {
 namespace {
 
-const tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
+tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 
 constexpr float kMost_e = 1e9f;         // greatest mean charge of a pixel
 constexpr float kMostBefore_e = 1e12f;  // greatest charge of a radiance pixel
@@ -83,6 +83,7 @@ struct FocalPlane::Implementation {
     static std::vector<FarWings> make_wings(const DetectorView& view,
                                             const std::vector<LightChannel>& channels) {
         std::vector<FarWings> out;
+        out.reserve(channels.size());
         for (const LightChannel& channel : channels)
             out.emplace_back(channel.mtfs.front().wing_slope_px(), view.camera.stray_light, view.detector);
         return out;

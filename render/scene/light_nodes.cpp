@@ -178,6 +178,7 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
                       [&](std::size_t i) { nodes_[i] = maker.make(sets[i], i); });
 
     std::vector<std::uint64_t> keys;
+    keys.reserve(cells.size());
     for (const FoundCell& cell : cells) keys.push_back(cell.key);
     index(keys);
 }

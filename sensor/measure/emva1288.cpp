@@ -224,7 +224,7 @@ Linearity linearity(std::span<const ResponsePoint> points, double saturation_dn)
 Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
                      const PixelSelection& selection, const Measured& gain, double bandwidth) {
     const std::vector<double> mean = dark.mean_dn();
-    const std::vector<double> image = sum_of_images(mean, smooth_surface(mean, selection, kShadingOrder), -1);
+    std::vector<double> image = sum_of_images(mean, smooth_surface(mean, selection, kShadingOrder), -1);
     const double frames = dark.frames();
     Nonuniformity out = split(std::move(image), selection, temporal.pixel_dn2() / frames,
                               temporal.row_dn2 / frames, bandwidth);
