@@ -24,7 +24,7 @@ struct QualityLevelConfig {
 };
 Fields fields(QualityLevelConfig& level);
 
-inline constexpr std::size_t kMostLevels = 16;  // includes level 0
+inline constexpr std::size_t kMaxLevels = 16;  // includes level 0
 
 // The aim of the frame loop (frame_loop.h).
 enum class LoopPreference { kThroughput, kLatency };

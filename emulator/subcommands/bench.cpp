@@ -110,7 +110,7 @@ void add_error_options(CLI::App* bench, BenchArguments& o, CLI::Option* soak) {
         ->needs(errors);
     bench
         ->add_option(
-            "--reference-frames", o.errors.reference.most_frames,
+            "--reference-frames", o.errors.reference.max_frames,
             "with --error: most frames for each view's reference; fewer are taken where its standard "
             "error is small before")
         ->check(power_of_two_from_4())

@@ -33,7 +33,7 @@ struct PictureErrors {
 struct ReferenceLimits {
     // Greatest standard error of 99 % of the lit pixels, in their own sensor noise: enough.
     double standard_error_sigma = 0.05;
-    int most_frames = 64;  // a power of two, 4 at least
+    int max_frames = 64;  // a power of two, 4 at least
 };
 
 struct ReferencePicture {

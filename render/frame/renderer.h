@@ -83,10 +83,10 @@ class Renderer {
     FrameTruth make_truth(const TruthWishes& wishes, int width_px, int height_px) const;
     // Fills `truth` with what the world shows that was placed last, by render() or motion(); truth.raster is
     // set. Loop, as render().
-    void tell_truth(FrameTruth& truth) const;
+    void report_truth(FrameTruth& truth) const;
 
     // An upper bound of the points that render() can give.
-    std::size_t most_points() const;
+    std::size_t max_points() const;
     std::size_t triangles() const;
     // Returns the radius of the sphere about an object's origin that holds it, in the scene's order.
     double object_radius_m(std::size_t object) const;

@@ -15,11 +15,11 @@
 namespace hilcam {
 
 // A body that shines on the objects: the cone that holds it.
-struct BodyLamp {
+struct BodyLight {
     Vec3d world_dir;          // from the objects
     float cone_sine_squared;  // square of the sine of its half angle; 1 inside it
     float one_minus_cosine;   // 1 - cosine of its half angle, with all its digits where it is small
-    Spectrum most_over_sun;   // greatest value of its radiance, per unit of solar irradiance [sr^-1]
+    Spectrum max_over_sun;    // greatest value of its radiance, per unit of solar irradiance [sr^-1]
 };
 
 // A body for one frame. Body axes: its own; "from" the body's centre.
@@ -59,7 +59,7 @@ class Background {
     // Bodies with a disk, nearest first; and those that are points.
     std::span<const PlacedBody> disks() const { return {disks_.data(), disk_count_}; }
     std::span<const PlacedBody> points() const { return {points_.data(), point_count_}; }
-    std::span<const BodyLamp> lamps() const { return {lamps_.data(), lamp_count_}; }
+    std::span<const BodyLight> body_lights() const { return {body_lights_.data(), body_light_count_}; }
     // Returns the angle from the middle of a lamp's disk to the limb of its ground [rad], as seen from the
     // objects, in the plane of a direction across (unit, world).
     double limb_angle_rad(std::size_t lamp, Vec3d way) const;
@@ -77,7 +77,7 @@ class Background {
     }
     // Cheaply, whether add_bodies() could add anything. dir: unit.
     bool may_meet_body(Vec3f dir) const {
-        for (const BodyLamp& lamp : lamps()) {
+        for (const BodyLight& lamp : body_lights()) {
             const Vec3f axis = to_float(lamp.world_dir);
             const float cosine = dot(axis, dir);
             // The cone with a margin for single precision and for the objects' own size.
@@ -139,8 +139,8 @@ class Background {
     std::array<Spectrum, kBodyCount> map_mean_;    // mean colour after that; 1 without a map
 
     std::array<PlacedBody, kBodyCount> disks_, points_;
-    std::array<BodyLamp, kBodyCount> lamps_;
-    std::size_t disk_count_ = 0, point_count_ = 0, lamp_count_ = 0;
+    std::array<BodyLight, kBodyCount> body_lights_;
+    std::size_t disk_count_ = 0, point_count_ = 0, body_light_count_ = 0;
     const PlacedBody* plain_ = nullptr;
     Spectrum plain_radiance_;
     Bodies bodies_;
