@@ -36,7 +36,7 @@ bool is_in_frame(const SeenThing& thing, const FrameRaster& raster) {
 
 SeenObject::Place place_of(const SeenThing& thing, const FrameRaster& raster, const CameraSheet& sheet,
                            double off_rad, double radius_rad) {
-    // What is smaller than a pixel may have none and still be seen; a speck of a 64th has no silhouette
+    // A thing smaller than a pixel may have none and still be seen; a speck of a 64th has no silhouette
     // either.
     if (thing.visible_px > 0 || thing.visible_fraction > 0) return SeenObject::Place::kVisible;
     if (thing.silhouette_px == 0 && is_in_frame(thing, raster) && radius_rad < sheet.ifov_rad)

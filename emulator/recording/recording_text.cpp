@@ -175,7 +175,7 @@ json text_of(const RecordedEnd& e, const RecordingHeader& header) {
 
 void list_recording(RecordingReader& recording, const std::function<void(const std::string&)>& line) {
     const RecordingHeader& h = recording.header();
-    // What is no UTF-8, as a scenario may have it in a name, is shown as it can be.
+    // Text that is no UTF-8, as a scenario may have it in a name, is shown as it can be.
     const auto show = [&](const json& value) {
         line(value.dump(-1, ' ', false, json::error_handler_t::replace));
     };

@@ -28,7 +28,7 @@ class Limb {
         const double distance = length(stretched);
         outside_ = distance > a;
         if (!outside_) return;
-        // Of the circle on which rays touch the sphere.
+        // The middle of the circle on which rays touch the sphere.
         middle_m_ = (a * a / (distance * distance)) * stretched;
         radius_m_ = a * std::sqrt((1 - a / distance) * (1 + a / distance));
         const Vec3d axis = stretched / distance;
@@ -38,7 +38,7 @@ class Limb {
     }
     bool outside() const { return outside_; }
 
-    // From the camera to a place on the limb, camera axes.
+    // Returns the direction from the camera to a place on the limb, camera axes.
     Vec3d direction_camera(double angle_rad) const {
         const Vec3d p = middle_m_ + radius_m_ * (std::cos(angle_rad) * across_ + std::sin(angle_rad) * up_);
         return camera_from_fixed_ * (Vec3d{p.x, p.y, p.z / stretch()} - camera_m_);

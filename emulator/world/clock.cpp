@@ -140,8 +140,8 @@ CommandStatus SimulatedClock::order(const ClockCommand& c) {
     if (lockstep_) return CommandStatus::kNotNow;
     const std::lock_guard lock(writers_);
     const State old = state_.read();
-    // Who asks for an instant before this one gets the old piece, now and later. Held if this thread is not
-    // stopped for longer than the lead on the few lines from here to write().
+    // A caller that asks for an instant before this one gets the old piece, now and later. Held if this
+    // thread is not stopped for longer than the lead on the few lines from here to write().
     const std::int64_t from_ns = monotonic_ns() + kLead_ns;
     const Piece& running = old.at(from_ns);
     const std::int64_t camera_ns = running.camera_at(from_ns);

@@ -133,7 +133,7 @@ bool WorldState::set_lamp(std::size_t lamp, const LampSwitch& order, ShownComman
 bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command, bool alone) {
     const std::lock_guard lock(writers_);
     History& history = thing.written;
-    // What the scenario file said holds only until the first command.
+    // The scenario file's word holds only until the first command.
     if (alone || history.command.arrival_monotonic_ns == 0) history.count = 0;
     history.insert(motion);
     history.command = command;

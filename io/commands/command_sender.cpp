@@ -42,7 +42,7 @@ bool CommandSender::next_packet(std::span<const std::uint8_t>& packet, std::int6
 
 Acknowledgement CommandSender::send(const Command& command, int timeout_ms) {
     std::array<std::uint8_t, kMaxPacketBytes> bytes;
-    // What comes back of a sequence number is what travels.
+    // An answer has that part of a sequence number which travels.
     const std::uint32_t sequence = dialect_.dialect == Dialect::kCfs ? sequence_ & 0x3FFF : sequence_;
     ++sequence_;
     const std::size_t size = encode_command(command, sequence, dialect_, bytes, camera_);

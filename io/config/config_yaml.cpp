@@ -210,7 +210,8 @@ class Reader {
         }
     }
 
-    // Where the key stands, or as much of the way to it as there is in this file or on the command line.
+    // Fails where the key stands, or at as much of the way to it as there is in this file or on the command
+    // line.
     [[noreturn]] void fail_at_key(const Place& place, const YAML::Node& map, const std::string& path,
                                   const KeyError& error) {
         const std::string whole = join(path, error.key());

@@ -109,7 +109,7 @@ struct FaultBoard::State {
 
     bool covers(std::uint64_t frame) const {
         if (number == 0 || order.rate <= 0) return false;
-        // What belongs to no frame is struck whatever the span of frames.
+        // An item that belongs to no frame is struck whatever the span of frames.
         if (frame != 0 && frame < order.from_frame) return false;
         if (frame != 0 && order.frames != 0 && frame >= order.from_frame + order.frames) return false;
         return until_ns == 0 || monotonic_ns() < until_ns;
@@ -222,7 +222,7 @@ std::optional<double> FaultBoard::strikes(FaultKind kind, std::uint64_t frame, s
     if (!value) return {};
     Cell& c = cells_[place_of(kind)];
     if (kKinds[place_of(kind)].once) {
-        // Of several threads that ask, one gets it.
+        // When several threads ask, one gets it.
         const std::uint64_t number = c.order.load();
         if (c.struck_order.exchange(number) == number) return {};
     }

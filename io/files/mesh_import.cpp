@@ -51,7 +51,7 @@ class Loader {
         return std::move(mesh_);
     }
 
-    // What load() came across.
+    // The nodes that load() came across.
     std::vector<MeshNode>& nodes() { return found_nodes_; }
     std::uint64_t collapsed_triangles() const { return collapsed_triangles_; }
 
@@ -134,7 +134,7 @@ class Loader {
         throw InputError(what + " is not compressed; accepted: PNG, JPEG, TIFF, BMP, WebP");
     }
 
-    // Which of the names takes a node, or -1.
+    // Returns which of the names takes a node, or -1.
     int taken_by(const std::string& name) const {
         for (std::size_t k = 0; k < nodes_.size(); ++k) {
             const std::string& pattern = nodes_[k];
@@ -244,7 +244,7 @@ class MeshFiles final : public Assimp::IOSystem {
         if (path_.ends_with(".obj")) materials_.add(bytes_, path_);
     }
 
-    // What is wrong with a file: assimp has words of its own for it, or goes on without the file.
+    // The error in a file: assimp has words of its own for it, or goes on without the file.
     const std::optional<InputError>& refused() const { return refused_; }
 
     bool Exists(const char* file) const override {
@@ -346,7 +346,7 @@ void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     const std::string_view ending = std::string_view(kind).substr(1);
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
         const aiImporterDesc& about = *importer.GetImporterInfo(i);
-        // Of glTF 1 and 2, which have the same endings.
+        // The importer of glTF 1 and that of glTF 2 have the same endings.
         const bool is_old = std::string_view(about.mName) == "glTF Importer";
         if (has_word(about.mFileExtensions, ending) && !is_old) continue;
         const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));

@@ -120,7 +120,7 @@ std::uint64_t GigeSockets::take(const Receive& receive) {
 bool GigeSockets::is_heard(unsigned interface, bool broadcast) {
     if (interface == 0) return false;
     if (interface == interface_number_) return true;
-    // What a program of this machine sends to any address of this machine goes through the loopback
+    // A packet from a program of this machine to any address of this machine goes through the loopback
     // interface.
     if (interface == kLoopback && !broadcast) return true;
     char name[IF_NAMESIZE] = {};

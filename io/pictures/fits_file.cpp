@@ -45,7 +45,7 @@ class Cards {
     void whole(std::string_view key, std::int64_t value, std::string_view comment) {
         fixed(key, std::to_string(value), comment);
     }
-    // What is no number has no form in a header.
+    // A value that is no number has no form in a header.
     void real(std::string_view key, double value, std::string_view comment) {
         if (std::isfinite(value)) fixed(key, real_text(value), comment);
     }

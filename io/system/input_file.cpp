@@ -97,7 +97,7 @@ class InputStream::Buffer final : public std::streambuf {
 InputStream::InputStream(const std::filesystem::path& file, const InputKind& kind)
     : std::istream(nullptr), buffer_(std::make_unique<Buffer>(file, kind)) {
     rdbuf(buffer_.get());
-    // What the buffer throws is thrown on: an istream keeps exceptions to itself otherwise.
+    // Exceptions of the buffer are thrown on: an istream keeps them to itself otherwise.
     exceptions(std::ios::badbit);
 }
 

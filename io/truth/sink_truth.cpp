@@ -80,7 +80,7 @@ FrameTruth* TruthSink::begin(const FrameRecord& record) noexcept {
 void TruthSink::publish(const DnImage&, const FrameRecord& record) noexcept {
     const std::size_t ready = ready_.load(std::memory_order_relaxed);
     Slot& slot = *slots_[ready % slots_.size()];
-    // Of a frame without truth the slot holds another's: an earlier one's, or that of the frame after it.
+    // The slot of a frame without truth holds another's: an earlier one's, or that of the frame after it.
     if (slot.frame.load(std::memory_order_relaxed) != record.id) return;
     slot.record = record;
     ready_.store(ready + 1, std::memory_order_release);

@@ -152,7 +152,8 @@ VizardWorld::Shift VizardWorld::shift_at(TimeTai time, const Bodies& bodies) {
     const BodyId center = *bench_.origin.center();
     Shift shift{bodies[center].world_m, {}};
     if (bench_.origin.turns()) {
-        // How the origin's place turns about the body: a difference over two seconds, good to a part in 1e9.
+        // The origin's place turns about the body as a difference over two seconds says, good to a part in
+        // 1e9.
         constexpr std::int64_t kStep_ns = 1'000'000'000;
         const Vec3d before = bodies_at(time + -kStep_ns, bench_.origin)[center].world_m;
         const Vec3d after = bodies_at(time + kStep_ns, bench_.origin)[center].world_m;

@@ -119,7 +119,8 @@ void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
     }
     if (c.out.empty() && (inner_events & ~POLLOUT)) c.gone |= !read_into(c.out, c.inner);
     c.gone |= !write_from(c.in, c.inner) || !write_from(c.out, c.outer);
-    // What cannot be passed on now never will be; poll() would come back with it at once, again and again.
+    // A connection that cannot pass anything on now never will; poll() would come back with it at once, again
+    // and again.
     const bool stuck =
         (!c.in.empty() && (outer_events & POLLHUP)) || (!c.out.empty() && (inner_events & POLLHUP));
     c.gone |= stuck || ((outer_events | inner_events) & (POLLERR | POLLNVAL)) != 0;

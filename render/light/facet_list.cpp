@@ -101,7 +101,7 @@ class Reflection {
         for (const Group& group : std::span(groups_).first(group_count_)) {
             float seen = 0, lit = 0;
             for (std::size_t i = group.first; i < group.first + group.count; ++i) seen += lanes_.seen[i];
-            // What leans away from the viewer as a whole is seen as it lies itself.
+            // A facet that leans away from the viewer as a whole is seen as it lies itself.
             const bool hidden = !(seen > 0);
             const float each = group.facet->samples / (hidden ? 1 : seen);
             for (std::size_t i = group.first; i < group.first + group.count; ++i)

@@ -102,7 +102,7 @@ class Prober {
         probe.distance_m = hits.distance[k];
         const bool found = light.table().nodes().find(other.place(probe.origin_m) + hits.distance[k] * dir,
                                                       {back ? -normal : normal, surface, back}, about);
-        // What mirrors send is too sharp to be kept from object to object.
+        // Light that mirrors send is too sharp to be kept from object to object.
         const bool keeps = found && about.count > 0 && !light.is_mirror(surface);
         probe.link = {keeps ? about.nearest() : kDark, static_cast<std::uint16_t>(other.object),
                       probe.direction};

@@ -125,8 +125,8 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
         }
     }
     out.kept = (1 / all) * out.kept;
-    // What comes along the directions that meet something makes the node's irradiance: pi / counted of each
-    // one's radiance.
+    // Light that comes along the directions that meet something makes the node's irradiance: pi / counted of
+    // each one's radiance.
     if (met_nodes > 0)
         out.of_irradiance =
             occupied / all * static_cast<float>(node.counted) / (kPiF * static_cast<float>(met_nodes));

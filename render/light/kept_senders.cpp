@@ -69,7 +69,7 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
     const TransferTable& table = light.table();
     const KeptSource& source = member.source;
     Sender* const senders = senders_.data() + base_[member.object];
-    // What is asked of each node: how much its points would receive, rays sent, and rays that get through.
+    // The questions for each node: how much its points would receive, rays sent, and rays that get through.
     struct Asked {
         float received = 0;
         int points = 0, rays = 0, lit = 0;

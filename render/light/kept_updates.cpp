@@ -109,7 +109,7 @@ void KeptUpdates::prepare_group(const KeptTarget& target, std::size_t term,
     if (staged && differs) return;
     for (const KeptSolver::Member& member : members_)
         stage_.has_solution[member.object][term] = differs && shines;
-    // What does not shine stays as it was: its level is zero.
+    // A source that does not shine stays as it was: its level is zero.
     if (differs && shines) solver_.solve(members_);
 }
 

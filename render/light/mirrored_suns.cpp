@@ -94,7 +94,7 @@ class Asker {
         Asked asked;
         asked.at = &at;
         auto [sun, light] = sun_.of(at);
-        // What is widened is widened by the disk, too.
+        // A disk that is widened is widened by the Sun's disk, too.
         if (shown_.blur.x > 0)
             sun = to_float(frame_.background->sun_world_dir()),
             light = frame_.background->sun_irradiance_w_m2_um();
@@ -128,7 +128,7 @@ class Asker {
     HitPacket hits_;
     std::array<Asked, kPacketSize> asked_;
 
-    // How much of the lobe the mirror fills, seen about a place of its plane. False: nothing.
+    // Finds how much of the lobe the mirror fills, seen about a place of its plane. False: nothing.
     bool look_up(Vec2f place, Asked& asked) const {
         const Vec2f cell = shape_.cell_m();
         // The map is as fine as its cells, and as true as the level of detail; what is sharper has the edges

@@ -101,8 +101,8 @@ class HemispherePaths final : public PathModel {
     void follow(Tile& tile, std::span<const Vertex> vertices) {
         if (vertices.empty()) return;
         tile.frame.radiance->add_light(tile, vertices, BodySampling::kQuadrature);
-        // What comes by way of each vertex is summed by itself: a pixel gets 60^depth contributions, and
-        // single precision loses the small ones when each is added to all that came before.
+        // Light that comes by way of each vertex is summed by itself: a pixel gets 60^depth contributions,
+        // and single precision loses the small ones when each is added to all that came before.
         for (const Vertex& at : vertices) {
             Spectrum& pixel = tile.pixels[at.pixel];
             const Spectrum before = std::exchange(pixel, {});

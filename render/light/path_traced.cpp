@@ -136,7 +136,7 @@ class TracedPaths final : public PathModel {
         const Vec3f mirror = normalized(reflect(at.view_dir, at.normal));
         if (surface.alpha < kNarrowestLobe) {
             const NextRay ray{&at, at.start(), mirror, 0, surface.alpha, surface.alpha == 0, weight, true};
-            // What stands nowhere near is not looked for.
+            // Mirrors that stand nowhere near are not looked for.
             if (at.mirrors_near)
                 add_kept(tile, ray, ray_count);
             else if (dot(at.geometric_normal, mirror) > 0)

@@ -124,7 +124,7 @@ class PrimaryRays {
     void center(float dx, float dy) {
         for (std::size_t k = 0; k < kPacketSize; ++k) x_at_[k] = x_of_[k] + dx, y_at_[k] = y_of_[k] + dy;
     }
-    // Of the packet's pixels, the same for all their samples.
+    // Chooses the sequences of the packet's pixels, the same for all their samples.
     void choose_sequences() {
         for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
             const std::uint32_t pixel = tile_.frame_pixel(tile_.box.x0 + static_cast<int>(x_of_[k]),

@@ -80,7 +80,7 @@ class RowRays : public RayGenerator {
         const Pose pose = propagate(camera_, camera_.time + std::llround(dt_s * 1e9));
         return {pose.position_world_m - camera_.pose.position_world_m, to_matrix(pose.world_from_body)};
     }
-    // Where the sensor has a thing at that instant. False: behind it.
+    // Finds where the sensor has a thing at that instant. False: behind it.
     bool project(Vec3d dir, double distance_m, double y_px, Sighting& seen) const {
         const RowPose at = pose_at(y_px);
         const Vec3d d = in_camera(at, dir, distance_m);
@@ -89,7 +89,7 @@ class RowRays : public RayGenerator {
         seen.from_camera_m = at.moved_m;
         return true;
     }
-    // Whether the lens has it where project() said. On the way to its row a thing may be where it has not.
+    // True when the lens has it where project() said. On the way to its row a thing may be where it has not.
     bool lens_shows(Vec3d dir, double distance_m, double y_px, const Sighting& seen) const {
         return geometry_.shows(in_camera(pose_at(y_px), dir, distance_m), seen.position_px);
     }
@@ -183,7 +183,7 @@ class PushbroomRays final : public RowRays {
         seen.light_ratio = geometry_.padded_height();
         return std::abs(miss_px) < 0.5;
     }
-    // How far below the sensor's row it is [px].
+    // Finds how far below the sensor's row it is [px].
     bool off_line(Vec3d dir, double distance_m, double y_px, Sighting& seen, double& miss_px) const {
         if (!project(dir, distance_m, y_px, seen)) return false;
         miss_px = seen.position_px.y - geometry_.center_px().y;

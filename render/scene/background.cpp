@@ -375,7 +375,8 @@ Spectrum Background::point_irradiance(const PlacedBody& body) const {
     const double a = figure.equatorial_radius_m, b = figure.polar_radius_m;
     const Vec3d to_camera = body.camera_m / body.distance_m;
     const double phase = std::acos(std::clamp(dot(to_camera, body.sun_dir), -1.0, 1.0));
-    // Of the ellipse that it shows: semi-axes a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's latitude.
+    // These are the semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's
+    // latitude.
     const double sine = to_camera.z;
     const double area_ratio =
         a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);

@@ -249,7 +249,7 @@ void FlatMirror::draw(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
         for (int x = x0; x <= x1; ++x) {
             const double s0 = side(0, x + 0.5, y + 0.5), s1 = side(1, x + 0.5, y + 0.5),
                          s2 = side(2, x + 0.5, y + 0.5);
-            // What lies on an edge belongs to both of its triangles.
+            // A place on an edge belongs to both of its triangles.
             if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))
                 sums_[static_cast<std::size_t>((y + 1) * (kCells + 1) + x + 1)] = 1;
         }

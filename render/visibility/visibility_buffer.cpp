@@ -179,7 +179,7 @@ bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown) {
         const std::size_t end = triangle_count_ * (group + 1) / kGroups;
         if (begin < end && !Sorter(*this, group).sort(begin, end)) room = false;
     });
-    // What groups have taken and not used depends on chance: whether there is room must not.
+    // Whether there is room must not depend on chance, as what groups have taken and not used does.
     return room && used_ + kGroups * kBlocksAtOnce <= heads_.size();
 }
 

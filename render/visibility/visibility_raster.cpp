@@ -184,7 +184,7 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
         const auto to = [&](V at) { return hn::Floor(hn::Sub(hn::Mul(four, at), half)); };
         const V from_x = from(x0), to_x = to(x1), from_y = from(y0), to_y = to(y1);
         const auto none = hn::Or(hn::Gt(from_x, to_x), hn::Gt(from_y, to_y));
-        // Of crumpled things most triangles have one there, and beside them.
+        // Most triangles of crumpled things have one there, and beside them.
         const auto one = hn::And(hn::Eq(from_x, to_x), hn::Eq(from_y, to_y));
         const auto beside = hn::And(one, is_beside(c, hn::Div(hn::Add(from_x, half), four),
                                                    hn::Div(hn::Add(from_y, half), four), place_px));

@@ -19,7 +19,7 @@ constexpr std::uint32_t kHeartbeat_ms = 3000;
 
 GigeAccess::GigeAccess(GigeCore& core, Effects effects) : core_(core), effects_(std::move(effects)) {
     GigeRegisterFile& r = core.registers;
-    // Who has the camera is no secret, even when nothing else may be read.
+    // It is no secret who has the camera, even when nothing else may be read.
     r.add(
         {.address = b::kControl,
          .read = [this] { return privilege_; },

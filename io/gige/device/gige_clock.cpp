@@ -29,7 +29,7 @@ constexpr std::int64_t kReadingError_ns = 2'000;
 
 GigeSystemClock read_system_clock() {
     GigeSystemClock clock;
-    // Of several readings the one that took the least time is the best.
+    // The best of several readings is the one that took the least time.
     std::int64_t min_ns = std::numeric_limits<std::int64_t>::max();
     for (int i = 0; i < 3; ++i) {
         const std::int64_t before_ns = read_ns(CLOCK_MONOTONIC);

@@ -66,7 +66,7 @@ FaultOrder GigeFaultRegisters::shown() const {
     if (edited_[selector_]) return draft;
     std::optional<FaultOrder> order = core_.faults.order_of(kAllFaults[selector_]);
     if (!order) return draft;
-    // As it was asked for: what was "at once" is so again when it is enabled once more.
+    // The order is kept as it was asked for: an "at once" is one again when it is enabled once more.
     order->from_frame = draft.from_frame;
     return *order;
 }

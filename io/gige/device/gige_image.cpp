@@ -117,7 +117,7 @@ void GigeImage::add_window() {
     r.constant(reg::kSensorHeight, static_cast<std::uint32_t>(core_.limits.height));
     r.number(reg::kWidthMax, [this] { return columns().most; });
     r.number(reg::kHeightMax, [this] { return rows().most; });
-    // What the present offset leaves for a size, and the present size for an offset.
+    // The room that the present offset leaves for a size, and the present size for an offset.
     r.number(reg::kWidthRoom, [this] { return columns().most - columns().offset; });
     r.number(reg::kHeightRoom, [this] { return rows().most - rows().offset; });
     r.number(reg::kOffsetXMax, [this] { return columns().most - columns().size; });

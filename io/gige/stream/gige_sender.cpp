@@ -180,7 +180,7 @@ Pace GigeSender::pace_of(const GigeSlot& slot) {
     const double asked = s.throughput_limit_bytes_s;
     double rate = asked > 0 ? asked : pace_config_.rate_bytes_s;
     const double hz = frame_rate_hz_.load(std::memory_order_relaxed);
-    // Who sets a delay or a limit says how fast; else a frame takes the time it has.
+    // A client that sets a delay or a limit says how fast; else a frame takes the time it has.
     if (asked <= 0 && s.packet_delay_ns == 0 && pace_config_.spread_fraction > 0) {
         const double bytes = static_cast<double>(trailer_id(s)) * s.packet_bytes;
         rate = std::min(rate, std::max(kGigabit_bytes_s, bytes * hz / pace_config_.spread_fraction));
