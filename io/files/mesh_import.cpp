@@ -361,7 +361,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source,
     auto* const files = new MeshFiles(source.path, source.bytes);  // the importer's from the next line on
     importer.SetIOHandler(files);
     const aiScene* scene = importer.ReadFile(source.path, 0);
-    if (files->refused()) throw *files->refused();
+    if (files->refused()) throw InputError(*files->refused());
     if (scene) {
         require_few(*scene, file);
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
