@@ -156,10 +156,10 @@ class Reader {
     // a shipped file names and is not shipped is the user's: a mesh to bring, a folder to write to. It lies
     // in the working directory.
     static std::filesystem::path found_from(const Place& place, const std::string& name) {
-        const std::filesystem::path own = place.folder / name;
+        std::filesystem::path own = place.folder / name;
         std::error_code error;
         if (std::filesystem::exists(own, error)) return own;
-        const std::filesystem::path shipped = shipped_file(name);
+        std::filesystem::path shipped = shipped_file(name);
         if (!shipped.empty()) return shipped;
         return is_shipped(place.folder) ? std::filesystem::current_path() / name : own;
     }

@@ -241,7 +241,7 @@ void write_yuyv(const Source& s, BayerPattern pattern, std::span<std::uint16_t> 
 
 std::string bayer_pattern_of(std::string_view rows) {
     if (rows.size() != 5 || rows[2] != ' ') return {};
-    const std::string pattern = std::string(rows.substr(0, 2)) + std::string(rows.substr(3, 2));
+    std::string pattern = std::string(rows.substr(0, 2)) + std::string(rows.substr(3, 2));
     for (const char* known : {"RGGB", "GRBG", "GBRG", "BGGR"})
         if (pattern == known) return pattern;
     return {};
