@@ -18,7 +18,7 @@ std::uint32_t stream_can(const GigeIdentity& id) {
            (id.multipart ? b::stream_config::kMultipart : 0);
 }
 constexpr std::size_t kIpAndUdpBytes = 28;
-constexpr std::uint64_t kMinThroughput_bytes_s = 100'000, kMostThroughput_bytes_s = 100'000'000'000;
+constexpr std::uint64_t kMinThroughput_bytes_s = 100'000, kMaxThroughput_bytes_s = 100'000'000'000;
 
 }  // namespace
 
