@@ -19,7 +19,7 @@
 namespace hilcam {
 namespace {
 
-// In the order of the help.
+// Adds the subcommands in the order of the help.
 void add_subcommands(CLI::App& app, Action& action) {
     add_run_command(app, action);
     add_recording_command(app, action);
@@ -41,7 +41,7 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
         fmt::print(stderr, "hilcam: {}\n", what);
         return 2;
     }
-    // What the library says quotes the command line.
+    // The library's words quote the command line.
     std::ostringstream help, problem;
     const int status = app.exit(error, help, problem);
     fmt::print("{}", help.str());

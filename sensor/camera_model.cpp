@@ -146,7 +146,7 @@ Fields electronics_fields(CameraModel& c) {
 Fields fields(CameraModel& c) {
     Fields list = {
         text("name", c.name, "model name that clients see"),
-        text("source", c.source, "where the figures come from"),
+        text("source", c.source, "source of the figures"),
         required(integer("width_px", c.width_px, {1, 16384}, "number of columns")),
         required(integer("height_px", c.height_px, {1, 16384},
                          "number of rows; line_scan: number of lines in a frame")),
@@ -158,14 +158,16 @@ Fields fields(CameraModel& c) {
 }
 
 // --- what cannot be
-// --------------------------------------------------------------------------------------------------
 
 namespace {
 
 void check_range(double value, const std::vector<double>& range, const char* key, const char* range_key) {
-    if (range[0] > range[1]) throw InputError(std::string(range_key) + ": the least is above the most");
+    if (range[0] > range[1])
+        throw InputError(std::string(range_key) +
+                         ": found a lower limit above the upper; accepted: [lower, upper]");
     if (value < range[0] || value > range[1])
-        throw InputError(std::string(key) + " at power-up lies outside " + range_key);
+        throw InputError(std::string(key) + " at power-up lies outside " + range_key +
+                         "; accepted: a value inside");
 }
 
 void check_settings(const CameraModel& c) {
@@ -214,7 +216,9 @@ void check_lens(const CameraModel& c) {
     }
     for (std::size_t i = 1; i < c.field_zones.size(); ++i)
         if (c.field_zones[i].field_fraction <= c.field_zones[i - 1].field_fraction)
-            throw InputError("field_zones: field_fraction does not rise from zone to zone");
+            throw InputError("field_zones: found field_fraction " + show(c.field_zones[i].field_fraction) +
+                             " after " + show(c.field_zones[i - 1].field_fraction) +
+                             "; accepted: values that rise from zone to zone");
 }
 
 void check_detector(const CameraModel& c) {
@@ -229,8 +233,9 @@ void check_detector(const CameraModel& c) {
     for (int i = 0; i <= 100; ++i) {
         const double x = i / 100.0;
         if (1 + 2 * a2 * x + 3 * a3 * x * x <= 0)
-            throw InputError("nonlinearity: what is read falls while the charge rises, at " + plain(x) +
-                             " of the full well");
+            throw InputError("nonlinearity: found a response that falls while the charge rises, at " +
+                             plain(x) +
+                             " of the full well; accepted: coefficients with which it rises all the way");
     }
     if (c.shutter.kind != ShutterKind::kLineScan &&
         (c.shutter.tdi_stages > 1 || c.shutter.tdi_mismatch_fraction != 0))
@@ -254,13 +259,13 @@ void check_electronics(const CameraModel& c) {
         throw InputError("container_bits " + std::to_string(c.container_bits) + "; accepted: 8 or 16");
     if (c.frame_bits() > c.container_bits)
         throw InputError("bits " + std::to_string(c.frame_bits()) + " do not fit into container_bits " +
-                         std::to_string(c.container_bits));
+                         std::to_string(c.container_bits) + "; accepted: no more bits than that");
     if (c.packing == Packing::kGige && c.frame_bits() != 10 && c.frame_bits() != 12)
         throw InputError("packing gige with " + std::to_string(c.frame_bits()) + " bits; accepted: 10 or 12");
     const double most_dn = std::exp2(static_cast<double>(c.bits)) - 1;
     if (c.offset_dn >= most_dn)
         throw InputError("offset_dn " + plain(c.offset_dn) + " leaves nothing of the ADC's " +
-                         std::to_string(c.bits) + " bits");
+                         std::to_string(c.bits) + " bits; accepted: below " + plain(most_dn));
     if (c.converter.companding != Companding::kNone && c.bits == 8)
         throw InputError("converter.companding to 8 bits; found bits 8");
 }
@@ -269,10 +274,14 @@ void check_rectangles(const CameraModel& c) {
     const PixelRectangle w = window_of(c);
     if (w.width < 1 || w.height < 1 || w.left + w.width > c.width_px || w.top + w.height > c.height_px)
         throw InputError("window_px reaches outside the sensor of " + std::to_string(c.width_px) + " x " +
-                         std::to_string(c.height_px));
+                         std::to_string(c.height_px) + ": found left " + std::to_string(w.left) + ", top " +
+                         std::to_string(w.top) + ", " + std::to_string(w.width) + " x " +
+                         std::to_string(w.height));
     const auto [width, height] = array_size(c);
     if (width < c.binning_x || height < c.binning_y)
-        throw InputError("binning_x, binning_y: larger than what is read out, " + std::to_string(width) +
+        throw InputError("binning_x, binning_y: found " + std::to_string(c.binning_x) + " and " +
+                         std::to_string(c.binning_y) +
+                         "; accepted: no more than the columns and rows read out, " + std::to_string(width) +
                          " x " + std::to_string(height));
 }
 
@@ -287,7 +296,6 @@ void validate(const CameraModel& c) {
 }
 
 // --- what follows from the figures
-// -----------------------------------------------------------------------------------
 
 double CameraModel::system_gain_dn_e(double at_gain_db) const {
     const double at_0_db = has_gain_e_dn ? 1 / gain_e_dn : gain_dn_e;

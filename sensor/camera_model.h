@@ -108,7 +108,7 @@ struct CameraModel {
     // Electronics.
     FilterConfig filters;
     double gain_dn_e = 0;  // DN per electron at 0 dB (EMVA's K)
-    double gain_e_dn = 0;  // or its inverse, as many data sheets give it
+    double gain_e_dn = 0;  // data sheets may give its inverse instead
     double offset_dn = 0;
     std::int64_t bits = 12;            // bits of the converter
     std::int64_t container_bits = 16;  // bits of a pixel in memory

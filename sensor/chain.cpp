@@ -25,12 +25,12 @@ const tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 // Mean charge of a row: light times each pixel's gain, plus its dark current.
 HILCAM_CLONES void to_charge(float* light, std::size_t count, const float* gain, const float* dark_e_s,
                              float uniform_dark_e, float exposure_s) {
-    constexpr float kMost_e = 1e9f;
+    constexpr float kMax_e = 1e9f;
     if (gain)
         for (std::size_t x = 0; x < count; ++x) light[x] *= gain[x];
     for (std::size_t x = 0; x < count; ++x) {
         const float all = light[x] + (dark_e_s ? dark_e_s[x] * exposure_s : uniform_dark_e);
-        light[x] = all > 0 ? (all < kMost_e ? all : kMost_e) : 0.0f;
+        light[x] = all > 0 ? (all < kMax_e ? all : kMax_e) : 0.0f;
     }
 }
 
@@ -82,7 +82,6 @@ struct SensorChain::Implementation {
     }
 
     // --- mean charge
-    // ------------------------------------------------------------------------------------------------
 
     // While the rows are shifted under the light, every pixel passes the places of all others in its column:
     // on the way in before the exposure those on one side, on the way out those on the other.
@@ -108,7 +107,6 @@ struct SensorChain::Implementation {
     }
 
     // --- chance and read-out
-    // ------------------------------------------------------------------------------------------
 
     // Black columns have numbers of their own, so a row is drawn in two pieces.
     void draw_row(int y, std::span<const float> mean_e, RandomKey key, std::span<float> charge,

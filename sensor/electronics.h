@@ -1,5 +1,5 @@
 #pragma once
-// From the pixel's charge to a number: filters along the row, converter errors, companding.
+// The electronics turn a pixel's charge into a number: filters along the row, converter errors, companding.
 //
 // Filters act on the samples of a row in the order of read-out, noise and all (f in cycles per pixel):
 //   low-pass   one pole:   y += (1 - exp(-2 pi f_c)) (x - y)

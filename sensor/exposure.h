@@ -28,8 +28,8 @@ struct Exposure {
     double gain_db = 0;
     std::optional<double> black_level_dn{};     // default the camera's
     std::int64_t binning_x = 0, binning_y = 0;  // 0: the camera's
-    // While it lasts. The picture of what is not at infinity moves as a whole; points (stars) as the camera
-    // turns.
+    // Rates of motion during the exposure. The picture of what is not at infinity moves as a whole; points
+    // (stars) as the camera turns.
     Vec2d image_rate_px_s{};
     Vec3d camera_rate_rad_s{};          // about the camera's axes
     std::optional<RayGrid> ray_grid{};  // default that of SensorSampling; else one of its others

@@ -22,7 +22,7 @@ class FarWings {
     // slope_px: s of the lens alone. Owner thread.
     FarWings(double slope_px, const StrayLightConfig& stray, const ImageGeometry& geometry);
 
-    // In this order each frame; loop, one thread.
+    // These functions are called in this order each frame; loop, one thread.
     void clear();
     void collect(double x_px, double y_px, double electrons);  // px of the sensor frame
     void spread();

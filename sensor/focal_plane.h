@@ -23,10 +23,10 @@ class FocalPlane {
     FocalPlane(const CameraModel& camera, const SpectralGrid& grid, const SensorSampling& sampling);
     ~FocalPlane();
 
-    // In this order each frame. Loop, one thread at a time.
+    // These functions are called in this order each frame. Loop, one thread at a time.
     void collapse(const RadianceImage& radiance, const Exposure& exposure);
     void convolve(const Exposure& exposure);
-    // Into the light-sensitive part of the read-out array; black pixels get 0.
+    // Writes into the light-sensitive part of the read-out array; black pixels get 0.
     void gather(std::span<const PointSource> points, const Exposure& exposure, ElectronImage& light_e);
 
     // Modulus of MTF_sys, of the first channel in the middle of the field [cycles/px of the detector].

@@ -24,7 +24,6 @@ void validate(const JitterConfig& c) {
 }
 
 // --- blur within an exposure
-// -------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -99,7 +98,6 @@ double jitter_blur_rad2(const JitterConfig& config, double exposure_s) {
 }
 
 // --- displacement of exposures
-// -------------------------------------------------------------------------------------------------------
 
 namespace {
 

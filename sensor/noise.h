@@ -13,8 +13,8 @@
 
 namespace hilcam {
 
-// For pixels first_pixel, first_pixel + 1, ...: the charge that a mean (0 .. 1e9 e-; a NaN counts as 0)
-// becomes, and independent standard normal deviates. An empty span: not wanted. Loop, any thread.
+// Draws, for pixels first_pixel, first_pixel + 1, ..., the charge that a mean (0 .. 1e9 e-; a NaN counts as
+// 0) becomes, and independent standard normal deviates. An empty span: not wanted. Loop, any thread.
 void draw_pixels(std::span<const float> mean_e, RandomKey key, std::uint32_t first_pixel,
                  std::span<float> charge_e, std::span<float> deviates);
 

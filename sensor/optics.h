@@ -1,5 +1,5 @@
 #pragma once
-// From light at the aperture to mean electrons: the S of equation (2).
+// The optics turn light at the aperture into mean electrons: the S of equation (2).
 //
 // Extended source of spectral radiance L: a pixel at field angle theta sees the solid angle pitch^2 cos^3 /
 // f^2 through the projected aperture A cos, so

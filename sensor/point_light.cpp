@@ -17,7 +17,7 @@ constexpr std::size_t kSourcesAtOnce = 8192;
 constexpr std::size_t kSpotsAtOnce = 8192;
 constexpr std::size_t kFewSpots = 64;  // fewer spots are not worth waking threads for
 
-constexpr int kReach = PointSpread::kMostRadius_px;
+constexpr int kReach = PointSpread::kMaxRadius_px;
 constexpr int kAcross = 2 * kReach + 1;
 
 // Around a point: its wings, which are added elsewhere, and those of its copies, one in every field, that the
@@ -167,7 +167,7 @@ PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) const
     return out;
 }
 
-// By the rows that its image touches; charge may cross over to the row before and after.
+// Sorts points by the rows that their images touch; charge may cross over to the row before and after.
 void PointLight::sort_into_bands() {
     constexpr auto kBandCount = static_cast<int>(kBands);
     const int height = view_.detector.height_px;
@@ -223,8 +223,8 @@ void PointLight::take_off_wings(Vec2d at_px, int c, double electrons, ElectronIm
               c, all_rows(), light_e);
 }
 
-// In a mosaic's channel only its own pixels have the light; some of their charge crosses over to the
-// neighbours.
+// Adds a patch. In a mosaic's channel only its own pixels have the light; some of their charge crosses over
+// to the neighbours.
 void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronImage& light_e) const {
     const int width = view_.detector.width_px;
     const auto left = static_cast<int>(view_.camera.black_columns),

@@ -32,7 +32,7 @@ class PointLight {
     PointLight(const DetectorView& view, std::vector<LightChannel>& channels,
                const std::vector<FarWings>& wings, int bins);
 
-    // In this order each frame; loop, one thread. light_e: the read-out array.
+    // These functions are called in this order each frame; loop, one thread. light_e: the read-out array.
     void begin(const Exposure& exposure);
     void add(const BrightPixel& pixel, ElectronImage& light_e);
     void add(std::span<const PointSource> points, ElectronImage& light_e);

@@ -1,5 +1,5 @@
 #pragma once
-// From places in the radiance image to places in the frame that the camera gives out: past black columns and
+// Maps places in the radiance image to places in the frame that the camera gives out: past black columns and
 // rows, binning and mirroring.
 //
 // Binning begins at the read-out array's corner, with the black columns and rows, and leaves out what does

@@ -1,5 +1,5 @@
 #pragma once
-// From the charge of a row of pixels to a row of numbers: the order of a sensor's read-out.
+// The read-out turns the charge of a row of pixels into a row of numbers, in the order of a sensor.
 //
 //   full well, nonlinearity          charge as the amplifier sees it
 //   read, reset, row, 1/f, telegraph noise; fixed offsets      [e-]

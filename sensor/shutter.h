@@ -1,5 +1,5 @@
 #pragma once
-// When each row is exposed.
+// The shutter says when each row is exposed.
 //
 //   global          all rows at once
 //   rolling         a row begins `line_time` after the one above it; the middle row is at the frame's time

@@ -33,7 +33,7 @@ class Ghost {
 
     static constexpr int kCell_px = 8;
 
-    // In this order each frame; loop, one thread.
+    // These functions are called in this order each frame; loop, one thread.
     void clear();
     void collect(double x_px, double y_px, double electrons);  // px of the sensor frame
     void spread();

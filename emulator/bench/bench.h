@@ -16,7 +16,8 @@ namespace hilcam {
 struct BenchOptions {
     std::uint64_t frames = 120;  // per run, after 20 for warming up
     int runs = 5;                // medians are taken over the runs
-    bool path_models = false;    // also a frame with each path model, against bare Embree on the same rays
+    // True: also a frame with each path model, against bare Embree on the same rays.
+    bool path_models = false;
 };
 
 // The time that cannot be avoided: bare Embree on the primary and shadow rays of such frames (the median of
@@ -33,7 +34,7 @@ struct Bench {
     std::int64_t width_px = 0, height_px = 0;
     BenchOptions options;
     std::size_t triangles = 0;
-    RenderStats rendered;  // of the last frame
+    RenderStats rendered;  // figures of the last frame
     double frame_rate_hz = 0, p50_ms = 0, p99_ms = 0;
     std::vector<double> runs_p50_ms;
     // The processor time of all the process's threads over the timed frames, the pilot's (pilot.h) among

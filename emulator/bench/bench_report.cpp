@@ -14,7 +14,7 @@ using nlohmann::json;
 double mrays_s(const PathModelSpeed& s) { return static_cast<double>(s.rays) / s.frame_ms * 1e-3; }
 double bare_mrays_s(const PathModelSpeed& s) { return static_cast<double>(s.rays) / s.bare_ms * 1e-3; }
 
-// By the models' names.
+// Puts the models' speeds in a map by name.
 std::map<std::string, PathModelSpeed> by_name(const std::vector<PathModelSpeed>& speeds) {
     std::map<std::string, PathModelSpeed> out;
     for (const PathModelSpeed& speed : speeds) out[speed.name] = speed;
@@ -91,7 +91,7 @@ std::string bench_text(const Bench& b) {
 
 namespace {
 
-// In the order of the JSON's keys.
+// Returns the stages in the order of the JSON's keys.
 std::vector<std::pair<const char*, double>> stages_of(const SensorStageTimes& t) {
     return {{"collapse", t.collapse_ms},
             {"convolve", t.convolve_ms},

@@ -1,6 +1,5 @@
 #pragma once
-// What `hilcam bench` says of its measurements: JSON, whose keys are part of the interface, and a table for
-// people.
+// The report of `hilcam bench`: JSON, whose keys are part of the interface, and a table for people.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

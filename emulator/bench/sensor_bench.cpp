@@ -17,7 +17,7 @@ struct Effect {
     std::function<void(CameraModel&, Exposure&)> turn_on;
 };
 
-// What every data sheet has.
+// Turns on what every data sheet has.
 void turn_on_common(CameraModel& c) {
     c.prnu_fraction = 0.01, c.dsnu_e = 5, c.dark_current_e_s = 125;
     c.fixed_pattern.dark_current_fraction = 0.3, c.fixed_pattern.column_e = 2, c.fixed_pattern.row_e = 1;
@@ -151,7 +151,7 @@ SensorStageTimes time_stage(Rig& rig, int runs) {
     return {median(all), median(collapse), median(convolve), median(points), median(digitise), median(pair)};
 }
 
-// What a second rig takes longer, frame by frame in turn.
+// Measures what a second rig takes longer, frame by frame in turn.
 double extra_ms(Rig& base, Rig& with, int runs) {
     std::vector<double> differences;
     with.run();

@@ -16,7 +16,7 @@ struct SensorStageTimes {
 struct SensorBench {
     std::string camera;
     int width_px = 0, height_px = 0, runs = 0;
-    SensorStageTimes base;  // with the effects that most cameras have
+    SensorStageTimes base;  // time with the effects that most cameras have
     double floor_ms =
         0;  // one FFT pair of the padded picture's size on the same threads plus one copy of the frame
     struct Effect {

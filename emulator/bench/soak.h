@@ -18,11 +18,11 @@
 namespace hilcam {
 
 struct SoakOptions {
-    static constexpr double kMostSlices = 1440;
+    static constexpr double kMaxSlices = 1440;
 
     double seconds = 0;    // without warming up
-    double slice_s = 0;    // 0: a sixtieth of the seconds, at least 10 s; no more than kMostSlices
-    bool outputs = false;  // also the scenario's outputs and command ports
+    double slice_s = 0;    // 0: a sixtieth of the seconds, at least 10 s; no more than kMaxSlices
+    bool outputs = false;  // true: the scenario's outputs and command ports run, too
 };
 
 struct SoakPercentiles {
@@ -48,7 +48,7 @@ struct Soak {
 // Throws what Emulator throws.
 Soak soak(const ScenarioConfig& scenario, const SoakOptions& options);
 
-// How a figure went over the slices.
+// The course of a figure over the slices.
 struct SoakCourse {
     double first = 0, last = 0;
     double per_hour = 0;  // trend.h
@@ -64,7 +64,7 @@ struct SoakVerdict {
     static constexpr double kFlat_mb = 1;
     static constexpr double kSteady_fraction = 0.05;
 
-    bool enough = false;  // slices to tell a trend: kLeastForTrend
+    bool enough = false;  // slices to tell a trend: kMinForTrend
     bool memory_flat = false, latency_steady = false;
     SoakCourse memory_mb, latency_p50_ms, latency_p99_ms;
 };

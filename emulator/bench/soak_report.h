@@ -1,5 +1,5 @@
 #pragma once
-// What `hilcam bench --soak` says: a line for people, CSV, JSON and a page for a closer look.
+// The report of `hilcam bench --soak`: a line for people, CSV, JSON and a page for a closer look.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -13,7 +13,7 @@ namespace hilcam {
 // latency_ with p50_ms, p99_ms, p99.9_ms and max_ms of each.
 std::string soak_csv(const Soak& soak);
 nlohmann::json soak_json(const ScenarioConfig& scenario, const SoakOptions& options, const Soak& soak);
-// Whether memory was flat and latency steady, with the figures; a line.
+// Says in a line whether memory was flat and latency steady, with the figures.
 std::string soak_text(const Soak& soak);
 
 // soak.csv, soak.json, and index.html with its plot (soak.svg), which the program hilcam-plot-soak beside

@@ -11,7 +11,7 @@ namespace {
 
 double terms(double n) { return n * (n - 1) * (2 * n + 5) / 18; }
 
-// Of the sum of signs, without a trend.
+// Returns the variance of the sum of signs without a trend.
 double variance(std::vector<double> values) {
     double out = terms(static_cast<double>(values.size()));
     std::sort(values.begin(), values.end());

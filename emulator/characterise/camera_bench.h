@@ -13,11 +13,11 @@
 
 namespace hilcam {
 
-// What is set up before the camera. The dark half lies on the right of an upright edge, below a lying one.
+// The target before the camera. The dark half lies on the right of an upright edge, below a lying one.
 struct BenchTarget {
     double bright_albedo = 1;
     double dark_albedo = 1;    // the same: no edge
-    double edge_tilt_rad = 0;  // of the edge through the window's middle, from the image's columns
+    double edge_tilt_rad = 0;  // tilt of the edge through the window's middle against the image's columns
 };
 
 class CameraBench {
@@ -27,13 +27,13 @@ class CameraBench {
                 double lamp_w_m2_um, const DetectorPictures& pictures);
 
     void show(const BenchTarget& target);
-    // From here on this exposure, with the light dimmed by a neutral filter (0: shutter closed).
+    // Sets the exposure from here on, with the light dimmed by a neutral filter (0: shutter closed).
     void expose(const Exposure& exposure, double filter);
     // The next frame; valid until the one after next is taken.
     const DnImage& frame();
 
     const SensorChain& chain() const { return chain_; }
-    const ImageGeometry& geometry() const { return geometry_; }  // of the detector's window
+    const ImageGeometry& geometry() const { return geometry_; }  // geometry of the detector's window
     std::uint64_t frames_taken() const { return frames_; }
 
   private:
@@ -44,7 +44,7 @@ class CameraBench {
     ImageGeometry geometry_, image_;
     SensorChain chain_;
     RadianceImage full_, dimmed_;
-    double filter_ = -1;  // of dimmed_
+    double filter_ = -1;  // the filter of dimmed_
     Exposure exposure_;
     ElectronImage mean_e_;
     DnImage frame_[2];

@@ -19,21 +19,21 @@ struct LightLevel {
 };
 
 struct Characterisation {
-    BenchSetup setup;
+    LabSetup setup;
     std::size_t pixels = 0, defects = 0;  // looked at; left out as defects
     std::uint64_t frames = 0;
 
-    // With light.
+    // Measurements with light.
     std::vector<LightLevel> light;
     Measured standard_gain_dn_e, gain_dn_e;  // EMVA's one slope; of small signals
     Measured quantum_efficiency;
     Measured saturation_capacity_e;  // at the greatest temporal variance
-    Measured full_well_e;            // of strongly over-exposed frames
+    Measured full_well_e;            // full well, of strongly over-exposed frames
     Linearity linearity, configured_linearity;
-    double shot_bandwidth = 1;  // of white noise, by charge transfer and filters
+    double shot_bandwidth = 1;  // bandwidth of white noise, narrowed by charge transfer and filters
     Nonuniformity prnu_fraction;
 
-    // In the dark.
+    // Measurements in the dark.
     std::vector<DarkPoint> dark;
     Measured dark_gain_dn_e;  // at the gain of these frames
     DarkCurrent dark_current;

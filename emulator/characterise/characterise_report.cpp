@@ -31,7 +31,7 @@ json parts(const Nonuniformity& n) {
         {"total", part(n.total)}, {"row", part(n.row)}, {"column", part(n.column)}, {"pixel", part(n.pixel)}};
 }
 
-// Of a picture over the window, in whose pixels it adds to what is drawn.
+// Statistics of a picture over the window, in whose pixels it adds to what is drawn.
 struct MapStatistics {
     double mean = 0, deviation = 0;
 };
@@ -48,7 +48,7 @@ MapStatistics statistics_of(const PixelMap& map, const CameraModel& c) {
     return {sum / n, std::sqrt(std::max(0.0, square / n - sum / n * (sum / n)))};
 }
 
-// What is left of a straight response after its line is taken off is rounding: none.
+// A remainder below this, after its line is taken off a straight response, is rounding: none.
 double without_rounding(double fraction) { return std::abs(fraction) < 1e-9 ? 0 : fraction; }
 
 // 101 cells over the range of what counts.
@@ -127,7 +127,7 @@ json mtf_json(const MtfCurve& m) {
 }
 
 json settings_json(const Characterisation& r) {
-    const BenchSetup& s = r.setup;
+    const LabSetup& s = r.setup;
     return {{"window_px", s.camera.window_px},
             {"wavelength_um", s.wavelength_um},
             {"color_filter", s.filter ? json(std::string(1, s.filter)) : json(nullptr)},
@@ -192,7 +192,7 @@ std::vector<SheetFigure> sheet_figures(const Characterisation& r, const Detector
 json characterisation_json(const Characterisation& r, const DetectorPictures& pictures) {
     json out = {
         {"camera", r.setup.camera.name},
-        {"linearity_extremes_fraction", {r.linearity.least_fraction, r.linearity.most_fraction}},
+        {"linearity_extremes_fraction", {r.linearity.min_fraction, r.linearity.max_fraction}},
         {"prnu", parts(r.prnu_fraction)},
         {"dsnu", parts(r.dsnu_e)},
         {"defects", r.defects},

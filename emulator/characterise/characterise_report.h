@@ -1,5 +1,6 @@
 #pragma once
-// What `hilcam characterise` says: JSON for scripts, a table for engineers, a folder with curves and a page.
+// The report of `hilcam characterise`: JSON for scripts, a table for engineers, a folder with curves and a
+// page.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -17,9 +18,9 @@ struct SheetFigure {
     const char* unit;   // in the table
     double factor;      // from the figure to the table's unit
     double configured;  // NaN or infinity where the data sheet gives none
-    Measured measured;  // with one standard deviation
+    Measured measured;  // measurement with one standard deviation
 };
-// In the table's order.
+// Returns the figures in the table's order.
 std::vector<SheetFigure> sheet_figures(const Characterisation& result, const DetectorPictures& pictures);
 
 // Returns for each figure an object {configured, measured, uncertainty}, and curves as lists of objects. A

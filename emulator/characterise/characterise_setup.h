@@ -1,6 +1,6 @@
 #pragma once
-// How a camera is put on the bench for `hilcam characterise`: what a laboratory would set, and what light and
-// exposure times its measurements need. Follows from the data sheet alone.
+// The setup of a camera on the bench for `hilcam characterise`: the settings that a laboratory would choose,
+// and the light and exposure times that its measurements need. Follows from the data sheet alone.
 
 #include <string>
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace hilcam {
 
-struct BenchSetup {
-    CameraModel camera;                // with window, binning, ... as set for the measurement
-    std::vector<std::string> remarks;  // what was set, for the report
-    double wavelength_um = 0.55;       // of the light: a line at the greatest quantum efficiency
+struct LabSetup {
+    CameraModel camera;                // camera with window, binning, ... as set for the measurement
+    std::vector<std::string> remarks;  // settings made, for the report
+    double wavelength_um = 0.55;       // wavelength of the light: a line at the greatest quantum efficiency
     SpectralGrid grid{{0.5495, 0.5505}};
     char filter = 0;          // letter of the colour plane that is measured; 0: no filters
-    double gain_db = 0;       // of the measurements with light
-    double dark_gain_db = 0;  // of those in the dark: raised until noise crosses the converter's steps
+    double gain_db = 0;       // gain of the measurements with light
+    double dark_gain_db = 0;  // gain of those in the dark: raised until noise crosses the converter's steps
     double exposure_s = 0;    // at which half the filter's light or less saturates
     bool by_light = false;    // levels by dimming the light, at that exposure; else by exposure time
     double shortest_s = 0;    // in the dark
@@ -26,27 +26,27 @@ struct BenchSetup {
 };
 inline constexpr double kOverexposure = 3;
 
-BenchSetup bench_setup(const CameraModel& camera);
+LabSetup lab_setup(const CameraModel& camera);
 
 // A line camera takes as many lines as one wants; map files fix its size.
 void require_lines(CameraModel& camera, int lines);
 
-// What the pixels of the window count: without black ones and without a margin where what lies outside the
-// window is missing; of one colour filter.
-PixelSelection bench_selection(const BenchSetup& setup);
+// Returns which pixels of the window count: without black ones and without a margin where what lies outside
+// the window is missing; of one colour filter.
+PixelSelection lab_selection(const LabSetup& setup);
 
 // Those of them that the lens lights within one percent of the brightest (section 5.2 asks for 3 %): others
 // would not saturate together.
-PixelSelection evenly_lit(const BenchSetup& setup, PixelSelection selection);
+PixelSelection evenly_lit(const LabSetup& setup, PixelSelection selection);
 
 // Photons a second on the light-sensitive area of a mean pixel of the selection, from the lamp's radiance on
 // the white plate: L dlambda A (pitch/f)^2 fill T lambda / (h c), with the lens's relative illumination.
-double photons_per_s(const BenchSetup& setup, const PixelSelection& selection);
+double photons_per_s(const LabSetup& setup, const PixelSelection& selection);
 
 // --- what the data sheet promises
 // Electrons per photon at the wavelength, the colour filter's transmission included.
-double configured_quantum_efficiency(const BenchSetup& setup);
-// What the converter shows of a charge, without black level [DN]: gain, nonlinearity, integral error.
+double configured_quantum_efficiency(const LabSetup& setup);
+// Returns what the converter shows of a charge, without black level [DN]: gain, nonlinearity, integral error.
 double configured_signal_dn(const CameraModel& camera, double charge_e, double gain_db);
 // The lesser of the full well and the charge at the converter's end [e-].
 double configured_saturation_e(const CameraModel& camera, double gain_db);

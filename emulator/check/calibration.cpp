@@ -37,7 +37,7 @@ std::array<double, 9> rows_of(const Mat3d& m) {
     return {m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z, m.z.x, m.z.y, m.z.z};
 }
 
-// Between double quotes, as YAML and JSON have it; names may be any text.
+// Puts a text between double quotes, as YAML and JSON have it; names may be any text.
 std::string quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {

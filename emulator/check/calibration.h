@@ -32,7 +32,7 @@ struct CameraCalibration {
     Vec2d focal_length_px;
     Vec2d principal_point_px;  // the middle of the first pixel is (0, 0)
     LensDistortion distortion;
-    // From the axes of the first camera that is told: p_own = rotation * p_first + translation_m.
+    // Rotation from the axes of the first camera that is told: p_own = rotation * p_first + translation_m.
     Mat3d own_from_first;
     Vec3d translation_m;
 };

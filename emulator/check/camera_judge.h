@@ -1,6 +1,6 @@
 #pragma once
-// What is probably not meant in a camera's file, of which nothing is out of range: a full well in thousands
-// of electrons, a gain a hundred times too high, a black level that cuts off the noise in the dark.
+// Finds what is probably not meant in a camera's file in which nothing is out of range: a full well in
+// thousands of electrons, a gain a hundred times too high, a black level that cuts off the noise in the dark.
 
 #include <string>
 #include <vector>

@@ -31,13 +31,13 @@ struct CameraSheet {
     struct Star {
         double magnitude = 0;
         double total_e = 0;
-        double peak_e = 0;  // of the pixel that it is centred on
-        double snr = 0;     // of that pixel
+        double peak_e = 0;  // electrons of the pixel on which it is centred
+        double snr = 0;     // signal over noise of that pixel
     };
 
     CameraModel camera;
     double from_um = 0, to_um = 0, mean_um = 0;  // mean: of the photo-electrons of a sunlit grey surface
-    std::string filter;                          // of an array: its name
+    std::string filter;                          // name of the array's filter
     // Geometry.
     double field_x_rad = 0, field_y_rad = 0, field_diagonal_rad = 0;
     double ifov_rad = 0;
@@ -57,12 +57,12 @@ struct CameraSheet {
     double saturation_w_m2_sr_um = 0;
     std::vector<Scene> scenes;
     std::vector<Star> stars;
-    double peak_share = 0, core_share = 0;  // of a star's electrons: in the middle pixel, in 3 x 3
+    double peak_share = 0, core_share = 0;  // shares of a star's electrons: in the middle pixel, in 3 x 3
     double faintest_magnitude = 0;
     // Noise [e-].
     double dark_e_s = 0;  // at the operating temperature
     double shot_half_well_e = 0, dark_shot_e = 0, quantisation_e = 0, prnu_half_well_e = 0;
-    double dark_total_e = 0;  // of a dark pixel, temporal
+    double dark_total_e = 0;  // temporal noise of a dark pixel
     double dynamic_range = 0;
 };
 

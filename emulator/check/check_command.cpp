@@ -22,7 +22,7 @@
 namespace hilcam {
 namespace {
 
-// How the exposure of the first instant will be made, and why.
+// Says how the exposure of the first instant will be made, and why.
 std::string motion_line(const ScenarioConfig& s, WorldState& world, ExposureRenderer& exposures) {
     const double exposure_s = ShutterTiming(s.camera).exposure_s(s.camera.exposure_s);
     const ExposureRenderer::Plan plan = exposures.plan(world, parse_utc(s.time_utc), exposure_s);
@@ -39,7 +39,7 @@ std::string motion_line(const ScenarioConfig& s, WorldState& world, ExposureRend
     return out;
 }
 
-// Where the tables of directions came from, how long that took here, and what a run does without them.
+// Says where the tables of directions came from, how long that took here, and what a run does without them.
 std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
     if (light.found + light.made == 0) return {};
     if (light.made == 0)
@@ -54,7 +54,7 @@ std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
                           "(loop.wait_for_light)");
 }
 
-// What telling the truth of frames computes, and why.
+// Says what telling the truth of frames computes, and why.
 std::string truth_line(const ScenarioConfig& s) {
     if (!s.outputs.has_truth) return {};
     const TruthWishes wishes = wishes_of(s.outputs.truth);
@@ -83,7 +83,7 @@ std::string loop_line(const ScenarioConfig& s) {
     return out;
 }
 
-// Which levels the governor may choose, or why there is none.
+// Says which levels the governor may choose, or why there is none.
 std::vector<std::string> governor_lines(const ScenarioConfig& s) {
     const std::string off = governor_off(s);
     if (!off.empty()) return {"governor off (" + off + ")"};
@@ -114,7 +114,7 @@ std::unique_ptr<CameraStation> make_station(const ScenarioConfig& s, std::size_t
     return station;
 }
 
-// What a run would refuse on this machine now.
+// Says what a run would refuse on this machine now.
 std::vector<std::string> machine_warnings(const OutputsConfig& o) {
     std::vector<std::string> out;
     if (o.has_gige) try {

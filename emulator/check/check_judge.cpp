@@ -12,10 +12,10 @@ namespace {
 
 // No spacecraft is as long, but the file of one in millimetres is.
 constexpr double kLongest_m = 500;
-// What is smaller, and covers no pixel, is likely to have been scaled twice.
+// An object that is smaller, and covers no pixel, is likely to have been scaled twice.
 constexpr double kShortest_m = 0.05;
 // Most of a constellation's objects are elsewhere.
-constexpr std::size_t kMostTold = 10;
+constexpr std::size_t kMaxTold = 10;
 // Less of the Sun than this is an eclipse, less of the disk lit than this is its night side.
 constexpr double kDark = 0.02;
 
@@ -102,7 +102,7 @@ void judge_terrain(const ScenarioConfig& s, const FirstSight& sight, std::vector
                                   -*sight.height_above_ground_m));
 }
 
-// Whether anything in the picture sends light.
+// True when anything in the picture sends light.
 bool shows_light(const ScenarioConfig& s, const FirstSight& sight) {
     if (sight.shows_sun || sight.shows_body || s.terrain || (s.stars && !s.stars->catalogue.empty()) ||
         any_lamp_lit(s) || models_of(s).radiance != "reflected")
@@ -121,7 +121,7 @@ std::vector<std::string> judge(const ScenarioConfig& s, const CameraReport& came
         std::vector<std::string> own;
         judge_place(o, camera, own);
         judge_light(s, o, camera, own);
-        if (out.size() < kMostTold)
+        if (out.size() < kMaxTold)
             out.insert(out.end(), own.begin(), own.end());
         else
             left += own.empty() ? 0u : 1u;

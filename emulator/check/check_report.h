@@ -1,5 +1,5 @@
 #pragma once
-// What `hilcam check` found of a scenario, and its verdict, as text and as JSON.
+// The findings of `hilcam check` about a scenario, and its verdict, as text and as JSON.
 
 #include <optional>
 #include <string>
@@ -34,14 +34,14 @@ struct CameraReport {
 struct CheckReport {
     std::string scenario;
     TimeTai time;
-    std::size_t cameras = 1;            // of the bench; those asked for are below
-    std::vector<std::string> warnings;  // what is probably not meant, a line each
+    std::size_t cameras = 1;            // cameras of the bench; those asked for are below
+    std::vector<std::string> warnings;  // remarks on what is probably not meant, a line each
     std::vector<CameraReport> reports;
     std::vector<std::string> run;  // seed, loop, governor
-    double memory_mb = 0;          // with the last camera loaded; 0: not known
+    double memory_mb = 0;          // memory with the last camera loaded; 0: not known
 };
 
-// What is probably not meant in what a camera sees. scenario: as that camera has it.
+// Says what is probably not meant in what a camera sees. scenario: as that camera has it.
 std::vector<std::string> judge(const ScenarioConfig& scenario, const CameraReport& camera);
 
 std::string to_text(const CheckReport& report);

@@ -20,7 +20,7 @@ class Findings {
     void problem(std::string topic, std::string found, std::string advice) {
         add(Level::kProblem, topic, found, advice);
     }
-    // What is needed is a problem when it lacks, else worth a note.
+    // A part that is needed and lacks is a problem; one that is not needed is worth a note.
     void lacking(bool needed, std::string topic, std::string found, std::string advice) {
         add(needed ? Level::kProblem : Level::kNote, topic, found, advice);
     }

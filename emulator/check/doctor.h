@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-// What a scenario asks of the machine; empty: it does not.
+// The needs of a scenario on a machine; empty: it has none.
 struct BenchNeeds {
     struct Gige {
         std::string interface;
@@ -42,7 +42,7 @@ BenchNeeds needs_of(const ScenarioConfig& scenario);
 struct VideoDevice {
     std::string path;
     std::string label;
-    bool loopback = false;  // of v4l2loopback
+    bool loopback = false;  // it is a device of v4l2loopback
     bool openable = false;  // by this user
     bool takes_frames = false;
     bool exclusive_caps = false;
@@ -60,7 +60,7 @@ struct InterfaceFacts {
 struct MachineFacts {
     // Processor and rights.
     int cores = 1;
-    std::string governor;                 // of the first core; empty: not told
+    std::string governor;                 // governor of the first core; empty: not told
     std::uint64_t realtime_priority = 0;  // RLIMIT_RTPRIO
     std::uint64_t memory_lock_bytes = 0;  // RLIMIT_MEMLOCK
     bool root = false;
@@ -68,7 +68,7 @@ struct MachineFacts {
     // Network.
     std::uint64_t receive_buffer_bytes = 0, send_buffer_bytes = 0;  // net.core.rmem_max, wmem_max
     std::vector<InterfaceFacts> interfaces;                         // for each of BenchNeeds::gige
-    std::vector<std::string> port_faults;  // of BenchNeeds::ports; empty: it can be had
+    std::vector<std::string> port_faults;  // faults of BenchNeeds::ports; empty: it can be had
     bool aravis_tools = false;
     // V4L2.
     LoopbackModule loopback;
@@ -78,7 +78,7 @@ struct MachineFacts {
     std::vector<std::string> controllers;  // for being a device
     bool configfs = false;
     int usb_devices = 0, usb_openable = 0;
-    // What earlier runs have kept (io/files/mesh_cache.h).
+    // Remains of earlier runs (io/files/mesh_cache.h).
     std::string cache;
     std::size_t cache_files = 0;
     std::uint64_t cache_bytes = 0;
@@ -95,7 +95,7 @@ struct Finding {
     std::string advice;  // empty: nothing to do
 };
 
-// In the order of topics above. A kProblem is something needed that is not there.
+// Returns findings in the order of topics above. A kProblem is something needed that is not there.
 std::vector<Finding> diagnose(const BenchNeeds& needs, const MachineFacts& facts);
 bool all_there(const std::vector<Finding>& findings);
 

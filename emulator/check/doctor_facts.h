@@ -1,5 +1,5 @@
 #pragma once
-// What this machine has, as `hilcam doctor` wants to know it. Changes nothing; ports are tried and given
+// The facts about this machine that `hilcam doctor` wants to know. Changes nothing; ports are tried and given
 // back.
 
 #include "emulator/check/doctor.h"

@@ -1,5 +1,5 @@
 #pragma once
-// How bright an object will be in the picture, about, before anything is rendered.
+// Estimates how bright an object will be in the picture before anything is rendered.
 //
 // It is taken for a sphere that spreads sunlight as Lambert's law has it, of the mean reflectance of its
 // surfaces by area: the mean over the lit part of its disk is
@@ -20,19 +20,19 @@ struct LitObject {
     double phase_rad = 0;
     double sun_au = 1;
     double sunlit = 1;   // share of the Sun
-    double area_px = 0;  // of its whole disk, lit and dark
+    double area_px = 0;  // area of its whole disk, lit and dark
 };
 
 struct ExpectedSignal {
-    double signal_e = 0;    // of light; without saturation
-    double dn = 0;          // with black level and dark current, as the converter ends
+    double signal_e = 0;    // electrons of light, without saturation
+    double dn = 0;          // number with black level and dark current, as the converter ends
     double full_scale = 0;  // share of what the pixel can hold, dark current included; above 1: saturated
     double snr = 0;
 };
 
 ExpectedSignal expected_signal(const CameraSheet& camera, const LitObject& object);
 
-// What a pixel makes of so many electrons of light.
+// Returns what a pixel makes of so many electrons of light.
 ExpectedSignal read_out(const CameraSheet& camera, double signal_e);
 
 // Share of a sphere's disk that is lit.

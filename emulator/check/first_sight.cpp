@@ -19,7 +19,7 @@ FrameTruth truth_of(const ScenarioConfig& s, const Renderer& renderer) {
     FrameTruth truth = make_truth(s, renderer, wishes);
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),
                              {s.camera.binning_x, s.camera.binning_y});
-    renderer.tell_truth(truth);
+    renderer.report_truth(truth);
     return truth;
 }
 
@@ -36,7 +36,7 @@ bool is_in_frame(const SeenThing& thing, const FrameRaster& raster) {
 
 SeenObject::Place place_of(const SeenThing& thing, const FrameRaster& raster, const CameraSheet& sheet,
                            double off_rad, double radius_rad) {
-    // What is smaller than a pixel may have none and still be seen; a speck of a 64th has no silhouette
+    // A thing smaller than a pixel may have none and still be seen; a speck of a 64th has no silhouette
     // either.
     if (thing.visible_px > 0 || thing.visible_fraction > 0) return SeenObject::Place::kVisible;
     if (thing.silhouette_px == 0 && is_in_frame(thing, raster) && radius_rad < sheet.ifov_rad)

@@ -1,5 +1,5 @@
 #pragma once
-// What a camera sees of the scenario's first instant, found by a ray through every pixel and not by a
+// Finds what a camera sees at the scenario's first instant, by a ray through every pixel and not by a
 // picture: where objects are, how they are lit, what hides them.
 
 #include <cstdint>
@@ -18,13 +18,14 @@ struct SeenObject {
     LoadedObject loaded;
     enum class Place { kVisible, kHidden, kOutside, kBehind } place = Place::kVisible;
     double distance_m = 0;
-    double off_boresight_rad = 0;   // of its origin
-    double angular_radius_rad = 0;  // of the sphere about its origin that holds it; pi: the camera is in that
+    double off_boresight_rad = 0;  // angle of its origin
+    // Angular radius of the sphere about its origin that holds it; pi: the camera is in that.
+    double angular_radius_rad = 0;
     double phase_rad = 0;
     double sunlit = 1;
     double silhouette_px = 0;     // area that it would cover alone
-    double picture_share = 0;     // of the frame's pixels that show it
-    double visible_fraction = 0;  // of its silhouette
+    double picture_share = 0;     // share of the frame's pixels that show it
+    double visible_fraction = 0;  // share of its silhouette
     bool holds_camera = false;    // the camera stands within the box of its mesh, and does not ride on it
     ExpectedSignal expected;
 };
@@ -38,10 +39,10 @@ struct FirstSight {
     std::optional<double> height_above_ground_m;  // over terrain
     Pose camera;
     RaDecRoll pointing;
-    // Where it stands in the local axes of the scenario's site, if it has one on the origin's body.
+    // Position in the local axes of the scenario's site, if it has one on the origin's body.
     std::optional<Vec3d> from_site_m;
     std::string site_body;
-    // Where the camera stands in the first one's axes, and how far it is turned against that.
+    // Position of the camera in the first one's axes, and its rotation against that.
     Vec3d from_first_m;
     double turned_rad = 0;
 };

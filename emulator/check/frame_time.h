@@ -1,6 +1,6 @@
 #pragma once
-// How long a frame of the first instant takes on this machine: what `hilcam check` tells before a run.
-// `hilcam bench` measures it around the target, paced, and with its spread.
+// Measures how long a frame of the first instant takes on this machine, which `hilcam check` tells before a
+// run. `hilcam bench` measures it around the target, paced, and with its spread.
 
 #include <optional>
 

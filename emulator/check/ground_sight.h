@@ -15,11 +15,11 @@ struct GroundSight {
     std::string body;
     double distance_m = 0;
     double pixel_m = 0;             // across the line of sight
-    double wide_m = 0, high_m = 0;  // of the field at that distance, across the line of sight
+    double wide_m = 0, high_m = 0;  // size of the field at that distance, across the line of sight
     double off_vertical_rad = 0;    // between the line of sight and the ground's normal
     double sun_elevation_rad = 0;
-    // By the body's own law and mean albedo, without air, clouds and what hides the Sun. None with terrain:
-    // it has a material of its own.
+    // Signal by the body's own law and mean albedo, without air, clouds and what hides the Sun. None with
+    // terrain: it has a material of its own.
     std::optional<ExpectedSignal> expected;
 };
 

@@ -17,7 +17,7 @@ constexpr double kLongest_m = 500;
 // Height over the longest side below which a triangle's corners are on a line: what single precision leaves.
 constexpr double kSliver = 1e-6;
 
-// For each vertex the number of its place; gives how many places there are.
+// Gives each vertex the number of its place, and returns how many places there are.
 std::uint64_t number_places(const std::vector<Vec3f>& vertices_m, std::vector<std::uint32_t>& place_of) {
     std::vector<std::uint32_t> order(vertices_m.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -36,7 +36,8 @@ std::uint64_t number_places(const std::vector<Vec3f>& vertices_m, std::vector<st
     return order.empty() ? 0 : places + 1u;
 }
 
-// Which places hang together: union by halving paths (Tarjan & van Leeuwen, J. ACM 31, 1984).
+// Finds which places hang together: union by halving paths (Tarjan & van Leeuwen, J. ACM 31, 1984). ACM 31,
+// 1984).
 class Shells {
   public:
     explicit Shells(std::uint64_t places) : parent_(places) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -183,7 +184,7 @@ std::vector<std::string> problems_of(const MeshSurvey& s) {
 }
 
 std::string to_text(const MeshSurvey& s) {
-    constexpr std::size_t kMostNodes = 200;
+    constexpr std::size_t kMaxNodes = 200;
     const Vec3d size_m = s.most_m - s.least_m;
     std::string out = fmt::format(
         "mesh {}\nsize       {:.6g} x {:.6g} x {:.6g} m: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to "
@@ -197,11 +198,11 @@ std::string to_text(const MeshSurvey& s) {
         out += fmt::format("  {:>10} triangles  {:>10.4g} m2  '{}'{}\n", surface.triangles, surface.area_m2,
                            harmless(surface.name), surface.textured ? ", with a texture" : "");
     out += fmt::format("nodes      {}\n", s.nodes.size());
-    for (std::size_t i = 0; i < std::min(s.nodes.size(), kMostNodes); ++i)
+    for (std::size_t i = 0; i < std::min(s.nodes.size(), kMaxNodes); ++i)
         out += fmt::format("  {:>10} triangles  {:{}}'{}'\n", s.nodes[i].triangles, "",
                            2 * std::min(s.nodes[i].depth, 20u), harmless(s.nodes[i].name));
-    if (s.nodes.size() > kMostNodes)
-        out += fmt::format("  and {} more: --json has them all\n", s.nodes.size() - kMostNodes);
+    if (s.nodes.size() > kMaxNodes)
+        out += fmt::format("  and {} more: --json has them all\n", s.nodes.size() - kMaxNodes);
     const std::vector<std::string> problems = problems_of(s);
     out += problems.empty() ? "problems: none\n" : "problems:\n";
     for (const std::string& problem : problems) out += "  " + problem + "\n";

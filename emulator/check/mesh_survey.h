@@ -43,7 +43,7 @@ struct MeshSurvey {
 
 // file: for messages.
 MeshSurvey survey_mesh(const MeshContents& contents, const std::string& file);
-// What is wrong, a line each; some meshes mean to be open.
+// Says what is wrong, a line each; some meshes mean to be open.
 std::vector<std::string> problems_of(const MeshSurvey& survey);
 
 std::string to_text(const MeshSurvey& survey);

@@ -1,5 +1,5 @@
 #pragma once
-// Whether an event's condition holds in the world of a frame.
+// Tests whether an event's condition holds in the world of a frame.
 //
 // Geometry: positions are origins and centres, the Sun is a point; no light time beyond what bodies_at() has.
 // Eclipses: a visible body's ellipsoid (render/sky/bodies.h) lies between the place and the Sun's middle, as
@@ -16,7 +16,7 @@
 
 namespace hilcam {
 
-// What conditions can name.
+// The things that conditions can name.
 struct EventWorld {
     std::vector<std::string> objects;  // by their order
     std::array<bool, kBodyCount> visible{};
@@ -27,7 +27,7 @@ class EventCondition {
     // Throws InputError when there is no such object, or several.
     EventCondition(const EventConditionConfig& config, const EventWorld& world);
 
-    // Of one frame after the other: what held before has a margin.
+    // Is asked of one frame after the other: what held before has a margin.
     bool holds(const WorldSnapshot& world);
 
   private:

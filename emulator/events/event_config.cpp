@@ -104,9 +104,10 @@ void validate(const EventConfig& e) {
                          std::to_string(count));
     if (e.has_at_utc) at_key("at_utc", [&] { parse_utc(e.at_utc); });
     if (e.every_s > 0 && !e.has_at_s && !e.has_at_utc)
-        throw InputError("'every_s' goes with 'at_s' or 'at_utc'");
-    if (e.delay_s > 0 && !e.has_after) throw InputError("'delay_s' goes with 'after'");
-    if (e.again_after_s > 0 && !e.has_when) throw InputError("'again_after_s' goes with 'when'");
+        throw InputError("'every_s' goes with 'at_s' or 'at_utc'; found neither");
+    if (e.delay_s > 0 && !e.has_after) throw InputError("'delay_s' goes with 'after'; found it without");
+    if (e.again_after_s > 0 && !e.has_when)
+        throw InputError("'again_after_s' goes with 'when'; found it without");
     actions_of(e);
 }
 
@@ -136,7 +137,7 @@ std::string_view refusal_of(const Command& command) {
 
 EventActions actions_of(const EventConfig& e) {
     EventActions out;
-    if (e.actions.empty()) throw InputError("'do' is empty");
+    if (e.actions.empty()) throw InputError("'do': found an empty list; accepted: one command or more");
     for (const std::string& words : e.actions) {
         if (words == kEnd) {
             out.ends_run = true;

@@ -1,5 +1,5 @@
 #pragma once
-// Which of a scenario's events is due next: logic alone, without threads, clocks or commands.
+// Finds which of a scenario's events is due next: logic alone, without threads, clocks or commands.
 //
 // Fed with frames as they are seen, asked for what is due until an instant. The answer depends on nothing
 // else, so the same frames give the same events.
@@ -42,10 +42,11 @@ class EventSequence {
     // The earliest event that is due, which is then done: of those that wait for their time, only until
     // `until`. None: nothing is left. Of several at the same time, the first of the list.
     std::optional<Due> take(TimeTai until);
-    // When the earliest is due that waits for its time; of those that take pictures only, if wanted.
+    // Returns when the earliest event is due that waits for its time; of those that take pictures only, if
+    // wanted.
     std::optional<TimeTai> next_time(bool pictures_only = false) const;
-    // Of what waits for its time something takes a picture, ends the run or has never happened or an end of
-    // its own: not all of it is what repeats for ever and changes no picture.
+    // True when, among the events that wait for their time, one takes a picture, ends the run, has never
+    // happened or has an end of its own: not all of them repeat for ever and change no picture.
     bool comes_to_something() const;
 
     std::size_t size() const { return events_.size(); }
@@ -65,7 +66,7 @@ class EventSequence {
         bool held = false;
 
         bool by_clock() const { return config.has_at_s || config.has_at_utc || config.has_after; }
-        // What is due already counts.
+        // An event that is due already counts.
         bool spent() const {
             return config.times > 0 && done + due.size() >= static_cast<std::uint64_t>(config.times);
         }

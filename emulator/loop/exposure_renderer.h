@@ -31,7 +31,7 @@
 
 namespace hilcam {
 
-// What an exposure sees of the world's time.
+// The world's time that an exposure sees.
 struct ShownWorld {
     ShownWorld(TimeTai instant, double share = 1) : middle(instant), moving(share) {}
     TimeTai middle;
@@ -40,7 +40,7 @@ struct ShownWorld {
 
 class ExposureRenderer {
   public:
-    static constexpr int kMostParts = 64;
+    static constexpr int kMaxParts = 64;
 
     // Allocates all that render() needs. Owner thread.
     ExposureRenderer(Renderer& renderer, const ExposureConfig& config, const CameraModel& camera,
@@ -48,7 +48,7 @@ class ExposureRenderer {
 
     // Fits what render() fills. Owner thread.
     RadianceImage make_image() const;
-    std::size_t most_points() const;
+    std::size_t max_points() const;
 
     // The quality of the next exposures (lower_levels()): 0, as configured, or one of those below. Loop.
     void use_level(std::size_t level) { renderer_.use_level(level); }
@@ -57,10 +57,10 @@ class ExposureRenderer {
     bool take_light() { return renderer_.take_light(); }
 
     struct Result {
-        RenderStats stats;  // of all parts
+        RenderStats stats;  // figures of all parts
         ShownCommand shown;
         int parts = 1;
-        bool parts_limited = false;  // more than kMostParts were asked for
+        bool parts_limited = false;  // more than kMaxParts were asked for
     };
     // The exposure of exposure.exposure_s of a world about an instant; sets the exposure's rates and ray
     // grid. truth: to be told of the frame's middle, or null. Loop, one thread; no allocation.
@@ -72,9 +72,10 @@ class ExposureRenderer {
     // The world at the middle of the last exposure, the camera's jitter in it. Loop.
     const WorldSnapshot& middle_world() const { return middle_; }
 
-    // What exact motion would do, and how far things move [px of the detector]. Not for the loop.
+    // The plan says what exact motion would do, and how far things move [px of the detector]. Not for the
+    // loop.
     struct Plan {
-        double picture_px = 0;  // what fills most of the picture
+        double picture_px = 0;  // motion of what fills most of the picture
         double largest_px = 0;
         int parts = 1;
         bool parts_limited = false;
@@ -91,25 +92,25 @@ class ExposureRenderer {
     PointingJitter jitter_;
     ExpectedNoise noise_;
     WorldSnapshot middle_, before_, after_, part_world_;
-    double told_moving_ = 1;  // how fast the world moves in the camera's time
-    RadianceImage part_;      // of exact motion
+    double told_moving_ = 1;  // speed of the world in the camera's time
+    RadianceImage part_;      // a part of exact motion
     std::vector<PointSource> part_points_;
     std::size_t bins_;
 
     struct Span {
         TimeTai middle;
-        std::int64_t length_ns = 0;  // of the world's motion
+        std::int64_t length_ns = 0;  // length of the world's motion
         double exposure_s = 0;
         double moving = 1;
     };
     void sample_middle(WorldState& world, const Span& span, ShownCommand& shown);
     Vec3d seen_velocity_m_s(const WorldState& world, const WorldSnapshot& now) const;
-    void tell_truth(FrameTruth& truth);
+    void report_truth(FrameTruth& truth);
     Plan plan_of(const ImageMotion& motion) const;
     void sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
                       WorldSnapshot& out) const;
     void sample_ends(const WorldState& world, const Span& span, bool with_bodies);
-    void tell_noise(const Exposure& exposure, int parts);
+    void report_noise(const Exposure& exposure, int parts);
     void render_parts(const WorldState& world, const Span& span, RandomKey key, RadianceImage& radiance,
                       std::vector<PointSource>& points, Result& result);
     double unexpected_px_s(double rate_px_s) const;

@@ -1,5 +1,5 @@
 #pragma once
-// When frames are exposed in free-run: an absolute raster that never drifts and never catches up.
+// Says when frames are exposed in free-run: an absolute raster that never drifts and never catches up.
 //     next = last + period; when `now` has passed the start after next, whole periods are skipped and
 //     counted.
 // Times are int64 ns, of any one clock: here the camera's (clock.h).
@@ -34,7 +34,7 @@ class FrameSchedule {
         begun_ = true;
         return slot;
     }
-    // After a pause: the raster begins anew.
+    // Begins the raster anew after a pause.
     void restart(std::int64_t first_ns) { last_ns_ = first_ns, begun_ = false; }
 
   private:

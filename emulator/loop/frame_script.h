@@ -1,5 +1,6 @@
 #pragma once
-// What a frame depends on besides the scenario and the commands that it shows, and who can dictate it.
+// The part of what a frame depends on that is neither in the scenario nor in the commands that it shows, and
+// the script that can dictate it.
 //
 // In a run of its own a loop finds a frame's use by itself (clock, live settings, governor, faults); in a
 // replay a script gives it, and with it the same frame comes out again.
@@ -16,12 +17,12 @@ namespace hilcam {
 struct FrameUse {
     std::uint64_t id = 0;
     std::uint64_t skipped = 0;  // exposures before it that could not be taken
-    bool late = false;          // of a trigger: begun more than a period after its time
+    bool late = false;          // a triggered frame began more than a period after its time
     bool reverse_x = false, reverse_y = false;
     TestPattern test_pattern = TestPattern::kOff;
     std::uint32_t trigger_sequence = 0;
     std::uint32_t quality_level = 0;
-    // Of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it.
+    // Times of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it.
     std::int64_t begin_ns = 0, middle_ns = 0, end_ns = 0;
     TimeTai exposure_mid;         // simulated
     TimeTai shown_at;             // the world's instant that it shows

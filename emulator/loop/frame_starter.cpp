@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::int64_t kLastStretch_ns = 1'000'000;  // before a begin nothing else is listened to
 
-// When an exposure of that begin in the camera's time begins on the machine's clock: kNever_ns where the
-// camera waits, be it at that very instant. What is then told of the world before time goes on counts for it.
+// Returns when an exposure of that begin in the camera's time begins on the machine's clock: kNever_ns where
+// the camera waits, be it at that very instant. News of the world that come before time goes on count for it.
 std::int64_t when_begins(const SimulatedClock& clock, std::int64_t camera_ns) {
     if (camera_ns == SimulatedClock::kNever_ns) return camera_ns;
     const bool passes = clock.when_due(camera_ns + 1) != SimulatedClock::kNever_ns;
@@ -119,7 +119,7 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     if (lockstep_) {
         last_mid_ = clock_.simulated_of_camera(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));
         clock_.step_to(last_mid_);
-        settings_.tell_middle(last_mid_);
+        settings_.report_middle(last_mid_);
     } else {
         start.late = camera_now() > next_ns_ + period_ns;
     }
@@ -129,7 +129,7 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     return true;
 }
 
-// In lockstep the camera's time is the simulated one.
+// Takes an order; in lockstep the camera's time is the simulated one.
 bool FrameStarter::take_order(const CameraSettings& settings, double exposure_s) {
     if (!settings_.take_trigger(order_)) return false;
     left_ = order_.frames;
@@ -145,7 +145,7 @@ bool FrameStarter::take_order(const CameraSettings& settings, double exposure_s)
     return true;
 }
 
-// As the clock goes now: it may change while the order waits.
+// Returns the order's begin as the clock goes now: it may change while the order waits.
 std::int64_t FrameStarter::begin_of_order() const {
     if (order_.at_simulated.ns == 0) return clock_.camera_at(order_.at_monotonic_ns) + order_.delay_ns;
     const std::int64_t due_ns = clock_.camera_of(order_.at_simulated);

@@ -1,5 +1,5 @@
 #pragma once
-// When the next frame begins, by the camera's mode, and with which settings.
+// Says when the next frame begins, by the camera's mode, and with which settings.
 //
 //   free-run    on an absolute raster of the frame rate that never drifts and never catches up
 //               (frame_schedule.h)
@@ -34,12 +34,13 @@ class FrameStarter {
 
     struct Start {
         CameraSettings settings;
-        double exposure_s = 0;       // the settings', or what the camera has set itself
-        std::int64_t begin_ns = 0;   // of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it
+        double exposure_s = 0;  // the settings', or what the camera has set itself
+        // Begin of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it.
+        std::int64_t begin_ns = 0;
         std::int64_t camera_ns = 0;  // the same in the camera's time
         bool until_end = false;      // it may not be published before the exposure's end
         std::uint64_t skipped = 0;   // exposures that could not be taken before it
-        bool late = false;           // of a trigger: begun more than a period after its time
+        bool late = false;           // a triggered frame began more than a period after its time
         std::uint32_t trigger_sequence = 0;
         bool ends_order = false;
         PoseWatch::Silence silence;  // when it begins
@@ -66,7 +67,7 @@ class FrameStarter {
     const PoseWatch* poses_;
     ShutterTiming timing_;
     bool lockstep_, paced_;
-    double longest_step_s_ = 0;  // of the camera's sequence
+    double longest_step_s_ = 0;  // longest step of the camera's sequence
     double own_exposure_s_ = 0;
     FrameSchedule schedule_;
     bool idle_ = true;

@@ -16,13 +16,13 @@ struct FrameRecord;
 // Those that strike one frame.
 struct ImageFaults {
     bool stuck = false, black = false, saturated = false;
-    std::optional<double> tear_share{};  // of the height, from where on rows are of the frame before
+    std::optional<double> tear_share{};  // share of the height from which on rows are of the frame before
     std::optional<double> flip_rate{};   // per pixel
 
     friend bool operator==(const ImageFaults&, const ImageFaults&) = default;
 };
 
-// What the board has for a frame. Strikes are counted, but for flipped bits. Loop.
+// Returns what the board has for a frame. Strikes are counted, but for flipped bits. Loop.
 ImageFaults image_faults(FaultBoard& faults, std::uint64_t frame);
 
 // Strikes `frame`. `before` is what was published before it, and may have another size: then the faults that

@@ -39,7 +39,7 @@ struct LoopCounters {
     std::atomic<bool> lacks_light{false};  // the newest frame is one
     // Quality levels: that of the newest frame, how often it changed, how many frames each has had.
     std::atomic<std::uint32_t> level{0}, level_changes{0};
-    std::array<std::atomic<std::uint64_t>, kMostLevels> frames_at_level{};
+    std::array<std::atomic<std::uint64_t>, kMaxLevels> frames_at_level{};
     // With a noise budget: pixels with light, those within it, of all frames; the share in the newest and the
     // worst frame (1 without light).
     std::atomic<std::uint64_t> lit_px{0}, within_budget_px{0};

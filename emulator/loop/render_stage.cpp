@@ -24,7 +24,7 @@ RenderStage::RenderStage(const LoopParts& parts, LoopFigures& figures)
 
 void RenderStage::prepare(FrameSlot& slot) const {
     slot.radiance = exposures_.make_image();
-    slot.points.reserve(exposures_.most_points());
+    slot.points.reserve(exposures_.max_points());
     if (observers_.recorder) slot.shown_numbers.resize(world_.things());
 }
 
@@ -76,7 +76,7 @@ void RenderStage::take_light(FrameUse& use) {
 // What a frame depends on, from here on its own.
 void RenderStage::latch(FrameSlot& slot) {
     const FrameUse& use = slot.use;
-    settings_.tell_own(use.exposure_s, use.gain_db);
+    settings_.report_own(use.exposure_s, use.gain_db);
     FrameRecord& record = slot.record;
     record = {};
     record.id = use.id;

@@ -1,6 +1,6 @@
 #pragma once
-// When a camera's frame begins, is in its middle and ends, from its shutter. With T the exposure, h the rows
-// of the window and l the line time, a frame that begins at 0:
+// Computes from its shutter when a camera's frame begins, is in its middle and ends. With T the exposure, h
+// the rows of the window and l the line time, a frame that begins at 0:
 //
 //                     middle                end             shortest period
 //     global,
@@ -22,11 +22,11 @@ class ShutterTiming {
 
     // The shutter leaves no choice of exposure and frame rate.
     bool is_fixed() const { return kind_ == ShutterKind::kLineScan; }
-    // What is done for an exposure that is asked for [s].
+    // Returns the exposure that is made where one is asked for [s].
     double exposure_s(double asked_s) const { return is_fixed() ? stages_ * line_time_s_ : asked_s; }
     double middle_s(double exposure_s) const;
     double end_s(double exposure_s) const;
-    // From frame to frame, at a frame rate that is asked for [s].
+    // Returns the time from frame to frame at a frame rate that is asked for [s].
     double period_s(double frame_rate_hz, double exposure_s) const;
 
   private:

@@ -19,7 +19,9 @@ Fields fields(JitterBand& j) {
 }
 
 void validate(const JitterBand& j) {
-    if (!(j.least_hz < j.most_hz)) throw InputError("least_hz must be below most_hz");
+    if (!(j.least_hz < j.most_hz))
+        throw InputError("least_hz: found " + std::to_string(j.least_hz) + "; accepted: below most_hz, " +
+                         std::to_string(j.most_hz));
 }
 
 AttitudeJitter::AttitudeJitter(const JitterBand& band, std::uint64_t seed, std::uint32_t thing, TimeTai start)

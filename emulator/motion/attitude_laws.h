@@ -12,7 +12,7 @@ namespace hilcam {
 std::unique_ptr<AttitudeLaw> make_turning(const PlacedFrame& frame, const AttitudeState& at_start,
                                           TimeTai start);
 
-// Where a body axis can be made to look.
+// The target at which a body axis can be made to look.
 struct Aim {
     enum class Kind {
         kNorth,        // the world's +z
@@ -28,7 +28,7 @@ struct Aim {
     std::size_t thing = 0;
 };
 struct Pointing {
-    Vec3d axis{0, 0, 1};  // of the body, that looks exactly along `aim`
+    Vec3d axis{0, 0, 1};  // axis of the body that looks exactly along `aim`
     Aim aim;
     Vec3d second_axis{0, -1, 0};  // that looks as near to `second_aim` as it can
     Aim second_aim;

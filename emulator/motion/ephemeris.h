@@ -16,16 +16,16 @@
 
 namespace hilcam {
 
-// In the segment's own frame, about its centre. The instant lies in the usable span. Loop.
+// Interpolates in the segment's own frame, about its centre. The instant lies in the usable span. Loop.
 StateVector interpolate_state(const OemSegment& segment, TimeTai time);
-// Against the segment's reference frame. Loop.
+// The attitude against the segment's reference frame. Loop.
 struct ReferenceAttitude {
     Quat reference_from_body;
     Vec3d rate_body_rad_s;
 };
 ReferenceAttitude interpolate_attitude(const AemSegment& segment, TimeTai time);
 
-// Where a time stands among usable spans, which rise.
+// Finds where a time stands among usable spans, which rise.
 template <class Segment>
 MotionValidity validity_of(const std::vector<Segment>& segments, TimeTai time) {
     for (std::size_t i = 0; i < segments.size(); ++i) {

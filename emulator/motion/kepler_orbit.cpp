@@ -92,7 +92,7 @@ StateVector KeplerOrbit::at(double seconds) const {
     const double c = closed ? std::cos(anomaly) : std::cosh(anomaly);
     const double s = closed ? std::sin(anomaly) : std::sinh(anomaly);
     const double b = std::abs(a) * std::sqrt(std::abs(1 - e * e));
-    const double rate = mean_motion_rad_s_ / std::abs(1 - e * c);  // of the anomaly
+    const double rate = mean_motion_rad_s_ / std::abs(1 - e * c);  // rate of the anomaly
     const double x = a * (c - e), y = b * s;
     const double x_rate = -std::abs(a) * s * rate, y_rate = b * c * rate;
     return {x * periapsis_dir_ + y * across_dir_, x_rate * periapsis_dir_ + y_rate * across_dir_};

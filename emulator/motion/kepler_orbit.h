@@ -9,7 +9,7 @@ namespace hilcam {
 // Angles against ICRF's equator and x axis.
 struct KeplerElements {
     double semi_major_axis_m = 7e6;  // negative: a hyperbola
-    double eccentricity = 0;         // not 1
+    double eccentricity = 0;         // any but 1
     double inclination_rad = 0;
     double node_rad = 0;          // right ascension of the ascending node
     double periapsis_rad = 0;     // argument of
@@ -19,7 +19,7 @@ struct KeplerElements {
 // Eccentric anomaly E with E - e sin E = M (e < 1), to rounding: Newton's steps inside a bracket. Of a
 // hyperbola F with e sinh F - F = M.
 double eccentric_anomaly(double mean_anomaly_rad, double eccentricity);
-// Of a true anomaly; of a hyperbola inside its asymptotes.
+// Returns the mean anomaly for a true anomaly; for a hyperbola inside its asymptotes.
 double mean_anomaly(double true_anomaly_rad, double eccentricity);
 
 class KeplerOrbit {

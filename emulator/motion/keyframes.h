@@ -23,7 +23,7 @@ class Keyframes {
     // Times must rise and there must be one at least: InputError.
     explicit Keyframes(const std::vector<Keyframe>& keyframes);
 
-    // Before the first and after the last: as there, at rest. Loop.
+    // Returns the state; before the first and after the last keyframe it is as there, at rest. Loop.
     StateVector state_at(TimeTai time) const;
     AttitudeState attitude_at(TimeTai time) const;
 

@@ -1,6 +1,7 @@
 #pragma once
-// Where a thing is and how it is turned at any instant, from what the scenario says of it: a trajectory, an
-// attitude law and jitter, each a pure function of the instant and of the things that it follows.
+// A motion source says where a thing is and how it is turned at any instant, by what the scenario says of it:
+// a trajectory, an attitude law and jitter, each a pure function of the instant and of the things that it
+// follows.
 //
 // Outside the instants that a part knows (an ephemeris's end, a gap in it) it stands still as it was at the
 // nearest one that it knows, and says so. Axes of its orbit stand with it.
@@ -19,20 +20,20 @@ namespace hilcam {
 
 enum class MotionStatus : std::uint8_t { kOk, kBefore, kAfter, kGap };
 
-// Whether a part knows an instant, and the nearest that it knows.
+// Says whether a part knows an instant, and the nearest that it knows.
 struct MotionValidity {
     MotionStatus status = MotionStatus::kOk;
     TimeTai nearest;
 };
-// Of a span whose ends count.
+// Returns the validity of a span whose ends count.
 MotionValidity validity_of(TimeTai time, TimeTai first, TimeTai last);
 
-// What a part may look at: one instant of the world.
+// The part of the world at one instant that a part may look at.
 struct MotionContext {
     const WorldFrame& frame;
     std::span<const Motion> things;  // the camera's body, then the objects; what needs() names is right
-    // Of each, whether it stands still where its source does not know it. Its velocity is that of its way, so
-    // that its orbit has axes; it does not move with it. Empty: none.
+    // Flags of those that stand still where their source does not know the instant. The velocity of such a
+    // thing is that of its way, so that its orbit has axes; it does not move with it. Empty: none.
     std::span<const std::uint8_t> standing = {};
 
     bool stands(std::size_t thing) const { return thing < standing.size() && standing[thing] != 0; }
@@ -51,7 +52,7 @@ struct OwnMotion {
 // Another thing's part that must be known first.
 struct MotionNeed {
     std::size_t thing = 0;
-    bool attitude = false;  // else its position
+    bool attitude = false;  // true: its attitude, false: its position
 };
 
 class Trajectory {
@@ -59,12 +60,13 @@ class Trajectory {
     virtual ~Trajectory() = default;
     // Everywhere, unless it says otherwise. Loop.
     virtual MotionValidity validity(TimeTai time) const { return {MotionStatus::kOk, time}; }
-    // In the world; only called for valid instants. Loop: no allocation, no lock.
+    // Returns the state in the world; only called for valid instants. Loop: no allocation, no lock.
     virtual StateVector at(const MotionContext& context) const = 0;
-    // Of what does not fall freely about a body's centre, as far as it is known. Loop.
+    // Returns the acceleration of what does not fall freely about a body's centre, as far as it is known.
+    // Loop.
     virtual std::optional<Vec3d> acceleration(const MotionContext&) const { return {}; }
     virtual std::vector<MotionNeed> needs() const { return {}; }
-    // Where from, for messages.
+    // Returns where the motion comes from, for messages.
     virtual std::string name() const = 0;
 };
 

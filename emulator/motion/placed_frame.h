@@ -22,7 +22,7 @@ struct PlacedFrame {
     std::vector<MotionNeed> needs() const;
 };
 
-// Where its origin is in the world, and its axes.
+// The place of its origin in the world, and its axes.
 struct PlacedAxes {
     StateVector origin;
     TurningAxes axes;

@@ -32,7 +32,7 @@ struct Sgp4Elements {
 enum class Sgp4Status {
     kOk,
     kEccentricity,  // grew out of [-0.001, 1)
-    kMeanMotion,    // not above 0
+    kMeanMotion,    // mean motion is zero or negative
     kPerturbed,     // eccentricity with the Sun's and Moon's periodics out of [0, 1]
     kSemiLatus,     // below 0
     kDecayed,       // below the Earth's surface; the state is told all the same

@@ -28,11 +28,11 @@ class DeepSpace {
   private:
     // The periodic terms of one perturbing body, by the theory's names.
     struct Periodics {
-        double anomaly_at_epoch, mean_motion, eccentricity;  // of the body
+        double anomaly_at_epoch, mean_motion, eccentricity;  // elements of the body
         double e2, e3, i2, i3, l2, l3, l4, g2, g3, g4, h2, h3;
     };
     struct Change {
-        double e = 0, i = 0, l = 0, g = 0, h = 0;  // of e, i, M, perigee, node (the last times sin i)
+        double e = 0, i = 0, l = 0, g = 0, h = 0;  // terms of e, i, M, perigee, node (the last times sin i)
     };
     // amplitude * sin(perigee_times * perigee + times * lambda - phase), in the rate of the mean motion.
     struct ResonanceTerm {

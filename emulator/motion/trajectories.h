@@ -9,9 +9,9 @@
 
 namespace hilcam {
 
-// At rest in a frame, or at a constant velocity in it from `start` on.
+// Makes a thing at rest in a frame, or at a constant velocity in it from `start` on.
 std::unique_ptr<Trajectory> make_fixed(const PlacedFrame& frame, const StateVector& at_start, TimeTai start);
-// From keyframe to keyframe in a frame; before the first and after the last it stands.
+// Makes a motion from keyframe to keyframe in a frame; before the first and after the last it stands.
 std::unique_ptr<Trajectory> make_keyframed(const PlacedFrame& frame, Keyframes keyframes);
 // Drift near a thing that is on a near-circular orbit (relative_motion.h), in its LVLH frame.
 std::unique_ptr<Trajectory> make_drifting(const PlacedFrame& lvlh, const StateVector& at_start,

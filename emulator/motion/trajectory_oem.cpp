@@ -61,7 +61,7 @@ class OemTrajectory final : public Trajectory {
 
   private:
     std::vector<OemSegment> segments_;
-    std::vector<OrbitCenter> centers_;  // of each segment
+    std::vector<OrbitCenter> centers_;  // centre of each segment
     std::string name_;
     Mat3d icrf_from_eme2000_;
 

@@ -20,7 +20,7 @@ class Placed final : public Trajectory {
     StateVector at(const MotionContext& context) const override {
         return world_state(axes_of(frame_, context), in_frame_(context.frame.time()));
     }
-    // What follows a thing on its orbit falls nearly as that does.
+    // A thing that follows another on its orbit falls nearly as that does.
     std::optional<Vec3d> acceleration(const MotionContext& context) const override {
         if (frame_.follows_thing()) return {};
         // Cubics at the most: central differences of their velocities have no remainder.

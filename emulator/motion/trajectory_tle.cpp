@@ -47,7 +47,7 @@ class TleTrajectory final : public Trajectory {
         StateVector state;
         return sgp4_.at(minutes, state) == Sgp4Status::kOk;
     }
-    // How far from epoch the theory works, in minutes: tried every five, then by halves.
+    // Finds how far from epoch the theory works, in minutes: tried every five, then by halves.
     double limit(int direction, double most) const {
         constexpr double kStep = 5;
         double good = 0, bad = 0;

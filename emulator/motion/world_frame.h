@@ -25,7 +25,7 @@ struct TurningAxes {
     Vec3d rate_rad_s;
 };
 
-// Not shared between threads. Loop: no allocation.
+// An object of this class is not shared between threads. Loop: no allocation.
 class WorldFrame {
   public:
     WorldFrame(TimeTai time, const OriginConfig& origin) : time_(time), origin_(origin) {}

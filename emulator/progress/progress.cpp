@@ -44,7 +44,7 @@ class ProgressLine {
     void end(const std::shared_ptr<Progress::Work>& work) {
         std::jthread finished;  // stopped and joined without the lock
         const std::lock_guard lock(mutex_);
-        // What it looks at may not be there any more.
+        // The object it looks at may not be there any more.
         std::erase(works_, work);
         if (works_.empty()) finished = std::move(thread_);
     }

@@ -1,6 +1,6 @@
 #pragma once
-// How far long work is, told while the object lives: on one line of standard error, where that is a terminal,
-// with what is left by the pace so far. Elsewhere nothing is written and no thread runs.
+// Tells how far long work is while the object lives: on one line of standard error, where that is a terminal,
+// with the time that is left by the pace so far. Elsewhere nothing is written and no thread runs.
 //
 // Work within work makes a Progress of its own: the line has the outermost, whose time it tells, and the
 // innermost. Not for a camera's loop: functions here lock. Who may be watched from outside gives `look`
@@ -22,9 +22,9 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // So many steps are done in all. Any thread.
+    // Says that so many steps are done in all. Any thread.
     void done(double steps);
-    // What comes now; nothing else changes. Any thread.
+    // Says what comes now; nothing else changes. Any thread.
     void now(std::string what);
 
   private:

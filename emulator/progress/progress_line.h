@@ -16,10 +16,10 @@ struct ProgressItem {
 
 // "8 s", "2 min 5 s", "1 h 3 min".
 std::string duration_text(double seconds);
-// By the pace so far; none in the first second, or before a hundredth is done.
+// Returns the time left by the pace so far; none in the first second, or before a hundredth is done.
 std::optional<double> left_s(const ProgressItem& item);
 // The outermost first; at least one. "tradeoff 34 %, 12 s, about 23 s left: loading target.glb", cut to
-// most_columns.
-std::string progress_text(const std::vector<ProgressItem>& items, std::size_t most_columns);
+// max_columns.
+std::string progress_text(const std::vector<ProgressItem>& items, std::size_t max_columns);
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// What recordings, pictures and truth say they were made by. `hilcam --version` adds the commit
+// The version that recordings, pictures and truth say they were made by. `hilcam --version` adds the commit
 // (emulator/commit.h), on which nothing else depends.
 
 #include <string_view>

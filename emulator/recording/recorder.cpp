@@ -72,12 +72,13 @@ void Recorder::drain() {
 }
 
 void Recorder::write(const Record& record) {
-    constexpr std::size_t kMost = kRecordPrefixBytes + kMostRecordBytes;
-    if (buffer_.size() - filled_ < kMost) flush();
-    filled_ += encode_record(record, std::span(buffer_).subspan(filled_, kMost));
+    constexpr std::size_t kMax = kRecordPrefixBytes + kMaxRecordBytes;
+    if (buffer_.size() - filled_ < kMax) flush();
+    filled_ += encode_record(record, std::span(buffer_).subspan(filled_, kMax));
 }
 
-// After an error nothing more is written: the file ends with a whole record, or inside one.
+// Writes what waits; after an error nothing more is written: the file ends with a whole record, or inside
+// one.
 void Recorder::flush() {
     std::size_t done = 0;
     while (done < filled_ && !failed_.load(std::memory_order_relaxed)) {

@@ -1,6 +1,6 @@
 #pragma once
-// What a recording holds (docs/recording.md): all that a run's frames depend on and that a scenario does not
-// say. Everything here but the header is plain data, so that it can go through a queue without a lock.
+// The contents of a recording (docs/recording.md): all that a run's frames depend on and that a scenario does
+// not say. Everything here but the header is plain data, so that it can go through a queue without a lock.
 //
 // Commands are numbered in the order in which they take effect. A frame is preceded by the number of the
 // newest command that it shows of each thing (RecordedShown), where that has changed since the frame before:
@@ -33,7 +33,7 @@ struct RecordedCommand {
     std::uint64_t number = 0;  // from 1
     Command command;
     CommandSource source;
-    bool forgets = false;  // of a pose, joint or lamp: what was known of it before
+    bool forgets = false;  // true: what was known of the pose, joint or lamp before is forgotten
 };
 // A camera's settings have changed, by a command or by a client of the camera.
 struct RecordedChange {
@@ -59,7 +59,7 @@ struct RecordedFrame {
     std::uint16_t camera = 0;
     FrameUse use;
 };
-// So many records are missing here: the disk was too slow.
+// Says that so many records are missing here: the disk was too slow.
 struct RecordedLoss {
     std::uint64_t records = 0;
 };

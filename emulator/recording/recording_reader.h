@@ -38,7 +38,7 @@ class RecordingReader {
     RecordingEnd end() const { return end_; }
     // Bytes read, all of them whole records.
     std::uint64_t offset() const { return offset_; }
-    // What the end is, for people.
+    // Says what the end is, for people.
     std::string end_text() const;
 
   private:

@@ -13,7 +13,7 @@ namespace {
 // Keys in the order in which they are written.
 using json = nlohmann::ordered_json;
 
-// In the order of ClockCommand::Action, which a record that is read has been checked for.
+// Names in the order of ClockCommand::Action, which a record that is read has been checked for.
 constexpr std::array kClockActions = {"ask", "scale", "pause", "resume", "step"};
 
 json list_of(const Vec3d& v) { return {v.x, v.y, v.z}; }
@@ -142,7 +142,7 @@ json text_of(const RecordedCommand& c, const RecordingHeader& header) {
                 {"arrival_s", seconds_since(c.source.arrival_monotonic_ns, header)},
                 {"sequence", c.source.sequence}};
     if (c.source.camera != 0) out["camera"] = c.source.camera;
-    if (c.source.event != 0) out["event"] = c.source.event - 1;  // as the scenario's list counts
+    if (c.source.event != 0) out["event"] = c.source.event - 1;  // from 0, as the scenario's list counts
     add_command(out, c.command, header);
     return out;
 }
@@ -175,7 +175,7 @@ json text_of(const RecordedEnd& e, const RecordingHeader& header) {
 
 void list_recording(RecordingReader& recording, const std::function<void(const std::string&)>& line) {
     const RecordingHeader& h = recording.header();
-    // What is no UTF-8, as a scenario may have it in a name, is shown as it can be.
+    // Text that is no UTF-8, as a scenario may have it in a name, is shown as it can be.
     const auto show = [&](const json& value) {
         line(value.dump(-1, ' ', false, json::error_handler_t::replace));
     };

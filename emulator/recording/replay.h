@@ -32,14 +32,14 @@ namespace hilcam {
 std::vector<std::string> check_recording(const RecordingHeader& recording, const std::string& name,
                                          const RecordingHeader& own, bool force);
 
-// What a replay needs of a camera; all of it outlives the replay.
+// The parts of a camera that a replay needs; all of it outlives the replay.
 struct ReplayedCamera {
     std::uint16_t number = 1;
     WorldState* world = nullptr;
     FaultBoard* faults = nullptr;
     CameraLimits limits;
-    CameraSettings power_up;  // what it begins with
-    std::size_t levels = 1;   // of quality
+    CameraSettings power_up;  // settings with which it begins
+    std::size_t levels = 1;   // levels of quality
 };
 
 class Replay : public FrameScript {

@@ -1,5 +1,5 @@
 #pragma once
-// Which random numbers a run draws: those of the seed that its scenario states, or its own.
+// The seed decides which random numbers a run draws: that which its scenario states, or the run's own.
 //
 // Two runs of one seed have the same noise in frames of the same number, whatever their light and exposure.
 // That repeats a run bit for bit, and spoils a measurement that takes one run from another. So only a

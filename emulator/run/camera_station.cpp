@@ -161,7 +161,7 @@ void CameraStation::serve_faults(double seconds) {
     FaultBoard::Entry entry;
     while (faults_.take_entry(entry)) {
         fault_log_.push_back(entry);
-        if (fault_log_.size() > kMostLogged) fault_log_.pop_front();
+        if (fault_log_.size() > kMaxLogged) fault_log_.pop_front();
     }
 }
 

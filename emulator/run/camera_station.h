@@ -23,8 +23,8 @@ class Recorder;
 
 struct RunLimits {
     double seconds = 0;         // 0: until a signal
-    std::uint64_t frames = 0;   // of each camera; 0: no limit
-    std::uint64_t warm_up = 0;  // of them, the first: their times are not kept
+    std::uint64_t frames = 0;   // frames of each camera; 0: no limit
+    std::uint64_t warm_up = 0;  // first frames, whose times are not kept
     bool paced = true;
     bool outputs = true;  // false: frames go nowhere, for benchmarks
     // A file to record to, or one whose frames to show once more; empty: none.
@@ -32,9 +32,9 @@ struct RunLimits {
     // Frames may come before the light between surfaces that they ask for is kept, where the scenario says
     // so, too.
     bool light_beside = false;
-    bool replay_fast = false;   // not by the recording's times
-    bool replay_force = false;  // of another program or scenario
-    std::string run_id{};       // what the truth of its frames is labelled with; empty: the emulator draws it
+    bool replay_fast = false;   // true: as fast as can be; false: by the recording's times
+    bool replay_force = false;  // true: also a recording of another program or scenario
+    std::string run_id{};       // label of its frames' truth; empty: the emulator draws it
 };
 
 class LightMaker;
@@ -72,7 +72,7 @@ class CameraStation {
     void stop_loop() noexcept { loop_->stop(); }
     void stop_outputs() noexcept;
 
-    // To be called now and then while the loop runs: orders the scenario's own faults, keeps the log.
+    // Is called now and then while the loop runs: orders the scenario's own faults, keeps the log.
     void serve_faults(double seconds_since_start);
 
     const ScenarioConfig& scenario() const { return scenario_; }
@@ -81,9 +81,9 @@ class CameraStation {
     FrameLoop& loop() { return *loop_; }
     const FrameLoop& loop() const { return *loop_; }
     Renderer& renderer() { return *renderer_; }
-    // What was found when they were loaded, in the scenario's order.
+    // Returns what was found when they were loaded, in the scenario's order.
     const std::vector<LoadedObject>& objects() const { return objects_; }
-    // How it got its tables of directions; orders: those that it is still without.
+    // Says how it got its tables of directions; orders: those that it is still without.
     LightLoading& light() { return light_; }
     SensorChain& chain() { return *chain_; }
     WorldState& world() { return *world_; }
@@ -106,7 +106,7 @@ class CameraStation {
     void record_changes(Recorder& recorder);
     std::string status() const;
 
-    static constexpr std::size_t kMostLogged = 100'000;
+    static constexpr std::size_t kMaxLogged = 100'000;
 
     ScenarioConfig scenario_;
     std::size_t number_;
@@ -122,7 +122,7 @@ class CameraStation {
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<ExposureRenderer> exposures_;
-    PreviewSink* preview_ = nullptr;  // of the sinks, as is the next; may be null
+    PreviewSink* preview_ = nullptr;  // one of the sinks, as is the next; may be null
     TruthSink* truth_ = nullptr;
     std::optional<StationLinks> links_;  // once it is prepared
     std::unique_ptr<FrameLoop> loop_;

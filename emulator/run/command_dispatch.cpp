@@ -55,7 +55,7 @@ bool is_noted_after(const Command& command) {
         command);
 }
 
-// So many frames, or what an event starts: a frame that is being made is not struck.
+// True for a number of frames, or for what an event starts: a frame that is being made is not struck.
 bool is_from_next_frame(const FaultCommand& f, const CommandSource& source) {
     return !f.clear_all && f.order.from_frame == 0 && (f.order.frames != 0 || source.event != 0);
 }
@@ -107,7 +107,7 @@ CommandStatus CommandDispatch::perform(const Command& command, const CommandSour
         command);
 }
 
-// Of several cameras, the first refusal is the answer.
+// Asks several cameras; the first refusal is the answer.
 template <class F>
 CommandStatus CommandDispatch::for_cameras(std::uint16_t camera, F&& act) {
     if (camera > cameras_.size()) return CommandStatus::kUnknownObject;
@@ -226,9 +226,9 @@ CommandStatus CommandDispatch::expose(const ExposeCommand& e, const CommandSourc
                        [&](const CommandedCamera& c) { return status_of(c.settings->trigger(order)); });
 }
 
-// With events each frame is an order of its own, so that they come between any two. A picture that an event
-// takes is part of the sender's order that is under way, or nobody but the events can order one
-// (event_director.h).
+// Exposes in lockstep; with events each frame is an order of its own, so that they come between any two. A
+// picture that an event takes is part of the sender's order that is under way, or nobody but the events can
+// order one (event_director.h).
 CommandStatus CommandDispatch::expose_in_lockstep(const TriggerOrder& order, const CommandSource& source) {
     std::unique_lock one(lockstep_, std::defer_lock);
     if (source.event == 0) one.lock();

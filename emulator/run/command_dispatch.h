@@ -1,5 +1,6 @@
 #pragma once
-// What decoded commands do: poses to the world, settings and triggers to the cameras, faults to their boards.
+// Carries out decoded commands: poses go to the world, settings and triggers to the cameras, faults to their
+// boards.
 //
 // Every camera has a picture of the world of its own, so poses go to all of them. Settings, triggers and
 // faults go to the camera that a command names, or to all: with several, a setting that one of them refuses
@@ -17,7 +18,7 @@
 
 namespace hilcam {
 
-// What commands reach of a camera; all of it outlives the dispatch.
+// The parts of a camera that commands reach; all of it outlives the dispatch.
 struct CommandedCamera {
     WorldState* world = nullptr;
     LiveSettings* settings = nullptr;
@@ -41,7 +42,7 @@ class CommandDispatch : public CommandHandler {
 
     // All that is accepted goes into a recording. Before the first command; it outlives the last.
     void record_to(Recorder& recorder) { recorder_ = &recorder; }
-    // In lockstep, events are asked before every frame. As above.
+    // Makes events be asked before every frame in lockstep. As above.
     void ask_events(EventDirector& events) { events_ = &events; }
 
   private:

@@ -70,7 +70,7 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     prepare_stations();
 }
 
-// Before minutes go into a scene.
+// Is called before minutes go into a scene.
 void Emulator::prepare_recording() {
     if (!limits_.record.empty() || !limits_.replay.empty()) recording_ = recording_header(scenario_);
     if (limits_.replay.empty()) return;
@@ -162,7 +162,8 @@ void Emulator::prepare_stations() {
         });
 }
 
-// When starting has failed half-way: outputs' threads ask for figures of what is destroyed before them.
+// Is also called when starting has failed half-way: outputs' threads ask for figures of what is destroyed
+// before them.
 Emulator::~Emulator() {
     if (telemetry_) telemetry_->stop();
     for (const auto& station : stations_) station->stop_outputs();
@@ -246,7 +247,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         light_maker_->start();
     }
     on_ready();
-    tell_service_manager("READY=1");
+    notify_service_manager("READY=1");
     const bool terminal = isatty(STDERR_FILENO);
     std::int64_t next_line_ns = begun_ns + 1'000'000'000;
     while (!signalled && !finished()) {
@@ -266,7 +267,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         if (!terminal) print_missed(now_ns);
         sleep_until_monotonic_ns(now_ns + 10'000'000);
     }
-    tell_service_manager("STOPPING=1");
+    notify_service_manager("STOPPING=1");
     // Loops first: they answer what waits for a frame.
     if (events_) events_->ask_to_stop();
     for (const auto& station : stations_) station->stop_loop();
@@ -330,7 +331,8 @@ void Emulator::print_light() {
                      light_maker_->seconds());
 }
 
-// What an output begins to be unable to do: once, not for each frame. The report at the end has it whole.
+// Prints what an output begins to be unable to do: once, not for each frame. The report at the end has it
+// whole.
 void Emulator::print_output_faults(std::int64_t now_ns) {
     constexpr std::int64_t kBetweenLooks_ns = 250'000'000;
     if (now_ns < next_fault_look_ns_) return;
@@ -352,7 +354,7 @@ void Emulator::print_missed(std::int64_t now_ns) {
     next_missed_line_ns_ = now_ns + kBetweenLines_ns;
 }
 
-// Of the first camera.
+// Prints the line of the first camera.
 void Emulator::print_line() {
     const std::uint64_t frames = loop().counters().frames.load();
     const CommandReport commands = command_report();

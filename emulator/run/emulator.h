@@ -47,7 +47,7 @@ class Emulator {
     CommandReport command_report() const;
     // Null: nothing is recorded.
     const Recorder* recorder() const { return recorder_.get(); }
-    // By camera; none: this is no replay.
+    // Returns the replays by camera; none: this is no replay.
     const std::vector<std::unique_ptr<Replay>>& replays() const { return replays_; }
 
   private:
@@ -72,14 +72,15 @@ class Emulator {
 
     ScenarioConfig scenario_;
     RunLimits limits_;
-    std::optional<tbb::global_control> threads_;  // as many as the loop has cores of its own
+    // Limits threads to as many as the loop has cores of its own.
+    std::optional<tbb::global_control> threads_;
     SpectralGrid grid_;
     SimulatedClock clock_;
     std::int64_t clock_start_ns_ = 0;  // CLOCK_MONOTONIC
     PoseWatch poses_;
     SilenceLog silence_log_{clock_, poses_};
     std::unique_ptr<TelemetrySender> telemetry_;  // outlives the sinks that stations have of it; may be null
-    RecordingHeader recording_;                   // with a recorder
+    RecordingHeader recording_;                   // used with a recorder
     std::unique_ptr<Recorder> recorder_;          // outlives all that records; may be null
     std::vector<std::unique_ptr<Replay>> replays_;  // outlive the loops that follow them
     std::unique_ptr<EventDirector> events_;         // outlives the loop that it watches; may be null

@@ -15,10 +15,10 @@
 namespace hilcam {
 namespace {
 
-// How long before a frame's begin: within the last stretch in which the loop listens to nothing else
-// (frame_starter.cpp), so that a new frame rate does not move that begin.
+// The time before a frame's begin at which events are asked: within the last stretch in which the loop
+// listens to nothing else (frame_starter.cpp), so that a new frame rate does not move that begin.
 constexpr std::int64_t kLead_ns = 900'000;
-constexpr std::int64_t kLongestWait_ns = 50'000'000;  // how long a stop may have to wait
+constexpr std::int64_t kLongestWait_ns = 50'000'000;  // the longest that a stop may have to wait
 
 }  // namespace
 
@@ -71,7 +71,8 @@ void EventDirector::before_frame(const TriggerOrder& order) {
     happen_until(begin_of(order));
 }
 
-// As the frame starter has it, with the exposure of the frame before where the camera sets that itself.
+// Returns the begin as the frame starter has it, with the exposure of the frame before where the camera sets
+// that itself.
 TimeTai EventDirector::begin_of(const TriggerOrder& order) const {
     const CameraSettings s = bench_.settings.settings();
     const std::int64_t to_middle_ns = to_ns(bench_.timing.middle_s(s.exposure_s));
@@ -111,7 +112,7 @@ void EventDirector::run() {
     }
 }
 
-// When the frame after the one that was seen last begins, if nothing comes between.
+// Returns when the frame after the one that was seen last begins, if nothing comes between.
 EventDirector::NextBegin EventDirector::next_begin() const {
     if (frame_.id == 0) return {};
     const SimulatedClock& clock = bench_.clock;
@@ -121,7 +122,8 @@ EventDirector::NextBegin EventDirector::next_begin() const {
     return {clock.when_due(camera_ns), clock.simulated_of_camera(camera_ns)};
 }
 
-// Of the next event that waits for its time: never, as long as simulated time stands before it.
+// Returns the time of the next event that waits for its time: never, as long as simulated time stands before
+// it.
 std::int64_t EventDirector::wait_until_ns() const {
     const std::optional<TimeTai> due = sequence_.next_time();
     const std::int64_t camera_ns = due ? bench_.clock.camera_of(*due) : SimulatedClock::kNever_ns;

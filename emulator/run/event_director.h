@@ -37,10 +37,10 @@ namespace hilcam {
 
 class EventDirector : public FrameWatcher {
   public:
-    // What it works on outlives it. placed_objects: of the world (WorldState).
+    // Everything it works on; all of it outlives it. placed_objects: those of the world (WorldState).
     struct Bench {
         CommandHandler& commands;
-        const LiveSettings& settings;  // of the first camera
+        const LiveSettings& settings;  // settings of the first camera
         const SimulatedClock& clock;
         ShutterTiming timing;
         std::size_t placed_objects = 0;
@@ -49,7 +49,7 @@ class EventDirector : public FrameWatcher {
     EventDirector(EventSequence sequence, const Bench& bench);
     ~EventDirector() override { stop(); }
 
-    // Before the loops start: what is due at once has then happened.
+    // Is called before the loops start: what is due at once has then happened.
     void start();
     // No further event; to be called before the loops stop, which answer what waits for a frame.
     void ask_to_stop() noexcept { stopping_.store(true); }

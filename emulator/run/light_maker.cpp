@@ -34,7 +34,7 @@ void LightMaker::run() {
     // Frames come first; and one core of those that they leave is enough (as in
     // render/light/kept_updates.cpp).
     pthread_setname_np(pthread_self(), kLightThreadName);
-    constexpr int kNicer = 10;  // than the program, which may be nice itself
+    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
     setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
     tbb::task_arena alone(1, 1);
     const Stopwatch watch;

@@ -18,7 +18,7 @@ inline constexpr const char* kLightThreadName = "light";
 
 class LightMaker {
   public:
-    // What a camera's scene is still without; the renderer outlives this.
+    // The tables that a camera's scene is still without; the renderer outlives this.
     struct Job {
         Renderer* renderer;
         std::vector<TableOrder> orders;

@@ -2,14 +2,13 @@
 
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
 
 #include "io/system/program_files.h"
 #include "render/vocabulary/check.h"
-
-extern char** environ;
 
 namespace hilcam {
 

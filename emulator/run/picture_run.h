@@ -1,5 +1,5 @@
 #pragma once
-// What the pictures of one of the scenario's cameras say of the run (io/pictures/picture_notes.h).
+// The notes on the run in the pictures of one of the scenario's cameras (io/pictures/picture_notes.h).
 
 #include "emulator/scenario/app_config.h"
 #include "io/pictures/picture_notes.h"

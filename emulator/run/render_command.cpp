@@ -31,7 +31,7 @@ FrameRecord record_of(const ScenarioConfig& s, const StillCamera& camera) {
     return record;
 }
 
-// Where the frame, neither binned nor mirrored, lies in the radiance image [px of that].
+// Returns where the frame, neither binned nor mirrored, lies in the radiance image [px of that].
 PixelRectangle frame_in_radiance(const CameraModel& camera, const ImageGeometry& image, int oversampling) {
     const auto [width, height] = array_size(camera);
     return {image.guard_px - static_cast<int>(camera.black_columns) * oversampling,
@@ -56,8 +56,8 @@ void write_truth(const PictureTruthFiles& files, const TruthSource& source, cons
                         document.legend(truth));
 }
 
-// What would be lost: a frame of a run, or the labels of another picture. A picture that is rendered again is
-// not.
+// Refuses what would be lost: a frame of a run, or the labels of another picture. A picture that is rendered
+// again is not.
 void require_unused(const RenderFiles& files) {
     if (files.overwrite) return;
     std::error_code error;

@@ -29,10 +29,11 @@ nlohmann::json or_null(const std::optional<double>& value);
 // Says how the first camera's run went, and the recording with it.
 struct RunOutcome {
     std::uint64_t frames = 0, deadline_misses = 0;
-    std::vector<std::string> faults;  // of outputs and the recording, a line each
+    std::vector<std::string> faults;  // faults of outputs and the recording, a line each
 };
 RunOutcome run_outcome(const Emulator& emulator);
-// Of the whole run: the first camera's figures at the top, with several cameras each one's under `cameras`.
+// Reports the whole run: the first camera's figures at the top, with several cameras each one's under
+// `cameras`.
 nlohmann::json run_report(const Emulator& emulator);
 // A folder for files, before anything is measured for them. Throws DeviceError when it cannot be made.
 void make_folder(const std::filesystem::path& folder);

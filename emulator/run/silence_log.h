@@ -12,7 +12,7 @@ namespace hilcam {
 class SilenceLog {
   public:
     SilenceLog(const SimulatedClock& clock, const PoseWatch& poses) : clock_(clock), poses_(poses) {}
-    // To be called now and then while the loops run.
+    // Is called now and then while the loops run.
     void look();
 
   private:

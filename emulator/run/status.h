@@ -18,12 +18,12 @@ class LightMaker;
 // A camera of the bench as a page of another one names it.
 struct CameraPage {
     std::string name;
-    std::int64_t port = 0;  // of its preview; 0: it has none
+    std::int64_t port = 0;  // port of its preview; 0: it has none
 };
 
 struct StatusSources {
-    const ScenarioConfig& scenario;          // as the camera has it
-    std::size_t number;                      // of the camera, from 1
+    const ScenarioConfig& scenario;          // the scenario of the camera
+    std::size_t number;                      // number of the camera, from 1
     const std::vector<CameraPage>& cameras;  // by number
     const FrameLoop& loop;
     const DeliveryMeter& delivery;

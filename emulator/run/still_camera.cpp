@@ -14,7 +14,7 @@ ImageGeometry image_geometry(const ScenarioConfig& s) {
                        static_cast<int>(s.quality.oversampling));
 }
 
-// Of the first frame that the camera would take.
+// Returns the exposure of the first frame that the camera would take.
 Exposure first_exposure(const CameraModel& camera) {
     if (!camera.sequence.empty()) return {camera.sequence[0].exposure_s, camera.sequence[0].gain_db, {}, {}};
     return {ShutterTiming(camera).exposure_s(camera.exposure_s), camera.gain_db, {}, {}};
@@ -34,7 +34,7 @@ StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
       radiance_(exposures_.make_image()),
       exposure_(first_exposure(scenario.camera)) {
     renderer_->require_air(snapshot_);
-    points_.reserve(exposures_.most_points());
+    points_.reserve(exposures_.max_points());
 }
 
 void StillCamera::look_from(const Pose& body) {

@@ -17,25 +17,25 @@ class StillCamera {
     // Loads all that the scenario names. Throws InputError, DeviceError. Owner thread, as all here.
     explicit StillCamera(const ScenarioConfig& scenario, double time_offset_s = 0);
 
-    // From now on the body that the camera rides on stands there, at rest against the object that is nearest;
-    // everything else is where it was. Throws InputError where the atmosphere does not cover what is seen
-    // from there.
+    // Makes the body that the camera rides on stand there from now on, at rest against the object that is
+    // nearest; everything else is where it was. Throws InputError where the atmosphere does not cover what is
+    // seen from there.
     void look_from(const Pose& body);
 
-    // In this order; each gives what it fills, valid until the next call. The key chooses the light paths,
-    // and the noise.
+    // These functions are called in this order; each gives what it fills, valid until the next call. The key
+    // chooses the light paths, and the noise.
     const RadianceImage& render(RandomKey key, FrameTruth* truth = nullptr);
     const ElectronImage& expose();
     const DnImage& digitise(RandomKey key);
-    // What no light makes: dark current [e-].
+    // Returns the part that no light makes: dark current [e-].
     ElectronImage dark();
 
     const SpectralGrid& grid() const { return grid_; }
     const Exposure& exposure() const { return exposure_; }
     TimeTai time() const { return time_; }
-    // Where the camera was in the last rendering, pointing jitter in it.
+    // Returns where the camera was in the last rendering, pointing jitter in it.
     const Pose& shown_camera() const { return exposures_.middle_world().camera; }
-    // Where everything is at mid-exposure, pointing jitter apart.
+    // Returns where everything is at mid-exposure, pointing jitter apart.
     const WorldSnapshot& world() const { return snapshot_; }
     Renderer& renderer() { return *renderer_; }
     const std::vector<LoadedObject>& objects() const { return objects_; }

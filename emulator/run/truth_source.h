@@ -1,5 +1,6 @@
 #pragma once
-// What truth needs to know of a scenario: whose it is, and of which object each of the renderer's is a part.
+// Finds what truth needs to know of a scenario: whose it is, and of which object each of the renderer's is a
+// part.
 
 #include <cstddef>
 #include <memory>
@@ -14,7 +15,7 @@ namespace hilcam {
 // run_id: no other run's; empty: of none. number: of the camera that the scenario is about, from 1.
 TruthSource truth_source(const ScenarioConfig& scenario, const SpectralGrid& grid, std::size_t number,
                          const std::string& run_id);
-// Of outputs.truth, whether or not it is given.
+// Returns the wishes of outputs.truth, whether or not it is given.
 TruthWishes truth_wishes(const ScenarioConfig& scenario);
 // A record for any frame of the camera. Owner thread.
 FrameTruth make_truth(const ScenarioConfig& scenario, const Renderer& renderer, const TruthWishes& wishes);

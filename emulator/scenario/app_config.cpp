@@ -102,7 +102,7 @@ Fields fields(ScenarioConfig& s) {
 
 namespace {
 
-// What the camera's shutter makes of its rows.
+// Returns the name of the rays that the camera's shutter needs.
 const char* rays_of(ShutterKind kind) {
     switch (kind) {
         case ShutterKind::kRolling:
@@ -217,9 +217,9 @@ void validate(const ScenarioConfig& s) {
         throw KeyError("camera_motion", "a scenario has either 'camera_pose' or 'camera_motion'; found both");
     check_site(s);
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
-    if (s.more_cameras.size() > kMostCameras - 1)
+    if (s.more_cameras.size() > kMaxCameras - 1)
         throw refused("more_cameras", std::to_string(s.more_cameras.size()),
-                      "at most " + std::to_string(kMostCameras - 1));
+                      "at most " + std::to_string(kMaxCameras - 1));
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
         if (const std::int64_t on = s.more_cameras[i].thing; on > static_cast<std::int64_t>(s.objects.size()))
             throw refused_key("more_cameras." + std::to_string(i) + ".on", std::to_string(on),

@@ -77,8 +77,8 @@ struct ScenarioConfig {
     QualityConfig quality;
     LoopConfig loop;
     CameraMode mode = CameraMode::kFreeRun;
-    Mount mount;  // of the camera that this scenario is about; the first sits where poses say
-    std::vector<CameraConfig> more_cameras;  // kMostCameras - 1 at most
+    Mount mount;  // mount of the camera that this scenario is about; the first sits where poses say
+    std::vector<CameraConfig> more_cameras;  // kMaxCameras - 1 at most
     std::vector<FaultConfig> faults;
     std::vector<EventConfig> events;
     CommandsConfig commands;
@@ -88,10 +88,10 @@ struct ScenarioConfig {
 Fields fields(ScenarioConfig& scenario);
 void validate(const ScenarioConfig& scenario);
 
-// What events can name.
+// Returns what events can name.
 EventWorld event_world(const ScenarioConfig& scenario);
 
-// What the Vizard side is told of the bench.
+// Returns what the Vizard side is told of the bench.
 VizardBench vizard_bench(const ScenarioConfig& scenario);
 
 // The scenario as one of its cameras has it, counted from 0.
@@ -107,7 +107,7 @@ std::vector<RenderQuality> lower_levels(const ScenarioConfig& scenario);
 // The scenario's quality as its first camera can have it: a visibility buffer needs a lens that leaves
 // straight lines straight, rows of one instant, no terrain and no noise budget.
 RenderQuality render_quality_of(const ScenarioConfig& scenario);
-// How the radiance images of all of them are made.
+// Returns how the radiance images of all of them are made.
 SensorSampling sampling_of(const ScenarioConfig& scenario);
 
 // The models to render with: rays as the camera's shutter has them, unless the scenario gives its own.

@@ -9,7 +9,7 @@
 
 namespace hilcam {
 
-// At most one form is given; none: the frame's own axes.
+// The forms in which an attitude is given, at most one; none: the frame's own axes.
 struct AttitudeForms {
     Quat wxyz;
     Vec3d mrp;
@@ -23,7 +23,7 @@ struct AttitudeForms {
     bool given() const { return has_wxyz || has_mrp || has_dcm || has_euler || has_radec; }
 };
 
-// How a section words the forms: `body` axes are turned into those of `frame`.
+// The words for the forms in a section: `body` axes are turned into those of `frame`.
 struct AttitudeWords {
     const char* body = "body";
     const char* frame = "the world";

@@ -12,7 +12,7 @@
 namespace hilcam {
 
 // All of a bench: telemetry numbers them by a byte, from 1.
-inline constexpr std::size_t kMostCameras = 255;
+inline constexpr std::size_t kMaxCameras = 255;
 
 // A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
 struct CameraConfig {

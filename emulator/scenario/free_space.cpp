@@ -50,7 +50,7 @@ Vec3d sun_direction(const ScenarioConfig& s) {
     return sun.direction;
 }
 
-// In free space no body is near.
+// Refuses nadir in free space, where no body is near.
 void check_nadir(const ScenarioConfig& s) {
     const auto check = [](const PoseConfig& pose, const std::string& key) {
         if (pose.attitude == PoseConfig::Attitude::kNadir && !pose.has_nadir_of)

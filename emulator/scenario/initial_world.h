@@ -12,7 +12,7 @@ namespace hilcam {
 std::vector<Motion> initial_motions(const ScenarioConfig& scenario, TimeTai time);
 // All objects' turning parts, object by object.
 std::vector<Joint> joints_of(const ScenarioConfig& scenario);
-// What the scenario says of an instant, if no command comes.
+// Returns what the scenario says of an instant, if no command comes.
 WorldSnapshot snapshot_at(const ScenarioConfig& scenario, TimeTai start, TimeTai time);
 
 }  // namespace hilcam

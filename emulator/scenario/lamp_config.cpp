@@ -39,7 +39,7 @@ Fields fields(LampConfig& l) {
 }
 
 void validate(const LampConfig& l) {
-    if (!(length(l.axis) > 1e-9)) throw InputError("'axis' has no direction");
+    if (!(length(l.axis) > 1e-9)) throw InputError("'axis' has no direction: found a vector of length 0");
     if (l.has_spectral_intensity == l.has_intensity)
         throw InputError("a lamp has either 'intensity_w_sr_um' or 'intensity_w_sr'; found " +
                          std::string(l.has_intensity ? "both" : "neither"));
@@ -49,7 +49,8 @@ void validate(const LampConfig& l) {
         throw InputError("'spectrum' is a number; accepted: [[wavelength_um, value], ...]");
     if (l.has_beam_angle && l.has_beam)
         throw InputError("a lamp has either 'beam_angle_deg' or 'beam'; found both");
-    if (l.has_beam && l.beam.x.front() > 0) throw InputError("'beam' does not begin at 0 degrees, the axis");
+    if (l.has_beam && l.beam.x.front() > 0)
+        throw InputError("'beam' begins off the axis; accepted: a first angle of 0 degrees, the axis");
 }
 
 }  // namespace hilcam

@@ -13,7 +13,7 @@ namespace hilcam {
 struct LampConfig {
     std::string name;
     std::string on = "camera";  // an object's name, or the body of the first camera
-    std::int64_t joint = 0;     // of that object, from 1; 0: the object itself
+    std::int64_t joint = 0;     // joint of that object, from 1; 0: the object itself
     Vec3d position_m;
     Vec3d axis{0, 0, 1};
     Curve spectral_intensity_w_sr_um;

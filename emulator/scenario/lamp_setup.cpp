@@ -14,7 +14,7 @@ namespace {
     throw InputError("lamp " + in_quotes(lamp.name) + ": " + what);
 }
 
-// As WorldState places things: the camera's body, objects, then all their turning parts.
+// Counts as WorldState places things: the camera's body, objects, then all their turning parts.
 std::size_t thing_of(const LampConfig& lamp, const ScenarioConfig& s) {
     if (lamp.on == "camera") {
         if (lamp.joint != 0)
@@ -72,8 +72,8 @@ LampBeam beam_of(const LampConfig& lamp) {
 }  // namespace
 
 std::vector<LampMount> lamp_mounts(const ScenarioConfig& s) {
-    if (s.lamps.size() > kMostLamps)
-        throw refused("lamps", std::to_string(s.lamps.size()), "at most " + std::to_string(kMostLamps));
+    if (s.lamps.size() > kMaxLamps)
+        throw refused("lamps", std::to_string(s.lamps.size()), "at most " + std::to_string(kMaxLamps));
     std::vector<LampMount> mounts;
     for (const LampConfig& lamp : s.lamps)
         mounts.push_back(

@@ -13,17 +13,17 @@ namespace hilcam {
 
 // A table that is to be made: all that it depends on.
 struct TableOrder {
-    std::string name;                  // of the object, for people
-    std::vector<std::size_t> objects;  // of the scene, that have it: one and those that are like it
+    std::string name;                  // name of the object, for people
+    std::vector<std::size_t> objects;  // objects of the scene that have it: one and those that are like it
     Mesh mesh;
     std::vector<std::uint8_t> glass;  // by surface of the mesh
     TransferSettings settings;
 };
 
-// How a scene is to get its tables, and what came of it.
+// The way in which a scene is to get its tables, and the outcome.
 struct LightLoading {
     bool later = false;               // tables that are not on disk are ordered instead of made
-    std::vector<TableOrder> orders;   // of those
+    std::vector<TableOrder> orders;   // orders for those tables
     std::size_t found = 0, made = 0;  // tables on disk; tables that were made
     double seconds = 0;               // that this took
 };

@@ -57,7 +57,7 @@ class Builder {
     TimeTai start_;
     std::vector<std::string> names_;
     std::optional<PlaceConfig> site_;
-    std::vector<std::optional<MotionConfig>> local_;  // of each thing, where its pose is local
+    std::vector<std::optional<MotionConfig>> local_;  // local source of each thing whose pose is local
     std::vector<std::size_t> asked_;                  // things on the way to the one whose orbit is asked for
 
     const MotionConfig* config_of(std::size_t thing) const {

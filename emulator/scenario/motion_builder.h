@@ -1,5 +1,5 @@
 #pragma once
-// From a scenario's `motion` sections to the sources of motion.
+// Builds the sources of motion from a scenario's `motion` sections.
 
 #include "emulator/motion/motion_source.h"
 #include "emulator/scenario/app_config.h"

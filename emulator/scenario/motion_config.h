@@ -54,7 +54,7 @@ struct AttitudeConfig {
     MotionFrame frame = MotionFrame::kWorld;
     std::string of;
     AttitudeForms attitude;
-    std::size_t nadir_of = 2;  // as MotionConfig::center
+    std::size_t nadir_of = 2;  // counts like MotionConfig::center
     Vec3d rate_body_rad_s;
     Vec3d axis{0, 0, 1}, second_axis{0, -1, 0};
     enum class Second { kNorth, kVelocity, kOrbitNormal, kNadir, kSun } second = Second::kNorth;

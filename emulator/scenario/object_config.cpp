@@ -123,7 +123,7 @@ Fields fields(JointConfig& j) {
 }
 
 void validate(const JointConfig& j) {
-    if (!(length(j.axis) > 1e-9)) throw InputError("'axis' has no direction");
+    if (!(length(j.axis) > 1e-9)) throw InputError("'axis' has no direction: found a vector of length 0");
 }
 
 Fields fields(ObjectConfig& o) {

@@ -1,5 +1,5 @@
 #pragma once
-// What stands in the world: objects with their poses, meshes and joints, and terrain.
+// The things that stand in the world: objects with their poses, meshes and joints, and terrain.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace hilcam {
 
-// Where a thing stands when the run begins, until commands say otherwise.
+// The pose of a thing when the run begins, until commands say otherwise.
 struct PoseConfig {
     enum class Frame { kWorld, kLocal } frame = Frame::kWorld;
     enum class Attitude { kQuaternion, kLookAt, kNadir } attitude = Attitude::kQuaternion;

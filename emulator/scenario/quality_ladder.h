@@ -24,9 +24,9 @@ struct QualityLevelConfig {
 };
 Fields fields(QualityLevelConfig& level);
 
-inline constexpr std::size_t kMostLevels = 16;  // with level 0
+inline constexpr std::size_t kMaxLevels = 16;  // includes level 0
 
-// What the frame loop is good at (frame_loop.h).
+// The aim of the frame loop (frame_loop.h).
 enum class LoopPreference { kThroughput, kLatency };
 
 struct LoopConfig {
@@ -45,9 +45,9 @@ RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig&
 // then coarser meshes and no noise budget, no bounce, direct light alone.
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured);
 
-// How that quality places its rays in a pixel.
+// Returns how that quality places its rays in a pixel.
 RayGrid ray_grid_of(const RenderQuality& quality);
-// What changes from one to the other, for people: "max_depth 1, lod_error_px 2".
+// Says what changes from one to the other, for people: "max_depth 1, lod_error_px 2".
 std::string difference(const RenderQuality& from, const RenderQuality& to);
 
 }  // namespace hilcam

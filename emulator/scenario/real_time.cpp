@@ -48,7 +48,7 @@ void require_cores(const RealTime& wishes) {
                                           allowed_cores(allowed)));
 }
 
-// Of this thread only, and back.
+// Tries the priority on this thread only, and goes back.
 void require_priority(const RealTime& wishes) {
     if (wishes.priority == 0) return;
     const int policy = sched_getscheduler(0);

@@ -15,7 +15,7 @@
 namespace hilcam {
 namespace {
 
-// With as many digits as it takes to read the same number back.
+// Writes as many digits as it takes to read the same number back.
 std::string exact(double value) {
     std::array<char, 32> text;
     const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);

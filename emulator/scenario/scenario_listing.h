@@ -19,7 +19,8 @@ std::string section_listing(const SectionField& section);
 // The value of a key in a listing; empty where it has none.
 std::string listed_value(const std::string& listing, const std::string& key);
 
-// Where two listings differ, for people: "camera.exposure_ms: 2 there, 5 here (and 3 more)". Empty: nowhere.
+// Says where two listings differ, for people: "camera.exposure_ms: 2 there, 5 here (and 3 more)". Empty:
+// nowhere.
 std::string listing_difference(const std::string& there, const std::string& here);
 
 }  // namespace hilcam

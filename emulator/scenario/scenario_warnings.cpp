@@ -105,7 +105,7 @@ void look_at_shutters(const ScenarioConfig& s, Lines& out) {
         look_at_shutter(fmt::format("more_cameras.{}.camera", i), s.more_cameras[i].camera.shutter, out);
 }
 
-// What is said of places and bodies that the scenario does not have.
+// Warns of places and bodies that are named and that the scenario does not have.
 void look_at_frames(const ScenarioConfig& s, Lines& out) {
     if (s.site && !uses_local_axes(s))
         out.push_back("site: nothing is in its local axes: give a pose or a motion 'frame: local'");

@@ -1,6 +1,6 @@
 #pragma once
-// What a scenario says that has no effect, or hides everything: it may be meant, so it is no error, but
-// whoever runs it is told.
+// Warns of what a scenario says that has no effect, or hides everything: it may be meant, so it is no error,
+// but whoever runs it is told.
 
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@ namespace hilcam {
 // A line each. What a run will not do: lockstep in which nobody can ask for a frame, faults that no output or
 // port can show, a camera whose frames nobody gets, keys that do nothing beside the others.
 std::vector<std::string> idle_warnings(const ScenarioConfig& scenario);
-// What a kind of fault needs to be seen, of the outputs of some cameras and the bench's commands; empty: it
-// is there.
+// Says what a kind of fault needs to be seen and the outputs of some cameras and the bench's commands lack;
+// empty: it is there.
 std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, const CommandsConfig& commands,
                            FaultKind kind);
 // Cameras that begin inside a body. Throws InputError where the scenario's motions cannot be had.

@@ -79,7 +79,8 @@ double hemispherical_reflectance(const Scatterer& at, const SpectralGrid& grid) 
     return sum * 2 * kPi / (kCosines * kAzimuths);
 }
 
-// Without textures' colours. What brdf_albedo() has for a path's sake is far above what these models reflect.
+// Returns the reflectance without textures' colours. What brdf_albedo() has for a path's sake is far above
+// what these models reflect.
 double reflectance_of(const Material& material, const SpectralGrid& grid) {
     const Scatterer at{&material, material.ggx_alpha, material.base, material.highlight};
     const bool has_bound_only = material.model == ReflectionModel::kLommelSeeliger ||
@@ -155,7 +156,7 @@ std::string make_of(const ObjectConfig& config, const std::filesystem::path& mes
     return make + section_listing(section_of(materials));
 }
 
-// What is wrong with a mesh file stands where the scenario names it.
+// Loads the meshes; an error in a mesh file stands where the scenario names it.
 std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem::path& file,
                               const std::vector<std::string>& nodes) {
     const Progress progress("mesh " + file.filename().string());

@@ -1,5 +1,5 @@
 #pragma once
-// From a scenario to the renderer: models, meshes, materials, stars, bodies, air.
+// Builds what the renderer needs from a scenario: models, meshes, materials, stars, bodies, air.
 
 #include "emulator/scenario/app_config.h"
 #include "emulator/scenario/light_loader.h"
@@ -9,12 +9,13 @@
 
 namespace hilcam {
 
-// What was found when an object was loaded, for people: its mesh with all its parts, in its own axes.
+// A surface that was found when an object was loaded, for people: its mesh with all its parts, in its own
+// axes.
 struct LoadedSurface {
     std::string name;
     std::size_t triangles = 0;
     double area_m2 = 0;
-    std::string rule;        // of the object's materials that it took; empty: the mesh's own look
+    std::string rule;        // rule of the object's materials that it took; empty: the mesh's own look
     double reflectance = 0;  // share of sunlight that comes back in all directions, about
 };
 struct LoadedObject {
@@ -22,11 +23,11 @@ struct LoadedObject {
     Vec3d least_m, most_m;
     std::size_t triangles = 0;
     std::vector<LoadedSurface> surfaces;
-    std::vector<std::string> idle_rules;  // of its materials: no surface takes them
+    std::vector<std::string> idle_rules;  // rules of its materials that no surface takes
 
     double mean_reflectance() const;  // by area
 };
-// Which of its rules have no effect, and the surfaces that there are; empty: all have one.
+// Says which of its rules have no effect, and the surfaces that there are; empty: all have one.
 std::string warning_of(const LoadedObject& object);
 
 // Loads every file the scenario names, making generated meshes if need be. Throws InputError or DeviceError.
@@ -40,7 +41,7 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
                                         std::vector<LoadedObject>* found = nullptr,
                                         LightLoading* light = nullptr);
 
-// What the maps of the camera's fixed_pattern hold.
+// Loads what the maps of the camera's fixed_pattern hold.
 DetectorPictures load_detector_pictures(const CameraModel& camera);
 
 }  // namespace hilcam

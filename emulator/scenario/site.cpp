@@ -23,7 +23,7 @@ std::string first_local_key(const ScenarioConfig& s) {
     return "";
 }
 
-// What looks at another body turns as that moves, and by no rate.
+// Refuses rates of what looks at another body: it turns as that moves.
 void check_rates(const ScenarioConfig& s, BodyId site_body) {
     const auto check = [&](const PoseConfig& pose, const std::string& key) {
         if (pose.frame == PoseConfig::Frame::kLocal && pose.has_rate && pose.has_nadir_of &&

@@ -22,8 +22,9 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, E& value,
     return app.add_option_function<std::string>(name, take, help)->type_name(list);
 }
 
-// Where a command line has a word in the place of a subcommand and there is none of that name: what was
-// found, the nearest name, all names. Empty: that is not what was wrong. The app has just failed to parse.
+// Makes the message for a command line that has a word in the place of a subcommand where there is none of
+// that name: what was found, the nearest name, all names. Empty: that is not what was wrong. The app has just
+// failed to parse.
 std::string unknown_subcommand(const CLI::App& app);
 
 }  // namespace hilcam

@@ -18,9 +18,10 @@ namespace {
 
 using Take = std::function<void(const Command&)>;
 
-constexpr double kLatest_s = 1e9;  // of a script's lines: 30 years, which 64 bits hold in nanoseconds
+// Latest time of a script's lines: 30 years, which 64 bits hold in nanoseconds.
+constexpr double kLatest_s = 1e9;
 
-// What cannot be made into a command is the user's error.
+// Words that cannot be made into a command are the user's error.
 template <class Make>
 void hand_over(const CLI::App* app, const Take& take, const Make& make) {
     Command command;
@@ -117,7 +118,7 @@ void add_pose(CLI::App& app, const Take& take) {
         std::array<double, 3> position_m{}, velocity_m_s{}, rate_deg_s{}, look_at_m{}, up{0, 0, 1};
         AttitudeOptions attitude;
     };
-    CLI::App* pose = app.add_subcommand("pose", "one pose");
+    CLI::App* pose = app.add_subcommand("pose", "set one pose");
     const auto o = std::make_shared<Options>();
     pose->add_option("--object", o->object, "0: the camera; 1, 2, ...: the scenario's objects")
         ->check(CLI::Range(0, 65535));
@@ -127,7 +128,7 @@ void add_pose(CLI::App& app, const Take& take) {
     for (CLI::Option* attitude : attitudes) look->excludes(attitude);
     pose->add_option("--up", o->up, "x y z, for --look-at-m")->needs(look);
     pose->add_option("--velocity-m-s", o->velocity_m_s, "x y z in the world");
-    pose->add_option("--at-utc", o->utc, "simulated time it is true at; left out: on arrival");
+    pose->add_option("--at-utc", o->utc, "simulated time at which it is true; left out: on arrival");
     pose->add_option("--rate-deg-s", o->rate_deg_s, "x y z about the body axes");
     on(pose, take, [=] {
         PoseCommand command;
@@ -156,9 +157,9 @@ void add_joint(CLI::App& app, const Take& take) {
         ->required()
         ->check(CLI::Range(1, 65535));
     joint->add_option("--joint", o->joint, "1, 2, ...: its joints")->check(CLI::Range(1, 65535));
-    joint->add_option("--angle-deg", o->angle_deg, "from the file's own state")->required();
-    joint->add_option("--rate-deg-s", o->rate_deg_s, "from then on");
-    joint->add_option("--at-utc", o->utc, "simulated time it is true at; left out: on arrival");
+    joint->add_option("--angle-deg", o->angle_deg, "angle from the file's own state")->required();
+    joint->add_option("--rate-deg-s", o->rate_deg_s, "rate of turn from then on");
+    joint->add_option("--at-utc", o->utc, "simulated time at which it is true; left out: on arrival");
     on(joint, take, [=] {
         return JointCommand{static_cast<std::uint16_t>(o->object), static_cast<std::uint16_t>(o->joint),
                             o->utc.empty() ? TimeTai{} : parse_utc(o->utc), o->angle_deg * kDegree_rad,
@@ -194,7 +195,7 @@ void add_expose(CLI::App& app, const Take& take) {
     };
     CLI::App* expose = app.add_subcommand("expose", "trigger a frame or a burst (triggered, lockstep)");
     const auto o = std::make_shared<Options>();
-    expose->add_option("--frames", o->frames, "of the burst; 0: as the settings have it")
+    expose->add_option("--frames", o->frames, "frames of the burst; 0: as the settings have it")
         ->check(CLI::Range(0, 65535));
     expose->add_option(
         "--at-utc", o->utc,
@@ -211,21 +212,21 @@ void add_clock(CLI::App& app, const Take& take) {
         std::string what;
         double scale = 1, seconds = 0;
     };
-    CLI::App* clock = app.add_subcommand("clock", "how simulated time goes: ask, or change it");
+    CLI::App* clock = app.add_subcommand("clock", "ask how simulated time goes, or change it");
     const auto o = std::make_shared<Options>();
     CLI::Option* what = clock->add_option("what", o->what, "pause, resume or step")
                             ->check(CLI::IsMember({"pause", "resume", "step"}));
     CLI::Option* scale =
         clock->add_option("--scale", o->scale, "simulated seconds in one of the machine's")->excludes(what);
-    CLI::Option* seconds =
-        clock->add_option("--seconds", o->seconds, "step: for so much simulated time, then it stands again");
+    CLI::Option* seconds = clock->add_option("--seconds", o->seconds,
+                                             "step: simulated time that goes by before it stands again");
     on(clock, take, [=] {
         using Action = ClockCommand::Action;
         ClockCommand command;
         if (scale->count()) {
             command.action = Action::kScale;
             command.scale = o->scale;
-            if (!(o->scale >= kLeastClockScale && o->scale <= kMostClockScale))
+            if (!(o->scale >= kMinClockScale && o->scale <= kMaxClockScale))
                 throw refused("--scale", std::to_string(o->scale), "0.001 to 1000");
         }
         if (o->what == "pause") command.action = Action::kPause;
@@ -246,7 +247,7 @@ void add_mode(CLI::App& app, const Take& take) {
         std::string mode;
         unsigned burst_frames = 0;
     };
-    CLI::App* mode = app.add_subcommand("mode", "what starts a frame: the frame rate, or triggers");
+    CLI::App* mode = app.add_subcommand("mode", "choose what starts a frame: the frame rate, or triggers");
     const auto o = std::make_shared<Options>();
     mode->add_option("mode", o->mode, "free_run or triggered")
         ->required()
@@ -265,13 +266,14 @@ void add_fault(CLI::App& app, const Take& take, const std::function<void()>& lis
     };
     CLI::App* fault = app.add_subcommand("fault", "let something go wrong");
     const auto o = std::make_shared<Options>();
-    fault->add_option("name", o->name, "of the fault, 'clear' for the end of all, 'list' for their names")
+    fault->add_option("name", o->name, "name of the fault; 'clear' ends all, 'list' prints their names")
         ->required();
-    fault->add_option("--rate", o->order.rate, "share that is struck, 0 to 1; 0 ends the fault");
-    fault->add_option("--value", o->order.value, "by kind, see 'list'");
+    fault->add_option("--rate", o->order.rate,
+                      "share of frames, packets or pixels that is struck, 0 to 1; 0 ends the fault");
+    fault->add_option("--value", o->order.value, "value of the fault; its meaning goes by kind, see 'list'");
     fault->add_option("--from-frame", o->order.from_frame, "first frame that can be struck; 0: at once");
-    fault->add_option("--frames", o->order.frames, "how many frames; 0: no end");
-    fault->add_option("--duration-s", o->order.duration_s, "how long; 0: no end");
+    fault->add_option("--frames", o->order.frames, "number of frames; 0: no end");
+    fault->add_option("--duration-s", o->order.duration_s, "duration; 0: no end");
     const auto make = [o] {
         FaultCommand command{o->order, o->name == "clear"};
         if (command.clear_all) return command;

@@ -24,7 +24,7 @@ Command command_of_words(const std::string& words);
 struct ScriptLine {
     double at_s = 0;
     Command command;
-    std::size_t number = 0;  // of the line in its file
+    std::size_t number = 0;  // number of the line in its file
 };
 // A script: on each line an optional time ("@2.5" since the start, "+0.1" since the line before), then the
 // words of a command as `hilcam send` takes them. '#' begins a comment. Throws InputError that names the

@@ -11,7 +11,7 @@ namespace hilcam {
 // Gives the answer. Throws DeviceError.
 Acknowledgement exchange_clock(CommandSender& sender, ClockCommand order, int timeout_ms,
                                ClockFilter& filter);
-// As many as the filter keeps; the first carries `order`. Gives its answer.
+// Measures as many times as the filter keeps; the first carries `order`. Gives its answer.
 Acknowledgement measure_clock(CommandSender& sender, const ClockCommand& order, int timeout_ms,
                               ClockFilter& filter);
 

@@ -75,14 +75,14 @@ int play_script(const SendOptions& o) {
 
 void add_target(CLI::App& send, SendTarget& target) {
     send.add_option("--to", target.endpoint,
-                    "where the emulator listens: ADDRESS:PORT (UDP), tcp:ADDRESS:PORT, unix:PATH, "
+                    "address where the emulator listens: ADDRESS:PORT (UDP), tcp:ADDRESS:PORT, unix:PATH, "
                     "usb:VENDOR:PRODUCT[:SERIAL]")
         ->capture_default_str();
     add_choice<Dialect>(send, "--dialect", target.dialect.dialect,
                         {{"hilcam", Dialect::kHilcam}, {"cfs", Dialect::kCfs}}, "as the emulator's");
     send.add_option("--camera", target.camera,
-                    "which camera settings, triggers and faults are for, from 1; 0: every one");
-    send.add_option("--timeout-ms", target.timeout_ms, "wait for an acknowledgement")
+                    "number of the camera for settings, triggers and faults, from 1; 0: every one");
+    send.add_option("--timeout-ms", target.timeout_ms, "time to wait for an acknowledgement")
         ->check(CLI::Range(1, 600000));
 }
 

@@ -13,7 +13,8 @@
 namespace hilcam {
 namespace {
 
-// Until then a change of how time goes is not known, nor what clocks of two machines have drifted apart.
+// The time until the clock is asked again; until then a change of how time goes is not known, nor what clocks
+// of two machines have drifted apart.
 constexpr std::int64_t kAskAgain_ns = 500'000'000;
 
 Vec3d vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
@@ -29,14 +30,15 @@ CircleFlight flight_of(const FlyOptions& o) {
 }  // namespace
 
 void add_fly_options(CLI::App& app, FlyOptions& o) {
-    app.add_option("--object", o.object, "which thing flies; 0: the camera")->check(CLI::Range(0, 65535));
+    app.add_option("--object", o.object, "number of the thing that flies; 0: the camera")
+        ->check(CLI::Range(0, 65535));
     app.add_option("--around-m", o.around_m, "x y z of the centre");
     app.add_option("--from-m", o.from_m, "x y z of the start");
     app.add_option("--axis", o.axis, "x y z of the circle's axis");
     app.add_option("--up", o.up, "x y z that shall be up in the picture");
     app.add_option("--period-s", o.period_s, "time of one round");
     app.add_option("--rate-hz", o.rate_hz, "poses a second")->check(CLI::Range(0.1, 10000.0));
-    app.add_option("--duration-s", o.duration_s, "how long")->check(CLI::Range(0.0, 1e7));
+    app.add_option("--duration-s", o.duration_s, "duration of the flight")->check(CLI::Range(0.0, 1e7));
 }
 
 // Poses with time tags, on the emulator's own simulated time, which may go at another speed than this

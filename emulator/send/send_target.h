@@ -1,5 +1,5 @@
 #pragma once
-// Where `hilcam send` sends to.
+// The target that `hilcam send` sends to.
 
 #include <cstdint>
 #include <string>

@@ -13,7 +13,7 @@
 namespace hilcam {
 namespace {
 
-// Over UDP a subscription ends a minute after the last word from its sender.
+// Period of renewal: over UDP a subscription ends a minute after the last word from its sender.
 constexpr std::int64_t kRenew_ns = 20'000'000'000;
 constexpr int kWait_ms = 500;
 
@@ -89,11 +89,11 @@ std::string json_of(const Telemetry& telemetry) {
 }
 
 void add_watch_options(CLI::App& app, WatchOptions& o) {
-    app.add_option("--duration-s", o.duration_s, "then end; left out: until Ctrl-C")
+    app.add_option("--duration-s", o.duration_s, "seconds until the end; left out: until Ctrl-C")
         ->check(CLI::Range(0.0, 1e9));
     app.add_option("--frames", o.frames, "end after so many frame reports");
-    app.add_flag("--housekeeping", o.housekeeping_only, "no frame reports");
-    app.add_flag("--json", o.json, "one JSON object a line");
+    app.add_flag("--housekeeping", o.housekeeping_only, "print housekeeping alone, no frame reports");
+    app.add_flag("--json", o.json, "print one JSON object a line");
 }
 
 int watch_telemetry(const SendTarget& target, const WatchOptions& o) {

@@ -28,7 +28,7 @@ CLI::Validator name_of_shipped() {
 }
 
 void add_overrides(CLI::App* command, std::vector<std::string>& overrides, const std::string& whose) {
-    command->add_option("--set", overrides, "KEY=VALUE, replaces a value of " + whose + "; may be repeated")
+    command->add_option("--set", overrides, "KEY=VALUE replaces a value of " + whose + "; may be repeated")
         ->allow_extra_args(false);
 }
 
@@ -40,8 +40,8 @@ void add_config(CLI::App* command, ConfigArguments& config) {
 }
 
 void add_camera(CLI::App* command, std::size_t& camera) {
-    command->add_option("--camera", camera, "which of the scenario's cameras, from 1")
-        ->check(CLI::Range(std::size_t{1}, kMostCameras));
+    command->add_option("--camera", camera, "number of the scenario's camera, from 1")
+        ->check(CLI::Range(std::size_t{1}, kMaxCameras));
 }
 
 void require_camera(std::size_t camera, const ScenarioConfig& scenario) {

@@ -1,5 +1,6 @@
 #pragma once
-// What several subcommands take on the command line, and how a subcommand is tied to what it does.
+// The arguments that several subcommands take on the command line, and the tie between a subcommand and what
+// it does.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

@@ -18,8 +18,8 @@ std::string value_words(const std::string& name, const OptionText& o) {
     return o.words.empty() ? (o.takes_files ? "-" : "") : joined(o.words);
 }
 
-// What stands in the place of a positional argument: words, or the name of a list that is made when it is
-// asked for.
+// Returns what stands in the place of a positional argument: words, or the name of a list that is made when
+// it is asked for.
 std::string argument_words(const std::string& path, const OptionText& o) {
     const std::string& name = o.names.front();
     if (path == "manual") return "@keys";

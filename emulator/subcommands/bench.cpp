@@ -23,7 +23,7 @@ struct BenchArguments {
     bool json = false, sensor = false, error = false;
     BenchOptions speed;
     SoakOptions soak;
-    std::filesystem::path out;  // of the soak
+    std::filesystem::path out;  // folder of the soak
     ErrorBenchOptions errors;
 };
 
@@ -76,19 +76,22 @@ CLI::Validator power_of_two_from_4() {
 CLI::Option* add_soak_options(CLI::App* bench, BenchArguments& o) {
     CLI::Option* soak =
         bench
-            ->add_option("--soak", o.soak.seconds,
-                         "for so many seconds at the camera's frame rate: what changes with time, to --out")
+            ->add_option(
+                "--soak", o.soak.seconds,
+                "run so many seconds at the camera's frame rate, and write what changes with time to --out")
             ->check(CLI::PositiveNumber);
     CLI::Option* out =
-        bench->add_option("--out", o.out, "of --soak: folder for CSV, JSON and a page with a plot");
+        bench->add_option("--out", o.out, "with --soak: folder for CSV, JSON and a page with a plot");
     soak->needs(out)->excludes("--sensor", "--path-models");
     out->needs(soak);
     bench
         ->add_option("--slice-s", o.soak.slice_s,
-                     "of --soak: seconds of a slice (default: a sixtieth of the soak, at least 10)")
+                     "with --soak: seconds of a slice (default: a sixtieth of the soak, at least 10)")
         ->check(CLI::PositiveNumber)
         ->needs(soak);
-    bench->add_flag("--outputs", o.soak.outputs, "of --soak: also the scenario's outputs and command ports")
+    bench
+        ->add_flag("--outputs", o.soak.outputs,
+                   "with --soak: run the scenario's outputs and command ports, too")
         ->needs(soak);
     return soak;
 }
@@ -96,27 +99,26 @@ CLI::Option* add_soak_options(CLI::App* bench, BenchArguments& o) {
 void add_error_options(CLI::App* bench, BenchArguments& o, CLI::Option* soak) {
     CLI::Option* errors =
         bench
-            ->add_flag(
-                "--error", o.error,
-                "not how fast but how far off: views around the first object against references, which "
-                "are kept in the cache folder")
+            ->add_flag("--error", o.error,
+                       "measure errors in place of speed: views around the first object against references, "
+                       "which are kept in the cache folder")
             ->excludes(soak)
             ->excludes("--sensor", "--path-models", "--frames", "--runs");
-    bench->add_option("--views", o.errors.views, "of --error: how many, evenly around")
+    bench->add_option("--views", o.errors.views, "with --error: number of views, evenly around")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str()
         ->needs(errors);
     bench
         ->add_option(
-            "--reference-frames", o.errors.reference.most_frames,
-            "of --error, for each view's reference, at most; fewer where its standard error is small "
-            "before")
+            "--reference-frames", o.errors.reference.max_frames,
+            "with --error: most frames for each view's reference; fewer are taken where its standard "
+            "error is small before")
         ->check(power_of_two_from_4())
         ->capture_default_str()
         ->needs(errors);
     bench
         ->add_option("--reference-set", o.errors.reference_set,
-                     "of --error: KEY=VALUE, replaces a value of the references; may be repeated")
+                     "with --error: KEY=VALUE replaces a value of the references; may be repeated")
         ->allow_extra_args(false)
         ->needs(errors);
 }
@@ -130,10 +132,13 @@ void add_bench_command(CLI::App& app, Action& action) {
     add_config(bench, o->config);
     bench->add_flag("--json", o->json, "machine-readable");
     bench->add_flag("--path-models", o->speed.path_models,
-                    "also each path model against bare Embree on the same rays");
-    bench->add_flag("--sensor", o->sensor, "the sensor stage alone, and what each of its effects costs");
-    bench->add_option("--frames", o->speed.frames, "frames of a run")->check(CLI::Range(1, 1000000));
-    bench->add_option("--runs", o->speed.runs, "runs to take the median of")->check(CLI::Range(1, 1000));
+                    "measure each path model, too, against bare Embree on the same rays");
+    bench->add_flag("--sensor", o->sensor,
+                    "measure the sensor stage alone, and what each of its effects costs");
+    bench->add_option("--frames", o->speed.frames, "number of frames in a run")
+        ->check(CLI::Range(1, 1000000));
+    bench->add_option("--runs", o->speed.runs, "number of runs, of which the median is taken")
+        ->check(CLI::Range(1, 1000));
     add_error_options(bench, *o, add_soak_options(bench, *o));
     when_named(bench, action, o, carry_out);
 }

@@ -36,16 +36,18 @@ int carry_out(const DoctorArguments& o) {
 
 void add_doctor_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<DoctorArguments>();
-    CLI::App* doctor = app.add_subcommand(
-        "doctor", "what this machine lacks to run a bench, and what to do; status 1: something CONFIG needs");
+    CLI::App* doctor = app.add_subcommand("doctor",
+                                          "say what this machine lacks to run a bench, and what to do; "
+                                          "status 1: CONFIG needs something that is not there");
     doctor
         ->add_option("config", o->config.file,
                      "scenario file (YAML), or the name of a shipped one; none: nothing is required")
         ->transform(name_of_shipped());
     add_overrides(doctor, o->config.overrides, "the scenario");
     doctor->add_flag("--json", o->json, "machine-readable");
-    doctor->add_flag("--clear-cache", o->clear_cache,
-                     "only remove what earlier runs have kept ($HILCAM_CACHE, else ~/.cache/hilcam)");
+    doctor->add_flag(
+        "--clear-cache", o->clear_cache,
+        "remove what earlier runs have kept ($HILCAM_CACHE, else ~/.cache/hilcam), and do nothing else");
     when_named(doctor, action, o, carry_out);
 }
 

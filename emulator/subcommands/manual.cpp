@@ -53,14 +53,14 @@ int make_pages(const CLI::App& app, const std::filesystem::path& folder) {
 
 void add_manual_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<ManualArguments>();
-    CLI::App* manual = app.add_subcommand("manual", "the keys of a scenario file as a Markdown table");
+    CLI::App* manual = app.add_subcommand("manual", "print the keys of a scenario file as a Markdown table");
     manual->add_option("prefix", o->prefix,
                        "only this key and those below it, as camera.shutter or objects.N.pose");
     CLI::Option* json = manual->add_flag("--json", o->json, "machine-readable");
     manual
-        ->add_flag(
-            "--schema", o->schema,
-            "a JSON Schema (draft 2020-12) of a scenario file, or of a file that holds the section PREFIX")
+        ->add_flag("--schema", o->schema,
+                   "print a JSON Schema (draft 2020-12) of a scenario file, or of a file that holds the "
+                   "section PREFIX")
         ->excludes(json);
     when_named(manual, action, o, carry_out);
 }

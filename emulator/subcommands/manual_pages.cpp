@@ -7,8 +7,8 @@
 namespace hilcam {
 namespace {
 
-// What roff takes for itself: a backslash, and a dot or quote that begins a line. A hyphen that is typed is
-// "\-".
+// Escapes what roff takes for itself: a backslash, and a dot or quote that begins a line. A hyphen that is
+// typed is "\-".
 std::string roff(const std::string& text) {
     std::string out;
     for (const char c : text) {

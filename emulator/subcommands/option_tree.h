@@ -14,7 +14,7 @@ struct OptionText {
     std::string accepted;            // "1 to 65535"; empty: nothing more to say
     std::vector<std::string> words;  // that the value is one of; empty: anything
     std::string meaning;
-    std::string usual;  // what holds without it; empty: not told
+    std::string usual;  // the value that holds without it; empty: not told
     bool is_positional = false, is_required = false, takes_files = false;
 };
 

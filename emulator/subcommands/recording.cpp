@@ -22,8 +22,8 @@ int carry_out(const RecordingArguments& o) {
 
 void add_recording_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<RecordingArguments>();
-    CLI::App* recording = app.add_subcommand("recording", "what is in a recording, as JSON lines");
-    recording->add_option("file", o->file, "made by run --record")->required();
+    CLI::App* recording = app.add_subcommand("recording", "print what is in a recording, as JSON lines");
+    recording->add_option("file", o->file, "recording made by run --record")->required();
     when_named(recording, action, o, carry_out);
 }
 

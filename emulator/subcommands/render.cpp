@@ -46,7 +46,7 @@ int carry_out(const RenderArguments& o) {
 
 void add_render_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<RenderArguments>();
-    CLI::App* render = app.add_subcommand("render", "one picture of the first instant");
+    CLI::App* render = app.add_subcommand("render", "make one picture of the first instant");
     add_config(render, o->config);
     add_choice<PictureStage>(*render, "--stage", o->stage,
                              {{"radiance", PictureStage::kRadiance},

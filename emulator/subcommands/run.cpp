@@ -62,7 +62,7 @@ int carry_out(const RunArguments& o) {
     ScenarioConfig scenario = load_and_warn(config);
     const auto threads = limit_threads(scenario);
     RunLimits limits = o.limits;
-    limits.light_beside = limits.frames == 0;  // so many frames are wanted for what they show
+    limits.light_beside = limits.frames == 0;  // a limited number of frames is wanted for what they show
     log_info(settle_seed(scenario, limits.replay));
     if (limits.replay.empty()) {
         log_warnings(idle_warnings(scenario));
@@ -90,7 +90,7 @@ void add_run_command(CLI::App& app, Action& action) {
     CLI::Option* record = run->add_option("--record", o->limits.record,
                                           "keep what the frames depend on, to replay them bit by bit");
     CLI::Option* replay =
-        run->add_option("--replay", o->limits.replay, "the frames of such a recording once more")
+        run->add_option("--replay", o->limits.replay, "give the frames of such a recording once more")
             ->excludes(record);
     run->add_flag("--fast", o->limits.replay_fast, "replay as fast as it goes, not by the recording's times")
         ->needs(replay);

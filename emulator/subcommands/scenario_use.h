@@ -1,5 +1,5 @@
 #pragma once
-// What subcommands that compute a scenario's frames do alike: threads, memory, warnings.
+// The common part of subcommands that compute a scenario's frames: threads, memory, warnings.
 
 #include <tbb/global_control.h>
 

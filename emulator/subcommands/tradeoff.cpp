@@ -49,21 +49,22 @@ void add_tradeoff_command(CLI::App& app, Action& action) {
                      "seconds for the sweep; the reference, which comes before it, takes its own")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    tradeoff->add_option("--combinations", o->options.combinations, "how many to measure, at most")
+    tradeoff
+        ->add_option("--combinations", o->options.combinations, "number of combinations to measure, at most")
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
-    tradeoff->add_option("--runs", o->options.runs, "frames of a setting to take the median of")
+    tradeoff->add_option("--runs", o->options.runs, "frames of a setting, of which the median is taken")
         ->check(CLI::Range(5, 1000))
         ->capture_default_str();
     tradeoff
         ->add_option(
-            "--reference-frames", o->options.reference.most_frames,
-            "of the reference: a power of two, this at most; fewer where its standard error is small before")
+            "--reference-frames", o->options.reference.max_frames,
+            "most frames of the reference, a power of two; fewer where its standard error is small before")
         ->check(CLI::Range(4, 65536))
         ->capture_default_str();
     tradeoff
         ->add_option("--reference-set", o->options.reference_set,
-                     "KEY=VALUE, replaces a value of the reference; may be repeated")
+                     "KEY=VALUE replaces a value of the reference; may be repeated")
         ->allow_extra_args(false);
     when_named(tradeoff, action, o, carry_out);
 }

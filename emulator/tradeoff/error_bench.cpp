@@ -12,7 +12,7 @@ namespace {
 
 using Log = std::function<void(const std::string&)>;
 
-constexpr std::uint64_t kFrames = 2;  // of a view: one more than one tells what is chance
+constexpr std::uint64_t kFrames = 2;  // frames of a view: one more than one tells what is chance
 
 struct View {
     double angle_deg = 0;

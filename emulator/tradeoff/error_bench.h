@@ -20,21 +20,21 @@ namespace hilcam {
 
 struct ErrorBenchOptions {
     int views = 6;
-    ReferenceLimits reference{.most_frames = 4};
+    ReferenceLimits reference{.max_frames = 4};
     std::vector<std::string> reference_set;  // KEY=VALUE, in place of reference_overrides()
 };
 
-// How far pictures are off. Of a view: means over its frames, those in sensor noise over all lit pixels of
-// its frames together. Over all views: in sensor noise over all lit pixels of all views together; false
-// lights, the sum; the others, the mean over the views that have them.
+// The errors of pictures. For a view they are means over its frames, and those in sensor noise over all lit
+// pixels of its frames together. Over all views, those in sensor noise are over all lit pixels of all views
+// together, false lights are summed up, and the others are the mean over the views that have them.
 struct ErrorFigures {
-    PictureErrors picture;  // but for its noise
+    PictureErrors picture;  // errors except its noise
     NoiseError error, scatter;
 };
 
 struct ErrorView : ErrorFigures {
     double angle_deg = 0;
-    Vec3d position_m;  // of the camera, in the world
+    Vec3d position_m;  // place of the camera in the world
     int reference_frames = 0;
     double reference_seconds = 0;
     NoiseError reference_standard_error;

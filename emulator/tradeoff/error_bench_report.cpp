@@ -1,4 +1,4 @@
-// What `hilcam bench --error` says: JSON for scripts, a table for people.
+// The report of `hilcam bench --error`: JSON for scripts, a table for people.
 
 #include <spdlog/fmt/fmt.h>
 

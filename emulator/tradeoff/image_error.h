@@ -1,6 +1,7 @@
 #pragma once
-// How far one picture of mean charge is from another of the same scene, in terms that flight software feels.
-// All of them [e-], of the read-out array, without noise; `dark` is what they hold without light.
+// Measures how far one picture of mean charge is from another of the same scene, in terms that flight
+// software feels. All pictures are in e-, of the read-out array, without noise; `dark` is what they hold
+// without light.
 
 #include <optional>
 #include <vector>
@@ -17,7 +18,7 @@ namespace hilcam {
 struct NoiseError {
     double p99 = 0;  // 99 % of the lit pixels are not farther off
     double rms = 0;
-    double within_half_fraction = 1;  // of lit pixels: off by half their noise or less
+    double within_half_fraction = 1;  // share of lit pixels that are off by half their noise or less
     std::size_t lit_px = 0;           // without any, the figures above are as of equal pictures
 };
 NoiseError noise_error(const ElectronImage& image, const ElectronImage& reference, const ElectronImage& dark,

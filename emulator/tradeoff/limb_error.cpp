@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kStep_px = 0.25;
 constexpr std::size_t kSamples = static_cast<std::size_t>(2 * kLimbReach_px / kStep_px) + 1;
-// Of the whole limb: enough that a narrow field, in which a thousandth of it is, still has some.
+// Places on the whole limb: enough that a narrow field, in which a thousandth of it is, still has some.
 constexpr int kCandidates = 65536;
-constexpr std::size_t kMost = 512, kFewest = 8;
+constexpr std::size_t kMax = 512, kMin = 8;
 
 // The body as the camera has it.
 class Limb {
@@ -28,7 +28,7 @@ class Limb {
         const double distance = length(stretched);
         outside_ = distance > a;
         if (!outside_) return;
-        // Of the circle on which rays touch the sphere.
+        // The middle of the circle on which rays touch the sphere.
         middle_m_ = (a * a / (distance * distance)) * stretched;
         radius_m_ = a * std::sqrt((1 - a / distance) * (1 + a / distance));
         const Vec3d axis = stretched / distance;
@@ -38,7 +38,7 @@ class Limb {
     }
     bool outside() const { return outside_; }
 
-    // From the camera to a place on the limb, camera axes.
+    // Returns the direction from the camera to a place on the limb, camera axes.
     Vec3d direction_camera(double angle_rad) const {
         const Vec3d p = middle_m_ + radius_m_ * (std::cos(angle_rad) * across_ + std::sin(angle_rad) * up_);
         return camera_from_fixed_ * (Vec3d{p.x, p.y, p.z / stretch()} - camera_m_);
@@ -143,21 +143,21 @@ std::vector<LimbPlace> limb_places(const BodyState& body, const Figure& figure, 
     std::vector<LimbPlace> seen;
     for (int i = 0; i < kCandidates; ++i)
         if (const auto place = place_at(limb, geometry, 2 * kPi * i / kCandidates)) seen.push_back(*place);
-    if (seen.size() < kFewest) return {};
+    if (seen.size() < kMin) return {};
     std::vector<LimbPlace> out;
-    const std::size_t count = std::min(kMost, seen.size());
+    const std::size_t count = std::min(kMax, seen.size());
     for (std::size_t i = 0; i < count; ++i) out.push_back(seen[i * seen.size() / count]);
     return out;
 }
 
 std::optional<LimbError> limb_error(const ElectronImage& image, const ElectronImage& reference,
-                                    std::span<const LimbPlace> places, Vec2d offset_px, double least_step_e) {
+                                    std::span<const LimbPlace> places, Vec2d offset_px, double min_step_e) {
     LimbError error;
     double squares = 0;
     for (const LimbPlace& place : places) {
         const Profile expected = profile_at(reference, place, offset_px);
         const Ends ends = ends_of(expected);
-        if (!(ends.disk_e - ends.sky_e > least_step_e)) continue;
+        if (!(ends.disk_e - ends.sky_e > min_step_e)) continue;
         const double level_e = 0.5 * (ends.sky_e + ends.disk_e);
         const double shift_px =
             first_reach_px(profile_at(image, place, offset_px), level_e) - first_reach_px(expected, level_e);

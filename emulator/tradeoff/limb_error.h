@@ -1,6 +1,6 @@
 #pragma once
-// Where a body's limb lies in a picture, against where it lies in a reference: what horizon sensors and
-// limb-fitting navigation measure.
+// Measures where a body's limb lies in a picture, against where it lies in a reference, as horizon sensors
+// and limb-fitting navigation do.
 //
 // Places on the limb follow from geometry: the rays that touch an ellipsoid do so along a plane curve, which
 // is a circle once the polar axis is stretched to the equatorial one (an affine map keeps tangents). At each
@@ -21,7 +21,7 @@
 namespace hilcam {
 
 struct LimbPlace {
-    Vec2d position_px;  // of the window; the middle of pixel (0, 0) is at (0.5, 0.5)
+    Vec2d position_px;  // place in the window; the middle of pixel (0, 0) is at (0.5, 0.5)
     Vec2d sky_dir;      // unit, perpendicular to the limb, away from the disk
 };
 inline constexpr double kLimbReach_px = 8;
@@ -36,8 +36,8 @@ struct LimbError {
     int places = 0;  // where the limb is lit
 };
 // offset_px: of the window's corner in the array. Places count whose step in the reference is above
-// least_step_e; where the picture shows no limb within reach it is off by that. None when no place counts.
+// min_step_e; where the picture shows no limb within reach it is off by that. None when no place counts.
 std::optional<LimbError> limb_error(const ElectronImage& image, const ElectronImage& reference,
-                                    std::span<const LimbPlace> places, Vec2d offset_px, double least_step_e);
+                                    std::span<const LimbPlace> places, Vec2d offset_px, double min_step_e);
 
 }  // namespace hilcam

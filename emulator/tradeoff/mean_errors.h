@@ -29,7 +29,7 @@ class MeanErrors {
     }
 
   private:
-    // What one frame lacks, the mean has not.
+    // Adds a value; a figure that one frame lacks, the mean has not.
     void add(std::optional<double>& sum, const std::optional<double>& value) const {
         if (!value || (count_ > 1 && !sum)) return sum.reset();
         sum = sum.value_or(0) + *value;

@@ -18,7 +18,7 @@ constexpr int kTargetMargin_px = 8;
 // Their light paths are none that a measured frame has (tradeoff.cpp counts from 0).
 constexpr std::uint64_t kFirstReferenceFrame = std::uint64_t{1} << 32;
 
-// Of the frame that StillCamera takes.
+// Returns the gain of the frame that StillCamera takes.
 double gain_db_of(const CameraModel& camera) {
     return camera.sequence.empty() ? camera.gain_db : camera.sequence[0].gain_db;
 }
@@ -55,7 +55,7 @@ PixelBox join(const PixelBox& a, const PixelBox& b) {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-// Of the first object and its joints' parts, which stand behind all objects (scene_loader.cpp).
+// Returns the first object and its joints' parts, which stand behind all objects (scene_loader.cpp).
 std::vector<std::size_t> target_parts(const ScenarioConfig& s) {
     if (s.objects.empty()) return {};
     std::vector<std::size_t> parts = {0};
@@ -63,7 +63,7 @@ std::vector<std::size_t> target_parts(const ScenarioConfig& s) {
     return parts;
 }
 
-// Of a sphere, in pixels of the window.
+// Returns the box of a sphere, in pixels of the window.
 PixelBox box_of(Vec3d middle_world_m, double radius_m, const Pose& camera, const ImageGeometry& geometry) {
     const Vec3d to_middle_m = middle_world_m - camera.position_world_m;
     const double distance_m = length(to_middle_m);
@@ -88,11 +88,11 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
     out.dark = camera.dark();
     PictureSum halves[] = {PictureSum(out.dark), PictureSum(out.dark)};
     Progress progress("reference");
-    for (int goal = 4; goal <= limits.most_frames; goal *= 2) {
+    for (int goal = 4; goal <= limits.max_frames; goal *= 2) {
         for (; out.frames < goal; ++out.frames) {
             progress.now(fmt::format(
                 "reference, frame {} of {}", out.frames + 1,
-                goal == limits.most_frames ? fmt::format("{}", goal) : fmt::format("{} or more", goal)));
+                goal == limits.max_frames ? fmt::format("{}", goal) : fmt::format("{} or more", goal)));
             camera.render({seed, kFirstReferenceFrame + static_cast<std::uint64_t>(out.frames)});
             ElectronImage picture = clone(camera.expose());
             saturate(picture, saturation_of(s.camera));
@@ -100,7 +100,7 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
             if (out.frames > 0) continue;
             const double frame_s = watch.seconds();
             log(fmt::format("a frame of the reference takes {:.2g} s: {:.2g} s for 4, up to {:.2g} s for {}",
-                            frame_s, 4 * frame_s, limits.most_frames * frame_s, limits.most_frames));
+                            frame_s, 4 * frame_s, limits.max_frames * frame_s, limits.max_frames));
         }
         out.standard_error = noise_error(halves[0].mean(), halves[1].mean(), out.dark, noise);
         out.standard_error.p99 *= 0.5, out.standard_error.rms *= 0.5;

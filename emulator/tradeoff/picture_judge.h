@@ -25,19 +25,20 @@ struct PictureErrors {
     NoiseError noise;
     double false_lights = 0;                     // pixels (image_error.h); of several frames, the mean
     std::optional<double> centroid_px;           // way of the centre of the target's light
-    std::optional<double> photometric_fraction;  // of the target's light
+    std::optional<double> photometric_fraction;  // error as a share of the target's light
     std::optional<double> limb_px;               // limb_error.h, of all bodies in view
     std::optional<double> similarity;            // structural_similarity.h, over the saturation's range
 };
 
 struct ReferenceLimits {
-    double standard_error_sigma = 0.05;  // of 99 % of the lit pixels, in their own sensor noise: enough
-    int most_frames = 64;                // a power of two, 4 at least
+    // Greatest standard error of 99 % of the lit pixels, in their own sensor noise: enough.
+    double standard_error_sigma = 0.05;
+    int max_frames = 64;  // a power of two, 4 at least
 };
 
 struct ReferencePicture {
     ElectronImage mean;         // [e-], saturated
-    ElectronImage dark;         // what it has without light
+    ElectronImage dark;         // picture without light
     NoiseError standard_error;  // |standard error| / sigma over lit pixels; those may be none
     int frames = 0;
     double seconds = 0;  // that it took
@@ -55,7 +56,8 @@ class PictureJudge {
 
     // `electrons`: as StillCamera::expose() gives them, of the same camera.
     PictureErrors errors(const ElectronImage& electrons) const;
-    // By lit pixel (image_error.h): how far a picture is from the reference, and from another rendering.
+    // Returns by lit pixel (image_error.h) how far a picture is from the reference, and from another
+    // rendering.
     std::vector<double> lit_errors(const ElectronImage& electrons) const;
     std::vector<double> lit_scatter(const ElectronImage& electrons, const ElectronImage& other) const;
 
@@ -69,7 +71,7 @@ class PictureJudge {
 
     SensorNoise noise_;
     double saturation_e_;
-    Vec2d offset_px_;  // of the window in the array
+    Vec2d offset_px_;  // offset of the window in the array
     ReferencePicture reference_;
     PixelBox target_;
     std::optional<WindowLight> target_light_;

@@ -22,7 +22,7 @@ inline constexpr std::uint32_t kReferenceVersion = 1;
 
 // The file of that key in `folder`.
 std::filesystem::path reference_file(const std::filesystem::path& folder, const std::string& key);
-// What is kept there, bit by bit. None when there is no file, or it is not whole, or another key's or
+// Returns what is kept there, bit by bit. None when there is no file, or it is not whole, or another key's or
 // version's.
 std::optional<ReferencePicture> kept_reference(const std::filesystem::path& file, const std::string& key);
 // A folder that cannot be written is no failure.

@@ -76,13 +76,13 @@ class Sweep {
             ++tried_;
         }
     }
-    // By settings or by the budget, whichever ends it sooner.
+    // Returns the share that is done, by settings or by the budget, whichever ends it sooner.
     double share_done() const {
         return std::max(static_cast<double>(tried_) / static_cast<double>(planned_),
                         1 - left_s() / options_.budget_s);
     }
 
-    // What cannot be is left out with its reason, unless it is the scenario itself.
+    // A setting that cannot be is left out with its reason, unless it is the scenario itself.
     void try_setting(Kind kind, const std::vector<std::size_t>& choices) {
         try {
             measure(kind, choices);

@@ -21,7 +21,7 @@
 namespace hilcam {
 
 struct TradeoffOptions {
-    double budget_s = 600;  // of the sweep; the reference is made before it
+    double budget_s = 600;  // time of the sweep; the reference is made before it
     int runs = 5;
     std::size_t combinations = 256;  // at most
     ReferenceLimits reference;
@@ -32,7 +32,7 @@ struct TradeoffOptions {
 
 struct FrameTimes {
     double frame_ms = 0, render_ms = 0;  // medians
-    double least_ms = 0, most_ms = 0;    // of the whole frame
+    double min_ms = 0, max_ms = 0;       // range of the time of the whole frame
 };
 
 struct MeasuredSetting {
@@ -40,7 +40,7 @@ struct MeasuredSetting {
     std::vector<std::size_t> choices;  // by knob: 0 its own, else one of the others
     FrameTimes times;
     PictureErrors errors;
-    bool on_front = false;  // of frame_ms against errors.noise.p99
+    bool on_front = false;  // true: on the front of frame_ms against errors.noise.p99
 
     double error() const { return errors.noise.p99; }
 };
@@ -54,7 +54,7 @@ struct Tradeoff {
     double reference_s = 0;
     NoiseError reference_standard_error;
     std::vector<MeasuredSetting> settings;  // the scenario's own first
-    std::vector<std::string> remarks;       // what was left out and why
+    std::vector<std::string> remarks;       // settings that were left out, and why
     double frame_ms = 0, error_sigma = 0;   // asked for
     // Answers to that, as indices of settings; none: no measured one is fast or accurate enough.
     std::optional<std::size_t> within_time, within_error;

@@ -14,12 +14,12 @@ using Choices = std::vector<std::size_t>;
 // A value that is neither so much faster nor so much more accurate than the scenario's own does nothing:
 // smaller differences are the clock's, and those of the light paths that happened to be drawn.
 constexpr double kFaster = 0.03, kMoreAccurate = 0.05;
-// Between neighbours of the predicted front, whose errors are guesses.
+// Gain between neighbours of the predicted front, whose errors are guesses.
 constexpr double kPredictedGain = 0.05;
-constexpr std::size_t kMostCandidates = 200'000;
+constexpr std::size_t kMaxCandidates = 200'000;
 
-// What a setting is off: squares of this add, where percentiles hide the lesser of two errors behind the
-// greater.
+// Returns the error of a setting: squares of this add, where percentiles hide the lesser of two errors behind
+// the greater.
 double error_of(const MeasuredSetting& s) { return s.errors.noise.rms; }
 
 // A value of a knob against the scenario's own.
@@ -37,7 +37,7 @@ double weight_of(const std::vector<Effect>& effects, double own_error_squared) {
     return most;
 }
 
-// Of one knob: those of its measured values that are on its own front. The scenario's own is always among
+// Returns those of one knob's measured values that are on its own front. The scenario's own is always among
 // them: what another value spoils may not be seen beside the scenario's other errors.
 std::vector<Effect> front_of_knob(std::size_t knob, const std::vector<MeasuredSetting>& settings) {
     const MeasuredSetting& own = settings.front();
@@ -88,7 +88,7 @@ void limit_candidates(std::vector<std::vector<Effect>>& fronts, double own_error
         for (const auto& front : fronts) count *= static_cast<double>(front.size());
         return count;
     };
-    while (candidates() > static_cast<double>(kMostCandidates)) {
+    while (candidates() > static_cast<double>(kMaxCandidates)) {
         std::vector<Effect>* least = nullptr;
         for (auto& front : fronts)
             if (front.size() > 1 &&

@@ -1,5 +1,5 @@
 #pragma once
-// Which combinations of settings are worth a measurement, told from what each knob does alone.
+// Finds which combinations of settings are worth a measurement, from what each knob does alone.
 
 #include <cstddef>
 #include <vector>

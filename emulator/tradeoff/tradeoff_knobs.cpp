@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-// What a scenario must have for a knob to do something.
+// The parts that a scenario must have for a knob to do something.
 enum class Needs { kNothing, kSurfaces, kMeshes, kTerrain, kAir };
 
 struct KnobRow {
@@ -23,7 +23,7 @@ struct KnobRow {
     KnobRole role = KnobRole::kAlways;
 };
 
-// From fast to accurate.
+// Returns the knobs with their values from fast to accurate.
 const std::vector<KnobRow>& knob_rows() {
     static const std::vector<KnobRow> rows = {
         {"path model",
@@ -116,15 +116,15 @@ std::string edges_override(const std::vector<double>& edges_um) {
     return fmt::format("spectrum_edges_um=[{}]", list);
 }
 
-// What is finer than a pixel of the radiance image aliases before the lens has dimmed it, which takes 8 % of
-// an edge's height and falls with the square (docs/sensor.md): as much as fits into two images of 1 GiB of 8
-// bins.
+// Returns the oversampling of the reference. Detail that is finer than a pixel of the radiance image aliases
+// before the lens has dimmed it, which takes 8 % of an edge's height and falls with the square
+// (docs/sensor.md): as much as fits into two images of 1 GiB of 8 bins.
 std::int64_t reference_oversampling(const ScenarioConfig& s, std::int64_t guard_px) {
-    constexpr std::int64_t kMostPixels = std::int64_t{1} << 25;
+    constexpr std::int64_t kMaxPixels = std::int64_t{1} << 25;
     const PixelRectangle w = window_of(s.camera);
     const std::int64_t pixels = (w.width + 2 * guard_px) * (w.height + 2 * guard_px);
     std::int64_t m = 4;
-    while (m > 1 && m * m * pixels > kMostPixels) --m;
+    while (m > 1 && m * m * pixels > kMaxPixels) --m;
     return std::max(m, s.quality.oversampling);
 }
 
@@ -188,7 +188,7 @@ void reset_idle(const std::vector<Knob>& knobs, std::vector<std::size_t>& choice
 std::vector<std::string> reference_overrides(const ScenarioConfig& s) {
     const std::int64_t guard_px = std::max<std::int64_t>(64, s.quality.guard_px);
     const std::int64_t oversampling = reference_oversampling(s, guard_px);
-    constexpr std::int64_t kRaysPerAxis = 8;  // of a pixel of the detector, at least
+    constexpr std::int64_t kRaysPerAxis = 8;  // rays per axis of a pixel of the detector, at least
     std::vector<std::string> out = {
         "quality.path_model=path",
         // A ninth surface adds less than 0.9^8 of what nearly white ones send on: below any noise asked for

@@ -1,5 +1,6 @@
 #pragma once
-// What `hilcam tradeoff` turns: the choices of a scenario that trade speed for accuracy, as a table.
+// The knobs that `hilcam tradeoff` turns: the choices of a scenario that trade speed for accuracy, as a
+// table.
 //
 // A value is what `--set` takes, so that it is read and checked as a user's would be, and can be handed back
 // to one. Not here: the hemisphere's 60 directions, which the symmetry of the dodecahedron fixes
@@ -19,7 +20,7 @@ struct KnobValue {
     std::vector<std::string> overrides;  // KEY=VALUE; none: as the scenario has it
 };
 
-// What a knob's effect hangs on.
+// The things on which a knob's effect hangs.
 enum class KnobRole {
     kAlways,
     kPathModel,
@@ -29,7 +30,7 @@ enum class KnobRole {
 
 struct Knob {
     std::string name;
-    KnobValue own;                  // of the scenario
+    KnobValue own;                  // the scenario's value
     std::vector<KnobValue> others;  // each differs from it
     KnobRole role = KnobRole::kAlways;
     const KnobValue& value(std::size_t choice) const { return choice == 0 ? own : others[choice - 1]; }
@@ -45,7 +46,7 @@ struct ScenarioSource {
     ScenarioConfig load(const std::vector<std::string>& more = {}) const;
 };
 
-// Of two values for a key the later one.
+// Joins overrides; of two values for a key the later one counts.
 std::vector<std::string> joined_overrides(const std::vector<std::string>& first,
                                           const std::vector<std::string>& second);
 

@@ -1,7 +1,7 @@
 #pragma once
-// What `hilcam tradeoff` has measured, as a ladder for the governor (quality_ladder.h): the settings that are
-// faster than the scenario's own and that none of those beats in both time and error, best first. Only such
-// settings count whose every change may be made from one frame to the next.
+// Makes a ladder for the governor (quality_ladder.h) of what `hilcam tradeoff` has measured: the settings
+// that are faster than the scenario's own and that none of those beats in both time and error, best first.
+// Only such settings count whose every change may be made from one frame to the next.
 
 #include <string>
 

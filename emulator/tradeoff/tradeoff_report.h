@@ -1,5 +1,5 @@
 #pragma once
-// What `hilcam tradeoff` says: CSV and JSON for scripts, presets, a page with plots, and a few lines for
+// The report of `hilcam tradeoff`: CSV and JSON for scripts, presets, a page with plots, and a few lines for
 // people.
 
 #include <filesystem>

@@ -73,19 +73,19 @@ class SimulatedClock {
     // --- from the machine's time
     std::int64_t camera_at(std::int64_t monotonic_ns) const;
     TimeTai at(std::int64_t monotonic_ns) const;
-    // What a message of that arrival means by "now": at(), in lockstep the last frame's time.
+    // Returns what a message of that arrival means by "now": at(), in lockstep the last frame's time.
     TimeTai of_arrival(std::int64_t arrival_ns) const {
         return lockstep_ ? TimeTai{stepped_ns_.load()} : at(arrival_ns);
     }
     TimeTai now() const { return of_arrival(monotonic_ns()); }
-    // For a sender that sets its clock by this one.
+    // Reads the clock for a sender that sets its own by this one.
     ClockReading read(std::int64_t arrival_monotonic_ns) const;
 
     // --- from the camera's time
     TimeTai simulated_of_camera(std::int64_t camera_ns) const;
     // The machine's, as if nothing stopped the camera.
     std::int64_t monotonic_of_camera(std::int64_t camera_ns) const;
-    // When the camera gets there as things are now: kNever_ns where it waits.
+    // Returns when the camera gets there as things are now: kNever_ns where it waits.
     std::int64_t when_due(std::int64_t camera_ns) const;
 
     // --- from simulated time
@@ -101,7 +101,7 @@ class SimulatedClock {
     struct Piece {
         std::int64_t monotonic_ns, camera_ns;
         double scale;
-        std::int64_t shift_ns, least_ns, most_ns, camera_most_ns;
+        std::int64_t shift_ns, min_ns, max_ns, camera_most_ns;
 
         std::int64_t camera_at(std::int64_t monotonic) const;
         std::int64_t simulated_of(std::int64_t camera) const;
@@ -116,7 +116,7 @@ class SimulatedClock {
         const Piece& of(std::int64_t camera) const { return camera < now.camera_ns ? before : now; }
     };
     struct Beginning {
-        std::int64_t monotonic_ns, camera_ns, simulated_ns, least_ns;
+        std::int64_t monotonic_ns, camera_ns, simulated_ns, min_ns;
     };
     Piece piece_from(const Beginning& from, double scale, std::int64_t stand_ns) const;
     State first_state(std::int64_t monotonic_start_ns) const;

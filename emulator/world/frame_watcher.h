@@ -1,5 +1,5 @@
 #pragma once
-// Who wants to know what a loop has seen.
+// A frame watcher wants to know what a loop has seen.
 
 #include <cstdint>
 
@@ -9,8 +9,8 @@ namespace hilcam {
 
 struct SeenFrame {
     std::uint64_t id = 0;       // 0: none yet
-    std::int64_t begin_ns = 0;  // of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it
-    TimeTai middle;             // of the exposure, simulated
+    std::int64_t begin_ns = 0;  // begin of the exposure, CLOCK_MONOTONIC; in lockstep as if that ran with it
+    TimeTai middle;             // middle of the exposure, simulated
     double exposure_s = 0;
     bool dark = false;  // its shutter was closed: the world is that of a frame before, or none
 };

@@ -1,5 +1,5 @@
 #pragma once
-// How bright a lamp is over time: a step function, by the switches that are known of it, in any order.
+// The brightness of a lamp over time: a step function, by the switches that are known of it, in any order.
 //
 // A switch holds from its time on, until the next. Before the first of them the lamp is as it was before that
 // came. The newest 8 are kept: what is older than those has no effect.
@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-// From an instant on.
+// A level that holds from an instant on.
 struct LampSwitch {
     TimeTai time;
     double level = 0;  // 0: off; 1: as its data sheet says
@@ -24,9 +24,9 @@ class LampSwitches {
     LampSwitches() = default;
     explicit LampSwitches(double level) : before_(level) {}
 
-    // Of the same instant, the later one counts.
+    // Inserts a switch; of two of the same instant, the later one counts.
     void insert(const LampSwitch& order);
-    // What was known is forgotten; it goes on from how it was at last.
+    // Forgets what was known; the lamp goes on from how it was at last.
     void begin_anew();
 
     double at(TimeTai time) const;

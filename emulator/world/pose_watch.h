@@ -1,6 +1,6 @@
 #pragma once
-// Whether poses still come, and whether their time tags go forwards. One for a bench: commands tell it, every
-// camera's loop asks it.
+// Watches whether poses still come, and whether their time tags go forwards. A bench has one: commands tell
+// it, every camera's loop asks it.
 //
 // Silence is measured in simulated time, from the arrival of the newest pose or angle that is watched: at
 // half the speed a simulator sends half as often, and none while time stands. What a run shows does not
@@ -61,8 +61,8 @@ class PoseWatch {
     const PoseRules& rules() const { return rules_; }
     std::int64_t horizon_ns() const { return horizon_ns_; }
 
-    // What a pose tells of; joint 0: the thing itself. Or a lamp, from 1: its time tags are judged, but it is
-    // no pose, and its coming ends no silence.
+    // The thing whose pose is told; joint 0: the thing itself. Or a lamp, from 1: its time tags are judged,
+    // but it is no pose, and its coming ends no silence.
     struct Subject {
         std::uint16_t object = 0, joint = 0, lamp = 0;
         friend auto operator<=>(const Subject&, const Subject&) = default;

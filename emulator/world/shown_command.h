@@ -1,5 +1,5 @@
 #pragma once
-// Which command a frame shows at the newest.
+// The newest command that a frame shows.
 
 #include <cstdint>
 

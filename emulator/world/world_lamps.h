@@ -13,7 +13,7 @@
 
 namespace hilcam {
 
-// What a lamp is fixed to, in that thing's axes.
+// The thing that a lamp is fixed to, in that thing's axes.
 struct LampMount {
     std::size_t thing = 0;  // 0: the body with the cameras; 1, 2, ...: of WorldSnapshot::objects
     Vec3d position_m;
@@ -34,11 +34,11 @@ class WorldLamps {
 
     // Takes the newest switches; `shown` becomes the newest command of all, if that is newer.
     void read(ShownCommand& shown);
-    // Where they are at an instant of which the objects are placed already, and how bright then.
+    // Places them at an instant of which the objects are placed already, and finds how bright they are then.
     void place(TimeTai time, const Pose& camera_body, WorldSnapshot& world) const;
-    // How bright they are from then until then, on average.
+    // Finds how bright they are from then until then, on average.
     void average(TimeTai from, TimeTai until, WorldSnapshot& world) const;
-    // Of each, the number of the newest command that the last read() knew.
+    // Returns, for each, the number of the newest command that the last read() knew.
     void shown_numbers(std::span<std::uint64_t> numbers) const;
 
   private:

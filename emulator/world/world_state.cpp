@@ -15,7 +15,7 @@ Pose turned(const Pose& object, const Joint& joint, double angle_rad) {
             object.world_from_body * turn};
 }
 
-// What rides on a body: v + w x r, and the body's rate in its own axes.
+// Moves what rides on a body: v + w x r, and the body's rate in its own axes.
 Motion mounted(const Motion& body, const Mount& mount) {
     const Mat3d world_from_body = to_matrix(body.pose.world_from_body);
     Motion out = body;
@@ -133,7 +133,7 @@ bool WorldState::set_lamp(std::size_t lamp, const LampSwitch& order, ShownComman
 bool WorldState::write(Thing& thing, const Motion& motion, ShownCommand command, bool alone) {
     const std::lock_guard lock(writers_);
     History& history = thing.written;
-    // What the scenario file said holds only until the first command.
+    // The scenario file's word holds only until the first command.
     if (alone || history.command.arrival_monotonic_ns == 0) history.count = 0;
     history.insert(motion);
     history.command = command;
@@ -158,7 +158,8 @@ void WorldState::shown_numbers(std::span<std::uint64_t> numbers) const {
     lamps_.shown_numbers(numbers.subspan(things_.size()));
 }
 
-// Where the things are that sources move, after those that are commanded or at rest: sources may follow them.
+// Finds where the things are that sources move, after those that are commanded or at rest: sources may follow
+// them.
 void WorldState::evaluate_sources(TimeTai time) const {
     if (sources_.empty()) return;
     for (std::size_t i = 0; i <= objects_; ++i) {

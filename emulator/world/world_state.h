@@ -33,7 +33,7 @@ struct Joint {
     double rate_rad_s = 0;
 };
 
-// Where a camera sits: fixed to the body that object 0's poses move, or to an object.
+// The mount of a camera: fixed to the body that object 0's poses move, or to an object.
 struct Mount {
     std::size_t thing = 0;  // 0: the spacecraft with the cameras; 1, 2, ...: an object
     Vec3d position_m;       // in the thing's axes
@@ -78,12 +78,12 @@ class WorldState {
     void average_lamps(TimeTai from, TimeTai until, WorldSnapshot& world) const {
         lamps_.average(from, until, world);
     }
-    // How the object that is nearest to the camera moves in the world; none: not at all. world: as it was
-    // sampled last. Loop.
+    // Returns how the object that is nearest to the camera moves in the world; none: not at all. world: as it
+    // was sampled last. Loop.
     Vec3d nearest_velocity_m_s(const WorldSnapshot& world) const;
-    // Of each of things(), the number of the newest command that the last sample() knew. Loop.
+    // Returns, for each of things(), the number of the newest command that the last sample() knew. Loop.
     void shown_numbers(std::span<std::uint64_t> numbers) const;
-    // How often a source was asked for an instant that it does not know, and stood still. Any thread.
+    // Returns how often a source was asked for an instant that it does not know, and stood still. Any thread.
     std::uint64_t held() const { return held_.load(std::memory_order_relaxed); }
 
   private:

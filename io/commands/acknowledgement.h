@@ -14,16 +14,17 @@
 namespace hilcam {
 
 inline constexpr std::uint16_t kAcknowledgeApid = 0x101;
-inline constexpr std::size_t kMostAcknowledgeBytes = 192;
+inline constexpr std::size_t kMaxAcknowledgeBytes = 192;
 
 struct Acknowledgement {
     std::uint8_t function = 0;
     CommandStatus status = CommandStatus::kAccepted;
     std::uint32_t sequence = 0;
-    std::uint64_t token = 0;  // of a ping; of a clock command, sender_ns
+    std::uint64_t token = 0;  // token of a ping; sender_ns of a clock command
     TimeTai simulated_time;
     std::string reason;  // up to 96 bytes of it travel
-    // With an accepted clock command. simulated_time and `departure` are one: both travel as the former.
+    // Clock reading, with an accepted clock command. simulated_time and `departure` are one: both travel as
+    // the former.
     std::optional<ClockReading> clock{};
 };
 
@@ -33,7 +34,7 @@ std::size_t encode_acknowledgement(const Acknowledgement& acknowledgement, std::
 // False when the bytes are no acknowledgement.
 bool decode_acknowledgement(std::span<const std::uint8_t> packet, Acknowledgement& acknowledgement);
 
-// From the protocol version on, without the check at the end.
+// Writes everything from the protocol version on, without the check at the end.
 void write_acknowledgement_body(const Acknowledgement& acknowledgement, ByteWriter& out);
 bool read_acknowledgement_body(std::span<const std::uint8_t> body, Acknowledgement& acknowledgement);
 

@@ -16,8 +16,8 @@
 
 namespace hilcam {
 
-// Without a required checksum a packet is taken whatever its checksum byte says: cFS ground tools often leave
-// it 0. The sequence number is the primary header's 14-bit count.
+// Decodes a packet. Unless a checksum is required, a packet is taken whatever its checksum byte says: cFS
+// ground tools often leave it 0. The sequence number is the primary header's 14-bit count.
 DecodedCommand decode_cfs_command(std::span<const std::uint8_t> packet, bool checksum_required);
 // Gives the number of bytes written.
 std::size_t encode_cfs_command(const Command& command, std::uint32_t sequence, std::span<std::uint8_t> bytes);

@@ -43,7 +43,7 @@ class ClockFilter {
         std::int64_t delay_ns = 0;   // there and back
         double error_ns = 0;         // at the most
     };
-    // At an instant of the sender's clock; none before the first exchange.
+    // Estimates at an instant of the sender's clock; there is no estimate before the first exchange.
     std::optional<Estimate> estimate(std::int64_t sender_ns) const;
     // The simulated time then, by the newest answer's way of going; it errs by `scale` times error_ns.
     std::optional<TimeTai> simulated_at(std::int64_t sender_ns) const;

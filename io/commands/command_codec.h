@@ -13,12 +13,13 @@
 namespace hilcam {
 
 inline constexpr std::uint16_t kCommandApid = 0x100;
-inline constexpr std::size_t kMostCommandBytes = 256;
+inline constexpr std::size_t kMaxCommandBytes = 256;
 
-// What a packet says, or why it is refused. Header fields are filled as far as they could be read.
+// The contents of a packet, or the reason why it is refused. Header fields are filled as far as they could be
+// read.
 struct DecodedCommand {
     CommandStatus status = CommandStatus::kAccepted;
-    std::string_view reason;  // of a refusal; static text
+    std::string_view reason;  // reason of a refusal; static text
     Command command;
     SpacePacketHeader header;
     std::uint8_t function = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Which headers and checks stand around commands, acknowledgements and telemetry: hilcam's own, or those of
-// NASA's core Flight System. What they carry is the same. Pure functions over bytes.
+// A dialect is the headers and checks around commands, acknowledgements and telemetry: hilcam's own, or those
+// of NASA's core Flight System. Their contents are the same. Pure functions over bytes.
 
 #include <cstdint>
 #include <span>
@@ -19,12 +19,12 @@ struct DialectConfig {
     Dialect dialect = Dialect::kHilcam;
     ChecksumRule checksum = ChecksumRule::kRequired;  // cFS alone
 };
-// To be appended to a transport's own.
+// Adds the dialect's keys to a transport's own.
 void add_fields(DialectConfig& dialect, Fields& fields);
 void validate(const DialectConfig& dialect);
 
 // The longest packet of any kind, in either dialect.
-inline constexpr std::size_t kMostPacketBytes = 256;
+inline constexpr std::size_t kMaxPacketBytes = 256;
 
 DecodedCommand decode_command(std::span<const std::uint8_t> packet, const DialectConfig& dialect);
 std::size_t encode_command(const Command& command, std::uint32_t sequence, const DialectConfig& dialect,

@@ -10,7 +10,7 @@ struct Layout {
     std::string_view name;
     std::size_t bytes;
 };
-// By function code - 1.
+// Layouts by function code - 1.
 constexpr std::array<Layout, 12> kLayouts = {{
     {"pose", 2 + 2 + 8 + 13 * 8},
     {"settings", 4 + 3 * 8},
@@ -29,7 +29,7 @@ static_assert(std::variant_size_v<Command> == kLayouts.size());
 static_assert(std::is_same_v<std::variant_alternative_t<6, Command>, FaultCommand>);
 static_assert(std::is_same_v<std::variant_alternative_t<9, Command>, SubscribeCommand>);
 static_assert(std::is_same_v<std::variant_alternative_t<kClockFunction - 1, Command>, ClockCommand>);
-// Which settings a settings command carries, and what a subscription asks for.
+// Bits for the settings that a settings command carries, and for what a subscription asks for.
 constexpr std::uint32_t kExposureBit = 1, kGainBit = 2, kFrameRateBit = 4;
 constexpr std::uint8_t kFrameReportsBit = 1, kHousekeepingBit = 2;
 
@@ -177,7 +177,7 @@ void write(ByteWriter& out, const SubscribeCommand& s) {
     out.u8((s.frame_reports ? kFrameReportsBit : 0u) | (s.housekeeping ? kHousekeepingBit : 0u)).u8(0).u16(0);
 }
 
-// What the action does not need is not examined.
+// Fields that the action does not need are not examined.
 Refusal read(ByteReader& in, ClockCommand& clock) {
     using Action = ClockCommand::Action;
     const std::uint8_t action = in.u8();
@@ -189,11 +189,11 @@ Refusal read(ByteReader& in, ClockCommand& clock) {
     clock.action = static_cast<Action>(action);
     if (clock.action != Action::kScale)
         clock.scale = 1;
-    else if (!(clock.scale >= kLeastClockScale && clock.scale <= kMostClockScale))
+    else if (!(clock.scale >= kMinClockScale && clock.scale <= kMaxClockScale))
         return bad("scale of time is not 0.001 to 1000");
     if (clock.action != Action::kStep)
         clock.step_ns = 0;
-    else if (clock.step_ns < 1 || clock.step_ns > kMostClockStep_ns)
+    else if (clock.step_ns < 1 || clock.step_ns > kMaxClockStep_ns)
         return bad("step of time is not 1 to 1e16 ns");
     return {};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What a command says between its headers and its check: the payloads of docs/protocol.md, which all dialects
-// share. Pure functions over bytes.
+// The contents of a command between its headers and its check: the payloads of docs/protocol.md, which all
+// dialects share. Pure functions over bytes.
 
 #include <cstdint>
 #include <optional>

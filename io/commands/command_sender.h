@@ -14,14 +14,14 @@ namespace hilcam {
 
 class CommandSender {
   public:
-    // As open_command_link() has it. Throws InputError, DeviceError.
+    // Takes an endpoint as open_command_link() does. Throws InputError, DeviceError.
     explicit CommandSender(const std::string& endpoint, const DialectConfig& dialect = {});
 
     // Sends once and waits. Throws DeviceError when no acknowledgement comes in time.
     Acknowledgement send(const Command& command, int timeout_ms = 1000);
     // The sequence number of the next command; each further one has one more. Not told: 0.
     void begin_at(std::uint32_t sequence) { sequence_ = sequence; }
-    // Which camera what follows is for, from 1; 0: every one. Not of the cFS dialect.
+    // Sets the camera that the following commands are for, from 1; 0: every one. Not of the cFS dialect.
     void address(std::uint16_t camera) { camera_ = camera; }
     // The next telemetry packet; false when none comes in time. Throws DeviceError when the link breaks.
     bool receive(Telemetry& telemetry, int timeout_ms);

@@ -1,6 +1,7 @@
 #pragma once
-// Where the commands of all transports are taken: packets of a sender in, acknowledgements to it out. What
-// brings the bytes (commands_udp.h, stream_server.h, commands_usb.h, ...) knows nothing of commands.
+// Takes the commands of all transports: packets of a sender come in, acknowledgements to it go out. The
+// transports that bring the bytes (commands_udp.h, stream_server.h, commands_usb.h, ...) know nothing of
+// commands.
 //
 // Commands take effect in the order they arrive, whatever their sequence numbers. An `expose`, a `fault` or a
 // clock's step that repeats an earlier packet of its sender byte by byte within a second is a retry, or the
@@ -26,7 +27,7 @@ class CommandStation {
     class Sender;
     // Gets one whole packet for the sender.
     using Answer = std::function<void(std::span<const std::uint8_t> packet)>;
-    using Tell = std::function<void(Sender& sender, std::span<const std::uint8_t> packet)>;
+    using Notify = std::function<void(Sender& sender, std::span<const std::uint8_t> packet)>;
 
     CommandStation(CommandHandler& handler, const DialectConfig& dialect);
     ~CommandStation();
@@ -41,10 +42,10 @@ class CommandStation {
     // The same, and the bytes end here: at the end of a datagram, of a connection.
     void take_all(PacketStream& stream, std::int64_t arrival_monotonic_ns, Sender& sender,
                   const Answer& answer);
-    // What cannot even be given to a stream: an empty datagram.
+    // Refuses what cannot even be given to a stream: an empty datagram.
     void refuse_empty(Sender& sender, const Answer& answer);
-    // To every sender that subscribed to this kind.
-    void tell(const Telemetry& telemetry, const Tell& tell);
+    // Sends to every sender that subscribed to this kind.
+    void notify(const Telemetry& telemetry, const Notify& notify);
     // Frame reports and housekeeping from now on, unasked.
     void subscribe(Sender& sender, SubscribeCommand subscription);
     void count_stranger();
@@ -63,7 +64,7 @@ class CommandStation {
 
     CommandHandler& handler_;
     DialectConfig dialect_;
-    mutable std::mutex mutex_;  // of all below, also while a command is carried out
+    mutable std::mutex mutex_;  // guards all below, also while a command is carried out
     std::list<Sender> senders_;
     CommandReport report_;
 };

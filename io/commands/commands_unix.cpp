@@ -86,7 +86,7 @@ void validate(const UnixCommandConfig& c) {
 std::unique_ptr<CommandReceiver> make_unix_receiver(const UnixCommandConfig& c, CommandHandler& handler) {
     const std::string path = c.path.string();
     const bool whole_packets = c.type == UnixCommandConfig::Type::kSeqpacket;
-    auto ours = std::make_shared<FileIdentity>();  // of two callbacks
+    auto ours = std::make_shared<FileIdentity>();  // shared by two callbacks
     StreamServerSetup setup;
     setup.name = "unix " + path;
     setup.listen = [path, ours, type = whole_packets ? SOCK_SEQPACKET : SOCK_STREAM] {
@@ -98,7 +98,7 @@ std::unique_ptr<CommandReceiver> make_unix_receiver(const UnixCommandConfig& c, 
         if (FileIdentity::of(path) == *ours) unlink(path.c_str());
     };
     setup.admit = admit;
-    setup.most_clients = static_cast<std::size_t>(c.clients);
+    setup.max_clients = static_cast<std::size_t>(c.clients);
     setup.whole_packets = whole_packets;
     return std::make_unique<StreamServer>(std::move(setup), handler, c.dialect);
 }

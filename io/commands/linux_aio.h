@@ -39,7 +39,8 @@ class LinuxAio {
         iocb* list = &request;
         return syscall(SYS_io_submit, context_, 1, &list) == 1;
     }
-    // What has ended: event.data is the tag, event.res the bytes or -errno. Does not wait.
+    // Returns the events that have ended: event.data is the tag, event.res the bytes or -errno. Does not
+    // wait.
     std::span<const io_event> ended() {
         timespec none{};
         const long count = syscall(SYS_io_getevents, context_, 0, events_.size(), events_.data(), &none);

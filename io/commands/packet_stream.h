@@ -16,11 +16,11 @@
 
 namespace hilcam {
 
-// What packets of a stream look like.
+// The look of packets in a stream.
 struct PacketRule {
     std::span<const std::uint16_t> identifications;  // a packet's first two bytes, when hunting
-    std::size_t fewest_bytes = 7;
-    std::size_t most_bytes = 65542;
+    std::size_t min_bytes = 7;
+    std::size_t max_bytes = 65542;
     // Does a whole packet pass its check?
     bool (*intact)(std::span<const std::uint8_t> packet) = nullptr;
 };
@@ -31,8 +31,8 @@ class PacketStream {
     // `read_bytes`: the most that one read brings.
     explicit PacketStream(const PacketRule& rule, std::size_t read_bytes = kReadBytes);
 
-    // Where the next read may put its bytes, at least `read_bytes` when next() has just given nothing; then
-    // filled() says how many came. Items given out before are gone.
+    // Returns the place for the bytes of the next read, at least `read_bytes` when next() has just given
+    // nothing; then filled() says how many came. Items given out before are gone.
     std::span<std::uint8_t> room();
     void filled(std::size_t bytes);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a sender's sequence numbers say of packets lost, doubled or late. Pure.
+// Tells from a sender's sequence numbers which packets were lost, doubled or late. Pure.
 
 #include <algorithm>
 #include <cstdint>
@@ -15,7 +15,7 @@ class SequenceWindow {
 
     struct Finding {
         enum class Kind : std::uint8_t {
-            kNext,       // as expected, or the first of all
+            kNext,       // the expected number, or the first of all
             kGap,        // `lost` numbers are missing before it
             kLate,       // one that was counted as lost has come after all
             kDuplicate,  // seen before
@@ -44,14 +44,14 @@ inline SequenceWindow::Finding SequenceWindow::take(std::uint32_t sequence) {
     }
     // Half of all numbers lie ahead; the rest are too old to be late. What begins by the clock lands
     // anywhere.
-    constexpr std::uint32_t kMostLost = 1u << 20;
-    if (seen_ != 0 && !anew && ahead <= std::min(mask_ / 2, kMostLost)) {
+    constexpr std::uint32_t kMaxLost = 1u << 20;
+    if (seen_ != 0 && !anew && ahead <= std::min(mask_ / 2, kMaxLost)) {
         newest_ = sequence;
         seen_ = (ahead < 64 ? seen_ << ahead : 0) | 1;
         return ahead == 1 ? Finding{Kind::kNext} : Finding{Kind::kGap, ahead - 1};
     }
     newest_ = sequence;
-    // What came before the first is not missing.
+    // Numbers before the first are not missing.
     seen_ = ~std::uint64_t{0};
     return {Kind::kNext};
 }

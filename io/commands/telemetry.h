@@ -43,7 +43,7 @@ class TelemetrySender {
 
     void start();
     void stop() noexcept;
-    // Of the read-only port. Any thread.
+    // Returns the report of the read-only port. Any thread.
     CommandReport port_report() const { return port_ ? port_->report() : CommandReport{}; }
 
   private:

@@ -12,7 +12,7 @@ namespace hilcam {
 
 inline constexpr std::uint16_t kFrameReportApid = 0x102;
 inline constexpr std::uint16_t kHousekeepingApid = 0x103;
-inline constexpr std::size_t kMostTelemetryBytes = 160;
+inline constexpr std::size_t kMaxTelemetryBytes = 160;
 
 std::uint16_t apid_of(const Telemetry& telemetry);
 // The simulated time that it is about.
@@ -23,7 +23,7 @@ std::size_t encode_telemetry(const Telemetry& telemetry, std::uint16_t count, st
 // False when the bytes are no telemetry packet.
 bool decode_telemetry(std::span<const std::uint8_t> packet, Telemetry& telemetry);
 
-// From the protocol version on, without the check at the end.
+// Writes everything from the protocol version on, without the check at the end.
 void write_telemetry_body(const Telemetry& telemetry, ByteWriter& out);
 bool read_telemetry_body(std::span<const std::uint8_t> body, Telemetry& telemetry);
 

@@ -1,4 +1,4 @@
-// What a USB device is called, and the keys about it: the same with libusb and without.
+// The name of a USB device and the keys about it: the same with libusb and without.
 
 #include <charconv>
 #include <cstdio>

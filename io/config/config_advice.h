@@ -1,5 +1,5 @@
 #pragma once
-// What a message says about a key, or another word, that is not known.
+// The advice of a message about a key, or another word, that is not known.
 
 #include <span>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What configuration files accept, in words.
+// The manual of configuration files: what they accept, in words.
 
 #include <string>
 #include <string_view>

@@ -82,7 +82,7 @@ Json type_of(const Field& field) {
                       field.target);
 }
 
-// What holds without the key, where that is one value.
+// Returns the value that holds without the key, where that is one value.
 std::optional<Json> default_of(const Field& field) {
     if (field.required) return {};
     if (const auto* f = std::get_if<NumberField>(&field.target))

@@ -1,5 +1,5 @@
 #pragma once
-// What configuration files accept, as a JSON Schema (draft 2020-12) for editors and checkers of others.
+// Describes configuration files by a JSON Schema (draft 2020-12) for editors and checkers of others.
 //
 // A schema says which keys there are, their types, ranges, words and which are required. What keys must be to
 // each other (validate()), and what stands in files that a file names, it does not say. It has each choice in

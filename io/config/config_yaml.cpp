@@ -27,7 +27,7 @@ constexpr int kDeepest = 16;
 constexpr const char* kYamlRules =
     " (tabs are not allowed; a space comes after the colon; the keys of one mapping begin in one column)";
 
-// Where a value stands: in a file, or on the command line.
+// The place of a value: in a file, or on the command line.
 struct Place {
     std::string name;  // file, or "--set KEY"
     std::filesystem::path folder;
@@ -150,10 +150,10 @@ class Reader {
     // a shipped file names and is not shipped is the user's: a mesh to bring, a folder to write to. It lies
     // in the working directory.
     static std::filesystem::path found_from(const Place& place, const std::string& name) {
-        const std::filesystem::path own = place.folder / name;
+        std::filesystem::path own = place.folder / name;
         std::error_code error;
         if (std::filesystem::exists(own, error)) return own;
-        const std::filesystem::path shipped = shipped_file(name);
+        std::filesystem::path shipped = shipped_file(name);
         if (!shipped.empty()) return shipped;
         return is_shipped(place.folder) ? std::filesystem::current_path() / name : own;
     }
@@ -203,7 +203,8 @@ class Reader {
         }
     }
 
-    // Where the key stands, or as much of the way to it as there is in this file or on the command line.
+    // Fails where the key stands, or at as much of the way to it as there is in this file or on the command
+    // line.
     [[noreturn]] void fail_at_key(const Place& place, const YAML::Node& map, const std::string& path,
                                   const KeyError& error) {
         const std::string whole = join(path, error.key());

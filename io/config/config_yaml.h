@@ -23,8 +23,8 @@ void read_config(const std::filesystem::path& file, const SectionField& root,
 void read_config_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                       const SectionField& root, std::span<const std::string> overrides = {});
 
-// Whether a file is a mapping with this key at its top: what kind of file it is. False for one that cannot be
-// read: read_config() says why.
+// True when a file is a mapping with this key at its top, which tells what kind of file it is. False for one
+// that cannot be read: read_config() says why.
 bool has_top_level_key(const std::filesystem::path& file, const std::string& key);
 
 }  // namespace hilcam

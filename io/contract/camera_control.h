@@ -10,8 +10,8 @@
 
 namespace hilcam {
 
-// What starts a frame that is not taken by the frame rate alone. Line0 is the camera's trigger wire: here the
-// command `expose`.
+// The source that starts a frame where it is not the frame rate alone. Line0 is the camera's trigger wire:
+// here the command `expose`.
 enum class TriggerSource : std::uint8_t { kSoftware, kLine0, kAction1 };
 
 struct CameraSettings {
@@ -44,18 +44,18 @@ struct SettingsChange {
 };
 
 struct CameraLimits {
-    int width = 0;  // of a frame without binning
+    int width = 0;  // width of a frame without binning
     int height = 0;
-    int bits = 0;                 // of a published DN
-    std::string color_pattern{};  // of the colour filter array, its first two rows: "RGGB"; empty: none
-    double least_exposure_s = 0, most_exposure_s = 0;
-    double least_gain_db = 0, most_gain_db = 0;
-    double most_black_level_dn = 0;
-    double least_frame_rate_hz = 0, most_frame_rate_hz = 0;
-    double most_trigger_delay_s = 10;
-    std::int64_t most_burst_frames = 65535;
-    std::int64_t most_binning = 1;  // 1, 2, 4, ... up to this along each axis; 1: fixed
-    double temperature_c = 0;       // of the detector
+    int bits = 0;                 // bits of a published DN
+    std::string color_pattern{};  // the first two rows of the colour filter array: "RGGB"; empty: none
+    double min_exposure_s = 0, max_exposure_s = 0;
+    double min_gain_db = 0, max_gain_db = 0;
+    double max_black_level_dn = 0;
+    double min_frame_rate_hz = 0, max_frame_rate_hz = 0;
+    double max_trigger_delay_s = 10;
+    std::int64_t max_burst_frames = 65535;
+    std::int64_t max_binning = 1;  // 1, 2, 4, ... up to this along each axis; 1: fixed
+    double temperature_c = 0;      // temperature of the detector
     // The camera sets them itself (a sequence, a line-scan shutter): any change is refused. With automatic
     // exposure on, the exposure is refused too.
     bool exposure_is_own = false, gain_is_own = false, frame_rate_is_own = false;
@@ -75,11 +75,11 @@ enum class TriggerResult : std::uint8_t {
 struct TriggerOrder {
     TriggerSource source = TriggerSource::kSoftware;
     std::int64_t at_monotonic_ns = 0;  // 0: now
-    // Not before then, too; ns = 0: none. Lockstep: the instant of the exposure's middle; ns = 0: a period
-    // on.
+    // The earliest simulated time, too; ns = 0: none. Lockstep: the instant of the exposure's middle; ns = 0:
+    // a period on.
     TimeTai at_simulated;
     std::int64_t frames = 0;     // 0: the settings' burst_frames
-    std::uint32_t sequence = 0;  // of the command
+    std::uint32_t sequence = 0;  // sequence number of the command
     bool at_any_time = false;    // lockstep: also not after the frame before
 };
 

@@ -63,30 +63,30 @@ struct StopCommand {};
 struct PingCommand {
     std::uint64_t token = 0;
 };
-// How simulated time goes on; and, whatever it asks for, one half of an exchange of clock readings
+// Says how simulated time goes on; whatever it asks for, it is also one half of an exchange of clock readings
 // (clock_filter.h).
 struct ClockCommand {
     enum class Action : std::uint8_t {
         kAsk = 0,
-        kScale = 1,   // so many simulated seconds in one of the machine's, now or when time goes on
+        kScale = 1,   // factor: simulated seconds in one of the machine's, now or when time goes on
         kPause = 2,   // simulated time stands
-        kResume = 3,  // and goes on
+        kResume = 3,  // time goes on
         kStep = 4,    // goes on for so long; while it stands or such a step is on its way
     } action = Action::kAsk;
     std::int64_t sender_ns = 0;  // the sender's own clock, whatever its epoch; comes back
     double scale = 1;
     std::int64_t step_ns = 0;
 };
-// How bright a lamp is from an instant on, until the next such command.
+// Sets how bright a lamp is from an instant on, until the next such command.
 struct LampCommand {
     std::uint16_t lamp = 0;  // from 1, in the scenario's order
     TimeTai time;            // ns = 0: on arrival
     double level = 0;        // 0: off; 1: as its data sheet says
 };
-inline constexpr double kLeastClockScale = 1e-3, kMostClockScale = 1e3;
-inline constexpr std::int64_t kMostClockStep_ns = 10'000'000'000'000'000;  // 116 days
+inline constexpr double kMinClockScale = 1e-3, kMaxClockScale = 1e3;
+inline constexpr std::int64_t kMaxClockStep_ns = 10'000'000'000'000'000;  // 116 days
 
-// In the order of their function codes.
+// The commands stand in the order of their function codes.
 using Command = std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand,
                              JointCommand, FaultCommand, ExposeCommand, TriggerModeCommand, SubscribeCommand,
                              ClockCommand, LampCommand>;
@@ -99,8 +99,8 @@ struct ClockReading {
     TimeTai arrival, departure;
     std::int64_t arrival_monotonic_ns = 0, departure_monotonic_ns = 0;
     double scale = 1;  // in force when time runs, also while it stands
-    TimeTai stands_at{
-        std::numeric_limits<std::int64_t>::max()};  // as yet; the last instant there is: nowhere
+    TimeTai stands_at{ // The end that is known as yet; the last instant there is: nowhere.
+                      std::numeric_limits<std::int64_t>::max()};
 };
 
 // Travels in the acknowledgement; the numbers are part of the protocol.
@@ -120,22 +120,22 @@ enum class CommandStatus : std::uint8_t {
     kTimeBackwards = 11,  // a time tag before the newest of its thing, where that is to be refused
 };
 
-// What is to be said of an accepted command.
+// The remarks about an accepted command.
 struct CommandNotes {
     bool went_back = false;    // its time tag lies before the newest of its thing: a sender's clock is wrong
     bool tell_sender = false;  // that, in the acknowledgement
 };
 
-// Of a command that has arrived.
+// The source of a command that has arrived.
 struct CommandSource {
     std::uint32_t sequence = 0;
     std::int64_t arrival_monotonic_ns = 0;
     std::uint16_t camera = 0;  // that it is for, from 1; 0: every one. Poses, angles and lamps are for all.
     CommandNotes* notes = nullptr;  // to be filled, also when it is refused; may be null
-    std::uint16_t event = 0;        // of the scenario, from 1, that gave it; 0: a sender
+    std::uint16_t event = 0;        // event of the scenario that gave it, from 1; 0: a sender
 };
 
-// What the emulator does with a decoded command. Called by the receivers' threads, one at a time per
+// The emulator's side: carries out decoded commands. Called by the receivers' threads, one at a time per
 // receiver.
 class CommandHandler {
   public:
@@ -143,7 +143,7 @@ class CommandHandler {
     virtual CommandStatus handle(const Command& command, const CommandSource& source) = 0;
     // Simulated time now.
     virtual TimeTai now() const = 0;
-    // For the answer to a ClockCommand that came then.
+    // Reads the clock for the answer to a ClockCommand that came then.
     virtual ClockReading read_clock(std::int64_t arrival_monotonic_ns) const {
         ClockReading reading;
         reading.arrival = reading.departure = now();
@@ -159,7 +159,7 @@ struct CommandReport {
     std::uint64_t lost = 0;           // gaps in the senders' sequence numbers, less what came late
     std::uint64_t duplicates = 0;     // packets whose number had come before
     std::uint64_t went_back = 0;      // poses and angles whose time tag went back
-    std::uint64_t skipped_bytes = 0;  // of streams, between packets
+    std::uint64_t skipped_bytes = 0;  // bytes of streams that lay between packets
     std::uint64_t strangers = 0;      // connections and datagrams of senders that are not allowed
     std::uint64_t cut_off = 0;        // clients that did not read their answers
     std::uint64_t clients = 0;        // connected now; over UDP: heard within a minute

@@ -12,7 +12,7 @@ struct Kind {
     FaultKind kind;
     std::string_view name, meaning;
     bool once = false;
-    double least = 0, most = 0;  // of the value; equal: it has none
+    double least = 0, most = 0;  // range of the value; equal: it has none
 };
 
 constexpr std::array<Kind, kAllFaults.size()> kKinds = {{
@@ -101,16 +101,15 @@ std::string_view refusal_of(const FaultOrder& o) {
 }
 
 // --- the board
-// -----------------------------------------------------------------------------------------------------
 
 struct FaultBoard::State {
     FaultOrder order;
-    std::uint64_t number = 0;  // of the order; 0: none yet
+    std::uint64_t number = 0;  // number of the order; 0: none yet
     std::int64_t since_ns = 0, until_ns = 0;
 
     bool covers(std::uint64_t frame) const {
         if (number == 0 || order.rate <= 0) return false;
-        // What belongs to no frame is struck whatever the span of frames.
+        // An item that belongs to no frame is struck whatever the span of frames.
         if (frame != 0 && frame < order.from_frame) return false;
         if (frame != 0 && order.frames != 0 && frame >= order.from_frame + order.frames) return false;
         return until_ns == 0 || monotonic_ns() < until_ns;
@@ -223,7 +222,7 @@ std::optional<double> FaultBoard::strikes(FaultKind kind, std::uint64_t frame, s
     if (!value) return {};
     Cell& c = cells_[place_of(kind)];
     if (kKinds[place_of(kind)].once) {
-        // Of several threads that ask, one gets it.
+        // When several threads ask, one gets it.
         const std::uint64_t number = c.order.load();
         if (c.struck_order.exchange(number) == number) return {};
     }

@@ -31,7 +31,7 @@ enum class FaultKind : std::uint8_t {
     kResendWrongId = 12,  // value: added to the packet id
     kBandwidthCap = 13,   // value: MB/s
     // Whole frames.
-    kFrameDrop = 20,    // not sent; its block id is skipped
+    kFrameDrop = 20,    // a frame is not sent; its block id is skipped
     kFrameRepeat = 21,  // the frame before is sent in its place
     kWrongSizeY = 22,   // value: added to the trailer's size_y
     // Time stamps.
@@ -58,7 +58,7 @@ enum class FaultKind : std::uint8_t {
     kUsbDetach = 70,
     kUsbShortTransfer = 71,
     kUsbStall = 72,
-    kUsbBadCrc = 73,  // of acknowledgements and telemetry
+    kUsbBadCrc = 73,  // breaks the check of acknowledgements and telemetry
     // The picture.
     kImageStuck = 80,  // the picture of the frame before
     kImageBlack = 81,
@@ -88,7 +88,7 @@ inline constexpr std::array kAllFaults = {
 // last as PacketDrop). Empty for no kind.
 std::string_view name_of(FaultKind kind);
 std::optional<FaultKind> fault_named(std::string_view name);
-// What it does and what its value means, one line.
+// Says in one line what it does and what its value means.
 std::string_view meaning_of(FaultKind kind);
 // The kind's bit in FrameRecord::faults and ChunkFaults: its place in kAllFaults.
 std::uint64_t bit_of(FaultKind kind);
@@ -129,7 +129,7 @@ class FaultBoard {
     bool within_span(FaultKind kind, std::uint64_t frame) const;
     // Strikes that the caller has drawn by himself.
     void count(FaultKind kind, std::uint64_t frame, std::uint64_t strikes, double value);
-    // When the present order came [CLOCK_MONOTONIC ns].
+    // Returns when the present order came [CLOCK_MONOTONIC ns].
     std::int64_t since_monotonic_ns(FaultKind kind) const;
 
     std::uint64_t strikes_of(FaultKind kind) const;

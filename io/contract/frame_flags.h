@@ -26,7 +26,7 @@ inline constexpr std::array<FrameFlag, 4> kFrameFlags = {{
     {kTagsWentBackBit, "tags_went_back"},
 }};
 
-// Of FrameRecord::faults, faults and flags.
+// Returns the names of the bits of FrameRecord::faults: faults and flags.
 std::vector<std::string_view> names_of_bits(std::uint64_t bits);
 
 }  // namespace hilcam

@@ -22,7 +22,7 @@ class FrameMailbox {
     FrameMailbox(int width, int height, std::size_t slots) : items_(slots) {
         for (Item& item : items_) item.frame = DnImage(width, height);
     }
-    // From here to close() a thread takes what is put in. Owner thread.
+    // Opens the mailbox: from here to close() a thread takes what is put in. Owner thread.
     void open() { open_.store(true, std::memory_order_relaxed); }
     // Loop, one thread.
     void put(const DnImage& frame, const FrameRecord& record) noexcept {

@@ -1,6 +1,6 @@
 #pragma once
-// Where finished frames go: a GigE Vision client, a V4L2 device, files. The loop hands every sink every
-// frame.
+// A sink takes finished frames: for a GigE Vision client, a V4L2 device, files. The loop hands every sink
+// every frame.
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace hilcam {
 
-// What travels with a frame. Monotonic times are CLOCK_MONOTONIC nanoseconds; 0 means "none".
+// The data that travel with a frame. Monotonic times are CLOCK_MONOTONIC nanoseconds; 0 means "none".
 struct FrameRecord {
     std::uint64_t id = 0;                        // 1, 2, 3, ... of this run; skipped frames leave a gap
     TimeTai exposure_mid;                        // simulated time
@@ -24,15 +24,16 @@ struct FrameRecord {
     double black_level_dn = 0;
     int bits = 0;  // significant bits of a DN
     std::int64_t binning_x = 1, binning_y = 1;
-    std::uint32_t pose_sequence = 0;     // of the newest command that had arrived when rendering began
+    // Sequence number of the newest command that had arrived when rendering began.
+    std::uint32_t pose_sequence = 0;
     TimeTai pose_time;                   // that command's time tag
-    std::uint32_t trigger_sequence = 0;  // of the `expose` that asked for it
+    std::uint32_t trigger_sequence = 0;  // sequence number of the `expose` that asked for it
     std::uint64_t faults =
         0;  // bits of the faults that strike it (fault.h), those of packets apart; and above
     std::uint32_t quality_level = 0;  // 0: as configured
     bool reverse_x = false, reverse_y = false;
-    bool has_truth = false;  // what it shows is told (docs/truth.md)
-    // Of the camera at mid-exposure, its pointing jitter in it; none: the shutter stayed closed.
+    bool has_truth = false;  // its truth is given out (docs/truth.md)
+    // Pose of the camera at mid-exposure, its pointing jitter in it; none: the shutter stayed closed.
     std::optional<Pose> camera;
     std::int64_t command_arrival_monotonic_ns =
         0;  // when that command arrived; 0 when no new one came since the last frame
@@ -47,7 +48,7 @@ struct SinkReport {
     std::vector<std::pair<std::string, double>> figures{};
 };
 
-// What happens to a frame before it is there.
+// The events that happen to a frame before it is there.
 struct CameraEvent {
     enum class Kind : std::uint8_t { kExposureStart, kExposureEnd, kTriggerMissed } kind;
     std::uint64_t frame = 0;  // 0: of none (a missed trigger)
@@ -89,7 +90,7 @@ class DeliveryListener {
 class CameraControl;
 class FaultBoard;
 
-// What a sink lives among; all of it outlives the sink.
+// The surroundings of a sink; all of it outlives the sink.
 struct SinkContext {
     CameraControl& camera;
     FaultBoard& faults;

@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kDigits = 8;  // of a frame's number in a file's name, at least
+constexpr std::size_t kDigits = 8;  // digits of a frame's number in a file's name, at least
 
 std::vector<std::filesystem::path> files_of_run(const RunFolder& f) {
     std::vector<std::filesystem::path> found;

@@ -22,8 +22,8 @@ struct RunFolder {
     bool overwrite = false;
 };
 
-// What the folder holds of another run: "outputs.files.folder: found 'out', which holds 200 files of another
-// run ('frame_00000001.png' is one); ...". Empty: nothing. Changes nothing.
+// Says what the folder holds of another run: "outputs.files.folder: found 'out', which holds 200 files of
+// another run ('frame_00000001.png' is one); ...". Empty: nothing. Changes nothing.
 std::string used_by_another_run(const RunFolder& folder);
 // Throws InputError with that text, unless the folder may be overwritten. Changes nothing.
 void require_unused(const RunFolder& folder);

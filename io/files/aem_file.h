@@ -19,7 +19,7 @@ namespace hilcam {
 struct AttitudeSample {
     TimeTai time;
     Quat reference_from_body;  // neighbours have the same sign
-    Vec3d rate_body_rad_s;     // of the body against the reference; where the segment has rates
+    Vec3d rate_body_rad_s;     // rate of the body against the reference; where the segment has rates
 };
 
 struct AemSegment {
@@ -29,16 +29,16 @@ struct AemSegment {
     Interpolation interpolation;
     bool has_rates = false;
     std::vector<AttitudeSample> attitudes;  // times rise; at least two, and enough for the interpolation
-    int line = 0;                           // of META_START
+    int line = 0;                           // line of META_START
 };
 
-// As load_oem(): the segments of one object, in time, at most 256 MiB. HERMITE without rates in the message
-// (as in the standard's own example) takes as many attitudes as LAGRANGE of its degree. Throws InputError
-// with file:line.
+// Loads the segments of one object, in time, at most 256 MiB, as load_oem() does. HERMITE without rates in
+// the message (as in the standard's own example) takes as many attitudes as LAGRANGE of its degree. Throws
+// InputError with file:line.
 std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object = "");
 std::vector<AemSegment> read_aem(std::string_view text, const std::string& name,
                                  const std::string& object = "");
-// How many attitudes an interpolation of the segment takes.
+// Returns how many attitudes an interpolation of the segment takes.
 int interpolation_nodes(const AemSegment& segment);
 
 }  // namespace hilcam

@@ -16,7 +16,7 @@
 
 namespace hilcam {
 
-// By the file's ending: .csv or .binary. Throws InputError with file, line and what is missing.
+// Reads the file by its ending: .csv or .binary. Throws InputError with file, line and what is missing.
 BrdfTable read_brdf(const std::filesystem::path& file, const SpectralGrid& grid);
 
 }  // namespace hilcam

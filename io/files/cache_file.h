@@ -34,7 +34,7 @@ class CacheWriter {
     std::ofstream out_;
 };
 
-// After the first value that is not there whole, nothing is read any more.
+// Reads values; after the first that is not there whole, nothing is read any more.
 class CacheReader {
   public:
     explicit CacheReader(const std::filesystem::path& file);

@@ -1,5 +1,5 @@
 #pragma once
-// What CCSDS ephemeris messages have in common in their KVN form (keyword = value notation): lines, epochs,
+// The common part of CCSDS ephemeris messages in their KVN form (keyword = value notation): lines, epochs,
 // frames, time systems. CCSDS 502.0-B-3 (2023) section 7 and 504.0-B-2 (2024) section 6; earlier issues
 // differ in the keywords their readers name.
 
@@ -17,7 +17,7 @@ namespace hilcam {
 // A line that says something; blank ones and comments are passed over.
 struct KvnLine {
     std::string_view text;        // trimmed
-    std::string_view key, value;  // of "KEY = VALUE", trimmed; empty in other lines
+    std::string_view key, value;  // the parts of "KEY = VALUE", trimmed; empty in other lines
 };
 
 // A keyword and where it stands.
@@ -56,8 +56,8 @@ struct Interpolation {
     InterpolationMethod method = InterpolationMethod::kUnsaid;
     int degree = 0;
 };
-inline constexpr int kMostInterpolationDegree = 31;
-// How many states it takes: degree + 1, of Hermite half as many, as each has a rate, too.
+inline constexpr int kMaxInterpolationDegree = 31;
+// Returns how many states it takes: degree + 1, or for Hermite half as many, as each has a rate, too.
 int interpolation_nodes(const Interpolation& interpolation);
 
 // The span of a segment: from START_TIME to STOP_TIME, which data must not leave, and what of it is to be
@@ -88,14 +88,14 @@ class KvnSection {
 // Samples have a `time`; line: of the segment.
 template <class Sample>
 void check_steps(const TextLines& lines, const std::vector<Sample>& samples, int line) {
-    std::int64_t least_ns = INT64_MAX, most_ns = 0;
+    std::int64_t min_ns = INT64_MAX, max_ns = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) {
         const std::int64_t step_ns = samples[i].time - samples[i - 1].time;
-        least_ns = std::min(least_ns, step_ns), most_ns = std::max(most_ns, step_ns);
+        min_ns = std::min(min_ns, step_ns), max_ns = std::max(max_ns, step_ns);
     }
-    if (most_ns / 1'000'000 > least_ns)
-        lines.fail("the segment that begins here has steps of time from " + std::to_string(least_ns) +
-                       " to " + std::to_string(most_ns) + " ns; accepted: within a factor of a million",
+    if (max_ns / 1'000'000 > min_ns)
+        lines.fail("the segment that begins here has steps of time from " + std::to_string(min_ns) + " to " +
+                       std::to_string(max_ns) + " ns; accepted: within a factor of a million",
                    line);
 }
 

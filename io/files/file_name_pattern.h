@@ -28,7 +28,7 @@ class FileNamePattern {
         std::int64_t number = 1;
         std::string name;
     };
-    // Without the ending.
+    // Returns the name without the ending.
     std::string stem(const FrameRecord& record, const Camera& camera) const;
     const std::string& ending() const { return ending_; }
     // True for a file's name that a run with this pattern may have written, in any format, and for its view.

@@ -20,7 +20,7 @@ struct HeightMapConfig {
     HeightFormat format = HeightFormat::kInt16;
     double spacing_m = 1;
     double scale = 1;     // metres per unit of the file
-    double offset_m = 0;  // of the unit 0
+    double offset_m = 0;  // height of the value 0
 };
 Fields fields(HeightMapConfig& config);
 

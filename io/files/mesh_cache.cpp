@@ -13,13 +13,12 @@
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
-extern char** environ;
-
 namespace hilcam {
 namespace {
 
 int run(const std::filesystem::path& program, std::vector<std::string> words) {
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     pid_t child = 0;
@@ -91,7 +90,7 @@ std::filesystem::path generated_mesh(const std::string& program, const std::vect
         name += "_";
         for (const char c : word) name += plain(c) || c == '.' ? c : '-';
     }
-    const std::filesystem::path file = folder / (name + ".glb");
+    std::filesystem::path file = folder / (name + ".glb");
     if (std::filesystem::exists(file)) return file;
 
     const auto beside = helper_program(program);

@@ -12,8 +12,8 @@ namespace hilcam {
 // The folder of $HILCAM_CACHE, else $XDG_CACHE_HOME/hilcam, else ~/.cache/hilcam.
 std::filesystem::path cache_folder();
 
-// What hilcam has put into a cache folder: files of the names that it gives them, however old. Other files
-// are somebody else's: they are neither counted nor removed.
+// The size of what hilcam has put into a cache folder: files of the names that it gives them, however old.
+// Other files are somebody else's: they are neither counted nor removed.
 struct CacheSize {
     std::size_t files = 0;
     std::uintmax_t bytes = 0;

@@ -13,9 +13,9 @@
 namespace hilcam {
 namespace {
 
-// What any mesh may take: a node or a material is a kilobyte and more, and libraries have tables.
-constexpr std::uint64_t kLeastMemory_bytes = std::uint64_t{512} << 20;
-constexpr double kLeastCpu_s = 10;
+// The memory that any mesh may take: a node or a material is a kilobyte and more, and libraries have tables.
+constexpr std::uint64_t kMinMemory_bytes = std::uint64_t{512} << 20;
+constexpr double kMinCpu_s = 10;
 
 void write_surface(const MeshSurface& s, ConfinedOutput& out) {
     out.text(s.name);
@@ -66,7 +66,7 @@ void write_mesh(const Mesh& m, ConfinedOutput& out) {
     for (const Texture& t : m.textures) write_texture(t, out);
 }
 
-// What would lead astray whoever uses it: the child may have been broken by the file.
+// Checks for what would lead astray whoever uses it: the child may have been broken by the file.
 bool is_whole(const Mesh& m) {
     const auto all_below = [](const auto& values, std::size_t end) {
         return std::all_of(values.begin(), values.end(), [&](auto v) { return v < end; });
@@ -126,8 +126,8 @@ ConfinedResult read_confined(const std::filesystem::path& file, const Work& work
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
         throw refused(file.string(), "a file of kind " + in_quotes(kind), ".glb .gltf .obj .stl .ply");
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
-    const ConfinedLimits limits{kLeastMemory_bytes + kMeshMemoryPerByte * bytes,
-                                kLeastCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
+    const ConfinedLimits limits{kMinMemory_bytes + kMeshMemoryPerByte * bytes,
+                                kMinCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
     return run_confined(file.string(), limits, [&](ConfinedOutput& out) { work(kind, out); });
 }
 

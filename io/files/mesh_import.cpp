@@ -28,7 +28,7 @@ namespace hilcam {
 namespace {
 
 // All textures of a file together have at most so many: 3 GB of colours.
-constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 30;
 // Vertices, normals, places on textures, corners, and the same once more as assimp has them.
 constexpr std::uint64_t kBytesPerTriangle = 250;
 
@@ -51,7 +51,7 @@ class Loader {
         return std::move(mesh_);
     }
 
-    // What load() came across.
+    // The nodes that load() came across.
     std::vector<MeshNode>& nodes() { return found_nodes_; }
     std::uint64_t collapsed_triangles() const { return collapsed_triangles_; }
 
@@ -111,8 +111,8 @@ class Loader {
             path, file_.string() + ": texture " + in_quotes(path) + " of material " + in_quotes(material));
         texture.name = path;
         texels_ += texture.texels.size();
-        if (texels_ > kMostTexels)
-            refuse(file_, "its textures have more than " + std::to_string(kMostTexels) + " pixels together");
+        if (texels_ > kMaxTexels)
+            refuse(file_, "its textures have more than " + std::to_string(kMaxTexels) + " pixels together");
         mesh_.textures.push_back(std::move(texture));
         return texture_index_[path] = static_cast<int>(mesh_.textures.size()) - 1;
     }
@@ -134,7 +134,7 @@ class Loader {
         throw InputError(what + " is not compressed; accepted: PNG, JPEG, TIFF, BMP, WebP");
     }
 
-    // Which of the names takes a node, or -1.
+    // Returns which of the names takes a node, or -1.
     int taken_by(const std::string& name) const {
         for (std::size_t k = 0; k < nodes_.size(); ++k) {
             const std::string& pattern = nodes_[k];
@@ -244,7 +244,7 @@ class MeshFiles final : public Assimp::IOSystem {
         if (path_.ends_with(".obj")) materials_.add(bytes_, path_);
     }
 
-    // What is wrong with a file: assimp has words of its own for it, or goes on without the file.
+    // The error in a file: assimp has words of its own for it, or goes on without the file.
     const std::optional<InputError>& refused() const { return refused_; }
 
     bool Exists(const char* file) const override {
@@ -303,7 +303,7 @@ Source source_of(const std::filesystem::path& file, const std::string& kind) {
     return source;
 }
 
-// What the parts have once their nodes place them.
+// Returns the number of triangles that the parts have once their nodes place them.
 std::uint64_t placed_triangles(const aiNode& node, const std::vector<std::uint64_t>& of_mesh) {
     std::uint64_t sum = 0;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) sum += of_mesh[node.mMeshes[i]];
@@ -313,22 +313,22 @@ std::uint64_t placed_triangles(const aiNode& node, const std::vector<std::uint64
 
 // Called before anything is computed of it.
 void require_few(const aiScene& scene, const std::filesystem::path& file) {
-    if (scene.mNumMaterials > kMostMaterials) refuse_materials(scene.mNumMaterials, file.string());
+    if (scene.mNumMaterials > kMaxMaterials) refuse_materials(scene.mNumMaterials, file.string());
     std::vector<std::uint64_t> of_mesh(scene.mNumMeshes);
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
         const aiMesh& mesh = *scene.mMeshes[i];
         for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
             const unsigned corners = mesh.mFaces[k].mNumIndices;
-            if (corners > kMostCorners)
+            if (corners > kMaxCorners)
                 refuse(file, "has a polygon of " + std::to_string(corners) + " corners; accepted: at most " +
-                                 std::to_string(kMostCorners));
+                                 std::to_string(kMaxCorners));
             of_mesh[i] += std::max(3u, corners) - 2;
         }
     }
     const std::uint64_t triangles = scene.mRootNode ? placed_triangles(*scene.mRootNode, of_mesh) : 0;
-    if (triangles > kMostTriangles)
+    if (triangles > kMaxTriangles)
         refuse(file, "has " + std::to_string(triangles) + " triangles; accepted: at most " +
-                         std::to_string(kMostTriangles));
+                         std::to_string(kMaxTriangles));
     allow_more(kBytesPerTriangle * triangles, 1e-6 * static_cast<double>(triangles));
 }
 
@@ -346,7 +346,7 @@ void keep_importer_of(const std::string& kind, Assimp::Importer& importer) {
     const std::string_view ending = std::string_view(kind).substr(1);
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
         const aiImporterDesc& about = *importer.GetImporterInfo(i);
-        // Of glTF 1 and 2, which have the same endings.
+        // The importer of glTF 1 and that of glTF 2 have the same endings.
         const bool is_old = std::string_view(about.mName) == "glTF Importer";
         if (has_word(about.mFileExtensions, ending) && !is_old) continue;
         const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
@@ -361,7 +361,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const Source& source,
     auto* const files = new MeshFiles(source.path, source.bytes);  // the importer's from the next line on
     importer.SetIOHandler(files);
     const aiScene* scene = importer.ReadFile(source.path, 0);
-    if (files->refused()) throw *files->refused();
+    if (files->refused()) throw InputError(*files->refused());
     if (scene) {
         require_few(*scene, file);
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);

@@ -13,9 +13,9 @@
 
 namespace hilcam {
 
-// What mesh files, and what they name beside them, are opened as.
+// The kind as which mesh files, and the files that they name, are opened.
 const InputKind& mesh_kind();
-// What a byte of a mesh file may cost: a hundred times what large files take a megabyte.
+// The processor time that a byte of a mesh file may cost: a hundred times what large files take a megabyte.
 inline constexpr double kMeshCpu_s_byte = 3e-6;
 // A line of an OBJ becomes objects some tens of times its size.
 inline constexpr std::uint64_t kMeshMemoryPerByte = 64;
@@ -30,7 +30,8 @@ struct MeshNode {
 struct MeshContents {
     Mesh mesh;
     std::vector<MeshNode> nodes;
-    std::uint64_t collapsed_triangles = 0;  // with two corners at one place; the mesh is without them
+    // Triangles with two corners at one place; the mesh is without them.
+    std::uint64_t collapsed_triangles = 0;
 };
 // Does what load_mesh_contents() of mesh_file.h does; `kind` as below.
 MeshContents import_mesh_contents(const std::filesystem::path& file, const std::string& kind);

@@ -7,7 +7,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uintmax_t kMostOemBytes = 256u << 20;
+constexpr std::uintmax_t kMaxOemBytes = 256u << 20;
 constexpr double kKilometre_m = 1000;
 
 void read_header(KvnLines& lines, KvnLine& line) {
@@ -66,7 +66,7 @@ void read_state(const KvnLines& lines, const KvnLine& line, Metadata& m) {
     states.push_back({time, kKilometre_m * Vec3d{v[0], v[1], v[2]}, kKilometre_m * Vec3d{v[3], v[4], v[5]}});
 }
 
-// Whether the states reach over the usable span and are enough to interpolate.
+// Checks that the states reach over the usable span and are enough to interpolate.
 void check_states(const KvnLines& lines, const OemSegment& s) {
     const auto fewest = static_cast<std::size_t>(std::max(2, interpolation_nodes(s.interpolation)));
     if (s.states.size() < fewest)
@@ -141,7 +141,7 @@ std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
 }
 
 std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object) {
-    return read_oem(read_input_file(file, {kMostOemBytes, "an orbit ephemeris message (CCSDS OEM)"}),
+    return read_oem(read_input_file(file, {kMaxOemBytes, "an orbit ephemeris message (CCSDS OEM)"}),
                     file.string(), object);
 }
 

@@ -26,7 +26,7 @@ struct OemSegment {
     TimeTai usable_start, usable_stop;
     Interpolation interpolation;
     std::vector<StateSample> states;  // times rise; at least two, and enough for the interpolation
-    int line = 0;                     // of META_START
+    int line = 0;                     // line of META_START
 };
 
 // The segments of one object, in time; usable spans do not overlap. An empty `object`: of a message with only

@@ -24,11 +24,12 @@ struct FilesConfig {
     std::int64_t every_nth = 1;
     bool overwrite = false;
 };
-// What of it must not be mixed with another run.
+// Returns the part of its folder that must not be mixed with another run.
 RunFolder run_folder(const FilesConfig& config);
 Fields fields(FilesConfig& config);
 void validate(const FilesConfig& config);
-// What is to be said of the pictures before they are written: that they are dark in a viewer; or empty.
+// Returns what is to be said of the pictures before they are written: that they are dark in a viewer; or
+// nothing.
 std::string dark_picture_warning(const FilesConfig& config, int bits);
 
 class FilesSink : public FrameSink {

@@ -13,7 +13,7 @@ namespace hilcam {
 
 // Mean elements of SGP4 (emulator/motion/sgp4.h). Angles [rad].
 struct Tle {
-    std::string name;       // of the line above, without blanks around; may be empty
+    std::string name;       // name in the line above, without blanks around; may be empty
     std::string satellite;  // its number as written, five characters or fewer, blanks stripped
     TimeTai epoch;
     double epoch_days_1950 = 0;  // UTC days since 1949-12-31T00:00
@@ -24,7 +24,7 @@ struct Tle {
     double mean_anomaly_rad = 0;
     double mean_motion_rad_min = 0;  // Kozai's
     double bstar_per_er = 0;
-    int line = 0;  // of the file, where line 1 of the set stands
+    int line = 0;  // line of the file where line 1 of the set stands
 };
 
 enum class TleChecksum { kVerify, kIgnore };

@@ -22,7 +22,7 @@ Fd open_broadcast(std::uint32_t address) {
     }
 }
 
-void tell_interfaces(const Fd& socket) {
+void report_interfaces(const Fd& socket) {
     const int on = 1;
     if (socket) setsockopt(socket.get(), IPPROTO_IP, IP_PKTINFO, &on, sizeof on);
 }
@@ -71,7 +71,8 @@ GigeSockets::GigeSockets(const NetInterface& net)
       message_(open_udp(net.address, 0)) {
     broadcast_[0] = open_broadcast(INADDR_BROADCAST);
     if (net.mask != 0xFFFFFFFF) broadcast_[1] = open_broadcast(net.address | ~net.mask);
-    for (const Fd* socket : {&control_, &message_, &broadcast_[0], &broadcast_[1]}) tell_interfaces(*socket);
+    for (const Fd* socket : {&control_, &message_, &broadcast_[0], &broadcast_[1]})
+        report_interfaces(*socket);
     const int on = 1;  // an answer may be for everybody
     setsockopt(control_.get(), SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
     sockaddr_in own{};
@@ -119,7 +120,7 @@ std::uint64_t GigeSockets::take(const Receive& receive) {
 bool GigeSockets::is_heard(unsigned interface, bool broadcast) {
     if (interface == 0) return false;
     if (interface == interface_number_) return true;
-    // What a program of this machine sends to any address of this machine goes through the loopback
+    // A packet from a program of this machine to any address of this machine goes through the loopback
     // interface.
     if (interface == kLoopback && !broadcast) return true;
     char name[IF_NAMESIZE] = {};

@@ -29,8 +29,8 @@ class GigeSockets {
     std::uint16_t message_port() const { return message_port_; }
     // Waits for datagrams, for `wakeup` or for so long.
     void wait(const Fd& wakeup, std::int64_t timeout_ns);
-    // What wait() saw: (datagram, sender, whether it was broadcast). At most kAtOnce of each socket. Returns
-    // how many others were thrown away, because they came in by another interface.
+    // Gets what wait() saw: (datagram, sender, whether it was broadcast). At most kAtOnce of each socket.
+    // Returns how many others were thrown away, because they came in by another interface.
     using Receive = std::function<void(std::span<const std::uint8_t>, Endpoint, bool)>;
     static constexpr int kAtOnce = 16;
     std::uint64_t take(const Receive& receive);
@@ -44,7 +44,7 @@ class GigeSockets {
     bool is_heard(unsigned interface, bool broadcast);
 
     std::string interface_;
-    unsigned interface_number_;  // as it was last; a card that is plugged in again gets another
+    unsigned interface_number_;  // its last number; a card that is plugged in again gets another
     Fd control_, message_;
     std::array<Fd, 2> broadcast_;  // to everybody, to the subnet
     std::uint16_t message_port_ = 0;

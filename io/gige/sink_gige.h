@@ -20,11 +20,11 @@ struct GigeConfig {
     std::string interface = "127.0.0.1";  // IPv4 address or name of an interface
     std::string model = "hilcam";
     std::string serial = "HC000001";
-    std::string user_name = "";
+    std::string user_name;
     std::int64_t packet_bytes = 7680;  // before a client negotiates another; no more than the interface's MTU
     double rate_bytes_s = 400e6;       // upper limit of the stream
     bool multipart = false;            // announce it
-    double spread_fraction = 0.5;      // of a frame period: what a frame's packets may be spread over
+    double spread_fraction = 0.5;      // share of a frame period over which a frame's packets may be spread
 };
 Fields fields(GigeConfig& config);
 

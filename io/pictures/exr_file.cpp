@@ -79,7 +79,7 @@ std::vector<float> mean_of_bins(const RadianceImage& radiance, const SpectralGri
     return out;
 }
 
-// What viewers show of several bins.
+// Returns the planes that viewers show of several bins.
 std::vector<std::pair<std::string, std::vector<float>>> shown_planes(const RadianceImage& radiance,
                                                                      const SpectralGrid& grid) {
     const ColorBands bands(grid);

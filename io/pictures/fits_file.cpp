@@ -45,7 +45,7 @@ class Cards {
     void whole(std::string_view key, std::int64_t value, std::string_view comment) {
         fixed(key, std::to_string(value), comment);
     }
-    // What is no number has no form in a header.
+    // A value that is no number has no form in a header.
     void real(std::string_view key, double value, std::string_view comment) {
         if (std::isfinite(value)) fixed(key, real_text(value), comment);
     }
@@ -61,11 +61,11 @@ class Cards {
     }
     // Section 4.4.2.4: as many cards as it takes.
     void comment(const std::string& words) {
-        constexpr std::size_t kMost = 72;
+        constexpr std::size_t kMax = 72;
         std::istringstream in(printable(words));
         std::string line;
         for (std::string word; in >> word; line.append(line.empty() ? "" : " ").append(word)) {
-            if (line.size() + 1 + word.size() <= kMost) continue;
+            if (line.size() + 1 + word.size() <= kMax) continue;
             add("COMMENT " + line);
             line.clear();
         }

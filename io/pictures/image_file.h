@@ -49,7 +49,7 @@ std::string encode_numbers(const std::string& kind, const DnImage& numbers, cons
 std::string encode_frame(const std::string& kind, const DnImage& frame, const PictureRun& run,
                          const FrameRecord& record);
 
-// What is to be said when such numbers are written for somebody who may want to look at them; empty: nothing.
+// Returns a warning when such numbers are written for somebody who may want to look at them; empty: none.
 // remedy: what would make a picture to look at.
 std::string dark_picture_warning(const std::filesystem::path& file, int bits, const std::string& remedy);
 

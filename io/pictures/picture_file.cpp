@@ -13,8 +13,8 @@
 namespace hilcam {
 namespace {
 
-// What a pixel may take while it is decoded and copied: its colours twice, a strip of it as it is stored, and
-// what progressive JPEG and lossless WebP keep of all of it.
+// The bytes that a pixel may take while it is decoded and copied: its colours twice, a strip of it as it is
+// stored, and what progressive JPEG and lossless WebP keep of all of it.
 constexpr std::uint64_t kBytesPerPixel = 16;
 
 PictureKind require_size(PictureBytes bytes) {
@@ -121,7 +121,7 @@ PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign) {
     });
     const int width = result.value<int>(), height = result.value<int>();
     if (width < 1 || height < 1 ||
-        static_cast<std::uint64_t>(width) > kMostPicturePixels / static_cast<std::uint64_t>(height))
+        static_cast<std::uint64_t>(width) > kMaxPicturePixels / static_cast<std::uint64_t>(height))
         result.refuse();
     PixelMap map(width, height);
     for (int y = 0; y < height; ++y) {

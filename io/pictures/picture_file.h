@@ -15,7 +15,7 @@
 
 namespace hilcam {
 
-// What picture files are opened as.
+// The kind as which picture files are opened.
 const InputKind& picture_kind();
 
 // An 8-bit colour picture as a texture. InputError when it is too large or does not decode.

@@ -1,5 +1,5 @@
 #pragma once
-// What a picture says of itself, whatever its format: when and how it was taken, from where, and by which
+// The notes that a picture carries, whatever its format: when and how it was taken, from where, and by which
 // run. Each format writes the same notes in its own way; docs/pictures.md lists them. Nothing of the machine
 // or of the day is among them: the same picture is the same bytes.
 
@@ -17,7 +17,7 @@
 
 namespace hilcam {
 
-// What all pictures of a camera have in common.
+// The notes that all pictures of a camera have in common.
 struct PictureRun {
     std::string software;  // "hilcam 0.1.0"
     std::string scenario;  // its name
@@ -28,14 +28,14 @@ struct PictureRun {
 };
 
 struct PictureNote {
-    std::string key;   // as truth's lines have it (docs/truth.md)
+    std::string key;   // key as in the lines of truth (docs/truth.md)
     std::string fits;  // keyword in FITS, which a list's numbers follow; empty: FITS has words of its own
     std::variant<std::string, std::int64_t, double, std::vector<double>, std::vector<std::int64_t>> value;
-    std::string meaning;  // with its unit
+    std::string meaning;  // meaning, with its unit
 };
 using PictureNotes = std::vector<PictureNote>;
 
-// How the picture's pixels come from the camera's.
+// The way in which the picture's pixels come from the camera's.
 struct PictureLayout {
     FrameLayout frame;
     int oversampling = 1;  // pixels of the picture across one of the frame
@@ -51,7 +51,7 @@ const PictureNote* find_note(const PictureNotes& notes, std::string_view key);
 
 // Numbers with as many digits as bring them back; lists in brackets.
 std::string text_of(const PictureNote& note);
-// For PNG: `Software`, then each note by its key.
+// Returns the texts for PNG: `Software`, then each note by its key.
 std::vector<std::pair<std::string, std::string>> png_texts(const PictureNotes& notes);
 // One object of JSON, UTF-8.
 std::string json_of(const PictureNotes& notes);

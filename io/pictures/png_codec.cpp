@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-// What libpng reads from or writes to, and what it last complained of.
+// The bytes that libpng reads or writes, and its last complaint.
 struct PngPort {
     PictureBytes in;
     std::size_t at = 0;

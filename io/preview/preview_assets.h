@@ -7,7 +7,7 @@
 namespace hilcam {
 
 struct PreviewAsset {
-    const char* path;  // as it is asked for
+    const char* path;  // path by which it is asked for
     std::string_view text;
     const char* type;
 };

@@ -45,7 +45,8 @@ bool find_connection(int fd, std::uint16_t port, Connection& found) {
     return true;
 }
 
-// Who sent all of a request, as far as headers go, and waits for a worker does not dawdle.
+// True when all of a request has come, as far as headers go: who has sent that and waits for a worker does
+// not dawdle.
 bool has_request_unread(int fd) {
     std::array<char, 8192> bytes;
     const ssize_t size = recv(fd, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);

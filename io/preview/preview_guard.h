@@ -21,8 +21,8 @@ class ConnectionGuard {
     struct Limits {
         std::chrono::milliseconds age;
         std::uint64_t received_bytes;
-        // Until a request is there; the shorter one while more than `crowd` are connected, so that others do
-        // not wait for those who dawdle.
+        // Greatest time until a request is there; the shorter one holds while more than `crowd` are
+        // connected, so that others do not wait for those who dawdle.
         std::chrono::milliseconds request_age, request_age_in_crowd;
         std::size_t crowd;
         std::function<bool(std::uint32_t address)> allows;  // host order

@@ -1,7 +1,7 @@
 #pragma once
-// What the preview's page asks for, decoded from the text of a request: a part of the picture, new settings,
-// a trigger, a fault. Pure functions over outside bytes; what cannot be throws InputError with one line that
-// names the key, what was found and what is accepted.
+// Decodes what the preview's page asks for from the text of a request: a part of the picture, new settings, a
+// trigger, a fault. Pure functions over outside bytes; an impossible request throws InputError with one line
+// that names the key, what was found and what is accepted.
 
 #include <cstdint>
 #include <string>
@@ -33,7 +33,7 @@ PictureRequest parse_picture_request(std::string_view query);
 struct NumbersRequest {
     std::uint64_t viewer = 0;
     std::uint64_t frame = 0;  // one that is held, or the newest; 0: the newest
-    bool tiff = false;        // else PNG
+    bool tiff = false;        // true: TIFF, false: PNG
 };
 NumbersRequest parse_numbers_request(std::string_view query);
 // frame=ID.

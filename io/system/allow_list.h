@@ -1,6 +1,6 @@
 #pragma once
-// Who may talk to a listening socket: IPv4 addresses and networks. Loopback needs no list; any other address
-// does, so that nobody opens a camera to a network by leaving a line out.
+// The list of those who may talk to a listening socket: IPv4 addresses and networks. Loopback needs no list;
+// any other address does, so that nobody opens a camera to a network by leaving a line out.
 
 #include <cstdint>
 #include <string>

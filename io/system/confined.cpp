@@ -23,7 +23,7 @@
 namespace hilcam {
 namespace {
 
-// How a child ends. Others are those of libraries and sanitizers.
+// The status with which a child ends. Others are those of libraries and sanitizers.
 enum class Status : int { kDone = 0, kRefused = 100, kMemory = 101, kDevice = 102, kBroken = 103 };
 
 std::uint64_t page_bytes() { return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
@@ -120,7 +120,7 @@ bool wait_while_it_works(pid_t child, const Fd& alive, unsigned waiting_s) {
     }
 }
 
-// What a child's end says of the file. worked: it was not ended for waiting.
+// Says what a child's end means for the file. worked: it was not ended for waiting.
 std::string reason_of(int status, bool worked) {
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (!worked) return "its reader waits for something that does not come";

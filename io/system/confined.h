@@ -20,7 +20,8 @@
 
 namespace hilcam {
 
-// What the child may take from the start. The work asks for more as it learns of more (allow_more()).
+// The resources that the child may take from the start. The work asks for more as it learns of more
+// (allow_more()).
 struct ConfinedLimits {
     std::uint64_t memory_bytes;  // beyond what the program has when the child begins
     double cpu_s;                // processor time

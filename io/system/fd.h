@@ -50,7 +50,7 @@ sockaddr_un unix_address(const std::string& path);
 // An eventfd that wakes a poll().
 Fd open_wakeup();
 void wake(const Fd& wakeup);
-// After it, poll() waits again.
+// Empties the wakeup; after it, poll() waits again.
 void drain(const Fd& wakeup);
 
 }  // namespace hilcam

@@ -19,7 +19,7 @@ inline void sleep_until_monotonic_ns(std::int64_t ns) {
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) != 0) {
     }
 }
-// How long the process's threads have had a processor, all together.
+// Returns how long the process's threads have had a processor, all together.
 inline std::int64_t processor_ns() { return clock_ns(CLOCK_PROCESS_CPUTIME_ID); }
 
 }  // namespace hilcam

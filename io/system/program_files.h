@@ -1,5 +1,5 @@
 #pragma once
-// What belongs to the program: the files that are shipped with it, and the programs that it starts.
+// The files that belong to the program: those that are shipped with it, and the programs that it starts.
 //
 // They are sought from where the running program lies, so that an installed tree may be moved; then in the
 // prefix that it was configured for. A build tree has a link to the source tree's configs in the place of

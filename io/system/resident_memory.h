@@ -1,5 +1,5 @@
 #pragma once
-// How much of the machine's memory this process holds: its resident set.
+// Measures how much of the machine's memory this process holds: its resident set.
 
 #include "io/system/fd.h"
 

@@ -17,7 +17,7 @@ struct Format {
     WireFormat format;
     std::string_view name;  // Bayer's: what follows "BayerRG"
     std::uint32_t code;     // Bayer's: of GRBG (PFNC 2.4; the "Packed" ones: GigE Vision 1.2)
-    int bits;               // of a sample
+    int bits;               // bits of a sample
     bool mosaic = false;
 };
 constexpr std::array<Format, 16> kFormats = {{
@@ -51,7 +51,7 @@ std::uint32_t place_of(BayerPattern pattern) {
     return static_cast<std::uint32_t>(at - kPatterns.begin());
 }
 
-// From a DN's bits to a sample's: upwards by a power of two, downwards by truncation.
+// Shifts a DN's bits to a sample's: upwards by a power of two, downwards by truncation.
 struct Shift {
     int up = 0, down = 0;
     Shift(int from_bits, int to_bits)
@@ -69,7 +69,6 @@ struct Source {
 };
 
 // --- one sample a pixel
-// ----------------------------------------------------------------------------------------------------------
 
 void write_bytes(const Source& s, std::uint8_t* out) {
     const std::size_t width = s.width();
@@ -115,7 +114,6 @@ void write_packed(const Source& s, const PixelLayout& layout, std::uint16_t* row
 }
 
 // --- colours
-// ---------------------------------------------------------------------------------------------------------------------
 
 constexpr int mirrored(int at, int size) {
     if (size == 1) return 0;
@@ -212,7 +210,7 @@ void write_rgb(const Source& s, BayerPattern pattern, std::span<std::uint16_t> s
 std::uint8_t luma(unsigned r, unsigned g, unsigned b) {
     return static_cast<std::uint8_t>((19595 * r + 38470 * g + 7471 * b + 32768) >> 16);
 }
-// Of the sum of two pixels, so that one difference serves both.
+// Takes the sum of two pixels, so that one difference serves both.
 std::uint8_t blue_difference(int r, int g, int b) {
     const int value = 32768 * b - 11059 * r - 21709 * g;
     return static_cast<std::uint8_t>(std::clamp(((value + 65536) >> 17) + 128, 0, 255));
@@ -243,7 +241,7 @@ void write_yuyv(const Source& s, BayerPattern pattern, std::span<std::uint16_t> 
 
 std::string bayer_pattern_of(std::string_view rows) {
     if (rows.size() != 5 || rows[2] != ' ') return {};
-    const std::string pattern = std::string(rows.substr(0, 2)) + std::string(rows.substr(3, 2));
+    std::string pattern = std::string(rows.substr(0, 2)) + std::string(rows.substr(3, 2));
     for (const char* known : {"RGGB", "GRBG", "GBRG", "BGGR"})
         if (pattern == known) return pattern;
     return {};

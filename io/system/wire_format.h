@@ -37,9 +37,10 @@ enum class WireFormat : std::uint8_t {
     kYuyv,
 };
 
-// Where a window begins decides the phase of its mosaic: "RGGB", "GRBG", "GBRG", "BGGR"; empty: no filters.
+// The phase of a window's mosaic, which depends on where the window begins: "RGGB", "GRBG", "GBRG", "BGGR";
+// empty: no filters.
 using BayerPattern = std::string_view;
-// Of a colour filter array's rows, "RG GB"; empty when it is none of the four.
+// Returns the pattern of a colour filter array's rows, "RG GB"; empty when it is none of the four.
 std::string bayer_pattern_of(std::string_view rows);
 // The pattern as seen from an offset.
 BayerPattern shifted(BayerPattern pattern, int offset_x, int offset_y);

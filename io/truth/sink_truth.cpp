@@ -10,10 +10,10 @@
 namespace hilcam {
 namespace {
 
-// Than those that make frames; the preview's threads are nicer still.
+// Niceness above the threads that make frames; the preview's threads are nicer still.
 constexpr int kNicer = 10;
-// Of an IPv4 datagram: 65535 bytes less the headers of IP and UDP.
-constexpr std::size_t kMostDatagramBytes = 65507;
+// The bytes that an IPv4 datagram holds: 65535 less the headers of IP and UDP.
+constexpr std::size_t kMaxDatagramBytes = 65507;
 
 LineServerSetup port_of(const TruthConfig& c) {
     return {c.address, static_cast<std::uint16_t>(c.port), c.allow, static_cast<std::size_t>(c.clients),
@@ -53,7 +53,7 @@ void TruthSink::start() {
         nice_.release();
         run();
     });
-    nice_.acquire();  // who raises threads later leaves this one as it is
+    nice_.acquire();  // whoever raises threads later leaves this one as it is
 }
 
 FrameTruth* TruthSink::begin(const FrameRecord& record) noexcept {
@@ -80,7 +80,7 @@ FrameTruth* TruthSink::begin(const FrameRecord& record) noexcept {
 void TruthSink::publish(const DnImage&, const FrameRecord& record) noexcept {
     const std::size_t ready = ready_.load(std::memory_order_relaxed);
     Slot& slot = *slots_[ready % slots_.size()];
-    // Of a frame without truth the slot holds another's: an earlier one's, or that of the frame after it.
+    // The slot of a frame without truth holds another's: an earlier one's, or that of the frame after it.
     if (slot.frame.load(std::memory_order_relaxed) != record.id) return;
     slot.record = record;
     ready_.store(ready + 1, std::memory_order_release);
@@ -120,13 +120,13 @@ void TruthSink::deliver(const Slot& slot) {
     const std::string line = document_.line(slot.truth, slot.record);
     if (slot.for_listener) listener_->take_truth(slot.record.id, line);
     if (!slot.for_outputs) return;
-    if (server_) server_->tell(line + "\n");
+    if (server_) server_->notify(line + "\n");
     if (!destinations_.empty()) send_datagrams(slot.truth, slot.record, line);
     if (files_) files_->write(slot.truth, slot.record.id, line, document_.legend(slot.truth));
 }
 
 void TruthSink::send_datagrams(const FrameTruth& truth, const FrameRecord& record, const std::string& line) {
-    const bool fits = line.size() <= kMostDatagramBytes;
+    const bool fits = line.size() <= kMaxDatagramBytes;
     const std::string shorter = fits ? std::string() : document_.line(truth, record, false);
     const std::string& text = fits ? line : shorter;
     for (const sockaddr_in& to : destinations_)
@@ -135,7 +135,7 @@ void TruthSink::send_datagrams(const FrameTruth& truth, const FrameRecord& recor
             not_sent_.fetch_add(1, std::memory_order_relaxed);
 }
 
-// What was handed over is still delivered.
+// Stops the thread; what was handed over is still delivered.
 void TruthSink::stop() noexcept {
     if (!thread_.joinable()) return;
     open_.store(false);

@@ -1,5 +1,5 @@
 #pragma once
-// Who gets the truth of a camera's frames, and which (docs/truth.md).
+// Says who gets the truth of a camera's frames, and which truth (docs/truth.md).
 
 #include <cstdint>
 #include <filesystem>
@@ -29,9 +29,9 @@ struct TruthConfig {
 Fields fields(TruthConfig& config);
 void validate(const TruthConfig& config);
 
-// What of its folder must not be mixed with another run; the folder is not empty.
+// Returns the part of its folder that must not be mixed with another run; the folder is not empty.
 RunFolder run_folder(const TruthConfig& config);
-// What the renderer is asked for; thing_of_object is left empty.
+// Returns what the renderer is asked for; thing_of_object is left empty.
 TruthWishes wishes_of(const TruthConfig& config);
 
 }  // namespace hilcam

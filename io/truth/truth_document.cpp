@@ -12,9 +12,9 @@ namespace {
 // Keys stay in the order in which they are written here.
 using Json = nlohmann::ordered_json;
 
-// To a millionth of a pixel: more digits say nothing.
+// Rounds to a millionth of a pixel: more digits say nothing.
 double tidy_px(double px) { return std::round(px * 1e6) / 1e6; }
-// As single precision has it, without the tail.
+// Rounds to the digits of single precision, without the tail.
 double tidy(float value) { return std::round(static_cast<double>(value) * 1e4) / 1e4; }
 
 Json of(Vec3d v) { return Json::array({v.x, v.y, v.z}); }
@@ -54,7 +54,7 @@ Json image_of(const FrameTruth& t, const FrameRecord& record, const CameraModel&
              fisheye ? Json::array({d.k1, d.k2, d.k3, d.k4}) : Json::array({d.k1, d.k2, d.p1, d.p2, d.k3})}};
 }
 
-// What objects and bodies share; the Sun has no axes.
+// Returns the part that objects and bodies share; the Sun has no axes.
 Json thing_of(const SeenThing& thing, const std::string& name, const TruthWishes& wishes) {
     Json out = {{"id", thing.id}, {"name", name}, {"position_m", of(thing.world.position_world_m)}};
     const bool has_axes = thing.id != kSunId;

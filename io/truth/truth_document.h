@@ -13,7 +13,7 @@
 
 namespace hilcam {
 
-// What tells one run's labels from another's.
+// A label tells one run's labels from another's.
 struct RunLabel {
     std::string id;        // no other run's
     std::string scenario;  // its name
@@ -21,12 +21,12 @@ struct RunLabel {
     std::string program;  // "hilcam 0.1.0"
 };
 
-// Whose truth it is; the same for all frames of a run.
+// The source of the truth; the same for all frames of a run.
 struct TruthSource {
     RunLabel run{};
     int camera = 1;  // its number on the bench
     CameraModel model;
-    int oversampling = 1;  // of the radiance image
+    int oversampling = 1;  // oversampling of the radiance image
     SpectralGrid grid{{0.4, 0.7}};
     std::vector<std::string> things;  // names of the objects, by number from 1
     std::vector<std::string> parts;   // names of the renderer's objects
@@ -39,7 +39,7 @@ class TruthDocument {
 
     // The first line of a file of lines: whose they are. Without a newline. Any thread.
     std::string header() const;
-    // Without a newline. What is unknown or not finite is null. Any thread.
+    // Returns a line without a newline. What is unknown or not finite is null. Any thread.
     std::string line(const FrameTruth& truth, const FrameRecord& record, bool with_stars = true) const;
     // "1 target", "1000399 earth": of the object layer's numbers, those that this frame can have.
     std::vector<std::string> legend(const FrameTruth& truth) const;

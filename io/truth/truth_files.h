@@ -17,7 +17,7 @@
 
 namespace hilcam {
 
-// Only the layers that were asked for. DeviceError when it cannot be written; then there is no file.
+// Writes only the layers that were asked for. DeviceError when it cannot be written; then there is no file.
 void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
                      std::span<const std::string> legend);
 
@@ -26,7 +26,7 @@ void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
 // is 65535.
 void write_object_mask(const std::filesystem::path& file, const FrameTruth& truth,
                        std::span<const std::string> legend);
-// What stands for an id in it.
+// Returns the number that stands for an id in it.
 std::uint16_t mask_number(std::uint32_t id);
 inline constexpr std::string_view kTruthLines = "truth.jsonl";
 
@@ -44,13 +44,13 @@ class TruthFiles {
   private:
     std::filesystem::path folder_;
     Fd lines_;
-    off_t lines_bytes_ = 0;  // of whole lines
+    off_t lines_bytes_ = 0;  // bytes of whole lines
 
     void add_line(std::string_view line);
 };
 
-// Where the truth of a single picture goes: FOLDER/NAME.truth.jsonl and FOLDER/NAME.truth.exr for NAME.png.
-// No run has files of such names.
+// The files for the truth of a single picture: FOLDER/NAME.truth.jsonl and FOLDER/NAME.truth.exr for
+// NAME.png. No run has files of such names.
 struct PictureTruthFiles {
     std::filesystem::path lines, layers, mask;
 };

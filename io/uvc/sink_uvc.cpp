@@ -29,10 +29,9 @@ UvcStreamShape shape_of(const UvcConfig& config, int width, int height, const Ca
     UvcStreamShape shape;
     shape.width = width;
     shape.height = height;
-    shape.intervals_100ns =
-        uvc_intervals(camera.settings().frame_rate_hz, camera.limits().most_frame_rate_hz);
+    shape.intervals_100ns = uvc_intervals(camera.settings().frame_rate_hz, camera.limits().max_frame_rate_hz);
     shape.preset_100ns = uvc_interval(camera.settings().frame_rate_hz);
-    shape.most_payload_bytes = static_cast<std::uint32_t>(config.packet_bytes);
+    shape.max_payload_bytes = static_cast<std::uint32_t>(config.packet_bytes);
     return shape;
 }
 
@@ -92,7 +91,6 @@ bool UvcSink::open_video() {
 }
 
 // --- the host's requests
-// -------------------------------------------------------------------------------------
 
 void UvcSink::answer_host() {
     pollfd waits[2] = {{wakeup_.get(), POLLIN, 0}, {-1, POLLPRI, 0}};
@@ -176,7 +174,6 @@ void UvcSink::take_data(const v4l2_event& event) {
 }
 
 // --- pictures
-// --------------------------------------------------------------------------------------------------
 
 void UvcSink::begin_stream() {
     const std::lock_guard lock(buffers_mutex_);

@@ -194,7 +194,7 @@ void UvcGadget::remove() noexcept {
     if (!made_) return;
     made_ = false;
     write_file(root() / kGadget / "UDC", "");
-    // What was made last goes first; the kernel's own files go with their folders.
+    // The last thing that was made goes first; the kernel's own files go with their folders.
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
         if (step->kind == ConfigfsStep::Kind::kLink) ::unlink((root() / step->path).c_str());
         if (step->kind == ConfigfsStep::Kind::kFolder) ::rmdir((root() / step->path).c_str());

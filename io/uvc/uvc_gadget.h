@@ -30,7 +30,7 @@ Fields fields(UvcConfig& config);
 struct ConfigfsStep {
     enum class Kind { kFolder, kFile, kLink } kind;
     std::filesystem::path path;  // relative to configfs/usb_gadget
-    std::string content;         // of a file; target of a link, relative as well
+    std::string content;         // content of a file; target of a link, relative as well
     bool optional = false;       // older kernels refuse it
 };
 // The whole tree but for binding it to a controller.
@@ -49,9 +49,9 @@ class UvcGadget {
     void remove() noexcept;
 
     const std::string& udc() const { return udc_; }
-    // Of the video device that takes the pictures, "/dev/video0"; empty: not there (yet).
+    // Returns the path of the video device that takes the pictures, "/dev/video0"; empty: not there (yet).
     std::filesystem::path video_device() const;
-    // Whether hosts see exposure time and gain.
+    // True when hosts see exposure time and gain.
     bool shows_exposure() const { return shows_exposure_; }
     // Number of the interface that carries the pictures; composite gadgets shift it.
     int streaming_interface() const;

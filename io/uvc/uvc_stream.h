@@ -1,6 +1,6 @@
 #pragma once
-// What a UVC host and the camera agree on before pictures flow: probe and commit of one uncompressed format
-// and one frame size (UVC 1.1, 4.3.1.1). Pure.
+// The agreement of a UVC host and the camera before pictures flow: probe and commit of one uncompressed
+// format and one frame size (UVC 1.1, 4.3.1.1). Pure.
 
 #include <cstdint>
 #include <optional>
@@ -15,14 +15,14 @@ struct UvcStreamShape {
     int width = 0, height = 0;
     std::vector<std::uint32_t> intervals_100ns;  // rising: the fastest rate first
     std::uint32_t preset_100ns = 0;              // one of them: the camera's own rate
-    std::uint32_t most_payload_bytes = 1024;     // of a USB packet
+    std::uint32_t max_payload_bytes = 1024;      // size of a USB packet
 
     std::uint32_t frame_bytes() const {
         return static_cast<std::uint32_t>(2 * width) * static_cast<std::uint32_t>(height);
     }
 };
 // The camera's own rate, and what UVC hosts like to choose from below its highest.
-std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double most_frame_rate_hz);
+std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double max_frame_rate_hz);
 std::uint32_t uvc_interval(double frame_rate_hz);
 
 class UvcStream {
@@ -37,7 +37,7 @@ class UvcStream {
     const UvcStreamShape& shape() const { return shape_; }
 
   private:
-    static constexpr std::size_t kBytes = 34;  // of the control in UVC 1.1
+    static constexpr std::size_t kBytes = 34;  // bytes of the control in UVC 1.1
     UvcAnswer control(std::uint32_t interval_100ns) const;
 
     UvcStreamShape shape_;

@@ -33,7 +33,7 @@ class V4l2Output {
     void close() noexcept;
     bool is_open() const { return static_cast<bool>(fd_); }
 
-    // Where the next frame is to be drawn; empty when the device fails (errno). No allocation.
+    // Returns where the next frame is to be drawn; empty when the device fails (errno). No allocation.
     std::span<std::uint8_t> next() noexcept;
     // Gives that frame to the readers. `timestamp_ns`: CLOCK_MONOTONIC, mapped only; 0: the module's own.
     // False: errno.

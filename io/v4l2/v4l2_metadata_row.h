@@ -1,5 +1,5 @@
 #pragma once
-// What a frame says of itself in one more row of the picture: readers of a V4L2 device get no other metadata
+// One more row of the picture holds the metadata of a frame: readers of a V4L2 device get no other metadata
 // (v4l2loopback 0.12.7 does not even count frames in mmap mode).
 //
 // The row's first 80 bytes, big-endian as all of hilcam's protocols; the rest is 0:

@@ -1,5 +1,5 @@
 #pragma once
-// Which v4l2loopback is loaded, and what that version must not be asked.
+// Finds which v4l2loopback is loaded, and what that version must not be asked.
 
 #include <cstdint>
 #include <optional>
@@ -20,7 +20,7 @@ struct LoopbackModule {
     // Modules before 0.13 do not tell theirs.
     std::optional<LoopbackVersion> version;
 
-    // Before 0.14 the module's queue is one for all programs. Then
+    // True before 0.14, where the module's queue is one for all programs. Then
     //  - DQBUF hands a writer the newest frame, which a reader may be reading: we choose the buffer
     //  ourselves;
     //  - any reader that asks for fewer buffers takes them from all, for good, and renumbers them: we ask
@@ -30,7 +30,7 @@ struct LoopbackModule {
     //  kernel
     //    (measured: an unpaced writer and a reader, within a second).
     bool shared_queue() const { return loaded && (!version || *version < LoopbackVersion{0, 14, 0}); }
-    // Before 0.13 frames queued by mmap are not counted, nor their times marked as the producer's.
+    // False before 0.13: frames queued by mmap are not counted, nor their times marked as the producer's.
     bool counts_mapped_frames() const { return !loaded || version.has_value(); }
     // "0.15.0", "before 0.13", "none".
     std::string name() const;

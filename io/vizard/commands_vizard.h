@@ -17,9 +17,9 @@
 
 namespace hilcam {
 
-// How a frame's numbers become a PNG's. kDeep: 16 bits, the number in the most significant ones; kBytes: its
-// upper 8 bits, as readers of 8 bits take them from the other. A camera with a mosaic gives interpolated
-// colours of 8 bits.
+// The way in which a frame's numbers become a PNG's. kDeep: 16 bits, the number in the most significant ones;
+// kBytes: its upper 8 bits, as readers of 8 bits take them from the other. A camera with a mosaic gives
+// interpolated colours of 8 bits.
 enum class VizardDepth { kDeep, kBytes };
 
 struct VizardConfig {
@@ -36,7 +36,7 @@ void validate(const VizardConfig& config);
 // A camera that takes pictures for it: where its frames come, and how they are read.
 struct VizardCameraPart {
     VizardSink* sink = nullptr;   // outlives the receiver
-    std::string color_pattern{};  // as CameraLimits has it
+    std::string color_pattern{};  // colour pattern as in CameraLimits
 };
 
 // `remark` may be called from the receiver's thread. `handler` outlives the receiver.

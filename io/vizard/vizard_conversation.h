@@ -36,7 +36,7 @@ class VizardConversation {
 
     struct Answer {
         VizardParts parts;     // one at least
-        bool refused = false;  // what was asked for is not in it
+        bool refused = false;  // the message does not hold what was asked for
     };
     Answer answer(const VizardParts& asked);
     // The simulator has said that it ends, and wants Vizard to.

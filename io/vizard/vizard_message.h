@@ -1,7 +1,7 @@
 #pragma once
-// What a simulator tells Vizard each step (protobuf, io/vizard/vizard.proto), decoded, checked and in our
-// terms: SI, quaternions as in render/vocabulary/pose.h. Positions and velocities stay in the simulator's
-// inertial frame N: ICRF axes ("J2000"), origin as its ephemerides have it.
+// The message of a simulator to Vizard at each step (protobuf, io/vizard/vizard.proto), decoded, checked and
+// in our terms: SI, quaternions as in render/vocabulary/pose.h. Positions and velocities stay in the
+// simulator's inertial frame N: ICRF axes ("J2000"), origin as its ephemerides have it.
 
 #include <cstdint>
 #include <optional>
@@ -33,7 +33,7 @@ struct VizardCamera {
 struct VizardUpdate {
     std::int64_t frame_number = 0;
     std::int64_t elapsed_ns = 0;   // since the simulation's start
-    std::optional<TimeTai> epoch;  // of that start; only a run's first message has it
+    std::optional<TimeTai> epoch;  // epoch of that start; only a run's first message has it
     std::vector<VizardThing> spacecraft, bodies;
     std::vector<VizardCamera> cameras;
     bool is_last = false;  // Vizard would end now

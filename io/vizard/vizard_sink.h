@@ -1,5 +1,6 @@
 #pragma once
-// Of a camera's frames, the one that the Vizard side has asked for: copied in the loop, read by who waits.
+// Keeps that frame of a camera which the Vizard side has asked for: it is copied in the loop, and read by who
+// waits.
 //
 // Two threads share it without a lock: expect() hands the buffer to the loop, the loop hands it back with
 // the frame in it. The loop never waits.

@@ -34,7 +34,7 @@
 
 namespace hilcam {
 
-// Which of the simulator's cameras is which of the bench's.
+// Says which of the simulator's cameras is which of the bench's.
 struct VizardCameraConfig {
     std::int64_t id = 1;
     std::int64_t camera = 1;
@@ -43,10 +43,10 @@ Fields fields(VizardCameraConfig& config);
 
 enum class VizardTime { kMessage, kScenario };
 
-// What the bench has to offer.
+// The bench's offer: what a simulator may use.
 struct VizardBench {
     struct Camera {
-        Pose body_from_camera;  // of its mount on the body that object 0's poses move
+        Pose body_from_camera;  // pose of its mount on the body that object 0's poses move
         double field_of_view_rad = 0;
         int width_px = 0, height_px = 0;
     };
@@ -78,13 +78,13 @@ class VizardWorld {
     void take(VizardUpdate update);
     // The world is not known any more: what came could not be read.
     void lose() { known_ = false; }
-    // What camera `id` of the simulator shows now. False, with a remark, when there is nothing to show.
+    // Finds what camera `id` of the simulator shows now. False, with a remark, when there is nothing to show.
     bool shot(std::int64_t id, VizardShot& shot);
     std::int64_t frame_number() const { return update_.frame_number; }
     void remark(const std::string& text) { remark_once(text, text); }
 
   private:
-    // From the message's frame to the world's.
+    // The shift from the message's frame to the world's.
     struct Shift {
         Vec3d position_m, velocity_m_s;
     };
@@ -106,7 +106,7 @@ class VizardWorld {
     std::set<std::string> said_;
     std::size_t said_in_all_ = 0;
     VizardUpdate update_;
-    TimeTai start_;  // of the simulation
+    TimeTai start_;  // start of the simulation
     bool epoch_known_ = false, known_ = false;
 };
 

@@ -97,11 +97,11 @@ void ZmqGuard::accept_connection() {
         if (errno != EAGAIN && errno != ECONNABORTED) poll(nullptr, 0, 10);
         return;
     }
-    if (connections_.size() >= setup_.most_connections)
+    if (connections_.size() >= setup_.max_connections)
         return setup_.ended("there are " + std::to_string(connections_.size()) + " connections already");
     Fd inner = connect_abstract(setup_.inner);
     if (!inner) return;
-    const int yes = 1;  // what comes in pieces goes on in pieces
+    const int yes = 1;  // a stream that comes in pieces goes on in pieces
     setsockopt(outer.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
     connections_.push_back({std::move(outer), std::move(inner), {}, {}, ZmtpMeter(setup_.limits)});
 }
@@ -119,7 +119,8 @@ void ZmqGuard::serve(Connection& c, short outer_events, short inner_events) {
     }
     if (c.out.empty() && (inner_events & ~POLLOUT)) c.gone |= !read_into(c.out, c.inner);
     c.gone |= !write_from(c.in, c.inner) || !write_from(c.out, c.outer);
-    // What cannot be passed on now never will be; poll() would come back with it at once, again and again.
+    // A connection that cannot pass anything on now never will; poll() would come back with it at once, again
+    // and again.
     const bool stuck =
         (!c.in.empty() && (outer_events & POLLHUP)) || (!c.out.empty() && (inner_events & POLLHUP));
     c.gone |= stuck || ((outer_events | inner_events) & (POLLERR | POLLNVAL)) != 0;

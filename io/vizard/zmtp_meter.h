@@ -1,7 +1,7 @@
 #pragma once
-// How large a ZeroMQ message is while it comes: follows the bytes that a peer sends (ZMTP 3.0 and 3.1,
-// rfc.zeromq.org/spec/23 and /37) without keeping any. A message is one or more parts (frames with MORE, then
-// one without); commands, as the handshake's, are frames of their own. Not followed: security mechanisms
+// Measures how large a ZeroMQ message is while it comes: follows the bytes that a peer sends (ZMTP 3.0 and
+// 3.1, rfc.zeromq.org/spec/23 and /37) without keeping any. A message is one or more parts (frames with MORE,
+// then one without); commands, as the handshake's, are frames of their own. Not followed: security mechanisms
 // that encrypt frames, and versions before 3 (libzmq before 4.0, 2013), which are refused.
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace hilcam {
 class ZmtpMeter {
   public:
     struct Limits {
-        std::uint64_t bytes;  // of all parts of a message together
+        std::uint64_t bytes;  // bytes of all parts of a message together
         std::size_t parts;
     };
     explicit ZmtpMeter(const Limits& limits) : limits_(limits) {}
@@ -32,8 +32,8 @@ class ZmtpMeter {
     At at_ = At::kGreeting;
     std::size_t place_ = 0;  // in the greeting, or in a length
     std::uint8_t flags_ = 0;
-    std::uint64_t length_ = 0;  // of the frame; what is left of its body
-    std::uint64_t bytes_ = 0;   // of the message so far
+    std::uint64_t length_ = 0;  // length of the frame; what is left of its body
+    std::uint64_t bytes_ = 0;   // bytes of the message so far
     std::size_t parts_ = 0;
     bool good_ = true;
 };

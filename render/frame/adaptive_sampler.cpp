@@ -5,7 +5,7 @@
 
 namespace hilcam {
 
-AdaptiveSampler::AdaptiveSampler() : pass_(kMost), mean_(kMost) {}
+AdaptiveSampler::AdaptiveSampler() : pass_(kMax), mean_(kMax) {}
 
 std::span<const Spectrum> AdaptiveSampler::trace(const FrameView& frame, const PixelBox& box,
                                                  int samples_per_axis, const NoiseBudget& budget,
@@ -49,7 +49,7 @@ void AdaptiveSampler::take_pass(float share, const PixelNoise& noise, int bins) 
     }
 }
 
-// Whether any pixel is wanted.
+// True when any pixel is wanted.
 bool AdaptiveSampler::choose(const NoiseBudget& budget) {
     const auto share = static_cast<float>(budget.share);
     const float allowed = share * share * budget.noise.averaged;

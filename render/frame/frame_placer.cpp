@@ -53,9 +53,8 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     if (!scene.light_later) kept_ = make_kept();
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
-    most_stars_ = rays_->is_still()
-                      ? std::min(stars_.size(), stars_.most_within(2 * half_field_rad(geometry)))
-                      : stars_.size();
+    max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
+                                   : stars_.size();
 
     if (quality.uses_buffer() && !terrain_ && VisibilityBuffer::takes(geometry)) {
         seen_.reserve(objects_.size());
@@ -78,14 +77,14 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.has_emission = emission;
 }
 
-// What is shown in more triangles is for rays: they hardly cost more for more.
+// Objects shown in more triangles than this are left to rays, which hardly cost more for more.
 VisibilityBuffer::Room FramePlacer::visibility_room() const {
-    constexpr std::size_t kMostTriangles = 8'000'000;
+    constexpr std::size_t kMaxTriangles = 8'000'000;
     VisibilityBuffer::Room room{objects_.size(), 0, 0};
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const MeshView mesh = embree_.mesh(i, 0);
-        room.vertices = std::min(kMostTriangles, room.vertices + mesh.vertices_m.size());
-        room.triangles = std::min(kMostTriangles, room.triangles + mesh.triangles.size());
+        room.vertices = std::min(kMaxTriangles, room.vertices + mesh.vertices_m.size());
+        room.triangles = std::min(kMaxTriangles, room.triangles + mesh.triangles.size());
     }
     return room;
 }
@@ -100,7 +99,7 @@ void FramePlacer::set_paths(const PathModel& paths) {
     frame_.kept = uses_kept_light_ ? kept_.get() : nullptr;
 }
 
-// What the loop reads of the objects meanwhile is not touched.
+// Nothing is touched that the loop reads of the objects meanwhile.
 void FramePlacer::give_tables(std::span<const std::shared_ptr<const TransferTable>> tables) {
     for (std::size_t i = 0; i < tables.size(); ++i)
         if (tables[i]) objects_[i].transfer = tables[i];
@@ -136,7 +135,7 @@ void FramePlacer::choose_levels() {
     }
 }
 
-// Of the sphere that holds it.
+// The box is that of the sphere that holds the object.
 PixelBox FramePlacer::box_of(std::size_t i) const {
     const Vec3d to_object_m = world_.objects[i].position_world_m - world_.camera.position_world_m;
     const double sine = std::min(1.0, radii_m_[i] / plans_[i].distance_m);

@@ -1,5 +1,5 @@
 #pragma once
-// Where everything is in one frame and what may be seen of it: objects at their levels of detail, bodies,
+// Places everything for one frame and finds what may be seen: objects at their levels of detail, bodies,
 // terrain, the plan, and the bounds on the screen inside which rays have something to meet.
 //
 // Owns the scene; what it has placed is a FrameView, which those who trace only read.
@@ -38,7 +38,8 @@ class FramePlacer {
     FramePlacer(const FramePlacer&) = delete;  // the view points into it
     FramePlacer& operator=(const FramePlacer&) = delete;
 
-    // What of the quality may change, from the next place() on; with its path model. Loop.
+    // Takes over those values of the quality that may change, and its path model, from the next place() on.
+    // Loop.
     void set_quality(const RenderQuality& quality, const PathModel& paths);
     // See Renderer.
     void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
@@ -46,7 +47,7 @@ class FramePlacer {
     // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
     // buffer. Loop.
     void place_visibility();
-    // For a path model that is only tried (render_bench.h), too.
+    // Is also for a path model that is only tried (render_bench.h).
     void set_paths(const PathModel& paths);
     // Loop; nothing is allocated after the first call.
     void place(const WorldSnapshot& world, RandomKey key);
@@ -54,7 +55,7 @@ class FramePlacer {
     // --- the frame that was placed last
 
     const FrameView& frame() const { return frame_; }
-    const WorldSnapshot& world() const { return world_; }  // with the terrain among its objects
+    const WorldSnapshot& world() const { return world_; }  // includes the terrain among its objects
     MovingFrame moving() const;
     const ObjectPlan& plan(std::size_t object) const { return plans_[object]; }
     bool is_point(std::size_t object) const { return frame_.is_point[object] != 0; }
@@ -65,7 +66,7 @@ class FramePlacer {
     std::optional<double> height_above_ground_m() const {
         return terrain_ ? terrain_->height_above_ground_m() : std::nullopt;
     }
-    // Of the pixels that can meet the sphere that holds an object.
+    // Returns the pixels that can meet the sphere that holds an object.
     PixelBox box_of(std::size_t object) const;
     // Any ray of the camera through the box can meet something.
     bool can_see_anything(const PixelBox& box) const {
@@ -82,7 +83,7 @@ class FramePlacer {
     std::size_t objects() const { return objects_.size(); }
     std::size_t triangles() const { return triangles_; }
     const StarSky& stars() const { return stars_; }
-    std::size_t most_stars() const { return most_stars_; }  // of those that a frame can show
+    std::size_t max_stars() const { return max_stars_; }  // greatest number of stars that a frame can show
     const Background& background() const { return background_; }
     const Lamps& lamps() const { return lamps_; }
     const Atmosphere* air() const { return air_.get(); }  // may be null
@@ -92,14 +93,14 @@ class FramePlacer {
     std::size_t triangles_ = 0;
     EmbreeScene embree_;
     std::vector<ShownObject> objects_;          // the last one is the terrain, if there is any
-    std::vector<std::size_t> levels_;           // of detail that each is shown at
+    std::vector<std::size_t> levels_;           // level of detail at which each object is shown
     std::vector<const ObjectSurfaces*> shown_;  // at that level
     std::vector<double> radii_m_;
     std::vector<ObjectPlan> plans_;
     std::vector<PixelBox> object_boxes_;  // pixels that can meet an object
     Lamps lamps_;
     StarSky stars_;
-    std::size_t most_stars_;
+    std::size_t max_stars_;
     std::array<SceneBody, kBodyCount> bodies_;
     std::unique_ptr<Atmosphere> air_;
     ColorBands bands_;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the pixels of a published frame lie in the radiance image: the frame is the image's window with black
+// Maps the pixels of a published frame to the radiance image: the frame is the image's window with black
 // columns and rows beside it, binned and perhaps mirrored.
 //
 // Places in both count from the corner: the centre of pixel (0, 0) is at (0.5, 0.5). Those in the image are
@@ -18,7 +18,7 @@ struct RasterAxis {
 };
 
 struct FrameRaster {
-    int width_px = 0, height_px = 0;  // of the frame
+    int width_px = 0, height_px = 0;  // size of the frame
     RasterAxis x, y;
 
     Vec2d image_px(Vec2d frame_px) const { return {x.image_px(frame_px.x), y.image_px(frame_px.y)}; }

@@ -32,14 +32,14 @@ class FrameTracer {
     // thread.
     FrameTracer(const ImageGeometry& geometry, const Modules& modules, std::span<const RenderQuality> levels);
 
-    // From the next frame on. Loop.
+    // Takes effect from the next frame on. Loop.
     void use_level(std::size_t level);
     const RenderQuality& quality() const { return levels_[level_].quality; }
-    // What the noise budget is weighed against from the next frame on. Loop.
+    // Sets the sensor's noise, against which the noise budget is weighed from the next frame on. Loop.
     void set_pixel_noise(const PixelNoise& noise) { noise_ = noise; }
     PathModel& first_paths() { return *paths().front(); }
     static Paths make_paths(const Modules& modules, const std::string& name);
-    // In place of those of the level in use, for a comparison (render_bench.h).
+    // Replaces the path models of the level in use, for a comparison (render_bench.h).
     void exchange_paths(Paths& paths) { std::swap(path_sets_[levels_[level_].paths].models, paths); }
 
     // Share of the present frame's tiles that are done. Any thread.
@@ -73,13 +73,13 @@ class FrameTracer {
     std::size_t level_ = 0;
     std::vector<PathSet> path_sets_;
     PixelNoise noise_;
-    // By slot.
+    // The pixels of the tile in work, one list per slot.
     std::vector<std::vector<Spectrum>> tile_pixels_;
     std::vector<FacetList> facets_;
     std::vector<VisibilityTile> seen_;                        // none where rays see
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
-    std::atomic<int> tiles_done_{0}, tiles_all_{0};           // of the present frame
+    std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame
 
     const Paths& paths() const { return path_sets_[levels_[level_].paths].models; }
     std::size_t path_set(const Modules& modules, const std::string& name);

@@ -1,6 +1,6 @@
 #pragma once
-// What a frame shows, as the renderer had it: poses, directions, places in the frame, and what each pixel's
-// middle ray meets. For those who train and score image processing (docs/truth.md).
+// The truth of a frame: what it shows, as the renderer had it: poses, directions, places in the frame, and
+// what each pixel's middle ray meets. For those who train and score image processing (docs/truth.md).
 //
 // All of it is of the frame's own instant, mid-exposure, and told by what the picture is made with: the ray
 // generator, the placed scene, the background, the stars. Not in it: what blur, noise and faults do to the
@@ -27,15 +27,15 @@ namespace hilcam {
 
 struct Star;
 
-// What is asked for.
+// The parts of the truth that somebody has asked for.
 struct TruthWishes {
     bool visibility = true;  // pixels, boxes and shares of each thing: a ray through every pixel
     bool stars = true;
     double faintest_magnitude = 30;
     // Layers, a value for each pixel.
     bool object = false, range = false, depth = false, normal = false, position = false;
-    // Of which thing each object of the renderer is a part; empty: each is a thing of its own. The first of
-    // a thing's objects gives its pose. Things are numbered in the order of their first objects.
+    // The thing of which each object of the renderer is a part; empty: each object is a thing of its own. The
+    // first of a thing's objects gives its pose. Things are numbered in the order of their first objects.
     std::vector<std::uint32_t> thing_of_object;
 
     bool layers() const { return object || range || depth || normal || position; }
@@ -60,20 +60,20 @@ struct SeenThing {
 
     std::uint32_t id = kSkyId;
     bool is_body = false;
-    Pose world;               // of its own axes; the Sun's and a body's place is the apparent one
-    Vec3d position_camera_m;  // of its origin
+    Pose world;               // pose of its own axes; the Sun's and a body's place is the apparent one
+    Vec3d position_camera_m;  // position of its origin
     Quat camera_from_thing;
-    double distance_m = 0;      // of its origin
-    bool has_center = false;    // its origin is before the camera, where the lens has a place for it
-    Vec2d center_px;            // where its origin is in the frame, or beside it
-    double phase_rad = 0;       // Sun - origin - camera
-    double sunlit = kUnknown;   // share of the Sun's disk that bodies leave at its origin; objects only
-    double radius_m = 0;        // of the sphere about its origin that holds it; a body's equatorial radius
+    double distance_m = 0;     // distance of its origin
+    bool has_center = false;   // its origin is before the camera, where the lens has a place for it
+    Vec2d center_px;           // where its origin is in the frame, or beside it
+    double phase_rad = 0;      // Sun - origin - camera
+    double sunlit = kUnknown;  // share of the Sun's disk that bodies leave at its origin; objects only
+    double radius_m = 0;  // radius of the sphere about its origin that holds it; a body's equatorial radius
     double polar_radius_m = 0;  // bodies only
 
-    // With TruthWishes::visibility. A pixel is visible when the ray through its middle meets the thing
-    // first; the silhouette is what the thing alone would cover, in the frame and beside it, up to one
-    // frame's width and height on each side. Of a thing below kSmall_px both are measured on 64 x 64 rays
+    // This is filled with TruthWishes::visibility. A pixel is visible when the ray through its middle meets
+    // the thing first; the silhouette is what the thing alone would cover, in the frame and beside it, up to
+    // one frame's width and height on each side. Of a thing below kSmall_px both are measured on 64 x 64 rays
     // over its own bounds instead, so that it need not meet a pixel's middle.
     static constexpr int kSmall_px = 32;
     std::uint64_t visible_px = 0;        // pixels of the object layer
@@ -89,12 +89,12 @@ struct SeenThing {
 struct SeenPart {
     std::uint32_t thing = kSkyId;  // id of what it is part of
     std::uint32_t object = 0;      // its number among the renderer's objects, from 0
-    Vec3d position_camera_m;       // of its origin, which is the object's while it is not turned
+    Vec3d position_camera_m;       // position of its origin, which is the object's while it is not turned
     Quat camera_from_part;
 };
 
 struct SeenStar {
-    std::uint32_t row = 0;  // of the catalogue's stars, from 0
+    std::uint32_t row = 0;  // row among the catalogue's stars, from 0
     std::uint32_t hip = 0;  // Hipparcos number; 0: none
     std::uint32_t hd = 0;   // Henry Draper number; 0: none
     Vec2d position_px;      // in the frame
@@ -110,7 +110,7 @@ using DirectionImage = Image<float, struct DirectionQuantity>;  // three planes:
 // Sizes are 0 where a layer was not asked for. Sky: id 0, infinite lengths, zero normals. Black columns and
 // rows are as sky.
 struct TruthLayers {
-    IdImage object;          // also there for visibility alone
+    IdImage object;          // is filled for visibility alone, too
     LengthImage range_m;     // along the ray, from the camera's place at that row's instant
     LengthImage depth_m;     // along the boresight of mid-exposure: z in camera axes
     LengthImage position_m;  // in camera axes; three planes
@@ -127,7 +127,7 @@ struct FrameTruth {
     Pose camera;                // pointing jitter included
     Vec3d camera_velocity_m_s;  // in the world
     Vec3d camera_rate_rad_s;    // about the camera's axes
-    ImageGeometry geometry;     // of the radiance image
+    ImageGeometry geometry;     // geometry of the radiance image
     Vec3d sun_world_dir;        // from the camera
     Vec3d sun_camera_dir;       // the same in camera axes
     double sun_distance_m = 0;  // from the camera

@@ -13,7 +13,7 @@ constexpr int kAcross = 9;
 // A point of the picture, at the frame's time.
 struct Seen {
     enum class Thing { kSky, kObject, kBody } thing = Thing::kSky;
-    std::size_t index = 0;  // of the object or the body
+    std::size_t index = 0;  // number of the object or the body
     Vec3d world;            // place [m]; of the sky: direction
 };
 
@@ -59,7 +59,7 @@ class Follower {
     }
 };
 
-// What a ray of the camera at the frame's time meets first.
+// Finds what a ray of the camera at the frame's time meets first.
 Seen look(const FrameView& frame, const WorldSnapshot& world, Vec3d dir) {
     Seen seen{Seen::Thing::kSky, 0, dir};
     double nearest_m = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 #pragma once
-// How far the picture moves between two instants: points of what the camera sees are carried along by the
-// things they belong to, and projected at both.
+// Measures how far the picture moves between two instants: points of what the camera sees are carried along
+// by the things they belong to, and projected at both.
 //
 // The points: where a grid of 9 x 9 rays through the frame (of a scanning line: 9) meets objects and bodies
 // at the frame's time; the middles and edges of the objects in view, which the grid may miss; and, for the
@@ -21,10 +21,10 @@
 namespace hilcam {
 
 struct ImageMotion {
-    // Of what fills most of the picture, right and down, mean over its points [px]; zero where only sky is
-    // seen.
+    // Displacement of what fills most of the picture, right and down, as a mean over its points [px]; zero
+    // where only sky is seen.
     Vec2d displacement_px{};
-    double largest_px = 0;  // of any point; 0: nothing moves
+    double largest_px = 0;  // largest displacement of any point; 0: nothing moves
 };
 
 // A frame that is placed, and what has to be known of its things.
@@ -32,7 +32,7 @@ struct MovingFrame {
     const FrameView& frame;
     std::span<const ObjectPlan> plans;  // per object, as radii_m
     std::span<const double> radii_m;
-    std::optional<BodyId> terrain_body;  // what the last object, a terrain, turns with
+    std::optional<BodyId> terrain_body;  // body with which the last object, a terrain, turns
     bool has_terrain = false;
     bool has_stars = false;
 };

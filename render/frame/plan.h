@@ -19,10 +19,10 @@ enum class ObjectUse : std::uint8_t {
 
 struct ObjectPlan {
     ObjectUse use = ObjectUse::kHidden;
-    double distance_m = 0;     // of its middle from the camera
-    double size_px = 0;        // of the sphere that holds it
-    std::size_t level = 0;     // of detail: 0 is the mesh itself
-    int samples_per_axis = 1;  // of a traced one: more for a small one
+    double distance_m = 0;     // distance of its middle from the camera
+    double size_px = 0;        // size of the sphere that holds it
+    std::size_t level = 0;     // level of detail; 0 is the mesh itself
+    int samples_per_axis = 1;  // rays along a pixel of a traced object; a small one has more
 };
 
 // Distances of which the camera sees the objects; decides where ray space begins (frame_view.h).
@@ -37,7 +37,8 @@ RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> ra
 // An object this small is drawn as points: a single one below a pixel, a small cloud up to here. The regular
 // grid of rays would miss parts of it, and differently from frame to frame.
 inline constexpr double kPoints_px = 8.0;
-// What the quality asks for: rays along a pixel, and the least number of rays across a traced object.
+// The density that the quality asks for: rays along a pixel, and the least number of rays across a traced
+// object.
 struct RayDensity {
     int samples_per_axis;
     int rays_across;

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kPluginInterface = 9;
 
 struct PluginInfo {
     std::uint32_t interface_version;
-    std::uint32_t shared_sizes;  // of what both sides must agree on
+    std::uint32_t shared_sizes;  // sizes of the types on which both sides must agree
     const char* compiler;
     void (*add)(Modules& modules);
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What `hilcam bench` measures of the renderer: bare Embree on a frame's own rays, and path models against
+// Measurements of the renderer for `hilcam bench`: bare Embree on a frame's own rays, and path models against
 // it. Not for the loop.
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace hilcam {
 
-// How fast a path model is against Embree alone on the same rays.
+// The speed of a path model against Embree alone on the same rays.
 struct PathModelSpeed {
     std::string name;
-    std::uint64_t rays = 0;  // of all kinds, of one frame
+    std::uint64_t rays = 0;  // number of rays of all kinds in one frame
     double frame_ms = 0;
     double bare_ms = 0;  // Embree alone
 };

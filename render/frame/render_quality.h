@@ -25,8 +25,8 @@ struct RenderQuality {
     bool watertight = true;              // no ray slips through between two triangles
     double lod_error_px = 0.25;          // (f) of a coarser level of detail; 0: the mesh itself, always
     std::int64_t rays_across =
-        128;  // of a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
-    std::int64_t point_samples = 96;  // of an object of few pixels, along one axis of its little picture
+        128;  // rays across a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
+    std::int64_t point_samples = 96;  // rays along one axis of the little picture of an object of few pixels
     double noise_budget = 0;          // (f) see adaptive_sampler.h; 0: a pixel is sampled once
     std::int64_t most_passes = 16;    // over a pixel, with a noise budget
 

@@ -34,7 +34,8 @@ struct RenderStats : RayCounts {
     double setup_ms = 0;   // instances, plan, background
     double trace_ms = 0;   // rays and shading
     double points_ms = 0;  // stars, and what is smaller than a pixel
-    // With a noise budget: pixels that light falls on, points apart, and those of them within the budget.
+    // Counts of a frame with a noise budget: pixels that light falls on, points apart, and those of them
+    // within the budget.
     std::uint64_t lit_px = 0, within_budget_px = 0;
 };
 
@@ -51,14 +52,15 @@ class Renderer {
     // The quality of the next frames. Loop: nothing is allocated.
     void use_level(std::size_t level);
     const RenderQuality& quality() const;
-    // For a scene whose light comes later: the tables of directions, by object, null where there is no other
-    // than the scene had. Makes of them what frames need and hands it over. One thread beside the loop, once.
+    // Takes the tables that a scene's light was waiting for: tables of directions, by object, null where
+    // there is no other than the scene had. Makes of them what frames need and hands it over. One thread
+    // beside the loop, once.
     void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
     // Lets the next frames have kept light if it has come. False: it has not, and their quality asks for it:
     // they are made with random paths. Loop, between two frames: no lock, nothing is allocated.
     bool take_light();
-    // What the noise budget is weighed against in the next frames; until it is told, pixels are sampled once.
-    // Loop.
+    // Sets the sensor's noise, against which the noise budget is weighed in the next frames; until then,
+    // pixels are sampled once. Loop.
     void set_pixel_noise(const PixelNoise& noise);
 
     // Fills `radiance` (padded size, a plane per bin) and `points` (cleared first; capacity reserved by
@@ -67,7 +69,7 @@ class Renderer {
     void render(const WorldSnapshot& world, RandomKey key, RadianceImage& radiance,
                 std::vector<PointSource>& points, RenderStats& stats);
 
-    // How the picture of `middle` moves from the one world to the other. Loop, as render().
+    // Returns how the picture of `middle` moves from the one world to the other. Loop, as render().
     ImageMotion motion(const WorldSnapshot& middle, const WorldSnapshot& before, const WorldSnapshot& after);
     // The same of the world that was rendered last.
     ImageMotion motion_of_last(const WorldSnapshot& before, const WorldSnapshot& after);
@@ -79,25 +81,25 @@ class Renderer {
 
     // A record with room for what frames show, up to a size of them. Owner thread.
     FrameTruth make_truth(const TruthWishes& wishes, int width_px, int height_px) const;
-    // What the world that was placed last, by render() or motion(), shows; truth.raster is set. Loop, as
-    // render().
-    void tell_truth(FrameTruth& truth) const;
+    // Fills `truth` with what the world shows that was placed last, by render() or motion(); truth.raster is
+    // set. Loop, as render().
+    void report_truth(FrameTruth& truth) const;
 
     // An upper bound of the points that render() can give.
-    std::size_t most_points() const;
+    std::size_t max_points() const;
     std::size_t triangles() const;
-    // Of the sphere about an object's origin that holds it, in the scene's order.
+    // Returns the radius of the sphere about an object's origin that holds it, in the scene's order.
     double object_radius_m(std::size_t object) const;
     const ImageGeometry& geometry() const;
 
-    // What a frame of this world needs and why, a line each. Not for the loop.
+    // Says what a frame of this world needs and why, a line each. Not for the loop.
     std::vector<std::string> explain_plan(const WorldSnapshot& world);
 
     // Throws InputError where the atmosphere does not cover what the camera sees of the Earth: what is
     // missing. For the first instant of a run; what leaves the table later is counted. Not for the loop.
     void require_air(const WorldSnapshot& world);
     std::uint64_t rays_outside_air() const;
-    // How much of the frame that is being rendered is traced, 0 to 1. Any thread.
+    // Returns how much of the frame that is being rendered is traced, 0 to 1. Any thread.
     double share_traced() const;
 
     // See render_bench.h. Not for the loop.

@@ -1,4 +1,4 @@
-// What a thing would cover if it were alone (TruthProbe).
+// Finds what a thing would cover if it were alone (TruthProbe).
 //
 // In the frame nearly all of it is known from the pixels' own rays: where they see the thing it is there, and
 // where they see the sky it is not, as nothing stands before it. Rays of its own go only where something else
@@ -18,8 +18,8 @@
 namespace hilcam {
 namespace {
 
-// Beside the frame, per thing: where it is larger one ray stands for a square of several pixels.
-constexpr double kMostRaysBeside = 65536;
+// The most rays per thing beside the frame; for a larger thing one ray stands for a square of several pixels.
+constexpr double kMaxRaysBeside = 65536;
 // Across the bounds of a small thing.
 constexpr int kFine = 64;
 
@@ -67,7 +67,7 @@ void TruthProbe::Outline::add(const Outline& other) {
     y0 = std::min(y0, other.y0), y1 = std::max(y1, other.y1);
 }
 
-// Of the sphere that holds it, in px of the frame, up to a frame's size beside it.
+// Bounds the sphere that holds the thing, in px of the frame, up to a frame's size beside it.
 PixelBox TruthProbe::canvas_bounds(const SeenThing& thing) const {
     const FrameRaster& raster = truth_.raster;
     const int width = raster.width_px, height = raster.height_px;
@@ -110,7 +110,8 @@ std::uint32_t TruthProbe::meets_alone(const SeenThing& thing, std::span<const Ve
     return met;
 }
 
-// What the thing covers of the places that fill(row, packets) gives, over all rows from one to another.
+// Sums up what the thing covers of the places that fill(row, packets) gives, over all rows from one to
+// another.
 template <class Fill>
 TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, int last_row,
                                         const Fill& fill) const {
@@ -136,7 +137,7 @@ TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, i
                                 });
 }
 
-// In the frame, behind other things and under black pixels.
+// Finds the part within the frame that lies behind other things and under black pixels.
 TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelBox& bounds) const {
     const PixelBox box{std::max(bounds.x0, 0), std::max(bounds.y0, 0),
                        std::min(bounds.x1, truth_.raster.width_px),
@@ -154,7 +155,7 @@ TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelB
     });
 }
 
-// In a box that lies beside the frame; rays go through the middles of squares of `step` pixels.
+// Finds the part in a box beside the frame; rays go through the middles of squares of `step` pixels.
 TruthProbe::Outline TruthProbe::part_beside(const SeenThing& thing, const PixelBox& box, int step) const {
     if (box.empty()) return {};
     const int rows = (box.y1 - box.y0 + step - 1) / step;
@@ -192,7 +193,7 @@ void TruthProbe::measure_outline(SeenThing& thing) {
                                              {std::max(bounds.x0, width), y0, bounds.x1, y1}}};
     double area_px = 0;
     for (const PixelBox& box : beside) area_px += area_of(box);
-    const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area_px / kMostRaysBeside))));
+    const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area_px / kMaxRaysBeside))));
     for (const PixelBox& box : beside) all.add(part_beside(thing, box, step));
     thing.silhouette_px = all.area_px;
     thing.silhouette_box_px = all.box();

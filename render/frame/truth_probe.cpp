@@ -43,8 +43,8 @@ FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int 
     truth.parts.reserve(objects);
     truth.point_boxes.reserve(objects);
     if (wishes.stars) {
-        truth.stars.reserve(std::min(placer.most_stars(), kMostTruthStars));
-        truth.star_field.reserve(placer.most_stars());
+        truth.stars.reserve(std::min(placer.max_stars(), kMaxTruthStars));
+        truth.star_field.reserve(placer.max_stars());
     }
     if (wishes.rays()) truth.layers.object = IdImage(width_px, height_px);
     if (wishes.range) truth.layers.range_m = LengthImage(width_px, height_px);
@@ -62,7 +62,7 @@ TruthProbe::TruthProbe(const FramePlacer& placer, FrameTruth& truth)
       rays_(placer),
       camera_from_world_(transposed(to_matrix(placer.world().camera.world_from_body))) {}
 
-void TruthProbe::tell() {
+void TruthProbe::report() {
     const Stopwatch watch;
     truth_.time = world_.time;
     truth_.camera = world_.camera;
@@ -72,21 +72,20 @@ void TruthProbe::tell() {
     truth_.height_above_ground_m = placer_.height_above_ground_m();
     truth_.things.clear();
     truth_.parts.clear();
-    tell_objects();
-    tell_sun_and_bodies();
+    report_objects();
+    report_sun_and_bodies();
     if (truth_.wishes.rays()) trace_pixels();
     if (truth_.wishes.visibility) {
         count_pixels();
         for (SeenThing& thing : truth_.things) measure_outline(thing);
     }
-    if (truth_.wishes.stars) tell_stars();
+    if (truth_.wishes.stars) report_stars();
     truth_.took_ms = watch.ms();
 }
 
 // --- poses and places
-// ---------------------------------------------------------------------------------------------------------
 
-// Where the picture shows what lies there.
+// Finds where the picture shows what lies there.
 bool TruthProbe::project(Vec3d from_camera_m, Vec2d& frame_px) const {
     const double distance_m = length(from_camera_m);
     Sighting seen;
@@ -113,7 +112,7 @@ SeenThing TruthProbe::described(std::uint32_t id, const Pose& world, Vec3d from_
     return thing;
 }
 
-void TruthProbe::tell_objects() {
+void TruthProbe::report_objects() {
     HILCAM_CHECK(truth_.wishes.thing_of_object.empty() ||
                  truth_.wishes.thing_of_object.size() == placer_.objects());
     for (std::size_t i = 0; i < placer_.objects(); ++i) {
@@ -139,7 +138,7 @@ void TruthProbe::tell_objects() {
     }
 }
 
-void TruthProbe::tell_sun_and_bodies() {
+void TruthProbe::report_sun_and_bodies() {
     const Vec3d to_sun_m = world_.bodies.sun_world_m - world_.camera.position_world_m;
     truth_.sun_distance_m = length(to_sun_m);
     truth_.sun_world_dir = frame_.background->sun_camera_dir();
@@ -164,7 +163,7 @@ void TruthProbe::tell_sun_and_bodies() {
     for (const PlacedBody& body : frame_.background->points()) add(body);
 }
 
-void TruthProbe::tell_stars() {
+void TruthProbe::report_stars() {
     truth_.stars.clear();
     truth_.stars_left_out = 0;
     const PointField field(frame_, world_);
@@ -199,7 +198,6 @@ void TruthProbe::tell_stars() {
 }
 
 // --- a ray through the middle of every pixel
-// ---------------------------------------------------------------------------------------------------------
 
 void TruthProbe::size_layers() {
     size_layer(truth_.layers.object, truth_.raster);
@@ -221,7 +219,7 @@ void TruthProbe::trace_pixels() {
     });
 }
 
-// What pixels of the frame cover of the radiance image.
+// Returns the box of the radiance image that pixels of the frame cover.
 PixelBox TruthProbe::padded_box(int x0, int y0, int x1, int y1) const {
     const Vec2d a = truth_.raster.image_px({static_cast<double>(x0), static_cast<double>(y0)});
     const Vec2d b = truth_.raster.image_px({static_cast<double>(x1), static_cast<double>(y1)});
@@ -299,7 +297,6 @@ void TruthProbe::write(int x, int y, const RayMet& met) {
 }
 
 // --- what is visible of each thing
-// ---------------------------------------------------------------------------------------------------------
 
 SeenThing* TruthProbe::thing_of(std::uint32_t id) {
     const auto found = std::find_if(truth_.things.begin(), truth_.things.end(),

@@ -116,7 +116,7 @@ std::uint32_t TruthRays::meets_body(std::span<const Vec2d> points_px, const Plac
 bool TruthRays::exists(Vec2d point_px) const {
     const ImageGeometry& g = frame_.geometry;
     if (g.distortion.none()) return true;
-    // Of a scanning line rows are instants.
+    // The rows of a scanning line are instants.
     const Vec2d at{point_px.x, frame_.rays->scan_line_time_s() > 0 ? g.center_px().y : point_px.y};
     const Vec2d back = g.project_px(g.direction_camera(at.x, at.y));
     constexpr double kSame_px = 1e-3;

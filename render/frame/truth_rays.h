@@ -1,7 +1,7 @@
 #pragma once
-// What rays of the camera meet first, and whether they would meet a thing if it were alone: up to sixteen at
-// a time, through any places of the radiance image and beside it. The rays are the ray generator's own, as
-// those of the picture. Objects that the picture draws as points are met too.
+// Finds what rays of the camera meet first, and whether they would meet a thing if it were alone; up to
+// sixteen at a time, through any places of the radiance image and beside it. The rays are the ray generator's
+// own, as those of the picture. Objects that the picture draws as points are met too.
 
 #include <cstdint>
 #include <limits>
@@ -13,7 +13,7 @@ namespace hilcam {
 
 struct RayMet {
     enum class Kind : std::uint8_t { kSky, kObject, kBody, kSun } kind = Kind::kSky;
-    std::uint32_t index = 0;                                   // of the object, or BodyId
+    std::uint32_t index = 0;                                   // number of the object, or BodyId
     double range_m = std::numeric_limits<double>::infinity();  // from where the ray began
     Vec3d from_camera_m;  // world axes, from the camera's place at the frame's time; not of the sky
     Vec3d normal_dir;     // world axes, unit, towards the camera; zero where not asked for
@@ -21,7 +21,7 @@ struct RayMet {
 
 class TruthRays {
   public:
-    // Of the frame that was placed last. Loop.
+    // Looks through the camera of the frame that was placed last. Loop.
     explicit TruthRays(const FramePlacer& placer);
 
     // points_px: of the radiance image without its guard band, kPacketSize at most. Loop, any thread.

@@ -53,7 +53,7 @@ class Reflection {
 
     FacetLight of_all() {
         for (const Facet* facet = at_.facets; facet; facet = facet->next) {
-            if (lanes_.count + LevelFacets::kMost > lanes_.x.size()) reflect();
+            if (lanes_.count + LevelFacets::kMax > lanes_.x.size()) reflect();
             put(*facet);
         }
         reflect();
@@ -83,7 +83,7 @@ class Reflection {
             const LevelFacets::Leans lean = facet.flattened->leans();
             const LevelFacets::Floats share = facet.flattened->shares();
             const float side = at_.back ? -1.0f : 1.0f;
-            for (std::size_t i = 0; i < LevelFacets::kMost; ++i)
+            for (std::size_t i = 0; i < LevelFacets::kMax; ++i)
                 lanes_.put(facet.normal, side * Vec3f{lean.x[i], lean.y[i], lean.z[i]}, share[i],
                            facet.flattened->alpha());
         } else {
@@ -101,7 +101,7 @@ class Reflection {
         for (const Group& group : std::span(groups_).first(group_count_)) {
             float seen = 0, lit = 0;
             for (std::size_t i = group.first; i < group.first + group.count; ++i) seen += lanes_.seen[i];
-            // What leans away from the viewer as a whole is seen as it lies itself.
+            // A facet that leans away from the viewer as a whole is seen as it lies itself.
             const bool hidden = !(seen > 0);
             const float each = group.facet->samples / (hidden ? 1 : seen);
             for (std::size_t i = group.first; i < group.first + group.count; ++i)

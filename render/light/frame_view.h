@@ -1,5 +1,5 @@
 #pragma once
-// What the rays of one frame share: scene, camera, background, quality.
+// Everything that the rays of one frame share: scene, camera, background, quality.
 //
 // Ray space: world axes, metres, single precision, counted from `rays_world_m`. That is the camera, unless
 // everything is far away against its own size: then it is a point amid the objects, and the camera's rays
@@ -74,13 +74,13 @@ struct FrameView {
         }
         return plain;
     }
-    // Where a ray of the camera begins in ray space; from_camera_m is not zero when rows have poses of their
-    // own.
+    // Returns where a ray of the camera begins in ray space; from_camera_m is not zero when rows have poses
+    // of their own.
     Vec3f start_of(Vec3d unit_dir, Vec3d from_camera_m = {}) const {
         const Vec3d eye_m = camera_m + from_camera_m;
         if (start_before_m <= 0) return to_float(eye_m);
-        // On the plane through that point that faces the ray, less a margin; for what lies behind, at the
-        // eye.
+        // The ray begins on the plane through that point that faces it, less a margin; for what lies behind,
+        // at the eye.
         const double along_m = dot(start_at_m - eye_m, unit_dir) - start_before_m;
         return to_float(eye_m + std::max(0.0, along_m) * unit_dir);
     }

@@ -30,7 +30,7 @@ class KeptLinks;
 // Facet lobes narrower than this (GGX alpha) fall between the directions: rays follow them, for all of the
 // lobe but its tails.
 inline constexpr float kNarrowestKept = 0.12f;
-// What is narrower than this is followed as a mirror, by one ray; else by four.
+// A lobe narrower than this is followed as a mirror, by one ray; a wider one by four.
 inline constexpr float kNarrowestLobe = 0.03f;
 // Lists of directions are filled up to a multiple of this.
 inline constexpr std::size_t kDirectionLanes = 16;
@@ -38,13 +38,13 @@ inline constexpr std::size_t kDirectionLanes = 16;
 // normal (GGX as seen along it: Walter et al., EGSR 2007, eq. 35 inverted).
 inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0.0378f); }
 
-// What an object's materials reflect in all, and where it mirrors; objects of one make share it.
+// The albedos of an object's materials, and its mirrors. Objects of one make share it.
 struct KeptAlbedos {
-    // mesh: with the object's triangles. least_alpha: of facets as other surfaces see them.
-    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float least_alpha);
+    // mesh: with the object's triangles. min_alpha: of facets as other surfaces see them.
+    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float min_alpha);
 
     std::vector<MaterialAlbedo> own, wide;  // by surface; the latter of facets as other surfaces see them
-    std::vector<FlatMirror> mirrors;        // of the object; whoever looks them up has their sunlight
+    std::vector<FlatMirror> mirrors;  // flat mirrors of the object; whoever looks them up has their sunlight
 };
 
 // A term that is solved: what one source gives to every node, per unit of it.
@@ -73,7 +73,7 @@ class KeptLight {
     };
 
     // Facets that another surface sees are at least so wide (GGX alpha), for its directions to find them.
-    static float least_alpha(const TransferTable& table);
+    static float min_alpha(const TransferTable& table);
     // The object has a table and outlives this. step_rad: of the grid that sources are rounded to.
     KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedos> albedos, const ColorBands& bands,
               float step_rad);
@@ -87,7 +87,7 @@ class KeptLight {
     bool is_glass(std::uint16_t surface) const {
         return materials_[surface]->model == ReflectionModel::kGlass;
     }
-    // What a node mirrors of the Sun is not kept: mirrored_suns.h has it.
+    // True when a node mirrors sunlight, which is not kept: mirrored_suns.h has it.
     bool throws_sun(std::size_t node) const { return !throws_sun_.empty() && throws_sun_[node] != 0; }
     bool throws_sun() const { return !throws_sun_.empty(); }
     // All that it reflects, it reflects in a narrow lobe.
@@ -106,7 +106,7 @@ class KeptLight {
     KeptSolution make_solution(KeptSource::Kind kind) const;
     // Takes a term's solution and gives back the one before. Loop, one thread.
     void adopt(std::size_t term, KeptSolution& solution);
-    // What it meets of other objects, from now on; outlives this. Loop, one thread.
+    // Takes over what the nodes meet of other objects, from now on; `links` outlives this. Loop, one thread.
     void adopt(const KeptLinks& links);
 
     // --- lookup. Loop, any thread.
@@ -114,7 +114,7 @@ class KeptLight {
     const MaterialAlbedo& albedo(std::uint16_t surface) const { return albedos_->own[surface]; }
     std::span<const MaterialAlbedo> albedos() const { return albedos_->own; }
     std::span<const FlatMirror> mirrors() const { return albedos_->mirrors; }
-    // By way of other surfaces, per unit of the source.
+    // Returns the irradiance by way of other surfaces, per unit of the source.
     Spectrum irradiance(std::size_t term, const NodesAbout& about) const {
         Spectrum sum;
         for (std::size_t i = 0; i < about.count; ++i)
@@ -145,7 +145,7 @@ class KeptLight {
     struct Lobe {
         Spectrum kept;  // mean radiance of the term, times the share that meets it
         // Share of what each cone gives to the whole lobe that comes without a way.
-        std::array<float, SkyLight::kMostBodies> free{1, 1};
+        std::array<float, SkyLight::kMaxBodies> free{1, 1};
         float of_irradiance = 0;  // radiance of what it meets, times the share, over the node's irradiance
     };
     struct Cone {
@@ -155,20 +155,21 @@ class KeptLight {
     static constexpr std::size_t kNoTerm = ~std::size_t{0};
     Lobe lobe(std::size_t sun, std::span<const Cone> cones, std::uint32_t node, Vec3f normal, Vec3f view_dir,
               float alpha) const;
-    // Whether anything stands near a direction from a node, within about 20 degrees.
+    // True when anything stands near a direction from a node, within about 20 degrees.
     bool is_near(std::uint32_t node, Vec3f dir) const;
     std::size_t bytes() const;
 
   private:
     friend class KeptSolver;
     static constexpr std::uint32_t kNoLobe = ~std::uint32_t{0};
-    // What lookups of lobes read of a node, side by side.
+    // The values of a node that lookups of lobes read, side by side.
     struct alignas(32) LobeNode {
         std::uint32_t normal;              // packed
-        std::array<std::int16_t, 2> turn;  // of 32767
+        std::array<std::int16_t, 2> turn;  // the turn in units of 1 / 32767
         std::uint32_t first_entry;
-        std::uint32_t first_along;  // of its entries in KeptSolution::along, kNoLobe: has no facets
-        std::uint64_t free;         // the first 64 directions
+        // Number of its first entry in KeptSolution::along, or kNoLobe: it has no facets.
+        std::uint32_t first_along;
+        std::uint64_t free;  // the first 64 directions
         std::uint16_t entries, counted;
         std::uint8_t live;  // bits by point
         bool all_free;
@@ -183,7 +184,7 @@ class KeptLight {
     Bounds bounds_;
     float step_rad_;
     // Local directions, component by component, and after them some that never count, to full vectors.
-    static constexpr std::size_t kMostDirections = 256;
+    static constexpr std::size_t kMaxDirections = 256;
     std::vector<float> local_x_, local_y_, local_z_, counts_;
     std::vector<Spectrum> colors_;          // by node where there are textures; else empty
     std::vector<PackedSpectrum> white_;     // by node: albedo over pi

@@ -13,7 +13,7 @@ constexpr float kFarthest = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBlock = 256;  // nodes
 
 struct Probe {
-    std::size_t node;  // of the block
+    std::size_t node;  // number of the node in the block
     std::uint16_t direction;
     Vec3f origin_m, dir;
     float distance_m = kFarthest;
@@ -71,8 +71,8 @@ class Prober {
                                            std::min<std::size_t>(kPacketSize, asked.size() - first));
             rays.count = static_cast<int>(packet.size());
             from.fill(0);
-            constexpr int kMostSheets = 16;
-            for (int sheet = 0; sheet < kMostSheets; ++sheet) {
+            constexpr int kMaxSheets = 16;
+            for (int sheet = 0; sheet < kMaxSheets; ++sheet) {
                 for (std::size_t i = 0; i < packet.size(); ++i)
                     rays.set(static_cast<int>(i), other.place(packet[i]->origin_m), other.dir(packet[i]->dir),
                              from[i], packet[i]->distance_m);
@@ -102,7 +102,7 @@ class Prober {
         probe.distance_m = hits.distance[k];
         const bool found = light.table().nodes().find(other.place(probe.origin_m) + hits.distance[k] * dir,
                                                       {back ? -normal : normal, surface, back}, about);
-        // What mirrors send is too sharp to be kept from object to object.
+        // Light that mirrors send is too sharp to be kept from object to object.
         const bool keeps = found && about.count > 0 && !light.is_mirror(surface);
         probe.link = {keeps ? about.nearest() : kDark, static_cast<std::uint16_t>(other.object),
                       probe.direction};

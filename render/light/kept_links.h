@@ -1,5 +1,5 @@
 #pragma once
-// What an object's nodes meet of other objects that stand near it: the part of the table of directions
+// The links of an object's nodes to other objects that stand near it: the part of the table of directions
 // (scene/transfer_table.h) that depends on where objects stand to each other, traced anew when that has
 // changed by a step. Turning parts are objects here. Glass of another object is passed.
 
@@ -16,7 +16,7 @@ namespace hilcam {
 struct KeptNeighbour {
     std::size_t object = 0;
     Mat3f axes;     // turns this object's axes into the other's
-    Vec3f shift_m;  // of this one's origin, in the other's axes
+    Vec3f shift_m;  // shift of this one's origin, in the other's axes
 
     Vec3f place(Vec3f point_m) const { return axes * point_m + shift_m; }
     Vec3f dir(Vec3f d) const { return axes * d; }
@@ -32,7 +32,7 @@ struct KeptNeighbour {
 class KeptLinks {
   public:
     struct Link {
-        std::uint32_t node;  // of the other object
+        std::uint32_t node;  // a node of the other object
         std::uint16_t object;
         std::uint16_t direction;
     };

@@ -1,4 +1,4 @@
-// What of the kept light a facet lobe finds: KeptLight's lookup.
+// KeptLight's lookup by a facet lobe.
 
 #include <algorithm>
 #include <bit>
@@ -82,7 +82,7 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
                     .view = axes.dir(view_dir),
                     .mirror = axes.dir(reflect(view_dir, normal)),
                     .narrow = alpha < kNarrowestKept};
-    alignas(64) std::array<float, kMostDirections> whole, kept;  // weights, by direction
+    alignas(64) std::array<float, kMaxDirections> whole, kept;  // weights, by direction
     lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), counts_.data(), counts_.size(), query,
                  whole.data(), kept.data());
     // Points that are buried do not count.
@@ -125,8 +125,8 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
         }
     }
     out.kept = (1 / all) * out.kept;
-    // What comes along the directions that meet something makes the node's irradiance: pi / counted of each
-    // one's radiance.
+    // Light that comes along the directions that meet something makes the node's irradiance: pi / counted of
+    // each one's radiance.
     if (met_nodes > 0)
         out.of_irradiance =
             occupied / all * static_cast<float>(node.counted) / (kPiF * static_cast<float>(met_nodes));

@@ -23,7 +23,7 @@ namespace hilcam {
 class KeptScene {
   public:
     struct Settings {
-        float step_rad = 0;  // of the grid that sources are rounded to
+        float step_rad = 0;  // step of the grid to which sources are rounded
         std::size_t lamps = 0;
         bool emission = false;
     };
@@ -31,8 +31,8 @@ class KeptScene {
     KeptScene(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
               const Settings& settings);
 
-    // For a frame, after everything else is placed; solves for what has moved by a step, where that was not
-    // done ahead. Loop.
+    // Prepares a frame, after everything else is placed; solves for what has moved by a step, where that was
+    // not done ahead. Loop.
     void place(const FrameView& frame, const WorldSnapshot& world);
     // Has the light of a frame that is placed solved by the thread that looks ahead, for who can do without
     // it meanwhile. True: that is done, and place() has no more to solve than what has moved since the first
@@ -41,7 +41,7 @@ class KeptScene {
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
     const KeptLight& light(std::size_t object) const { return *objects_[object].light; }
-    // What is kept on an object, for people.
+    // Says in words what is kept on an object.
     std::string describe(std::size_t object) const;
 
     // Adds to the tile's pixels what vertices that keep light reflect of it, narrow lobes apart; and notes
@@ -62,11 +62,11 @@ class KeptScene {
     };
     KeptTerms terms_;
     std::vector<Object> objects_;
-    std::vector<const KeptLight*> lights_;  // of them
+    std::vector<const KeptLight*> lights_;  // the light kept on each of them
     std::unique_ptr<KeptUpdates> updates_;
     SkyLight sky_;
     MirroredSuns mirrored_suns_;
-    // How things stand now, some frames ago, and as far ahead; what that asks for.
+    // The inputs now, some frames ago, and as far ahead, and the targets that they ask for.
     static constexpr int kStride = 16;  // frames
     KeptInputs now_, before_, long_before_, ahead_;
     KeptTarget target_, ahead_target_;

@@ -1,4 +1,4 @@
-// What the nodes of an object send of a source that shines on them: KeptSolver's first step.
+// Finds what the nodes of an object send of a source that shines on them: KeptSolver's first step.
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -46,7 +46,7 @@ void KeptSolver::light_nodes(const Member& member) {
                       });
 }
 
-// By the object itself, or by one that stands near.
+// Returns which rays are blocked by the object itself, or by one that stands near.
 std::uint32_t KeptSolver::blocked(const Member& member, const RayPacket& rays) const {
     std::uint32_t out = scene_.occluded_by(member.object, rays);
     for (const KeptNeighbour& other : member.links->near()) {
@@ -69,12 +69,12 @@ void KeptSolver::light_block(const Member& member, std::size_t first, std::size_
     const TransferTable& table = light.table();
     const KeptSource& source = member.source;
     Sender* const senders = senders_.data() + base_[member.object];
-    // What is asked of each node: how much its points would receive, rays sent, and rays that get through.
+    // The questions for each node: how much its points would receive, rays sent, and rays that get through.
     struct Asked {
         float received = 0;
         int points = 0, rays = 0, lit = 0;
         Vec3f dir;
-        Vec3f normal{};  // of the points that face the source, by how much they receive; not unit
+        Vec3f normal{};  // mean normal of the points that face the source, by how much they receive; not unit
     };
     std::array<Asked, kSendBlock> asked;
     RayPacket rays;
@@ -180,7 +180,7 @@ void KeptSolver::send(const KeptLight& light, std::size_t n, Vec3f source_dir, V
     sender.normal = pack_normal(normal);
     sender.ni = cosine;
     if (!material.has_facets()) return;
-    sender.alpha = std::max(material.ggx_alpha, KeptLight::least_alpha(light.table()));
+    sender.alpha = std::max(material.ggx_alpha, KeptLight::min_alpha(light.table()));
     Spectrum normal_incidence = material.highlight;
     if (material.model == ReflectionModel::kDielectric)
         normal_incidence.bin.fill(schlick_normal_incidence(material.refractive_index));

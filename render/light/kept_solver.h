@@ -47,10 +47,10 @@ class KeptSolver {
     void solve(std::span<const Member> group);
 
   private:
-    // What a node sends: radiance per unit of the source.
+    // The radiance that a node sends, per unit of the source.
     struct alignas(64) Sender {
         PackedSpectrum diffuse;
-        PackedSpectrum lobe;   // of facets, at normal incidence
+        PackedSpectrum lobe;   // the lobe of its facets, at normal incidence
         float received;        // irradiance
         std::uint32_t normal;  // packed
         float alpha;           // 0: no facets that shine
@@ -66,7 +66,8 @@ class KeptSolver {
     std::vector<Sender> senders_;
     std::vector<Spectrum> radiosity_;             // over pi
     std::vector<Spectrum> first_, now_, before_;  // irradiance: of the first way, of all so far, a bounce ago
-    std::vector<Spectrum> mirrored_;  // of the first, what flat mirrors throw of the Sun; empty: none does
+    // The Sun's light that flat mirrors throw on the first's nodes; empty: none does.
+    std::vector<Spectrum> mirrored_;
 
     void light_nodes(const Member& member);
     void light_block(const Member& member, std::size_t first, std::size_t last);

@@ -1,6 +1,6 @@
 #pragma once
-// Where light comes from that is kept (kept_light.h): a place in an object's own axes, rounded, so that what
-// is kept for it is a function of the place alone.
+// A source whose light is kept (kept_light.h): a place in an object's own axes, rounded, so that what is kept
+// for it is a function of the place alone.
 
 #include <algorithm>
 #include <cmath>
@@ -39,34 +39,34 @@ struct KeptSource {
         kSun,   // a point far away; unit: 1 W m^-2 um^-1 across the way
         kCone,  // a body's disk, of even radiance; the same unit on a surface that faces it
         kLamp,  // a lamp; unit: intensity on its axis
-        kGlow   // what the materials emit
+        kGlow   // emission of the materials themselves
     };
     Kind kind = Kind::kNone;
     Vec3f dir{};            // to it; unit. A lamp's axis
-    float cone_cosine = 1;  // of the cone's half angle
-    Vec3f position_m{};     // of a lamp
+    float cone_cosine = 1;  // cosine of the cone's half angle
+    Vec3f position_m{};     // position of a lamp
     const LampBeam* beam = nullptr;
 
     bool operator==(const KeptSource& o) const {
         return kind == o.kind && dir == o.dir && cone_cosine == o.cone_cosine && position_m == o.position_m &&
                beam == o.beam;
     }
-    // At the middle of its cell of a grid of about `step_rad`, and of a hundredth of what is near for a
-    // lamp's place.
+    // Returns the source at the middle of its cell of a grid of about `step_rad`, and of a hundredth of what
+    // is near for a lamp's place.
     KeptSource rounded(float step_rad) const;
 };
 
-// How much each of a node's directions counts for a cone of light: those within it whole, and those beside it
-// by falling weights, so far that there are half a dozen: of all directions, sin^2 of a cone's half angle
-// times the cosine of its axis are in it.
+// The share of a cone of light in each of a node's directions: those within it whole, and those beside it by
+// falling weights, so far that there are half a dozen: of all directions, sin^2 of a cone's half angle times
+// the cosine of its axis are in it.
 struct ConeShare {
     Vec3f axis{0, 0, 1};  // node axes
     float inside = 1, outside = 1;
 
     ConeShare() = default;
     ConeShare(Vec3f node_axis, float cone_cosine, int directions) : axis(node_axis), inside(cone_cosine) {
-        constexpr float kEnough = 6, kLeastCosine = 0.25f, kSoft_rad = 0.05f;
-        const float share = kEnough / (static_cast<float>(directions) * std::max(axis.z, kLeastCosine));
+        constexpr float kEnough = 6, kMinCosine = 0.25f, kSoft_rad = 0.05f;
+        const float share = kEnough / (static_cast<float>(directions) * std::max(axis.z, kMinCosine));
         const float half_angle = std::acos(std::clamp(cone_cosine, -1.0f, 1.0f));
         outside = std::cos(std::max(half_angle + kSoft_rad, std::asin(std::sqrt(std::min(share, 1.0f)))));
     }

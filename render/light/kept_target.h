@@ -1,6 +1,6 @@
 #pragma once
-// What light is to be kept for (kept_light.h): where the sources are and how the objects stand to each other,
-// all of it rounded.
+// The target that light is kept for (kept_light.h): where the sources are and how the objects stand to each
+// other, all of it rounded.
 
 #include <array>
 #include <span>
@@ -14,7 +14,7 @@ namespace hilcam {
 
 // The terms of an object, by number.
 struct KeptTerms {
-    static constexpr std::size_t kSun = 0, kBodies = 1, kLamps = 1 + SkyLight::kMostBodies;
+    static constexpr std::size_t kSun = 0, kBodies = 1, kLamps = 1 + SkyLight::kMaxBodies;
     std::size_t lamps = 0;
     bool emission = false;
 
@@ -23,7 +23,7 @@ struct KeptTerms {
     KeptSource::Kind kind(std::size_t term) const;
 };
 
-// Where all that matters stands in a frame, as it is; world axes.
+// The places of all that matters in a frame, as they are; world axes.
 struct KeptInputs {
     struct Lamp {
         std::size_t number;
@@ -39,11 +39,12 @@ struct KeptInputs {
     bool sun = false;
     Vec3f sun_dir;
     std::size_t body_count = 0;
-    std::array<Body, SkyLight::kMostBodies> bodies;
+    std::array<Body, SkyLight::kMaxBodies> bodies;
     std::vector<Lamp> lamps;
 
-    // What comes after `now`, as far from it as `by` times what lies between it and `then`, everything moving
-    // on as it did. False where they have not the same things in them. No allocation but at the first calls.
+    // Finds what comes after `now`, as far from it as `by` times what lies between it and `then`, everything
+    // moving on as it did. False where they have not the same things in them. No allocation but at the first
+    // calls.
     static bool extrapolate(const KeptInputs& then, const KeptInputs& now, double by, KeptInputs& out);
 };
 

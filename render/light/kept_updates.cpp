@@ -55,7 +55,7 @@ void KeptUpdates::wait() {
 
 void KeptUpdates::work() {
     // Frames come first; and one core of those that they leave is enough.
-    constexpr int kNicer = 10;  // than the program, which may be nice itself
+    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
     setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
     tbb::task_arena alone(1, 1);
     while (true) {
@@ -109,7 +109,7 @@ void KeptUpdates::prepare_group(const KeptTarget& target, std::size_t term,
     if (staged && differs) return;
     for (const KeptSolver::Member& member : members_)
         stage_.has_solution[member.object][term] = differs && shines;
-    // What does not shine stays as it was: its level is zero.
+    // A source that does not shine stays as it was: its level is zero.
     if (differs && shines) solver_.solve(members_);
 }
 

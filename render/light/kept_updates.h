@@ -32,7 +32,7 @@ class KeptUpdates {
     bool is_busy() const { return state_.load(std::memory_order_acquire) != State::kIdle; }
 
   private:
-    // What has been made and not been taken: links by object, solutions by object and term.
+    // The parts that have been made and not been taken: links by object, solutions by object and term.
     struct Stage {
         KeptTarget target;
         std::vector<KeptLinks> links;

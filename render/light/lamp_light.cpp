@@ -18,12 +18,12 @@ struct LitBy {
     Spectrum weight;  // the light that comes if nothing is between
 };
 
-// How far towards a lamp something can be in the way. Single precision leaves a share of 6e-8 of the length
-// and of its ends' coordinates; a millionth keeps clear of that.
+// Returns how far towards a lamp something can be in the way. Single precision leaves a share of 6e-8 of the
+// length and of its ends' coordinates; a millionth keeps clear of that.
 double free_length_m(double distance_m) { return std::max(0.0, (1 - 1e-6) * distance_m - kLampClearance_m); }
 
-// By an object, also by one that is points itself: a PointField looks for those that are traced, and dims
-// what is behind their glass.
+// True when an object hides it, also one that is points itself: a PointField looks for those that are traced,
+// and dims what is behind their glass.
 bool is_hidden(const FrameView& frame, Vec3d dir, double distance_m) {
     const Vec3f start_m = frame.start_of(dir);
     const double until_m = distance_m - length(to_double(start_m) - frame.camera_m);
@@ -49,8 +49,8 @@ bool PlacedLamp::shines_on(Vec3d place_m, LampRay& ray) const {
 }
 
 Lamps::Lamps(std::vector<SceneLamp> lamps) : lamps_(std::move(lamps)) {
-    if (lamps_.size() > kMostLamps)
-        throw refused("lamps", std::to_string(lamps_.size()), "at most " + std::to_string(kMostLamps));
+    if (lamps_.size() > kMaxLamps)
+        throw refused("lamps", std::to_string(lamps_.size()), "at most " + std::to_string(kMaxLamps));
 }
 
 void Lamps::place(const WorldSnapshot& world, Vec3d ray_space_world_m) {

@@ -25,7 +25,7 @@ namespace hilcam {
 
 inline constexpr double kLampClearance_m = 1e-3;
 
-// What comes from a lamp to a place.
+// The light that comes from a lamp to a place.
 struct LampRay {
     Vec3d dir;  // to the lamp, unit
     double distance_m = 0;
@@ -48,12 +48,12 @@ struct PlacedLamp {
 // A scene's lamps.
 class Lamps {
   public:
-    // Throws InputError when there are more than kMostLamps.
+    // Throws InputError when there are more than kMaxLamps.
     explicit Lamps(std::vector<SceneLamp> lamps);
-    Lamps(const Lamps&) = delete;  // what is placed points to the beams
+    Lamps(const Lamps&) = delete;  // not copied: what is placed points to the beams
     Lamps& operator=(const Lamps&) = delete;
 
-    // For a frame; world.lamps are these. Loop.
+    // Places the lamps for a frame; world.lamps are these. Loop.
     void place(const WorldSnapshot& world, Vec3d ray_space_world_m);
 
     const std::vector<SceneLamp>& all() const { return lamps_; }
@@ -61,7 +61,7 @@ class Lamps {
 
   private:
     std::vector<SceneLamp> lamps_;
-    std::array<PlacedLamp, kMostLamps> lit_;
+    std::array<PlacedLamp, kMaxLamps> lit_;
     std::size_t lit_count_ = 0;
 };
 

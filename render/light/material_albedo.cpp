@@ -37,7 +37,8 @@ MaterialAlbedo::MaterialAlbedo(const Material& material) {
         if (!material.has_facets()) {
             base_[k] = all;
         } else {
-            // What leaves the facets after several reflections, or enters the body (material.h).
+            // The base is light that leaves the facets after several reflections, or enters the body
+            // (material.h).
             base_[k] = std::max(0.0f, 1 - material.facets(cosine)) * material.base;
             for (int b = 0; b < kMaxBins; ++b) lobe_[k][b] = std::max(0.0f, all[b] - base_[k][b]);
         }

@@ -16,8 +16,8 @@ namespace {
 // Half of the light of the Sun's disk comes from within this of its middle [rad]: 4.65 mrad over the root of
 // two.
 constexpr float kHalfSun_rad = 0.0033f;
-// At flatter angles a mirror throws next to nothing.
-constexpr float kLeastCosine = 0.01f;
+// A mirror throws next to nothing at flatter angles.
+constexpr float kMinCosine = 0.01f;
 // GGX's slopes in one direction are spread by a^2 / (2 (a^2 + x^2)^1.5) (its density of both, Heitz, JCGT
 // 3(2), 2014, integrated): the share within x is x / (a^2 + x^2)^0.5. Even spreads of these half widths, in
 // a, with these shares have it to 0.025.
@@ -29,12 +29,12 @@ constexpr std::array<Rectangle, 3> kRectangles{{{0.65f, 0.357f}, {1.55f, 0.437f}
 // A vertex on its way to a mirror.
 struct Asked {
     const Vertex* at;
-    Spectrum light;    // what it sends towards the viewer if it sees all of the mirrored Sun
-    Vec3f start_m;     // of the ray
+    Spectrum light;    // light that it sends towards the viewer if it sees all of the mirrored Sun
+    Vec3f start_m;     // start of the ray
     Vec3f dir, sun;    // towards the mirrored Sun, and from the mirror to the Sun
-    float cosine;      // of the ray to the plane
+    float cosine;      // cosine between the ray and the plane's normal
     float distance_m;  // to the plane
-    float filled;      // how much of its lobe the mirror fills
+    float filled;      // share of its lobe that the mirror fills
     float even;        // 1: that share counts, 0: whether the ray meets the mirror
 };
 struct Reflected {
@@ -42,8 +42,8 @@ struct Reflected {
     Spectrum light;
 };
 
-// What a vertex reflects to the viewer of light from a direction, per unit of irradiance across it, and where
-// a ray that asks for that light begins.
+// The light from a direction that a vertex reflects to the viewer, per unit of irradiance across it, and the
+// start of a ray that asks for that light.
 struct Scattered {
     Spectrum light;
     Vec3f start_m;
@@ -94,13 +94,13 @@ class Asker {
         Asked asked;
         asked.at = &at;
         auto [sun, light] = sun_.of(at);
-        // What is widened is widened by the disk, too.
+        // A disk that is widened is widened by the Sun's disk, too.
         if (shown_.blur.x > 0)
             sun = to_float(frame_.background->sun_world_dir()),
             light = frame_.background->sun_irradiance_w_m2_um();
         asked.sun = sun;
         asked.cosine = dot(sun, shown_.normal);
-        if (asked.cosine < kLeastCosine) return;
+        if (asked.cosine < kMinCosine) return;
         asked.dir = sun - 2 * asked.cosine * shown_.normal;
         asked.distance_m = above_m / asked.cosine;
         const Vec3f from = at.point_m + asked.distance_m * asked.dir - shown_.corner_m;
@@ -128,7 +128,7 @@ class Asker {
     HitPacket hits_;
     std::array<Asked, kPacketSize> asked_;
 
-    // How much of the lobe the mirror fills, seen about a place of its plane. False: nothing.
+    // Finds how much of the lobe the mirror fills, seen about a place of its plane. False: nothing.
     bool look_up(Vec2f place, Asked& asked) const {
         const Vec2f cell = shape_.cell_m();
         // The map is as fine as its cells, and as true as the level of detail; what is sharper has the edges
@@ -262,7 +262,7 @@ void MirroredSuns::place(const FrameView& frame, const WorldSnapshot& world) {
         if (dot(normal, sun) < 0) normal = -normal;
         const float cosine = dot(normal, sun);
         const Spectrum reflectance = mirror.albedo->lobe(cosine);
-        if (cosine < kLeastCosine || largest(reflectance) < frame.contribution_threshold) continue;
+        if (cosine < kMinCosine || largest(reflectance) < frame.contribution_threshold) continue;
         const Vec3f origin_m = to_float(world.objects[mirror.number].position_world_m - frame.rays_world_m);
         Shown out{mirror,
                   normal,
@@ -301,10 +301,10 @@ PlaceBox box_of(std::span<const Vertex> vertices) {
 
 void MirroredSuns::add_light(Tile& tile, std::span<const Vertex> vertices) const {
     BeamPlaces places;
-    for (std::size_t first = 0; first < vertices.size() && !shown_.empty(); first += BeamPlaces::kMost) {
+    for (std::size_t first = 0; first < vertices.size() && !shown_.empty(); first += BeamPlaces::kMax) {
         const std::span<const Vertex> some =
-            vertices.subspan(first, std::min(BeamPlaces::kMost, vertices.size() - first));
-        for (std::size_t i = 0; i < BeamPlaces::kMost; ++i) {
+            vertices.subspan(first, std::min(BeamPlaces::kMax, vertices.size() - first));
+        for (std::size_t i = 0; i < BeamPlaces::kMax; ++i) {
             const Vec3f point_m = some[std::min(i, some.size() - 1)].point_m;
             places.x[i] = point_m.x, places.y[i] = point_m.y, places.z[i] = point_m.z;
         }

@@ -32,7 +32,7 @@ class MirroredSuns {
     // A flat mirror of an object.
     struct Mirror {
         const ShownObject* object;
-        std::uint32_t number;  // of the object
+        std::uint32_t number;  // number of the object
         const FlatMirror* shape;
         const MaterialAlbedo* albedo;
         float alpha;
@@ -43,9 +43,9 @@ class MirroredSuns {
         Vec3f normal;  // on the side where the Sun is
         Vec3f corner_m, across, down;
         Spectrum reflectance;
-        float tolerance_m;  // how far off the plane its level of detail may be
-        // How far a facet that leans by alpha moves the place where the Sun is seen, over the distance, along
-        // across and down; 0: the mirror is as sharp as its edge.
+        float tolerance_m;  // greatest distance of its level of detail from the plane
+        // The distance by which a facet that leans by alpha moves the place where the Sun is seen, over the
+        // distance, along across and down; 0: the mirror is as sharp as its edge.
         Vec2f blur{};
         Vec3f dir{};        // towards the mirrored Sun's middle
         MirrorBeam beam{};  // where anything of it counts
@@ -64,7 +64,7 @@ class MirroredSuns {
   private:
     std::vector<Mirror> mirrors_;
     std::vector<Shown> shown_;
-    MirrorBeams beams_;  // of shown_
+    MirrorBeams beams_;  // the beams of shown_
 
     void add_light_of(const Shown& shown, Tile& tile, std::span<const Vertex> vertices,
                       BeamPlaces& places) const;

@@ -25,7 +25,7 @@ struct Modules {
     Registry<RadianceModel> radiance{"radiance"};
     Registry<Atmosphere, const AtmosphereRequest&> atmospheres{"atmosphere.model"};
 
-    // With the program's own.
+    // Registers the program's own models.
     Modules();
 };
 

@@ -11,10 +11,10 @@ namespace hilcam {
 
 // A vertex that many samples of a pixel see may be a crumpled thing: a part of it, which leans otherwise.
 struct Facet {
-    Vec3f geometric_normal, normal;          // as a vertex's
+    Vec3f geometric_normal, normal;          // the two normals of a vertex
     Vec3f start_m;                           // where rays that leave it begin, ray space
-    float samples = 0;                       // of the pixel, that see it
-    const LevelFacets* flattened = nullptr;  // what it stands for in the mesh; null: itself
+    float samples = 0;                       // number of the pixel's samples that see it
+    const LevelFacets* flattened = nullptr;  // the facets of the mesh for which it stands; null: itself
     const Facet* next = nullptr;
 };
 
@@ -23,33 +23,34 @@ struct Vertex {
     std::uint16_t sample;    // in the pixel
     std::uint16_t depth;     // 1: seen by the camera
     Vec3f point_m;           // ray space
-    float offset_m;          // how far a ray must start above the surface
+    float offset_m;          // distance above the surface at which a ray must start
     Vec3f geometric_normal;  // towards the viewer's side, unit
     Vec3f normal;            // shading, same side
     Vec3f view_dir;          // back along the path, unit
-    float footprint_m;       // how wide the ray was when it came
+    float footprint_m;       // width of the ray when it came
     std::uint32_t object;
-    std::uint16_t surface_number;  // of the object's mesh
+    std::uint16_t surface_number;  // surface of the object's mesh
     bool back;                     // the side that its triangle's own normal points away from
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     bool mirrors_near;             // where that, something may stand in the mirror's direction
     float weight_samples;          // samples of the pixel that see it, where it is not one ray's
-    float facet_alpha;             // of the lobes of its facets
+    float facet_alpha;             // alpha of the lobes of its facets
     const Facet* facets;           // the vertex's own among them; null: it is one
     Spectrum weight;
     Scatterer surface;
 
-    // What thresholds are held against: the largest weight of one of the samples that a ray stands for.
+    // Returns the figure that thresholds are held against: the largest weight of one of the samples for which
+    // a ray stands.
     float importance(const Spectrum& of) const { return largest(of) / weight_samples; }
-    // Where a ray begins that leaves to this side: above the surface, or below it through glass.
+    // Returns where a ray begins that leaves to this side: above the surface, or below it through glass.
     Vec3f start(bool above = true) const {
         return point_m + (above ? offset_m : -offset_m) * geometric_normal;
     }
 };
 
-// How a surface lies that a ray meets.
+// The orientation of the surface where a ray meets it.
 struct Lie {
-    Vec3f geometric_normal, normal, view_dir;  // as a vertex's
+    Vec3f geometric_normal, normal, view_dir;  // those of a vertex
     bool back;
 };
 // Finds it for a lane that met an object. False where there is nothing to see: a triangle without an area.

@@ -14,9 +14,9 @@ namespace hilcam {
 // Half the angle of the cone about the boresight that holds the padded image of an instant.
 double half_field_rad(const ImageGeometry& geometry);
 
-// For one frame. With rows of different instants each point is where the row is that sees it; a scanning
-// line that is slow over a star draws it as a column of points, one per row, while the vector has room. Loop;
-// no allocation while the vector has room.
+// The points of light of one frame. With rows of different instants each point is where the row is that sees
+// it; a scanning line that is slow over a star draws it as a column of points, one per row, while the vector
+// has room. Loop; no allocation while the vector has room.
 class PointField {
   public:
     PointField(const FrameView& frame, const WorldSnapshot& world);
@@ -31,13 +31,13 @@ class PointField {
     // object, or of the sky.
     void add(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um,
              std::vector<PointSource>& points, std::uint32_t object = PointSource::kSky) const;
-    // Whether the thing is in the padded image.
+    // True when the thing is in the padded image.
     bool sees(Vec3d dir, double distance_m) const {
         Sighting ignored;
         return find(dir, distance_m, ignored);
     }
-    // Where add() draws it, and with what light: what air and glass before it leave; false: it is outside, or
-    // hidden.
+    // Finds where add() draws it, and with what light: that which air and glass before it leave. False: it is
+    // outside, or hidden.
     bool look(Vec3d dir, double distance_m, const Spectrum& irradiance_w_m2_um, Sighting& where,
               Spectrum& seen_w_m2_um) const;
 
@@ -45,8 +45,8 @@ class PointField {
     const FrameView& frame_;
     const WorldSnapshot& world_;
     Vec3d boresight_dir_;
-    double field_rad_;     // from the boresight at the frame's time, of what can be in the image
-    double least_cosine_;  // of that angle
+    double field_rad_;   // from the boresight at the frame's time, of what can be in the image
+    double min_cosine_;  // cosine of that angle
 
     StarObserver observer_of(TimeTai star_time) const;
     bool find(Vec3d dir, double distance_m, Sighting& seen) const;

@@ -85,9 +85,9 @@ class PrimaryRays {
     Vec3d corner_;
     RayPacket rays_;
     HitPacket hits_;
-    std::array<float, kPacketSize> x_of_{}, y_of_{};  // of the packet's pixels, from the tile's corner
-    std::array<float, kPacketSize> x_at_{}, y_at_{};  // of their samples
-    std::array<std::uint32_t, kPacketSize> word_x_{}, word_y_{};  // of their sequences
+    std::array<float, kPacketSize> x_of_{}, y_of_{};  // places of the packet's pixels, from the tile's corner
+    std::array<float, kPacketSize> x_at_{}, y_at_{};  // places of their samples
+    std::array<std::uint32_t, kPacketSize> word_x_{}, word_y_{};  // words of their sequences
     std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
     std::size_t count_ = 0;
 
@@ -124,7 +124,7 @@ class PrimaryRays {
     void center(float dx, float dy) {
         for (std::size_t k = 0; k < kPacketSize; ++k) x_at_[k] = x_of_[k] + dx, y_at_[k] = y_of_[k] + dy;
     }
-    // Of the packet's pixels, the same for all their samples.
+    // Chooses the sequences of the packet's pixels, the same for all their samples.
     void choose_sequences() {
         for (std::size_t k = 0; k < static_cast<std::size_t>(rays_.count); ++k) {
             const std::uint32_t pixel = tile_.frame_pixel(tile_.box.x0 + static_cast<int>(x_of_[k]),

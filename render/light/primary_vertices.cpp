@@ -18,7 +18,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Where to look for what some samples see: at the one next to their middle. The middle itself may see
+// Returns where to look for what some samples see: the sample next to their middle. The middle itself may see
 // something else.
 std::uint8_t nearest_to_middle(std::uint32_t samples) {
     float x = 0, y = 0;
@@ -43,17 +43,17 @@ const std::vector<std::uint8_t> kNearestToMiddle = [] {
         out[samples] = nearest_to_middle(samples);
     return out;
 }();
-// From the pixel's corner.
+// Returns the samples' middle, from the pixel's corner.
 Vec2f middle_of(std::uint16_t samples) {
     if (samples == 0xFFFFu) return {0.5f, 0.5f};
     const int i = kNearestToMiddle[samples];
     return {sample_x(i), sample_y(i)};
 }
 
-// How far two facets may lean against each other to be one vertex: its kept light and its mirrored rays are
-// those of one of them.
+// The greatest lean of two facets against each other that make one vertex: its kept light and its mirrored
+// rays are those of one of them.
 constexpr float kLeansAlike = 0.94f;          // cosine
-constexpr float kLeansAlikeNarrow = 0.9998f;  // of surfaces with narrow lobes
+constexpr float kLeansAlikeNarrow = 0.9998f;  // cosine for surfaces with narrow lobes
 
 // A bit for each of a pixel's samples that sees it.
 std::uint32_t equal_ids(const std::uint32_t* ids, std::uint32_t id) {
@@ -79,7 +79,7 @@ std::size_t PrimaryVertices::next(std::span<Vertex> vertices) {
 std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
     const PixelBox& box = tile_.box;
     if (!std::exchange(begun_, true)) {
-        HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMostSamples &&
+        HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMaxSamples &&
                      tile_.samples_per_axis == kVisibilitySamplesAcross);
         uncovered_.fill(kVisibilitySamples);
         part_ = {box.x0 - kVisibilityTile_px, box.y0, box.x0, box.y0};
@@ -144,7 +144,7 @@ void PrimaryVertices::take_pixel(int x, int y) {
               });
 }
 
-// Whether a body stands before what the samples see: they see the body then.
+// True when a body stands before what the samples see: they see the body then.
 bool PrimaryVertices::leave_to_body(std::size_t k) {
     const FrameView& frame = tile_.frame;
     const Vec3d point = to_double(origins_[k]) + static_cast<double>(hits_.distance[k]) * dirs_[k];

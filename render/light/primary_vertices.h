@@ -1,7 +1,7 @@
 #pragma once
-// What the camera sees of a tile, as vertices: by rays (primary_rays.h), or out of the frame's visibility
-// buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the weight of so
-// many samples.
+// Finds what the camera sees of a tile, as vertices: by rays (primary_rays.h), or out of the frame's
+// visibility buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the
+// weight of so many samples.
 
 #include <array>
 #include <cstdint>
@@ -16,8 +16,8 @@ class PrimaryVertices {
   public:
     explicit PrimaryVertices(Tile& tile) : tile_(tile) {}
 
-    // Writes the next vertices, PathModel::kMostSamples at a time at most, and adds the background to the
-    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMostSamples. Loop, any thread.
+    // Writes the next vertices, PathModel::kMaxSamples at a time at most, and adds the background to the
+    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMaxSamples. Loop, any thread.
     std::size_t next(std::span<Vertex> vertices);
 
   private:
@@ -29,10 +29,10 @@ class PrimaryVertices {
     };
     Tile& tile_;
     bool begun_ = false, ended_ = false;
-    PixelBox part_{};  // of the tile, as the buffer has it
+    PixelBox part_{};  // the part of the tile that the buffer has
     static constexpr int kPartPixels = kVisibilityTile_px * kVisibilityTile_px;
     int next_pixel_ = kPartPixels;  // there
-    std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;
+    std::array<std::uint8_t, PathModel::kMaxSamples> uncovered_;
     std::array<Fragment, 2 * kPacketSize> fragments_;
     std::size_t fragment_count_ = 0;
     // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.

@@ -15,12 +15,12 @@ std::unique_ptr<RadianceModel> make_radiance_equation(bool emission);
 
 // Density [sr^-1] of the directions that kSampled draws to all bodies together, for a vertex; what a path's
 // own direction is weighed against.
-float lamp_density(const FrameView& frame, const Vertex& at, Vec3f dir);
+float body_light_density(const FrameView& frame, const Vertex& at, Vec3f dir);
 // The same for the Sun's disk; 0 where the Sun is a point or the direction is off its disk.
 float sun_density(const FrameView& frame, Vec3f dir);
 
-// Where the Sun shines from on a vertex: from the middle of its disk, or from a place on it that is drawn.
-// Loop, any thread.
+// Chooses where the Sun shines from on a vertex: from the middle of its disk, or from a place on it that is
+// drawn. Loop, any thread.
 class SunSampler {
   public:
     explicit SunSampler(const Tile& tile)
@@ -32,7 +32,7 @@ class SunSampler {
           sine_squared_(
               static_cast<float>(1 - background_.sun_disk_cosine() * background_.sun_disk_cosine())) {}
 
-    // Of directions on the disk [sr^-1].
+    // Returns the density of directions on the disk [sr^-1].
     float disk_density() const { return 1 / (kPiF * sine_squared_); }
     struct Sample {
         Vec3f dir;       // unit

@@ -1,5 +1,5 @@
 #pragma once
-// How many rays a picture took, by what they are for.
+// The numbers of rays that a picture took, by purpose.
 
 #include <cstdint>
 

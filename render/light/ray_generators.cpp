@@ -80,7 +80,7 @@ class RowRays : public RayGenerator {
         const Pose pose = propagate(camera_, camera_.time + to_ns(dt_s));
         return {pose.position_world_m - camera_.pose.position_world_m, to_matrix(pose.world_from_body)};
     }
-    // Where the sensor has a thing at that instant. False: behind it.
+    // Finds where the sensor has a thing at that instant. False: behind it.
     bool project(Vec3d dir, double distance_m, double y_px, Sighting& seen) const {
         const RowPose at = pose_at(y_px);
         const Vec3d d = in_camera(at, dir, distance_m);
@@ -89,7 +89,7 @@ class RowRays : public RayGenerator {
         seen.from_camera_m = at.moved_m;
         return true;
     }
-    // Whether the lens has it where project() said. On the way to its row a thing may be where it has not.
+    // True when the lens has it where project() said. On the way to its row a thing may be where it has not.
     bool lens_shows(Vec3d dir, double distance_m, double y_px, const Sighting& seen) const {
         return geometry_.shows(in_camera(pose_at(y_px), dir, distance_m), seen.position_px);
     }
@@ -107,7 +107,7 @@ class RowRays : public RayGenerator {
     }
 };
 
-constexpr int kMostSteps = 32;
+constexpr int kMaxSteps = 32;
 constexpr double kFound_px = 1e-4;
 
 class RollingRays final : public RowRays {
@@ -121,7 +121,7 @@ class RollingRays final : public RowRays {
         if (!project(dir, distance_m, y, seen)) return false;
         double miss = seen.position_px.y - y;
         double next = seen.position_px.y;
-        for (int step = 0; step < kMostSteps && is_near(next); ++step) {
+        for (int step = 0; step < kMaxSteps && is_near(next); ++step) {
             if (!project(dir, distance_m, next, seen)) return false;
             const double next_miss = seen.position_px.y - next;
             if (std::abs(next_miss) < kFound_px) return lens_shows(dir, distance_m, next, seen);
@@ -151,7 +151,7 @@ class PushbroomRays final : public RowRays {
         double miss = 0;
         if (!off_line(dir, distance_m, y, seen, miss)) return false;
         double next = y + 0.25;
-        for (int step = 0; step < kMostSteps; ++step) {
+        for (int step = 0; step < kMaxSteps; ++step) {
             double next_miss = 0;
             if (!off_line(dir, distance_m, next, seen, next_miss)) return false;
             const double speed = (next_miss - miss) / (next - y);  // rows of the sensor per row of the image
@@ -183,7 +183,7 @@ class PushbroomRays final : public RowRays {
         seen.light_ratio = geometry_.padded_height();
         return std::abs(miss_px) < 0.5;
     }
-    // How far below the sensor's row it is [px].
+    // Finds how far below the sensor's row it is [px].
     bool off_line(Vec3d dir, double distance_m, double y_px, Sighting& seen, double& miss_px) const {
         if (!project(dir, distance_m, y_px, seen)) return false;
         miss_px = seen.position_px.y - geometry_.center_px().y;

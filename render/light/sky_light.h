@@ -12,13 +12,13 @@ namespace hilcam {
 
 class SkyLight {
   public:
-    static constexpr std::size_t kMostBodies = 2;
+    static constexpr std::size_t kMaxBodies = 2;
     // Bodies that cannot give this share of what white paint sends in the Sun are left out.
-    static constexpr float kLeastOverSun = 1e-5f;
+    static constexpr float kMinOverSun = 1e-5f;
 
     SkyLight();
 
-    // For a frame: the background is placed. Loop.
+    // Prepares a frame; the background is placed. Loop.
     void place(const Background& background);
 
     struct Body {
@@ -56,16 +56,16 @@ class SkyLight {
     static constexpr std::array<std::size_t, 3> kParts = {4, 16, kPatches};
     struct Disk {
         alignas(64) std::array<float, kPatches> x{}, y{}, z{};
-        std::array<Spectrum, kPatches> irradiance{};  // of each, on a surface that faces it
+        std::array<Spectrum, kPatches> irradiance{};  // irradiance by each, on a surface that faces it
         alignas(
             64) std::array<std::array<float, kPatches>, kMaxBins> by_bin{};  // the same, for sums in vectors
-        float least_alpha = 0;
+        float min_alpha = 0;
     };
     struct Disks {
         std::array<Disk, kParts.size()> of;              // by kParts
-        float cosine = 1, sine = 0, half_angle_rad = 0;  // of a cone that holds it
-        // Where its limb is in the planes through its middle, from the first axis of its frame on: a body
-        // that is flattened fills no cone.
+        float cosine = 1, sine = 0, half_angle_rad = 0;  // a cone that holds it
+        // The directions of its limb in the planes through its middle, from the first axis of its frame on: a
+        // body that is flattened fills no cone.
         static constexpr std::size_t kPlanes = 32;
         std::array<float, kPlanes> limb_rad{};
         float limb_in(Vec3f axis, Vec3f way) const;
@@ -73,9 +73,9 @@ class SkyLight {
 
     const Background* background_ = nullptr;
     std::size_t count_ = 0;
-    std::array<Body, kMostBodies> bodies_;
-    std::array<DirectionMap, kMostBodies> irradiance_;
-    std::array<Disks, kMostBodies> disks_;
+    std::array<Body, kMaxBodies> bodies_;
+    std::array<DirectionMap, kMaxBodies> irradiance_;
+    std::array<Disks, kMaxBodies> disks_;
 
     Spectrum past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);

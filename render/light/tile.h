@@ -1,5 +1,6 @@
 #pragma once
-// What the models that trace a tile share: the frame, the tile's pixels, counters, random numbers.
+// Everything that the models share which trace a tile: the frame, the tile's pixels, counters, random
+// numbers.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace hilcam {
 
 struct TileStats : RayCounts {
     double covered_px = 0;  // by objects
-    // With a noise budget: pixels with light, and those of them whose error is within it.
+    // Counts with a noise budget: pixels with light, and those of them whose error is within it.
     std::uint64_t lit_px = 0, within_budget_px = 0;
 
     TileStats& operator+=(const TileStats& other) {
@@ -33,8 +34,8 @@ struct Tile {
     int samples_per_axis;        // n: an n x n grid of rays in each pixel
     std::span<Spectrum> pixels;  // sums of radiance over a pixel's rays, row by row
     TileStats& stats;
-    FacetList& facets;  // of what is seen
-    // Of a pass over pixels that are sampled more than once (adaptive_sampler.h).
+    FacetList& facets;  // facets of what is seen
+    // The fields below are those of a pass over pixels that are sampled more than once (adaptive_sampler.h).
     bool scattered = false;                // rays by their pixels' sequences; false: on the regular grid
     std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
     const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all

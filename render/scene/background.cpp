@@ -22,7 +22,7 @@ double cone_cosine_of(double radius_m, double distance_m) {
     return std::sqrt(1 - sine * sine);
 }
 
-// Whether a body as large as this, in this direction, can touch the Sun's disk.
+// True when a body as large as this, in this direction, can touch the Sun's disk.
 bool can_cover(double cosine_to_sun, double body_cone_cosine, double sun_disk_cosine) {
     return std::acos(std::clamp(cosine_to_sun, -1.0, 1.0)) <
            std::acos(std::clamp(body_cone_cosine, -1.0, 1.0)) +
@@ -127,7 +127,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
         seen_in_motion(world.bodies.sun_world_m - world.camera.position_world_m, kSunRadius_m, velocity_m_s));
     sun_disk_cosine_ = cone_cosine_of(kSunRadius_m, sun_distance_m);
 
-    disk_count_ = point_count_ = lamp_count_ = 0;
+    disk_count_ = point_count_ = body_light_count_ = 0;
     nearest_m_ = kInfinity;
     camera_in_air_ = false;
     for (std::size_t i = 0; i < kBodyCount; ++i) {
@@ -152,9 +152,9 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
         const double radius_m =
             kFigures[index_of(body.id)].equatorial_radius_m + (has_air(body.id) ? air_->top_m() : 0);
         const double sine = std::min(1.0, radius_m / length(to_body_m));
-        lamps_[lamp_count_++] = {normalized(to_body_m), static_cast<float>(sine * sine),
-                                 static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
-                                 sun_share * most};
+        body_lights_[body_light_count_++] = {
+            normalized(to_body_m), static_cast<float>(sine * sine),
+            static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))), sun_share * most};
     }
 
     const double au = kAstronomicalUnit_m / sun_distance_m;
@@ -176,7 +176,7 @@ double Background::limb_angle_rad(std::size_t lamp, Vec3d way) const {
     const PlacedBody& body = disks_[lamp];  // place() makes a lamp of each disk, in order
     const Mat3d& fixed = body.fixed_from_world;
     return hilcam::limb_angle_rad(kFigures[index_of(body.id)], body.camera_m + fixed * objects_from_camera_m_,
-                                  fixed * lamps_[lamp].world_dir, fixed * way);
+                                  fixed * body_lights_[lamp].world_dir, fixed * way);
 }
 
 Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) const {
@@ -375,7 +375,8 @@ Spectrum Background::point_irradiance(const PlacedBody& body) const {
     const double a = figure.equatorial_radius_m, b = figure.polar_radius_m;
     const Vec3d to_camera = body.camera_m / body.distance_m;
     const double phase = std::acos(std::clamp(dot(to_camera, body.sun_dir), -1.0, 1.0));
-    // Of the ellipse that it shows: semi-axes a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's latitude.
+    // These are the semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's
+    // latitude.
     const double sine = to_camera.z;
     const double area_ratio =
         a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);

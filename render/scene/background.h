@@ -1,7 +1,7 @@
 #pragma once
-// What a ray meets that meets no object: the Moon and the planets with their air, the Sun's disk, or black
-// sky. Stars are point sources, not here. Also how much of the Sun reaches a place: distance, and eclipses by
-// bodies.
+// The background, which a ray sees that meets no object: the Moon and the planets with their air, the Sun's
+// disk, or black sky. Stars are point sources, not here. Also how much of the Sun reaches a place: distance,
+// and eclipses by bodies.
 
 #include <array>
 #include <optional>
@@ -15,24 +15,24 @@
 namespace hilcam {
 
 // A body that shines on the objects: the cone that holds it.
-struct BodyLamp {
+struct BodyLight {
     Vec3d world_dir;          // from the objects
-    float cone_sine_squared;  // of its half angle; 1 inside it
-    float one_minus_cosine;   // of its half angle, with all its digits where it is small
-    Spectrum most_over_sun;   // of its radiance, per unit of solar irradiance [sr^-1]
+    float cone_sine_squared;  // square of the sine of its half angle; 1 inside it
+    float one_minus_cosine;   // 1 - cosine of its half angle, with all its digits where it is small
+    Spectrum max_over_sun;    // greatest value of its radiance, per unit of solar irradiance [sr^-1]
 };
 
 // A body for one frame. Body axes: its own; "from" the body's centre.
 struct PlacedBody {
     BodyId id{};
     Vec3d world_dir;         // from the camera to its centre, as seen
-    double distance_m = 0;   // of the centre from the camera
-    double cone_cosine = 1;  // of the cone that holds it and its air; half a space inside it
-    double disk_cosine = 1;  // of the body without air
+    double distance_m = 0;   // distance of the centre from the camera
+    double cone_cosine = 1;  // cosine of the cone that holds it and its air; half a space inside it
+    double disk_cosine = 1;  // cosine of the body without air
     Vec3d camera_m;          // the camera in body axes
     Vec3d sun_dir;           // in body axes
     Mat3d fixed_from_world;
-    Spectrum irradiance_w_m2_um;   // of the Sun at the body
+    Spectrum irradiance_w_m2_um;   // irradiance by the Sun at the body
     bool may_be_eclipsed = false;  // another body can stand between it and the Sun
 };
 
@@ -53,13 +53,13 @@ class Background {
     const Spectrum& sun_irradiance_w_m2_um() const { return sun_irradiance_; }
     double sun_disk_cosine() const { return sun_disk_cosine_; }
     const SunDisk& sun_disk() const { return disk_; }
-    // As the camera sees it.
+    // Returns the Sun's direction as the camera sees it.
     Vec3d sun_camera_dir() const { return sun_camera_dir_; }
 
     // Bodies with a disk, nearest first; and those that are points.
     std::span<const PlacedBody> disks() const { return {disks_.data(), disk_count_}; }
     std::span<const PlacedBody> points() const { return {points_.data(), point_count_}; }
-    std::span<const BodyLamp> lamps() const { return {lamps_.data(), lamp_count_}; }
+    std::span<const BodyLight> body_lights() const { return {body_lights_.data(), body_light_count_}; }
     // Returns the angle from the middle of a lamp's disk to the limb of its ground [rad], as seen from the
     // objects, in the plane of a direction across (unit, world).
     double limb_angle_rad(std::size_t lamp, Vec3d way) const;
@@ -77,7 +77,7 @@ class Background {
     }
     // Cheaply, whether add_bodies() could add anything. dir: unit.
     bool may_meet_body(Vec3f dir) const {
-        for (const BodyLamp& lamp : lamps()) {
+        for (const BodyLight& lamp : body_lights()) {
             const Vec3f axis = to_float(lamp.world_dir);
             const float cosine = dot(axis, dir);
             // The cone with a margin for single precision and for the objects' own size.
@@ -90,10 +90,10 @@ class Background {
     bool add_bodies_seen(Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
         return add_bodies_from({}, dir, weight, radiance);
     }
-    // What they do, for the Sun's disk: mean radiance E_s / (pi sin^2 rho) inside its angular radius rho,
-    // darker to the edge. No eclipse: what stands before it is in the way of the ray itself.
+    // Adds the radiance of the Sun's disk as they do: mean radiance E_s / (pi sin^2 rho) inside its angular
+    // radius rho, darker to the edge. No eclipse: what stands before it is in the way of the ray itself.
     void add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radiance) const;
-    // Whether a body lies before `distance`, in lengths of the direction. Loop, any thread.
+    // True when a body lies before `distance`, in lengths of the direction. Loop, any thread.
     bool hides(Vec3f origin_m, Vec3d dir, double distance) const {
         return hides_from(to_double(origin_m) + objects_from_camera_m_, dir, distance);
     }
@@ -102,7 +102,7 @@ class Background {
     struct BodyMet {
         const PlacedBody* body = nullptr;  // null: none
         double distance = 0;               // in lengths of the direction
-        Vec3d normal_world_dir;            // of its ground, unit
+        Vec3d normal_world_dir;            // normal of its ground, unit
     };
     BodyMet first_body_seen(Vec3d dir) const;
     // A ray of the camera that meets nothing else meets the Sun's disk.
@@ -110,12 +110,12 @@ class Background {
         const Vec3d d = normalized(dir), across = cross(d, sun_camera_dir_);
         return dot(across, across) <= 1 - sun_disk_cosine_ * sun_disk_cosine_ && dot(d, sun_camera_dir_) >= 0;
     }
-    // From the camera to the nearest that any body can be.
+    // Returns the distance from the camera to the nearest place that any body can have.
     double nearest_m() const { return nearest_m_; }
     // Light and transmittance of the air before an object at a distance; only where camera_in_air().
     Atmosphere::Sight air_before(Vec3d dir, double distance_m) const;
 
-    // What the air lacks for a ray of the camera (Atmosphere::missing).
+    // Says what the air lacks for a ray of the camera (Atmosphere::missing).
     std::string air_missing(Vec3d dir) const;
 
     // The one body in view that EarthRays can do sixteen at a time, or null.
@@ -136,11 +136,11 @@ class Background {
     ColorBands bands_;
     int bins_;
     std::array<Spectrum, kBodyCount> map_factor_;  // on texel colours
-    std::array<Spectrum, kBodyCount> map_mean_;    // what they then are on the mean; 1 without a map
+    std::array<Spectrum, kBodyCount> map_mean_;    // mean colour after that; 1 without a map
 
     std::array<PlacedBody, kBodyCount> disks_, points_;
-    std::array<BodyLamp, kBodyCount> lamps_;
-    std::size_t disk_count_ = 0, point_count_ = 0, lamp_count_ = 0;
+    std::array<BodyLight, kBodyCount> body_lights_;
+    std::size_t disk_count_ = 0, point_count_ = 0, body_light_count_ = 0;
     const PlacedBody* plain_ = nullptr;
     Spectrum plain_radiance_;
     Bodies bodies_;

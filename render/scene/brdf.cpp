@@ -185,7 +185,7 @@ void BrdfSum::add(const Lanes& weight, const Lanes& no, const Lanes& ni, const L
 
 Spectrum BrdfSum::value() const {
     Spectrum f = other_ + below_ * at_.base;
-    // What facets reflect depends on the angle between viewer and light alone.
+    // The facets' reflection depends on the angle between viewer and light alone.
     if (lobe_ > 0) f += lobe_ * fresnel(at_, half_vector({1, 1, io_}).ih);
     return f;
 }

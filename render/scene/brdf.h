@@ -1,6 +1,6 @@
 #pragma once
-// How a point of a surface scatters light: values, densities and samples of every reflection model of
-// material.h.
+// The BRDF says how a point of a surface scatters light: values, densities and samples of every reflection
+// model of material.h.
 //
 // All models are isotropic, so a BRDF is a function of three cosines: of the viewer and the light to the
 // shading normal, and of the two to each other. Values are f [sr^-1], without the cosine; densities are per
@@ -19,8 +19,8 @@ struct Cosines {
     float no, ni, io;
 };
 
-// What scatters at one point: a material, its spectra there (textures scale them), and the width of its facet
-// lobe there (at least the material's own; see path_vertex.h).
+// The material that scatters at one point, its spectra there (textures scale them), and the width of its
+// facet lobe there (at least the material's own; see path_vertex.h).
 struct Scatterer {
     const Material* material = nullptr;
     float alpha = 0;
@@ -43,7 +43,7 @@ struct BrdfSample {
     float density = 0;       // 0 where exact
     bool exact = false;      // a mirror's or a sheet's one direction
     bool transmits = false;  // goes on to the other side
-    bool diffuse = false;    // not of the highlight
+    bool diffuse = false;    // true for the diffuse part, false for the highlight
     bool valid = false;
 };
 
@@ -80,7 +80,7 @@ Spectrum sheet_transmittance(const Scatterer& at, float cosine);
 // a sample's part and ends a path.
 float brdf_albedo(const Scatterer& at, float no, int bins);
 
-// Over the bins of the grid.
+// Returns the mean over the bins of the grid.
 inline float mean(const Spectrum& s, int bins) {
     float sum = 0;
     for (int b = 0; b < kMaxBins; ++b) sum += s[b];

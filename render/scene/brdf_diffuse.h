@@ -15,7 +15,7 @@ namespace hilcam {
 // about r = sigma / (pi/2).
 struct OrenNayar {
     float roughness;
-    float a;        // of Fujii's model: 1 / (1 + (1/2 - 2/3pi) r)
+    float a;        // A of Fujii's model: 1 / (1 + (1/2 - 2/3pi) r)
     float average;  // mean albedo of the single scattering for a white surface
 
     explicit OrenNayar(float r)

@@ -26,7 +26,7 @@ struct HapkeParameters {
     float roughness_tangent = 0;  // tan of the mean slope theta-bar
 };
 
-// What of the model does not depend on the wavelength.
+// The part of the model that does not depend on the wavelength.
 struct HapkeGeometry {
     float mu0 = 0, mu = 0;  // effective cosines
     float phase = 0;        // (1 + B) p

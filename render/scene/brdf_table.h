@@ -22,7 +22,8 @@ class BrdfTable {
     BrdfTable(Layout layout, std::array<std::vector<float>, 3> axes_rad, std::vector<Spectrum> values);
 
     Spectrum value(float no, float ni, float io) const;
-    // How samples are drawn: this share from a GGX lobe of this width, the rest by the cosine.
+    // Returns the share of samples that are drawn from a GGX lobe of lobe_alpha(); the rest are drawn by the
+    // cosine.
     float lobe_share() const { return lobe_share_; }
     float lobe_alpha() const { return lobe_alpha_; }
 

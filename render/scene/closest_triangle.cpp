@@ -64,7 +64,7 @@ struct ClosestTriangle::Implementation {
     struct Search {
         const Mesh* mesh;
         const Query* query;
-        float distance = 0;  // of what is found
+        float distance = 0;  // distance of what is found
         std::optional<Found> found;
     };
     // It takes the first of equally near ones: which is met first depends on the tree.
@@ -85,8 +85,8 @@ struct ClosestTriangle::Implementation {
         search.distance = distance;
         search.found = Found{number, at.u, at.v};
         // A little more, so that no other one that is as near is cut off.
-        constexpr float kAsNear = 1.0001f, kLeast_m = 1e-12f;
-        arguments->query->radius = std::min(arguments->query->radius, std::max(kAsNear * distance, kLeast_m));
+        constexpr float kAsNear = 1.0001f, kMin_m = 1e-12f;
+        arguments->query->radius = std::min(arguments->query->radius, std::max(kAsNear * distance, kMin_m));
         return true;
     }
 };

@@ -1,5 +1,6 @@
 #pragma once
-// From pictures to spectra: sRGB texels as reflectance in three broad bands, laid onto the spectral bins.
+// Turns the colours of pictures into spectra: sRGB texels as reflectance in three broad bands, laid onto the
+// spectral bins.
 
 #include <array>
 #include <cstdint>
@@ -14,8 +15,9 @@ namespace hilcam {
 // Linear value of an 8-bit sRGB code (IEC 61966-2-1:1999), 0..1.
 float linear_from_srgb(std::uint8_t code);
 
-// How much of a texel's red, green and blue each bin takes; the three sum to 1 in every bin. Blue below 0.49
-// um, green to 0.58 um, red above (near infrared goes with red): a picture holds no more than that.
+// The shares of a texel's red, green and blue that each bin takes; the three sum to 1 in every bin. Blue
+// below 0.49 um, green to 0.58 um, red above (near infrared goes with red): a picture holds no more than
+// that.
 class ColorBands {
   public:
     explicit ColorBands(const SpectralGrid& grid);
@@ -40,7 +42,7 @@ class MipTexture {
     // none). Bilinear in a level and linear between two, wrapping around in both directions; (0, 0) is the
     // outer corner of texel (0, 0).
     Vec3f sample(float u, float v, float footprint) const;
-    // Of all texels, weighted by `row_weight(v)`, v of the row's middle.
+    // Returns the mean of all texels, weighted by `row_weight(v)`, v of the row's middle.
     Vec3f mean(const std::function<double(double)>& row_weight) const;
 
   private:

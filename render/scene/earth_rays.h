@@ -1,6 +1,6 @@
 #pragma once
-// Where the camera's own rays meet a body, sixteen at a time: what intersect_ellipsoid and ellipsoid_normal
-// (bodies.h) say of one ray, in a form that compilers make vector code of. Double precision.
+// Finds where the camera's own rays meet a body, sixteen at a time: that which intersect_ellipsoid and
+// ellipsoid_normal (bodies.h) say of one ray, in a form that compilers make vector code of. Double precision.
 
 #include <array>
 

@@ -31,7 +31,7 @@ constexpr Coherence kOcclusion = Coherence::kIncoherent;
 // Trees with spatial splits take longer to build and suit long thin triangles, as simplified meshes have.
 constexpr std::size_t kSpatialSplits = 1000000;
 
-// What differs between the two versions: how a query takes its options.
+// The two versions differ in how a query takes its options.
 #if RTC_VERSION_MAJOR >= 4
 RTCRayQueryFlags flags_of(Coherence c) {
     return c == Coherence::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
@@ -144,7 +144,7 @@ struct EmbreeScene::Implementation {
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
     std::vector<std::vector<RTCScene>> levels;  // per object
-    std::vector<std::vector<MeshView>> meshes;  // of them, where Embree keeps them
+    std::vector<std::vector<MeshView>> meshes;  // their meshes, where Embree keeps them
     std::vector<std::size_t> shown;             // level of each
     std::vector<RTCGeometry> instances;
 

@@ -44,7 +44,7 @@ struct alignas(64) HitPacket {
     std::array<std::uint32_t, kPacketSize> triangle;              // index in the object's mesh
 };
 
-// Whether the rays of a packet run side by side (from the camera, to the Sun) or anywhere.
+// The way in which the rays of a packet run: side by side (from the camera, to the Sun) or anywhere.
 enum class Coherence { kCoherent, kIncoherent };
 
 // A mesh's shape, in the object's axes.
@@ -98,7 +98,7 @@ class EmbreeScene {
     void intersect_with(std::size_t object, const RayPacket& rays, HitPacket& hits) const;
     std::uint32_t occluded_by(std::size_t object, const RayPacket& rays) const;
 
-    // For measurements: keeps a copy of every packet that is traced from now on, by any thread.
+    // Keeps a copy of every packet that is traced from now on, by any thread, for measurements.
     void start_recording();
     // Stops that, and traces the copies again with nothing around them. Not for the loop.
     struct Replay {

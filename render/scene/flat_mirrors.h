@@ -20,12 +20,12 @@ namespace hilcam {
 
 class FlatMirror {
   public:
-    std::uint16_t surface = 0;  // of the mesh
+    std::uint16_t surface = 0;  // surface of the mesh
     Vec3f normal;               // body axes, unit; either way
-    Vec3f corner_m;             // of the rectangle, body axes
+    Vec3f corner_m;             // corner of the rectangle, body axes
     Vec3f across, down;         // its sides, body axes, unit; normal = across x down
     float width_m = 0, height_m = 0;
-    float tolerance_m = 0;  // how far off its plane the surface is at most
+    float tolerance_m = 0;  // greatest distance of the surface from its plane
     float area_m2 = 0;
 
     // The share of a rectangle that the mirror fills. middle_m: along the sides from the corner; size_m:
@@ -33,7 +33,7 @@ class FlatMirror {
     float filled(Vec2f middle_m, Vec2f size_m) const;
     // The map is this fine.
     Vec2f cell_m() const { return {width_m / kCells, height_m / kCells}; }
-    // Whether a place of the body lies in it, about; normal: there, either way.
+    // True when a place of the body lies in it, about; normal: there, either way.
     bool holds(Vec3f point_m, Vec3f normal_there) const;
 
     // Adds a triangle to the map; the corners are of the mirror's surface. Owner thread.
@@ -43,16 +43,17 @@ class FlatMirror {
 
   private:
     static constexpr int kCells = 256;  // along each side
-    // Before sum_up(): 1 where a cell's middle is filled. Then sums over all cells to the left and above
-    // (summed-area table: Crow, SIGGRAPH 84), from which the mean of any rectangle is four values.
+    // Before sum_up(), this is 1 where a cell's middle is filled; afterwards it holds sums over all cells to
+    // the left and above (summed-area table: Crow, SIGGRAPH 84), from which the mean of any rectangle is four
+    // values.
     std::vector<std::uint32_t> sums_ = std::vector<std::uint32_t>((kCells + 1) * (kCells + 1));
 
     double sum_to(double x, double y) const;
 };
 
-// The flat mirrors of a mesh, those that throw the most light first, kMostFlatMirrors of them at most.
+// The flat mirrors of a mesh, those that throw the most light first, kMaxFlatMirrors of them at most.
 // throws: by surface, the share of the light that it mirrors; 0: it is no mirror. Owner thread.
-inline constexpr std::size_t kMostFlatMirrors = 8;
+inline constexpr std::size_t kMaxFlatMirrors = 8;
 std::vector<FlatMirror> find_flat_mirrors(const MeshView& mesh, const ObjectSurfaces& surfaces,
                                           std::span<const float> throws);
 

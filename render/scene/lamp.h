@@ -28,7 +28,8 @@ class LampBeam {
     // and nothing behind. The beam angle is the full one between the directions of half the intensity
     // (ANSI/IES LS-1): n = ln(1/2) / ln(cos(angle / 2)). 120 degrees are a Lambertian source. In (0, pi).
     static LampBeam of_angle(double full_rad);
-    // As measured: relative intensity over theta [rad], from 0 on; dark beyond the last angle.
+    // Makes the beam from measurements: relative intensity over theta [rad], from 0 on; dark beyond the last
+    // angle.
     static LampBeam of_table(Table by_angle_rad);
 
     // Unit vectors.
@@ -41,9 +42,9 @@ class LampBeam {
 };
 
 // More would want another way than a shadow ray to each.
-inline constexpr std::size_t kMostLamps = 16;
+inline constexpr std::size_t kMaxLamps = 16;
 
-// As it stands after loading.
+// A lamp as it stands after loading.
 struct SceneLamp {
     std::string name;
     std::size_t thing = 0;       // that carries it; 0: the camera's body; 1, 2, ...: of the scene's objects
@@ -51,24 +52,24 @@ struct SceneLamp {
     LampBeam beam;
 };
 
-// For one instant, or the mean of several.
+// A lamp at one instant, or the mean over several.
 struct ShownLamp {
     Vec3d position_world_m;
     Vec3d axis{0, 0, 1};  // in the world, unit
     double level = 0;
 };
 
-// Of a world; a list that needs no memory of its own.
+// The lamps of a world, in a list that needs no memory of its own.
 class ShownLamps {
   public:
     std::size_t size() const { return size_; }
-    // At most kMostLamps.
+    // Sets the number of lamps, at most kMaxLamps.
     void resize(std::size_t size);
     ShownLamp& operator[](std::size_t i) { return lamps_[i]; }
     const ShownLamp& operator[](std::size_t i) const { return lamps_[i]; }
 
   private:
-    std::array<ShownLamp, kMostLamps> lamps_;
+    std::array<ShownLamp, kMaxLamps> lamps_;
     std::size_t size_ = 0;
 };
 

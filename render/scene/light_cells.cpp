@@ -82,7 +82,8 @@ void keep_open(const Mesh& mesh, const CubeGrid& grid, float above_m, const Open
             const Vec3f at = spread.at(spread.weights(static_cast<int>(point.point))) + above_m * normal;
             const std::uint64_t word = mixed(cell.key ^ (std::uint64_t{point.triangle} << 24 | point.point));
             const float u = static_cast<float>(word >> 40) * 0x1p-24f;
-            // What stands in a corner is seen as well as what stands free; what looks out of a slit is not.
+            // A point in a corner is seen as well as one that stands free; one that looks out of a slit is
+            // not.
             if (u < 3 * openness(at, normal, 0.5f * grid.cube_m))
                 cell.best[static_cast<std::size_t>(open++)] = point;
         }

@@ -1,6 +1,6 @@
 #pragma once
-// What of a mesh lies in which cube: the cells of light_nodes.h as they are found, each with some points on
-// it.
+// The parts of a mesh that lie in each cube: the cells of light_nodes.h as they are found, each with some
+// points on it.
 
 #include <algorithm>
 #include <array>
@@ -66,7 +66,7 @@ struct CellPoint {
     bool back = false;
 };
 
-// What is known of a cell while it is found: its area, and candidates for its points.
+// The state of a cell while it is found: its area, and candidates for its points.
 struct FoundCell {
     std::uint64_t key = 0;
     double area_m2 = 0;
@@ -95,9 +95,9 @@ struct MeshExtent {
     double area_m2 = 0;
 };
 
-// Only surfaces that keep light have a part in it.
+// Returns the extent of those surfaces that keep light.
 MeshExtent extent_of(const Mesh& mesh, std::span<const std::uint8_t> keeps);
-// In the order of their keys. On oneTBB; the same on any number of threads.
+// Finds the cells in the order of their keys. On oneTBB; the same on any number of threads.
 std::vector<FoundCell> find_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps,
                                   const CubeGrid& grid);
 

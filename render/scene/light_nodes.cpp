@@ -17,9 +17,9 @@ namespace {
 
 // The cells about a corner of the grid, and which corner of which cell's cube that is.
 struct CornerUse {
-    std::uint64_t key;  // of the cube above it in all axes
+    std::uint64_t key;  // key of the cube above it in all axes
     std::uint32_t cell;
-    std::uint32_t corner;  // of the cell's cube: x + 2 y + 4 z
+    std::uint32_t corner;  // corner of the cell's cube: x + 2 y + 4 z
 };
 
 std::vector<CornerUse> corners_of(std::span<const FoundCell> cells) {
@@ -57,8 +57,8 @@ struct TextureReader {
     }
 };
 
-// How far above the surface points are: as rays leave it in path_vertex.cpp, with room for the triangles' own
-// rounding.
+// Returns how far above the surface points are: as rays leave it in path_vertex.cpp, with room for the
+// triangles' own rounding.
 float above_of(const Mesh& mesh) {
     float greatest = 0;
     for (const Vec3f v : mesh.vertices_m)
@@ -131,17 +131,17 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     const MeshExtent extent = extent_of(mesh, keeps);
     if (!(extent.area_m2 > 0) || !std::isfinite(extent.area_m2)) return;
     const Vec3f size = extent.most - extent.least;
-    const float least_cube_m = std::max({size.x, size.y, size.z}) / (kMostCubes - 8);
+    const float min_cube_m = std::max({size.x, size.y, size.z}) / (kMaxCubes - 8);
     // Two sides; a wall that is aslant lies in half as many cubes again. Corrected by what is found.
-    cube_m_ = std::max(least_cube_m,
-                       static_cast<float>(std::sqrt(3 * extent.area_m2 / static_cast<double>(wanted))));
+    cube_m_ =
+        std::max(min_cube_m, static_cast<float>(std::sqrt(3 * extent.area_m2 / static_cast<double>(wanted))));
     std::vector<FoundCell> cells;
     for (int attempt = 0; attempt < 4; ++attempt) {
         corner_m_ = extent.least - Vec3f{0.37f * cube_m_, 0.41f * cube_m_, 0.43f * cube_m_};
         cells = find_cells(mesh, keeps, {corner_m_, cube_m_});
         const double ratio = static_cast<double>(cells.size()) / static_cast<double>(wanted);
         if (ratio > 0.6 && ratio < 1.3) break;
-        cube_m_ = std::max(least_cube_m, cube_m_ * static_cast<float>(std::sqrt(ratio)));
+        cube_m_ = std::max(min_cube_m, cube_m_ * static_cast<float>(std::sqrt(ratio)));
     }
 
     prefer_open_points(mesh, keeps, {corner_m_, cube_m_}, above_of(mesh), openness, cells);
@@ -149,7 +149,7 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     const std::vector<CornerUse> uses = corners_of(cells);
     struct Group {
         CellSet set;
-        std::size_t first;  // of its uses
+        std::size_t first;  // number of the first of its uses
     };
     std::vector<Group> groups;
     for (std::size_t i = 0; i < uses.size();) {
@@ -178,6 +178,7 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
                       [&](std::size_t i) { nodes_[i] = maker.make(sets[i], i); });
 
     std::vector<std::uint64_t> keys;
+    keys.reserve(cells.size());
     for (const FoundCell& cell : cells) keys.push_back(cell.key);
     index(keys);
 }

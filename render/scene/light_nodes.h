@@ -43,10 +43,10 @@ struct LightNode {
     std::array<Vec3f, kPoints> point_m;
     std::array<std::uint32_t, kPoints> normal;     // packed (surface.h): the shading normal on this side
     std::array<std::uint32_t, kPoints> geometric;  // packed: the triangle's, on this side
-    std::uint32_t mean_normal = 0;                 // of the points, packed
+    std::uint32_t mean_normal = 0;                 // mean normal of the points, packed
     std::uint16_t surface = 0;
     std::uint16_t unused = 0;
-    Vec3f color{1, 1, 1};  // of the texture about there, linear RGB; 1 without
+    Vec3f color{1, 1, 1};  // colour of the texture about there, linear RGB; 1 without
 };
 
 // The share of what a place just above a surface sees that is further away than within_m. Any thread.
@@ -100,7 +100,7 @@ class LightNodes {
     // Renumbers: new_number[old], or kClosed for nodes that go.
     void keep(std::span<const std::uint32_t> new_number);
 
-    // For files (io/files/transfer_cache.h): all there is.
+    // Gives all its members to files (io/files/transfer_cache.h).
     struct Slot {
         std::uint64_t key = kNone;
         std::uint32_t cell = 0;
@@ -112,7 +112,7 @@ class LightNodes {
         archive(self.corner_m_), archive(self.cube_m_), archive(self.slots_), archive(self.cells_),
             archive(self.nodes_);
     }
-    // Whether what was read fits together.
+    // True when what was read fits together.
     bool is_whole() const;
 
   private:

@@ -94,14 +94,17 @@ void validate(const MaterialConfig& c) {
         return *std::max_element(curve.value.begin(), curve.value.end());
     };
     if (c.model == Model::kPhong && most(c.reflectance) + most(c.specular) > 1)
-        throw InputError(
-            "'reflectance' and 'specular' of phong add up to more than 1 at most; light would be created");
+        throw InputError("reflectance and specular: found a sum of " +
+                         std::to_string(most(c.reflectance) + most(c.specular)) +
+                         "; accepted with model phong: 0 to 1 (above, light would be created)");
     // w/2 (1 - mu ln(1 + 1/mu)) is at most w/2 = 4 I/F.
     if (c.model == Model::kLommelSeeliger && most(c.reflectance) > 0.25)
         throw InputError(
-            "'reflectance' of lommel_seeliger is above 0.25, where grazing light would be created");
+            "reflectance: found " + std::to_string(most(c.reflectance)) +
+            "; accepted with model lommel_seeliger: 0 to 0.25 (above, grazing light would be created)");
     if ((c.model == Model::kTable) == c.table.empty())
-        throw InputError("'table' goes with model table, and only with it");
+        throw InputError(c.table.empty() ? "table: found none; accepted: a file, as the model is table"
+                                         : "table: found a file; accepted: none, as the model is not table");
 }
 
 Fields fields(SurfaceConfig& c) {

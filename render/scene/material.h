@@ -1,5 +1,5 @@
 #pragma once
-// What a surface is made of: a reflection model with its spectra. brdf.h says how it scatters light.
+// The material of a surface: a reflection model with its spectra. brdf.h says how it scatters light.
 //
 // Models (`model:` in a material file), with what `reflectance` is in each:
 //   lambert          albedo of an ideal diffuse surface (Lambert 1760)
@@ -50,7 +50,7 @@ enum class ReflectionModel {
 
 // A material as a file gives it.
 struct MaterialConfig {
-    std::string source;  // where the figures come from
+    std::string source;  // source of the figures
     ReflectionModel model = ReflectionModel::kLambert;
     Curve reflectance = Curve::constant(0.5);
     double roughness = 0.3;         // metal, dielectric: GGX alpha is its square; oren_nayar: r
@@ -70,7 +70,7 @@ void validate(const MaterialConfig& config);
 
 // A surface of a mesh and what covers it.
 struct SurfaceConfig {
-    std::string name;  // of the mesh's surface; "*" is a prefix match ("mli_*")
+    std::string name;  // name of the mesh's surface; "*" is a prefix match ("mli_*")
     MaterialConfig material;
 };
 Fields fields(SurfaceConfig& config);
@@ -88,8 +88,8 @@ struct LobeAlbedo {
         return left + (x - static_cast<float>(i)) * (at_cosine[static_cast<std::size_t>(i) + 1] - left);
     }
 };
-// Of GGX facets that reflect everything (refractive_index 0) or as a dielectric. Midpoint sums over visible
-// normals: good to 1e-3.
+// Returns the albedo of GGX facets that reflect everything (refractive_index 0) or as a dielectric. Midpoint
+// sums over visible normals: good to 1e-3.
 LobeAlbedo ggx_albedo(float alpha, float refractive_index);
 
 // A material on the run's spectral grid. For rays.
@@ -120,7 +120,7 @@ Material make_material(const MaterialConfig& config, const SpectralGrid& grid,
 // bands (below 0.49 um blue, to 0.58 um green, above red): a stand-in with the right colour, not a measured
 // spectrum.
 Material make_material(const MeshSurface& surface, const SpectralGrid& grid);
-// Of the first config whose name matches, or null.
+// Returns the first config whose name matches, or null.
 const SurfaceConfig* find_surface(std::span<const SurfaceConfig> configs, const std::string& name);
 
 }  // namespace hilcam

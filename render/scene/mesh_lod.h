@@ -22,8 +22,8 @@ struct MeshLevel {
     std::vector<LevelFacets> facets;  // by triangle
 };
 
-// From fine to coarse, error growing twofold; a level is kept where it saves two fifths of the triangles.
-// Empty for small meshes. Owner thread; some seconds per million triangles.
+// Makes the levels from fine to coarse, error growing twofold; a level is kept where it saves two fifths of
+// the triangles. Empty for small meshes. Owner thread; some seconds per million triangles.
 std::vector<MeshLevel> coarser_levels(const Mesh& mesh);
 
 }  // namespace hilcam

@@ -1,7 +1,7 @@
 #pragma once
-// Where the light goes that flat mirrors throw (mirrored_suns.h): a beam for each of them. Nearly all places
-// are in none, and are to cost nothing: a look at one mirror and many places, and one at many mirrors and a
-// box of places.
+// The beams of light that flat mirrors throw (mirrored_suns.h), one for each of them. Nearly all places are
+// in none, and are to cost nothing: a look at one mirror and many places, and one at many mirrors and a box
+// of places.
 
 #include <array>
 #include <cstdint>
@@ -22,18 +22,18 @@ struct MirrorBeam {
         float constant = 0;
     };
     Line distance{}, x{},
-        y{};  // of the place; where on the mirror, along its sides, it sees the Sun's middle
+        y{};  // coordinates of the place; where on the mirror, along its sides, it sees the Sun's middle
     float least_m = 0, width_m = 0, height_m = 0;
     Vec2f margin{}, margin_m{};  // over the distance, and what there is of it at the mirror
 };
 
 // Places side by side.
 struct BeamPlaces {
-    static constexpr std::size_t kMost = 256;
-    alignas(64) std::array<float, kMost> x, y, z;
-    alignas(64) std::array<std::uint8_t, kMost> in_beam;  // 1: it is
+    static constexpr std::size_t kMax = 256;
+    alignas(64) std::array<float, kMax> x, y, z;
+    alignas(64) std::array<std::uint8_t, kMax> in_beam;  // 1: it is
 };
-// Sets in_beam of all kMost. Loop, any thread.
+// Sets in_beam of all kMax. Loop, any thread.
 void find_places_in_beam(const MirrorBeam& beam, BeamPlaces& places);
 
 // A box along the axes.

@@ -1,6 +1,6 @@
 #pragma once
-// What there is to see, as it stands after loading: it does not change during a run. Poses come with each
-// frame.
+// The scene is all there is to see, as it stands after loading: it does not change during a run. Poses come
+// with each frame.
 
 #include <array>
 #include <memory>
@@ -59,7 +59,7 @@ struct Scene {
     std::unique_ptr<SceneTerrain> terrain;  // null: none
     std::vector<SceneLamp> lamps;
     std::vector<Star> stars;
-    TimeTai stars_time;                        // of their places
+    TimeTai stars_time;                        // time of the stars' places
     std::array<SceneBody, kBodyCount> bodies;  // by BodyId
     std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
     Spectrum sun_irradiance_1au_w_m2_um;

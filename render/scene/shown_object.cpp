@@ -8,7 +8,7 @@
 namespace hilcam {
 namespace {
 
-// What a level has flattened makes its facets' lobes wider: slopes add by their squares.
+// Widens the lobes of facets that a level has flattened: slopes add by their squares.
 std::vector<Material> widened(std::vector<Material> materials, const std::vector<float>& flattened_alpha) {
     for (std::size_t i = 0; i < materials.size(); ++i)
         if (materials[i].has_facets() && materials[i].ggx_alpha > 0 && flattened_alpha[i] > 0)

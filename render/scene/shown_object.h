@@ -13,7 +13,7 @@ namespace hilcam {
 struct ShownObject {
     std::string name;
     std::vector<std::shared_ptr<const ObjectSurfaces>> levels;  // the mesh itself first; shared by its like
-    std::vector<double> error_m;                                // of each
+    std::vector<double> error_m;                                // error of each level
     std::shared_ptr<const TransferTable> transfer;  // null: no light is kept on it; shared by its like
     double turn_rate_rad_s = 0;
 

@@ -18,7 +18,7 @@ class ShownTerrain {
     // index: of that object. Owner thread.
     ShownTerrain(EmbreeScene& embree, std::unique_ptr<SceneTerrain> terrain, std::size_t index);
 
-    // What it turns with.
+    // Returns the body with which it turns.
     std::optional<BodyId> body() const { return terrain_->body; }
     // Takes what the streamer has ready and asks it for what the camera needs; the first call, and every one
     // of a terrain that waits, makes it at once. Gives the pose of the object's mesh. Loop, but for those
@@ -37,7 +37,7 @@ class ShownTerrain {
     std::size_t index_;
     TerrainStreamer streamer_;
     bool any_ = false;
-    Vec3d anchor_m_, camera_m_;  // of what is shown
+    Vec3d anchor_m_, camera_m_;  // anchor and camera of the mesh that is shown
     Vec3d seen_from_m_;          // the camera at the last update(), terrain axes
 
     void adopt(PreparedTerrain& prepared, ShownObject& object);

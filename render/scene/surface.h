@@ -1,6 +1,6 @@
 #pragma once
-// What shading needs of a mesh, packed so that a hit touches one cache line: per triangle three normals and a
-// surface.
+// The data that shading needs of a mesh, packed so that a hit touches one cache line: per triangle three
+// normals and a surface.
 
 #include <algorithm>
 #include <array>
@@ -54,11 +54,11 @@ struct ObjectSurfaces {
     // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
     // have them, too. The mesh itself has flattened none: empty.
     std::vector<float> flattened_alpha;
-    std::vector<LevelFacets> facets;  // of a level's triangles; of the mesh itself: empty
+    std::vector<LevelFacets> facets;  // facets of a level's triangles; empty for the mesh itself
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
-    double radius_m = 0;  // of a sphere about the body's origin that holds the object
+    double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
 
     // The shading normal at barycentric (u, v), body axes, unit; `geometric` where the mesh has none.
     static Vec3f normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) {

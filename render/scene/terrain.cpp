@@ -10,7 +10,7 @@ namespace hilcam {
 namespace {
 
 constexpr int kQuads = 32;                                            // along a tile's edge
-constexpr std::size_t kTriangles = 2 * kQuads * kQuads + 8 * kQuads;  // of a tile with its skirts
+constexpr std::size_t kTriangles = 2 * kQuads * kQuads + 8 * kQuads;  // triangles of a tile with its skirts
 
 // A square of the map: its first column and row, and the distance between the columns it uses.
 struct TerrainTile {

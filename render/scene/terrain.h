@@ -19,7 +19,7 @@ namespace hilcam {
 struct TerrainView {
     Vec3d camera_m;  // terrain axes
     double pixel_rad = 1e-3;
-    double edge_px = 2;  // of a triangle on the screen, at most
+    double edge_px = 2;  // greatest edge of a triangle on the screen
     std::size_t most_triangles = 1'000'000;
 };
 
@@ -31,8 +31,9 @@ struct TerrainMesh {
 // radius_m: of the sphere under the map; 0: a plane. Any thread; allocates.
 TerrainMesh terrain_mesh(const HeightMap& map, double radius_m, const TerrainView& view);
 
-// How high a point, in terrain axes, is above the ground along its own vertical [m], bilinear between the
-// map's four posts around; negative: below it. None beside the map. Loop, any thread; no allocation.
+// Returns the height of a point, in terrain axes, above the ground along its own vertical [m], bilinear
+// between the map's four posts around; negative: below it. None beside the map. Loop, any thread; no
+// allocation.
 std::optional<double> height_above_ground_m(const HeightMap& map, double radius_m, Vec3d point_m);
 
 }  // namespace hilcam

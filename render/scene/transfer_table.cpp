@@ -17,8 +17,8 @@ namespace {
 constexpr float kGolden = 0.61803399f;
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
-// What a direction meets, while it is being traced: a node, whether it is nearer than half a cube, and which
-// of the node's points is next to the place; or one of these.
+// The state of a direction while it is being traced: the node that it meets, whether it is nearer than half a
+// cube, and which of the node's points is next to the place; or one of these.
 struct Met {
     static std::uint32_t pack(std::uint32_t node, bool close, std::size_t point) {
         return node << 3 | static_cast<std::uint32_t>(close) << 2 | static_cast<std::uint32_t>(point);
@@ -30,14 +30,14 @@ struct Met {
 static_assert(LightNode::kPoints == 4);
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 constexpr std::uint32_t kDark = kFree - 1;
-constexpr std::uint32_t kBuried = kFree - 2;  // of a point that does not count
+constexpr std::uint32_t kBuried = kFree - 2;  // index of a point that does not count
 constexpr std::uint32_t kUnder = kFree - 3;   // below the surface at its point: does not count
 constexpr std::uint32_t kTracing = kFree - 4;
 
 struct Ray {
     std::size_t direction;
     Vec3f origin_m, dir;
-    int sheets = 0;  // of glass that it has passed
+    int sheets = 0;  // number of sheets of glass that it has passed
 };
 
 // Traces a block of nodes.
@@ -119,9 +119,9 @@ class Tracer {
         if (glass_[surface]) {
             // As rays leave surfaces in path_vertex.cpp.
             const float greatest = std::max({std::abs(point_m.x), std::abs(point_m.y), std::abs(point_m.z)});
-            constexpr int kMostSheets = 16;
+            constexpr int kMaxSheets = 16;
             out = kDark;
-            if (ray.sheets < kMostSheets)
+            if (ray.sheets < kMaxSheets)
                 through.push_back({ray.direction,
                                    point_m + 32 * std::numeric_limits<float>::epsilon() * greatest * ray.dir,
                                    ray.dir, ray.sheets + 1});
@@ -161,7 +161,7 @@ class Tracer {
     }
 };
 
-// By sixteen directions; glass is clear.
+// Returns the openness by sixteen directions; glass is clear.
 float openness(const Mesh& mesh, std::span<const std::uint8_t> glass, const EmbreeScene& scene, Vec3f point_m,
                Vec3f normal, float within_m) {
     static const std::vector<Vec3f> kDirections = transfer_directions(kPacketSize);
@@ -199,7 +199,7 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
     for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
     EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
     scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
-    nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMostNodes / 2),
+    nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMaxNodes / 2),
                         [&](Vec3f point_m, Vec3f normal, float within_m) {
                             if (watcher) watcher(0);
                             return openness(mesh, glass, scene, point_m, normal, within_m);
@@ -257,8 +257,8 @@ void TransferTable::for_each_node(std::vector<Block>& blocks,
     }
 }
 
-// What is met at once beside a point that is buried is buried, too: the node's light is that of its other
-// points.
+// Darkens links that meet a buried point at once: they are buried, too, and the node's light is that of its
+// other points.
 void TransferTable::drop_dead_ends(std::vector<Block>& blocks) {
     for_each_node(blocks, [&](std::size_t, std::span<Link> links) {
         for (Link& link : links)
@@ -321,7 +321,7 @@ std::size_t TransferTable::bytes() const {
 bool TransferTable::is_whole() const {
     const std::size_t n = size();
     if (directions_ < 4 || directions_ % LightNode::kPoints != 0 || directions_ > 256 || !nodes_.is_whole() ||
-        n > kMostNodes)
+        n > kMaxNodes)
         return false;
     if (first_entry_.size() != n + 1 || first_entry_.front() != 0 || first_entry_.back() != entries_.size() ||
         free_.size() != n * free_words() || live_.size() != n || counted_.size() != n || turns_.size() != n)

@@ -1,6 +1,6 @@
 #pragma once
-// What each place on an object meets along fixed directions of its half sphere: traced once, kept for good,
-// since it is knowledge of the mesh and not of a frame (light/kept_light.h makes light of it).
+// The table of what each place on an object meets along fixed directions of its half sphere: traced once,
+// kept for good, since it is knowledge of the mesh and not of a frame (light/kept_light.h makes light of it).
 //
 // The directions are the paper's sixty (Peng et al. 2011), or 16 or 256, but in equal shares of irradiance
 // instead of solid angle: a golden-angle spiral (Vogel, Math. Biosci. 44, 1979, 179) projected up from the
@@ -51,12 +51,12 @@ class TransferTable {
     int directions() const { return directions_; }
     std::size_t bytes() const;
 
-    // What a node's directions meet.
+    // An entry says what a node's directions meet.
     struct Entry {
         std::uint32_t node : 24;
         std::uint32_t direction : 8;
     };
-    static constexpr std::size_t kMostNodes = (1u << 24) - 1;
+    static constexpr std::size_t kMaxNodes = (1u << 24) - 1;
     std::span<const Entry> entries(std::size_t node) const {
         return {entries_.data() + first_entry_[node], first_entry_[node + 1] - first_entry_[node]};
     }
@@ -83,7 +83,7 @@ class TransferTable {
     // A direction's angle of turn about the normal, of this node [cos, sin].
     Vec2f turn(std::size_t node) const { return turns_[node]; }
 
-    // For files: all that cannot be computed from the rest.
+    // Gives files all that cannot be computed from the rest.
     template <class Archive>
     static void list(auto& self, Archive& archive) {
         LightNodes::list(self.nodes_, archive);
@@ -102,7 +102,7 @@ class TransferTable {
     std::vector<std::uint16_t> counted_;
     std::vector<Vec2f> turns_;
 
-    // While it is made: blocks of nodes, each with what its nodes meet, one after the other.
+    // The blocks of nodes while the table is made, each with what its nodes meet, one after the other.
     static constexpr std::size_t kBlock = 256;
     struct Link {
         std::uint32_t met;

@@ -33,8 +33,8 @@ class Atmosphere {
     virtual Spectrum sun_transmittance(Vec3d point_m, Vec3d sun_dir) const = 0;
     // The sky's irradiance on a horizontal surface [1], scattered light only.
     virtual Spectrum sky_irradiance(Vec3d point_m, Vec3d sun_dir) const = 0;
-    // What keeps it from saying how a ray's way looks ("zenith angle of the viewer of 88.1; the table reaches
-    // ..."); empty where it can.
+    // Says what keeps it from telling how a ray's way looks ("zenith angle of the viewer of 88.1; the table
+    // reaches ..."); empty where it can.
     virtual std::string missing(Vec3d, Vec3d, double, Vec3d) const { return {}; }
     // Rays so far for which something was missing; they were given the nearest that there is.
     virtual std::uint64_t rays_outside() const { return 0; }
@@ -45,11 +45,11 @@ class Atmosphere {
 struct AtmosphereConfig;  // atmosphere_config.h
 struct AtmosphereTable;   // atmosphere_table.h
 
-// What an atmosphere is made from.
+// The values from which an atmosphere is made.
 struct AtmosphereRequest {
     const AtmosphereConfig& config;
     const SpectralGrid& grid;
-    const AtmosphereTable* table = nullptr;  // what config.table holds
+    const AtmosphereTable* table = nullptr;  // the contents of config.table
 };
 
 }  // namespace hilcam

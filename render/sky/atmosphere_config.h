@@ -1,5 +1,5 @@
 #pragma once
-// What a scenario says of the Earth's air.
+// The description of the Earth's air in a scenario.
 
 #include <filesystem>
 #include <string>

@@ -77,7 +77,8 @@ Fields fields(AtmosphereConfig& c) {
 
 void validate(const AtmosphereConfig& c) {
     if ((c.model == "table") == c.table.empty())
-        throw InputError("'table' goes with model table, and only with it");
+        throw InputError(c.table.empty() ? "table: found none; accepted: a file, as the model is table"
+                                         : "table: found a file; accepted: none, as the model is not table");
 }
 
 AirPhysics::AirPhysics(const AtmosphereConfig& c, const SpectralGrid& grid)

@@ -19,7 +19,7 @@ constexpr std::array<const char*, AtmosphereTable::kAxes> kNames = {
 
 double angle_between(Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); }
 
-// At the ground point of a ray. to_viewer, sun_dir: unit.
+// Returns the angles at the ground point of a ray. to_viewer, sun_dir: unit.
 Geometry geometry_of(Vec3d ground_m, Vec3d to_viewer, Vec3d sun_dir, double viewer_height_m) {
     const Vec3d up = normalized(ground_m);
     const Vec3d viewer = to_viewer - dot(to_viewer, up) * up, sun = sun_dir - dot(sun_dir, up) * up;

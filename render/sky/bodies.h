@@ -68,10 +68,11 @@ StateVector heliocentric(BodyId id, TimeTai time);
 // The rotation that takes ICRF vectors into ITRF axes: IAU 2006/2000B precession-nutation and Earth rotation
 // angle (ERFA eraC2t00b), with the pole and UT1 as measured.
 Mat3d earth_fixed_from_icrf(TimeTai time, const EarthOrientation& measured);
-// Without the pole's motion: into the Earth's axes about the celestial intermediate pole.
+// Returns the rotation into the Earth's axes about the celestial intermediate pole, without the pole's
+// motion.
 Mat3d earth_rotated_from_icrf(TimeTai time, const EarthOrientation& measured);
-// Into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by Archinal et al. 2018
-// (the Moon's mean-Earth frame by its series, 0.01 deg).
+// Returns the rotation into a body's own axes (z: north pole, x: prime meridian). Earth as above; others by
+// Archinal et al. 2018 (the Moon's mean-Earth frame by its series, 0.01 deg).
 Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const EarthOrientation& measured);
 
 // A place on a body: angles in rad, height above its ellipsoid in m; latitude is geodetic (of the normal).
@@ -90,9 +91,10 @@ Mat3d body_fixed_from_local(const Geodetic& place);
 struct OriginConfig {
     enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed, kFree } kind = Kind::kEarthCenter;
     BodyId body = BodyId::kEarth;
-    Geodetic place;          // of the fixed ones: a geostationary longitude with height 35 786 km, say
+    // Place of the fixed kinds of origin: a geostationary longitude with height 35 786 km, say.
+    Geodetic place;
     EarthOrientation earth;  // no key of this section either: `earth_orientation` of the scenario
-    Vec3d sun_m;  // of kFree: where the Sun is; no key of this section (emulator/scenario/free_space.h)
+    Vec3d sun_m;  // position of the Sun with kFree; no key of this section (emulator/scenario/free_space.h)
     bool has_body = false, has_longitude = false, has_latitude = false, has_height = false;
 
     // The body that the origin belongs to; none: free space.
@@ -106,7 +108,7 @@ Fields fields(OriginConfig& config);
 // Throws KeyError for a key that the kind does not read.
 void validate(const OriginConfig& config);
 
-// Where the bodies stand in the world at an instant.
+// The state of a body in the world at an instant.
 struct BodyState {
     Vec3d world_m;
     Mat3d fixed_from_world;
@@ -128,10 +130,11 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin);
 // A direction as an observer with this velocity sees it (ERFA eraAb, relativistic, the Sun's own light
 // bending left out).
 Vec3d aberrated(Vec3d dir, Vec3d observer_velocity_m_s);
-// Where an observer sees the middle of a body's disk from whom it is at `to_body_m`, when he moves by it: the
-// outline of a sphere in motion is a circle (Penrose, Proc. Camb. Phil. Soc. 55, 1959, 137), and this sphere
-// of the same radius has that very outline. Exact: the cone of the limb's directions is the 4-vector of the
-// length of its tangent and the place of its middle, and is boosted as such. A radius of 0 is aberration.
+// Returns where an observer who moves sees the middle of the disk of a body that is at `to_body_m` from him:
+// the outline of a sphere in motion is a circle (Penrose, Proc. Camb. Phil. Soc. 55, 1959, 137), and this
+// sphere of the same radius has that very outline. Exact: the cone of the limb's directions is the 4-vector
+// of the length of its tangent and the place of its middle, and is boosted as such. A radius of 0 is
+// aberration.
 Vec3d seen_in_motion(Vec3d to_body_m, double radius_m, Vec3d observer_velocity_m_s);
 
 // The nearer intersection of a ray from outside with an ellipsoid. Origin and direction in its axes, metres

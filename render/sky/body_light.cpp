@@ -14,8 +14,8 @@ constexpr double kSunColorBv = 0.653;
 // Mercury ... Neptune; the Earth's is not used.
 constexpr std::array<double, kBodyCount> kColorBv = {0.93, 0.82, 0.0, 0.92, 1.36, 0.83, 1.04, 0.56, 0.41};
 
-// Where the disk is a thin crescent its brightness against a sphere's is not known; it is held from here on.
-constexpr double kMostPhase_deg = 165;
+// The brightness of a thin crescent against a sphere's is not known; it is held from this phase on.
+constexpr double kMaxPhase_deg = 165;
 
 double disk_phase(SurfaceLaw law, double phase_rad) {
     return law == SurfaceLaw::kLambert ? lambert_phase(phase_rad) : lommel_seeliger_phase(phase_rad);
@@ -121,7 +121,7 @@ BodyLook::BodyLook(BodyId id, const BodyConfig& config, const SpectralGrid& grid
             by_degree_[i] = 1;
             continue;
         }
-        const double g = std::min(static_cast<double>(i), kMostPhase_deg) * kDegree_rad;
+        const double g = std::min(static_cast<double>(i), kMaxPhase_deg) * kDegree_rad;
         // Geometric albedo times phase function: flux ratio over (R / 1 au)^2.
         const double ratio = kAstronomicalUnit_m / figure.equatorial_radius_m;
         const double flux = std::pow(10.0, -0.4 * (magnitude_v_1au(id, g) - kSunMagnitudeV)) * ratio * ratio;

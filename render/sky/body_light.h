@@ -1,6 +1,6 @@
 #pragma once
-// How bright the Moon and the planets are: a reflection law for the surface, tied to the measured magnitude
-// of the whole disk.
+// The brightness of the Moon and the planets: a reflection law for the surface, tied to the measured
+// magnitude of the whole disk.
 //
 // A surface element sends L = E_s c(g) law(mu_0, mu): Lambert mu_0 / pi, or Lommel-Seeliger mu_0 / (4 pi
 // (mu_0 + mu)). c(g), a function of the phase angle g at the element, makes the disk of a distant body as
@@ -35,7 +35,7 @@ struct BodyConfig {
 BodyConfig default_body(BodyId id);
 Fields fields(BodyConfig& config);
 
-// On the run's spectral grid.
+// The look of a body on the run's spectral grid.
 class BodyLook {
   public:
     BodyLook() = default;  // black

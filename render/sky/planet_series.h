@@ -1,8 +1,8 @@
 #pragma once
-// Where the planets but the Earth are: VSOP87 (Bretagnon & Francou, A&A 202, 309, 1988), version B, without
-// the terms below 5e-8 rad. A coordinate's greatest error against JPL's DE430 from 1950 to 2100, in arcsec as
-// seen from the Earth or the Sun: Mercury and Venus 0.1, Mars 0.2, Jupiter and Saturn 0.3, Uranus 1.4,
-// Neptune 2.1; the last two are VSOP87's own, which was fitted to DE200.
+// The positions of the planets except the Earth: VSOP87 (Bretagnon & Francou, A&A 202, 309, 1988), version B,
+// without the terms below 5e-8 rad. A coordinate's greatest error against JPL's DE430 from 1950 to 2100, in
+// arcsec as seen from the Earth or the Sun: Mercury and Venus 0.1, Mars 0.2, Jupiter and Saturn 0.3, Uranus
+// 1.4, Neptune 2.1; the last two are VSOP87's own, which was fitted to DE200.
 
 #include <cstdint>
 

@@ -21,16 +21,17 @@ namespace hilcam {
 
 struct Star {
     Vec3d world_dir;              // unit, ICRF, from the barycentre at the run's start
-    Vec3f motion_rad_yr;          // of world_dir, along the tangent
+    Vec3f motion_rad_yr;          // motion of world_dir, along the tangent
     float parallax_rad = 0;       // annual
     Spectrum irradiance_w_m2_um;  // at the aperture, mean over each bin
     float magnitude_v = 0;
-    std::uint32_t row = 0;  // of the catalogue's stars, from 0
+    std::uint32_t row = 0;  // row among the catalogue's stars, from 0
     std::uint32_t hip = 0;  // Hipparcos number; 0: none
     std::uint32_t hd = 0;   // Henry Draper number; 0: none
 };
 
-// From where and how fast the stars are looked at: about the barycentre of the Solar System, ICRF axes.
+// The place and velocity from which the stars are looked at: about the barycentre of the Solar System, ICRF
+// axes.
 class StarObserver {
   public:
     StarObserver() = default;

@@ -18,8 +18,8 @@ struct SunConfig {
     Curve spectrum;  // at 1 au [W m^-2 um^-1]; empty: the table above
     bool has_spectrum = false;
     bool limb_darkening = true;
-    // Where it stands, with an origin in free space: by its direction, or by where its light comes from in
-    // the first picture (emulator/scenario/free_space.h).
+    // The Sun's place with an origin in free space: given by its direction, or by where its light comes from
+    // in the first picture (emulator/scenario/free_space.h).
     Vec3d direction;  // world axes, of any length
     double distance_m = kAstronomicalUnit_m, phase_rad = 0, azimuth_rad = 0;
     bool has_direction = false, has_distance = false, has_phase = false, has_azimuth = false;

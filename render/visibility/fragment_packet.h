@@ -1,7 +1,7 @@
 #pragma once
-// Where rays through sixteen fragments of one object meet their triangles, and how the surface lies there:
-// what find_lie() and a ray's hit tell of one, for all at once and to the same precision. Compiled for
-// several widths of vectors that give the same results. Loop, any thread.
+// Finds where rays through sixteen fragments of one object meet their triangles, and how the surface lies
+// there: that which find_lie() and a ray's hit tell of one, for all at once and to the same precision.
+// Compiled for several widths of vectors that give the same results. Loop, any thread.
 
 #include <array>
 #include <cstdint>
@@ -19,15 +19,15 @@ struct alignas(64) FragmentPacket {
         Vec3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
         void set(std::size_t i, Vec3f v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
     };
-    // In. Those beyond count are worked on, too, and must hold triangles.
+    // These are the inputs; those beyond count are worked on, too, and must hold triangles.
     std::array<std::uint32_t, kSize> triangle{};
     Vectors dir;     // world axes, of any length
     Vectors origin;  // world axes, from the body's origin [m]
     // Out.
-    Floats distance, u, v;                  // as a HitPacket's
+    Floats distance, u, v;                  // those of a HitPacket
     Vectors body_normal;                    // geometric, body axes, not unit
-    Vectors geometric, normal, view_dir;    // as a vertex's: world axes, unit, towards the viewer
-    std::array<std::uint32_t, kSize> back;  // not 0: seen from behind, as the triangle's own normal has it
+    Vectors geometric, normal, view_dir;    // those of a vertex: world axes, unit, towards the viewer
+    std::array<std::uint32_t, kSize> back;  // nonzero: seen from behind, as the triangle's own normal has it
 
     std::size_t count = 0;  // last: everything else fills whole cache lines
 };

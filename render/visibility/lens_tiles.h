@@ -24,7 +24,7 @@ class LensTiles {
 
     // Null where the lens leaves straight lines straight: ideal places are those on the screen then.
     const ScreenLens* screen() const { return straight_ ? nullptr : &screen_; }
-    // Of the tile whose corner is at x_px, y_px; null as above.
+    // Returns the map of the tile whose corner is at x_px, y_px; null as above.
     const TileLens* forward(int x_px, int y_px) const {
         return straight_ ? nullptr : &forward_[index(x_px, y_px)];
     }
@@ -36,7 +36,7 @@ class LensTiles {
     };
     View view(int x_px, int y_px) const;
 
-    // Of what the picture shows, at least: the least and greatest slopes x / z and y / z of directions.
+    // The slopes that the picture shows, at least: the least and greatest x / z and y / z of directions.
     struct Slopes {
         double left, right, top, bottom;
     };

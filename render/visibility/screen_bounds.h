@@ -1,5 +1,5 @@
 #pragma once
-// Which pixels a body in the sky can cover: a conservative box in padded pixels.
+// Bounds the pixels that a body in the sky can cover by a conservative box in padded pixels.
 
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_box.h"
@@ -7,7 +7,7 @@
 
 namespace hilcam {
 
-// Of a cone of directions around `axis_world` with half angle acos(cosine).
+// Returns the box of a cone of directions around `axis_world` with half angle acos(cosine).
 PixelBox screen_bounds_of_cone(const ImageGeometry& geometry, const Pose& camera, Vec3d axis_world,
                                double cosine);
 

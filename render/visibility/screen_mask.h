@@ -1,7 +1,7 @@
 #pragma once
-// Which small blocks of pixels an object can cover: an object's triangles are boxed in clusters, and the
-// boxes' outlines marked. Empty sky inside the object's own bounds then costs no rays. Conservative: a block
-// that is not marked cannot meet a triangle.
+// Marks the small blocks of pixels that an object can cover: an object's triangles are boxed in clusters, and
+// the boxes' outlines marked. Empty sky inside the object's own bounds then costs no rays. Conservative: a
+// block that is not marked cannot meet a triangle.
 
 #include <array>
 #include <cstdint>

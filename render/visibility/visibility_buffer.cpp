@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kRun = 512;             // triangles that are looked at between two visits of the tiles
 constexpr std::size_t kVertexRun = 1 << 14;   // vertices that a task projects
 constexpr std::uint32_t kBlocksAtOnce = 32;   // that a group takes for itself
-constexpr std::size_t kBlocksTogether = 256;  // of a tile, that are put in order
+constexpr std::size_t kBlocksTogether = 256;  // blocks of a tile that are put in order together
 
 ScreenProjection projection_of(const ImageGeometry& g, const Mat3d& camera_from_body, Vec3d origin_m,
                                double radius_m, double depth_origin_m) {
@@ -49,8 +49,8 @@ VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Room& ro
     vertices_.resize(room.vertices);
     first_.resize(tiles * kGroups);
     // Most triangles are met by one tile or none; of a block's sixteen places half are taken.
-    constexpr std::size_t kLeast = 1 << 16;  // for few that fill the screen many times
-    const std::size_t blocks = room.triangles / 4 + 32 * tiles + kLeast;
+    constexpr std::size_t kMin = 1 << 16;  // for few that fill the screen many times
+    const std::size_t blocks = room.triangles / 4 + 32 * tiles + kMin;
     blocks_.resize(blocks);
     heads_.resize(blocks);
 }
@@ -179,7 +179,7 @@ bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown) {
         const std::size_t end = triangle_count_ * (group + 1) / kGroups;
         if (begin < end && !Sorter(*this, group).sort(begin, end)) room = false;
     });
-    // What groups have taken and not used depends on chance: whether there is room must not.
+    // Whether there is room must not depend on chance, as what groups have taken and not used does.
     return room && used_ + kGroups * kBlocksAtOnce <= heads_.size();
 }
 
@@ -235,7 +235,7 @@ void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, 
     setup.x0[0] = setup.y0[0] = 0;
     setup.y1[0] = kVisibilityTile_px - 1;
     setup.x1[0] = volume == 0 ? -1 : kVisibilityTile_px - 1;
-    setup.least_depth[0] = -1, setup.most_depth[0] = 1e30f;
+    setup.min_depth[0] = -1, setup.max_depth[0] = 1e30f;
     setup.id[0] = static_cast<std::uint32_t>(placed.first_triangle) + triangle;
     if (volume == 0) return;
     Vec3d sum;
@@ -273,7 +273,7 @@ bool VisibilityBuffer::fill(int x_px, int y_px, VisibilityTile& tile) const {
     return any;
 }
 
-// From near to far, so that what is hidden is found to be so before it is looked at.
+// Fills blocks from near to far, so that what is hidden is found to be so before it is looked at.
 void VisibilityBuffer::fill_blocks(std::span<NearBlock> blocks, int x_px, int y_px,
                                    VisibilityTile& tile) const {
     std::sort(blocks.begin(), blocks.end(), [](const NearBlock& a, const NearBlock& b) {

@@ -1,8 +1,8 @@
 #pragma once
-// Which triangle each of sixteen samples in every pixel sees, for a pinhole camera at one instant: what rays
-// would find, for less than one ray a pixel costs. Lenses that bend straight lines are affine in each tile
-// (lens_tiles.h). Triangles are projected and sorted into tiles of the
-// screen once a frame; tiles are filled one by one, when they are shaded.
+// Finds which triangle each of sixteen samples in every pixel sees, for a pinhole camera at one instant: the
+// one that rays would find, for less than one ray a pixel costs. Lenses that bend straight lines are affine
+// in each tile (lens_tiles.h). Triangles are projected and sorted into tiles of the screen once a frame;
+// tiles are filled one by one, when they are shaded.
 //
 // Not modelled: rows of different instants, fisheyes, lenses that bend much within a tile (takes()). Such
 // frames are for rays, and so is a frame that shows more triangles than there is memory for: place() says no.
@@ -50,10 +50,10 @@ class VisibilityBuffer {
     // nothing. Loop, any thread.
     bool fill(int x_px, int y_px, VisibilityTile& tile) const;
 
-    // Through a place in a pixel, as its tile has it; world axes, of any length.
+    // Returns the direction through a place in a pixel, as its tile has it; world axes, of any length.
     Vec3d direction(int x_px, int y_px, Vec2f within_px) const;
 
-    // What an id of a tile stands for.
+    // The triangle for which an id of a tile stands.
     struct Seen {
         const Shown* shown;
         std::uint32_t triangle;
@@ -61,7 +61,7 @@ class VisibilityBuffer {
     Seen seen(std::uint32_t id) const;
 
   private:
-    static constexpr std::size_t kGroups = 64;  // of triangles: sorted side by side
+    static constexpr std::size_t kGroups = 64;  // groups of triangles, sorted side by side
     static constexpr std::uint32_t kNoBlock = 0;
 
     // Up to sixteen triangles of an object that a tile may see.
@@ -97,7 +97,7 @@ class VisibilityBuffer {
     std::vector<Placed> placed_;
     double depth_origin_m_ = 1;
     std::size_t triangle_count_ = 0;
-    std::vector<ScreenVertex> vertices_;  // of all objects
+    std::vector<ScreenVertex> vertices_;  // vertices of all objects
     std::vector<std::uint32_t> first_;    // block by tile and group
     std::vector<Block> blocks_;
     std::vector<BlockHead> heads_;

@@ -95,7 +95,7 @@ HWY_INLINE Corners corners_of(const ScreenVertex* vertices, const TriangleCorner
 HWY_INLINE V least(const V* of) { return hn::Min(hn::Min(of[0], of[1]), of[2]); }
 HWY_INLINE V most(const V* of) { return hn::Max(hn::Max(of[0], of[1]), of[2]); }
 
-// Whether a place is beside a triangle, and not by rounding.
+// True when a place is beside a triangle, and not by rounding.
 HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y, V place_px) {
     V side[3];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -108,7 +108,7 @@ HWY_INLINE hn::Mask<Floats> is_beside(const Corners& c, V x, V y, V place_px) {
     return hn::And(hn::Lt(least(side), hn::Neg(margin)), hn::Gt(most(side), margin));
 }
 
-// From ideal places to those on the screen (LensDistortion::distorted).
+// Moves corners from ideal places to those on the screen (LensDistortion::distorted).
 HWY_INLINE void distort(const ScreenLens& lens, Corners& c) {
     const auto number = [](float value) { return hn::Set(Floats(), value); };
     const V inverse = number(1 / lens.focal_px);
@@ -130,7 +130,7 @@ HWY_INLINE void distort(const ScreenLens& lens, Corners& c) {
     }
 }
 
-// What triangles are on the screen of a bent lens.
+// The triangles as they are on the screen of a bent lens.
 struct Bent {
     hn::Mask<Floats> unknown, beside_picture;
     V margin_px;
@@ -140,10 +140,10 @@ HWY_INLINE Bent bend(const ScreenLens& lens, Corners& c) {
     const auto number = [&](float value) { return hn::Set(d, value); };
     const V x0 = least(c.x), x1 = most(c.x), y0 = least(c.y), y1 = most(c.y);
     const auto known = hn::Not(hn::IsNaN(hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2])));
-    const auto beside = hn::Or(hn::Or(hn::Lt(x1, number(lens.least_x)), hn::Gt(x0, number(lens.most_x))),
-                               hn::Or(hn::Lt(y1, number(lens.least_y)), hn::Gt(y0, number(lens.most_y))));
-    const auto leaves = hn::Or(hn::Or(hn::Lt(x0, number(lens.least_x)), hn::Gt(x1, number(lens.most_x))),
-                               hn::Or(hn::Lt(y0, number(lens.least_y)), hn::Gt(y1, number(lens.most_y))));
+    const auto beside = hn::Or(hn::Or(hn::Lt(x1, number(lens.min_x)), hn::Gt(x0, number(lens.max_x))),
+                               hn::Or(hn::Lt(y1, number(lens.min_y)), hn::Gt(y0, number(lens.max_y))));
+    const auto leaves = hn::Or(hn::Or(hn::Lt(x0, number(lens.min_x)), hn::Gt(x1, number(lens.max_x))),
+                               hn::Or(hn::Lt(y0, number(lens.min_y)), hn::Gt(y1, number(lens.max_y))));
     const V extent = hn::Max(hn::Sub(x1, x0), hn::Sub(y1, y0));
     distort(lens, c);
     // Beside the picture the polynomial may fold back: such corners have no place.
@@ -167,7 +167,7 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
             corners_of(vertices, triangles.data(), [&](std::size_t k) { return std::min(t + k, last); });
         const V sum = hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2]);
         auto unknown = hn::IsNaN(sum);
-        auto outside = unknown;  // of a bent lens only
+        auto outside = unknown;  // used with a bent lens only
         V place_px = hn::Set(d, kPlace_px);
         if constexpr (kBent) {
             const Bent bent = bend(*lens, c);
@@ -184,7 +184,7 @@ std::size_t tiles_with(const ScreenVertex* vertices, std::span<const TriangleCor
         const auto to = [&](V at) { return hn::Floor(hn::Sub(hn::Mul(four, at), half)); };
         const V from_x = from(x0), to_x = to(x1), from_y = from(y0), to_y = to(y1);
         const auto none = hn::Or(hn::Gt(from_x, to_x), hn::Gt(from_y, to_y));
-        // Of crumpled things most triangles have one there, and beside them.
+        // Most triangles of crumpled things have one there, and beside them.
         const auto one = hn::And(hn::Eq(from_x, to_x), hn::Eq(from_y, to_y));
         const auto beside = hn::And(one, is_beside(c, hn::Div(hn::Add(from_x, half), four),
                                                    hn::Div(hn::Add(from_y, half), four), place_px));
@@ -231,7 +231,7 @@ std::size_t tiles(const ScreenVertex* vertices, std::span<const TriangleCorners>
                 : tiles_with<false>(vertices, triangles, first, width_px, height_px, lens, ranges);
 }
 
-// Of corners in a tile, from its corner.
+// Bends corners in a tile, counted from its corner.
 HWY_INLINE void bend_in_tile(const TileLens& lens, Corners& c) {
     const auto number = [](float value) { return hn::Set(Floats(), value); };
     const V half = number(0.5f * kSide_px);
@@ -284,8 +284,8 @@ void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAt
         const V gy = hn::Mul(hn::Sub(hn::Mul(dv, ux), hn::Mul(du, vx)), inverse);
         hn::Store(gx, d, s.depth_x.data() + k), hn::Store(gy, d, s.depth_y.data() + k);
         hn::Store(hn::Sub(c.depth[0], times_plus(gx, c.x[0], hn::Mul(gy, c.y[0]))), d, s.depth.data() + k);
-        hn::Store(least(c.depth), d, s.least_depth.data() + k),
-            hn::Store(most(c.depth), d, s.most_depth.data() + k);
+        hn::Store(least(c.depth), d, s.min_depth.data() + k),
+            hn::Store(most(c.depth), d, s.max_depth.data() + k);
         const V last = hn::Set(d, kSide_px - 1);
         const auto pixel = [&](V at) { return hn::ConvertTo(di, hn::Min(hn::Max(at, zero), last)); };
         const auto flat = hn::RebindMask(di, hn::Eq(area, zero));
@@ -331,10 +331,10 @@ Span span_of_row(const TriangleSetup& s, std::size_t k, int row) {
     return {static_cast<int>(from), static_cast<int>(std::floor(to))};
 }
 
-// Whether all that a triangle may cover is nearer.
+// True when everything that a triangle may cover is nearer.
 bool is_hidden(const TriangleSetup& s, std::size_t k, const VisibilityTile& tile) {
     constexpr int kHalf = kSide_px / 2;
-    const float nearest = s.most_depth[k];
+    const float nearest = s.max_depth[k];
     for (int j = s.y0[k] / kHalf; j <= s.y1[k] / kHalf; ++j)
         for (int i = s.x0[k] / kHalf; i <= s.x1[k] / kHalf; ++i)
             if (nearest > tile.farthest[static_cast<std::size_t>(2 * j + i)]) return false;
@@ -345,7 +345,7 @@ void farthest(VisibilityTile& tile) {
     const Floats d;
     constexpr std::size_t lanes = hn::MaxLanes(d);
     constexpr int kHalf = kSide_px / 2;
-    constexpr std::size_t kRun = kHalf * kVisibilitySamples;  // of half a row
+    constexpr std::size_t kRun = kHalf * kVisibilitySamples;  // samples of half a row
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         V least = hn::Set(d, std::numeric_limits<float>::infinity());
         for (std::size_t row = 0; row < kHalf; ++row) {
@@ -370,7 +370,7 @@ void fill(const TriangleSetup& s, VisibilityTile& tile) {
         const auto flip = [&](std::size_t i) { return hn::Set(di, static_cast<std::int32_t>(s.flip[i][k])); };
         const I f0 = flip(0), f1 = flip(1), f2 = flip(2);
         const V gx = hn::Set(d, s.depth_x[k]), gy = hn::Set(d, s.depth_y[k]), g = hn::Set(d, s.depth[k]);
-        const V near_most = hn::Set(d, s.most_depth[k]), far_most = hn::Set(d, s.least_depth[k]);
+        const V near_most = hn::Set(d, s.max_depth[k]), far_most = hn::Set(d, s.min_depth[k]);
         const I id = hn::Set(di, static_cast<std::int32_t>(s.id[k]));
         for (int row = s.y0[k]; row <= s.y1[k]; ++row) {
             Span span{x0, x1};

@@ -19,21 +19,22 @@ inline constexpr int kVisibilitySamplesAcross = 4;  // a pixel, and down it
 inline constexpr int kVisibilitySamples = kVisibilitySamplesAcross * kVisibilitySamplesAcross;
 inline constexpr std::size_t kTrianglesAtOnce = 16;
 
-// Where samples lie in their pixel: sample i at ((i % 4 + 0.5) / 4, (i / 4 + 0.5) / 4).
+// Returns where samples lie in their pixel: sample i is at ((i % 4 + 0.5) / 4, (i / 4 + 0.5) / 4).
 constexpr float sample_x(int sample) { return (static_cast<float>(sample % 4) + 0.5f) / 4; }
 constexpr float sample_y(int sample) { return (static_cast<float>(sample / 4) + 0.5f) / 4; }
 
-// How vertices of one object come to the screen. x = offset_x + focal (p.x + lean_x p.z + start_x) / z with
-// p = axes * vertex and z = p.z + distance; y alike. Depth is (depth_origin - z) / z: linear on the screen,
+// Takes vertices of one object to the screen. x = offset_x + focal (p.x + lean_x p.z + start_x) / z with p =
+// axes * vertex and z = p.z + distance; y alike. Depth is (depth_origin - z) / z: linear on the screen,
 // greater is nearer.
 struct ScreenProjection {
     Mat3f axes;                             // camera from body
-    float distance = 0, beyond_origin = 0;  // of the body's origin [m]; that less depth_origin
+    float distance = 0, beyond_origin = 0;  // distance of the body's origin [m]; that less depth_origin
     float focal_px = 0;
     float offset_x = 0, offset_y = 0, lean_x = 0, lean_y = 0, start_x = 0, start_y = 0;
 };
 
-// On the screen [padded px]. x is NaN where a vertex is not before the camera, or far beside the picture.
+// A vertex on the screen [padded px]. x is NaN where a vertex is not before the camera, or far beside the
+// picture.
 struct alignas(16) ScreenVertex {
     float x, y, depth, unused;
 };
@@ -45,9 +46,9 @@ void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection&
 struct ScreenLens {
     float center_x, center_y, focal_px;
     float k1, k2, k3, p1, p2;
-    float least_x, most_x, least_y, most_y;  // ideal places of the picture
+    float min_x, max_x, min_y, max_y;  // ideal places of the picture
     float bend_per_px;    // an edge in a box of so many px leaves its chord by that times its square
-    float tile_error_px;  // of a tile's own map
+    float tile_error_px;  // error of a tile's own map
 };
 // The same lens in a tile: place on it = 8 px + (xx, xy; yx, yy) (ideal place - middle).
 struct TileLens {
@@ -74,7 +75,7 @@ std::size_t find_tiles(const ScreenVertex* vertices, std::span<const TriangleCor
 struct alignas(64) TriangleSetup {
     std::array<std::array<float, kTrianglesAtOnce>, 3> a, b, c;
     std::array<std::array<std::uint32_t, kTrianglesAtOnce>, 3> flip;
-    std::array<float, kTrianglesAtOnce> depth_x, depth_y, depth, least_depth, most_depth;
+    std::array<float, kTrianglesAtOnce> depth_x, depth_y, depth, min_depth, max_depth;
     std::array<std::int32_t, kTrianglesAtOnce> x0, x1, y0, y1;  // pixels of the tile; x1 < x0: none
     std::array<std::uint32_t, kTrianglesAtOnce> id;
     std::size_t count = 0;
@@ -83,14 +84,14 @@ struct alignas(64) TriangleSetup {
 struct ScreenMesh {
     const ScreenVertex* vertices;
     const TriangleCorners* triangles;
-    std::uint32_t first_id;  // of its first triangle
+    std::uint32_t first_id;  // id of its first triangle
 };
 // numbers: of triangles; what is beyond count must be a triangle, too. lens: of the tile; null without.
 void set_up_triangles(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAtOnce>& numbers,
                       std::size_t count, int tile_x_px, int tile_y_px, const TileLens* lens,
                       TriangleSetup& setup);
 
-// What each sample of a tile sees: the nearest triangle.
+// The nearest triangle that each sample of a tile sees.
 struct alignas(64) VisibilityTile {
     static constexpr std::uint32_t kNothing = ~std::uint32_t{0};
     static constexpr std::size_t kSize =

@@ -1,5 +1,5 @@
 #pragma once
-// From pixels to directions and back: a pinhole with the lens's distortion.
+// Maps pixels to directions and back by a pinhole with the lens's distortion.
 //
 // Camera axes: +x right, +y down, +z along the boresight, which meets the image at its middle (width/2,
 // height/2) plus principal_offset_px. The centre of pixel (0, 0) is at (0.5, 0.5) px. The guard band
@@ -36,8 +36,8 @@ struct LensDistortion {
         return {p.x * radial + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x),
                 p.y * radial + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
     }
-    // By Newton's method with the matrix of derivatives; 1e-12 after some steps where the lens does not fold
-    // over.
+    // Inverts the distortion by Newton's method with the matrix of derivatives; 1e-12 after some steps where
+    // the lens does not fold over.
     Vec2d undistorted(Vec2d q) const {
         if (projection == Projection::kFisheye) return from_fisheye(q);
         Vec2d p = q;
@@ -81,8 +81,8 @@ struct LensDistortion {
             if (!(std::abs(slope) > 1e-12)) break;
             theta -= (fisheye_radius(theta) - radius) / slope;
         }
-        constexpr double kMost_rad = 1.5706217938697063;
-        const double scale = std::tan(theta < kMost_rad ? theta : kMost_rad) / radius;
+        constexpr double kMax_rad = 1.5706217938697063;
+        const double scale = std::tan(theta < kMax_rad ? theta : kMax_rad) / radius;
         return {q.x * scale, q.y * scale};
     }
 };

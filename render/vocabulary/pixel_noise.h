@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-// For one exposure.
+// The noise of one exposure.
 struct PixelNoise {
     Spectrum electrons_per_radiance;  // per W m^-2 sr^-1 um^-1 of each bin; 0: not told
     float dark_variance_e2 = 0;       // variance of a pixel without light [e-^2]

@@ -23,8 +23,8 @@ struct Motion {
 // The pose at another instant, velocity and body rate held constant. Exact for such motion; any dt.
 // Loop-safe.
 Pose propagate(const Motion& motion, TimeTai time);
-// Between two motions a.time < b.time: cubic Hermite in position (from both velocities), slerp in attitude.
-// time is clamped to [a.time, b.time]. Loop-safe.
+// Interpolates between two motions a.time < b.time: cubic Hermite in position (from both velocities), slerp
+// in attitude. time is clamped to [a.time, b.time]. Loop-safe.
 Pose interpolate(const Motion& a, const Motion& b, TimeTai time);
 // The attitude whose +z axis points along `forward` and whose +y axis lies as near to -up as it can (camera
 // axes: +x right, +y down, +z boresight). Throws InputError when the two are parallel or zero.

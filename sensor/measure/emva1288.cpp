@@ -94,7 +94,6 @@ PhotonTransfer photon_transfer(std::span<const LightPoint> points, double satura
 }
 
 // --- response
-// --------------------------------------------------------------------------------------------------------
 
 ResponseCurve::ResponseCurve(std::span<const LightPoint> points, double saturation_dn) {
     std::vector<double> x, y, weight, variance;
@@ -148,7 +147,6 @@ Measured small_signal_gain_dn_e(std::span<const LightPoint> points, const Respon
 }
 
 // --- darkness
-// --------------------------------------------------------------------------------------------------------
 
 Measured dark_noise_e(const TemporalStatistics& dark, double dark_signal_dn, const Measured& gain,
                       double bandwidth) {
@@ -189,7 +187,6 @@ DarkCurrent dark_current_e_s(std::span<const DarkPoint> points, const Measured& 
 }
 
 // --- linearity
-// --------------------------------------------------------------------------------------------------------
 
 std::vector<ResponsePoint> response_points(std::span<const LightPoint> points) {
     std::vector<ResponsePoint> out;
@@ -211,8 +208,8 @@ Linearity linearity(std::span<const ResponsePoint> points, double saturation_dn)
         const double line = fit.coefficient[0] + fit.coefficient[1] * photons[i];
         const double deviation = signal[i] / line - 1;
         out.points.push_back({photons[i], signal[i], line, deviation});
-        out.least_fraction = std::min(out.least_fraction, deviation);
-        out.most_fraction = std::max(out.most_fraction, deviation);
+        out.min_fraction = std::min(out.min_fraction, deviation);
+        out.max_fraction = std::max(out.max_fraction, deviation);
         sum += std::abs(deviation);
         error += variance[i] / square(line);
     }
@@ -223,12 +220,11 @@ Linearity linearity(std::span<const ResponsePoint> points, double saturation_dn)
 }
 
 // --- what stays
-// --------------------------------------------------------------------------------------------------------
 
 Nonuniformity dsnu_e(const FrameStack& dark, const TemporalStatistics& temporal,
                      const PixelSelection& selection, const Measured& gain, double bandwidth) {
     const std::vector<double> mean = dark.mean_dn();
-    const std::vector<double> image = sum_of_images(mean, smooth_surface(mean, selection, kShadingOrder), -1);
+    std::vector<double> image = sum_of_images(mean, smooth_surface(mean, selection, kShadingOrder), -1);
     const double frames = dark.frames();
     Nonuniformity out = split(std::move(image), selection, temporal.pixel_dn2() / frames,
                               temporal.row_dn2 / frames, bandwidth);
@@ -253,7 +249,6 @@ Nonuniformity prnu_fraction(const FrameStack& flat, const TemporalStatistics& fl
 }
 
 // --- what follows
-// --------------------------------------------------------------------------------------------------------
 
 Measured absolute_threshold_e(const Measured& noise, const Measured& gain) {
     const double dark = std::sqrt(square(noise.value) + kQuantisation_dn2 / square(gain.value));

@@ -43,7 +43,7 @@ class ResponseCurve {
     double slope_dn_photon(double photons) const;
     // The light of a signal, by Newton's method; for signals up to a little beyond saturation.
     double photons(double signal_dn) const;
-    // For small signals: the slope at no light.
+    // Returns the responsivity to small signals: the slope at no light.
     Measured responsivity_dn_photon() const;
     double offset_dn() const { return coefficient_[0]; }
 
@@ -84,7 +84,7 @@ struct LinearityPoint {
 };
 struct Linearity {
     Measured error_fraction;
-    double least_fraction = 0, most_fraction = 0;
+    double min_fraction = 0, max_fraction = 0;
     std::vector<LinearityPoint> points;
 };
 struct ResponsePoint {

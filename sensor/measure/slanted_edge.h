@@ -29,8 +29,9 @@ struct EdgePicture {
 };
 
 struct SlantedEdgeOptions {
-    // Between the two sides far from the edge: MTF = 1 at zero frequency is then that of large surfaces, and
-    // light that a lens spreads wide is missing above. 0: the step that is seen within half_width_px.
+    // The step between the two sides far from the edge: MTF = 1 at zero frequency is then that of large
+    // surfaces, and light that a lens spreads wide is missing above. 0: the step that is seen within
+    // half_width_px.
     double step = 0;
     double half_width_px = 32;  // used on either side of the edge
 };

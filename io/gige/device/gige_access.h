@@ -1,5 +1,5 @@
 #pragma once
-// Who has control of the camera: the control channel privilege (CCP), its heartbeat, its hand-over.
+// Decides who has control of the camera: the control channel privilege (CCP), its heartbeat, its hand-over.
 //
 // The first application to write a non-zero privilege becomes the controller until it writes 0 or stays
 // silent longer than the heartbeat time-out. Others (monitors) may read, unless the privilege is exclusive,
@@ -16,7 +16,7 @@ namespace hilcam {
 class GigeAccess {
   public:
     struct Effects {
-        // Before the controller changes by a switch-over: the one before is still to be told.
+        // Is called before the controller changes by a switch-over: the one before is still to be told.
         std::function<void()> switched{};
         std::function<void()> released{};  // nobody has control any more
     };
@@ -30,9 +30,9 @@ class GigeAccess {
     void heard() { last_heard_ns_ = core_.now_ns; }  // the controller spoke
     // Ends the control of an application that fell silent.
     void tick();
-    std::int64_t deadline_ns() const;  // of the heartbeat; INT64_MAX: none
+    std::int64_t deadline_ns() const;  // deadline of the heartbeat; INT64_MAX: none
     void release();
-    void reset();  // as after power-up
+    void reset();  // returns to the state after power-up
 
   private:
     gvcp::Status write_privilege(std::uint32_t value);

@@ -15,7 +15,6 @@ GigeAcquisition::GigeAcquisition(GigeCore& core) : core_(core) {
 }
 
 // --- start and stop
-// ------------------------------------------------------------------------------------------------------
 
 void GigeAcquisition::add_control() {
     GigeRegisterFile& r = core_.registers;
@@ -63,7 +62,6 @@ void GigeAcquisition::stop() {
 }
 
 // --- exposure, gain, black level
-// ----------------------------------------------------------------------------------------
 
 void GigeAcquisition::add_exposure() {
     GigeRegisterFile& r = core_.registers;
@@ -90,9 +88,8 @@ void GigeAcquisition::add_exposure() {
 }
 
 // --- frame rate
-// ---------------------------------------------------------------------------------------------------------
 
-// Without AcquisitionFrameRateEnable the camera is as fast as it can be.
+// Adds the frame rate; without AcquisitionFrameRateEnable the camera is as fast as it can be.
 void GigeAcquisition::add_frame_rate() {
     GigeRegisterFile& r = core_.registers;
     r.number(
@@ -107,7 +104,7 @@ Status GigeAcquisition::enable_rate(bool on) {
     GigeSettings& s = core_.settings;
     if (on == s.rate_enabled) return Status::kSuccess;
     const double before_hz = core_.camera.settings().frame_rate_hz;
-    const Status status = core_.change({.frame_rate_hz = on ? s.rate_hz : core_.limits.most_frame_rate_hz});
+    const Status status = core_.change({.frame_rate_hz = on ? s.rate_hz : core_.limits.max_frame_rate_hz});
     if (status != Status::kSuccess) return status;
     s.rate_enabled = on;
     if (!on) s.rate_hz = before_hz;

@@ -68,7 +68,7 @@ void GigeActions::tick() {
     }
 }
 
-// Whether the camera takes it is the camera's to say, with an event.
+// Triggers the action; the camera says with an event whether it takes it.
 void GigeActions::trigger(std::int64_t at_monotonic_ns) {
     TriggerOrder order;
     order.source = TriggerSource::kAction1;

@@ -13,7 +13,7 @@ namespace hilcam {
 
 class GigeAnswers {
   public:
-    // Of a request seen before (the same bytes from the same application, not long ago): whether it was, and
+    // Says whether a request was seen before (the same bytes from the same application, not long ago), and
     // its answer's size; 0: it got none.
     struct Found {
         bool known = false;
@@ -27,7 +27,7 @@ class GigeAnswers {
     // --- Answers to come.
     // False: too many wait already.
     bool hold(const Endpoint& to, std::span<const std::uint8_t> answer, std::int64_t due_ns);
-    // When the request's answer is due; 0: none waits.
+    // Returns when the request's answer is due; 0: none waits.
     std::int64_t held_until_ns(const Endpoint& to, std::uint16_t request_id) const;
     // One whose time has come, once; empty: none. Valid until the next call.
     std::span<const std::uint8_t> take_due(std::int64_t now_ns, Endpoint& to);
@@ -44,7 +44,7 @@ class GigeAnswers {
         std::uint64_t request_hash = 0;
         std::int64_t time_ns = 0;  // kept: of the request; held: due
         std::size_t bytes = 0;
-        std::array<std::uint8_t, gvcp::kMostDatagramBytes> answer{};
+        std::array<std::uint8_t, gvcp::kMaxDatagramBytes> answer{};
 
         std::span<const std::uint8_t> view() const { return std::span(answer).first(bytes); }
     };

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of a GigE Vision camera's control side share: the camera behind it, its registers, what the
+// The parts of a GigE Vision camera's control side share this: the camera behind it, its registers, what the
 // stream side is told. One thread: the one that serves the control port.
 
 #include <cstdint>
@@ -24,10 +24,10 @@ struct GigeIdentity {
     bool multipart = false;  // announce multipart payloads, as some clients test what is announced
 };
 
-// What the stream side counts; shown as features.
+// The counters of the stream side, which features show.
 struct GigeStreamStatistics {
     std::uint64_t frames = 0;           // delivered
-    std::uint64_t frames_dropped = 0;   // not sent: too slow, or a fault
+    std::uint64_t frames_dropped = 0;   // frames that were not sent: too slow, or a fault
     std::uint64_t packets = 0;          // sent for the first time
     std::uint64_t packets_dropped = 0;  // by faults
     std::uint64_t resend_requests = 0;
@@ -43,8 +43,8 @@ struct GigeSystemClock {
     bool tai_offset_known = false;  // CLOCK_TAI differs from UTC
 };
 
-// What control messages set in motion. Called from inside handle(), tick() and happened() of GigeDevice, by
-// their thread. Any of them may be empty.
+// The effects of control messages. Called from inside handle(), tick() and happened() of GigeDevice, by their
+// thread. Any of them may be empty.
 struct GigeEffects {
     std::function<void(const GigeStreamState&)> stream_changed{};
     // Packets asked for again. To be answered on the stream's socket; to the requester only when
@@ -69,14 +69,14 @@ struct GigeEffects {
 
 enum class AcquisitionMode : std::uint32_t { kContinuous, kSingleFrame, kMultiFrame };
 
-// What user sets keep, beside CameraSettings.
+// The settings that user sets keep, beside CameraSettings.
 struct GigeSettings {
     std::uint32_t width = 0, height = 0, offset_x = 0, offset_y = 0;
     WireFormat format = WireFormat::kMono8;
     AcquisitionMode mode = AcquisitionMode::kContinuous;
     std::uint32_t frame_count = 1;  // MultiFrame's
     std::uint32_t burst_count = 1;  // FrameBurstStart's
-    bool burst_trigger = false;     // which trigger is on when one is: FrameBurstStart, else FrameStart
+    bool burst_trigger = false;     // true: FrameBurstStart is the trigger when one is on; false: FrameStart
     bool rate_enabled = true;
     double rate_hz = 0;  // while not enabled: what to go back to
     bool chunk_mode = false;
@@ -108,7 +108,7 @@ struct GigeCore {
     GigeStreamStatistics statistics;
     std::uint64_t events_lost = 0;  // no room, or not acknowledged
     std::uint32_t gvcp_config = 0;  // bootstrap::gvcp_config
-    // Of the message being handled.
+    // The time of the message being handled.
     std::int64_t now_ns = 0;
     Endpoint from;
     // A host has locked the geometry by TLParamsLocked.

@@ -113,7 +113,6 @@ void GigeDevice::happened(const CameraEvent& event, std::uint64_t block, std::in
 }
 
 // --- time
-// -----------------------------------------------------------------------------------------------------------------
 
 void GigeDevice::tick(std::int64_t now_ns) {
     Parts& my = *parts_;

@@ -33,25 +33,27 @@ class GigeDevice {
     void set_ports(std::uint16_t stream, std::uint16_t message);
 
     // Answers one datagram of the control socket, and takes the acknowledgements that come to the message
-    // channel's socket. Gives the number of bytes written to `out` (at least kMostDatagramBytes), 0: no
+    // channel's socket. Gives the number of bytes written to `out` (at least kMaxDatagramBytes), 0: no
     // answer now. `now_ns`: CLOCK_MONOTONIC. `broadcast`: it came to a broadcast address; then only
     // DISCOVERY, FORCEIP and ACTION count, and a discovery is answered only when `from` is in the camera's
     // own subnet (the client would talk to an address that the stream does not come from) or allows a
     // broadcast answer, which goes out by send_answer.
     std::size_t handle(std::span<const std::uint8_t> datagram, Endpoint from, std::int64_t now_ns,
                        std::span<std::uint8_t> out, bool broadcast = false);
-    // To be called at wake_ns() or earlier, and after each handle(): ends the control of an application that
+    // Is called at wake_ns() or earlier, and after each handle(): ends the control of an application that
     // fell silent, sends answers that were held back, runs scheduled actions, repeats unanswered events,
     // carries out faults that reset or move the device.
     void tick(std::int64_t now_ns);
-    // When tick() is wanted next (CLOCK_MONOTONIC); never more than kLongestSleep_ns after the last tick.
+    // Returns when tick() is wanted next (CLOCK_MONOTONIC); never more than kLongestSleep_ns after the last
+    // tick.
     std::int64_t wake_ns() const;
     static constexpr std::int64_t kLongestSleep_ns = 50'000'000;
 
     // The stream side has delivered the last frame of a counted acquisition.
     void acquisition_finished(std::uint32_t epoch);
-    // From the loop, by way of the control thread: becomes an EVENT if a client wants it. An event's frame
-    // is FrameRecord::id; `block` is the stream's block id of that frame, 0 when it has none.
+    // Takes an event from the loop, by way of the control thread; it becomes an EVENT if a client wants it.
+    // An event's frame is FrameRecord::id; `block` is the stream's block id of that frame, 0 when it has
+    // none.
     void happened(const CameraEvent& event, std::uint64_t block, std::int64_t now_ns);
     void set_statistics(const GigeStreamStatistics& statistics);
 

@@ -30,7 +30,7 @@ GigeFaultRegisters::GigeFaultRegisters(GigeCore& core) : core_(core) {
     r.real(
         reg::kFaultValue, [this] { return shown().value; },
         [this](double v) {
-            return std::abs(v) <= kMostValue ? set(&FaultOrder::value, v) : Status::kInvalidParameter;
+            return std::abs(v) <= kMaxValue ? set(&FaultOrder::value, v) : Status::kInvalidParameter;
         });
     r.number64(
         reg::kFaultFromFrame, [this] { return shown().from_frame; },
@@ -66,13 +66,13 @@ FaultOrder GigeFaultRegisters::shown() const {
     if (edited_[selector_]) return draft;
     std::optional<FaultOrder> order = core_.faults.order_of(kAllFaults[selector_]);
     if (!order) return draft;
-    // As it was asked for: what was "at once" is so again when it is enabled once more.
+    // The order is kept as it was asked for: an "at once" is one again when it is enabled once more.
     order->from_frame = draft.from_frame;
     return *order;
 }
 
 Status GigeFaultRegisters::set_frames(std::uint64_t FaultOrder::*member, std::uint64_t value) {
-    return value <= kMostFrames ? set(member, value) : Status::kInvalidParameter;
+    return value <= kMaxFrames ? set(member, value) : Status::kInvalidParameter;
 }
 
 // The value's range depends on the kind: FaultEnable checks the whole order.

@@ -44,7 +44,7 @@ struct Feature {
     double step = 1;
     std::string unit_name{}, representation{}, visibility{};
     std::vector<EnumEntry> entries{};
-    int high_bit = -1, low_bit = -1;  // of a register that several features share; bit 0 is the lowest
+    int high_bit = -1, low_bit = -1;  // bits of a register that several features share; bit 0 is the lowest
     bool is_signed = false;
     std::string lock{};  // the feature that locks it when not 0
     std::vector<std::string> selected{};
@@ -148,7 +148,7 @@ struct FeatureTable {
     void add(const char* category, std::vector<Feature> rows);
 };
 
-// In the order of the description.
+// Returns the features in the order of the description.
 FeatureTable gige_features(const CameraLimits& limits, bool multipart);
 
 // Its parts.

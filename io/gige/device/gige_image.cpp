@@ -39,7 +39,6 @@ void GigeImage::reset() {
 }
 
 // --- the window
-// ----------------------------------------------------------------------------------------------------------
 
 GigeImage::Span GigeImage::columns() {
     const std::uint32_t most = static_cast<std::uint32_t>(core_.limits.width) / core_.stream.binning_x;
@@ -118,7 +117,7 @@ void GigeImage::add_window() {
     r.constant(reg::kSensorHeight, static_cast<std::uint32_t>(core_.limits.height));
     r.number(reg::kWidthMax, [this] { return columns().most; });
     r.number(reg::kHeightMax, [this] { return rows().most; });
-    // What the present offset leaves for a size, and the present size for an offset.
+    // The room that the present offset leaves for a size, and the present size for an offset.
     r.number(reg::kWidthRoom, [this] { return columns().most - columns().offset; });
     r.number(reg::kHeightRoom, [this] { return rows().most - rows().offset; });
     r.number(reg::kOffsetXMax, [this] { return columns().most - columns().size; });
@@ -130,7 +129,6 @@ void GigeImage::add_window() {
 }
 
 // --- what the camera itself does
-// -----------------------------------------------------------------------------------------
 
 Status GigeImage::write_binning(std::uint64_t x, std::uint64_t y) {
     SettingsChange change;
@@ -179,7 +177,6 @@ void GigeImage::add_camera_settings() {
 }
 
 // --- chunks
-// --------------------------------------------------------------------------------------------------------------
 
 void GigeImage::add_chunks() {
     GigeRegisterFile& r = core_.registers;

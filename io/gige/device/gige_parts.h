@@ -1,5 +1,5 @@
 #pragma once
-// What a GigeDevice is made of. Only for its own .cpp files.
+// The parts of a GigeDevice. Only for its own .cpp files.
 
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@ namespace hilcam {
 struct GigeDevice::Answer {
     gvcp::Status status = gvcp::kSuccess;
     std::size_t bytes = 0;
-    bool silent = false;  // not for this device: no answer at all
+    bool silent = false;  // true: not for this device; no answer at all
 };
 
 struct GigeDevice::Parts {
@@ -45,7 +45,7 @@ struct GigeDevice::Parts {
 
     std::int64_t ticked_ns = 0;
     bool reset_wanted = false;
-    std::uint32_t only = 0;  // of selectors with one entry
+    std::uint32_t only = 0;  // for selectors with one entry
     // The latest request, for faults that strike some attempts and not others.
     Endpoint last_from;
     std::uint16_t last_id = 0;
@@ -54,7 +54,7 @@ struct GigeDevice::Parts {
     Parts(const GigeIdentity& id, CameraControl& camera, FaultBoard& board, GigeEffects effects);
     void add_device_registers();
     void left();  // the controller is gone
-    // Of a request, for faults: its id and how often it has been tried.
+    // Returns the number of a request, for faults: made of its id and how often it has been tried.
     std::uint64_t fault_index(std::uint16_t request_id);
     bool in_subnet(const Endpoint& from) const {
         return ((from.ip ^ core.identity.ip) & core.identity.mask) == 0;

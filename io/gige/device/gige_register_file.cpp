@@ -11,7 +11,6 @@ namespace hilcam {
 using gvcp::Status;
 
 // --- the table
-// -----------------------------------------------------------------------------------------------------------
 
 void GigeRegisterFile::add(Register r) {
     HILCAM_CHECK(r.address % 4 == 0 && r.bytes % 4 == 0 && r.bytes > 0);
@@ -84,7 +83,6 @@ const GigeRegisterFile::Register* GigeRegisterFile::find(std::uint32_t address) 
 }
 
 // --- access
-// --------------------------------------------------------------------------------------------------------------
 
 namespace {
 

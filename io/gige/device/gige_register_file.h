@@ -18,12 +18,12 @@ class GigeRegisterFile {
     using Status = gvcp::Status;
     using Read = std::function<std::uint64_t()>;
     using Write = std::function<Status(std::uint64_t)>;
-    // When a register can be written; kUnlocked: unless the geometry is locked.
+    // The times at which a register can be written; kUnlocked: unless the geometry is locked.
     enum class When { kAlways, kUnlocked };
 
     struct Register {
         std::uint32_t address = 0, bytes = 4;
-        Read read{};    // of a number; empty: `text`
+        Read read{};    // reads a number; empty: `text`
         Write write{};  // empty: read only
         When when = When::kAlways;
         bool open = false;  // anyone may read it, whoever has control

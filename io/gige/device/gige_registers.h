@@ -1,6 +1,5 @@
 #pragma once
-// Where things are in the camera's address space: the bootstrap registers of GigE Vision 2.x, and the
-// camera's own.
+// The map of the camera's address space: the bootstrap registers of GigE Vision 2.x, and the camera's own.
 
 #include <cstdint>
 
@@ -33,7 +32,7 @@ inline constexpr std::uint32_t kStreamPort = 0x0D00, kPacketSize = 0x0D04, kPack
                                kStreamChannelCapability = 0x0D20, kStreamConfig = 0x0D24;
 inline constexpr std::uint32_t kActionGroupKey = 0x9800, kActionGroupMask = 0x9804;
 
-// Of kGvcpCapability and, where a client switches them on, kGvcpConfig.
+// Bits of kGvcpCapability and, where a client switches them on, of kGvcpConfig.
 namespace gvcp_can {
 inline constexpr std::uint32_t kUserName = 1u << 31, kSerial = 1u << 30, kHeartbeatDisable = 1u << 29,
                                kLinkSpeed = 1u << 28, kPrimaryApplication = 1u << 27,
@@ -48,11 +47,11 @@ inline constexpr std::uint32_t kHeartbeatDisable = 1u, kPendingAnswer = 1u << 1,
                                kUnconditionalAction = 1u << 3, kExtendedStatus20 = 1u << 18,
                                kPtpEnable = 1u << 19;
 }
-namespace stream_config {  // of kStreamConfig and kStreamChannelCapability
+namespace stream_config {  // bits of kStreamConfig and kStreamChannelCapability
 inline constexpr std::uint32_t kUnconditional = 1u << 1, kResendDestination = 1u << 3, kMultipart = 1u << 6;
 }
-inline constexpr std::uint32_t kExtendedIds = 1u << 30;                          // of kGvspConfig
-inline constexpr std::uint32_t kFireTest = 1u << 31, kDoNotFragment = 1u << 30;  // of kPacketSize
+inline constexpr std::uint32_t kExtendedIds = 1u << 30;                          // a bit of kGvspConfig
+inline constexpr std::uint32_t kFireTest = 1u << 31, kDoNotFragment = 1u << 30;  // bits of kPacketSize
 }  // namespace bootstrap
 
 // The camera's own. Registers of 8 bytes: doubles and 64-bit numbers; the others are 32-bit numbers.

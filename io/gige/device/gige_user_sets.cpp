@@ -9,7 +9,7 @@ using gvcp::Status;
 
 namespace {
 
-// Only what differs: a camera may refuse to be told what it sets itself.
+// Returns only what differs: a camera may refuse to be told what it sets itself.
 SettingsChange difference(const CameraSettings& from, const CameraSettings& to) {
     SettingsChange c;
     const auto set = [](auto& member, const auto& before, const auto& after) {

@@ -29,7 +29,7 @@ class Bytes {
     }
 };
 
-// Without zlib's own header and checksum.
+// Compresses without zlib's own header and checksum.
 std::vector<std::uint8_t> deflated(const std::string& content) {
     z_stream stream{};
     HILCAM_CHECK(deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) ==
@@ -52,7 +52,7 @@ std::vector<std::uint8_t> zip_of(const std::string& name, const std::string& con
     const std::vector<std::uint8_t> data = deflated(content);
     const std::size_t sum =
         crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size()));
-    // What the local header and the directory have in common.
+    // The common part of the local header and the directory.
     const auto description = [&](Bytes& b) {
         b.u16(kVersion20).u16(0).u16(kDeflate).u16(0).u16(kJanuary1st1980);
         b.u32(sum).u32(data.size()).u32(content.size()).u16(name.size()).u16(0);

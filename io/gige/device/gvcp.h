@@ -13,10 +13,10 @@ namespace hilcam::gvcp {
 
 inline constexpr std::uint16_t kPort = 3956;
 inline constexpr std::size_t kHeaderBytes = 8;
-inline constexpr std::size_t kMostDatagramBytes = 576;  // every GVCP message fits
-inline constexpr std::size_t kDiscoveryBytes = 248;     // registers 0x00 to 0xF7
+inline constexpr std::size_t kMaxDatagramBytes = 576;  // every GVCP message fits
+inline constexpr std::size_t kDiscoveryBytes = 248;    // registers 0x00 to 0xF7
 // A READMEM's answer has the address before the data.
-inline constexpr std::size_t kMostMemoryBytes = kMostDatagramBytes - 28 - kHeaderBytes - 4;
+inline constexpr std::size_t kMaxMemoryBytes = kMaxDatagramBytes - 28 - kHeaderBytes - 4;
 
 enum Command : std::uint16_t {
     kDiscovery = 0x0002,
@@ -58,13 +58,13 @@ enum Status : std::uint16_t {
 struct Header {
     static constexpr std::uint8_t kKey = 0x42;
     static constexpr std::uint8_t kAcknowledgeFlag = 0x01;
-    static constexpr std::uint8_t kExtendedFlag = 0x10;  // of PACKETRESEND, EVENT, EVENTDATA: 64-bit ids
-    static constexpr std::uint8_t kBroadcastAnswerFlag = 0x10;  // of DISCOVERY, FORCEIP
-    static constexpr std::uint8_t kScheduledFlag = 0x80;        // of ACTION
+    static constexpr std::uint8_t kExtendedFlag = 0x10;  // flag of PACKETRESEND, EVENT, EVENTDATA: 64-bit ids
+    static constexpr std::uint8_t kBroadcastAnswerFlag = 0x10;  // flag of DISCOVERY, FORCEIP
+    static constexpr std::uint8_t kScheduledFlag = 0x80;        // flag of ACTION
 
     std::uint8_t flags = 0;
     std::uint16_t command = 0;
-    std::uint16_t length = 0;  // of the payload
+    std::uint16_t length = 0;  // length of the payload
     std::uint16_t request_id = 0;
 };
 // Nothing for what is no GVCP command: wrong key, too short, id 0.
@@ -89,7 +89,7 @@ struct ForceIp {
 };
 std::optional<ForceIp> read_force_ip(std::span<const std::uint8_t> payload);
 
-// What a PACKETRESEND asks for.
+// The packets that a PACKETRESEND asks for.
 struct ResendRequest {
     std::uint16_t channel = 0;
     std::uint64_t block = 0;
@@ -107,7 +107,7 @@ std::optional<MemoryRange> read_memory_range(std::span<const std::uint8_t> paylo
 
 struct Action {
     std::uint32_t device_key = 0, group_key = 0, group_mask = 0;
-    std::optional<std::uint64_t> at{};  // of the device's clock
+    std::optional<std::uint64_t> at{};  // time on the device's clock
 };
 std::optional<Action> read_action(std::span<const std::uint8_t> payload, bool scheduled);
 

@@ -26,7 +26,7 @@ class BlockIds {
     std::uint64_t next_ = 1;
 };
 
-// How many blocks `block` is behind `newest`; negative: ahead of it. Short ids: the nearer way round.
+// Returns how many blocks `block` is behind `newest`; negative: ahead of it. Short ids: the nearer way round.
 inline std::int64_t blocks_behind(std::uint64_t newest, std::uint64_t block, bool extended) {
     const auto difference = static_cast<std::int64_t>(newest - block);
     if (extended) return difference;

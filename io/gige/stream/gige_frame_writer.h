@@ -40,7 +40,7 @@ class GigeFrameWriter {
     std::string pattern_;
     std::vector<std::uint16_t> scratch_;
     std::uint64_t acquisition_ = 0;
-    std::uint32_t frames_ = 0;  // of this acquisition
+    std::uint32_t frames_ = 0;  // frames of this acquisition
     BlockIds ids_;
     StampClock clock_;
     const GigeSlot* before_ = nullptr;  // the frame before, of this acquisition

@@ -17,10 +17,10 @@
 
 namespace hilcam {
 
-// What the packets of a frame are made of. Refers to the payload, does not own it.
+// The contents from which the packets of a frame are made. Refers to the payload, does not own it.
 struct GigeFrame {
-    GigeStreamState stream;  // as it was when the frame was taken
-    BayerPattern pattern;    // of the camera's colour filter array; empty: none
+    GigeStreamState stream;  // state when the frame was taken
+    BayerPattern pattern;    // pattern of the camera's colour filter array; empty: none
     std::uint64_t block = 0;
     std::uint64_t timestamp_ns = 0;
     std::int32_t size_y_error = 0;  // added to the height in the trailer
@@ -28,7 +28,7 @@ struct GigeFrame {
 };
 
 // The largest payload of such a camera, whatever the format, the chunks and, if it has them, the parts.
-std::size_t most_payload_bytes(int width, int height, BayerPattern pattern, bool multipart);
+std::size_t max_payload_bytes(int width, int height, BayerPattern pattern, bool multipart);
 
 // The frame's window and its chunks: exactly stream.payload_bytes() bytes of `out`. `scratch`: at least
 // 3 * stream.width + 8 numbers. The frame must contain the window. Loop.
@@ -40,9 +40,9 @@ void write_gige_payload(const DnImage& frame, const FrameRecord& record, const G
 std::uint32_t trailer_id(const GigeStreamState& stream);
 
 struct GigePacket {
-    std::array<std::uint8_t, gvsp::kMostHeadBytes> head;
+    std::array<std::uint8_t, gvsp::kMaxHeadBytes> head;
     std::size_t head_bytes = 0;
-    std::span<const std::uint8_t> data;  // of the frame's payload
+    std::span<const std::uint8_t> data;  // bytes of the frame's payload
 
     std::size_t bytes() const { return head_bytes + data.size(); }
 };

@@ -9,7 +9,7 @@
 // A request of twenty bytes can ask for a whole frame, so requests get what the frames leave. Fresh packets
 // keep their schedule whatever is asked for; packets sent again have a schedule of their own, at half of the
 // stream's rate while a frame is on its way and at all of it between frames. Of each block at most
-// kMostResent times its packets are sent again; the rest is refused (PACKET_UNAVAILABLE). Example: of a block
+// kMaxResent times its packets are sent again; the rest is refused (PACKET_UNAVAILABLE). Example: of a block
 // of 73 packets 292 are sent again.
 
 #include <atomic>
@@ -31,17 +31,17 @@ namespace hilcam {
 
 struct GigePaceConfig {
     double rate_bytes_s = 400e6;   // upper limit
-    double spread_fraction = 0.5;  // of the frame period that a frame may take; 0: as fast as the limit
+    double spread_fraction = 0.5;  // share of the frame period that a frame may take; 0: as fast as the limit
 };
 
-// What the control side asks for.
+// The orders of the control side.
 struct GigeOrder {
     enum class Kind : std::uint8_t { kResend, kTestPacket } kind = Kind::kResend;
     Endpoint to;
     std::uint64_t acquisition = 0, block = 0;
     std::uint32_t next = 0, last = 0;  // packet ids
     bool extended_ids = false;
-    std::uint32_t packet_bytes = 0;  // of the stream; kTestPacket: IP and UDP headers included
+    std::uint32_t packet_bytes = 0;  // size of the stream's packets; kTestPacket: IP and UDP headers included
     bool do_not_fragment = false;
 };
 
@@ -51,10 +51,10 @@ class GigeSender {
         std::atomic<std::uint64_t> frames{0};           // delivered
         std::atomic<std::uint64_t> packets{0};          // sent for the first time
         std::atomic<std::uint64_t> packets_dropped{0};  // by faults
-        std::atomic<std::uint64_t> packets_failed{0};   // not taken by the kernel
-        std::atomic<std::uint64_t> bytes{0};            // of all packets, IP and UDP headers included
+        std::atomic<std::uint64_t> packets_failed{0};   // packets that the kernel did not take
+        std::atomic<std::uint64_t> bytes{0};            // bytes of all packets, IP and UDP headers included
         std::atomic<std::uint64_t> resend_requests{0}, packets_resent{0}, packets_refused{0};
-        std::atomic<std::uint64_t> packets_over_limit{0};   // of those refused: their block had had its share
+        std::atomic<std::uint64_t> packets_over_limit{0};   // refused packets whose block had had its share
         std::atomic<std::uint64_t> requests_unanswered{0};  // too many of them, or of those that are refused
         std::atomic<std::uint64_t> test_packets{0};
     };
@@ -62,7 +62,7 @@ class GigeSender {
     // A client that loses a share p of all packets asks for each p / (1 - p) times on average: once when half
     // of them are lost. Four times leaves room for the listeners of a group, who ask each for their own, and
     // for clients that ask for whole ranges where single packets are missing.
-    static constexpr std::uint64_t kMostResent = 4;
+    static constexpr std::uint64_t kMaxResent = 4;
 
     // `listener` may be null. `finished`: called from the sender's thread with the number of an acquisition
     // whose last frame has been sent.
@@ -95,7 +95,7 @@ class GigeSender {
         std::int64_t id_error = 0;
         sockaddr_in to{};
     };
-    static constexpr std::size_t kMostDelayed = 4096;
+    static constexpr std::size_t kMaxDelayed = 4096;
 
     void run();
     void send_frame(GigeSlot& slot);
@@ -111,7 +111,7 @@ class GigeSender {
     bool serve_orders();
     void serve_resend();
     void refuse(gvsp::Status reason, std::uint32_t last);
-    void resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t most_resent);
+    void resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t max_resent);
     void serve_delayed(std::int64_t now_ns);
     void send_test_packet(const GigeOrder& order);
     // The frame when it is kept or is being sent now.
@@ -145,7 +145,7 @@ class GigeSender {
     std::optional<GigeOrder> resend_;
     BlockHistory history_;
     std::uint64_t history_of_ = 0;
-    std::vector<Delayed> delayed_;  // never longer than reserved
+    std::vector<Delayed> delayed_;  // holds no more than was reserved
 };
 
 }  // namespace hilcam

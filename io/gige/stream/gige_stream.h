@@ -1,5 +1,6 @@
 #pragma once
-// What the control side of a GigE Vision camera tells its stream side. It changes only by control messages.
+// The state that the control side of a GigE Vision camera gives its stream side. It changes only by control
+// messages.
 
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +53,7 @@ constexpr std::uint32_t chunk_bytes(Chunk chunk) {
     }
 }
 
-// What a multipart stream can show of a frame; ids as the SFNC 2.7 (4.13 ComponentIDValue) numbers
+// The parts of a frame that a multipart stream can show; ids as the SFNC 2.7 (4.13 ComponentIDValue) numbers
 // components.
 enum class GigeComponent : std::uint8_t { kIntensity, kConfidence };
 constexpr std::uint32_t bit_of(GigeComponent component) { return 1u << static_cast<unsigned>(component); }
@@ -65,7 +66,7 @@ struct GigeStreamState {
     bool acquiring = false;          // between AcquisitionStart and Stop
     bool unconditional = false;      // goes on when the controller is gone (SCCFG b1)
     std::uint32_t epoch = 0;         // counts AcquisitionStarts
-    std::uint32_t frames = 0;        // of this acquisition; 0: endless
+    std::uint32_t frames = 0;        // frames of this acquisition; 0: endless
     Endpoint destination;            // may be a multicast group
     std::uint32_t packet_bytes = 0;  // IP, UDP and GVSP headers included
     bool do_not_fragment = false;
@@ -81,8 +82,9 @@ struct GigeStreamState {
     std::uint32_t width = 0, height = 0, offset_x = 0, offset_y = 0;
     std::uint32_t binning_x = 1, binning_y = 1;
     bool chunk_mode = false;
-    std::uint32_t chunks = 0;                                      // bits by Chunk, when chunk_mode is on
-    std::uint32_t components = bit_of(GigeComponent::kIntensity);  // of a multipart stream, at least one
+    std::uint32_t chunks = 0;  // bits by Chunk, when chunk_mode is on
+    // Components of a multipart stream, at least one.
+    std::uint32_t components = bit_of(GigeComponent::kIntensity);
 
     // A short header has no room for the number of parts.
     bool long_ids() const { return extended_ids || multipart; }
@@ -95,7 +97,7 @@ struct GigeStreamState {
     std::size_t confidence_bytes() const {
         return shows(GigeComponent::kConfidence) ? std::size_t{width} * height : 0;
     }
-    // With a chunk's 8 bytes of id and length behind each, and behind the image.
+    // Counts a chunk's 8 bytes of id and length behind each, and behind the image.
     std::size_t chunk_data_bytes() const {
         if (!chunk_mode) return 0;
         std::size_t bytes = 8;

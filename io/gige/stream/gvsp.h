@@ -14,8 +14,8 @@ namespace hilcam::gvsp {
 enum Status : std::uint16_t {
     kFresh = 0x0000,
     kResent = 0x0100,
-    kUnavailable = 0x800C,           // never was, or is withheld
-    kNotYetAvailable = 0x8010,       // of a block that is still to come
+    kUnavailable = 0x800C,           // the packet never was, or is withheld
+    kNotYetAvailable = 0x8010,       // a block that is still to come
     kRemovedWithAllBefore = 0x8011,  // no longer kept, nor is any block before it
     kRemoved = 0x8012,               // no longer kept
 };
@@ -25,7 +25,7 @@ enum Format : std::uint8_t { kLeader = 1, kTrailer = 2, kPayload = 3, kMultipart
 enum PayloadType : std::uint16_t { kImage = 0x0001, kMultipartPayload = 0x000A, kWithChunks = 0x4000 };
 
 constexpr std::size_t header_bytes(bool extended) { return extended ? 20 : 8; }
-// What a packet-size register counts beyond the payload: IP 20, UDP 8, GVSP.
+// Returns the bytes that a packet-size register counts beyond the payload: IP 20, UDP 8, GVSP.
 constexpr std::size_t overhead_bytes(bool extended) { return 28 + header_bytes(extended); }
 inline constexpr std::size_t kPartPrefixBytes = 8;  // before a multipart payload
 
@@ -35,7 +35,7 @@ struct PacketHeader {
     bool extended = false;
     std::uint64_t block = 0;
     std::uint32_t packet = 0;
-    std::uint8_t parts = 0;  // of a multipart leader
+    std::uint8_t parts = 0;  // number of parts of a multipart leader
 };
 
 struct Image {
@@ -55,11 +55,11 @@ struct Part {
     std::uint16_t purpose = 0;  // the component that it shows: ComponentIDValue
 };
 
-inline constexpr std::size_t kMostParts = 3;
+inline constexpr std::size_t kMaxParts = 3;
 // The longest header with what follows it: a multipart leader.
-inline constexpr std::size_t kMostHeadBytes = header_bytes(true) + 12 + 48 * kMostParts;
+inline constexpr std::size_t kMaxHeadBytes = header_bytes(true) + 12 + 48 * kMaxParts;
 
-// All write to the front of `out` (kMostHeadBytes are enough) and give the number of bytes; header included.
+// All write to the front of `out` (kMaxHeadBytes are enough) and give the number of bytes; header included.
 std::size_t write_header(const PacketHeader& header, std::span<std::uint8_t> out);
 std::size_t write_image_leader(const PacketHeader& header, bool chunks, std::uint64_t timestamp_ns,
                                const Image& image, std::span<std::uint8_t> out);
@@ -70,7 +70,7 @@ std::size_t write_part_payload(const PacketHeader& header, std::uint8_t part, st
                                std::span<std::uint8_t> out);
 
 struct ChunkTail {
-    std::uint32_t bytes = 0;   // of all chunks, their ids and lengths included
+    std::uint32_t bytes = 0;   // bytes of all chunks, their ids and lengths included
     std::uint32_t layout = 0;  // changes when the set of chunks does
 };
 // `type`: the leader's. `chunks`: null without. (That a multipart trailer tells a height too is more than its
@@ -78,7 +78,7 @@ struct ChunkTail {
 std::size_t write_trailer(const PacketHeader& header, PayloadType type, std::uint32_t size_y,
                           const ChunkTail* chunks, std::span<std::uint8_t> out);
 
-// For who wants a wrong id in a packet that is written.
+// Is for who wants a wrong id in a packet that is written.
 std::uint32_t packet_id(std::span<const std::uint8_t> packet, bool extended);
 void overwrite_packet_id(std::span<std::uint8_t> packet, bool extended, std::uint32_t id);
 

@@ -1,5 +1,5 @@
 #pragma once
-// When the next packets may leave: a token bucket. What was sent is paid for with time; a sender that came
+// A token bucket says when the next packets may leave. Packets are paid for with time; a sender that came
 // late may catch up with little, so that its burst does not overrun a receiver's buffer.
 
 #include <algorithm>

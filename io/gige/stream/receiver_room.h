@@ -1,5 +1,6 @@
 #pragma once
-// How much a receiver on this machine can still take: the flow control that the loopback interface lacks.
+// Estimates how much a receiver on this machine can still take: the flow control that the loopback interface
+// lacks.
 //
 // A wire limits a stream to what it carries and a network card's driver is served before programs are; on
 // loopback a sender overruns a receiver's buffer (208 KiB by default) whenever that has to wait a millisecond
@@ -34,13 +35,13 @@ class ReceiverRoom {
 
     static constexpr std::int64_t kPatience_ns = 50'000'000;
 
-    // What a datagram takes of a receiver's buffer: its bytes and headers, rounded up to the kernel's block
-    // sizes.
+    // Returns what a datagram takes of a receiver's buffer: its bytes and headers, rounded up to the kernel's
+    // block sizes.
     static std::size_t bytes_of(std::size_t datagram_bytes);
 
   private:
     Fd netlink_;
-    sockaddr_in unread_{};  // who was waited for in vain
+    sockaddr_in unread_{};  // address of the receiver that was waited for in vain
 };
 
 }  // namespace hilcam

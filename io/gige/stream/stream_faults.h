@@ -1,6 +1,6 @@
 #pragma once
-// What faults on demand (fault.h) make of a stream's packets and time stamps. Only what goes onto the wire
-// is struck: frames that are kept for resends stay as they are.
+// Applies faults on demand (fault.h) to a stream's packets and time stamps. Only what goes onto the wire is
+// struck: frames that are kept for resends stay as they are.
 
 #include <cstdint>
 #include <optional>
@@ -17,9 +17,9 @@ struct PacketFate {
     std::int64_t id_error = 0;             // added to the packet id
     std::size_t cut_bytes = 0;             // off the end
 };
-// Of a packet sent for the first time.
+// Returns the fate of a packet that is sent for the first time.
 PacketFate fate_of_packet(FaultBoard& faults, std::uint64_t frame, std::uint32_t id, std::uint32_t trailer);
-// Of one that is sent again: `lost` means refused.
+// Returns the fate of one that is sent again: `lost` means refused.
 PacketFate fate_of_resend(FaultBoard& faults, std::uint64_t frame, std::uint32_t id);
 
 // Packet ids 0 to `last` in the order they are sent: rising, but for pairs that change places.

@@ -84,7 +84,6 @@ TEST(Converter, SquareRootCompandingKeepsShotNoiseEven) {
 }
 
 // --- read-out
-// ------------------------------------------------------------------------------------------------------
 
 CameraModel quiet_256() {
     CameraModel c = camera_64();
