@@ -43,7 +43,7 @@ class FrameLoop {
     bool take_level_change(LevelChange& change) noexcept { return render_.take_level_change(change); }
     // Those of the frame rendered last; for benchmarks, when the loop is stopped.
     const RenderStats& render_stats() const { return render_.stats(); }
-    // What processor_ns() was after the last frame of warming up; likewise.
+    // Returns what processor_ns() was after the last frame of warming up; likewise.
     std::int64_t warm_processor_ns() const { return warm_processor_ns_; }
 
   private:

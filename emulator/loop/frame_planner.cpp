@@ -82,7 +82,7 @@ void FramePlanner::place_in_time(const FrameStarter::Start& start, FrameSlot& sl
     use.shutter_closed = poses_->rules().when_stale == WhenStale::kBlack;
 }
 
-// How long the slot's last frame kept the next one waiting.
+// Returns how long the slot's last frame kept the next one waiting.
 double FramePlanner::frame_ms(const FrameSlot& slot) const {
     const std::int64_t ns = prefer_ == LoopPreference::kLatency ? slot.render_ns + slot.sense_ns
                                                                 : std::max(slot.render_ns, slot.sense_ns);

@@ -1,5 +1,5 @@
 #pragma once
-// What the next frame of a run depends on, where no script says it: when it begins, its settings, faults and
+// The plan of a run's next frame, where no script has one: when it begins, its settings, faults and
 // level of quality, and what it shows of the world's time.
 //
 // When frames begin is frame_starter.h's business. Timing in free-run: frame k begins at s_k = s_0 + k period
@@ -39,7 +39,7 @@ namespace hilcam {
 struct LevelChange {
     std::uint64_t frame = 0;
     std::size_t from = 0, to = 0;
-    double mean_ms = 0;  // of the frames before it
+    double mean_ms = 0;  // mean over the frames before it
 };
 
 class FramePlanner {

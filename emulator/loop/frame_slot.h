@@ -20,16 +20,16 @@ struct FrameSlot {
     Exposure exposure;
     RadianceImage radiance;
     std::vector<PointSource> points;
-    std::vector<std::uint64_t> shown_numbers;  // with a recorder: the newest command of each thing
-    std::int64_t not_before_ns = 0;            // of a script's frame: may be published; 0: at any time
-    std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // of the exposure, camera's time
+    std::vector<std::uint64_t> shown_numbers;  // for a recorder: the newest command of each thing
+    std::int64_t not_before_ns = 0;            // earliest time at which a script's frame may be published; 0: any
+    std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // instants of the exposure, camera's time
     bool until_end = false;                                // is not to be published before that end
     bool automatic = false;                                // the camera sets the next exposure itself
-    std::int64_t render_ns = 0;                            // how long rendering took; 0: nothing was
+    std::int64_t render_ns = 0;                            // time that rendering took; 0: nothing was
 
     // --- The sense stage's, for the frame that takes the slot over.
-    std::int64_t sense_ns = 0;   // how long it took, publishing in it
-    double next_exposure_s = 0;  // what automatic exposure asks for; 0: not measured
+    std::int64_t sense_ns = 0;   // time that it took, publishing in it
+    double next_exposure_s = 0;  // exposure that automatic exposure asks for; 0: not measured
 };
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// What a loop tells of itself while it runs: counters and times of its stages. Both stages write them without
+// The figures that a loop tells of itself while it runs: counters and times of its stages. Both stages write them without
 // a lock, and any thread may read them.
 
 #include <array>
@@ -11,15 +11,15 @@
 
 namespace hilcam {
 
-// How long each stage took, per frame.
+// The time that each stage took, per frame.
 struct StageMeters {
     DurationHistogram setup, trace, stars, collapse, convolve, points, digitise, publish, render, sense;
     DurationHistogram work;      // render, sense and publish: the frame without its waits
     DurationHistogram interval;  // from one frame handed over to the next
-    // From the arrival of the newest command that a frame is the first to show to the frame handed over.
+    // Time from the arrival of the newest command that a frame is the first to show to the frame handed over.
     DurationHistogram latency;
 
-    // After warming up.
+    // Is called after warming up.
     void clear() {
         for (DurationHistogram* meter : {&setup, &trace, &stars, &collapse, &convolve, &points, &digitise,
                                          &publish, &render, &sense, &work, &interval, &latency})

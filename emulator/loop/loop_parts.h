@@ -1,5 +1,5 @@
 #pragma once
-// What a frame loop is made of: the parts of its camera, how long and how it runs, who dictates its frames,
+// The parts that a frame loop is made of: those of its camera, how long and how it runs, who dictates its frames,
 // and who is told of them. All that is referred to outlives the loop.
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class WorldState;
 
 struct LoopLimits {
     std::uint64_t frames = 0;   // 0: no limit
-    std::uint64_t warm_up = 0;  // of them, the first: their times are not kept
+    std::uint64_t warm_up = 0;  // first frames, whose times are not kept
     bool paced = true;          // false: as fast as it goes, for benchmarks
     GovernorSettings governor{};
     LoopPreference prefer = LoopPreference::kThroughput;

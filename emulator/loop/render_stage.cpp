@@ -73,7 +73,7 @@ void RenderStage::take_light(FrameUse& use) {
     counters_.last_without_light.store(use.id, std::memory_order_relaxed);
 }
 
-// What a frame depends on, from here on its own.
+// Copies what a frame depends on; from here on it is the frame's own.
 void RenderStage::latch(FrameSlot& slot) {
     const FrameUse& use = slot.use;
     settings_.report_own(use.exposure_s, use.gain_db);

@@ -64,7 +64,7 @@ class RenderStage {
     std::uint32_t level_ = 0;
     bool ends_order_ = false;  // the frame is its order's last
     std::int64_t shown_arrival_ns_ = 0;
-    std::uint64_t flagged_ = 0;  // how many of the time tags that went back frames have told of
+    std::uint64_t flagged_ = 0;  // time tags that went back, as frames have told of them
 };
 
 }  // namespace hilcam

@@ -74,7 +74,7 @@ void SenseStage::measure_exposure(FrameSlot& slot) {
                                            {camera_.exposure_range_s[0], camera_.exposure_range_s[1]});
 }
 
-// What a camera does with its numbers on their way out.
+// Does what a camera does with its numbers on their way out.
 void SenseStage::finish_picture(const FrameSlot& slot) {
     draw_test_pattern(slot.use.test_pattern, slot.record.bits, slot.record.id, frame_);
     if (slot.use.reverse_x)
@@ -112,7 +112,7 @@ void SenseStage::know_machine_times(FrameSlot& slot) const {
     slot.record.exposure_mid_monotonic_ns = slot.use.middle_ns;
 }
 
-// What the frame shows of commands, where that has changed, then the frame.
+// Records what the frame shows of commands, where that has changed, then the frame.
 void SenseStage::keep(const FrameSlot& slot) {
     for (std::size_t i = 0; i < recorded_shown_.size() && !slot.use.shutter_closed; ++i) {
         const std::uint64_t number = slot.shown_numbers[i];

@@ -39,13 +39,13 @@ struct RunLimits {
 
 class LightMaker;
 
-// What the cameras of a bench share, and who dictates, watches and keeps what this one's loop does. All that
-// is referred to outlives the station; pointers may be null.
+// The parts that the cameras of a bench share, and those that dictate, watch and keep what this one's loop does.
+// All that is referred to outlives the station; pointers may be null.
 struct StationLinks {
     SimulatedClock& clock;
     const PoseWatch& poses;
     const std::vector<std::unique_ptr<CommandReceiver>>& receivers;
-    std::vector<CameraPage> pages{};          // of all cameras, by number
+    std::vector<CameraPage> pages{};          // the pages of all cameras, by number
     const LightMaker* light_maker = nullptr;  // null: nothing is made beside the run
     FrameScript* script = nullptr;            // a replay's
     FrameWatcher* watcher = nullptr;

@@ -38,7 +38,7 @@ struct StarsConfig {
 };
 Fields fields(StarsConfig& stars);
 
-// What makes the camera take frames (frame_starter.h).
+// The source that makes the camera take frames (frame_starter.h).
 enum class CameraMode { kFreeRun, kTriggered, kLockstep };
 
 struct PluginConfig {
@@ -56,7 +56,7 @@ struct ScenarioConfig {
     std::int64_t seed = 1;
     bool has_seed = false;  // stated, or settled by settle_seed()
     std::int64_t threads = 0;
-    OriginConfig origin;              // with the key `earth_orientation`
+    OriginConfig origin;              // has the key `earth_orientation`, too
     std::optional<PlaceConfig> site;  // where local axes stand (site.h)
     CameraModel camera;
     PoseConfig camera_pose;

@@ -17,7 +17,7 @@ inline constexpr std::size_t kMaxCameras = 255;
 // A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
 struct CameraConfig {
     CameraModel camera;
-    Vec3d position_m;  // with `attitude` its mount
+    Vec3d position_m;  // its mount, where `attitude` is given
     AttitudeForms attitude;
     std::int64_t thing = 0;
     OutputsConfig outputs;

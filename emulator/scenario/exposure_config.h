@@ -1,5 +1,5 @@
 #pragma once
-// What one exposure's rendering takes from a scenario, beside the camera's data sheet
+// The part of a scenario that the rendering of one exposure takes, beside the camera's data sheet
 // (emulator/loop/exposure_renderer.h).
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct ScenarioConfig;
 struct ExposureConfig {
     MotionQuality motion = MotionQuality::kFast;
     double motion_error_px = 0.25;
-    SensorSampling sampling;   // how the radiance images of all levels of quality are made
+    SensorSampling sampling;   // grid of the radiance images of all levels of quality
     bool has_terrain = false;  // rows that are lit one after the other pass the ground, not an object
-    std::uint64_t seed = 1;    // of the pointing jitter, as is the next
+    std::uint64_t seed = 1;    // a figure of the pointing jitter, as is the next
     TimeTai start;
 };
 ExposureConfig exposure_config_of(const ScenarioConfig& scenario);

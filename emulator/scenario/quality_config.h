@@ -9,10 +9,10 @@
 
 namespace hilcam {
 
-// What is shown of the world's motion while the shutter is open (exposure_renderer.h).
+// The part of the world's motion that is shown while the shutter is open (exposure_renderer.h).
 enum class MotionQuality { kOff, kFast, kExact };
 
-// How the picture gets its point spread function. kAuto: by a compact kernel where that is as accurate
+// The way in which the picture gets its point spread function. kAuto: by a compact kernel where that is as accurate
 // (sensor/convolution/compact_kernel.h).
 enum class PsfMethod { kAuto, kFft };
 
@@ -26,7 +26,7 @@ struct QualityConfig {
 };
 Fields fields(QualityConfig& quality);
 void validate(const QualityConfig& quality);
-// How the radiance images of that quality are made.
+// Returns how the radiance images of that quality are made.
 SensorSampling sampling_of(const QualityConfig& quality);
 
 }  // namespace hilcam

@@ -2,6 +2,8 @@
 
 #include <httplib.h>
 
+#include <utility>
+
 #include "io/pictures/image_file.h"
 #include "io/preview/preview_assets.h"
 #include "io/preview/preview_guard.h"
@@ -278,7 +280,7 @@ void PreviewSink::Implementation::add_routes() {
         [this](const Request& q, Response& a) { return refuse_stranger(q, a) ? a.status : 100; });
     server.set_exception_handler([](const Request&, Response& a, std::exception_ptr error) {
         try {
-            std::rethrow_exception(error);
+            std::rethrow_exception(std::move(error));
         } catch (const InputError& e) {
             refuse(a, 400, e.what());
         } catch (const std::exception& e) {
