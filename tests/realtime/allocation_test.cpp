@@ -29,6 +29,7 @@
 #include "io/preview/preview_slot.h"
 #include "io/system/bytes.h"
 #include "io/system/fd.h"
+#include "io/truth/sink_truth.h"
 
 namespace {
 
