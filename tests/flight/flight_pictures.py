@@ -37,12 +37,13 @@ def fits_arrays(path):
     return parts
 
 
-def render(scenario, stage="frame"):
-    """Returns what hilcam makes of a scenario, given as text: digital numbers, or with the stage electrons their mean before noise."""
+def render(scenario, stage="frame", *settings):
+    """Returns what hilcam makes of a scenario, given as text: digital numbers, or with the stage electrons their mean before noise. Settings: KEY=VALUE."""
     with tempfile.TemporaryDirectory() as folder:
         config, picture = pathlib.Path(folder, "scenario.yaml"), pathlib.Path(folder, "picture.fits")
         config.write_text(scenario)
-        done = subprocess.run([HILCAM, "render", config, "--stage", stage, "--out", picture], capture_output=True, text=True)
+        command = [HILCAM, "render", config, "--stage", stage, "--out", picture, *(word for s in settings for word in ("--set", s))]
+        done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         return next(array for _, array in fits_arrays(picture) if array is not None)
 
