@@ -48,6 +48,31 @@ def render(scenario, stage="frame", *settings):
         return next(array for _, array in fits_arrays(picture) if array is not None)
 
 
+def blurred(picture, sigma_px):
+    """Returns the picture, which goes on behind its edges from the other side, under a Gaussian."""
+    fy, fx = (numpy.fft.fftfreq(n) for n in picture.shape)
+    return numpy.fft.ifft2(numpy.fft.fft2(picture) * numpy.exp(-2 * (numpy.pi * sigma_px) ** 2 * (fy[:, None] ** 2 + fx ** 2))).real
+
+
+def correlation(a, b):
+    """Returns how well two pictures correlate, -1 to 1."""
+    return numpy.corrcoef(numpy.ravel(a), numpy.ravel(b))[0, 1]
+
+
+def top(before, at, after):
+    """Returns where the parabola through three values has its greatest, from the middle one."""
+    return (before - after) / (2 * (before - 2 * at + after))
+
+
+def shift_between(a, b, reach=12):
+    """Returns by how much a lies right and lower of b [px], where they correlate best."""
+    power = numpy.fft.ifft2(numpy.fft.fft2(a - a.mean()) * numpy.conj(numpy.fft.fft2(b - b.mean()))).real
+    near = numpy.roll(power, (reach, reach), (0, 1))[:2 * reach + 1, :2 * reach + 1]
+    row, column = numpy.unravel_index(numpy.argmax(near[1:-1, 1:-1]), (2 * reach - 1, 2 * reach - 1))
+    row, column = row + 1, column + 1
+    return (column - reach + top(*near[row, column - 1:column + 2]), row - reach + top(*near[row - 1:row + 2, column]))
+
+
 def side_by_side(flight, rendered, path, zoom=1, gamma=1.0):
     """Writes two pictures of 0 to 1, and how they differ about middle grey, each enlarged by a whole number."""
     both = [numpy.clip(p, 0, 1) for p in (flight, rendered)]

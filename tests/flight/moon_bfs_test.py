@@ -11,7 +11,7 @@ import sys
 import numpy
 from PIL import Image
 
-from flight_pictures import DATA, PICTURE, SKIPPED, SOURCE, Judgement, render
+from flight_pictures import DATA, PICTURE, SKIPPED, SOURCE, Judgement, blurred, correlation, render, shift_between
 
 # The camera's settings are those of its operators (andrepiz/abram, test/validation/opensky_bfs).
 PICTURES = (("imgFLIR_20231222212953_115", "2023-12-22T21:29:53Z", 50, 0.114), ("imgFLIR_20231222192125_025", "2023-12-22T19:21:25Z", 25, 0.080))
@@ -96,7 +96,13 @@ def main():
         print(f"    DN of 255: sums, flight over hilcam {ratio:.3f}; medians {numpy.median(both[0][lit]):.1f}, hilcam "
               f"{numpy.median(both[1][lit]):.1f}; greatest {both[0].max():.0f}, hilcam {both[1].max():.0f}")
         print(f"    contrast (rms over mean, within): {both[0][inner].std() / both[0][inner].mean():.3f}, hilcam "
-              f"{both[1][inner].std() / both[1][inner].mean():.3f}; correlation {numpy.corrcoef(both[0][lit], both[1][lit])[0, 1]:.3f}")
+              f"{both[1][inner].std() / both[1][inner].mean():.3f}; correlation {correlation(both[0][lit], both[1][lit]):.3f}")
+        # What is between two and eight pixels wide, well within the disk: maria, where hilcam's Moon has them.
+        weight = numpy.clip((0.75 - numpy.hypot(x, y)) / 0.1, 0, 1) * numpy.clip((x + 0.3) / 0.1, 0, 1)
+        maria = [(blurred(p, 1) - blurred(p, 6)) / p[inner].mean() * weight for p in both]
+        right, lower = shift_between(*maria, reach=8)
+        print(f"    maria: rms {maria[0][weight > 0].std():.4f}, hilcam {maria[1][weight > 0].std():.4f}; correlation "
+              f"{correlation(maria[0], maria[1]):.3f}; flight lies {right * disks[0][1] / 48.4:.2f} px along the light, {lower * disks[0][1] / 48.4:.2f} across")
         judged.most(f"{focal_mm} mm: radius, flight against hilcam", abs(disks[0][1] - disks[1][1]), 1, "px")
         if PICTURE and focal_mm == 50:
             Image.fromarray(numpy.clip(made, 0, 255).astype("uint8")).save(PICTURE)

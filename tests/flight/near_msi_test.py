@@ -13,7 +13,8 @@ import tempfile
 
 import numpy
 
-from flight_pictures import DATA, PICTURE, SKIPPED, SOURCE, Judgement, fits_arrays, render, side_by_side
+from flight_pictures import (DATA, PICTURE, SKIPPED, SOURCE, Judgement, blurred, correlation, fits_arrays, render, shift_between,
+                             side_by_side, top)
 
 # The label has the attitude, the Sun and the distance from Eros, but not from where. Place and velocity in ICRF relative to Eros, 6.4
 # hours later [km, km/s]: instrument position of m0126888978f7_2p in DOI-USGS/ale, tests/pytests/data/isds/msi_isd.json, after NEAR's
@@ -117,29 +118,6 @@ def terminator_rows(picture):
         row = numpy.nonzero(column > level)[0][0]
         found[x] = row - (column[row] - level) / (column[row] - column[row - 1])
     return found
-
-
-def top(before, at, after):
-    """Returns where the parabola through three values has its greatest, from the middle one."""
-    return (before - after) / (2 * (before - 2 * at + after))
-
-
-def correlation(a, b):
-    return numpy.corrcoef(numpy.ravel(a), numpy.ravel(b))[0, 1]
-
-
-def shift_between(a, b, reach=12):
-    """Returns by how much a lies right and lower of b [px], where they correlate best."""
-    power = numpy.fft.ifft2(numpy.fft.fft2(a - a.mean()) * numpy.conj(numpy.fft.fft2(b - b.mean()))).real
-    near = numpy.roll(power, (reach, reach), (0, 1))[:2 * reach + 1, :2 * reach + 1]
-    row, column = numpy.unravel_index(numpy.argmax(near[1:-1, 1:-1]), (2 * reach - 1, 2 * reach - 1))
-    row, column = row + 1, column + 1
-    return (column - reach + top(*near[row, column - 1:column + 2]), row - reach + top(*near[row - 1:row + 2, column]))
-
-
-def blurred(picture, sigma_px):
-    fy, fx = (numpy.fft.fftfreq(n) for n in picture.shape)
-    return numpy.fft.ifft2(numpy.fft.fft2(picture) * numpy.exp(-2 * (numpy.pi * sigma_px) ** 2 * (fy[:, None] ** 2 + fx ** 2))).real
 
 
 def main():
