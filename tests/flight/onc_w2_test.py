@@ -14,7 +14,7 @@ import numpy
 from flight_pictures import DATA, PICTURE, SKIPPED, SOURCE, Judgement, fits_arrays, render, side_by_side
 
 # What the picture must be compared with is published elsewhere. Place and velocity in ICRF at 2015-12-03T08:44:58.179 UTC [km, km/s]:
-# instrument position of hyb2_onc_20151203_084458_w2f_l2a in DOI-USGS/ale, tests/pytests/test_hayabusa2_drivers.py, after JAXA's kernels.
+# instrument position of hyb2_onc_20151203_084458_w2f_l2a in DOI-USGS/ale, tests/pytests/data/isds/hayabusa2_isd.json, after JAXA's kernels.
 PLACE_KM = numpy.array([30.15558294075686, -21415.864299596455, 29138.041066520385])
 VELOCITY_KM_S = numpy.array([1.5409457644671734, 5.3312261011154565, -3.5389092329306164])
 PLACE_S, PICTURE_S = 8 * 3600 + 44 * 60 + 58.179, 6.639  # after 2015-12-03T00:00 UTC; the second is DATE-OBS
