@@ -28,9 +28,9 @@ time_utc: 2015-12-03T00:00:06.639Z
 seed: 1
 camera: %(camera)s
 camera_pose: {position_m: [%(place)s], attitude_radec_deg: [%(pointing)s]}
-earth: {albedo_map: %(map)s}
+earth: %(earth)s
 moon: {visible: false}
-atmosphere: {model: precomputed}
+atmosphere: {model: %(air)s}
 spectrum_edges_um: [0.48, 0.66]
 """
 
@@ -131,9 +131,12 @@ def main():
     header, flight = fits_arrays(path)[1]
     place = propagated(PLACE_KM, VELOCITY_KM_S, PICTURE_S - PLACE_S)
     distance = numpy.linalg.norm(place)
-    rendered = render(SCENARIO % {"camera": SOURCE / "configs/cameras/hyb2_onc_w2.yaml", "map": land_map,
-                                  "place": ", ".join(str(1000 * p) for p in place),
-                                  "pointing": ", ".join(map(str, pointing_deg(header)))}).astype(float)
+    keys = {"camera": SOURCE / "configs/cameras/hyb2_onc_w2.yaml", "place": ", ".join(str(1000 * p) for p in place),
+            "pointing": ", ".join(map(str, pointing_deg(header)))}
+    rendered = render(SCENARIO % {**keys, "earth": f"{{albedo_map: {land_map}}}", "air": "precomputed"}).astype(float)
+    # The year's mean of land, sea, air and clouds together (CERES), as a Lambert surface.
+    mean_map = f"{{albedo: 1, albedo_map: {SOURCE}/configs/maps/earth_albedo.png}}"
+    cloudy = render(SCENARIO % {**keys, "earth": mean_map, "air": "none"}).astype(float)
     judged = Judgement()
     print(f"distance: {distance:.0f} km, the header's S_DISTHE {header['S_DISTHE']} km")
 
@@ -166,6 +169,8 @@ def main():
     lit = rendered[DISK] - dark[1][0] > 400
     shares = numpy.percentile((flight[DISK] - dark[0][0])[lit], (10, 50, 90)) / numpy.median((rendered[DISK] - dark[1][0])[lit])
     print("disk: flight's 10 %%, 50 %% and 90 %% over hilcam's median without clouds: %.2f %.2f %.2f" % tuple(shares))
+    sums = [smear(p)[2].sum() for p in (flight, cloudy)]
+    print(f"disk's light in sum over that of an Earth with the year's mean albedo: {sums[0] / sums[1]:.3f}; brightest {cloudy.max():.0f} DN")
     if PICTURE:
         box = slice(735, 815), slice(520, 610)
         level = [(p - b) / 2500 for p, b in ((flight, dark[0][0]), (rendered, dark[1][0]))]
