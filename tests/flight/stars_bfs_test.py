@@ -132,15 +132,15 @@ def main():
                 rest = z - a * w - b
                 if reach_px > 2.5:
                     focal_mm, pointing = moved(pointing, focal_mm, a, b)
-            places += list(zip(seen, numpy.stack([rest.real, rest.imag], axis=1)))
+            places += [(path, *star) for star in zip(seen, numpy.stack([rest.real, rest.imag], axis=1))]
             whole = found[matched[:, 0], 3] < SATURATED
             ratio = -2.5 * numpy.log10(found[matched[:, 0], 2] / drawn[matched[:, 1], 2])[whole]
             bright = drawn[matched[:, 1], 2][whole] > numpy.percentile(drawn[matched[:, 1], 2], 50)
             lights += list(zip(drawn[matched[:, 1], 3][whole], ratio - numpy.median(ratio[bright])))
             print(f"{path.stem}: {len(matched)} of {len(found)} stars, {focal_mm:.3f} mm; rms {numpy.sqrt(numpy.mean(abs(rest) ** 2) / 2):.3f} px an axis; "
                   f"light {numpy.std(ratio[bright]):.3f} mag rms of {bright.sum()}", flush=True)
-    rest = numpy.array([r for _, r in places])
-    seen = numpy.array([p for p, _ in places])
+    rest = numpy.array([r for _, _, r in places])
+    seen = numpy.array([p for _, p, _ in places])
     radius = numpy.hypot(*seen.T)
     outward = (rest * seen).sum(axis=1) / radius
     print(f"all: {len(places)} stars, {numpy.sqrt(numpy.mean(rest ** 2)):.3f} px rms an axis")
@@ -148,6 +148,14 @@ def main():
         ring = (radius >= low) & (radius < high)
         print(f"    {low} to {high} px from the middle: outward {numpy.median(outward[ring]):.3f} px, about that {numpy.std(outward[ring]):.3f}, "
               f"rms an axis {numpy.sqrt(numpy.mean(rest[ring] ** 2)):.3f}; {ring.sum()} stars")
+    # The lens's distortion, c (r^3 - m r) with m for the scale that was fitted, of every other picture tells it of the others.
+    half = numpy.array([pictures.index(path) % 2 == 0 for path, _, _ in places])
+    cubic, linear = seen * (radius ** 2)[:, None] / 1e6, seen / 1e3
+    terms = numpy.stack([cubic[half].ravel(), linear[half].ravel()], axis=1)
+    fit = numpy.linalg.lstsq(terms, rest[half].ravel(), rcond=None)[0]
+    left = rest[~half] - fit[0] * cubic[~half] - fit[1] * linear[~half]
+    print(f"with the distortion of half of the pictures, the others: {numpy.sqrt(numpy.mean(rest[~half] ** 2)):.3f} px rms before, "
+          f"{numpy.sqrt(numpy.mean(left ** 2)):.3f} after, median {numpy.median(numpy.hypot(*left.T)):.3f} px")
     lights = numpy.array(lights)
     for low, high in ((0, 3), (3, 4), (4, 5), (5, 6), (6, 7.5)):
         row = (lights[:, 0] >= low) & (lights[:, 0] < high)
