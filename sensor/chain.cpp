@@ -84,13 +84,17 @@ struct SensorChain::Implementation {
     // --- mean charge
 
     // While the rows are shifted under the light, every pixel passes the places of all others in its column:
-    // on the way in before the exposure those on one side, on the way out those on the other.
+    // on the way in before the exposure those on one side, on the way out those on the other. Each place adds by
+    // its own gain, so that what a pixel collects on its way is not by its own.
     void smear(ElectronImage& light_e, double exposure_s) {
         const double share = camera.shutter.line_time_s / exposure_s;
         std::fill(column_sums.begin(), column_sums.end(), 0.0);
         for (int y = 0; y < array_height; ++y)
-            for (std::size_t x = 0; x < column_sums.size(); ++x)
-                column_sums[x] += static_cast<double>(light_e.row(y)[x]);
+            for (std::size_t x = 0; x < column_sums.size(); ++x) {
+                float& pixel = light_e.row(y)[x];
+                if (pattern.gain.width() > 0) pixel *= pattern.gain.row(y)[x];
+                column_sums[x] += static_cast<double>(pixel);
+            }
         for (int y = 0; y < array_height; ++y)
             for (std::size_t x = 0; x < column_sums.size(); ++x) {
                 float& pixel = light_e.row(y)[x];
@@ -101,9 +105,10 @@ struct SensorChain::Implementation {
         const auto row_of = [&](const PixelMap& map) {
             return map.width() > 0 ? map.row(y).data() : nullptr;
         };
-        to_charge(light_e.row(y).data(), static_cast<std::size_t>(array_width), row_of(pattern.gain),
-                  row_of(pattern.dark_e_s), static_cast<float>(pattern.uniform_dark_e_s * exposure_s),
-                  static_cast<float>(exposure_s));
+        const bool gains_are_in = camera.shutter.kind == ShutterKind::kFrameTransfer;
+        to_charge(light_e.row(y).data(), static_cast<std::size_t>(array_width),
+                  gains_are_in ? nullptr : row_of(pattern.gain), row_of(pattern.dark_e_s),
+                  static_cast<float>(pattern.uniform_dark_e_s * exposure_s), static_cast<float>(exposure_s));
     }
 
     // --- chance and read-out

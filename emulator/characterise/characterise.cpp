@@ -282,10 +282,13 @@ class Laboratory {
         Nonuniformity prnu = prnu_fraction(flat.frames, flat.temporal, dark.frames, dark.temporal, selection_,
                                            out_.shot_bandwidth);
         // A response that bends shows gains enlarged or reduced by d ln(signal) / d ln(light); to the light
-        // belongs what comes in outside the exposure.
+        // belongs what comes in outside the exposure, unless it is a frame-transfer CCD's smear, which has the
+        // gains of the column's other pixels.
         const double signal_dn = flat.temporal.mean_dn.value - dark.temporal.mean_dn.value;
         const double photons = response.photons(signal_dn);
-        const double light = photons + response.offset_dn() / response.responsivity_dn_photon().value;
+        const bool smears = setup_.camera.shutter.kind == ShutterKind::kFrameTransfer;
+        const double outside = smears ? 0 : response.offset_dn() / response.responsivity_dn_photon().value;
+        const double light = photons + outside;
         const double stretch = signal_dn / (light * response.slope_dn_photon(photons));
         for (Measured* m : {&prnu.total, &prnu.row, &prnu.column, &prnu.pixel})
             m->value *= stretch, m->uncertainty *= stretch;

@@ -25,7 +25,7 @@ FEWEST_AZIMUTHS = 60
 SCENARIO = """\
 name: flight_epic
 time_utc: %(time)s
-camera: {width_px: 1080, height_px: 1080, pitch_um: 28.44444, focal_length_mm: 2836.42, f_number: 9.3, exposure_ms: 2,
+camera: {width_px: 1080, height_px: 1080, pitch_um: 28.44444, focal_length_mm: 2836.42, f_number: 9.3, exposure_ms: 1,
          quantum_efficiency: 0.6, full_well_e: 200000, read_noise_e: 10, gain_e_dn: 50, bits: 12}
 camera_pose: {position_m: [%(position)s], attitude: look_at, look_at_m: [0, 0, 0], up: [0, 0, 1]}
 earth: {%(map)s}
@@ -85,6 +85,18 @@ def limb(flight, rendered):
     return fit, numpy.std(rest[seen]), seen.sum()
 
 
+RINGS = (0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.94, 0.97)
+RING_PX = 438
+
+
+def darkening(picture):
+    """Returns how bright the disk is, all around, at shares of its radius, over its mean within half of the radius."""
+    y, x = numpy.mgrid[0:SIZE_PX, 0:SIZE_PX] - 539.5
+    share = numpy.hypot(x, y) / RING_PX
+    middle = picture[share < 0.5].mean()
+    return numpy.array([picture[numpy.abs(share - r) < 0.01].mean() / middle for r in RINGS])
+
+
 def details(picture):
     """Returns what is between two and twelve pixels wide within the disk, without what stands out most: coasts more than clouds."""
     frequency = numpy.fft.fftfreq(SIZE_PX)
@@ -132,7 +144,7 @@ def main():
     air = "atmosphere: {model: precomputed}"
     print("picture         limb without air: right lower outside rms   with air: right lower outside rms   coasts: right lower corr"
           "   by 'date'")
-    rows, wrong = [], []
+    rows, wrong, rings = [], [], []
     with tempfile.TemporaryDirectory() as folder:
         for path in pictures:
             about = json.loads(path.read_text())
@@ -140,7 +152,9 @@ def main():
             named = f"{stamp[:4]}-{stamp[4:6]}-{stamp[6:8]}T{stamp[8:10]}:{stamp[10:12]}:{stamp[12:]}Z"
             flight = numpy.asarray(Image.open(path.with_suffix(".jpg")).convert("RGB")).astype(float)
             where = pathlib.Path(folder), [about["dscovr_j2000_position"][axis] for axis in "xyz"]
-            limbs = [limb(flight.mean(axis=2), render(*where, named, "albedo: 0.3", a)) for a in ("", air)]
+            disks = [render(*where, named, "albedo: 0.3", a) for a in ("", air)]
+            limbs = [limb(flight.mean(axis=2), disk) for disk in disks]
+            rings.append([darkening(p) for p in (flight[..., 0], flight[..., 2], *disks)])
             land = [render(*where, time, f"albedo_map: {land_map}") for time in (named, about["date"].replace(" ", "T") + "Z")]
             coasts = [coast_shift(flight, p) for p in land]
             if len(sys.argv) > 3 and path == pictures[0]:
@@ -151,6 +165,9 @@ def main():
                 wrong.append(f"{stamp}: the continents are where the time 'date' has them")
     rms = numpy.sqrt(numpy.mean(numpy.square(rows), axis=0))
     print("rms           ", " ".join(f"{v:7.2f}" for v in rms))
+    print("limb darkening, mean of the pictures, at shares of the radius", *RINGS)
+    for name, values in zip(("flight, red", "flight, blue", "hilcam, red, no air", "hilcam, red, air"), numpy.mean(rings, axis=0)):
+        print(f"{name:20}", " ".join(f"{v:5.3f}" for v in values))
     # Against change; docs/flight.md judges.
     for name, value, most in (("disk, right", rms[4], 1), ("disk, lower", rms[5], 1), ("limb's form", rms[7], 0.5),
                               ("coasts, right", rms[8], 1.5), ("coasts, lower", rms[9], 1.5)):

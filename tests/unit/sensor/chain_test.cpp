@@ -249,5 +249,23 @@ TEST(Chain, AFrameTransferCameraSmearsItsColumns) {
     EXPECT_LT(static_cast<double>(smeared.row(60)[5]), 1e-5 * column);
 }
 
+// Each place of a column adds to the smear by its own gain, so all pixels that pass them have the same smear.
+TEST(Chain, SmearDoesNotDependOnThePixelThatCarriesIt) {
+    CameraModel c = gaussian_camera(0.4);
+    c.shutter.kind = ShutterKind::kFrameTransfer, c.shutter.line_time_s = 1e-5;
+    c.prnu_fraction = 0.1;
+    Bench bench(c);
+    for (int y = 30; y < 40; ++y)
+        for (std::size_t x = 30; x < 40; ++x) bench.radiance.row(y)[x] = 100;
+    const ElectronImage& smeared = bench.expose({.exposure_s = 1e-3});
+    const double top = static_cast<double>(smeared.row(2)[26]);
+    ASSERT_GT(top, 0);
+    for (int y : {4, 7, 50, 60}) EXPECT_NEAR(static_cast<double>(smeared.row(y)[26]) / top, 1, 1e-3) << y;
+    double column = 0;
+    for (int y = 0; y < 64; ++y) column += static_cast<double>(smeared.row(y)[26]) - top;
+    // The lit pixels, with their gains, less what they collect of each other.
+    EXPECT_NEAR(top / column, 0.01 / 0.99, 1e-5);
+}
+
 }  // namespace
 }  // namespace hilcam
