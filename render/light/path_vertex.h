@@ -19,11 +19,13 @@ struct Facet {
 };
 
 struct Vertex {
-    std::uint32_t pixel;     // in the tile
-    std::uint16_t sample;    // in the pixel
-    std::uint16_t depth;     // 1: seen by the camera
-    Vec3f point_m;           // ray space
-    float offset_m;          // how far a ray must start above the surface
+    std::uint32_t pixel;   // in the tile
+    std::uint16_t sample;  // in the pixel
+    std::uint16_t depth;   // 1: seen by the camera
+    std::uint16_t
+        samples;     // a bit for each of the pixel's sixteen that saw this place's triangle; 0: a ray's
+    Vec3f point_m;   // ray space
+    float offset_m;  // how far a ray must start above the surface
     Vec3f geometric_normal;  // towards the viewer's side, unit
     Vec3f normal;            // shading, same side
     Vec3f view_dir;          // back along the path, unit
