@@ -52,7 +52,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     }
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
     tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
-    if (buffer) seen_.resize(slots());
+    if (buffer) seen_.resize(slots()), edges_.resize(slots());
     facets_.resize(slots());
     for (std::size_t i = 0; budget && i < slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
@@ -140,6 +140,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     std::fill(pixels.begin(), pixels.end(), Spectrum{});
     Tile tile{frame, box, n, pixels, stats, facets_[slot]};
     tile.seen = seen;
+    if (seen) tile.edges = &edges_[slot];
     paths()[slot]->trace(tile);
     write(pixels, 1 / static_cast<float>(n * n), box, frame.bins, radiance);
 }

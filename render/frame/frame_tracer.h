@@ -19,6 +19,7 @@
 #include "render/frame/adaptive_sampler.h"
 #include "render/frame/frame_placer.h"
 #include "render/frame/render_quality.h"
+#include "render/light/sun_edges.h"
 #include "render/vocabulary/image.h"
 
 namespace hilcam {
@@ -77,6 +78,7 @@ class FrameTracer {
     std::vector<std::vector<Spectrum>> tile_pixels_;
     std::vector<FacetList> facets_;
     std::vector<VisibilityTile> seen_;                        // none where rays see
+    std::vector<SunEdges> edges_;                             // likewise
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
     std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame

@@ -17,7 +17,7 @@
 #include "render/frame/plan.h"
 #include "render/frame/render_quality.h"
 #include "render/light/modules.h"
-#include "render/light/ray_counts.h"
+#include "render/vocabulary/ray_counts.h"
 #include "render/scene/scene.h"
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/image_geometry.h"

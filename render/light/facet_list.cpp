@@ -73,7 +73,7 @@ class Reflection {
     };
     std::array<Group, BrdfSum::kLanes> groups_;
     std::size_t group_count_ = 0;
-    float samples_ = 0, most_ = 0;
+    float samples_ = 0;
     FacetLight light_;
 
     void put(const Facet& facet) {
@@ -106,10 +106,7 @@ class Reflection {
             const float each = group.facet->samples / (hidden ? 1 : seen);
             for (std::size_t i = group.first; i < group.first + group.count; ++i)
                 lit += weight[i] = each * (hidden ? lanes_.share[i] : lanes_.seen[i]) * lanes_.ni[i];
-            if (lit <= most_) continue;
-            most_ = lit;
-            light_.start_m = group.facet->start_m;
-            light_.none = false;
+            light_.add_start(group.facet->start_m, lit);
         }
         sum_.add(weight, lanes_.no, lanes_.ni, lanes_.rougher);
         lanes_.count = group_count_ = 0;
@@ -117,6 +114,14 @@ class Reflection {
 };
 
 }  // namespace
+
+void FacetLight::add_start(Vec3f at_m, float light) {
+    if (!(light > lit.back())) return;
+    std::size_t place = lit.size() - 1;
+    for (; place > 0 && light > lit[place - 1]; --place)
+        lit[place] = lit[place - 1], start_m[place] = start_m[place - 1];
+    lit[place] = light, start_m[place] = at_m;
+}
 
 void FacetList::push(const Facet& facet, Vertex& vertex) {
     Facet& added = facets_[count_++];

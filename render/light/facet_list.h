@@ -30,9 +30,14 @@ class FacetList {
 
 // The light that the facets of a vertex reflect from a source of irradiance 1, with the vertex's weight.
 struct FacetLight {
+    static constexpr std::size_t kStarts = 4;
     Spectrum reflected;
-    Vec3f start_m{};   // where a ray begins that leaves the facet with the most light
-    bool none = true;  // no facet is lit
+    // Where rays begin that leave the facets with the most light, most first, and how much light falls on each.
+    std::array<Vec3f, kStarts> start_m{};
+    std::array<float, kStarts> lit{};
+
+    bool none() const { return !(lit[0] > 0); }
+    void add_start(Vec3f at_m, float light);
 };
 // dir: towards the light, unit. surface: with the facets' own alpha. Loop, any thread.
 FacetLight lit_facets(const FrameView& frame, const Vertex& at, const Scatterer& surface, Vec3f dir);

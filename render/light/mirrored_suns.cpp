@@ -58,7 +58,7 @@ Scattered scatter(const FrameView& frame, const Vertex& at, Vec3f dir, float alp
     if (at.facets && !(facets && surface.alpha == 0)) {
         if (facets) surface.alpha = std::min(1.0f, std::hypot(at.facet_alpha, alpha));
         const FacetLight sum = lit_facets(frame, at, surface, dir);
-        return {sum.reflected, sum.start_m, sum.none};
+        return {sum.reflected, sum.start_m[0], sum.none()};
     }
     const float ni = dot(at.normal, dir);
     if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) return {};

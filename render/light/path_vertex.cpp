@@ -72,6 +72,7 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     vertex.normal = lie.normal;
     vertex.back = lie.back;
     vertex.weight_samples = 1;
+    vertex.samples = 0;
     vertex.facets = nullptr;
 
     vertex.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);

@@ -22,6 +22,7 @@ struct Vertex {
     std::uint32_t pixel;     // in the tile
     std::uint16_t sample;    // in the pixel
     std::uint16_t depth;     // 1: seen by the camera
+    std::uint16_t samples;   // a bit for each of the pixel's sixteen that sees its triangle; 0: one of a ray
     Vec3f point_m;           // ray space
     float offset_m;          // distance above the surface at which a ray must start
     Vec3f geometric_normal;  // towards the viewer's side, unit

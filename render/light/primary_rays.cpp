@@ -1,4 +1,4 @@
-#include "render/light/primary_rays.h"
+#include "render/light/primary_vertices.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "render/light/kept_light.h"
-#include "render/light/primary_rays.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
 
@@ -240,6 +239,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         vertex.pixel = fragment.pixel;
         vertex.sample = static_cast<std::uint16_t>(std::countr_zero(std::uint32_t{fragment.samples}));
         vertex.depth = 1;
+        vertex.samples = fragment.samples;
         vertex.weight = {};
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
@@ -251,6 +251,25 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
               fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_), fragments_.begin());
     fragment_count_ -= n;
     return count;
+}
+
+Vec3f way_to_sample(const Tile& tile, const Vertex& at, int sample) {
+    const FrameView& frame = tile.frame;
+    const float facing = dot(at.geometric_normal, at.view_dir);
+    if (facing < 0.02f) return {};
+    const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
+    const int x = tile.box.x0 + pixel % width, y = tile.box.y0 + pixel / width;
+    const Vec2f from = middle_of(at.samples), to{sample_x(sample), sample_y(sample)};
+    const LinearRays* rays = frame.rays->linear();
+    const auto dir = [&](Vec2f p) {
+        return rays ? rays->corner + (x + static_cast<double>(p.x)) * rays->right +
+                          (y + static_cast<double>(p.y)) * rays->down
+                    : frame.visibility->direction(x, y, p);
+    };
+    const Vec3d dir_from = dir(from);
+    const double distance_m = static_cast<double>(at.footprint_m) * frame.geometry.focal_length_px;
+    const Vec3f across = to_float(distance_m / length(dir_from) * (dir(to) - dir_from));
+    return across - (dot(across, at.geometric_normal) / facing) * at.view_dir;
 }
 
 }  // namespace hilcam

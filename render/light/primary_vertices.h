@@ -1,5 +1,5 @@
 #pragma once
-// Finds what the camera sees of a tile, as vertices: by rays (primary_rays.h), or out of the frame's
+// Finds what the camera sees of a tile, as vertices: by rays (primary_rays.cpp), or out of the frame's
 // visibility buffer. There each triangle that a pixel's samples see is one vertex at their middle, with the
 // weight of so many samples.
 
@@ -51,5 +51,19 @@ class PrimaryVertices {
     static Vertex* join(std::span<Vertex> so_far, std::uint32_t pixel, std::uint32_t object,
                         std::uint16_t surface, const Lie& lie);
 };
+
+// The camera's rays through a tile, in packets of 4 x 4 pixels. Writes at most vertices.size() vertices
+// (PathModel::kMaxSamples are enough) and adds the background to the tile's pixels. Returns how many. Loop, any
+// thread.
+std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices);
+// Adds the background alone. uncovered: how many of a pixel's kVisibilitySamples see no object, row by row.
+// Loop, any thread.
+void add_backdrop(Tile& tile, const std::uint8_t* uncovered);
+// Adds the air between the camera and a vertex that it sees along dir, and dims the vertex by it.
+void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex);
+
+// Returns the way from a vertex that samples see to where one of them meets its plane [m, ray space]; nothing
+// where the plane is seen from its edge. sample: one of Vertex::samples. Loop, any thread.
+Vec3f way_to_sample(const Tile& tile, const Vertex& at, int sample);
 
 }  // namespace hilcam

@@ -6,6 +6,7 @@
 #include "render/light/facet_list.h"
 #include "render/light/lamp_light.h"
 #include "render/light/shadow_rays.h"
+#include "render/light/sun_edges.h"
 #include "render/scene/brdf_microfacet.h"
 
 namespace hilcam {
@@ -53,13 +54,21 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const Background& background = *frame.background;
     if (largest(background.sun_irradiance_w_m2_um()) <= 0 || vertices.empty()) return;
     const SunSampler sun(tile);
+    const bool primary = vertices.front().depth == 1;
+    const bool finds_edges = primary && tile.edges && !frame.sun_is_disk && !frame.has_glass;
 
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
         tile.pixels[by.at->pixel] += glass ? by.weight * *glass : by.weight;
     };
     TileStats& stats = tile.stats;
-    std::uint64_t& counter = vertices.front().depth == 1 ? stats.shadow_rays : stats.bounce_shadow_rays;
+    std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
     ShadowRays<LitBy, decltype(lit)> shadow(frame, counter, lit);
+    const auto ask = [&](const LitBy& by, const SunEdges::Starts& starts) {
+        if (finds_edges)
+            tile.edges->add(*by.at, by.weight, starts);
+        else
+            shadow.add(starts.at_m[0], by.dir, by);
+    };
     for (const Vertex& at : vertices) {
         if (!at.surface.has_lobes()) continue;
         const auto [dir, light] = sun.of(at);
@@ -75,15 +84,16 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
             surface.alpha = at.facet_alpha;
             if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
             const FacetLight sum = lit_facets(frame, at, surface, dir);
-            if (!sum.none) shadow.add(sum.start_m, dir, {&at, share * (light * sum.reflected), dir});
+            if (!sum.none()) ask({&at, share * (light * sum.reflected), dir}, {sum.start_m, sum.lit});
             continue;
         }
         if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
         Scatterer surface = at.surface;
         if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
         const Spectrum weight = (ni * share) * (at.weight * light * brdf_value(surface, c));
-        if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
+        if (largest(weight) > 0) ask({&at, weight, dir}, {{at.start()}, {1}});
     }
+    if (finds_edges) tile.edges->add_light(tile, sun);
 }
 
 // Directions to the bodies, over each one's cone.

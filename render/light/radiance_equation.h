@@ -47,6 +47,13 @@ class SunSampler {
         return {normalized(axis_.to_world({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)})),
                 irradiance * background_.sun_disk().relative_radiance(std::sqrt(1 - u1))};
     }
+    Vec3f middle() const { return center_; }
+    // Returns one of a number of directions that lie evenly on the disk (Vogel, Math. Biosci. 44, 1979, 179).
+    Vec3f on_disk(std::uint32_t i, std::uint32_t of) const {
+        const float r = std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(of) * sine_squared_);
+        const float phi = 2 * kPiF * 0.61803399f * static_cast<float>(i);
+        return axis_.to_world({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r)});
+    }
 
   private:
     const Tile& tile_;

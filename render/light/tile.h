@@ -9,11 +9,13 @@
 #include "render/light/facet_list.h"
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
-#include "render/light/ray_counts.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/pixel_box.h"
+#include "render/vocabulary/ray_counts.h"
 
 namespace hilcam {
+
+class SunEdges;
 
 struct TileStats : RayCounts {
     double covered_px = 0;  // by objects
@@ -40,6 +42,7 @@ struct Tile {
     std::uint16_t first_sample = 0;        // number of the pass's first one in its pixel
     const std::uint8_t* wanted = nullptr;  // pixels that take part, row by row; null: all
     VisibilityTile* seen = nullptr;        // for what the visibility buffer finds; null: rays do
+    SunEdges* edges = nullptr;             // where that is so, to find shadows' edges; null: they are hard
 
     bool wants(int x, int y) const {
         return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];

@@ -1,8 +1,10 @@
 #pragma once
-// Keys of the cells that a surface is cut into (light_nodes.h): 15 bits for each coordinate of the cube, six
-// for the way it faces, one for the side, twelve for the surface. Inline: looked up for every pixel.
+// Keys of the cells that a surface is cut into (light_nodes.h): 14 bits for each coordinate of the cube, six
+// for the way it faces, one for the side, twelve for the surface. Walls of one kind that lie behind each other
+// in a cube are layers of one key. Inline: looked up for every pixel.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -17,7 +19,7 @@ struct SurfaceSide {
     bool back = false;  // the triangle's own normal (right-handed) points to the other side
 };
 
-inline constexpr int kMaxCubes = 32700;  // along an axis
+inline constexpr int kMaxCubes = 16300;  // along an axis
 
 struct Cube {
     int x, y, z;
@@ -36,20 +38,39 @@ inline unsigned way_of(Vec3f normal) {
     return (normal.z >= 0 ? 36 : 45) + ninth(normal.x, normal.y, z);
 }
 
+// Returns a unit vector in the middle of a way.
+inline Vec3f middle_of_way(unsigned way) {
+    const unsigned face = way / 9, part = way % 9;
+    constexpr float kThird = 2.0f / 3;
+    const float u = kThird * (static_cast<float>(part % 3) - 1),
+                v = kThird * (static_cast<float>(part / 3) - 1);
+    const float most = face % 2 == 0 ? 1.0f : -1.0f;
+    switch (face / 2) {
+        case 0:
+            return normalized(Vec3f{most, u, v});
+        case 1:
+            return normalized(Vec3f{u, most, v});
+        default:
+            return normalized(Vec3f{u, v, most});
+    }
+}
+
 inline std::uint64_t kind_of(const SurfaceSide& side) {
     return way_of(side.geometric_normal) | static_cast<std::uint64_t>(side.back) << 6 |
            static_cast<std::uint64_t>(side.surface & 0xFFFu) << 7;
 }
 
-// Coordinates from -1 on, so that a cube's neighbours have keys.
+// Returns the key of all layers of a kind in a cube. Coordinates from -1 on, so that a cube's neighbours have
+// keys.
 inline std::uint64_t key_of(Cube c, std::uint64_t kind) {
-    const auto part = [](int i) { return static_cast<std::uint64_t>(i + 1) & 0x7FFFu; };
-    return kind << 45 | part(c.z) << 30 | part(c.y) << 15 | part(c.x);
+    const auto part = [](int i) { return static_cast<std::uint64_t>(i + 1) & 0x3FFFu; };
+    return kind << 42 | part(c.z) << 28 | part(c.y) << 14 | part(c.x);
 }
+inline std::uint64_t kind_in(std::uint64_t key) { return key >> 42; }
 
 inline Cube cube_of(std::uint64_t key) {
-    const auto part = [key](int shift) { return static_cast<int>(key >> shift & 0x7FFF) - 1; };
-    return {part(0), part(15), part(30)};
+    const auto part = [key](int shift) { return static_cast<int>(key >> shift & 0x3FFF) - 1; };
+    return {part(0), part(14), part(28)};
 }
 
 // Finalizer of SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
@@ -67,6 +88,36 @@ struct CubeGrid {
         const auto part = [this](float x) { return std::clamp(static_cast<int>(x / cube_m), 0, kMaxCubes); };
         return {part(m.x - corner_m.x), part(m.y - corner_m.y), part(m.z - corner_m.z)};
     }
+};
+
+// Returns how high a place lies along the way that a kind faces, in cubes. at: in cubes from the grid's corner.
+inline float height_of(std::uint64_t kind, Vec3f at) { return dot(middle_of_way(kind & 0x3Fu), at); }
+
+// The layers of a kind in a cube: a bit for each eighth of a cube, along its way, in which some of it lies.
+// Layers are at least a quarter apart. A wall that leans by 20 degrees against its way rises by less than that
+// from one of its points to the next (light_cells.h).
+class Layers {
+  public:
+    static constexpr float kApart = 0.25f;  // cubes
+
+    void add(float height, float middle) { bits_ |= std::uint32_t{1} << bit_of(height, middle); }
+    void add(const Layers& other) { bits_ |= other.bits_; }
+    unsigned count() const { return static_cast<unsigned>(std::popcount(starts())); }
+    // Returns the number of the layer that has this height; one that was added.
+    unsigned layer(float height, float middle) const {
+        const std::uint32_t up_to = (std::uint32_t{2} << bit_of(height, middle)) - 1;
+        return static_cast<unsigned>(std::popcount(starts() & up_to)) - 1;
+    }
+
+  private:
+    std::uint32_t bits_ = 0;
+
+    // middle: height of the cube's middle, from which nothing in it is further than a cube.
+    static unsigned bit_of(float height, float middle) {
+        return static_cast<unsigned>(std::clamp(8 * (height - middle + 1), 0.0f, 15.0f));
+    }
+    // Bits with two empty ones below.
+    std::uint32_t starts() const { return bits_ & ~(bits_ << 1) & ~(bits_ << 2); }
 };
 
 }  // namespace hilcam

@@ -7,10 +7,10 @@ namespace {
 
 void merge_equal(std::vector<FoundCell>& cells) {
     std::stable_sort(cells.begin(), cells.end(),
-                     [](const FoundCell& a, const FoundCell& b) { return a.key < b.key; });
+                     [](const FoundCell& a, const FoundCell& b) { return a.order() < b.order(); });
     std::size_t out = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (out > 0 && cells[out - 1].key == cells[i].key)
+        if (out > 0 && cells[out - 1].order() == cells[i].order())
             cells[out - 1].add(cells[i]);
         else
             cells[out++] = cells[i];
@@ -18,46 +18,137 @@ void merge_equal(std::vector<FoundCell>& cells) {
     cells.resize(out);
 }
 
+// Adds what lies in a cell to the last ones, as neighbours in a run are mostly of one cell.
+void append(std::vector<FoundCell>& cells, const FoundCell& cell) {
+    for (std::size_t back = 1; back <= 2 && back <= cells.size(); ++back)
+        if (cells[cells.size() - back].order() == cell.order()) return cells[cells.size() - back].add(cell);
+    cells.push_back(cell);
+}
+
 // Runs of triangles, a fixed number of them: sums do not depend on how many threads there are.
 constexpr std::size_t kRuns = 256;
 
-// round: of those that draw points. wanted: only cells that it has, sorted; null: all.
+// A point of a mesh and its place.
+struct PointPlace {
+    std::size_t triangle;
+    std::uint32_t number;  // in the triangle
+    float share_m2;        // its share of the triangle's area
+    std::uint16_t surface;
+    Vec3f normal;  // normal of the triangle's own side
+    Cube cube;
+    Vec3f at;  // in cubes
+
+    std::uint64_t key(bool back) const {
+        return key_of(cube, kind_of({back ? -normal : normal, surface, back}));
+    }
+    float height(std::uint64_t key) const { return height_of(kind_in(key), at); }
+};
+float middle_of(std::uint64_t key) {
+    const Cube c = cube_of(key);
+    return height_of(kind_in(key), {static_cast<float>(c.x) + 0.5f, static_cast<float>(c.y) + 0.5f,
+                                    static_cast<float>(c.z) + 0.5f});
+}
+
+// visit(place) for each point of a run's triangles that keep light.
+template <class Visit>
+void for_each_point(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
+                    std::size_t run, const Visit& visit) {
+    const std::size_t count = mesh.triangles.size();
+    for (std::size_t t = count * run / kRuns; t < count * (run + 1) / kRuns; ++t) {
+        const std::uint16_t surface = mesh.surface_of_triangle[t];
+        if (!keeps[surface]) continue;
+        const TriangleSpread spread(mesh, t, 0.5f * grid.cube_m);
+        if (!(spread.area_m2 > 0)) continue;
+        const float share_m2 = spread.area_m2 / static_cast<float>(spread.points());
+        for (int i = 0; i < spread.points(); ++i) {
+            const Vec3f point_m = spread.at(spread.weights(i));
+            visit(PointPlace{t, static_cast<std::uint32_t>(i), share_m2, surface, spread.normal,
+                             grid.cube(point_m), (point_m - grid.corner_m) / grid.cube_m});
+        }
+    }
+}
+
+// The layers of the keys that have more than one, in the order of keys.
+class LayerMap {
+  public:
+    LayerMap(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid) {
+        std::vector<std::vector<Of>> runs(kRuns);
+        tbb::parallel_for(std::size_t{0}, kRuns, [&](std::size_t run) {
+            std::vector<Of>& out = runs[run];
+            for_each_point(mesh, keeps, grid, run, [&](const PointPlace& place) {
+                for (const bool back : {false, true}) {
+                    const std::uint64_t key = place.key(back);
+                    std::size_t same = out.size();
+                    for (std::size_t i = 1; i <= 2 && i <= out.size(); ++i)
+                        if (out[out.size() - i].key == key) same = out.size() - i;
+                    if (same == out.size()) out.push_back({key, {}});
+                    out[same].layers.add(place.height(key), middle_of(key));
+                }
+            });
+            merge(out);
+        });
+        for (std::vector<Of>& run : runs) {
+            of_.insert(of_.end(), run.begin(), run.end());
+            run = {};
+        }
+        merge(of_);
+        std::erase_if(of_, [](const Of& one) { return one.layers.count() < 2; });
+    }
+    unsigned layer(std::uint64_t key, float height) const {
+        const auto place = std::lower_bound(of_.begin(), of_.end(), key,
+                                            [](const Of& one, std::uint64_t k) { return one.key < k; });
+        return place != of_.end() && place->key == key ? place->layers.layer(height, middle_of(key)) : 0;
+    }
+
+  private:
+    struct Of {
+        std::uint64_t key;
+        Layers layers;
+    };
+    std::vector<Of> of_;
+
+    static void merge(std::vector<Of>& list) {
+        std::sort(list.begin(), list.end(), [](const Of& a, const Of& b) { return a.key < b.key; });
+        std::size_t out = 0;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            if (out > 0 && list[out - 1].key == list[i].key)
+                list[out - 1].layers.add(list[i].layers);
+            else
+                list[out++] = list[i];
+        }
+        list.resize(out);
+    }
+};
+
+// round: of those that draw points. wanted: only cells that it has, in order; null: all.
 std::vector<FoundCell> draw_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
-                                  std::uint64_t round, const std::vector<std::uint64_t>* wanted) {
+                                  const LayerMap& layers, std::uint64_t round,
+                                  const std::vector<FoundCell>* wanted) {
+    const auto is_wanted = [&](const FoundCell& cell) {
+        return !wanted || std::binary_search(
+                              wanted->begin(), wanted->end(), cell,
+                              [](const FoundCell& a, const FoundCell& b) { return a.order() < b.order(); });
+    };
     std::vector<std::vector<FoundCell>> runs(kRuns);
     tbb::parallel_for(std::size_t{0}, kRuns, [&](std::size_t run) {
         std::vector<FoundCell>& out = runs[run];
-        const std::size_t count = mesh.triangles.size();
-        for (std::size_t t = count * run / kRuns; t < count * (run + 1) / kRuns; ++t) {
-            const std::uint16_t surface = mesh.surface_of_triangle[t];
-            if (!keeps[surface]) continue;
-            const TriangleSpread spread(mesh, t, 0.5f * grid.cube_m);
-            if (!(spread.area_m2 > 0)) continue;
-            const float share = spread.area_m2 / static_cast<float>(spread.points());
-            for (int i = 0; i < spread.points(); ++i) {
-                const Cube cube = grid.cube(spread.at(spread.weights(i)));
-                const auto number = static_cast<std::uint32_t>(i);
-                // By area, without order: the least of -ln(u) / area (Efraimidis & Spirakis, Inf. Process.
-                // Lett. 97, 2006).
-                const float u =
-                    (static_cast<float>(mixed(round << 56 ^ (t << 24 | number)) >> 41) + 0.5f) * 0x1p-23f;
-                const float priority = -std::log(u) / share;
-                for (const bool back : {false, true}) {
-                    FoundCell cell;
-                    cell.key = key_of(cube, kind_of({back ? -spread.normal : spread.normal, surface, back}));
-                    if (wanted && !std::binary_search(wanted->begin(), wanted->end(), cell.key)) continue;
-                    cell.area_m2 = share;
-                    cell.add(CellPoint{priority, static_cast<std::uint32_t>(t), number, back});
-                    // Neighbours in a run are mostly of one cell.
-                    if (!out.empty() && out.back().key == cell.key)
-                        out.back().add(cell);
-                    else if (out.size() > 1 && out[out.size() - 2].key == cell.key)
-                        out[out.size() - 2].add(cell);
-                    else
-                        out.push_back(cell);
-                }
+        for_each_point(mesh, keeps, grid, run, [&](const PointPlace& place) {
+            // By area, without order: the least of -ln(u) / area (Efraimidis & Spirakis, Inf. Process.
+            // Lett. 97, 2006).
+            const std::uint64_t word = mixed(round << 56 ^ (place.triangle << 24 | place.number));
+            const float u = (static_cast<float>(word >> 41) + 0.5f) * 0x1p-23f;
+            const float priority = -std::log(u) / place.share_m2;
+            for (const bool back : {false, true}) {
+                FoundCell cell;
+                cell.key = place.key(back);
+                cell.lowest = cell.highest = place.height(cell.key);
+                cell.layer = layers.layer(cell.key, cell.lowest);
+                if (!is_wanted(cell)) continue;
+                cell.area_m2 = place.share_m2;
+                cell.add(CellPoint{priority, static_cast<std::uint32_t>(place.triangle), place.number, back});
+                append(out, cell);
             }
-        }
+        });
         merge_equal(out);
     });
     std::vector<FoundCell> all;
@@ -95,24 +186,25 @@ void keep_open(const Mesh& mesh, const CubeGrid& grid, float above_m, const Open
 
 std::vector<FoundCell> find_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps,
                                   const CubeGrid& grid) {
-    return draw_cells(mesh, keeps, grid, 0, nullptr);
+    return draw_cells(mesh, keeps, grid, LayerMap(mesh, keeps, grid), 0, nullptr);
 }
 
 void prefer_open_points(const Mesh& mesh, std::span<const std::uint8_t> keeps, const CubeGrid& grid,
                         float above_m, const Openness& openness, std::vector<FoundCell>& cells) {
     constexpr std::uint64_t kRounds = 8;
+    const LayerMap layers(mesh, keeps, grid);
     std::vector<FoundCell> open = cells;
     keep_open(mesh, grid, above_m, openness, open);
     for (std::uint64_t round = 1; round < kRounds; ++round) {
-        std::vector<std::uint64_t> wanted;
+        std::vector<FoundCell> wanted;
         for (std::size_t c = 0; c < cells.size(); ++c)
-            if (open[c].count < cells[c].count) wanted.push_back(cells[c].key);
+            if (open[c].count < cells[c].count) wanted.push_back(cells[c]);
         if (wanted.empty()) break;
-        std::vector<FoundCell> drawn = draw_cells(mesh, keeps, grid, round, &wanted);
+        std::vector<FoundCell> drawn = draw_cells(mesh, keeps, grid, layers, round, &wanted);
         keep_open(mesh, grid, above_m, openness, drawn);
         std::size_t c = 0;
         for (const FoundCell& more : drawn) {
-            while (open[c].key != more.key) ++c;
+            while (open[c].order() != more.order()) ++c;
             for (int i = 0; i < more.count && open[c].count < cells[c].count; ++i)
                 open[c].best[static_cast<std::size_t>(open[c].count++)] =
                     more.best[static_cast<std::size_t>(i)];

@@ -68,7 +68,9 @@ struct CellPoint {
 
 // The state of a cell while it is found: its area, and candidates for its points.
 struct FoundCell {
-    std::uint64_t key = 0;
+    std::uint64_t key = 0;  // key of all layers there
+    unsigned layer = 0;
+    float lowest = 0, highest = 0;  // height_of() what lies in it
     double area_m2 = 0;
     int count = 0;
     std::array<CellPoint, LightNode::kPoints> best;
@@ -86,8 +88,10 @@ struct FoundCell {
     }
     void add(const FoundCell& other) {
         area_m2 += other.area_m2;
+        lowest = std::min(lowest, other.lowest), highest = std::max(highest, other.highest);
         for (int i = 0; i < other.count; ++i) add(other.best[static_cast<std::size_t>(i)]);
     }
+    auto order() const { return std::tuple(key, layer); }
 };
 
 struct MeshExtent {
@@ -97,7 +101,7 @@ struct MeshExtent {
 
 // Returns the extent of those surfaces that keep light.
 MeshExtent extent_of(const Mesh& mesh, std::span<const std::uint8_t> keeps);
-// Finds the cells in the order of their keys. On oneTBB; the same on any number of threads.
+// Finds the cells in the order of their keys and layers. On oneTBB; the same on any number of threads.
 std::vector<FoundCell> find_cells(const Mesh& mesh, std::span<const std::uint8_t> keeps,
                                   const CubeGrid& grid);
 

@@ -17,10 +17,27 @@ namespace {
 
 // The cells about a corner of the grid, and which corner of which cell's cube that is.
 struct CornerUse {
-    std::uint64_t key;  // key of the cube above it in all axes
+    std::uint64_t key;        // key of the cube above it in all axes
+    std::uint32_t layer = 0;  // number among the layers about the corner
     std::uint32_t cell;
     std::uint32_t corner;  // corner of the cell's cube: x + 2 y + 4 z
+
+    bool together(const CornerUse& other) const { return key == other.key && layer == other.layer; }
 };
+
+// Numbers the layers about a corner, whose cells these are. Cells that go on from cube to cube are one.
+void number_layers(std::span<const FoundCell> cells, std::span<CornerUse> about) {
+    std::sort(about.begin(), about.end(), [&](const CornerUse& a, const CornerUse& b) {
+        return std::tuple(cells[a.cell].lowest, a.cell) < std::tuple(cells[b.cell].lowest, b.cell);
+    });
+    float highest = cells[about.front().cell].highest;
+    std::uint32_t layer = 0;
+    for (CornerUse& use : about) {
+        if (cells[use.cell].lowest > highest + Layers::kApart) ++layer;
+        highest = std::max(highest, cells[use.cell].highest);
+        use.layer = layer;
+    }
+}
 
 std::vector<CornerUse> corners_of(std::span<const FoundCell> cells) {
     std::vector<CornerUse> uses;
@@ -29,12 +46,19 @@ std::vector<CornerUse> corners_of(std::span<const FoundCell> cells) {
         const Cube cube = cube_of(cells[c].key);
         for (int i = 0; i < 8; ++i)
             uses.push_back(
-                {key_of({cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)}, cells[c].key >> 45),
-                 static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(i)});
+                {key_of({cube.x + (i & 1), cube.y + (i >> 1 & 1), cube.z + (i >> 2)}, kind_in(cells[c].key)),
+                 0, static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(i)});
     }
-    std::sort(uses.begin(), uses.end(), [](const CornerUse& a, const CornerUse& b) {
-        return std::tuple(a.key, a.cell) < std::tuple(b.key, b.cell);
-    });
+    const auto in_order = [](const CornerUse& a, const CornerUse& b) {
+        return std::tuple(a.key, a.layer, a.cell) < std::tuple(b.key, b.layer, b.cell);
+    };
+    std::sort(uses.begin(), uses.end(), in_order);
+    for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
+        while (last < uses.size() && uses[last].key == uses[first].key) ++last;
+        const std::span<CornerUse> about = std::span(uses).subspan(first, last - first);
+        number_layers(cells, about);
+        std::sort(about.begin(), about.end(), in_order);
+    }
     return uses;
 }
 
@@ -156,8 +180,9 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
         Group group{{}, i};
         group.set.fill(kClosed);
         std::size_t count = 0;
-        for (const std::uint64_t key = uses[i].key; i < uses.size() && uses[i].key == key; ++i)
-            group.set[count++] = uses[i].cell;
+        // Of a wall with more than eight cells about a corner, which a third one joins, eight are enough.
+        for (const CornerUse& use = uses[i]; i < uses.size() && uses[i].together(use); ++i)
+            if (count < group.set.size()) group.set[count++] = uses[i].cell;
         groups.push_back(group);
     }
     std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
@@ -167,11 +192,15 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     std::vector<CellSet> sets;
     for (const Group& group : groups) {
         if (sets.empty() || sets.back() != group.set) sets.push_back(group.set);
-        const std::uint64_t key = uses[group.first].key;
-        for (std::size_t i = group.first; i < uses.size() && uses[i].key == key; ++i)
+        const CornerUse& use = uses[group.first];
+        for (std::size_t i = group.first; i < uses.size() && uses[i].together(use); ++i)
             corners[uses[i].cell][uses[i].corner] = static_cast<std::uint32_t>(sets.size() - 1);
     }
-    cells_ = std::vector<Cell>(corners.begin(), corners.end());
+    cells_.resize(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        cells_[i].take(corners[i]);
+        cells_[i].lowest = cells[i].lowest, cells_[i].highest = cells[i].highest;
+    }
     nodes_.resize(sets.size());
     const NodeMaker maker(mesh, {corner_m_, cube_m_}, cells);
     tbb::parallel_for(std::size_t{0}, sets.size(),
@@ -186,18 +215,29 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
 void LightNodes::index(std::span<const std::uint64_t> keys) {
     slots_.assign(std::bit_ceil(2 * keys.size() + 1), {});
     const std::size_t mask = slots_.size() - 1;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        std::size_t at = mixed(keys[i]) & mask;
+    for (std::size_t i = 0, first = 0; i < keys.size(); first = i) {
+        while (i < keys.size() && keys[i] == keys[first]) ++i;
+        std::size_t at = mixed(keys[first]) & mask;
         while (slots_[at].key != Slot::kNone) at = (at + 1) & mask;
-        slots_[at] = {keys[i], static_cast<std::uint32_t>(i), 0};
+        slots_[at] = {keys[first], static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(i - first)};
     }
 }
 
-const LightNodes::Cell* LightNodes::cell(std::uint64_t key) const {
+const LightNodes::Slot* LightNodes::slot(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t at = mixed(key) & mask; slots_[at].key != Slot::kNone; at = (at + 1) & mask)
-        if (slots_[at].key == key) return &cells_[slots_[at].cell];
+        if (slots_[at].key == key) return &slots_[at];
     return nullptr;
+}
+
+// The layer next to a place.
+const LightNodes::Cell* LightNodes::cell(const Slot& slot, Vec3f at) const {
+    const Cell* best = &cells_[slot.cell];
+    if (slot.layers == 1) return best;
+    const float height = height_of(kind_in(slot.key), at);
+    for (std::uint32_t i = 1; i < slot.layers; ++i)
+        if (cells_[slot.cell + i].off(height) < best->off(height)) best = &cells_[slot.cell + i];
+    return best;
 }
 
 LightNodes::Search LightNodes::begin(Vec3f point_m, const SurfaceSide& side) const {
@@ -211,7 +251,7 @@ LightNodes::Search LightNodes::begin(Vec3f point_m, const SurfaceSide& side) con
 
 void LightNodes::open(Search& search) const {
     if (slots_.empty()) return;
-    search.cell = cell(search.key);
+    if (const Slot* found = slot(search.key)) search.cell = cell(*found, search.at);
     // The surface can cut a corner off the cube that no point fell into, and a level of detail is a little
     // beside the mesh: then the nearest of the neighbours that share a face or an edge.
     if (!search.cell) take_neighbour(search);
@@ -229,8 +269,8 @@ void LightNodes::take_neighbour(Search& search) const {
         const Vec3f off{beyond(search.at.x, near.x), beyond(search.at.y, near.y),
                         beyond(search.at.z, near.z)};
         if (dot(off, off) >= nearest) continue;
-        const Cell* candidate = cell(key_of(near, search.key >> 45));
-        if (candidate) search.cell = candidate, search.cube = near, nearest = dot(off, off);
+        const Slot* found = slot(key_of(near, kind_in(search.key)));
+        if (found) search.cell = cell(*found, search.at), search.cube = near, nearest = dot(off, off);
     }
 }
 
@@ -253,7 +293,8 @@ bool LightNodes::finish(const Search& search, NodesAbout& about) const {
     return true;
 }
 
-LightNodes::Cell::Cell(const std::array<std::uint32_t, 8>& of_corner) {
+void LightNodes::Cell::take(const std::array<std::uint32_t, 8>& of_corner) {
+    count = corners = 0;
     for (std::size_t i = 0; i < of_corner.size(); ++i) {
         unsigned place = kNone;
         if (of_corner[i] != kClosed) {
@@ -276,7 +317,7 @@ void LightNodes::keep(std::span<const std::uint32_t> new_number) {
         std::array<std::uint32_t, 8> of_corner;
         for (std::size_t i = 0; i < of_corner.size(); ++i)
             of_corner[i] = cell.corner(i) == Cell::kNone ? kClosed : new_number[cell.node[cell.corner(i)]];
-        cell = Cell(of_corner);
+        cell.take(of_corner);
     }
 }
 
@@ -289,7 +330,8 @@ bool LightNodes::is_whole() const {
     std::size_t used = 0;
     for (const Slot& slot : slots_) {
         if (slot.key == Slot::kNone) continue;
-        if (slot.cell >= cells_.size()) return false;
+        if (slot.layers == 0 || slot.cell >= cells_.size() || slot.layers > cells_.size() - slot.cell)
+            return false;
         ++used;
     }
     if (!slots_.empty() && used == slots_.size()) return false;  // a search would not end

@@ -2,8 +2,8 @@
 // Places on an object's surface where light is kept from frame to frame (light/kept_light.h).
 //
 // Space is cut into cubes of one size. What lies in one cube, belongs to one surface of the mesh, is the same
-// side of its triangles (so that the inside of a body thinner than a cube is no part of its outside) and
-// faces one of 54 ways (30 degrees wide) is a cell. Light belongs to nodes, which are the corners of the
+// side of its triangles (so that the inside of a body thinner than a cube is no part of its outside), faces one
+// of 54 ways (30 degrees wide) and has no gap of a quarter of a cube in it, along that way, is a cell. Light belongs to nodes, which are the corners of the
 // cubes: a node stands for the cells of one kind that touch its corner, by a few points on them. A place
 // between has its cube's eight corners, weighted linearly, so that light is continuous where the surface is.
 // Corners that touch the same cells are one node: a flat wall has one layer.
@@ -68,11 +68,15 @@ class LightNodes {
         static constexpr unsigned kNone = 8;
         std::array<std::uint32_t, 8> node{};
         std::uint32_t count = 0;
-        std::uint32_t corners = 0;  // four bits each: x + 2 y + 4 z; kNone: closed
+        std::uint32_t corners = 0;      // four bits each: x + 2 y + 4 z; kNone: closed
+        float lowest = 0, highest = 0;  // height_of() what lies in it
 
         Cell() = default;
-        explicit Cell(const std::array<std::uint32_t, 8>& of_corner);
+        // Takes the nodes of its corners, in order.
+        void take(const std::array<std::uint32_t, 8>& of_corner);
         unsigned corner(std::size_t i) const { return corners >> (4 * i) & 0xFu; }
+        // Returns how far a height is outside of it, in cubes.
+        float off(float height) const { return std::max({lowest - height, height - highest, 0.0f}); }
     };
     // A search for a place in body axes, in steps: each asks for the memory that the next one reads, so that
     // who looks up many places takes every step for all of them. Loop, any thread.
@@ -103,8 +107,8 @@ class LightNodes {
     // Gives all its members to files (io/files/transfer_cache.h).
     struct Slot {
         std::uint64_t key = kNone;
-        std::uint32_t cell = 0;
-        std::uint32_t unused = 0;  // no byte of a file is left to chance
+        std::uint32_t cell = 0;  // the first of its layers, in the order of their heights
+        std::uint32_t layers = 0;
         static constexpr std::uint64_t kNone = ~std::uint64_t{0};
     };
     template <class Archive>
@@ -122,7 +126,8 @@ class LightNodes {
     std::vector<Cell> cells_;
     std::vector<LightNode> nodes_;
 
-    const Cell* cell(std::uint64_t key) const;
+    const Slot* slot(std::uint64_t key) const;
+    const Cell* cell(const Slot& slot, Vec3f at) const;
     void take_neighbour(Search& search) const;
     void index(std::span<const std::uint64_t> keys);
 };

@@ -1,0 +1,88 @@
+#include "render/light/sun_edges.h"
+
+#include <algorithm>
+#include <span>
+
+#include "render/light/primary_vertices.h"
+#include "render/light/radiance_equation.h"
+#include "render/light/shadow_rays.h"
+
+namespace hilcam {
+namespace {
+
+// Takes one of the samples that are left, far from those before; all of them once more after the last.
+int next_sample(std::uint32_t& rest, std::uint32_t all) {
+    constexpr std::array<std::uint8_t, kVisibilitySamples> kOrder{0, 10, 2, 8, 5, 15, 7, 13,
+                                                                  1, 11, 3, 9, 4, 14, 6, 12};
+    if (rest == 0) rest = all;
+    for (const std::uint8_t sample : kOrder)
+        if (rest >> sample & 1u) {
+            rest &= ~(1u << sample);
+            return sample;
+        }
+    return 0;
+}
+
+}  // namespace
+
+void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
+    ask_once(tile, sun.middle());
+    ask_again(tile, sun);
+    for (const Asked& a : std::span(asked_).first(count_))
+        if (a.lit > 0) tile.pixels[a.at->pixel] += (a.lit / a.of) * a.light;
+    count_ = 0;
+}
+
+void SunEdges::ask_once(Tile& tile, Vec3f sun_dir) {
+    const auto lit = [](Asked* const& a, const Spectrum*) { a->lit = 1; };
+    ShadowRays<Asked*, decltype(lit)> shadow(tile.frame, tile.stats.shadow_rays, lit);
+    for (Asked& a : std::span(asked_).first(count_)) shadow.add(a.starts.at_m[0], sun_dir, &a);
+}
+
+void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
+    const auto width = static_cast<std::uint32_t>(tile.box.x1 - tile.box.x0);
+    Rows lit{}, dark{};
+    for (const Asked& a : std::span(asked_).first(count_))
+        (a.lit > 0 ? lit : dark)[a.at->pixel / width] |= 1u << (a.at->pixel % width);
+    const Rows near_lit = widened(lit), near_dark = widened(dark);
+
+    struct Use {
+        Asked* asked;
+        float share;
+    };
+    const auto gets_through = [](const Use& use, const Spectrum*) { use.asked->lit += use.share; };
+    ShadowRays<Use, decltype(gets_through)> shadow(tile.frame, tile.stats.shadow_rays, gets_through);
+    for (Asked& a : std::span(asked_).first(count_)) {
+        const std::uint32_t x = a.at->pixel % width, y = a.at->pixel / width;
+        if (!((a.lit > 0 ? near_dark : near_lit)[y] >> x & 1u)) continue;
+        a.lit = a.of = 0;
+        std::uint32_t rest = a.at->samples;
+        for (std::uint32_t i = 0; i < kAgain; ++i) {
+            // Facets each ask for themselves; what is flat asks from where its samples are.
+            const std::size_t facet = a.starts.share[i] > 0 ? i : 0;
+            Vec3f start_m = a.starts.at_m[facet];
+            if (!a.at->facets && a.at->samples != 0)
+                start_m = start_m + way_to_sample(tile, *a.at, next_sample(rest, a.at->samples));
+            const float share = a.starts.share[facet];
+            a.of += share;
+            // The four pixels of a square ask for other places of the disk.
+            shadow.add(start_m, sun.on_disk(kAgain * i + x % 2 + 2 * (y % 2), 4 * kAgain), {&a, share});
+        }
+    }
+}
+
+// Pixels that have one of these within reach.
+SunEdges::Rows SunEdges::widened(const Rows& rows) {
+    Rows out{};
+    for (int y = 0; y < kMaxRows; ++y) {
+        const std::uint32_t row = rows[static_cast<std::size_t>(y)];
+        std::uint32_t across = row;
+        for (int i = 1; i <= kReach_px; ++i) across |= row << i | row >> i;
+        const int last = std::min(kMaxRows - 1, y + kReach_px);
+        for (int near = std::max(0, y - kReach_px); near <= last; ++near)
+            out[static_cast<std::size_t>(near)] |= across;
+    }
+    return out;
+}
+
+}  // namespace hilcam

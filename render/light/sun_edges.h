@@ -1,0 +1,54 @@
+#pragma once
+// Shadows' edges on what the camera sees by the visibility buffer, as wide as the Sun's disk makes them.
+//
+// One ray to the middle of the Sun tells which vertices are lit. Where pixels that differ lie within kReach_px of
+// each other, an edge passes: each vertex there asks again, from other places of what its samples see, for other
+// places of the disk. The approximation: a vertex further off has its one ray, so penumbras wider than twice the
+// reach keep a hard edge inside; four rays tell five levels of light, other ones in each of four pixels.
+
+#include <array>
+#include <cstdint>
+
+#include "render/light/facet_list.h"
+#include "render/light/path_model.h"
+
+namespace hilcam {
+
+class SunSampler;
+
+// Memory for the vertices of a tile. One thread at a time.
+class SunEdges {
+  public:
+    // Where a vertex' rays begin, and how much of its light each stands for; 0: does not count.
+    struct Starts {
+        std::array<Vec3f, FacetLight::kStarts> at_m;
+        std::array<float, FacetLight::kStarts> share;
+    };
+    // light: what the vertex sends to the viewer, to its pixel, if all of it is in the Sun. At most
+    // PathModel::kMaxSamples. Loop, any thread.
+    void add(const Vertex& at, const Spectrum& light, const Starts& starts) {
+        asked_[count_++] = {&at, light, starts, 0, 1};
+    }
+    // Adds the light of all of them to their pixels, as far as the Sun reaches them, and forgets them. Loop, any
+    // thread.
+    void add_light(Tile& tile, const SunSampler& sun);
+
+  private:
+    static constexpr int kReach_px = 2, kMaxRows = 32;
+    static constexpr std::uint32_t kAgain = 4;  // rays
+    struct Asked {
+        const Vertex* at;
+        Spectrum light;
+        Starts starts;
+        float lit, of;  // shares that have got through, and that were asked for
+    };
+    using Rows = std::array<std::uint32_t, kMaxRows>;  // a bit for each pixel
+    std::array<Asked, PathModel::kMaxSamples> asked_;
+    std::size_t count_ = 0;
+
+    void ask_once(Tile& tile, Vec3f sun_dir);
+    void ask_again(Tile& tile, const SunSampler& sun);
+    static Rows widened(const Rows& rows);
+};
+
+}  // namespace hilcam
