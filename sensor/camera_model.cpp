@@ -216,8 +216,8 @@ void check_lens(const CameraModel& c) {
     }
     for (std::size_t i = 1; i < c.field_zones.size(); ++i)
         if (c.field_zones[i].field_fraction <= c.field_zones[i - 1].field_fraction)
-            throw InputError("field_zones: found field_fraction " + show(c.field_zones[i].field_fraction) +
-                             " after " + show(c.field_zones[i - 1].field_fraction) +
+            throw InputError("field_zones: found field_fraction " + plain(c.field_zones[i].field_fraction) +
+                             " after " + plain(c.field_zones[i - 1].field_fraction) +
                              "; accepted: values that rise from zone to zone");
 }
 

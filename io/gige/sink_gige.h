@@ -20,7 +20,7 @@ struct GigeConfig {
     std::string interface = "127.0.0.1";  // IPv4 address or name of an interface
     std::string model = "hilcam";
     std::string serial = "HC000001";
-    std::string user_name;
+    std::string user_name{};
     std::int64_t packet_bytes = 7680;  // before a client negotiates another; no more than the interface's MTU
     double rate_bytes_s = 400e6;       // upper limit of the stream
     bool multipart = false;            // announce it

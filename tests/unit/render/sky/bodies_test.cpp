@@ -37,7 +37,7 @@ TEST(Bodies, LimbIsWhereRaysTouch) {
         for (const Vec3d towards : {Vec3d{1, 0, 0}, Vec3d{0.3, 0.5, -0.8}, Vec3d{0, 0, 1}})
             for (int plane = 0; plane < 16; ++plane) {
                 const Vec3d origin_m = distance_m * normalized(towards);
-                const double off = 0.2 * figure.equatorial_radius_m / distance_m;
+                const double off = 0.05 * figure.equatorial_radius_m / distance_m;
                 const Vec3d axis = normalized(-1.0 * normalized(towards) + off * Vec3d{0.6, -0.64, 0.48});
                 const Vec3d across = normalized(cross(axis, Vec3d{0.1, 1, 0.2}));
                 const double phi = 2 * kPi * plane / 16;
