@@ -17,7 +17,7 @@
 #include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/radiance_model.h"
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 
 namespace hilcam {
 namespace {

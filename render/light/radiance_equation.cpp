@@ -6,7 +6,7 @@
 #include "render/light/facet_list.h"
 #include "render/light/lamp_light.h"
 #include "render/light/shadow_rays.h"
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 
 namespace hilcam {
 namespace {

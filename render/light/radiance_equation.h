@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "render/light/radiance_model.h"
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 
 namespace hilcam {
 
