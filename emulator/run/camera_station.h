@@ -116,7 +116,7 @@ class CameraStation {
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<ExposureRenderer> exposures_;
-    PreviewSink* preview_ = nullptr;  // of the sinks, as is the next; may be null
+    TruthListener* truth_listener_ = nullptr;  // of the sinks, as is the next; may be null
     TruthSink* truth_ = nullptr;
     std::unique_ptr<FrameLoop> loop_;
     std::vector<FaultConfig> timed_faults_;  // by time

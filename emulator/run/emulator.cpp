@@ -58,8 +58,8 @@ Emulator::Emulator(const ScenarioConfig& scenario, const RunLimits& limits)
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
         stations_.push_back(std::make_unique<CameraStation>(scenario_of_camera(scenario, i), i + 1, limits_));
         bench.push_back({nullptr, &stations_.back()->settings(), &stations_.back()->faults()});
-        const OutputsConfig& outputs = stations_.back()->scenario().outputs;
-        pages.push_back({stations_.back()->name(), outputs.has_preview ? outputs.preview.port : 0});
+        const auto* preview = stations_.back()->scenario().outputs.find<PreviewConfig>();
+        pages.push_back({stations_.back()->name(), preview ? preview->port : 0});
     }
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         stations_[i]->load(grid_);

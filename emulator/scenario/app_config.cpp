@@ -111,19 +111,6 @@ Fields fields(CommandsConfig& c) {
     };
 }
 
-Fields fields(OutputsConfig& o) {
-    return {
-        optional(section("gige", o.gige, "frames sent as a GigE Vision camera"), o.has_gige),
-        optional(section("v4l2", o.v4l2, "frames fed to a v4l2loopback device"), o.has_v4l2),
-        optional(section("uvc", o.uvc, "frames sent as a USB camera, with a USB device controller"),
-                 o.has_uvc),
-        optional(section("files", o.files, "frames written as pictures"), o.has_files),
-        optional(section("preview", o.preview, "web page with the live picture"), o.has_preview),
-        optional(section("truth", o.truth, "truth about each frame, known by the renderer (docs/truth.md)"),
-                 o.has_truth),
-    };
-}
-
 EventWorld event_world(const ScenarioConfig& s) {
     EventWorld world;
     for (const ObjectConfig& object : s.objects) world.objects.push_back(object.name);
@@ -237,13 +224,12 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
 void check_folders(const ScenarioConfig& s) {
     std::set<std::string> taken;
     const auto take = [&](const std::string& key, const std::filesystem::path& folder) {
-        if (!folder.empty() && !taken.insert(key + folder.lexically_normal().string()).second)
+        if (!taken.insert(key + folder.lexically_normal().string()).second)
             throw InputError(key + ": found '" + folder.string() +
                              "' for two cameras; accepted: a folder for each");
     };
     const auto take_all = [&](const OutputsConfig& o) {
-        if (o.has_files) take("outputs.files.folder", o.files.folder);
-        if (o.has_truth) take("outputs.truth.folder", o.truth.folder);
+        for (const RunFolder& folder : run_folders(o)) take(folder.key + ".folder", folder.folder);
     };
     take_all(s.outputs);
     for (const CameraConfig& c : s.more_cameras) take_all(c.outputs);

@@ -13,6 +13,7 @@
 #include "emulator/scenario/lamp_config.h"
 #include "emulator/scenario/motion_config.h"
 #include "emulator/scenario/object_config.h"
+#include "emulator/scenario/outputs.h"
 #include "emulator/scenario/quality_ladder.h"
 #include "emulator/world/clock.h"
 #include "emulator/world/pose_watch.h"
@@ -23,12 +24,6 @@
 #include "io/commands/commands_unix.h"
 #include "io/commands/commands_usb.h"
 #include "io/commands/telemetry.h"
-#include "io/files/sink_files.h"
-#include "io/gige/sink_gige.h"
-#include "io/preview/sink_preview.h"
-#include "io/truth/truth_config.h"
-#include "io/uvc/sink_uvc.h"
-#include "io/v4l2/sink_v4l2.h"
 #include "io/vizard/commands_vizard.h"
 #include "render/frame/renderer.h"
 #include "render/sky/atmosphere_config.h"
@@ -92,18 +87,6 @@ struct CommandsConfig {
     PoseRules poses;
 };
 Fields fields(CommandsConfig& commands);
-
-struct OutputsConfig {
-    bool has_gige = false, has_v4l2 = false, has_uvc = false, has_files = false, has_preview = false,
-         has_truth = false;
-    GigeConfig gige;
-    V4l2Config v4l2;
-    UvcConfig uvc;
-    FilesConfig files;
-    PreviewConfig preview;
-    TruthConfig truth;
-};
-Fields fields(OutputsConfig& outputs);
 
 // All of a bench: telemetry numbers them by a byte, from 1.
 inline constexpr std::size_t kMostCameras = 255;
