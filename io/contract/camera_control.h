@@ -44,8 +44,8 @@ struct SettingsChange {
     std::optional<std::int64_t> binning_x{}, binning_y{};
 };
 
-// Calls visit(std::string_view name, &CameraSettings::..., &SettingsChange::...) for every setting. Recordings keep this order: a
-// new setting is the last.
+// Calls visit(std::string_view name, &CameraSettings::..., &SettingsChange::...) for every setting.
+// Recordings keep this order: a new setting is the last.
 template <class Visit>
 constexpr void visit_settings(const Visit& visit) {
     using S = CameraSettings;

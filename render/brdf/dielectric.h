@@ -1,7 +1,7 @@
 #pragma once
-// model: dielectric. A diffuse body under a clear layer of GGX facets with the exact Fresnel term; what enters the
-// body comes out again by its albedo (facet_lobe.h). `reflectance` is the body's albedo, `roughness` the root of
-// GGX's alpha, `refractive_index` the layer's.
+// model: dielectric. A diffuse body under a clear layer of GGX facets with the exact Fresnel term; what
+// enters the body comes out again by its albedo (facet_lobe.h). `reflectance` is the body's albedo,
+// `roughness` the root of GGX's alpha, `refractive_index` the layer's.
 
 #include "render/brdf/facet_lobe.h"
 

@@ -1,10 +1,11 @@
 #pragma once
-// model: hapke. Regolith, f = I / (E cos i) [sr^-1]: B. Hapke, Theory of Reflectance and Emittance Spectroscopy, 2nd
-// ed., Cambridge 2012:
+// model: hapke. Regolith, f = I / (E cos i) [sr^-1]: B. Hapke, Theory of Reflectance and Emittance
+// Spectroscopy, 2nd ed., Cambridge 2012:
 //   f = w/4pi 1/(mu_0e + mu_e) { [1 + B(g)] p(g) + H(mu_0e) H(mu_e) - 1 } S(i, e, psi) mu_0e / mu_0
 //   H by Hapke 2002 (Icarus 157, 523, eq. 13), p a double Henyey-Greenstein function, B the shadow-hiding
 //   surge of 1986, S and the effective cosines the macroscopic roughness of 1984 (Icarus 59, 41).
-// `reflectance` is the single-scattering albedo w. Not modelled: porosity, coherent backscatter, polarisation.
+// `reflectance` is the single-scattering albedo w. Not modelled: porosity, coherent backscatter,
+// polarisation.
 
 #include "render/brdf/brdf_model.h"
 #include "render/vocabulary/units.h"

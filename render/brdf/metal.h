@@ -16,8 +16,8 @@ struct Metal : FacetModel<Metal> {
                   multiple_facets(m.look.base, m.grid.size()), m.look.base};
     }
 
-    // Colour of the light that met several facets: F_avg^2 E_avg / (1 - F_avg (1 - E_avg)) with F_avg = (20 F0
-    // + 1) / 21 of Schlick's term (Kulla & Conty 2017).
+    // Colour of the light that met several facets: F_avg^2 E_avg / (1 - F_avg (1 - E_avg)) with F_avg = (20
+    // F0 + 1) / 21 of Schlick's term (Kulla & Conty 2017).
     Spectrum multiple_facets(const Spectrum& normal_reflectance, int bins) const {
         Spectrum out;
         for (int b = 0; b < bins; ++b) {

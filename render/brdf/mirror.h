@@ -1,6 +1,6 @@
 #pragma once
-// model: mirror. Exact reflection; `reflectance` is that at normal incidence, with Schlick's term towards grazing
-// incidence (microfacet.h). Where a path asks for wider lobes it is a lobe of facets without shadows.
+// model: mirror. Exact reflection; `reflectance` is that at normal incidence, with Schlick's term towards
+// grazing incidence (microfacet.h). Where a path asks for wider lobes it is a lobe of facets without shadows.
 
 #include "render/brdf/facet_lobe.h"
 

@@ -1,8 +1,8 @@
 #pragma once
-// model: oren_nayar. A rough diffuse surface: Oren and Nayar's in the form that conserves energy, Fujii's angular
-// part with the light that scatters between facets given back (Portsmouth, Kutz & Hill, "EON: a practical
-// energy-preserving rough diffuse BRDF", JCGT 14(1), 2025). `reflectance` is the facets' albedo, `roughness` r 0..1;
-// Oren-Nayar's slope deviation sigma [rad] gives about r = sigma / (pi/2).
+// model: oren_nayar. A rough diffuse surface: Oren and Nayar's in the form that conserves energy, Fujii's
+// angular part with the light that scatters between facets given back (Portsmouth, Kutz & Hill, "EON: a
+// practical energy-preserving rough diffuse BRDF", JCGT 14(1), 2025). `reflectance` is the facets' albedo,
+// `roughness` r 0..1; Oren-Nayar's slope deviation sigma [rad] gives about r = sigma / (pi/2).
 
 #include "render/brdf/brdf_model.h"
 
@@ -42,7 +42,8 @@ struct OrenNayar : BrdfModel<OrenNayar> {
     }
     // Light that met several facets, for a white surface; times multiple_color().
     float multiple(float no, float ni) const {
-        return average < 1 ? (1 - single_albedo(no)) * (1 - single_albedo(ni)) / (kPiF * (1 - average)) : 0.0f;
+        return average < 1 ? (1 - single_albedo(no)) * (1 - single_albedo(ni)) / (kPiF * (1 - average))
+                           : 0.0f;
     }
     float multiple_color(float reflectance) const {
         return reflectance * reflectance * average / (1 - reflectance * (1 - average));

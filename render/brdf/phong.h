@@ -1,7 +1,7 @@
 #pragma once
-// model: phong. Legacy data: Lafortune & Willems, "Using the modified Phong reflectance model for physically based
-// rendering", 1994: f = k_d / pi + k_s (n+2)/2pi cos^n of the angle to the mirror direction. Reciprocal; conserves
-// energy when k_d, `reflectance`, and k_s, `specular`, sum to at most 1.
+// model: phong. Legacy data: Lafortune & Willems, "Using the modified Phong reflectance model for physically
+// based rendering", 1994: f = k_d / pi + k_s (n+2)/2pi cos^n of the angle to the mirror direction.
+// Reciprocal; conserves energy when k_d, `reflectance`, and k_s, `specular`, sum to at most 1.
 
 #include "render/brdf/brdf_model.h"
 #include "render/vocabulary/check.h"

@@ -15,8 +15,8 @@
 
 namespace hilcam {
 
-// What scatters at one point: a material, and its look there (textures scale the spectra; the facet lobe is at least
-// as wide as the material's own, see path_vertex.h).
+// What scatters at one point: a material, and its look there (textures scale the spectra; the facet lobe is
+// at least as wide as the material's own, see path_vertex.h).
 struct Scatterer : SurfaceLook {
     const Material* material = nullptr;
 

@@ -1,8 +1,9 @@
 #pragma once
-// What a surface is made of: a reflection model (render/brdf) with its spectra. brdf.h says how it scatters light.
+// What a surface is made of: a reflection model (render/brdf) with its spectra. brdf.h says how it scatters
+// light.
 //
-// Emission: a grey-by-bin body of 1 - reflectance (Kirchhoff 1860) at `temperature_k`. Not modelled: polarisation,
-// anisotropy, fluorescence, subsurface transport.
+// Emission: a grey-by-bin body of 1 - reflectance (Kirchhoff 1860) at `temperature_k`. Not modelled:
+// polarisation, anisotropy, fluorescence, subsurface transport.
 
 #include <memory>
 #include <span>

@@ -1,5 +1,5 @@
-// The fault, the live setting and the quality key that docs/extending.md adds: named where they are defined, they are
-// there for those who visit the lists.
+// The fault, the live setting and the quality key that docs/extending.md adds: named where they are defined,
+// they are there for those who visit the lists.
 
 #include <gtest/gtest.h>
 

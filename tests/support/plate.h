@@ -111,7 +111,8 @@ struct LoopRig {
           poses(scenario.commands.poses, scenario.mode == CameraMode::kLockstep),
           exposures(*renderer, scenario, grid, world.placed_objects()),
           dispatch({{&world, &settings, &faults}}, clock, &poses),
-          truth(scenario.outputs.find<TruthConfig>() ? make_truth_sink(scenario, grid, 1, *renderer) : nullptr),
+          truth(scenario.outputs.find<TruthConfig>() ? make_truth_sink(scenario, grid, 1, *renderer)
+                                                     : nullptr),
           loop(exposures, chain, scenario.camera, world, settings, faults, clock, sinks(), 1, limits,
                &poses) {
         if (!truth) return;

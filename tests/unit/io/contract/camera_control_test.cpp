@@ -28,7 +28,8 @@ TEST(CameraControl, EverySettingIsVisitedOnceByAName) {
     };
     static_assert(members<Three>() == 3);
     std::set<std::string_view> names;
-    visit_settings([&](std::string_view name, auto, auto) { EXPECT_TRUE(names.insert(name).second) << name; });
+    visit_settings(
+        [&](std::string_view name, auto, auto) { EXPECT_TRUE(names.insert(name).second) << name; });
     EXPECT_EQ(names.size(), members<CameraSettings>());
 }
 
