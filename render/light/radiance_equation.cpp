@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/brdf/microfacet.h"
 #include "render/light/facet_list.h"
 #include "render/light/lamp_light.h"
 #include "render/light/shadow_rays.h"
-#include "render/brdf/microfacet.h"
 
 namespace hilcam {
 namespace {
