@@ -12,11 +12,86 @@
 
 namespace hilcam {
 
+// --- The law, for whoever reflects by it
+
+struct HapkeParameters {
+    float b = 0.25f, c = 0.5f;    // Henyey-Greenstein: width of both lobes, (1+c)/2 is the backward share
+    float surge_amplitude = 0;    // B0
+    float surge_width = 0.05f;    // h
+    float roughness_tangent = 0;  // tan of the mean slope theta-bar
+};
+
+// What of the model does not depend on the wavelength.
+struct HapkeGeometry {
+    float mu0 = 0, mu = 0;  // effective cosines
+    float phase = 0;        // (1 + B) p
+    float factor = 0;       // 1/4pi 1/(mu0 + mu) S mu0e / cos i
+};
+
+// io: cosine between the directions to light and viewer, which is the cosine of the phase angle g.
+inline HapkeGeometry hapke_geometry(const HapkeParameters& p, float no, float ni, float io) {
+    HapkeGeometry out;
+    const float cos_g = std::clamp(io, -1.0f, 1.0f);
+    // Backward lobe peaks at g = 0, where the scattering angle is pi.
+    const float b2 = p.b * p.b;
+    const auto lobe = [&](float sign) {
+        const float x = 1 + sign * 2 * p.b * cos_g + b2;
+        return (1 - b2) / (x * std::sqrt(x));
+    };
+    const float hg = 0.5f * (1 + p.c) * lobe(-1) + 0.5f * (1 - p.c) * lobe(1);
+    const float tan_half_g = std::sqrt((1 - cos_g) / std::max(1e-12f, 1 + cos_g));
+    const float surge = p.surge_amplitude > 0 ? p.surge_amplitude / (1 + tan_half_g / p.surge_width) : 0.0f;
+    out.phase = (1 + surge) * hg;
+    out.mu0 = ni, out.mu = no;
+    float shadowing = 1;
+    if (p.roughness_tangent > 0) {
+        // Hapke 1984, eqs. 45-60. x, e: angles of light and viewer; psi: azimuth between them.
+        const float t = p.roughness_tangent;
+        const float chi = 1 / std::sqrt(1 + kPiF * t * t);
+        const float sin_i = std::sqrt(std::max(0.0f, 1 - ni * ni)),
+                    sin_e = std::sqrt(std::max(0.0f, 1 - no * no));
+        const float cos_psi =
+            sin_i * sin_e > 1e-9f ? std::clamp((cos_g - ni * no) / (sin_i * sin_e), -1.0f, 1.0f) : 1.0f;
+        const float psi = std::acos(cos_psi);
+        const float half = std::sin(0.5f * psi) * std::sin(0.5f * psi);
+        const float f = std::exp(-2 * std::tan(0.5f * std::min(psi, 3.1415f)));
+        const auto e1 = [&](float sine, float cosine) {
+            return sine > 0 ? std::exp(-2 / kPiF * cosine / (sine * t)) : 0.0f;
+        };
+        const auto e2 = [&](float sine, float cosine) {
+            return sine > 0 ? std::exp(-1 / kPiF * (cosine / sine) * (cosine / sine) / (t * t)) : 0.0f;
+        };
+        const float e1i = e1(sin_i, ni), e2i = e2(sin_i, ni), e1e = e1(sin_e, no), e2e = e2(sin_e, no);
+        // Effective cosines where light and viewer are in one plane.
+        const float eta_i = chi * (ni + sin_i * t * e2i / (2 - e1i));
+        const float eta_e = chi * (no + sin_e * t * e2e / (2 - e1e));
+        if (ni >= no) {  // i <= e
+            const float below = 2 - e1e - psi / kPiF * e1i;
+            out.mu0 = chi * (ni + sin_i * t * (cos_psi * e2e + half * e2i) / below);
+            out.mu = chi * (no + sin_e * t * (e2e - half * e2i) / below);
+            shadowing = out.mu / eta_e * ni / eta_i * chi / (1 - f + f * chi * ni / eta_i);
+        } else {
+            const float below = 2 - e1i - psi / kPiF * e1e;
+            out.mu0 = chi * (ni + sin_i * t * (e2i - half * e2e) / below);
+            out.mu = chi * (no + sin_e * t * (cos_psi * e2i + half * e2e) / below);
+            shadowing = out.mu / eta_e * ni / eta_i * chi / (1 - f + f * chi * no / eta_e);
+        }
+        out.mu0 = std::max(out.mu0, 1e-6f), out.mu = std::max(out.mu, 1e-6f);
+        shadowing = std::max(0.0f, shadowing);
+    }
+    out.factor = shadowing * out.mu0 / (std::max(ni, 1e-6f) * 4 * kPiF * (out.mu0 + out.mu));
+    return out;
+}
+
 // Chandrasekhar's H function, approximated to 1 % (Hapke 2002, eq. 13). albedo: of single scattering, 0..1.
 inline float hapke_h(float albedo, float x) {
     const float gamma = std::sqrt(std::max(0.0f, 1 - albedo));
     const float r0 = (1 - gamma) / (1 + gamma);
     return 1 / (1 - albedo * x * (r0 + 0.5f * (1 - 2 * r0 * x) * std::log((1 + x) / x)));
+}
+
+inline float hapke(const HapkeGeometry& g, float albedo) {
+    return albedo * g.factor * (g.phase + hapke_h(albedo, g.mu0) * hapke_h(albedo, g.mu) - 1);
 }
 
 namespace brdf {
@@ -40,89 +115,18 @@ struct Hapke : BrdfModel<Hapke> {
                        "theta-bar of hapke: mean slope of the surface")};
     }
 
-    float b, backward;  // width of both lobes; (1+c)/2 is the backward share
-    float surge_amplitude, surge_width;
-    float slope_tangent;  // of theta-bar
+    HapkeParameters parameters;
 
     Hapke(const Keys& k, BrdfMaking&)
-        : b(static_cast<float>(k.lobe_width)),
-          backward(static_cast<float>(k.lobe_backward)),
-          surge_amplitude(static_cast<float>(k.surge_amplitude)),
-          surge_width(static_cast<float>(k.surge_width)),
-          slope_tangent(static_cast<float>(std::tan(k.slope_rad))) {}
+        : parameters{static_cast<float>(k.lobe_width), static_cast<float>(k.lobe_backward),
+                     static_cast<float>(k.surge_amplitude), static_cast<float>(k.surge_width),
+                     static_cast<float>(std::tan(k.slope_rad))} {}
 
     Spectrum value(const SurfaceLook& at, Cosines c) const {
-        const Geometry g = geometry(c.no, c.ni, c.io);
+        const HapkeGeometry g = hapke_geometry(parameters, c.no, c.ni, c.io);
         Spectrum f;
-        for (int i = 0; i < kMaxBins; ++i) f[i] = value(g, at.base[i]);
+        for (int b = 0; b < kMaxBins; ++b) f[b] = hapke(g, at.base[b]);
         return f;
-    }
-
-  private:
-    // What of the model does not depend on the wavelength.
-    struct Geometry {
-        float mu0 = 0, mu = 0;  // effective cosines
-        float phase = 0;        // (1 + B) p
-        float factor = 0;       // 1/4pi 1/(mu0 + mu) S mu0e / cos i
-    };
-
-    static float value(const Geometry& g, float albedo) {
-        return albedo * g.factor * (g.phase + hapke_h(albedo, g.mu0) * hapke_h(albedo, g.mu) - 1);
-    }
-
-    // io: cosine between the directions to light and viewer, which is the cosine of the phase angle g.
-    Geometry geometry(float no, float ni, float io) const {
-        Geometry out;
-        const float cos_g = std::clamp(io, -1.0f, 1.0f);
-        // Backward lobe peaks at g = 0, where the scattering angle is pi.
-        const float b2 = b * b;
-        const auto lobe = [&](float sign) {
-            const float x = 1 + sign * 2 * b * cos_g + b2;
-            return (1 - b2) / (x * std::sqrt(x));
-        };
-        const float hg = 0.5f * (1 + backward) * lobe(-1) + 0.5f * (1 - backward) * lobe(1);
-        const float tan_half_g = std::sqrt((1 - cos_g) / std::max(1e-12f, 1 + cos_g));
-        const float surge = surge_amplitude > 0 ? surge_amplitude / (1 + tan_half_g / surge_width) : 0.0f;
-        out.phase = (1 + surge) * hg;
-        out.mu0 = ni, out.mu = no;
-        float shadowing = 1;
-        if (slope_tangent > 0) {
-            // Hapke 1984, eqs. 45-60. x, e: angles of light and viewer; psi: azimuth between them.
-            const float t = slope_tangent;
-            const float chi = 1 / std::sqrt(1 + kPiF * t * t);
-            const float sin_i = std::sqrt(std::max(0.0f, 1 - ni * ni)),
-                        sin_e = std::sqrt(std::max(0.0f, 1 - no * no));
-            const float cos_psi =
-                sin_i * sin_e > 1e-9f ? std::clamp((cos_g - ni * no) / (sin_i * sin_e), -1.0f, 1.0f) : 1.0f;
-            const float psi = std::acos(cos_psi);
-            const float half = std::sin(0.5f * psi) * std::sin(0.5f * psi);
-            const float f = std::exp(-2 * std::tan(0.5f * std::min(psi, 3.1415f)));
-            const auto e1 = [&](float sine, float cosine) {
-                return sine > 0 ? std::exp(-2 / kPiF * cosine / (sine * t)) : 0.0f;
-            };
-            const auto e2 = [&](float sine, float cosine) {
-                return sine > 0 ? std::exp(-1 / kPiF * (cosine / sine) * (cosine / sine) / (t * t)) : 0.0f;
-            };
-            const float e1i = e1(sin_i, ni), e2i = e2(sin_i, ni), e1e = e1(sin_e, no), e2e = e2(sin_e, no);
-            // Effective cosines where light and viewer are in one plane.
-            const float eta_i = chi * (ni + sin_i * t * e2i / (2 - e1i));
-            const float eta_e = chi * (no + sin_e * t * e2e / (2 - e1e));
-            if (ni >= no) {  // i <= e
-                const float below = 2 - e1e - psi / kPiF * e1i;
-                out.mu0 = chi * (ni + sin_i * t * (cos_psi * e2e + half * e2i) / below);
-                out.mu = chi * (no + sin_e * t * (e2e - half * e2i) / below);
-                shadowing = out.mu / eta_e * ni / eta_i * chi / (1 - f + f * chi * ni / eta_i);
-            } else {
-                const float below = 2 - e1i - psi / kPiF * e1e;
-                out.mu0 = chi * (ni + sin_i * t * (e2i - half * e2e) / below);
-                out.mu = chi * (no + sin_e * t * (cos_psi * e2i + half * e2e) / below);
-                shadowing = out.mu / eta_e * ni / eta_i * chi / (1 - f + f * chi * no / eta_e);
-            }
-            out.mu0 = std::max(out.mu0, 1e-6f), out.mu = std::max(out.mu, 1e-6f);
-            shadowing = std::max(0.0f, shadowing);
-        }
-        out.factor = shadowing * out.mu0 / (std::max(ni, 1e-6f) * 4 * kPiF * (out.mu0 + out.mu));
-        return out;
     }
 };
 
