@@ -56,8 +56,9 @@ std::string light_line(const ScenarioConfig& s, const LightLoading& light) {
 
 // Says what telling the truth of frames computes, and why.
 std::string truth_line(const ScenarioConfig& s) {
-    if (!s.outputs.has_truth) return {};
-    const TruthWishes wishes = wishes_of(s.outputs.truth);
+    const auto* truth = s.outputs.find<TruthConfig>();
+    if (!truth) return {};
+    const TruthWishes wishes = wishes_of(*truth);
     std::string out = "truth: poses and places";
     if (wishes.rays())
         out += fmt::format("; a ray for each pixel that can meet something ({}{}{})",
@@ -107,8 +108,10 @@ std::vector<std::string> governor_lines(const ScenarioConfig& s) {
 std::unique_ptr<CameraStation> make_station(const ScenarioConfig& s, std::size_t index,
                                             const SpectralGrid& grid) {
     ScenarioConfig own = scenario_of_camera(s, index);
-    own.outputs.has_gige = false;
-    own.outputs.files.overwrite = own.outputs.truth.overwrite = true;
+    own.outputs.give<GigeConfig>(false);
+    own.outputs.for_each([](auto& output, bool) {
+        if constexpr (requires { output.overwrite; }) output.overwrite = true;
+    });
     auto station = std::make_unique<CameraStation>(own, index + 1, RunLimits{});
     station->load(grid);
     return station;
@@ -117,20 +120,18 @@ std::unique_ptr<CameraStation> make_station(const ScenarioConfig& s, std::size_t
 // Says what a run would refuse on this machine now.
 std::vector<std::string> machine_warnings(const OutputsConfig& o) {
     std::vector<std::string> out;
-    if (o.has_gige) try {
-            const NetInterface interface = find_interface(o.gige.interface);
-            if (o.gige.packet_bytes > interface.mtu_bytes)
+    if (const auto* gige = o.find<GigeConfig>()) try {
+            const NetInterface interface = find_interface(gige->interface);
+            if (gige->packet_bytes > interface.mtu_bytes)
                 out.push_back(fmt::format("outputs.gige.packet_bytes is {}, and the interface {} carries {}",
-                                          o.gige.packet_bytes, interface.name, interface.mtu_bytes));
+                                          gige->packet_bytes, interface.name, interface.mtu_bytes));
         } catch (const InputError& error) {
             out.push_back(std::string("outputs.gige: ") + error.what());
         }
-    const auto look = [&](const RunFolder& folder) {
-        if (folder.overwrite) return;
+    for (const RunFolder& folder : run_folders(o)) {
+        if (folder.overwrite) continue;
         if (std::string used = used_by_another_run(folder); !used.empty()) out.push_back(std::move(used));
-    };
-    if (o.has_files) look(run_folder(o.files));
-    if (o.has_truth && !o.truth.folder.empty()) look(run_folder(o.truth));
+    }
     return out;
 }
 

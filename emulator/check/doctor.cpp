@@ -244,13 +244,15 @@ BenchNeeds needs_of(const ScenarioConfig& scenario) {
         const OutputsConfig& o = s.outputs;
         const auto [width, height] = frame_size(s.camera);
         const double frame_bytes = static_cast<double>(width) * height * (s.camera.frame_bits() > 8 ? 2 : 1);
-        if (o.has_gige) needs.gige.push_back({o.gige.interface, o.gige.packet_bytes, frame_bytes});
-        if (o.has_v4l2)
-            needs.v4l2.push_back({o.v4l2.device, o.v4l2.format == V4l2Format::kBayer10 ||
-                                                     o.v4l2.format == V4l2Format::kBayer12});
-        if (o.has_uvc) needs.uvc.push_back({o.uvc.udc});
-        if (o.has_preview) port("outputs.preview.port", o.preview.address, o.preview.port, true);
-        if (o.has_truth && o.truth.port != 0) port("outputs.truth.port", o.truth.address, o.truth.port, true);
+        if (const auto* gige = o.find<GigeConfig>())
+            needs.gige.push_back({gige->interface, gige->packet_bytes, frame_bytes});
+        if (const auto* v4l2 = o.find<V4l2Config>())
+            needs.v4l2.push_back(
+                {v4l2->device, v4l2->format == V4l2Format::kBayer10 || v4l2->format == V4l2Format::kBayer12});
+        if (const auto* uvc = o.find<UvcConfig>()) needs.uvc.push_back({uvc->udc});
+        // GigE Vision's port is looked at with its interface.
+        for (const ListeningPort& own : listening(o))
+            if (own.tcp && own.port != 0) port(own.key, own.address, own.port, true);
     }
     needs.loop_priority = static_cast<std::uint64_t>(scenario.loop.real_time.priority);
     const CommandsConfig& c = scenario.commands;

@@ -63,11 +63,6 @@ CameraSettings at_power_up(const CameraModel& c, const LiveSettings::Mode& mode)
     return s;
 }
 
-template <class T>
-void take(const std::optional<T>& from, T& to) {
-    if (from) to = *from;
-}
-
 bool inside(double value, double least, double most) { return value >= least && value <= most; }
 
 }  // namespace
@@ -112,21 +107,7 @@ bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const 
 bool LiveSettings::change(const SettingsChange& c) {
     const std::lock_guard lock(mutex_);
     CameraSettings wanted = settings_;
-    take(c.exposure_s, wanted.exposure_s);
-    take(c.gain_db, wanted.gain_db);
-    take(c.black_level_dn, wanted.black_level_dn);
-    take(c.frame_rate_hz, wanted.frame_rate_hz);
-    take(c.running, wanted.running);
-    take(c.automatic_exposure, wanted.automatic_exposure);
-    take(c.triggered, wanted.triggered);
-    take(c.trigger_source, wanted.trigger_source);
-    take(c.trigger_delay_s, wanted.trigger_delay_s);
-    take(c.burst_frames, wanted.burst_frames);
-    take(c.test_pattern, wanted.test_pattern);
-    take(c.reverse_x, wanted.reverse_x);
-    take(c.reverse_y, wanted.reverse_y);
-    take(c.binning_x, wanted.binning_x);
-    take(c.binning_y, wanted.binning_y);
+    apply(c, wanted);
     if (!fits(wanted, c)) return false;
     // Switched off, automatic exposure leaves the camera with what it had found.
     if (settings_.automatic_exposure && !wanted.automatic_exposure && !c.exposure_s)

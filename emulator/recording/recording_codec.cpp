@@ -95,6 +95,9 @@ class Reader {
     bool ok_ = true;
 };
 
+TriggerSource last_of(TriggerSource) { return TriggerSource::kAction1; }
+TestPattern last_of(TestPattern) { return TestPattern::kRampHorizontalMoving; }
+
 // --- the lists. R is the record, const for a Writer.
 
 template <class A, class V>
@@ -182,19 +185,20 @@ void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedCo
 template <class A, class R>
 void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedChange> {
     a(r.camera), a(r.monotonic_ns);
-    auto& c = r.change;
-    maybe(a, c.exposure_s), maybe(a, c.gain_db), maybe(a, c.black_level_dn), maybe(a, c.frame_rate_hz);
-    maybe(a, c.running), maybe(a, c.automatic_exposure), maybe(a, c.triggered);
-    a.maybe(c.trigger_source, [&](auto& v) { a.word(v, TriggerSource::kAction1); });
-    maybe(a, c.trigger_delay_s), maybe(a, c.burst_frames);
-    a.maybe(c.test_pattern, [&](auto& v) { a.word(v, TestPattern::kRampHorizontalMoving); });
-    maybe(a, c.reverse_x), maybe(a, c.reverse_y), maybe(a, c.binning_x), maybe(a, c.binning_y);
+    visit_settings([&](std::string_view, auto, auto wish) {
+        a.maybe(r.change.*wish, [&](auto& value) {
+            if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>)
+                a.word(value, last_of(value));
+            else
+                a(value);
+        });
+    });
 }
 template <class A, class R>
 void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedTrigger> {
     a(r.camera), a(r.monotonic_ns);
     auto& o = r.order;
-    a.word(o.source, TriggerSource::kAction1);
+    a.word(o.source, last_of(o.source));
     a(o.at_monotonic_ns), a(o.at_simulated.ns), a(o.frames), a(o.sequence), a(o.at_any_time);
     a.word(r.result, TriggerResult::kTooEarly);
 }
@@ -207,7 +211,7 @@ void list(A& a, R& r) requires std::is_same_v<std::remove_const_t<R>, RecordedFr
     a(r.camera);
     auto& u = r.use;
     a(u.id), a(u.skipped), a(u.late), a(u.reverse_x), a(u.reverse_y);
-    a.word(u.test_pattern, TestPattern::kRampHorizontalMoving);
+    a.word(u.test_pattern, last_of(u.test_pattern));
     a(u.trigger_sequence), a(u.quality_level), a(u.begin_ns), a(u.middle_ns), a(u.end_ns);
     a(u.exposure_mid.ns), a(u.shown_at.ns), a(u.moving), a(u.shutter_closed);
     a(u.exposure_s), a(u.gain_db), a(u.black_level_dn), a(u.binning_x), a(u.binning_y), a(u.faults);

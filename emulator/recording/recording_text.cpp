@@ -95,21 +95,14 @@ void add_command(json& out, const Command& command, const RecordingHeader& heade
 }
 
 void add_change(json& out, const SettingsChange& c) {
-    add(out, "exposure_s", c.exposure_s);
-    add(out, "gain_db", c.gain_db);
-    add(out, "black_level_dn", c.black_level_dn);
-    add(out, "frame_rate_hz", c.frame_rate_hz);
-    add(out, "running", c.running);
-    add(out, "automatic_exposure", c.automatic_exposure);
-    add(out, "triggered", c.triggered);
-    if (c.trigger_source) out["trigger_source"] = static_cast<int>(*c.trigger_source);
-    add(out, "trigger_delay_s", c.trigger_delay_s);
-    add(out, "burst_frames", c.burst_frames);
-    if (c.test_pattern) out["test_pattern"] = static_cast<int>(*c.test_pattern);
-    add(out, "reverse_x", c.reverse_x);
-    add(out, "reverse_y", c.reverse_y);
-    add(out, "binning_x", c.binning_x);
-    add(out, "binning_y", c.binning_y);
+    visit_settings([&](std::string_view name, auto, auto wish) {
+        if (!(c.*wish)) return;
+        const auto value = *(c.*wish);
+        if constexpr (std::is_enum_v<decltype(value)>)
+            out[std::string(name)] = static_cast<int>(value);
+        else
+            out[std::string(name)] = value;
+    });
 }
 
 json text_of(const RecordedFrame& f, const RecordingHeader& header) {

@@ -15,7 +15,7 @@ namespace {
 LiveSettings::Mode mode_of(const ScenarioConfig& scenario) {
     return {.lockstep = scenario.mode == CameraMode::kLockstep,
             .triggered = scenario.mode == CameraMode::kTriggered,
-            .fixed_size = scenario.outputs.has_v4l2 || scenario.outputs.has_uvc};
+            .fixed_size = have_fixed_size(scenario.outputs)};
 }
 
 // Frames of lockstep, and those that are recorded or replayed, are functions of their commands alone.
@@ -48,29 +48,25 @@ CameraStation::CameraStation(const ScenarioConfig& scenario, std::size_t number,
 CameraStation::~CameraStation() = default;
 
 void CameraStation::make_sinks() {
-    const OutputsConfig& o = scenario_.outputs;
     const auto [width, height] = array_size(scenario_.camera);  // frames are no larger
-    const SinkContext context = sink_context();
-    if (o.has_gige) {
-        GigeConfig gige = o.gige;
-        if (gige.model == "hilcam" && !scenario_.camera.name.empty()) gige.model = scenario_.camera.name;
-        sinks_.push_back(std::make_unique<GigeSink>(gige, context));
-    }
-    // These two cannot change size while they run: fixed_size above.
     const auto [fixed_width, fixed_height] = frame_size(scenario_.camera);
-    if (o.has_uvc) sinks_.push_back(std::make_unique<UvcSink>(o.uvc, fixed_width, fixed_height, context));
-    if (o.has_v4l2)
-        sinks_.push_back(std::make_unique<V4l2Sink>(o.v4l2, fixed_width, fixed_height,
-                                                    settings_.settings().frame_rate_hz, context));
-    if (o.has_files)
-        sinks_.push_back(
-            std::make_unique<FilesSink>(o.files, width, height, picture_run_of(scenario_, number_)));
-    if (o.has_preview) {
-        auto preview = std::make_unique<PreviewSink>(o.preview, context, picture_run_of(scenario_, number_),
-                                                     [this] { return status(); });
-        preview_ = preview.get();
-        sinks_.push_back(std::move(preview));
-    }
+    const PictureRun run = picture_run_of(scenario_, number_);
+    const OutputShape shape{width,
+                            height,
+                            fixed_width,
+                            fixed_height,
+                            settings_.settings().frame_rate_hz,
+                            scenario_.camera.name,
+                            &run,
+                            [this] { return status(); }};
+    const SinkContext context = sink_context();
+    scenario_.outputs.for_each_given([&](const auto& config) {
+        // Truth is made once there is a renderer.
+        if constexpr (requires { make_sink(config, context, shape); })
+            sinks_.push_back(make_sink(config, context, shape));
+    });
+    for (const auto& sink : sinks_)
+        if (TruthListener* const listener = sink->truth_listener()) truth_listener_ = listener;
 }
 
 std::string CameraStation::status() const {
@@ -92,8 +88,8 @@ void CameraStation::load(const SpectralGrid& grid) {
     renderer_->require_air(snapshot_at(scenario_, start, start));
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, exposure_config_of(scenario_),
                                                     scenario_.camera, grid, world_->placed_objects());
-    if (limits_.outputs && (scenario_.outputs.has_truth || preview_)) {
-        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id, preview_);
+    if (limits_.outputs && (scenario_.outputs.find<TruthConfig>() || truth_listener_)) {
+        auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id, truth_listener_);
         truth_ = truth.get();
         sinks_.push_back(std::move(truth));
     }

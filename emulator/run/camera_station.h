@@ -122,7 +122,7 @@ class CameraStation {
     std::unique_ptr<SensorChain> chain_;
     std::unique_ptr<WorldState> world_;
     std::unique_ptr<ExposureRenderer> exposures_;
-    PreviewSink* preview_ = nullptr;  // one of the sinks, as is the next; may be null
+    TruthListener* truth_listener_ = nullptr;  // one of the sinks, as is the next; may be null
     TruthSink* truth_ = nullptr;
     std::optional<StationLinks> links_;  // once it is prepared
     std::unique_ptr<FrameLoop> loop_;

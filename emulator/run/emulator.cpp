@@ -146,8 +146,8 @@ void Emulator::make_light_maker() {
 void Emulator::prepare_stations() {
     std::vector<CameraPage> pages;
     for (const auto& station : stations_) {
-        const OutputsConfig& outputs = station->scenario().outputs;
-        pages.push_back({station->name(), outputs.has_preview ? outputs.preview.port : 0});
+        const auto* preview = station->scenario().outputs.find<PreviewConfig>();
+        pages.push_back({station->name(), preview ? preview->port : 0});
     }
     for (std::size_t i = 0; i < stations_.size(); ++i)
         stations_[i]->prepare({

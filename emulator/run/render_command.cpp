@@ -41,7 +41,7 @@ PixelRectangle frame_in_radiance(const CameraModel& camera, const ImageGeometry&
 
 FrameTruth empty_truth(const ScenarioConfig& s, const Renderer& renderer) {
     TruthWishes wishes = truth_wishes(s);
-    if (!s.outputs.has_truth)
+    if (!s.outputs.find<TruthConfig>())
         wishes.object = wishes.range = wishes.depth = wishes.normal = wishes.position = true;
     FrameTruth truth = make_truth(s, renderer, wishes);
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),

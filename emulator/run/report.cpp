@@ -5,6 +5,7 @@
 
 #include "emulator/recording/machine_report.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/overloaded.h"
 
 namespace hilcam {
 namespace {
@@ -80,24 +81,28 @@ json strikes_report(const CameraStation& station) {
 }
 
 json quality_report(CameraStation& station) {
-    const RenderQuality quality = render_quality_of(station.scenario());
+    RenderQuality quality = render_quality_of(station.scenario());
     const LoopCounters& counters = station.loop().counters();
     json frames_at_level = json::array();
     for (std::size_t i = 0; i <= lower_levels(station.scenario()).size(); ++i)
         frames_at_level.push_back(counters.frames_at_level[i].load());
-    json report = {{"visibility", quality.visibility},
-                   {"samples_per_axis", quality.samples_per_axis},
-                   {"max_depth", quality.max_depth},
-                   {"contribution_threshold", quality.contribution_threshold},
-                   {"rays_outside_atmosphere", station.renderer().rays_outside_air()},
+    json report = {{"rays_outside_atmosphere", station.renderer().rays_outside_air()},
                    {"motion_limited_frames", counters.motion_limited.load()},
                    {"frames_without_kept_light", counters.without_light.load()},
                    {"frame_budget_ms", station.scenario().loop.frame_budget_s * 1e3},
                    {"level", counters.level.load()},
                    {"level_changes", counters.level_changes.load()},
                    {"frames_at_level", frames_at_level},
-                   {"noise_budget", quality.noise_budget},
                    {"within_noise_budget", or_null(within_budget(counters))}};
+    for (const Field& field : per_frame_fields(quality))
+        std::visit(
+            [&]<class Target>(const Target& target) {
+                if constexpr (std::is_same_v<Target, NumberField>)
+                    report[field.key] = *target.value / target.si_per_unit;
+                else if constexpr (OneOf<Target, IntegerField, FlagField, TextField>)
+                    report[field.key] = *target.value;
+            },
+            field.target);
     if (within_budget(counters))
         report["worst_within_noise_budget"] = rounded(counters.worst_within_budget.load());
     return report;

@@ -48,21 +48,14 @@ json cameras_status(const std::vector<CameraPage>& pages, std::size_t number) {
 }
 
 json settings_status(const CameraSettings& s) {
-    return {{"exposure_s", s.exposure_s},
-            {"gain_db", s.gain_db},
-            {"black_level_dn", s.black_level_dn},
-            {"frame_rate_hz", s.frame_rate_hz},
-            {"running", s.running},
-            {"automatic_exposure", s.automatic_exposure},
-            {"triggered", s.triggered},
-            {"trigger_source", name_of(s.trigger_source)},
-            {"trigger_delay_s", s.trigger_delay_s},
-            {"burst_frames", s.burst_frames},
-            {"test_pattern", name_of(s.test_pattern)},
-            {"reverse_x", s.reverse_x},
-            {"reverse_y", s.reverse_y},
-            {"binning_x", s.binning_x},
-            {"binning_y", s.binning_y}};
+    json out;
+    visit_settings([&](std::string_view name, auto value, auto) {
+        if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(s.*value)>>)
+            out[std::string(name)] = name_of(s.*value);
+        else
+            out[std::string(name)] = s.*value;
+    });
+    return out;
 }
 
 // Says what the settings may be; a setting that the camera keeps to itself is fixed.

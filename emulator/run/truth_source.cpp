@@ -25,7 +25,7 @@ TruthSource truth_source(const ScenarioConfig& s, const SpectralGrid& grid, std:
 }
 
 TruthWishes truth_wishes(const ScenarioConfig& s) {
-    TruthWishes wishes = wishes_of(s.outputs.truth);
+    TruthWishes wishes = wishes_of(s.outputs.config<TruthConfig>());
     const auto objects = static_cast<std::uint32_t>(s.objects.size());
     for (std::uint32_t i = 0; i < objects; ++i) wishes.thing_of_object.push_back(i);
     for (std::uint32_t i = 0; i < objects; ++i)
@@ -43,7 +43,7 @@ std::unique_ptr<TruthSink> make_truth_sink(const ScenarioConfig& s, const Spectr
                                            std::size_t number, const Renderer& renderer,
                                            const std::string& run_id, TruthListener* listener) {
     return std::make_unique<TruthSink>(
-        s.outputs.truth, truth_source(s, grid, number, run_id),
+        s.outputs.config<TruthConfig>(), truth_source(s, grid, number, run_id),
         [&] { return make_truth(s, renderer, truth_wishes(s)); }, listener);
 }
 

@@ -135,12 +135,11 @@ void check_rays(const RayConfig& rays, const ShutterConfig& shutter) {
 void check_folders(const ScenarioConfig& s) {
     std::set<std::string> taken;
     const auto take = [&](const std::string& key, const std::filesystem::path& folder) {
-        if (!folder.empty() && !taken.insert(key + folder.lexically_normal().string()).second)
+        if (!taken.insert(key + folder.lexically_normal().string()).second)
             throw refused(key, "'" + folder.string() + "' for two cameras", "a folder for each");
     };
     const auto take_all = [&](const OutputsConfig& o) {
-        if (o.has_files) take("outputs.files.folder", o.files.folder);
-        if (o.has_truth) take("outputs.truth.folder", o.truth.folder);
+        for (const RunFolder& folder : run_folders(o)) take(folder.key + ".folder", folder.folder);
     };
     take_all(s.outputs);
     for (const CameraConfig& c : s.more_cameras) take_all(c.outputs);

@@ -16,7 +16,7 @@
 #include "emulator/scenario/lamp_config.h"
 #include "emulator/scenario/motion_config.h"
 #include "emulator/scenario/object_config.h"
-#include "emulator/scenario/outputs_config.h"
+#include "emulator/scenario/outputs.h"
 #include "emulator/scenario/quality_config.h"
 #include "emulator/scenario/quality_ladder.h"
 #include "emulator/world/clock.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "emulator/scenario/attitude_keys.h"
-#include "emulator/scenario/outputs_config.h"
+#include "emulator/scenario/outputs.h"
 #include "render/vocabulary/config_field.h"
 #include "sensor/camera_model.h"
 

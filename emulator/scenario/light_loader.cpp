@@ -30,8 +30,7 @@ double area_of(const Mesh& mesh) {
 TableOrder order_of(const SceneObject& object, std::size_t nodes, const ScenarioConfig& scenario) {
     TableOrder order;
     order.name = object.name;
-    for (const Material& material : object.materials)
-        order.glass.push_back(material.model == ReflectionModel::kGlass);
+    for (const Material& material : object.materials) order.glass.push_back(material.transmits());
     order.settings = {static_cast<int>(scenario.quality.render.kept_directions), nodes,
                       !scenario.lamps.empty() || models_of(scenario).radiance != "reflected"};
     return order;

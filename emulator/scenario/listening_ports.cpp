@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "io/gige/device/gvcp.h"
 #include "render/vocabulary/quoted.h"
 
 namespace hilcam {
@@ -27,10 +26,8 @@ class Listeners {
 };
 
 void add_outputs(const std::string& prefix, const OutputsConfig& o, Listeners& listeners) {
-    if (o.has_gige) listeners.add("UDP", prefix + "outputs.gige.interface", o.gige.interface, gvcp::kPort);
-    if (o.has_preview)
-        listeners.add("TCP", prefix + "outputs.preview.port", o.preview.address, o.preview.port);
-    if (o.has_truth) listeners.add("TCP", prefix + "outputs.truth.port", o.truth.address, o.truth.port);
+    for (const ListeningPort& own : listening(o))
+        listeners.add(own.tcp ? "TCP" : "UDP", prefix + own.key, own.address, own.port);
 }
 
 }  // namespace

@@ -1,28 +1,23 @@
 #include "emulator/scenario/quality_ladder.h"
 
 #include <algorithm>
-#include <map>
 
+#include "io/config/config_manual.h"
 #include "render/vocabulary/check.h"
-#include "render/vocabulary/plain_number.h"
+#include "render/vocabulary/overloaded.h"
 
 namespace hilcam {
 
+Fields per_frame_fields(RenderQuality& quality) {
+    Fields list = fields(quality);
+    std::erase_if(list, [](const Field& field) { return !field.per_frame; });
+    return list;
+}
+
+// The renderer's own keys, with their ranges and meanings.
 Fields fields(QualityLevelConfig& l) {
-    const std::map<std::string, bool*> may_change = {
-        {"samples_per_axis", &l.has_samples_per_axis},
-        {"visibility", &l.has_visibility},
-        {"path_model", &l.has_path_model},
-        {"max_depth", &l.has_max_depth},
-        {"contribution_threshold", &l.has_contribution_threshold},
-        {"sun_disk", &l.has_sun_disk},
-        {"lod_error_px", &l.has_lod_error_px},
-        {"noise_budget", &l.has_noise_budget}};
-    // The renderer's own keys, with their ranges and meanings.
-    Fields list;
-    for (const Field& field : fields(l.values))
-        if (const auto found = may_change.find(field.key); found != may_change.end())
-            list.push_back(optional(field, *found->second));
+    Fields list = per_frame_fields(l.values);
+    for (Field& field : list) field = optional(std::move(field), l.given[field.key]);
     return list;
 }
 
@@ -54,37 +49,42 @@ void validate(const LoopConfig& l) {
         throw refused("levels", std::to_string(l.levels.size()), "at most " + std::to_string(kMaxLevels - 1));
 }
 
+namespace {
+
+// Gives one key's value to the same key of another list.
+void copy_value(const Field& from, const Field& to) {
+    std::visit(
+        [&]<class Target>(const Target& target) {
+            if constexpr (OneOf<Target, NumberField, IntegerField, FlagField, TextField>)
+                *target.value = *std::get<Target>(from.target).value;
+            else
+                HILCAM_CHECK(!"a key of this kind cannot change between frames");
+        },
+        to.target);
+}
+
+}  // namespace
+
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& l) {
-    RenderQuality q = configured;
-    if (l.has_samples_per_axis) q.samples_per_axis = l.values.samples_per_axis;
+    QualityLevelConfig level = l;
     // A buffer that the quality has not is not there to be chosen.
-    if (l.has_visibility && configured.uses_buffer()) q.visibility = l.values.visibility;
-    if (l.has_path_model) q.path_model = l.values.path_model;
-    if (l.has_max_depth) q.max_depth = l.values.max_depth;
-    if (l.has_contribution_threshold) q.contribution_threshold = l.values.contribution_threshold;
-    if (l.has_sun_disk) q.sun_disk = l.values.sun_disk;
-    if (l.has_lod_error_px) q.lod_error_px = l.values.lod_error_px;
-    if (l.has_noise_budget) q.noise_budget = l.values.noise_budget;
+    if (!configured.uses_buffer()) level.given["visibility"] = false;
+    RenderQuality q = configured;
+    const Fields from = per_frame_fields(level.values), to = per_frame_fields(q);
+    for (std::size_t i = 0; i < to.size(); ++i)
+        if (level.given[to[i].key]) copy_value(from[i], to[i]);
     return q;
 }
 
 std::string difference(const RenderQuality& from, const RenderQuality& to) {
+    RenderQuality before = from, after = to;
+    const SectionField old{per_frame_fields(before), {}}, now{per_frame_fields(after), {}};
     std::string out;
-    const auto tell = [&out](const char* key, const std::string& value) {
-        out.append(out.empty() ? "" : ", ").append(key).append(" ").append(value);
-    };
-    const auto report_number = [&](const char* key, double before, double after) {
-        if (before < after || after < before) tell(key, plain(after));
-    };
-    if (from.visibility != to.visibility) tell("visibility", to.visibility);
-    if (from.path_model != to.path_model) tell("path_model", to.path_model);
-    report_number("max_depth", static_cast<double>(from.max_depth), static_cast<double>(to.max_depth));
-    report_number("samples_per_axis", static_cast<double>(from.samples_per_axis),
-                  static_cast<double>(to.samples_per_axis));
-    report_number("contribution_threshold", from.contribution_threshold, to.contribution_threshold);
-    report_number("lod_error_px", from.lod_error_px, to.lod_error_px);
-    report_number("noise_budget", from.noise_budget, to.noise_budget);
-    if (from.sun_disk != to.sun_disk) tell("sun_disk", to.sun_disk ? "true" : "false");
+    for (const Field& field : now.fields) {
+        const std::string value = value_text(now, field.key);
+        if (value != value_text(old, field.key))
+            out.append(out.empty() ? "" : ", ").append(field.key).append(" ").append(value);
+    }
     return out;
 }
 

@@ -5,6 +5,7 @@
 // Only what may change from one frame to the next is in a level. Without `loop.levels` the ladder is the
 // program's own (built_in_levels).
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,7 @@ namespace hilcam {
 // Keys that are not given are as in `quality`.
 struct QualityLevelConfig {
     RenderQuality values;
-    bool has_samples_per_axis = false, has_visibility = false, has_path_model = false, has_max_depth = false,
-         has_contribution_threshold = false, has_sun_disk = false, has_lod_error_px = false,
-         has_noise_budget = false;
+    std::map<std::string, bool> given;  // by key
 };
 Fields fields(QualityLevelConfig& level);
 
@@ -38,6 +37,9 @@ struct LoopConfig {
 };
 Fields fields(LoopConfig& loop);
 void validate(const LoopConfig& loop);
+
+// The keys of a quality that may change from one frame to the next (render/frame/render_quality.cpp).
+Fields per_frame_fields(RenderQuality& quality);
 
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& level);
 

@@ -24,8 +24,9 @@ bool any_camera(const ScenarioConfig& s, const std::function<bool(const OutputsC
 void look_at_lockstep(const ScenarioConfig& s, Lines& out) {
     if (s.mode != CameraMode::kLockstep) return;
     const CommandsConfig& c = s.commands;
-    const bool port = c.has_udp || c.has_tcp || c.has_unix || c.has_usb || c.has_functionfs || c.has_vizard ||
-                      any_camera(s, [](const OutputsConfig& o) { return o.has_preview; });
+    const bool port =
+        c.has_udp || c.has_tcp || c.has_unix || c.has_usb || c.has_functionfs || c.has_vizard ||
+        any_camera(s, [](const OutputsConfig& o) { return o.find<PreviewConfig>() != nullptr; });
     const bool event = std::any_of(s.events.begin(), s.events.end(),
                                    [](const EventConfig& e) { return actions_of(e).takes_picture(); });
     if (!port && !event)
@@ -83,9 +84,7 @@ void look_at_places(const ScenarioConfig& bench, Lines& out) {
 // A bench's camera that shows its frames to nobody is forgotten; a scenario without any output is for
 // `render`.
 void look_at_outputs(const ScenarioConfig& s, Lines& out) {
-    const auto shows = [](const OutputsConfig& o) {
-        return o.has_gige || o.has_v4l2 || o.has_uvc || o.has_files || o.has_preview || o.has_truth;
-    };
+    const auto shows = [](const OutputsConfig& o) { return o.any(); };
     if (s.commands.has_vizard || !any_camera(s, shows)) return;
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
         if (!shows(s.more_cameras[i].outputs))
@@ -126,12 +125,16 @@ std::string lacking_output(const std::vector<const OutputsConfig*>& outputs, con
     const auto lacking = [](bool there, const char* what) {
         return there ? std::string() : std::string(what);
     };
-    if (number < 60) return lacking(any([](const OutputsConfig& o) { return o.has_gige; }), "outputs.gige");
-    if (number < 70) return lacking(any([](const OutputsConfig& o) { return o.has_v4l2; }), "outputs.v4l2");
+    if (number < 60)
+        return lacking(any([](const OutputsConfig& o) { return o.find<GigeConfig>() != nullptr; }),
+                       "outputs.gige");
+    if (number < 70)
+        return lacking(any([](const OutputsConfig& o) { return o.find<V4l2Config>() != nullptr; }),
+                       "outputs.v4l2");
     if (number < 80)
         return lacking(commands.has_usb || commands.has_functionfs, "commands.usb or commands.functionfs");
     const auto shows = [](const OutputsConfig& o) {
-        return o.has_gige || o.has_v4l2 || o.has_uvc || o.has_files || o.has_preview;
+        return o.any([]<class Config>(const Config&) { return !std::is_same_v<Config, TruthConfig>; });
     };
     return lacking(any(shows) || commands.has_vizard, "any of outputs");
 }

@@ -19,9 +19,9 @@
 #include "io/files/mesh_file.h"
 #include "io/files/mesh_level_cache.h"
 #include "io/pictures/picture_file.h"
+#include "render/brdf/brdf_table.h"
 #include "render/frame/plugin.h"
 #include "render/scene/brdf.h"
-#include "render/scene/brdf_table.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -83,12 +83,10 @@ double hemispherical_reflectance(const Scatterer& at, const SpectralGrid& grid) 
 // what these models reflect.
 double reflectance_of(const Material& material, const SpectralGrid& grid) {
     const Scatterer at{&material, material.ggx_alpha, material.base, material.highlight};
-    const bool has_bound_only = material.model == ReflectionModel::kLommelSeeliger ||
-                                material.model == ReflectionModel::kHapke ||
-                                material.model == ReflectionModel::kTable;
     constexpr float kCosine = 0.7f;
-    return std::min(1.0, has_bound_only ? hemispherical_reflectance(at, grid)
-                                        : static_cast<double>(brdf_albedo(at, kCosine, grid.size())));
+    return std::min(1.0, material.traits().albedo_is_bound
+                             ? hemispherical_reflectance(at, grid)
+                             : static_cast<double>(brdf_albedo(at, kCosine, grid.size())));
 }
 
 template <class F>

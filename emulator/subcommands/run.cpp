@@ -26,17 +26,18 @@ struct RunArguments {
 void warn_of_dark_pictures(const ScenarioConfig& scenario) {
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
         const ScenarioConfig own = scenario_of_camera(scenario, i);
-        if (own.outputs.has_files)
-            log_warning(dark_picture_warning(own.outputs.files, own.camera.frame_bits()));
+        if (const auto* files = own.outputs.find<FilesConfig>())
+            log_warning(dark_picture_warning(*files, own.camera.frame_bits()));
     }
 }
 
 void say_that_it_runs(const ScenarioConfig& scenario) {
     for (std::size_t i = 0; i <= scenario.more_cameras.size(); ++i) {
         const OutputsConfig& outputs = i == 0 ? scenario.outputs : scenario.more_cameras[i - 1].outputs;
-        if (!outputs.has_preview) continue;
+        const auto* preview = outputs.find<PreviewConfig>();
+        if (!preview) continue;
         const std::string whose = scenario.more_cameras.empty() ? "" : fmt::format(" of camera {}", i + 1);
-        spdlog::info("preview{} at http://{}:{}/", whose, outputs.preview.address, outputs.preview.port);
+        spdlog::info("preview{} at http://{}:{}/", whose, preview->address, preview->port);
     }
     spdlog::info("running; Ctrl-C ends it");
 }

@@ -13,8 +13,8 @@ namespace {
 constexpr std::string_view kQuality = "quality.";
 
 bool may_change_between_frames(const std::vector<std::string>& overrides) {
-    QualityLevelConfig level;
-    const Fields may = fields(level);
+    RenderQuality quality;
+    const Fields may = per_frame_fields(quality);
     return std::all_of(overrides.begin(), overrides.end(), [&](std::string_view text) {
         return text.starts_with(kQuality) && std::any_of(may.begin(), may.end(), [&](const Field& field) {
                    return text.substr(kQuality.size(), text.find('=') - kQuality.size()) == field.key;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "render/vocabulary/time.h"
 #include "sensor/test_pattern.h"
@@ -42,6 +43,45 @@ struct SettingsChange {
     std::optional<bool> reverse_x{}, reverse_y{};
     std::optional<std::int64_t> binning_x{}, binning_y{};
 };
+
+// Calls visit(std::string_view name, &CameraSettings::..., &SettingsChange::...) for every setting.
+// Recordings keep this order: a new setting is the last.
+template <class Visit>
+constexpr void visit_settings(const Visit& visit) {
+    using S = CameraSettings;
+    using C = SettingsChange;
+    visit("exposure_s", &S::exposure_s, &C::exposure_s);
+    visit("gain_db", &S::gain_db, &C::gain_db);
+    visit("black_level_dn", &S::black_level_dn, &C::black_level_dn);
+    visit("frame_rate_hz", &S::frame_rate_hz, &C::frame_rate_hz);
+    visit("running", &S::running, &C::running);
+    visit("automatic_exposure", &S::automatic_exposure, &C::automatic_exposure);
+    visit("triggered", &S::triggered, &C::triggered);
+    visit("trigger_source", &S::trigger_source, &C::trigger_source);
+    visit("trigger_delay_s", &S::trigger_delay_s, &C::trigger_delay_s);
+    visit("burst_frames", &S::burst_frames, &C::burst_frames);
+    visit("test_pattern", &S::test_pattern, &C::test_pattern);
+    visit("reverse_x", &S::reverse_x, &C::reverse_x);
+    visit("reverse_y", &S::reverse_y, &C::reverse_y);
+    visit("binning_x", &S::binning_x, &C::binning_x);
+    visit("binning_y", &S::binning_y, &C::binning_y);
+}
+
+// Sets what the change asks for.
+inline void apply(const SettingsChange& change, CameraSettings& settings) {
+    visit_settings([&](std::string_view, auto value, auto wish) {
+        if (change.*wish) settings.*value = *(change.*wish);
+    });
+}
+
+// Returns the change that leads from some settings to others, without what is the same in both.
+inline SettingsChange difference(const CameraSettings& from, const CameraSettings& to) {
+    SettingsChange change;
+    visit_settings([&](std::string_view, auto value, auto wish) {
+        if (from.*value != to.*value) change.*wish = to.*value;
+    });
+    return change;
+}
 
 struct CameraLimits {
     int width = 0;  // width of a frame without binning

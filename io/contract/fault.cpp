@@ -6,95 +6,13 @@
 #include "render/vocabulary/random.h"
 
 namespace hilcam {
-namespace {
-
-struct Kind {
-    FaultKind kind;
-    std::string_view name, meaning;
-    bool once = false;
-    double least = 0, most = 0;  // range of the value; equal: it has none
-};
-
-constexpr std::array<Kind, kAllFaults.size()> kKinds = {{
-    {FaultKind::kPacketDrop, "packet_drop", "stream packets are not sent"},
-    {FaultKind::kPacketDuplicate, "packet_duplicate", "stream packets are sent twice"},
-    {FaultKind::kPacketReorder, "packet_reorder", "a stream packet changes places with the next"},
-    {FaultKind::kPacketDelay, "packet_delay", "stream packets come late; value: ms", false, 0, 10000},
-    {FaultKind::kPacketCorrupt, "packet_corrupt", "a byte of the payload is inverted"},
-    {FaultKind::kPacketWrongId, "packet_wrong_id", "value is added to the packet id", false, -1e6, 1e6},
-    {FaultKind::kPacketTruncate, "packet_truncate", "value: bytes cut off the end", false, 1, 16384},
-    {FaultKind::kLeaderLost, "leader_lost", "leaders are not sent"},
-    {FaultKind::kTrailerLost, "trailer_lost", "trailers are not sent"},
-    {FaultKind::kResendRefused, "resend_refused", "resend requests get 'packet unavailable'"},
-    {FaultKind::kResendDelayed, "resend_delayed", "resent packets come late; value: ms", false, 0, 10000},
-    {FaultKind::kResendWrongId, "resend_wrong_id", "value is added to a resent packet's id", false, -1e6,
-     1e6},
-    {FaultKind::kBandwidthCap, "bandwidth_cap", "the stream's rate; value: MB/s", false, 0.001, 1e5},
-    {FaultKind::kFrameDrop, "frame_drop", "frames are not sent, their block ids are skipped"},
-    {FaultKind::kFrameRepeat, "frame_repeat", "the frame before is sent again in a frame's place"},
-    {FaultKind::kWrongSizeY, "wrong_size_y", "value is added to the trailer's height", false, -65535, 65535},
-    {FaultKind::kTimestampStep, "timestamp_step", "value: ms added to time stamps", false, -1e9, 1e9},
-    {FaultKind::kTimestampDrift, "timestamp_drift", "value: ppm that time stamps run fast", false, -1e6, 1e6},
-    {FaultKind::kTimestampFreeze, "timestamp_freeze", "time stamps stand still"},
-    {FaultKind::kBlockIdWrap, "block_id_wrap", "once: the next block id is 65530", true},
-    {FaultKind::kControlSilence, "control_silence", "control messages get no answer"},
-    {FaultKind::kControlSlow, "control_slow", "answers come late, with PENDING_ACK; value: ms", false, 0,
-     60000},
-    {FaultKind::kControlBusy, "control_busy", "control messages are answered BUSY"},
-    {FaultKind::kControlDenied, "control_denied", "control messages are answered ACCESS_DENIED"},
-    {FaultKind::kHeartbeatIgnored, "heartbeat_ignored", "the controller is lost although it speaks"},
-    {FaultKind::kDeviceReset, "device_reset", "once: control, stream and settings as after power-up", true},
-    {FaultKind::kLinkDown, "link_down", "neither control nor stream"},
-    {FaultKind::kIpChange, "ip_change", "once: value is added to the address's last byte", true, 1, 254},
-    {FaultKind::kTestPacketLimit, "test_packet_limit", "value: bytes; longer test packets are lost", false,
-     64, 65535},
-    {FaultKind::kV4l2Stall, "v4l2_stall", "the V4L2 device gets no frames"},
-    {FaultKind::kV4l2Restart, "v4l2_restart", "once: the V4L2 device is closed and opened again", true},
-    {FaultKind::kV4l2FormatFlip, "v4l2_format_flip", "once: opened again with the other bit depth", true},
-    {FaultKind::kUsbDetach, "usb_detach", "the USB device leaves the bus"},
-    {FaultKind::kUsbShortTransfer, "usb_short_transfer", "answers come in two transfers"},
-    {FaultKind::kUsbStall, "usb_stall", "answers are withheld"},
-    {FaultKind::kUsbBadCrc, "usb_bad_crc", "answers have a wrong CRC"},
-    {FaultKind::kImageStuck, "image_stuck", "the picture of the frame before"},
-    {FaultKind::kImageBlack, "image_black", "all pixels 0"},
-    {FaultKind::kImageSaturated, "image_saturated", "all pixels full scale"},
-    {FaultKind::kImageBitFlips, "image_bit_flips", "one bit of struck pixels; rate is per pixel"},
-    {FaultKind::kImageTear, "image_tear", "rows below `value` of the height are of the frame before", false,
-     0, 1},
-}};
-
-const Kind* find(FaultKind kind) {
-    for (const Kind& k : kKinds)
-        if (k.kind == kind) return &k;
-    return nullptr;
-}
-
-}  // namespace
-
-std::string_view name_of(FaultKind kind) {
-    const Kind* k = find(kind);
-    return k ? k->name : std::string_view{};
-}
-std::string_view meaning_of(FaultKind kind) {
-    const Kind* k = find(kind);
-    return k ? k->meaning : std::string_view{};
-}
-std::optional<FaultKind> fault_named(std::string_view name) {
-    for (const Kind& k : kKinds)
-        if (k.name == name) return k.kind;
-    return {};
-}
-std::uint64_t bit_of(FaultKind kind) {
-    const Kind* k = find(kind);
-    return k ? std::uint64_t{1} << (k - kKinds.data()) : 0;
-}
 
 std::string_view refusal_of(const FaultOrder& o) {
-    const Kind* k = find(o.kind);
-    if (!k) return "no such kind of fault";
+    const FaultTraits* traits = traits_of(o.kind);
+    if (!traits) return "no such kind of fault";
     if (!(o.rate >= 0 && o.rate <= 1)) return "rate is not 0 to 1";
     if (!std::isfinite(o.value)) return "value is not finite";
-    if (o.rate > 0 && k->least < k->most && !(o.value >= k->least && o.value <= k->most))
+    if (o.rate > 0 && traits->has_value() && !(o.value >= traits->least && o.value <= traits->most))
         return "value is outside its kind's range";
     if (!(o.duration_s >= 0 && o.duration_s <= 1e7)) return "duration is not 0 to 1e7 s";
     return {};
@@ -117,13 +35,13 @@ struct FaultBoard::State {
 };
 
 std::size_t FaultBoard::place_of(FaultKind kind) {
-    const Kind* k = find(kind);
-    return k ? static_cast<std::size_t>(k - kKinds.data()) : kAllFaults.size();
+    const FaultTraits* traits = traits_of(kind);
+    return traits ? static_cast<std::size_t>(traits - kFaultTable.data()) : kFaultTable.size();
 }
 
 void FaultBoard::order(FaultOrder o) {
     const std::size_t place = place_of(o.kind);
-    if (place == kAllFaults.size() || !refusal_of(o).empty()) return;
+    if (place == kFaultTable.size() || !refusal_of(o).empty()) return;
     if (o.frames != 0 && o.from_frame == 0) o.from_frame = next_frame();
     while (writing_.test_and_set(std::memory_order_acquire)) {
     }
@@ -169,7 +87,7 @@ FaultBoard::State FaultBoard::read(const Cell& c) const {
 
 std::optional<FaultOrder> FaultBoard::order_of(FaultKind kind) const {
     const std::size_t place = place_of(kind);
-    if (place == kAllFaults.size()) return {};
+    if (place == kFaultTable.size()) return {};
     State s = read(cells_[place]);
     s.order.kind = kind;
     if (s.number == 0 || s.order.rate <= 0 || (s.until_ns != 0 && monotonic_ns() >= s.until_ns)) return {};
@@ -178,18 +96,18 @@ std::optional<FaultOrder> FaultBoard::order_of(FaultKind kind) const {
 
 std::int64_t FaultBoard::since_monotonic_ns(FaultKind kind) const {
     const std::size_t place = place_of(kind);
-    return place == kAllFaults.size() ? 0 : cells_[place].since_ns.load();
+    return place == kFaultTable.size() ? 0 : cells_[place].since_ns.load();
 }
 
 std::optional<double> FaultBoard::would_strike(FaultKind kind, std::uint64_t frame,
                                                std::uint64_t index) const {
     const std::size_t place = place_of(kind);
-    if (place == kAllFaults.size()) return {};
+    if (place == kFaultTable.size()) return {};
     const Cell& c = cells_[place];
     if (c.order.load(std::memory_order_relaxed) == 0) return {};  // the common case
     const State s = read(c);
     if (!s.covers(frame)) return {};
-    if (kKinds[place].once && c.struck_order.load() == s.number) return {};
+    if (kFaultTable[place].once && c.struck_order.load() == s.number) return {};
     if (s.order.rate < 1) {
         const std::array words =
             random_words({seed_ ^ index >> 32 << 32, frame}, RandomPurpose::kFault,
@@ -203,14 +121,14 @@ std::optional<double> FaultBoard::would_strike(FaultKind kind, std::uint64_t fra
 
 bool FaultBoard::within_span(FaultKind kind, std::uint64_t frame) const {
     const std::size_t place = place_of(kind);
-    if (place == kAllFaults.size()) return false;
+    if (place == kFaultTable.size()) return false;
     const Cell& c = cells_[place];
     return c.order.load(std::memory_order_relaxed) != 0 && read(c).covers(frame);
 }
 
 void FaultBoard::count(FaultKind kind, std::uint64_t frame, std::uint64_t strikes, double value) {
     const std::size_t place = place_of(kind);
-    if (place == kAllFaults.size()) return;
+    if (place == kFaultTable.size()) return;
     Cell& c = cells_[place];
     c.struck.fetch_add(strikes, std::memory_order_relaxed);
     if (c.last_frame.exchange(frame, std::memory_order_relaxed) != frame || frame == 0)
@@ -221,7 +139,7 @@ std::optional<double> FaultBoard::strikes(FaultKind kind, std::uint64_t frame, s
     const std::optional<double> value = would_strike(kind, frame, index);
     if (!value) return {};
     Cell& c = cells_[place_of(kind)];
-    if (kKinds[place_of(kind)].once) {
+    if (kFaultTable[place_of(kind)].once) {
         // When several threads ask, one gets it.
         const std::uint64_t number = c.order.load();
         if (c.struck_order.exchange(number) == number) return {};
@@ -234,7 +152,7 @@ std::optional<double> FaultBoard::strikes(FaultKind kind, std::uint64_t frame, s
 
 std::uint64_t FaultBoard::strikes_of(FaultKind kind) const {
     const std::size_t place = place_of(kind);
-    return place == kAllFaults.size() ? 0 : cells_[place].struck.load();
+    return place == kFaultTable.size() ? 0 : cells_[place].struck.load();
 }
 std::uint64_t FaultBoard::all_strikes() const {
     std::uint64_t sum = 0;

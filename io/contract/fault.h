@@ -12,86 +12,9 @@
 #include <optional>
 #include <string_view>
 
+#include "io/contract/fault_kinds.h"
+
 namespace hilcam {
-
-// Numbers are part of the command protocol: never reuse one.
-enum class FaultKind : std::uint8_t {
-    // Packets of a stream; index: packet id.
-    kPacketDrop = 1,
-    kPacketDuplicate = 2,
-    kPacketReorder = 3,   // changes place with the packet after it
-    kPacketDelay = 4,     // value: ms
-    kPacketCorrupt = 5,   // one byte of the payload is inverted
-    kPacketWrongId = 6,   // value: added to the packet id
-    kPacketTruncate = 7,  // value: bytes cut off the end
-    kLeaderLost = 8,
-    kTrailerLost = 9,
-    kResendRefused = 10,  // answered with "packet unavailable"
-    kResendDelayed = 11,  // value: ms
-    kResendWrongId = 12,  // value: added to the packet id
-    kBandwidthCap = 13,   // value: MB/s
-    // Whole frames.
-    kFrameDrop = 20,    // a frame is not sent; its block id is skipped
-    kFrameRepeat = 21,  // the frame before is sent in its place
-    kWrongSizeY = 22,   // value: added to the trailer's size_y
-    // Time stamps.
-    kTimestampStep = 30,   // value: ms, added while it lasts
-    kTimestampDrift = 31,  // value: ppm, from when it began
-    kTimestampFreeze = 32,
-    kBlockIdWrap = 33,  // once: the next block id is 65530
-    // The control channel; index: request id.
-    kControlSilence = 40,
-    kControlSlow = 41,  // value: ms; PENDING_ACK first where the client takes it
-    kControlBusy = 42,
-    kControlDenied = 43,
-    kHeartbeatIgnored = 44,  // the controller is lost although it speaks
-    // The device.
-    kDeviceReset = 50,      // once: control, stream and settings as after power-up
-    kLinkDown = 51,         // neither control nor stream
-    kIpChange = 52,         // once: value: added to the last byte of the address
-    kTestPacketLimit = 53,  // value: bytes; longer test packets are not sent
-    // V4L2.
-    kV4l2Stall = 60,       // frames are withheld
-    kV4l2Restart = 61,     // once: the device is closed and opened again
-    kV4l2FormatFlip = 62,  // once: closed, and opened with the other bit depth
-    // USB.
-    kUsbDetach = 70,
-    kUsbShortTransfer = 71,
-    kUsbStall = 72,
-    kUsbBadCrc = 73,  // breaks the check of acknowledgements and telemetry
-    // The picture.
-    kImageStuck = 80,  // the picture of the frame before
-    kImageBlack = 81,
-    kImageSaturated = 82,
-    kImageBitFlips = 83,  // rate is per pixel: one bit of each that is struck
-    kImageTear = 84,      // rows from `value` (share of the height, 0..1) on are of the frame before
-};
-
-inline constexpr std::array kAllFaults = {
-    FaultKind::kPacketDrop,       FaultKind::kPacketDuplicate, FaultKind::kPacketReorder,
-    FaultKind::kPacketDelay,      FaultKind::kPacketCorrupt,   FaultKind::kPacketWrongId,
-    FaultKind::kPacketTruncate,   FaultKind::kLeaderLost,      FaultKind::kTrailerLost,
-    FaultKind::kResendRefused,    FaultKind::kResendDelayed,   FaultKind::kResendWrongId,
-    FaultKind::kBandwidthCap,     FaultKind::kFrameDrop,       FaultKind::kFrameRepeat,
-    FaultKind::kWrongSizeY,       FaultKind::kTimestampStep,   FaultKind::kTimestampDrift,
-    FaultKind::kTimestampFreeze,  FaultKind::kBlockIdWrap,     FaultKind::kControlSilence,
-    FaultKind::kControlSlow,      FaultKind::kControlBusy,     FaultKind::kControlDenied,
-    FaultKind::kHeartbeatIgnored, FaultKind::kDeviceReset,     FaultKind::kLinkDown,
-    FaultKind::kIpChange,         FaultKind::kTestPacketLimit, FaultKind::kV4l2Stall,
-    FaultKind::kV4l2Restart,      FaultKind::kV4l2FormatFlip,  FaultKind::kUsbDetach,
-    FaultKind::kUsbShortTransfer, FaultKind::kUsbStall,        FaultKind::kUsbBadCrc,
-    FaultKind::kImageStuck,       FaultKind::kImageBlack,      FaultKind::kImageSaturated,
-    FaultKind::kImageBitFlips,    FaultKind::kImageTear,
-};
-
-// "packet_drop", ...: as scenario files, `hilcam send fault` and the GenICam FaultSelector have them (the
-// last as PacketDrop). Empty for no kind.
-std::string_view name_of(FaultKind kind);
-std::optional<FaultKind> fault_named(std::string_view name);
-// Says in one line what it does and what its value means.
-std::string_view meaning_of(FaultKind kind);
-// The kind's bit in FrameRecord::faults and ChunkFaults: its place in kAllFaults.
-std::uint64_t bit_of(FaultKind kind);
 
 struct FaultOrder {
     FaultKind kind = FaultKind::kPacketDrop;

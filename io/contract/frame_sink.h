@@ -39,6 +39,8 @@ struct FrameRecord {
         0;  // when that command arrived; 0 when no new one came since the last frame
 };
 
+class TruthListener;
+
 struct SinkReport {
     std::string name;           // "gige 127.0.0.1", "v4l2 /dev/video42", "files out/x"
     std::uint64_t frames = 0;   // delivered
@@ -74,6 +76,8 @@ class FrameSink {
     virtual void stop() noexcept = 0;
     // Any thread.
     virtual SinkReport report() const = 0;
+    // Null, or who wants the truth of frames that this output shows (truth_listener.h); asked before start().
+    virtual TruthListener* truth_listener() noexcept { return nullptr; }
     // True when report() names a fault; for who asks often, and may not allocate. Any thread.
     virtual bool has_fault() const noexcept { return false; }
 };

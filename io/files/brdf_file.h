@@ -11,7 +11,7 @@
 
 #include <filesystem>
 
-#include "render/scene/brdf_table.h"
+#include "render/brdf/brdf_table.h"
 #include "render/vocabulary/spectrum.h"
 
 namespace hilcam {

@@ -106,4 +106,9 @@ SinkReport FilesSink::report() const {
     return out;
 }
 
+std::unique_ptr<FrameSink> make_sink(const FilesConfig& config, const SinkContext&,
+                                     const OutputShape& shape) {
+    return std::make_unique<FilesSink>(config, shape.width, shape.height, *shape.run);
+}
+
 }  // namespace hilcam

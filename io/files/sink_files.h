@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/contract/output_shape.h"
 #include "io/contract/run_folder.h"
 #include "io/files/file_name_pattern.h"
 #include "io/pictures/image_file.h"
@@ -17,6 +19,9 @@
 namespace hilcam {
 
 struct FilesConfig {
+    static constexpr const char* kKey = "files";
+    static constexpr const char* kMeaning = "frames written as pictures";
+
     enum class Format { kPng, kTiff, kRaw, kFits } format = Format::kPng;
     std::filesystem::path folder = "frames";
     std::string name = "frame_%08d";  // file_name_pattern.h
@@ -28,6 +33,8 @@ struct FilesConfig {
 RunFolder run_folder(const FilesConfig& config);
 Fields fields(FilesConfig& config);
 void validate(const FilesConfig& config);
+std::unique_ptr<FrameSink> make_sink(const FilesConfig& config, const SinkContext& context,
+                                     const OutputShape& shape);
 // Returns what is to be said of the pictures before they are written: that they are dark in a viewer; or
 // nothing.
 std::string dark_picture_warning(const FilesConfig& config, int bits);

@@ -323,4 +323,15 @@ SinkReport GigeSink::report() const {
                         {"events_dropped", n(my.events_dropped)}}};
 }
 
+std::vector<ListeningPort> listening(const GigeConfig& c) {
+    return {{"outputs.gige.interface", c.interface, gvcp::kPort, false}};
+}
+
+std::unique_ptr<FrameSink> make_sink(const GigeConfig& config, const SinkContext& context,
+                                     const OutputShape& shape) {
+    GigeConfig own = config;
+    if (own.model == GigeConfig{}.model && !shape.camera_name.empty()) own.model = shape.camera_name;
+    return std::make_unique<GigeSink>(own, context);
+}
+
 }  // namespace hilcam

@@ -9,14 +9,19 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "io/contract/camera_control.h"
 #include "io/contract/frame_sink.h"
+#include "io/contract/output_shape.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
 
 struct GigeConfig {
+    static constexpr const char* kKey = "gige";
+    static constexpr const char* kMeaning = "frames sent as a GigE Vision camera";
+
     std::string interface = "127.0.0.1";  // IPv4 address or name of an interface
     std::string model = "hilcam";
     std::string serial = "HC000001";
@@ -27,6 +32,10 @@ struct GigeConfig {
     double spread_fraction = 0.5;      // share of a frame period over which a frame's packets may be spread
 };
 Fields fields(GigeConfig& config);
+std::vector<ListeningPort> listening(const GigeConfig& config);
+// A model of "hilcam" becomes the camera's name. Throws InputError.
+std::unique_ptr<FrameSink> make_sink(const GigeConfig& config, const SinkContext& context,
+                                     const OutputShape& shape);
 
 class GigeSink : public FrameSink {
   public:

@@ -64,6 +64,22 @@ Enum parse_word(std::string_view key, std::string_view text, const std::array<st
     refuse(key, text, accepted);
 }
 
+void parse_setting(std::string_view key, std::string_view text, double& value) {
+    value = parse_real(key, text);
+}
+void parse_setting(std::string_view key, std::string_view text, bool& value) {
+    value = parse_flag(key, text);
+}
+void parse_setting(std::string_view key, std::string_view text, std::int64_t& value) {
+    value = parse_number<std::int64_t>(key, text, 0, 1 << 30);
+}
+void parse_setting(std::string_view key, std::string_view text, TriggerSource& value) {
+    value = parse_word<TriggerSource>(key, text, kSources);
+}
+void parse_setting(std::string_view key, std::string_view text, TestPattern& value) {
+    value = parse_word<TestPattern>(key, text, kPatterns);
+}
+
 // ":8080"
 bool is_port(std::string_view text) {
     return text.size() >= 2 && text.size() <= 6 && text[0] == ':' &&
@@ -150,43 +166,16 @@ std::uint64_t parse_truth_request(std::string_view query) {
 
 SettingsChange parse_settings_change(std::string_view body) {
     SettingsChange c;
-    const auto count = [](auto key, auto text) { return parse_number<std::int64_t>(key, text, 0, 1 << 30); };
     for (const auto& [key, text] : parse_form(body)) {
-        if (key == "exposure_s")
-            c.exposure_s = parse_real(key, text);
-        else if (key == "gain_db")
-            c.gain_db = parse_real(key, text);
-        else if (key == "black_level_dn")
-            c.black_level_dn = parse_real(key, text);
-        else if (key == "frame_rate_hz")
-            c.frame_rate_hz = parse_real(key, text);
-        else if (key == "running")
-            c.running = parse_flag(key, text);
-        else if (key == "automatic_exposure")
-            c.automatic_exposure = parse_flag(key, text);
-        else if (key == "triggered")
-            c.triggered = parse_flag(key, text);
-        else if (key == "trigger_source")
-            c.trigger_source = parse_word<TriggerSource>(key, text, kSources);
-        else if (key == "trigger_delay_s")
-            c.trigger_delay_s = parse_real(key, text);
-        else if (key == "burst_frames")
-            c.burst_frames = count(key, text);
-        else if (key == "test_pattern")
-            c.test_pattern = parse_word<TestPattern>(key, text, kPatterns);
-        else if (key == "reverse_x")
-            c.reverse_x = parse_flag(key, text);
-        else if (key == "reverse_y")
-            c.reverse_y = parse_flag(key, text);
-        else if (key == "binning_x")
-            c.binning_x = count(key, text);
-        else if (key == "binning_y")
-            c.binning_y = count(key, text);
-        else
-            refuse_key(key,
-                       "exposure_s, gain_db, black_level_dn, frame_rate_hz, running, automatic_exposure, "
-                       "triggered, trigger_source, trigger_delay_s, burst_frames, test_pattern, reverse_x, "
-                       "reverse_y, binning_x, binning_y");
+        bool known = false;
+        std::string names;
+        visit_settings([&, &key = key, &text = text](std::string_view name, auto, auto wish) {
+            names.append(names.empty() ? "" : ", ").append(name);
+            if (key != name) return;
+            known = true;
+            parse_setting(key, text, (c.*wish).emplace());
+        });
+        if (!known) refuse_key(key, names.c_str());
     }
     return c;
 }

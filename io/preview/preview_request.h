@@ -39,8 +39,7 @@ NumbersRequest parse_numbers_request(std::string_view query);
 // frame=ID.
 std::uint64_t parse_truth_request(std::string_view query);
 
-// exposure_s, gain_db, black_level_dn, frame_rate_hz, running, automatic_exposure, triggered, trigger_source,
-// trigger_delay_s, burst_frames, test_pattern, reverse_x, reverse_y, binning_x, binning_y.
+// Keys are the names of visit_settings().
 SettingsChange parse_settings_change(std::string_view body);
 TriggerOrder parse_trigger_order(std::string_view body);
 // kind=NAME, rate, value, from_frame, frames, duration_s; or clear_all=1.

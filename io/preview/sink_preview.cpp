@@ -375,4 +375,13 @@ SinkReport PreviewSink::report() const {
     return r;
 }
 
+std::vector<ListeningPort> listening(const PreviewConfig& c) {
+    return {{"outputs.preview.port", c.address, c.port}};
+}
+
+std::unique_ptr<FrameSink> make_sink(const PreviewConfig& config, const SinkContext& context,
+                                     const OutputShape& shape) {
+    return std::make_unique<PreviewSink>(config, context, *shape.run, shape.status);
+}
+
 }  // namespace hilcam

@@ -18,6 +18,7 @@
 
 #include "io/contract/camera_control.h"
 #include "io/contract/frame_sink.h"
+#include "io/contract/output_shape.h"
 #include "io/contract/truth_listener.h"
 #include "io/pictures/picture_notes.h"
 #include "render/vocabulary/config_field.h"
@@ -25,12 +26,18 @@
 namespace hilcam {
 
 struct PreviewConfig {
+    static constexpr const char* kKey = "preview";
+    static constexpr const char* kMeaning = "web page with the live picture";
+
     std::string address = "127.0.0.1";
     std::int64_t port = 8080;
     std::vector<std::string> allow;
 };
 Fields fields(PreviewConfig& config);
 void validate(const PreviewConfig& config);
+std::vector<ListeningPort> listening(const PreviewConfig& config);
+std::unique_ptr<FrameSink> make_sink(const PreviewConfig& config, const SinkContext& context,
+                                     const OutputShape& shape);
 
 class PreviewSink : public FrameSink, public TruthListener {
   public:
@@ -45,6 +52,7 @@ class PreviewSink : public FrameSink, public TruthListener {
     void publish(const DnImage& frame, const FrameRecord& record) noexcept override;
     void stop() noexcept override;
     SinkReport report() const override;
+    TruthListener* truth_listener() noexcept override { return this; }
     bool wants_truth() const noexcept override;
     void take_truth(std::uint64_t frame, std::string line) override;
 

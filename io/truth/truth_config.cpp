@@ -84,4 +84,8 @@ TruthWishes wishes_of(const TruthConfig& c) {
     return wishes;
 }
 
+std::vector<ListeningPort> listening(const TruthConfig& c) {
+    return {{"outputs.truth.port", c.address, c.port}};
+}
+
 }  // namespace hilcam

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/contract/output_shape.h"
 #include "io/contract/run_folder.h"
 #include "render/frame/frame_truth.h"
 #include "render/vocabulary/config_field.h"
@@ -13,6 +14,9 @@
 namespace hilcam {
 
 struct TruthConfig {
+    static constexpr const char* kKey = "truth";
+    static constexpr const char* kMeaning = "truth about each frame, known by the renderer (docs/truth.md)";
+
     std::string address = "127.0.0.1";
     std::int64_t port = 0;  // 0: none
     std::vector<std::string> allow{};
@@ -28,6 +32,7 @@ struct TruthConfig {
 };
 Fields fields(TruthConfig& config);
 void validate(const TruthConfig& config);
+std::vector<ListeningPort> listening(const TruthConfig& config);
 
 // Returns the part of its folder that must not be mixed with another run; the folder is not empty.
 RunFolder run_folder(const TruthConfig& config);

@@ -271,4 +271,9 @@ SinkReport UvcSink::report() const {
     return report;
 }
 
+std::unique_ptr<FrameSink> make_sink(const UvcConfig& config, const SinkContext& context,
+                                     const OutputShape& shape) {
+    return std::make_unique<UvcSink>(config, shape.fixed_width, shape.fixed_height, context);
+}
+
 }  // namespace hilcam

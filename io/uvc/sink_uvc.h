@@ -7,11 +7,13 @@
 //
 // Isochronous pictures need real hardware: virtual controllers carry requests only (docs/devices.md).
 
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/contract/output_shape.h"
 #include "io/system/fd.h"
 #include "io/uvc/uvc_gadget.h"
 #include "io/v4l2/v4l2_buffers.h"
@@ -19,6 +21,9 @@
 struct v4l2_event;
 
 namespace hilcam {
+
+std::unique_ptr<FrameSink> make_sink(const UvcConfig& config, const SinkContext& context,
+                                     const OutputShape& shape);
 
 class UvcSink : public FrameSink {
   public:

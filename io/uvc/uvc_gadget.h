@@ -15,6 +15,10 @@
 namespace hilcam {
 
 struct UvcConfig {
+    static constexpr const char* kKey = "uvc";
+    static constexpr const char* kMeaning = "frames sent as a USB camera, with a USB device controller";
+    static constexpr bool kFixedSize = true;
+
     std::string udc;                   // empty: the only one
     std::int64_t vendor_id = 0x1209;   // pid.codes
     std::int64_t product_id = 0x0001;  // its number for tests

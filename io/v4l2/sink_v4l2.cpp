@@ -217,4 +217,10 @@ SinkReport V4l2Sink::report() const {
     return report;
 }
 
+std::unique_ptr<FrameSink> make_sink(const V4l2Config& config, const SinkContext& context,
+                                     const OutputShape& shape) {
+    return std::make_unique<V4l2Sink>(config, shape.fixed_width, shape.fixed_height, shape.frame_rate_hz,
+                                      context);
+}
+
 }  // namespace hilcam

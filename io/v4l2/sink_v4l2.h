@@ -9,11 +9,13 @@
 //
 // Faults: v4l2_stall, v4l2_restart, v4l2_format_flip (fault.h).
 
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include "io/contract/frame_mailbox.h"
+#include "io/contract/output_shape.h"
 #include "io/v4l2/v4l2_device.h"
 #include "io/v4l2/v4l2_formats.h"
 #include "render/vocabulary/config_field.h"
@@ -21,6 +23,10 @@
 namespace hilcam {
 
 struct V4l2Config {
+    static constexpr const char* kKey = "v4l2";
+    static constexpr const char* kMeaning = "frames fed to a v4l2loopback device";
+    static constexpr bool kFixedSize = true;
+
     enum class Io { kMmap, kWrite };
     enum class MetadataRow { kOff, kTop, kBottom };
     V4l2Format format = V4l2Format::kY16;
@@ -30,6 +36,8 @@ struct V4l2Config {
     std::string device = "/dev/video42";
 };
 Fields fields(V4l2Config& config);
+std::unique_ptr<FrameSink> make_sink(const V4l2Config& config, const SinkContext& context,
+                                     const OutputShape& shape);
 
 class V4l2Sink : public FrameSink {
   public:

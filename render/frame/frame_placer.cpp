@@ -72,8 +72,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.geometry = geometry;
     frame_.bins = grid.size();
     frame_.alpha_behind_diffuse = static_cast<float>(quality.facets_behind_diffuse);
-    frame_.has_glass =
-        any_material(objects_, [](const Material& m) { return m.model == ReflectionModel::kGlass; });
+    frame_.has_glass = any_material(objects_, [](const Material& m) { return m.transmits(); });
     frame_.has_emission = emission;
 }
 

@@ -4,19 +4,24 @@ namespace hilcam {
 
 Fields fields(RenderQuality& q) {
     return {
-        integer("samples_per_axis", q.samples_per_axis, {1, 16}, "n of the n x n grid of rays in each pixel"),
-        text("visibility", q.visibility,
-             "rays; or buffer: what the camera sees is found by sixteen samples a pixel at once. That needs "
-             "one instant for all rows, no terrain, and a lens that bends lines little within 16 pixels; "
-             "elsewhere rays are used"),
-        text("path_model", q.path_model, "path model: kept | direct | hemisphere | path, or a plug-in's"),
-        integer("max_depth", q.max_depth, {1, 64},
-                "number of surfaces that a light path may meet; 1: direct sunlight only"),
-        number("contribution_threshold", q.contribution_threshold, 1, {0, 1},
-               "a path whose largest weight falls below this ends (hemisphere, kept), or lives on by chance "
-               "(path)"),
-        flag("sun_disk", q.sun_disk,
-             "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights"),
+        per_frame(integer("samples_per_axis", q.samples_per_axis, {1, 16},
+                          "n of the n x n grid of rays in each pixel")),
+        per_frame(text(
+            "visibility", q.visibility,
+            "rays; or buffer: what the camera sees is found by sixteen samples a pixel at once. That needs "
+            "one instant for all rows, no terrain, and a lens that bends lines little within 16 pixels; "
+            "elsewhere rays are used")),
+        per_frame(text("path_model", q.path_model,
+                       "path model: kept | direct | hemisphere | path, or a plug-in's")),
+        per_frame(integer("max_depth", q.max_depth, {1, 64},
+                          "number of surfaces that a light path may meet; 1: direct sunlight only")),
+        per_frame(number(
+            "contribution_threshold", q.contribution_threshold, 1, {0, 1},
+            "a path whose largest weight falls below this ends (hemisphere, kept), or lives on by chance "
+            "(path)")),
+        per_frame(
+            flag("sun_disk", q.sun_disk,
+                 "true: sunlight comes from the whole disk, which gives soft shadows and exact highlights")),
         integer("kept_directions", q.kept_directions, {16, 256},
                 "kept: number of directions that each place's light comes from: 16, 60 or 256"),
         integer("kept_nodes", q.kept_nodes, {1000, 4'000'000},
@@ -31,17 +36,19 @@ Fields fields(RenderQuality& q) {
         flag("watertight", q.watertight,
              "true: no ray slips through the edge that two triangles share (none ever does through terrain); "
              "costs a sixth"),
-        number("lod_error_px", q.lod_error_px, 1, {0, 16},
-               "greatest error, in pixels, of a mesh drawn from a coarser level; 0: never a coarser level"),
+        per_frame(number(
+            "lod_error_px", q.lod_error_px, 1, {0, 16},
+            "greatest error, in pixels, of a mesh drawn from a coarser level; 0: never a coarser level")),
         integer("rays_across", q.rays_across, {0, 4096},
                 "number of rays across a small object: it gets more rays per pixel, up to 16 x 16, until so "
                 "many go across it"),
         integer("point_samples", q.point_samples, {16, 512},
                 "rays in each direction of the grid by which an object of a few pixels or less is measured"),
-        number("noise_budget", q.noise_budget, 1, {0, 100},
-               "share of a pixel's own sensor noise: the pixel is sampled again only while the standard "
-               "error of its rendering is above this; rays are then scattered over the pixel. 0: sampled "
-               "once, on the grid"),
+        per_frame(
+            number("noise_budget", q.noise_budget, 1, {0, 100},
+                   "share of a pixel's own sensor noise: the pixel is sampled again only while the standard "
+                   "error of its rendering is above this; rays are then scattered over the pixel. 0: sampled "
+                   "once, on the grid")),
         // Numbers are drawn by sample and depth: 63 passes of 16 x 16 samples fit (random.h).
         integer("most_passes", q.most_passes, {1, 63},
                 "greatest number of passes with a noise budget, n x n rays each"),

@@ -10,24 +10,25 @@
 
 namespace hilcam {
 
-// Every value here is a named choice of the user. Those marked (f) may change from frame to frame.
+// Every value here is a named choice of the user. Those that may change from frame to frame are marked in
+// fields().
 struct RenderQuality {
-    std::int64_t samples_per_axis = 1;     // (f) n: a regular n x n grid of rays in each pixel
-    std::string visibility = "rays";       // or "buffer": sixteen samples a pixel where it can
-    std::string path_model = "path";       // (f)
-    std::int64_t max_depth = 2;            // (f) 1: direct light only; 2: one bounce; ...
-    double contribution_threshold = 1e-3;  // (f) see path_model.h
-    bool sun_disk = false;              // (f) soft shadows and exact highlights; false: a point at its middle
-    std::int64_t kept_directions = 60;  // kept light: 16, 60 or 256
-    std::int64_t kept_nodes = 100'000;  // about, of all objects together
+    std::int64_t samples_per_axis = 1;  // n: a regular n x n grid of rays in each pixel
+    std::string visibility = "rays";    // or "buffer": sixteen samples a pixel where it can
+    std::string path_model = "path";
+    std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
+    double contribution_threshold = 1e-3;  // see path_model.h
+    bool sun_disk = false;                 // soft shadows and exact highlights; false: a point at its middle
+    std::int64_t kept_directions = 60;     // kept light: 16, 60 or 256
+    std::int64_t kept_nodes = 100'000;     // about, of all objects together
     double kept_step_rad = 1.0 * kDegree_rad;
     double facets_behind_diffuse = 0.4;  // least GGX alpha there; 0: as they are
     bool watertight = true;              // no ray slips through between two triangles
-    double lod_error_px = 0.25;          // (f) of a coarser level of detail; 0: the mesh itself, always
+    double lod_error_px = 0.25;          // of a coarser level of detail; 0: the mesh itself, always
     std::int64_t rays_across =
         128;  // rays across a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
     std::int64_t point_samples = 96;  // rays along one axis of the little picture of an object of few pixels
-    double noise_budget = 0;          // (f) see adaptive_sampler.h; 0: a pixel is sampled once
+    double noise_budget = 0;          // see adaptive_sampler.h; 0: a pixel is sampled once
     std::int64_t most_passes = 16;    // over a pixel, with a noise budget
 
     // A noise budget is for rays.

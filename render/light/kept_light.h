@@ -12,10 +12,10 @@
 #include <span>
 #include <vector>
 
+#include "render/brdf/microfacet.h"
 #include "render/light/kept_source.h"
 #include "render/light/material_albedo.h"
 #include "render/light/sky_light.h"
-#include "render/scene/brdf_microfacet.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/flat_mirrors.h"
@@ -84,17 +84,14 @@ class KeptLight {
     std::uint16_t surface_of(std::uint32_t triangle) const {
         return shown_->levels.front()->triangles[triangle].surface;
     }
-    bool is_glass(std::uint16_t surface) const {
-        return materials_[surface]->model == ReflectionModel::kGlass;
-    }
+    bool is_glass(std::uint16_t surface) const { return materials_[surface]->transmits(); }
     // True when a node mirrors sunlight, which is not kept: mirrored_suns.h has it.
     bool throws_sun(std::size_t node) const { return !throws_sun_.empty() && throws_sun_[node] != 0; }
     bool throws_sun() const { return !throws_sun_.empty(); }
     // All that it reflects, it reflects in a narrow lobe.
     bool is_mirror(std::uint16_t surface) const {
         const Material& m = *materials_[surface];
-        return m.ggx_alpha < kNarrowestKept &&
-               (m.model == ReflectionModel::kMetal || m.model == ReflectionModel::kMirror);
+        return m.ggx_alpha < kNarrowestKept && m.is_bare();
     }
     // A node's direction, body axes.
     Vec3f direction(std::size_t node, std::size_t d) const {

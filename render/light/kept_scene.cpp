@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
+#include "render/brdf/microfacet.h"
 #include "render/light/lamp_light.h"
-#include "render/scene/brdf_microfacet.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -17,8 +17,7 @@ Vec3f to_body(const Mat3f& world_from_body, Vec3f world) { return transposed(wor
 // Returns the ratio of the texture's spectrum to the material's own there.
 Spectrum tint(const Scatterer& at) {
     Spectrum out;
-    const bool shiny =
-        at.material->model == ReflectionModel::kMetal || at.material->model == ReflectionModel::kMirror;
+    const bool shiny = at.material->is_bare();
     const Spectrum& own = shiny ? at.material->highlight : at.material->base;
     const Spectrum& here = shiny ? at.highlight : at.base;
     for (int b = 0; b < kMaxBins; ++b) out[b] = own[b] > 0 ? here[b] / own[b] : 1.0f;

@@ -17,11 +17,6 @@ namespace {
 
 constexpr std::size_t kSendBlock = 256;  // nodes that a thread takes at a time; no result depends on it
 
-float schlick_normal_incidence(float refractive_index) {
-    const float r = (refractive_index - 1) / (refractive_index + 1);
-    return r * r;
-}
-
 // A cone's directions, sixteen of equal solid angle (Vogel 1979), for the irradiance that it makes.
 constexpr int kConeDirections = 16;
 std::array<Vec3f, kConeDirections> cone_directions(Vec3f axis_dir, float cone_cosine) {
@@ -182,10 +177,7 @@ void KeptSolver::send(const KeptLight& light, std::size_t n, Vec3f source_dir, V
     if (!material.has_facets()) return;
     sender.alpha = std::max(material.ggx_alpha, KeptLight::min_alpha(light.table()));
     Spectrum normal_incidence = material.highlight;
-    if (material.model == ReflectionModel::kDielectric)
-        normal_incidence.bin.fill(schlick_normal_incidence(material.refractive_index));
-    else if (!light.colors_.empty())
-        normal_incidence = normal_incidence * light.colors_[n];
+    if (material.is_bare() && !light.colors_.empty()) normal_incidence = normal_incidence * light.colors_[n];
     // However wide the facets are taken, they send as much in all as they reflect.
     const float whole = largest(light.albedos_->wide[node.surface].lobe(cosine));
     const float gain = whole > 0 ? largest(albedo.lobe(cosine)) / whole : 0.0f;

@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 #include "render/scene/surface.h"
 
 namespace hilcam {

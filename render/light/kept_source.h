@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 #include "render/scene/lamp.h"
 #include "render/vocabulary/vec.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 
 namespace hilcam {
 namespace {
@@ -39,7 +39,7 @@ MaterialAlbedo::MaterialAlbedo(const Material& material) {
         } else {
             // The base is light that leaves the facets after several reflections, or enters the body
             // (material.h).
-            base_[k] = std::max(0.0f, 1 - material.facets(cosine)) * material.base;
+            base_[k] = std::max(0.0f, brdf_below_facets(material, cosine)) * material.base;
             for (int b = 0; b < kMaxBins; ++b) lobe_[k][b] = std::max(0.0f, all[b] - base_[k][b]);
         }
         // 2 cos d cos, by the trapezoid rule.

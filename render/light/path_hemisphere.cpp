@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "render/brdf/microfacet.h"
 #include "render/light/path_models.h"
 #include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/radiance_model.h"
-#include "render/scene/brdf_microfacet.h"
 
 namespace hilcam {
 namespace {
@@ -119,9 +119,7 @@ class HemispherePaths final : public PathModel {
         const bool narrow = surface.alpha > 0 && surface.alpha < kNarrowAlpha;
         float share = 1;  // share of the lobe for which the one direction stands
         if (narrow) {
-            share = surface.material->model == ReflectionModel::kMirror ? 1 : surface.material->facets(no);
-            if (surface.material->model == ReflectionModel::kDielectric)
-                share /= fresnel_dielectric(surface.material->refractive_index, no);
+            share = brdf_lobe_share(surface, no);
             surface.alpha = 0;
         }
         for (int part = 0; part < 2; ++part) {

@@ -12,12 +12,12 @@
 #include <cmath>
 #include <limits>
 
+#include "render/brdf/microfacet.h"
 #include "render/light/kept_scene.h"
 #include "render/light/path_models.h"
 #include "render/light/primary_vertices.h"
 #include "render/light/radiance_equation.h"
 #include "render/light/radiance_model.h"
-#include "render/scene/brdf_microfacet.h"
 
 namespace hilcam {
 namespace {

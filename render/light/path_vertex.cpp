@@ -103,10 +103,8 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
             texture.sample((1 - u - v) * uv[0].x + u * uv[1].x + v * uv[2].x,
                            (1 - u - v) * uv[0].y + u * uv[1].y + v * uv[2].y, footprint));
         // The one colour of a file scales what the material mostly is.
-        const bool shiny =
-            material.model == ReflectionModel::kMetal || material.model == ReflectionModel::kMirror;
         vertex.surface.base = vertex.surface.base * scale;
-        if (shiny) vertex.surface.highlight = vertex.surface.highlight * scale;
+        if (material.is_bare()) vertex.surface.highlight = vertex.surface.highlight * scale;
     }
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/brdf/microfacet.h"
 #include "render/light/facet_list.h"
 #include "render/light/lamp_light.h"
 #include "render/light/shadow_rays.h"
 #include "render/light/sun_edges.h"
-#include "render/scene/brdf_microfacet.h"
 
 namespace hilcam {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "render/brdf/microfacet.h"
 #include "render/light/radiance_model.h"
-#include "render/scene/brdf_microfacet.h"
 
 namespace hilcam {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 #include "render/scene/material.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/lane_sum.h"

@@ -15,26 +15,20 @@
 
 namespace hilcam {
 
-struct Cosines {
-    float no, ni, io;
-};
-
-// The material that scatters at one point, its spectra there (textures scale them), and the width of its
-// facet lobe there (at least the material's own; see path_vertex.h).
-struct Scatterer {
+// What scatters at one point: a material, and its look there (textures scale the spectra; the facet lobe is
+// at least as wide as the material's own, see path_vertex.h).
+struct Scatterer : SurfaceLook {
     const Material* material = nullptr;
-    float alpha = 0;
-    Spectrum base;
-    Spectrum highlight;
 
-    bool is_glass() const { return material->model == ReflectionModel::kGlass; }
+    Scatterer() = default;
+    Scatterer(const Material* of, float lobe_alpha, const Spectrum& own_base, const Spectrum& own_highlight)
+        : SurfaceLook{lobe_alpha, own_base, own_highlight}, material(of) {}
+
+    bool is_glass() const { return material->transmits(); }
     // Some light goes in exactly one direction, which no lamp is met in by chance.
     bool has_exact() const { return is_glass() || (alpha == 0 && material->has_facets()); }
     // Some light goes in all directions.
-    bool has_lobes() const {
-        return !is_glass() && !(alpha == 0 && (material->model == ReflectionModel::kMetal ||
-                                               material->model == ReflectionModel::kMirror));
-    }
+    bool has_lobes() const { return !is_glass() && !(alpha == 0 && material->is_bare()); }
 };
 
 struct BrdfSample {
@@ -79,12 +73,9 @@ Spectrum sheet_transmittance(const Scatterer& at, float cosine);
 // The share of light that comes back in all directions for light from the viewer's side, about: what chooses
 // a sample's part and ends a path.
 float brdf_albedo(const Scatterer& at, float no, int bins);
-
-// Returns the mean over the bins of the grid.
-inline float mean(const Spectrum& s, int bins) {
-    float sum = 0;
-    for (int b = 0; b < kMaxBins; ++b) sum += s[b];
-    return sum / static_cast<float>(bins);
-}
+// The albedo of a facet lobe over what a mirror in its place reflects at this cosine to the normal.
+float brdf_lobe_share(const Scatterer& at, float no);
+// What facets leave to several reflections or the body below them, 1 - E(no); 1 without facets.
+float brdf_below_facets(const Material& material, float no);
 
 }  // namespace hilcam

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/surface.h"
 

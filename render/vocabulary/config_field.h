@@ -154,6 +154,7 @@ struct Field {
     bool required = false;
     bool* present = nullptr;     // set when the key is given
     bool changes_frames = true;  // false: frames do not depend on it, so that a replay may have another value
+    bool per_frame = false;      // true: it may have another value from one frame to the next (loop.levels)
 };
 
 inline bool holds_section(const Field& field) {
@@ -250,6 +251,12 @@ inline Field optional(Field field, bool& present) {
 // A key, with all below it, that a replay may have otherwise than the recording (docs/recording.md).
 inline Field beside_frames(Field field) {
     field.changes_frames = false;
+    return field;
+}
+
+// A key that may have another value from one frame to the next.
+inline Field per_frame(Field field) {
+    field.per_frame = true;
     return field;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 #include "tests/support/furnace.h"
 #include "tests/support/stage.h"
 
@@ -61,7 +61,7 @@ Stage corner_stage(const char* model, const MaterialConfig& material, int sample
 // What the wall sends to the floor and back, against paths twelve surfaces deep: diffuse, and with facets.
 TEST(KeptLight, ACornerIsAsRandomPathsHaveIt) {
     MaterialConfig metal = lambert(0.8);
-    metal.model = ReflectionModel::kMetal;
+    metal.model = kModel<brdf::Metal>;
     metal.roughness = 0.6;
     for (const MaterialConfig& material : {lambert(0.8), metal}) {
         Stage direct = corner_stage("direct", material, 2), paths = corner_stage("path", material, 8),
@@ -72,7 +72,7 @@ TEST(KeptLight, ACornerIsAsRandomPathsHaveIt) {
         EXPECT_GT(between, 0.05 * direct.mean());
         // From the second bounce on facets are kept as paint: between rough metal walls that is an eighth too
         // much.
-        const double error = material.model == ReflectionModel::kMetal ? 0.14 : 0.015;
+        const double error = material.model == kModel<brdf::Metal> ? 0.14 : 0.015;
         EXPECT_NEAR((kept.mean() - direct.mean()) / between, 1, error);
     }
 }
@@ -116,13 +116,13 @@ TEST(KeptLight, EarthshineIsHiddenByTheObjectsOwnParts) {
         return s.mean();
     };
     MaterialConfig metal = lambert(0.8);
-    metal.model = ReflectionModel::kMetal;
+    metal.model = kModel<brdf::Metal>;
     metal.roughness = 0.6;
     for (const MaterialConfig& material : {lambert(0.8), metal}) {
         const double paths = light("path", material, 8);
         EXPECT_GT(paths, 0);
         // What the wall mirrors is kept as paint's.
-        const double error = material.model == ReflectionModel::kMetal ? 0.08 : 0.06;
+        const double error = material.model == kModel<brdf::Metal> ? 0.08 : 0.06;
         EXPECT_NEAR(light("kept", material, 2) / paths, 1, error);
     }
 }
@@ -133,7 +133,7 @@ struct MetalStage : Stage {
     MaterialConfig metal = lambert(0.8);
 
     MetalStage(const char* model, double roughness, int samples, int size_px, double half_width) {
-        metal.model = ReflectionModel::kMetal;
+        metal.model = kModel<brdf::Metal>;
         metal.roughness = roughness;
         quality.path_model = model;
         quality.max_depth = 2;

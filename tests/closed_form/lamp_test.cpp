@@ -118,7 +118,7 @@ TEST(Lamps, ABlockerBetweenShadesAndOneBehindOrUnderTheLampDoesNot) {
 
 TEST(Lamps, GlassDimsThemAsItDimsTheSun) {
     MaterialConfig config;
-    config.model = ReflectionModel::kGlass;
+    config.model = kModel<brdf::Glass>;
     config.transmittance = Curve::constant(0.7);
     const Vec3d lamp_m{3, 0, 1};
     LampStage s;
@@ -199,7 +199,7 @@ TEST(Lamps, OneThatShinesIntoTheCameraIsAPoint) {
 // Two panes across its light; a wall behind the one hides it.
 TEST(Lamps, OneIsSeenThroughGlass) {
     MaterialConfig config;
-    config.model = ReflectionModel::kGlass;
+    config.model = kModel<brdf::Glass>;
     config.transmittance = Curve::constant(0.7);
     LampStage s;
     s.camera(64, 0.1);

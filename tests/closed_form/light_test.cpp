@@ -15,7 +15,7 @@ namespace {
 
 MaterialConfig mirror() {
     MaterialConfig m;
-    m.model = ReflectionModel::kMirror;
+    m.model = kModel<brdf::Mirror>;
     m.reflectance = Curve::constant(1);
     return m;
 }
@@ -211,7 +211,7 @@ TEST(ClosedForm, SunsDiskAndItsMiddleGiveTheSameLightInTheMean) {
         s.quality.contribution_threshold = 0;
         s.camera(32, 0.3);
         MaterialConfig metal;
-        metal.model = ReflectionModel::kMetal;
+        metal.model = kModel<brdf::Metal>;
         metal.reflectance = Curve::constant(0.9);
         metal.roughness = 0.3;
         s.add(plate(metal, s.grid), {0, 0, 3}, {kPi, 0.1, 0});

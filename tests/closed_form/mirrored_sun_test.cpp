@@ -19,7 +19,7 @@ const float kSlant = std::sqrt(0.5f);
 
 MaterialConfig silver(double roughness) {
     MaterialConfig m;
-    m.model = roughness > 0 ? ReflectionModel::kMetal : ReflectionModel::kMirror;
+    m.model = roughness > 0 ? kModel<brdf::Metal> : kModel<brdf::Mirror>;
     m.reflectance = Curve::constant(kSilvered);
     m.roughness = roughness;
     return m;

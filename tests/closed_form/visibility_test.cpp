@@ -73,7 +73,7 @@ TEST(Visibility, ACubeIsWhatRaysSeeFromATenThousandTimesItsSize) {
 
 // Facets of one material that lean otherwise.
 TEST(Visibility, ASphereIsWhatRaysSee) {
-    for (const ReflectionModel model : {ReflectionModel::kLambert, ReflectionModel::kMetal}) {
+    for (const std::size_t model : {kModel<brdf::Lambert>, kModel<brdf::Metal>}) {
         Stage s;
         s.quality.path_model = "direct";
         s.sun({0.8, 0.3, -1});
@@ -131,11 +131,11 @@ double sum_of(const RadianceImage& radiance) {
 // Some hundred triangles instead of 80,000.
 TEST(Visibility, LevelsOfDetailKeepTheLightOfWrinkles) {
     MaterialConfig metal = lambert(0.9);
-    metal.model = ReflectionModel::kMetal;
+    metal.model = kModel<brdf::Metal>;
     metal.roughness = 0.4;
     for (const MaterialConfig& material : {lambert(0.5), metal}) {
         // Four normals and their scatter are all that is kept of each triangle's waves.
-        const double within = material.model == ReflectionModel::kMetal ? 0.05 : 0.005;
+        const double within = material.model == kModel<brdf::Metal> ? 0.05 : 0.005;
         for (const Vec3d& sun : {Vec3d{0.3, 0.2, -1}, Vec3d{1, 0.3, -0.5}})
             for (const char* visibility : {"rays", "buffer"}) {
                 Stage s;

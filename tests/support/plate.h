@@ -131,7 +131,8 @@ struct LoopRig {
           poses(scenario.commands.poses, scenario.mode == CameraMode::kLockstep),
           exposures(*renderer, exposure_config_of(scenario), scenario.camera, grid, world.placed_objects()),
           dispatch({{&world, &settings, &faults}}, clock, &poses),
-          truth(scenario.outputs.has_truth ? make_truth_sink(scenario, grid, 1, *renderer) : nullptr),
+          truth(scenario.outputs.find<TruthConfig>() ? make_truth_sink(scenario, grid, 1, *renderer)
+                                                     : nullptr),
           loop(parts(limits)) {
         if (truth) truth->start();
     }

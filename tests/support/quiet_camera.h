@@ -28,11 +28,7 @@ struct QuietCamera : CameraControl {
     bool change(const SettingsChange& c) override {
         if (!accepts) return false;
         ++changes;
-        if (c.exposure_s) now.exposure_s = *c.exposure_s;
-        if (c.gain_db) now.gain_db = *c.gain_db;
-        if (c.black_level_dn) now.black_level_dn = *c.black_level_dn;
-        if (c.frame_rate_hz) now.frame_rate_hz = *c.frame_rate_hz;
-        if (c.automatic_exposure) now.automatic_exposure = *c.automatic_exposure;
+        apply(c, now);
         return true;
     }
     TriggerResult trigger(const TriggerOrder&) override { return TriggerResult::kNotArmed; }

@@ -7,33 +7,6 @@ namespace hilcam {
 namespace reg = feature_register;
 using gvcp::Status;
 
-namespace {
-
-// Returns only what differs: a camera may refuse to be told what it sets itself.
-SettingsChange difference(const CameraSettings& from, const CameraSettings& to) {
-    SettingsChange c;
-    const auto set = [](auto& member, const auto& before, const auto& after) {
-        if (before != after) member = after;
-    };
-    set(c.exposure_s, from.exposure_s, to.exposure_s);
-    set(c.gain_db, from.gain_db, to.gain_db);
-    set(c.black_level_dn, from.black_level_dn, to.black_level_dn);
-    set(c.frame_rate_hz, from.frame_rate_hz, to.frame_rate_hz);
-    set(c.automatic_exposure, from.automatic_exposure, to.automatic_exposure);
-    set(c.triggered, from.triggered, to.triggered);
-    set(c.trigger_source, from.trigger_source, to.trigger_source);
-    set(c.trigger_delay_s, from.trigger_delay_s, to.trigger_delay_s);
-    set(c.burst_frames, from.burst_frames, to.burst_frames);
-    set(c.test_pattern, from.test_pattern, to.test_pattern);
-    set(c.reverse_x, from.reverse_x, to.reverse_x);
-    set(c.reverse_y, from.reverse_y, to.reverse_y);
-    set(c.binning_x, from.binning_x, to.binning_x);
-    set(c.binning_y, from.binning_y, to.binning_y);
-    return c;
-}
-
-}  // namespace
-
 GigeUserSets::GigeUserSets(GigeCore& core, std::function<void()> loaded)
     : core_(core), loaded_(std::move(loaded)) {
     sets_.fill({core.camera.settings(), core.settings});
@@ -52,7 +25,9 @@ Status GigeUserSets::save(std::size_t set) {
 
 Status GigeUserSets::load(std::size_t set) {
     const Set& wanted = sets_[set];
+    // Only what differs: a camera may refuse to be told what it sets itself.
     SettingsChange change = difference(core_.camera.settings(), wanted.camera);
+    change.running.reset();
     if (core_.limits.exposure_is_own || wanted.camera.automatic_exposure) change.exposure_s.reset();
     if (core_.limits.gain_is_own) change.gain_db.reset();
     if (core_.limits.frame_rate_is_own) change.frame_rate_hz.reset();

@@ -216,7 +216,7 @@ TEST_F(CheckScenario, ASphereIsAsBrightAsExpected) {
 TEST_F(CheckScenario, DarkGroundIsNotTakenForBright) {
     ScenarioConfig s = ball("[0, 0, 60]");
     MaterialConfig& ground = s.objects.at(0).materials.surfaces.at(0).material;
-    ground.model = ReflectionModel::kLommelSeeliger;
+    ground.model = kModel<brdf::LommelSeeliger>;
     ground.reflectance = Curve::constant(0.06);
     const double m = std::sqrt(0.5), expected = 8 * 0.06 / 2 * (1 - m * std::log((1 + m) / m));
     EXPECT_NEAR(check_scenario(s).reports.at(0).sight.objects.at(0).loaded.mean_reflectance(), expected,

@@ -275,7 +275,7 @@ TEST(ScenarioListing, HasNothingOfHowTheMachineIsUsed) {
     there.name = "another", there.threads = 3, there.clock.paused = true;
     there.loop.prefer = LoopPreference::kLatency;
     there.loop.real_time = {50, {0, 1}, true};
-    there.outputs.has_files = there.more_cameras[0].outputs.has_files = true;
+    there.outputs.give<FilesConfig>(), there.more_cameras[0].outputs.give<FilesConfig>();
     there.commands.has_udp = true;
     there.telemetry.emplace();
     there.faults.resize(1), there.events.resize(1);

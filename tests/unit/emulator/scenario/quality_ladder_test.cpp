@@ -52,8 +52,8 @@ TEST_F(LadderTest, WhatCannotChangeBetweenFramesIsRefused) {
 
 TEST(QualityLadder, ALevelMayLeaveTheBufferAndNotTakeOne) {
     QualityLevelConfig rays, buffer;
-    rays.values.visibility = "rays", rays.has_visibility = true;
-    buffer.values.visibility = "buffer", buffer.has_visibility = true;
+    rays.values.visibility = "rays", rays.given["visibility"] = true;
+    buffer.values.visibility = "buffer", buffer.given["visibility"] = true;
     RenderQuality base = shipped("realtime.yaml");
     ASSERT_TRUE(base.uses_buffer());
     EXPECT_EQ(difference(base, applied(base, rays)), "visibility rays");

@@ -5,6 +5,7 @@
 #include <bit>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 #include <string>
 #include <thread>
@@ -27,6 +28,18 @@ TEST(Faults, EveryKindHasANameAMeaningAndABitOfItsOwn) {
     EXPECT_EQ(bits.count(0), 0u);
     EXPECT_FALSE(fault_named("packet_lost"));
     EXPECT_FALSE(refusal_of({static_cast<FaultKind>(200), 1, 0, 0, 0, 0}).empty());
+}
+
+// Each enumerator of the header has its number; what stands in none of the table's rows would be no kind.
+TEST(Faults, TheTableHasEveryKind) {
+    std::ifstream in(std::string(HILCAM_SOURCE_DIR) + "/io/contract/fault_kinds.h");
+    const std::string header{std::istreambuf_iterator<char>(in), {}};
+    const std::regex enumerator(R"(\n    k\w+ = (\d+),)");
+    std::set<int> numbers;
+    for (std::sregex_iterator found(header.begin(), header.end(), enumerator), none; found != none; ++found)
+        numbers.insert(std::stoi((*found)[1]));
+    EXPECT_EQ(numbers.size(), kFaultTable.size());
+    for (const FaultTraits& row : kFaultTable) EXPECT_EQ(numbers.count(static_cast<int>(row.kind)), 1u);
 }
 
 TEST(Faults, TheManualHasThemAll) {

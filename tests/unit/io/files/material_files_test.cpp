@@ -77,7 +77,7 @@ TEST_F(MaterialFiles, WhatATableLacksIsNamed) {
 // A file of MERL's layout filled from a GGX metal gives that metal back.
 TEST_F(MaterialFiles, MerlsLayoutIsReadAsItIsMeant) {
     MaterialConfig config;
-    config.model = ReflectionModel::kMetal;
+    config.model = kModel<brdf::Metal>;
     config.roughness = 0.7;
     const Material m = make_material(config, kGrid);
     const Scatterer at{&m, m.ggx_alpha, m.base, m.highlight};
@@ -128,7 +128,7 @@ TEST(MaterialLibrary, EveryFileLoadsAndKeepsEnergy) {
         for (int b = 0; b < grid.size(); ++b) {
             const float largest_part = std::max(m.base[b], m.highlight[b]);
             EXPECT_GE(largest_part, 0) << entry.path();
-            EXPECT_LE(m.model == ReflectionModel::kLommelSeeliger ? largest_part / 2 : largest_part, 1)
+            EXPECT_LE(config.model == kModel<brdf::LommelSeeliger> ? largest_part / 2 : largest_part, 1)
                 << entry.path();
         }
         EXPECT_TRUE(std::isfinite(brdf_value(at, {0.7f, 0.6f, 0.5f})[0])) << entry.path();

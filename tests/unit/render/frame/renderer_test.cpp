@@ -83,7 +83,7 @@ TEST(Renderer, TheEarthHidesWhatIsBehindItAndNotWhatIsBeforeIt) {
 
 TEST(Renderer, MirrorShowsAPlateAtDepthTwoAndNotAtDepthOne) {
     MaterialConfig mirror;
-    mirror.model = ReflectionModel::kMirror;
+    mirror.model = kModel<brdf::Mirror>;
     mirror.reflectance = Curve::constant(0.9);
     for (const int depth : {1, 2}) {
         Stage s;
@@ -150,7 +150,7 @@ TEST(Renderer, EarthshineOnAPlateIsThatOfALambertSphere) {
 // cosine `no`.
 double seen_albedo(double roughness, double& no) {
     MaterialConfig metal;
-    metal.model = ReflectionModel::kMetal;
+    metal.model = kModel<brdf::Metal>;
     metal.reflectance = Curve::constant(1);
     metal.roughness = roughness;
     Stage s;
@@ -189,7 +189,7 @@ TEST(Renderer, DoesNotDependOnTheThreadCount) {
         Stage s;
         s.quality.max_depth = 4;
         MaterialConfig metal;
-        metal.model = ReflectionModel::kMetal;
+        metal.model = kModel<brdf::Metal>;
         s.add(plate(lambert(0.9), s.grid), {0, 0, 4}, {kPi, 0.4, 0});
         s.add(plate(metal, s.grid), {1, 0, 4}, {kPi, -0.9, 0});
         s.sun({0.3, 0.2, -1});

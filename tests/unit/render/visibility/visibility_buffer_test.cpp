@@ -9,7 +9,7 @@
 #include <memory>
 #include <random>
 
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 
 namespace hilcam {
 namespace {

@@ -47,16 +47,7 @@ class PlainCamera : public CameraControl {
             !within(c.trigger_delay_s, 0, l.max_trigger_delay_s) || !binning(c.binning_x) ||
             !binning(c.binning_y))
             return false;
-        const auto take = [](const auto& from, auto& to) {
-            if (from) to = *from;
-        };
-        take(c.exposure_s, s.exposure_s), take(c.gain_db, s.gain_db);
-        take(c.black_level_dn, s.black_level_dn), take(c.frame_rate_hz, s.frame_rate_hz);
-        take(c.automatic_exposure, s.automatic_exposure), take(c.triggered, s.triggered);
-        take(c.trigger_source, s.trigger_source), take(c.trigger_delay_s, s.trigger_delay_s);
-        take(c.burst_frames, s.burst_frames), take(c.test_pattern, s.test_pattern);
-        take(c.reverse_x, s.reverse_x), take(c.reverse_y, s.reverse_y);
-        take(c.binning_x, s.binning_x), take(c.binning_y, s.binning_y);
+        apply(c, s);
         return true;
     }
     TriggerResult trigger(const TriggerOrder& order) override {

@@ -1,9 +1,9 @@
-#include "render/scene/brdf_table.h"
+#include "render/brdf/brdf_table.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "render/scene/brdf_microfacet.h"
+#include "render/brdf/microfacet.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

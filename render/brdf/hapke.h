@@ -1,23 +1,18 @@
 #pragma once
-// Reflection of airless, powdery surfaces: Lommel-Seeliger and Hapke. Both as BRDF f = I / (E cos i) [sr^-1].
-//
-// Hapke: B. Hapke, Theory of Reflectance and Emittance Spectroscopy, 2nd ed., Cambridge 2012:
+// model: hapke. Regolith, f = I / (E cos i) [sr^-1]: B. Hapke, Theory of Reflectance and Emittance
+// Spectroscopy, 2nd ed., Cambridge 2012:
 //   f = w/4pi 1/(mu_0e + mu_e) { [1 + B(g)] p(g) + H(mu_0e) H(mu_e) - 1 } S(i, e, psi) mu_0e / mu_0
 //   H by Hapke 2002 (Icarus 157, 523, eq. 13), p a double Henyey-Greenstein function, B the shadow-hiding
 //   surge of 1986, S and the effective cosines the macroscopic roughness of 1984 (Icarus 59, 41).
-// Not modelled: porosity, coherent backscatter, polarisation.
+// `reflectance` is the single-scattering albedo w. Not modelled: porosity, coherent backscatter,
+// polarisation.
 
-#include <algorithm>
-#include <cmath>
-
-#include "render/scene/brdf_microfacet.h"
-#include "render/vocabulary/spectrum.h"
+#include "render/brdf/brdf_model.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 
-// w/4pi / (mu_0 + mu) times a phase function of 1 (von Seeliger 1887; Hapke 2012, 8.5): single scattering in
-// dark powder.
-inline float lommel_seeliger(float no, float ni) { return 1 / (4 * kPiF * (no + ni)); }
+// --- The law, for whoever reflects by it
 
 struct HapkeParameters {
     float b = 0.25f, c = 0.5f;    // Henyey-Greenstein: width of both lobes, (1+c)/2 is the backward share
@@ -99,4 +94,41 @@ inline float hapke(const HapkeGeometry& g, float albedo) {
     return albedo * g.factor * (g.phase + hapke_h(albedo, g.mu0) * hapke_h(albedo, g.mu) - 1);
 }
 
+namespace brdf {
+
+struct Hapke : BrdfModel<Hapke> {
+    static constexpr std::string_view kName = "hapke";
+    static constexpr bool kAlbedoIsBound = true;
+
+    struct Keys {
+        double lobe_width = 0.25, lobe_backward = 0.5;  // b and c of the Henyey-Greenstein lobes
+        double surge_amplitude = 0, surge_width = 0.05;
+        double slope_rad = 0;  // mean slope theta-bar
+    };
+    static Fields fields(Keys& k) {
+        return {number("lobe_width", k.lobe_width, 1, {0, 0.95}, "b of hapke"),
+                number("lobe_backward", k.lobe_backward, 1, {-1, 1},
+                       "c of hapke: (1+c)/2 of the light goes backward"),
+                number("surge_amplitude", k.surge_amplitude, 1, {0, 10}, "B0 of hapke: opposition surge"),
+                number("surge_width", k.surge_width, 1, {1e-4, 1}, "h of hapke: its width"),
+                number("slope_deg", k.slope_rad, kDegree_rad, {0, 60},
+                       "theta-bar of hapke: mean slope of the surface")};
+    }
+
+    HapkeParameters parameters;
+
+    Hapke(const Keys& k, BrdfMaking&)
+        : parameters{static_cast<float>(k.lobe_width), static_cast<float>(k.lobe_backward),
+                     static_cast<float>(k.surge_amplitude), static_cast<float>(k.surge_width),
+                     static_cast<float>(std::tan(k.slope_rad))} {}
+
+    Spectrum value(const SurfaceLook& at, Cosines c) const {
+        const HapkeGeometry g = hapke_geometry(parameters, c.no, c.ni, c.io);
+        Spectrum f;
+        for (int b = 0; b < kMaxBins; ++b) f[b] = hapke(g, at.base[b]);
+        return f;
+    }
+};
+
+}  // namespace brdf
 }  // namespace hilcam

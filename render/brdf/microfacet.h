@@ -117,4 +117,11 @@ inline Vec3f sample_cosine(float u1, float u2) {
 
 inline Vec3f reflect(Vec3f view, Vec3f normal) { return 2 * dot(view, normal) * normal - view; }
 
+// A direction towards the light by a facet of the lobe, world; its density is ggx_density(). local: about the
+// normal.
+inline Vec3f sample_facets(float alpha, const Frame& local, Vec3f view_dir, float u1, float u2) {
+    const Vec3f facet = local.to_world(sample_visible_normal(alpha, local.to_local(view_dir), u1, u2));
+    return normalized(reflect(view_dir, facet));
+}
+
 }  // namespace hilcam

@@ -1,0 +1,46 @@
+#pragma once
+// model: dielectric. A diffuse body under a clear layer of GGX facets with the exact Fresnel term; what
+// enters the body comes out again by its albedo (facet_lobe.h). `reflectance` is the body's albedo,
+// `roughness` the root of GGX's alpha, `refractive_index` the layer's.
+
+#include "render/brdf/facet_lobe.h"
+
+namespace hilcam::brdf {
+
+struct Dielectric : FacetModel<Dielectric> {
+    static constexpr std::string_view kName = "dielectric";
+
+    float refractive_index;
+
+    Dielectric(float alpha, float index) : refractive_index(index) { facets = ggx_albedo(alpha, index); }
+    Dielectric(const Keys&, BrdfMaking& m)
+        : Dielectric(static_cast<float>(m.keys.roughness * m.keys.roughness),
+                     static_cast<float>(m.keys.refractive_index)) {
+        m.look.alpha = static_cast<float>(m.keys.roughness * m.keys.roughness);
+        m.look.highlight = normal_incidence();
+    }
+
+    // What the layer reflects of light that falls straight on it.
+    Spectrum normal_incidence() const {
+        const float r = (refractive_index - 1) / (refractive_index + 1);
+        Spectrum out;
+        out.bin.fill(r * r);
+        return out;
+    }
+
+    Spectrum mirrored(const SurfaceLook&, float cosine) const {
+        Spectrum out;
+        out.bin.fill(fresnel_dielectric(refractive_index, cosine));
+        return out;
+    }
+    float highlight_chance(const SurfaceLook& at, float no) const {
+        const float top = 1.0f * facets(no), below = largest(at.base) * (1 - facets(no));
+        return top + below > 0 ? top / (top + below) : 1.0f;
+    }
+    float albedo(const SurfaceLook& at, float no, int bins) const {
+        return facets(no) + mean(at.base, bins) * (1 - facets(no));
+    }
+    float lobe_share(float no) const { return facets(no) / fresnel_dielectric(refractive_index, no); }
+};
+
+}  // namespace hilcam::brdf

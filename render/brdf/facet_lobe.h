@@ -1,0 +1,73 @@
+#pragma once
+// How much a lobe of GGX facets reflects in all, and what models with such a lobe have in common.
+//
+// metal and dielectric keep all energy: what leaves the facets after several reflections (metal: Kulla &
+// Conty, SIGGRAPH 2017 course) or enters the body (dielectric: Kelemen & Szirmay-Kalos, Eurographics 2001
+// short papers) is the base lobe (1-E(no))(1-E(ni)) / (pi (1-E_avg)), E the directional albedo of the facets'
+// single reflection.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/brdf/brdf_model.h"
+
+namespace hilcam {
+
+// The directional albedo E of a facet lobe over the cosine to the normal, and its cosine-weighted mean.
+struct LobeAlbedo {
+    static constexpr int kSteps = 32;
+    std::array<float, kSteps + 1> at_cosine{};
+    float average = 0;
+
+    float operator()(float cosine) const {
+        const float x = std::min(std::max(cosine, 0.0f), 1.0f) * kSteps;
+        const int i = std::min(static_cast<int>(x), kSteps - 1);
+        const float left = at_cosine[static_cast<std::size_t>(i)];
+        return left + (x - static_cast<float>(i)) * (at_cosine[static_cast<std::size_t>(i) + 1] - left);
+    }
+};
+// Of GGX facets that reflect everything (refractive_index 0) or as a dielectric. Midpoint sums over visible
+// normals: good to 1e-3.
+LobeAlbedo ggx_albedo(float alpha, float refractive_index);
+
+// (1-E(no))(1-E(ni)) / (pi (1-E_avg)): light that entered below the facets' single reflection.
+inline float below_facets(const LobeAlbedo& e, float no, float ni) {
+    return e.average < 0.9999f ? (1 - e(no)) * (1 - e(ni)) / (kPiF * (1 - e.average)) : 0.0f;
+}
+
+// Schlick's Fresnel term per bin, of a facet met at this cosine.
+inline Spectrum schlick(const Spectrum& normal_reflectance, float cosine) {
+    const float weight = schlick_weight(cosine);
+    Spectrum out;
+    for (int b = 0; b < kMaxBins; ++b) out[b] = normal_reflectance[b] + (1 - normal_reflectance[b]) * weight;
+    return out;
+}
+
+// A model whose highlight is a lobe of GGX facets as wide as the surface's alpha, a mirror where that is 0.
+// It says by mirrored() what a facet reflects.
+template <class Model>
+struct FacetModel : BrdfModel<Model> {
+    static constexpr bool kHasFacets = true;
+
+    LobeAlbedo facets;
+
+    Spectrum value(const SurfaceLook& at, Cosines c) const {
+        Spectrum f = below_facets(facets, c.no, c.ni) * at.base;
+        if (at.alpha > 0) {
+            const HalfVector h = half_vector(c);
+            f += ggx_distribution(at.alpha, h.nh) * ggx_visibility(at.alpha, c.no, c.ni) *
+                 static_cast<const Model&>(*this).mirrored(at, h.ih);
+        }
+        return f;
+    }
+    float highlight_density(const SurfaceLook& at, Cosines c) const {
+        return at.alpha > 0 ? ggx_density(at.alpha, c.no, half_vector(c).nh) : 0.0f;
+    }
+    Vec3f sample_highlight(const SurfaceLook& at, const Frame& local, Vec3f view_dir, float u1,
+                           float u2) const {
+        return sample_facets(at.alpha, local, view_dir, u1, u2);
+    }
+};
+
+}  // namespace hilcam

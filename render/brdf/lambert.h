@@ -1,0 +1,18 @@
+#pragma once
+// model: lambert. An ideal diffuse surface, as bright from everywhere (Lambert, Photometria, 1760): f = rho /
+// pi with the albedo rho, `reflectance`.
+
+#include "render/brdf/brdf_model.h"
+
+namespace hilcam::brdf {
+
+struct Lambert : BrdfModel<Lambert> {
+    static constexpr std::string_view kName = "lambert";
+
+    Lambert() = default;
+    Lambert(const Keys&, BrdfMaking&) {}
+
+    Spectrum value(const SurfaceLook& at, Cosines) const { return (1 / kPiF) * at.base; }
+};
+
+}  // namespace hilcam::brdf

@@ -1,0 +1,20 @@
+#pragma once
+// model: mirror. Exact reflection; `reflectance` is that at normal incidence, with Schlick's term towards
+// grazing incidence (microfacet.h). Where a path asks for wider lobes it is a lobe of facets without shadows.
+
+#include "render/brdf/facet_lobe.h"
+
+namespace hilcam::brdf {
+
+struct Mirror : FacetModel<Mirror> {
+    static constexpr std::string_view kName = "mirror";
+    static constexpr bool kHasBody = false;
+
+    Mirror(const Keys&, BrdfMaking& m) { m.look = {0, {}, m.look.base}; }
+
+    Spectrum mirrored(const SurfaceLook& at, float cosine) const { return schlick(at.highlight, cosine); }
+    float highlight_chance(const SurfaceLook&, float) const { return 1; }
+    float albedo(const SurfaceLook& at, float, int bins) const { return mean(at.highlight, bins); }
+};
+
+}  // namespace hilcam::brdf
