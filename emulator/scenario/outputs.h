@@ -1,5 +1,5 @@
 #pragma once
-// Where a camera's frames go: a new output is its header here and its configuration at the end of the list.
+// The outputs, where a camera's frames go: a new output is its header here and its configuration at the end of the list.
 //
 // An output is a FrameSink (io/contract/frame_sink.h) and its configuration, which says all that is asked of
 // it here: kKey and kMeaning; fields(), and validate() if keys depend on each other; make_sink(config, context,
@@ -78,7 +78,7 @@ class OutputList {
 using OutputsConfig = OutputList<GigeConfig, V4l2Config, UvcConfig, FilesConfig, PreviewConfig, TruthConfig>;
 Fields fields(OutputsConfig& outputs);
 
-// What they listen on, in the order of the list; key: "outputs.gige.interface".
+// Returns what they listen on, in the order of the list; key: "outputs.gige.interface".
 std::vector<ListeningPort> listening(const OutputsConfig& outputs);
 // The folders that they fill.
 std::vector<RunFolder> run_folders(const OutputsConfig& outputs);

@@ -52,7 +52,7 @@ enum class FaultKind : std::uint8_t {
     kUsbDetach = 70,
     kUsbShortTransfer = 71,
     kUsbStall = 72,
-    kUsbBadCrc = 73,  // of acknowledgements and telemetry
+    kUsbBadCrc = 73,  // CRC of acknowledgements and telemetry
     // The picture.
     kImageStuck = 80,  // the picture of the frame before
     kImageBlack = 81,
@@ -61,13 +61,14 @@ enum class FaultKind : std::uint8_t {
     kImageTear = 84,      // rows from `value` (share of the height, 0..1) on are of the frame before
 };
 
-// What is known of a kind. A kind without a value has an empty range.
+// The traits of a kind. A kind without a value has an empty range.
 struct FaultTraits {
     FaultKind kind;
-    std::string_view name;     // as scenario files, `hilcam send fault` and, as PacketDrop, GenICam have it
-    std::string_view meaning;  // what it does and what its value means, one line
+    std::string_view
+        name;  // its name as scenario files, `hilcam send fault` and, as PacketDrop, GenICam have it
+    std::string_view meaning;  // its meaning and its value's, one line
     bool once = false;
-    double least = 0, most = 0;  // of the value
+    double least = 0, most = 0;  // range of the value
 
     constexpr bool has_value() const { return least < most; }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What an output is told of the camera whose frames it gets, and what others ask of it.
+// The facts that an output is told of the camera whose frames it gets, and what others ask of it.
 
 #include <cstdint>
 #include <functional>
@@ -10,11 +10,11 @@ namespace hilcam {
 struct PictureRun;
 
 struct OutputShape {
-    int width = 0, height = 0;              // of the largest frame
-    int fixed_width = 0, fixed_height = 0;  // of all frames, where an output needs one size
+    int width = 0, height = 0;              // size of the largest frame
+    int fixed_width = 0, fixed_height = 0;  // size of all frames, where an output needs one size
     double frame_rate_hz = 0;               // at power-up
     std::string camera_name{};
-    const PictureRun* run = nullptr;        // what pictures say of the run (io/pictures/picture_notes.h)
+    const PictureRun* run = nullptr;  // the notes that pictures have of the run (io/pictures/picture_notes.h)
     std::function<std::string()> status{};  // the run's figures as JSON; any thread, while the loop is there
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a reflection model is: a small struct in a file of its own, named as scenarios name it.
+// The form of a reflection model: a small struct in a file of its own, named as scenarios name it.
 //
 // Directions are given by three cosines: of the viewer and the light to the shading normal, and of the two to
 // each other. Values are f [sr^-1], without the cosine; densities are per solid angle of the light's
@@ -44,9 +44,9 @@ inline float mean(const Spectrum& s, int bins) {
     return sum / static_cast<float>(bins);
 }
 
-// What a surface's textures and its level of detail change of a model at a point.
+// The look of a surface: all that its textures and its level of detail change of a model at a point.
 struct SurfaceLook {
-    float alpha = 0;     // of the facet lobe; 0: an exact mirror on top
+    float alpha = 0;     // alpha of the facet lobe; 0: an exact mirror on top
     Spectrum base;       // the model's `reflectance`, unless it says otherwise
     Spectrum highlight;  // zero, unless the model says otherwise; what facets reflect at normal incidence
 };
@@ -66,11 +66,11 @@ inline double largest_value(const Curve& curve) {
     return *std::max_element(curve.value.begin(), curve.value.end());
 }
 
-// What a model is made from; it may change the look.
+// The parts that a model is made from; it may change the look.
 struct BrdfMaking {
     const MaterialKeys& keys;
     const SpectralGrid& grid;
-    std::shared_ptr<const BrdfTable> table;  // of keys.table; null where that is empty
+    std::shared_ptr<const BrdfTable> table;  // the table of keys.table; null where that is empty
     SurfaceLook look;                        // base: the averages of keys.reflectance
 
     // Throws InputError where the curve does not cover the grid.
@@ -80,7 +80,7 @@ struct BrdfMaking {
     }
 };
 
-// What holds of a model unless it says otherwise: it is diffuse, without keys of its own.
+// The traits of a model that says nothing else: it is diffuse, without keys of its own.
 template <class Model>
 struct BrdfModel {
     static constexpr bool kHasFacets = false;      // FacetModel has them
@@ -101,9 +101,9 @@ struct BrdfModel {
     Vec3f sample_highlight(const SurfaceLook&, const Frame& local, Vec3f, float, float) const {
         return local.n;
     }
-    // What is reflected in the mirror's direction, by a facet or a sheet that is met at this cosine.
+    // Returns what is reflected in the mirror's direction, by a facet or a sheet that is met at this cosine.
     Spectrum mirrored(const SurfaceLook&, float) const { return {}; }
-    // What goes through a sheet.
+    // Returns what goes through a sheet.
     Spectrum passed(const SurfaceLook&, float) const { return {}; }
     // The share of light that comes back in all directions, about: chooses a sample's part, ends paths.
     float albedo(const SurfaceLook& at, float, int bins) const { return mean(at.base, bins); }

@@ -55,7 +55,7 @@ inline constexpr std::size_t kModel = [] {
     return place;
 }();
 
-// What others ask of a model's kind, by its place.
+// The traits that others ask of a model's kind, by its place.
 struct BrdfTraits {
     bool has_facets, has_body, transmits, takes_table, albedo_is_bound;
 };

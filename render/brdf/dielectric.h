@@ -20,7 +20,7 @@ struct Dielectric : FacetModel<Dielectric> {
         m.look.highlight = normal_incidence();
     }
 
-    // What the layer reflects of light that falls straight on it.
+    // Returns what the layer reflects of light that falls straight on it.
     Spectrum normal_incidence() const {
         const float r = (refractive_index - 1) / (refractive_index + 1);
         Spectrum out;

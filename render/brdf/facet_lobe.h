@@ -1,5 +1,5 @@
 #pragma once
-// How much a lobe of GGX facets reflects in all, and what models with such a lobe have in common.
+// The light that a lobe of GGX facets reflects in all, and what models with such a lobe have in common.
 //
 // metal and dielectric keep all energy: what leaves the facets after several reflections (metal: Kulla &
 // Conty, SIGGRAPH 2017 course) or enters the body (dielectric: Kelemen & Szirmay-Kalos, Eurographics 2001
@@ -27,7 +27,7 @@ struct LobeAlbedo {
         return left + (x - static_cast<float>(i)) * (at_cosine[static_cast<std::size_t>(i) + 1] - left);
     }
 };
-// Of GGX facets that reflect everything (refractive_index 0) or as a dielectric. Midpoint sums over visible
+// Returns the albedo of GGX facets that reflect everything (refractive_index 0) or as a dielectric. Midpoint sums over visible
 // normals: good to 1e-3.
 LobeAlbedo ggx_albedo(float alpha, float refractive_index);
 

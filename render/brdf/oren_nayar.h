@@ -12,7 +12,7 @@ struct OrenNayar : BrdfModel<OrenNayar> {
     static constexpr std::string_view kName = "oren_nayar";
 
     float roughness;
-    float a;        // of Fujii's model: 1 / (1 + (1/2 - 2/3pi) r)
+    float a;        // factor of Fujii's model: 1 / (1 + (1/2 - 2/3pi) r)
     float average;  // mean albedo of the single scattering for a white surface
 
     OrenNayar(const Keys&, BrdfMaking& m)

@@ -15,7 +15,7 @@
 
 namespace hilcam {
 
-// What scatters at one point: a material, and its look there (textures scale the spectra; the facet lobe is
+// The scatterer at one point: a material, and its look there (textures scale the spectra; the facet lobe is
 // at least as wide as the material's own, see path_vertex.h).
 struct Scatterer : SurfaceLook {
     const Material* material = nullptr;
@@ -75,7 +75,7 @@ Spectrum sheet_transmittance(const Scatterer& at, float cosine);
 float brdf_albedo(const Scatterer& at, float no, int bins);
 // The albedo of a facet lobe over what a mirror in its place reflects at this cosine to the normal.
 float brdf_lobe_share(const Scatterer& at, float no);
-// What facets leave to several reflections or the body below them, 1 - E(no); 1 without facets.
+// Returns what facets leave to several reflections or the body below them, 1 - E(no); 1 without facets.
 float brdf_below_facets(const Material& material, float no);
 
 }  // namespace hilcam
