@@ -280,6 +280,31 @@ TEST(TransferTable, ParallelSquaresMeetTheirViewFactor) {
     }
 }
 
+// Two floors of one surface, one half a cube above the other: places on each have nodes on that floor alone.
+TEST(LightNodes, WallsBehindEachOtherAreApart) {
+    const SpectralGrid grid{{0.5, 0.6}};
+    const auto nodes_of = [&](float above_m) {
+        const float z = above_m;
+        const SceneObject floors = object_of(
+            {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}},
+            {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}, lambert(0.5), grid);
+        return LightNodes(floors.mesh, std::vector<std::uint8_t>(1, 1), 3000,
+                          [](Vec3f, Vec3f, float) { return 1.0f; });
+    };
+    const float above_m = 0.5f * nodes_of(0.01f).cube_m();
+    const LightNodes nodes = nodes_of(above_m);
+    for (const float z : {0.0f, above_m})
+        for (const float x : {0.21f, 0.5f, 0.83f}) {
+            NodesAbout about;
+            ASSERT_TRUE(nodes.find({x, 0.4f, z}, {{0, 0, 1}, 0, false}, about));
+            EXPECT_GT(about.count, 0u);
+            for (std::size_t i = 0; i < about.count; ++i)
+                for (const Vec3f point : nodes.nodes()[about.node[i]].point_m)
+                    EXPECT_NEAR(point.z, z, 0.1f * above_m) << x;
+        }
+    EXPECT_TRUE(nodes.is_whole());
+}
+
 // Meshes that no one would draw: without area, with holes, with the normals inwards, with a sliver.
 TEST(TransferTable, TakesWhatMeshesThereAre) {
     const SpectralGrid grid{{0.5, 0.6}};
