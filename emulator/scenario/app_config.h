@@ -30,6 +30,7 @@
 #include "io/uvc/sink_uvc.h"
 #include "io/v4l2/sink_v4l2.h"
 #include "io/vizard/commands_vizard.h"
+#include "render/earth/earth_config.h"
 #include "render/frame/renderer.h"
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/bodies.h"
@@ -151,6 +152,7 @@ struct ScenarioConfig {
     SunConfig sun;
     std::array<BodyConfig, kBodyCount> bodies;
     AtmosphereConfig atmosphere;
+    EarthConfig earth_surface;
     StarsConfig stars;
     std::vector<double> spectrum_edges_um = {0.40, 0.52, 0.62, 0.75, 0.95};
     RenderModels models;

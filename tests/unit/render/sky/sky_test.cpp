@@ -3,7 +3,7 @@
 #include <random>
 #include <string>
 
-#include "render/scene/earth_rays.h"
+#include "render/earth/earth_rays.h"
 #include "render/sky/bodies.h"
 #include "render/sky/body_light.h"
 #include "render/sky/sun.h"

@@ -1,0 +1,33 @@
+#pragma once
+// The air between a point near the ground and space, as a table made from any Atmosphere: for a viewer above the air it
+// depends on the point's height and three angles alone, so that a look costs some tens of nanoseconds instead of
+// microseconds.
+//
+// Grids: 33 zenith angles of the viewer, crowded at the horizon, 64 of the Sun to 20 degrees below it, 13 azimuths, two
+// heights. Linear between; against Atmosphere::look(): tests/unit/render/earth/air_columns_test.cpp.
+
+#include <vector>
+
+#include "render/sky/atmosphere.h"
+
+namespace hilcam {
+
+class AirColumns {
+  public:
+    // high_m: the upper of the two heights. Works the table out on all threads. The air is not kept.
+    AirColumns(const Atmosphere& air, double high_m);
+
+    struct Looks {
+        Atmosphere::Sight low, high;  // to a point on the ground, and to one at high_m
+    };
+    // What Atmosphere::look() says of rays from space. mu, mu0: cosines of the zenith angles of viewer and Sun at the
+    // point; cos_phase: of the angle between the directions to both. Loop, any thread.
+    Looks look(float mu, float mu0, float cos_phase) const;
+
+  private:
+    static constexpr int kViews = 33, kSuns = 64, kAzimuths = 13;
+    std::vector<Spectrum> transmittance_;  // [view][height]
+    std::vector<Spectrum> radiance_;       // [azimuth][sun][view][height]
+};
+
+}  // namespace hilcam
