@@ -235,6 +235,12 @@ bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
     return true;
 }
 
+float EarthModel::texels_across(const MapFootprint& f) const {
+    const auto height =
+        static_cast<float>(std::max(ground_.height(), clouds_.empty() ? 0 : clouds_.height()));
+    return height * std::sqrt(std::max(4 * f.u1 * f.u1 + f.v1 * f.v1, 4 * f.u2 * f.u2 + f.v2 * f.v2));
+}
+
 bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
     const double distance_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;

@@ -44,6 +44,8 @@ class EarthModel {
     static constexpr double kHighest_m = 16000;  // of clouds
     // The same in two steps, for pixels that share an aspect. False where the ground is not met, or grazed.
     bool aspect_of(const Ray& ray, EarthAspect& aspect) const;
+    // The longest side of a footprint in texels of the finest map.
+    float texels_across(const MapFootprint& footprint) const;
     // Where a ray meets the ground, as EarthMap has it: u, v. False where it does not.
     static bool map_place(const Ray& ray, float& u, float& v);
     // Radiance by an aspect and the maps, per unit of irradiance [sr^-1], and that of lights [W m^-2 sr^-1 um^-1].

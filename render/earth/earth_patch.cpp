@@ -35,33 +35,80 @@ void EarthPatch::place_half(int row, int column, const EarthModel::Ray& ray) {
     if (!EarthModel::map_place(ray, at.u, at.v)) at = {};  // no node about it carries
 }
 
-bool EarthPatch::add(float x, float y, const Spectrum& weight, Spectrum& radiance) const {
-    const float fx = (x - static_cast<float>(box_.x0)) * (1.0f / kPitch_px),
-                fy = (y - static_cast<float>(box_.y0)) * (1.0f / kPitch_px);
-    const int i = std::clamp(static_cast<int>(fx), 0, kMostNodes - 2),
-              j = std::clamp(static_cast<int>(fy), 0, kMostNodes - 2);
-    const auto at = static_cast<std::size_t>(j * kMostNodes + i);
-    if (!carries_[at] || !carries_[at + 1] || !carries_[at + kMostNodes] || !carries_[at + kMostNodes + 1])
-        return false;
-    const float s = fx - static_cast<float>(i), t = fy - static_cast<float>(j);
+void EarthPatch::choose_steps() {
+    looked_.fill(false);
+    for (int j = 0; j + 1 < down_; ++j)
+        for (int i = 0; i + 1 < across_; ++i) {
+            float texels = 0;
+            bool carries = true;
+            for (const int k : {0, 1, kMostNodes, kMostNodes + 1}) {
+                const auto at = static_cast<std::size_t>(j * kMostNodes + i + k);
+                carries = carries && carries_[at];
+                if (carries)
+                    texels = std::max(
+                        texels, earth_->texels_across(std::bit_cast<EarthAspect>(nodes_[at]).footprint));
+            }
+            // Half a texel from look to look: what bends between texels is seen.
+            step_px_[static_cast<std::size_t>(j * kMostNodes + i)] =
+                !carries ? 0 : (texels < 0.125f ? 4 : (texels < 0.25f ? 2 : 1));
+        }
+}
+
+Spectrum EarthPatch::look(Cell cell, float s, float t) const {
+    const auto at = static_cast<std::size_t>(cell.row * kMostNodes + cell.column);
     Node sum;
     mix_nodes(nodes_[at], nodes_[at + 1], nodes_[at + kMostNodes], nodes_[at + kMostNodes + 1],
               {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t}, sum);
     EarthAspect aspect = std::bit_cast<EarthAspect>(sum);
     // Lagrange's parabolas, both ways; longitudes as turns from the first.
     const std::array<float, 3> across{(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)},
-        down{(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
-    const MapPlace* const first = halves_.data() + 2 * j * kHalves + 2 * i;
+        along{(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
+    const MapPlace* const first = halves_.data() + 2 * cell.row * kHalves + 2 * cell.column;
     aspect.u = first->u, aspect.v = 0;
     for (std::size_t row = 0; row < 3; ++row)
         for (std::size_t column = 0; column < 3; ++column) {
             const MapPlace& here = first[row * kHalves + column];
-            const float w = down[row] * across[column], off = here.u - first->u;
+            const float w = along[row] * across[column], off = here.u - first->u;
             aspect.u += w * (off > 0.5f ? off - 1 : (off < -0.5f ? off + 1 : off));
             aspect.v += w * here.v;
         }
     const EarthModel::Shade seen = earth_->shade(aspect);
-    radiance += weight * (irradiance_ * seen.over_sun_sr + seen.lights_w_m2_sr_um);
+    return irradiance_ * seen.over_sun_sr + seen.lights_w_m2_sr_um;
+}
+
+// By the cell that asks: on an edge that cells share, either gives the same but for rounding.
+const Spectrum& EarthPatch::look_at_corner(Cell cell, int column, int row) {
+    const auto at = static_cast<std::size_t>(row * kLooks + column);
+    if (!looked_[at]) {
+        const auto per_cell = static_cast<float>(pitch_px_ / 2);
+        looks_[at] = look(cell, static_cast<float>(column) / per_cell - static_cast<float>(cell.column),
+                          static_cast<float>(row) / per_cell - static_cast<float>(cell.row));
+        looked_[at] = true;
+    }
+    return looks_[at];
+}
+
+bool EarthPatch::add(float x, float y, const Spectrum& weight, Spectrum& radiance) {
+    const float in_x = x - static_cast<float>(box_.x0), in_y = y - static_cast<float>(box_.y0);
+    const Cell cell{std::clamp(static_cast<int>(in_x) / pitch_px_, 0, across_ - 2),
+                    std::clamp(static_cast<int>(in_y) / pitch_px_, 0, down_ - 2)};
+    const int step_px = step_px_[static_cast<std::size_t>(cell.row * kMostNodes + cell.column)];
+    if (step_px == 0) return false;
+    if (step_px == 1) {
+        radiance +=
+            weight * look(cell, in_x / static_cast<float>(pitch_px_) - static_cast<float>(cell.column),
+                          in_y / static_cast<float>(pitch_px_) - static_cast<float>(cell.row));
+        return true;
+    }
+    const int column = static_cast<int>(in_x) / step_px, row = static_cast<int>(in_y) / step_px,
+              n = step_px / 2;
+    const float s = in_x / static_cast<float>(step_px) - static_cast<float>(column),
+                t = in_y / static_cast<float>(step_px) - static_cast<float>(row);
+    Spectrum seen = ((1 - s) * (1 - t)) * look_at_corner(cell, n * column, n * row);
+    seen += (s * (1 - t)) * look_at_corner(cell, n * (column + 1), n * row);
+    seen += ((1 - s) * t) * look_at_corner(cell, n * column, n * (row + 1));
+    seen += (s * t) * look_at_corner(cell, n * (column + 1), n * (row + 1));
+    radiance += weight * seen;
     return true;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "render/earth/earth_patch.h"
 #include "render/visibility/visibility_buffer.h"
@@ -83,8 +84,7 @@ class PrimaryRays {
     const LinearRays* linear_;
     bool plain_;    // the one body in view is done sixteen rays at a time
     bool patched_;  // the Earth is seen in patches, where that is good enough
-    bool patch_placed_ = false;
-    EarthPatch patch_;
+    std::optional<EarthPatch> patch_;
     float sample_rad_;  // angle between neighbouring rays
     Spectrum weight_;
     Vec3d corner_;
@@ -200,12 +200,13 @@ class PrimaryRays {
             return;
         }
         if (patched_) {
-            if (!patch_placed_)
+            if (!patch_) {
+                patch_.emplace();
                 frame_.background->place_earth_patch(tile_.box, corner_, linear_->right, linear_->down,
-                                                     patch_);
-            patch_placed_ = true;
-            if (patch_.add(static_cast<float>(tile_.box.x0) + x_at_[k],
-                           static_cast<float>(tile_.box.y0) + y_at_[k], weight, pixel))
+                                                     *patch_);
+            }
+            if (patch_->add(static_cast<float>(tile_.box.x0) + x_at_[k],
+                            static_cast<float>(tile_.box.y0) + y_at_[k], weight, pixel))
                 return;
         }
         const Vec3d dir = exact_dir(k);

@@ -29,11 +29,14 @@ void Background::place_earth_patch(const PixelBox& box, Vec3d corner_dir, Vec3d 
     const PlacedBody& earth = disks_[0];
     const Mat3d& fixed = earth.fixed_from_world;
     const Vec3d corner = fixed * corner_dir, right = fixed * right_dir, down = fixed * down_dir;
-    patch.place(*earth_, box, [&](int x, int y) {
-        const Vec3d dir = corner + (x - box.x0) * right + (y - box.y0) * down;
-        return EarthModel::Ray{earth.camera_m, normalized(dir), earth.sun_dir, pixel_rad_,
-                               earth.irradiance_w_m2_um};
-    });
+    // Small where the whole disk is seen.
+    const bool small = earth.distance_m > 3 * kFigures[index_of(earth.id)].equatorial_radius_m;
+    patch.place(*earth_, box, small ? EarthPatch::kFinePitch_px : EarthPatch::kWidePitch_px,
+                [&](int x, int y) {
+                    const Vec3d dir = corner + (x - box.x0) * right + (y - box.y0) * down;
+                    return EarthModel::Ray{earth.camera_m, normalized(dir), earth.sun_dir, pixel_rad_,
+                                           earth.irradiance_w_m2_um};
+                });
 }
 
 }  // namespace hilcam
