@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/vocabulary/units.h"
 
@@ -23,7 +24,7 @@ float root_of_cosine(float mu) {
 
 }  // namespace
 
-AirColumns::AirColumns(const Atmosphere& air, double high_m) {
+AirColumns::AirColumns(const Atmosphere& air, double high_m) : top_m_(static_cast<float>(air.top_m())) {
     transmittance_.resize(2 * kViews);
     radiance_.resize(static_cast<std::size_t>(2) * kAzimuths * kSuns * kViews);
     tbb::parallel_for(0, kAzimuths * kSuns, [&](int row) {
@@ -44,6 +45,55 @@ AirColumns::AirColumns(const Atmosphere& air, double high_m) {
                 if (row == 0) transmittance_[static_cast<std::size_t>(2 * i + k)] = sight.transmittance;
             }
     });
+    fill_passing(air);
+}
+
+void AirColumns::fill_passing(const Atmosphere& air) {
+    passed_.resize(kPassHeights);
+    passing_.resize(static_cast<std::size_t>(kPassAzimuths) * kPassSuns * kPassHeights);
+    tbb::parallel_for(0, kPassAzimuths * kPassSuns, [&](int row) {
+        constexpr double kAway_m = 4e6;
+        const double mu0 =
+            cosine_of_root(static_cast<double>(kLowestRoot) +
+                           row % kPassSuns * (1 - static_cast<double>(kLowestRoot)) / (kPassSuns - 1));
+        const double share = static_cast<double>(row / kPassSuns) / (kPassAzimuths - 1),
+                     azimuth = kPi * share * share;
+        const double sine0 = std::sqrt(1 - mu0 * mu0);
+        const Vec3d sun{sine0 * std::cos(azimuth), sine0 * std::sin(azimuth), mu0}, ahead{1, 0, 0};
+        for (int i = 0; i < kPassHeights; ++i) {
+            const double root = static_cast<double>(i) / (kPassHeights - 1);
+            const Vec3d lowest{0, 0, kEarthEquatorialRadius_m + 1 + root * root * (air.top_m() - 1)};
+            const Atmosphere::Sight sight =
+                air.look(lowest - kAway_m * ahead, ahead, std::numeric_limits<double>::infinity(), sun);
+            passing_[static_cast<std::size_t>(row * kPassHeights + i)] = sight.radiance_sr;
+            if (row == 0) passed_[static_cast<std::size_t>(i)] = sight.transmittance;
+        }
+    });
+}
+
+Atmosphere::Sight AirColumns::look_past(float height_m, float mu0, float ahead_dot_sun) const {
+    const float height = std::sqrt(std::clamp(height_m / top_m_, 0.0f, 1.0f)) * (kPassHeights - 1);
+    const float sun =
+        (std::max(kLowestRoot, root_of_cosine(mu0)) - kLowestRoot) / (1 - kLowestRoot) * (kPassSuns - 1);
+    const float sine0 = std::sqrt(std::max(1e-12f, 1 - mu0 * mu0));
+    const float azimuth = std::sqrt(std::acos(std::clamp(ahead_dot_sun / sine0, -1.0f, 1.0f)) / kHalfTurn) *
+                          (kPassAzimuths - 1);
+    const int h = std::min(static_cast<int>(height), kPassHeights - 2),
+              s = std::min(static_cast<int>(sun), kPassSuns - 2),
+              a = std::min(static_cast<int>(azimuth), kPassAzimuths - 2);
+    const float fh = height - static_cast<float>(h), fs = sun - static_cast<float>(s),
+                fa = azimuth - static_cast<float>(a);
+    Atmosphere::Sight out;
+    out.transmittance =
+        (1 - fh) * passed_[static_cast<std::size_t>(h)] + fh * passed_[static_cast<std::size_t>(h) + 1];
+    for (int i = 0; i < 4; ++i) {
+        const int da = i >> 1, ds = i & 1;
+        const float w = (da ? fa : 1 - fa) * (ds ? fs : 1 - fs);
+        const Spectrum* row = passing_.data() + ((a + da) * kPassSuns + s + ds) * kPassHeights + h;
+        out.radiance_sr += (w * (1 - fh)) * row[0];
+        out.radiance_sr += (w * fh) * row[1];
+    }
+    return out;
 }
 
 AirColumns::Looks AirColumns::look(float mu, float mu0, float cos_phase) const {

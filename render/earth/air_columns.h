@@ -3,7 +3,7 @@
 // depends on the point's height and three angles alone, so that a look costs some tens of nanoseconds instead of
 // microseconds.
 //
-// Grids: 33 zenith angles of the viewer, crowded at the horizon, 64 of the Sun to 20 degrees below it, 13 azimuths, two
+// Grids: 41 zenith angles of the viewer, crowded at the horizon, 64 of the Sun to 20 degrees below it, 13 azimuths, two
 // heights. Linear between; against Atmosphere::look(): tests/unit/render/earth/air_columns_test.cpp.
 
 #include <vector>
@@ -24,8 +24,21 @@ class AirColumns {
     // point; cos_phase: of the angle between the directions to both. Loop, any thread.
     Looks look(float mu, float mu0, float cos_phase) const;
 
+    // The same of a ray from space that misses the ground and has its lowest point ahead: that point's height, 0 to the
+    // air's top; mu0: there; ahead_dot_sun: cosine of the angle between the ray's way and the Sun.
+    Atmosphere::Sight look_past(float height_m, float mu0, float ahead_dot_sun) const;
+    float top_m() const { return top_m_; }
+
   private:
-    static constexpr int kViews = 33, kSuns = 64, kAzimuths = 13;
+    // Past the ground: heights by their root, azimuths from the Sun's by theirs.
+    static constexpr int kPassHeights = 80, kPassSuns = 64, kPassAzimuths = 20;
+    float top_m_;
+    std::vector<Spectrum> passed_;   // [height]
+    std::vector<Spectrum> passing_;  // [azimuth][sun][height]
+
+    void fill_passing(const Atmosphere& air);
+
+    static constexpr int kViews = 41, kSuns = 64, kAzimuths = 13;
     std::vector<Spectrum> transmittance_;  // [view][height]
     std::vector<Spectrum> radiance_;       // [azimuth][sun][view][height]
 };

@@ -306,6 +306,25 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a) const {
     return out;
 }
 
+// Along a ray that misses the ground.
+Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
+    const Vec3d origin = stretched(ray.origin_m), dir = normalized(stretched(ray.dir)),
+                sun = normalized(stretched(ray.sun_dir));
+    const double to_lowest_m = -dot(origin, dir);
+    const Vec3d lowest = origin + to_lowest_m * dir;
+    const double radius_m = length(lowest), top_m = kEarth.equatorial_radius_m + air_->top_m();
+    if (to_lowest_m <= 0 || dot(origin, origin) < top_m * top_m)
+        return air_->look(origin, dir, std::numeric_limits<double>::infinity(), sun);
+    if (radius_m >= top_m) {
+        Atmosphere::Sight clear;
+        clear.transmittance.bin.fill(1);
+        return clear;
+    }
+    return columns_->look_past(static_cast<float>(radius_m - kEarth.equatorial_radius_m),
+                               static_cast<float>(dot(lowest, sun) / radius_m),
+                               static_cast<float>(dot(dir, sun)));
+}
+
 bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
     const double to_ground_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
@@ -329,10 +348,7 @@ bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const
         }
     }
     if (air_) {
-        const Vec3d dir = stretched(ray.dir);
-        const Atmosphere::Sight air =
-            air_->look(stretched(ray.origin_m), normalized(dir), std::numeric_limits<double>::infinity(),
-                       normalized(stretched(ray.sun_dir)));
+        const Atmosphere::Sight air = air_past(ray);
         radiance += weight * ray.irradiance_w_m2_um * air.radiance_sr;
         weight = weight * air.transmittance;
     }

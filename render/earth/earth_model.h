@@ -77,6 +77,7 @@ class EarthModel {
 
     struct Place;
     void place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const;
+    Atmosphere::Sight air_past(const Ray& ray) const;
     float cloud_of(const EarthSample& sample) const;
     EarthAspect aspect_at(const Ray& ray, double distance_m, double height_m) const;
 };
