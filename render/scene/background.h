@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "render/scene/color_bands.h"
 #include "render/earth/earth_rays.h"
+#include "render/scene/color_bands.h"
 #include "render/scene/scene.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/pixel_box.h"
