@@ -73,6 +73,8 @@ Fields fields(ScenarioConfig& s) {
                  "light sources carried by things; commands number them from 1 (docs/lamps.md)"),
         section("sun", s.sun, "light and place of the Sun"),
         section("atmosphere", s.atmosphere, "air of the Earth"),
+        section("earth_surface", s.earth_surface,
+                "land, sea, clouds and lights of the Earth (docs/earth.md)"),
         section("stars", s.stars, "stars in the sky"),
         numbers("spectrum_edges_um", s.spectrum_edges_um, 1, {0.2, 2.5}, {2, kMaxBins + 1},
                 "edges of the spectral bins"),

@@ -22,6 +22,7 @@
 #include "emulator/world/clock.h"
 #include "emulator/world/world_state.h"
 #include "io/commands/telemetry.h"
+#include "render/earth/earth_config.h"
 #include "render/frame/render_quality.h"
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/bodies.h"
@@ -69,6 +70,7 @@ struct ScenarioConfig {
     SunConfig sun;
     std::array<BodyConfig, kBodyCount> bodies;
     AtmosphereConfig atmosphere;
+    EarthConfig earth_surface;
     std::optional<StarsConfig> stars;
     std::vector<double> spectrum_edges_um = {0.40, 0.52, 0.62, 0.75, 0.95};
     RenderModels models;

@@ -112,6 +112,10 @@ void look_at_frames(const ScenarioConfig& s, Lines& out) {
         out.push_back("stars: there are none without stars.catalogue; hipparcos.csv is shipped");
     if (s.atmosphere.model != "none" && !s.bodies[index_of(BodyId::kEarth)].visible)
         out.push_back("atmosphere: has no effect, as the Earth is not shown: earth.visible");
+    if (!s.earth_surface.map.empty() && !s.bodies[index_of(BodyId::kEarth)].visible)
+        out.push_back("earth_surface: has no effect, as the Earth is not shown: earth.visible");
+    if (!s.earth_surface.map.empty() && !s.bodies[index_of(BodyId::kEarth)].albedo_map.empty())
+        out.push_back("earth.albedo_map: has no effect, as earth_surface.map says what the Earth looks like");
 }
 
 }  // namespace

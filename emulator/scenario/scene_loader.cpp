@@ -15,11 +15,13 @@
 #include "io/files/atmosphere_file.h"
 #include "io/files/brdf_file.h"
 #include "io/files/catalogue_file.h"
+#include "io/files/earth_map_file.h"
 #include "io/files/mesh_cache.h"
 #include "io/files/mesh_file.h"
 #include "io/files/mesh_level_cache.h"
 #include "io/pictures/picture_file.h"
 #include "render/brdf/brdf_table.h"
+#include "render/earth/earth_model.h"
 #include "render/frame/plugin.h"
 #include "render/scene/brdf.h"
 #include "render/sky/sun.h"
@@ -222,6 +224,16 @@ void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
                         g.padded_width(), g.padded_height(), grid.size(), frame_gb, machine_gb));
 }
 
+std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const Atmosphere* air,
+                                             const SpectralGrid& grid) {
+    if (config.map.empty()) return nullptr;
+    const Progress progress("Earth");
+    EarthMap clouds;
+    if (config.cloud_seed != 0) clouds = seeded_clouds(static_cast<std::uint64_t>(config.cloud_seed));
+    if (!config.cloud_map.empty()) clouds = read_earth_map(config.cloud_map);
+    return std::make_shared<EarthModel>(config, read_earth_map(config.map), std::move(clouds), air, grid);
+}
+
 }  // namespace
 
 double LoadedObject::mean_reflectance() const {
@@ -287,6 +299,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
         const Progress progress("air");
         scene.air =
             modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
+        scene.earth = load_earth(scenario.earth_surface, scene.air.get(), grid);
     }
     if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
     scene.sun_irradiance_1au_w_m2_um =

@@ -103,6 +103,7 @@ class FramePlacer {
     std::size_t max_stars_;
     std::array<SceneBody, kBodyCount> bodies_;
     std::unique_ptr<Atmosphere> air_;
+    std::shared_ptr<const EarthModel> earth_;
     ColorBands bands_;
     Background background_;
     KeptScene::Settings kept_settings_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "render/earth/earth_model.h"
 #include "render/light/kept_scene.h"
 #include "render/light/lamp_light.h"
 #include "render/visibility/visibility_raster.h"
@@ -141,6 +142,8 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
     for (std::size_t i = 0; i < f.lamps->all().size(); ++i) lines.push_back(lamp_line(f, i));
     if (f.lamps->all().empty()) lines.push_back("no lamps");
     lines.push_back(air_line(*f.background));
+    if (const EarthModel* earth = f.background->earth())
+        for (const std::string& part : earth->describe()) lines.push_back("Earth: " + part);
     add(planned.stars, " stars to look through");
     add(f.has_glass ? "glass: shadow rays go through it" : "no glass: shadow rays end at the first surface");
     add(f.has_emission ? "surfaces emit" : "no emission");

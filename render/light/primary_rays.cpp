@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "render/earth/earth_patch.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/place_sequence.h"
 
@@ -22,7 +24,8 @@ class PrimaryRays {
           bodies_(frame_.may_see_body(tile.box)),
           sun_(tile.box.overlaps(frame_.sun_box)),
           linear_(frame_.rays->linear()),
-          plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)) {
+          plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)),
+          patched_(bodies_ && linear_ && frame_.background->earth_in_patches()) {
         sample_rad_ = static_cast<float>(1 / frame_.geometry.focal_length_px) /
                       static_cast<float>(tile.samples_per_axis);
         std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
@@ -79,7 +82,9 @@ class PrimaryRays {
     float ray_weight_ = 1;
     bool bodies_, sun_;
     const LinearRays* linear_;
-    bool plain_;        // the one body in view is done sixteen rays at a time
+    bool plain_;    // the one body in view is done sixteen rays at a time
+    bool patched_;  // the Earth is seen in patches, where that is good enough
+    std::optional<EarthPatch> patch_;
     float sample_rad_;  // angle between neighbouring rays
     Spectrum weight_;
     Vec3d corner_;
@@ -187,12 +192,22 @@ class PrimaryRays {
         return !frame_.background->hides_seen(dir, length(point - frame_.camera_m));
     }
 
-    void add_backdrop(std::size_t k, float sun_cosine, Spectrum weight, Spectrum& pixel) const {
+    void add_backdrop(std::size_t k, float sun_cosine, Spectrum weight, Spectrum& pixel) {
         if (plain_) {
             if (sun_cosine > EarthRays::kMiss)
                 return frame_.background->add_plain_at(sun_cosine, weight, pixel);
             if (sun_) frame_.background->add_sun_disk(exact_dir(k), weight, pixel);
             return;
+        }
+        if (patched_) {
+            if (!patch_) {
+                patch_.emplace();
+                frame_.background->place_earth_patch(tile_.box, corner_, linear_->right, linear_->down,
+                                                     *patch_);
+            }
+            if (patch_->add(static_cast<float>(tile_.box.x0) + x_at_[k],
+                            static_cast<float>(tile_.box.y0) + y_at_[k], weight, pixel))
+                return;
         }
         const Vec3d dir = exact_dir(k);
         if (bodies_ && frame_.background->add_bodies_seen(dir, weight, pixel)) return;

@@ -148,12 +148,13 @@ void SkyLight::place_disks(const Background& background, std::size_t number, Dis
     find_limb(background, number, disks);
     Spectrum each_sr;
     each_sr.bin.fill(2 * kPiF * lamp.one_minus_cosine / kPatches);
+    const auto patch_rad = static_cast<double>(std::sqrt(each_sr[0]));
     for (std::size_t i = 0; i < kPatches; ++i) {
         const Vec3f dir = spiral(axis, lamp.one_minus_cosine, i, kPatches);
         whole.x[i] = dir.x, whole.y[i] = dir.y, whole.z[i] = dir.z;
         whole.irradiance[i] = {};
         Spectrum weight = each_sr;
-        background.add_bodies({}, to_double(dir), weight, whole.irradiance[i]);
+        background.add_bodies({}, to_double(dir), weight, whole.irradiance[i], patch_rad);
     }
     for (std::size_t k = 0; k < kParts.size(); ++k) {
         // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/earth/earth_model.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -37,10 +38,11 @@ Vec3f mean_texel(const MipTexture& map) {
 }  // namespace
 
 Background::Background(const std::array<SceneBody, kBodyCount>& bodies, const Atmosphere* air,
-                       const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening,
-                       const SpectralGrid& grid)
+                       const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um,
+                       bool limb_darkening, const SpectralGrid& grid)
     : scene_(bodies),
       air_(air),
+      earth_(earth),
       sun_irradiance_1au_(sun_irradiance_1au_w_m2_um),
       disk_(grid, limb_darkening),
       bands_(grid),
@@ -92,8 +94,8 @@ PlacedBody Background::placed(BodyId id, const WorldSnapshot& world, bool stays)
     out.distance_m = length(from_camera_m);
     out.world_dir = out.distance_m > 0 ? from_camera_m / out.distance_m : Vec3d{0, 0, 1};
     out.disk_cosine = cone_cosine_of(figure.equatorial_radius_m, out.distance_m);
-    out.cone_cosine = has_air(id) ? cone_cosine_of(figure.equatorial_radius_m + air_->top_m(), out.distance_m)
-                                  : out.disk_cosine;
+    out.cone_cosine = top_m(id) > 0 ? cone_cosine_of(figure.equatorial_radius_m + top_m(id), out.distance_m)
+                                    : out.disk_cosine;
     const Vec3d to_sun_m = world.bodies.sun_world_m - state.world_m;
     const double sun_m = length(to_sun_m);
     out.sun_dir = out.fixed_from_world * (to_sun_m / sun_m);
@@ -146,11 +148,11 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
               [](const PlacedBody& a, const PlacedBody& b) { return a.distance_m < b.distance_m; });
     for (const PlacedBody& body : disks()) {
         // Lambert's radiance is at most albedo / pi; Lommel-Seeliger's w / 4 pi at the bright limb.
-        const Spectrum most = scene_[index_of(body.id)].look.reflectance_sr(1, 0, 1);
+        Spectrum most = scene_[index_of(body.id)].look.reflectance_sr(1, 0, 1);
+        if (is_modelled(body.id)) most.bin.fill(EarthModel::kMaxOverSun);
         const float sun_share = body.irradiance_w_m2_um[0] / std::max(1e-30f, sun_irradiance_1au_[0]);
         const Vec3d to_body_m = world.bodies[body.id].world_m - objects_world_m;
-        const double radius_m =
-            kFigures[index_of(body.id)].equatorial_radius_m + (has_air(body.id) ? air_->top_m() : 0);
+        const double radius_m = kFigures[index_of(body.id)].equatorial_radius_m + top_m(body.id);
         const double sine = std::min(1.0, radius_m / length(to_body_m));
         body_lights_[body_light_count_++] = {
             normalized(to_body_m), static_cast<float>(sine * sine),
@@ -161,11 +163,14 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
     sun_clear_irradiance_ = static_cast<float>(au * au) * sun_irradiance_1au_;
     sun_irradiance_ = sun_clear_irradiance_ * sun_seen_from(objects_world_m, kNowhere);
 
+    earth_in_patches_ =
+        disk_count_ > 0 && is_modelled(disks_[0].id) && !disks_[0].may_be_eclipsed && !camera_in_air_;
     plain_ = nullptr;
     if (disk_count_ > 0 && !air_) {
         const PlacedBody& body = disks_[0];
         const SceneBody& scene = scene_[index_of(body.id)];
-        if (scene.look.plain_lambert() && scene.map.empty() && !body.may_be_eclipsed) {
+        if (scene.look.plain_lambert() && scene.map.empty() && !body.may_be_eclipsed &&
+            !is_modelled(body.id)) {
             plain_ = &disks_[0];
             plain_radiance_ = static_cast<float>(1 / kPi) * (scene.look.albedo() * body.irradiance_w_m2_um);
         }
@@ -272,11 +277,16 @@ Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec
     return body.irradiance_w_m2_um * light;
 }
 
-bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
+bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
+                                 double width_rad) const {
     for (const PlacedBody& body : disks()) {
         const Figure& figure = kFigures[index_of(body.id)];
         const Vec3d origin = body.camera_m + body.fixed_from_world * origin_m;
         const Vec3d d = body.fixed_from_world * dir;
+        if (is_modelled(body.id)) {
+            if (add_earth(body, origin, d, width_rad, weight, radiance)) return true;
+            continue;
+        }
         const double distance = intersect_ellipsoid(figure, origin, d);
         const bool hit = distance >= 0;
         if (has_air(body.id)) {
@@ -374,15 +384,18 @@ Spectrum Background::point_irradiance(const PlacedBody& body) const {
     const Figure& figure = kFigures[i];
     const double a = figure.equatorial_radius_m, b = figure.polar_radius_m;
     const Vec3d to_camera = body.camera_m / body.distance_m;
+    if (is_modelled(body.id)) {
+        return static_cast<float>(a * a / (body.distance_m * body.distance_m)) *
+               (body.irradiance_w_m2_um * earth_->disk_albedo(to_camera, body.sun_dir, 400));
+    }
     const double phase = std::acos(std::clamp(dot(to_camera, body.sun_dir), -1.0, 1.0));
     // These are the semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's
     // latitude.
     const double sine = to_camera.z;
     const double area_ratio =
         a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);
-    Spectrum out = static_cast<float>(area_ratio) *
-                   (body.irradiance_w_m2_um * scene_[i].look.disk_albedo(phase) * map_mean_[i]);
-    return out;
+    return static_cast<float>(area_ratio) *
+           (body.irradiance_w_m2_um * scene_[i].look.disk_albedo(phase) * map_mean_[i]);
 }
 
 }  // namespace hilcam

@@ -7,12 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include "render/earth/earth_rays.h"
 #include "render/scene/color_bands.h"
-#include "render/scene/earth_rays.h"
 #include "render/scene/scene.h"
 #include "render/sky/sun.h"
+#include "render/vocabulary/pixel_box.h"
 
 namespace hilcam {
+
+class EarthPatch;
 
 // A body that shines on the objects: the cone that holds it.
 struct BodyLight {
@@ -38,9 +41,10 @@ struct PlacedBody {
 
 class Background {
   public:
-    // The bodies and the air of the scene must outlive this.
+    // The bodies, the air and the Earth of the scene must outlive this.
     Background(const std::array<SceneBody, kBodyCount>& bodies, const Atmosphere* air,
-               const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening, const SpectralGrid& grid);
+               const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening,
+               const SpectralGrid& grid);
 
     // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h).
     // pixel_rad: bodies smaller than this are points, not here. Bodies are where a camera in motion sees
@@ -66,14 +70,18 @@ class Background {
     // Irradiance of a point body at the camera [W m^-2 um^-1].
     Spectrum point_irradiance(const PlacedBody& body) const;
     const Atmosphere* air() const { return air_; }
+    const EarthModel* earth() const { return earth_; }
     // The camera is in air, so that objects are seen through it.
     bool camera_in_air() const { return camera_in_air_; }
 
     // Adds weight * radiance of the nearest body along a ray (origin relative to the objects, world axes,
     // direction of any length), air included. Gives whether a body was met; air alone is not, and dims
-    // `weight` for what is behind it. Loop, any thread.
-    bool add_bodies(Vec3f origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
-        return add_bodies_from(to_double(origin_m) + objects_from_camera_m_, dir, weight, radiance);
+    // `weight` for what is behind it. width_rad: of the cone that the ray stands for, of which the Earth's maps show
+    // the mean; 0: a pixel's. Loop, any thread.
+    bool add_bodies(Vec3f origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
+                    double width_rad = 0) const {
+        return add_bodies_from(to_double(origin_m) + objects_from_camera_m_, dir, weight, radiance,
+                               width_rad > 0 ? width_rad : pixel_rad_);
     }
     // Cheaply, whether add_bodies() could add anything. dir: unit.
     bool may_meet_body(Vec3f dir) const {
@@ -88,7 +96,7 @@ class Background {
     }
     // The same from the camera.
     bool add_bodies_seen(Vec3d dir, Spectrum& weight, Spectrum& radiance) const {
-        return add_bodies_from({}, dir, weight, radiance);
+        return add_bodies_from({}, dir, weight, radiance, pixel_rad_);
     }
     // Adds the radiance of the Sun's disk as they do: mean radiance E_s / (pi sin^2 rho) inside its angular
     // radius rho, darker to the edge. No eclipse: what stands before it is in the way of the ray itself.
@@ -125,12 +133,20 @@ class Background {
         if (sun_cosine > 0) radiance += sun_cosine * (weight * plain_radiance_);
     }
 
+    // The Earth by its model can be seen in patches (earth_patch.h): nothing lies before it, it is not eclipsed, and the
+    // camera is above its air.
+    bool earth_in_patches() const { return earth_in_patches_; }
+    // Directions of rays are corner + (x - box.x0) right + (y - box.y0) down, of any length, in world axes. Loop, any thread.
+    void place_earth_patch(const PixelBox& box, Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir,
+                           EarthPatch& patch) const;
+
     // The share of the Sun's irradiance that the bodies leave at a place in the world [0..1], per bin.
     Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const;
 
   private:
     const std::array<SceneBody, kBodyCount>& scene_;
     const Atmosphere* air_;
+    const EarthModel* earth_;
     Spectrum sun_irradiance_1au_;
     SunDisk disk_;
     ColorBands bands_;
@@ -150,12 +166,18 @@ class Background {
     double sun_disk_cosine_ = 1;
     double nearest_m_ = 0;
     double pixel_rad_ = 0;
-    bool camera_in_air_ = false;
+    bool camera_in_air_ = false, earth_in_patches_ = false;
 
     PlacedBody placed(BodyId id, const WorldSnapshot& world, bool stays) const;
-    bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance) const;
+    bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
+                         double width_rad) const;
+    bool add_earth(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double width_rad, Spectrum& weight,
+                   Spectrum& radiance) const;
     bool hides_from(Vec3d origin_m, Vec3d dir, double distance) const;
     bool has_air(BodyId id) const { return air_ && id == BodyId::kEarth; }
+    bool is_modelled(BodyId id) const { return earth_ && id == BodyId::kEarth; }
+    // Returns how far above its ground a body is to be seen [m].
+    double top_m(BodyId id) const;
     Spectrum surface_radiance(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir) const;
 };
 

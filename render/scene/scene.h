@@ -21,6 +21,7 @@
 
 namespace hilcam {
 
+class EarthModel;
 class TransferTable;
 
 struct SceneObject {
@@ -62,6 +63,8 @@ struct Scene {
     TimeTai stars_time;                        // time of the stars' places
     std::array<SceneBody, kBodyCount> bodies;  // by BodyId
     std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
+    // Refers to air; null: the Earth is its look and map. Shared, so that scenes need not know its type.
+    std::shared_ptr<const EarthModel> earth;
     Spectrum sun_irradiance_1au_w_m2_um;
     bool limb_darkening = true;
     // Objects' tables of directions come when frames are being made already (Renderer::give_tables).

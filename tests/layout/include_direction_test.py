@@ -23,7 +23,7 @@ ROOMS = (
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/truth", "io/commands",
     "io/files", "io/pictures", "io/config", "io/contract", "io/system",
     "sensor/measure", "sensor", "sensor/convolution",
-    "render/frame", "render/light", "render/visibility", "render/scene", "render/sky", "render/brdf", "render/vocabulary",
+    "render/frame", "render/light", "render/visibility", "render/scene", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
 )
 MOST_FILES = 50
 # The sections of the data sheet name each other, so the sensor's stages stay side by side.
@@ -41,7 +41,7 @@ ONLY_IN = {
     "webp": {"io/pictures/webp_codec.cpp"},
     "stb": {"io/pictures/bmp_codec.cpp"},
     "OpenEXR": {"io/pictures/exr_file.cpp", "io/truth/truth_files.cpp"},
-    "zlib": {"io/gige/device/gige_zip.cpp", "io/system/crc32.cpp"},
+    "zlib": {"io/files/earth_map_file.cpp", "io/gige/device/gige_zip.cpp", "io/system/crc32.cpp"},
     "httplib": {"io/preview/sink_preview.cpp"},
     "google": {"io/vizard/vizard_message.cpp"},
     "vizard.pb": {"io/vizard/vizard_message.cpp"},

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "render/scene/earth_rays.h"
+#include "render/earth/earth_rays.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {

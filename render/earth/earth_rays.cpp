@@ -1,4 +1,4 @@
-#include "render/scene/earth_rays.h"
+#include "render/earth/earth_rays.h"
 
 #include <cmath>
 

@@ -1,0 +1,127 @@
+#include "render/earth/air_columns.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr float kHalfTurn = static_cast<float>(kPi);
+// Heights above the horizon by the root of their share of 90 degrees, which crowds the horizon; the Sun's down to 20
+// degrees below it.
+constexpr float kLowestRoot = -0.4714045f;  // -sqrt(20 / 90)
+
+double cosine_of_root(double root) { return std::sin(0.5 * kPi * std::copysign(root * root, root)); }
+float root_of_cosine(float mu) {
+    const float share = std::asin(std::clamp(mu, -1.0f, 1.0f)) * (2 / kHalfTurn);
+    return std::copysign(std::sqrt(std::abs(share)), share);
+}
+
+}  // namespace
+
+AirColumns::AirColumns(const Atmosphere& air, double high_m) : top_m_(static_cast<float>(air.top_m())) {
+    transmittance_.resize(2 * kViews);
+    radiance_.resize(static_cast<std::size_t>(2) * kAzimuths * kSuns * kViews);
+    tbb::parallel_for(0, kAzimuths * kSuns, [&](int row) {
+        // Out of the air even along the horizon.
+        constexpr double kAway_m = 4e6;
+        const double mu0 = cosine_of_root(static_cast<double>(kLowestRoot) +
+                                          row % kSuns * (1 - static_cast<double>(kLowestRoot)) / (kSuns - 1));
+        const double azimuth = kPi * (row / kSuns) / (kAzimuths - 1), sine0 = std::sqrt(1 - mu0 * mu0);
+        const Vec3d sun{sine0 * std::cos(azimuth), sine0 * std::sin(azimuth), mu0};
+        for (int i = 0; i < kViews; ++i)
+            for (int k = 0; k < 2; ++k) {
+                const Vec3d point{0, 0, kEarthEquatorialRadius_m + (k ? high_m : 1)};
+                const double mu = cosine_of_root(static_cast<double>(i) / (kViews - 1));
+                const Vec3d to_viewer{std::sqrt(1 - mu * mu), 0, mu};
+                const Atmosphere::Sight sight =
+                    air.look(point + kAway_m * to_viewer, -to_viewer, kAway_m, sun);
+                radiance_[static_cast<std::size_t>((row * kViews + i) * 2 + k)] = sight.radiance_sr;
+                if (row == 0) transmittance_[static_cast<std::size_t>(2 * i + k)] = sight.transmittance;
+            }
+    });
+    fill_passing(air);
+}
+
+void AirColumns::fill_passing(const Atmosphere& air) {
+    passed_.resize(kPassHeights);
+    passing_.resize(static_cast<std::size_t>(kPassAzimuths) * kPassSuns * kPassHeights);
+    tbb::parallel_for(0, kPassAzimuths * kPassSuns, [&](int row) {
+        constexpr double kAway_m = 4e6;
+        const double mu0 =
+            cosine_of_root(static_cast<double>(kLowestRoot) +
+                           row % kPassSuns * (1 - static_cast<double>(kLowestRoot)) / (kPassSuns - 1));
+        const double share = static_cast<double>(row / kPassSuns) / (kPassAzimuths - 1),
+                     azimuth = kPi * share * share;
+        const double sine0 = std::sqrt(1 - mu0 * mu0);
+        const Vec3d sun{sine0 * std::cos(azimuth), sine0 * std::sin(azimuth), mu0}, ahead{1, 0, 0};
+        for (int i = 0; i < kPassHeights; ++i) {
+            const double root = static_cast<double>(i) / (kPassHeights - 1);
+            const Vec3d lowest{0, 0, kEarthEquatorialRadius_m + 1 + root * root * (air.top_m() - 1)};
+            const Atmosphere::Sight sight =
+                air.look(lowest - kAway_m * ahead, ahead, std::numeric_limits<double>::infinity(), sun);
+            passing_[static_cast<std::size_t>(row * kPassHeights + i)] = sight.radiance_sr;
+            if (row == 0) passed_[static_cast<std::size_t>(i)] = sight.transmittance;
+        }
+    });
+}
+
+Atmosphere::Sight AirColumns::look_past(float height_m, float mu0, float ahead_dot_sun) const {
+    const float height = std::sqrt(std::clamp(height_m / top_m_, 0.0f, 1.0f)) * (kPassHeights - 1);
+    const float sun =
+        (std::max(kLowestRoot, root_of_cosine(mu0)) - kLowestRoot) / (1 - kLowestRoot) * (kPassSuns - 1);
+    const float sine0 = std::sqrt(std::max(1e-12f, 1 - mu0 * mu0));
+    const float azimuth = std::sqrt(std::acos(std::clamp(ahead_dot_sun / sine0, -1.0f, 1.0f)) / kHalfTurn) *
+                          (kPassAzimuths - 1);
+    const int h = std::min(static_cast<int>(height), kPassHeights - 2),
+              s = std::min(static_cast<int>(sun), kPassSuns - 2),
+              a = std::min(static_cast<int>(azimuth), kPassAzimuths - 2);
+    const float fh = height - static_cast<float>(h), fs = sun - static_cast<float>(s),
+                fa = azimuth - static_cast<float>(a);
+    Atmosphere::Sight out;
+    out.transmittance =
+        (1 - fh) * passed_[static_cast<std::size_t>(h)] + fh * passed_[static_cast<std::size_t>(h) + 1];
+    for (int i = 0; i < 4; ++i) {
+        const int da = i >> 1, ds = i & 1;
+        const float w = (da ? fa : 1 - fa) * (ds ? fs : 1 - fs);
+        const Spectrum* row = passing_.data() + ((a + da) * kPassSuns + s + ds) * kPassHeights + h;
+        out.radiance_sr += (w * (1 - fh)) * row[0];
+        out.radiance_sr += (w * fh) * row[1];
+    }
+    return out;
+}
+
+AirColumns::Looks AirColumns::look(float mu, float mu0, float cos_phase) const {
+    const float view = std::max(0.0f, root_of_cosine(mu)) * (kViews - 1);
+    const float root = std::max(kLowestRoot, root_of_cosine(mu0));
+    const float sun = (root - kLowestRoot) / (1 - kLowestRoot) * (kSuns - 1);
+    const float sines = std::sqrt(std::max(1e-12f, (1 - mu0 * mu0) * (1 - mu * mu)));
+    const float azimuth =
+        std::acos(std::clamp((cos_phase - mu0 * mu) / sines, -1.0f, 1.0f)) * ((kAzimuths - 1) / kHalfTurn);
+    const int v = std::min(static_cast<int>(view), kViews - 2),
+              s = std::min(static_cast<int>(sun), kSuns - 2),
+              a = std::min(static_cast<int>(azimuth), kAzimuths - 2);
+    const float fv = view - static_cast<float>(v), fs = sun - static_cast<float>(s),
+                fa = azimuth - static_cast<float>(a);
+    Looks out;
+    const Spectrum* clear = transmittance_.data() + 2 * v;
+    out.low.transmittance = (1 - fv) * clear[0] + fv * clear[2];
+    out.high.transmittance = (1 - fv) * clear[1] + fv * clear[3];
+    for (int i = 0; i < 4; ++i) {
+        const int da = i >> 1, ds = i & 1;
+        const float w = (da ? fa : 1 - fa) * (ds ? fs : 1 - fs);
+        const Spectrum* row = radiance_.data() + (((a + da) * kSuns + s + ds) * kViews + v) * 2;
+        out.low.radiance_sr += (w * (1 - fv)) * row[0];
+        out.high.radiance_sr += (w * (1 - fv)) * row[1];
+        out.low.radiance_sr += (w * fv) * row[2];
+        out.high.radiance_sr += (w * fv) * row[3];
+    }
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,46 @@
+#pragma once
+// The air between a point near the ground and space, as a table made from any Atmosphere: for a viewer above the air it
+// depends on the point's height and three angles alone, so that a look costs some tens of nanoseconds instead of
+// microseconds.
+//
+// Grids: 41 zenith angles of the viewer, crowded at the horizon, 64 of the Sun to 20 degrees below it, 13 azimuths, two
+// heights. Linear between; against Atmosphere::look(): tests/unit/render/earth/air_columns_test.cpp.
+
+#include <vector>
+
+#include "render/sky/atmosphere.h"
+
+namespace hilcam {
+
+class AirColumns {
+  public:
+    // high_m: the upper of the two heights. Works the table out on all threads. The air is not kept.
+    AirColumns(const Atmosphere& air, double high_m);
+
+    struct Looks {
+        Atmosphere::Sight low, high;  // to a point on the ground, and to one at high_m
+    };
+    // Returns what Atmosphere::look() says of rays from space. mu, mu0: cosines of the zenith angles of viewer and Sun at the
+    // point; cos_phase: of the angle between the directions to both. Loop, any thread.
+    Looks look(float mu, float mu0, float cos_phase) const;
+
+    // The same of a ray from space that misses the ground and has its lowest point ahead: that point's height, 0 to the
+    // air's top; mu0: there; ahead_dot_sun: cosine of the angle between the ray's way and the Sun.
+    Atmosphere::Sight look_past(float height_m, float mu0, float ahead_dot_sun) const;
+    float top_m() const { return top_m_; }
+
+  private:
+    // Past the ground: heights by their root, azimuths from the Sun's by theirs.
+    static constexpr int kPassHeights = 80, kPassSuns = 64, kPassAzimuths = 20;
+    float top_m_;
+    std::vector<Spectrum> passed_;   // [height]
+    std::vector<Spectrum> passing_;  // [azimuth][sun][height]
+
+    void fill_passing(const Atmosphere& air);
+
+    static constexpr int kViews = 41, kSuns = 64, kAzimuths = 13;
+    std::vector<Spectrum> transmittance_;  // [view][height]
+    std::vector<Spectrum> radiance_;       // [azimuth][sun][view][height]
+};
+
+}  // namespace hilcam

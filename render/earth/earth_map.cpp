@@ -1,0 +1,173 @@
+#include "render/earth/earth_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr int kChannels = EarthSample::kChannels;
+constexpr int kMaxLooks = 8;
+
+// A code x = c / 255 stands for x (square x + plain).
+struct Coding {
+    alignas(32) std::array<float, kChannels> square{1, 1, 1, 1, 0, 0, 0, 1}, plain{0, 0, 0, 0, 1, 1, 1, 0};
+};
+constexpr Coding kCoding;
+
+void add_texel(const EarthMap::Texel& texel, float weight, EarthSample& sum) {
+    for (std::size_t c = 0; c < kChannels; ++c) {
+        const float x = (1.0f / 255) * static_cast<float>(texel[c]);
+        sum.value[c] += weight * (x * (x * kCoding.square[c] + kCoding.plain[c]));
+    }
+}
+
+EarthMap::Texel coded(const EarthSample& sample) {
+    EarthMap::Texel out;
+    for (std::size_t c = 0; c < kChannels; ++c) {
+        const float x = kCoding.square[c] > 0 ? std::sqrt(sample.value[c]) : sample.value[c];
+        out[c] = static_cast<std::uint8_t>(std::clamp(255 * x + 0.5f, 0.0f, 255.0f));
+    }
+    return out;
+}
+
+// Four texels by their weights.
+HILCAM_CLONES void mix_texels(const EarthMap::Texel& a, const EarthMap::Texel& b, const EarthMap::Texel& c,
+                              const EarthMap::Texel& d, const std::array<float, 4>& weight,
+                              EarthSample& sum) {
+    for (std::size_t k = 0; k < kChannels; ++k) {
+        const float s = kCoding.square[k], p = kCoding.plain[k];
+        const auto value = [&](std::uint8_t code) {
+            const float x = (1.0f / 255) * static_cast<float>(code);
+            return x * (x * s + p);
+        };
+        sum.value[k] += weight[0] * value(a[k]) + weight[1] * value(b[k]) + weight[2] * value(c[k]) +
+                        weight[3] * value(d[k]);
+    }
+}
+
+void add_bilinear(const EarthMap::Level& level, float u, float v, float weight, EarthSample& sum) {
+    const float x = (u - std::floor(u)) * static_cast<float>(level.width) - 0.5f;
+    const float y = std::clamp(v, 0.0f, 1.0f) * static_cast<float>(level.height) - 0.5f;
+    const float left = std::floor(x), top = std::floor(y);
+    const float fx = x - left, fy = y - top;
+    const auto column = [&](int i) {
+        return i < 0 ? i + level.width : (i >= level.width ? i - level.width : i);
+    };
+    const int x0 = column(static_cast<int>(left)), x1 = column(static_cast<int>(left) + 1);
+    const int y0 = std::clamp(static_cast<int>(top), 0, level.height - 1);
+    const int y1 = std::clamp(static_cast<int>(top) + 1, 0, level.height - 1);
+    const auto row = [&](int j) {
+        return level.texels.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(level.width);
+    };
+    const float above = weight * (1 - fy), below = weight * fy;
+    mix_texels(row(y0)[x0], row(y0)[x1], row(y1)[x0], row(y1)[x1],
+               {(1 - fx) * above, fx * above, (1 - fx) * below, fx * below}, sum);
+}
+
+}  // namespace
+
+EarthMap::EarthMap(std::vector<Level> levels) : levels_(std::move(levels)) {
+    HILCAM_CHECK(!levels_.empty() && levels_.back().height == 1);
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+        const Level& level = levels_[i];
+        HILCAM_CHECK(level.width == 2 * level.height && level.height <= kMaxHeight);
+        HILCAM_CHECK(level.texels.size() ==
+                     static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
+        HILCAM_CHECK(i == 0 || 2 * level.height == levels_[i - 1].height);
+    }
+}
+
+std::vector<EarthMap::Level> EarthMap::halves(Level finest) {
+    std::vector<Level> out{std::move(finest)};
+    while (out.back().height > 1) {
+        const Level& fine = out.back();
+        Level half{fine.width / 2, fine.height / 2, {}};
+        half.texels.reserve(fine.texels.size() / 4);
+        for (int y = 0; y < half.height; ++y)
+            for (int x = 0; x < half.width; ++x) {
+                EarthSample sum;
+                for (const int row : {2 * y, 2 * y + 1})
+                    for (const int column : {2 * x, 2 * x + 1})
+                        add_texel(
+                            fine.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(fine.width) +
+                                        static_cast<std::size_t>(column)],
+                            0.25f, sum);
+                half.texels.push_back(coded(sum));
+            }
+        out.push_back(std::move(half));
+    }
+    return out;
+}
+
+std::size_t EarthMap::bytes() const {
+    std::size_t sum = 0;
+    for (const Level& level : levels_) sum += level.texels.size() * sizeof(Texel);
+    return sum;
+}
+
+void EarthMap::add_at_level(float u, float v, float level, float weight, EarthSample& sum) const {
+    const float at = std::clamp(level, 0.0f, static_cast<float>(levels_.size() - 1));
+    const auto low = static_cast<std::size_t>(at);
+    const float share = at - static_cast<float>(low);
+    if (share < 1e-3f || low + 1 == levels_.size()) return add_bilinear(levels_[low], u, v, weight, sum);
+    add_bilinear(levels_[low], u, v, weight * (1 - share), sum);
+    add_bilinear(levels_[low + 1], u, v, weight * share, sum);
+}
+
+EarthSample EarthMap::sample(float u, float v, const MapFootprint& f) const {
+    // In texels of the finest level: the axes of the ellipse that has the sides as conjugate half diameters.
+    const auto w = static_cast<float>(width()), h = static_cast<float>(height());
+    const float a1 = w * f.u1, b1 = h * f.v1, a2 = w * f.u2, b2 = h * f.v2;
+    const float xx = a1 * a1 + a2 * a2, xy = a1 * b1 + a2 * b2, yy = b1 * b1 + b2 * b2;
+    const float middle = 0.5f * (xx + yy), off = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
+    const float longer = std::sqrt(middle + off), shorter = std::sqrt(std::max(0.0f, middle - off));
+    const float width = std::max({shorter, longer / kMaxLooks, 1.0f});
+    const float level = std::log2(width);
+    const int looks = std::clamp(static_cast<int>(std::ceil(longer / width - 0.25f)), 1, kMaxLooks);
+    EarthSample sum;
+    if (looks == 1) {
+        add_at_level(u, v, level, 1, sum);
+        return sum;
+    }
+    // The direction of the longer axis: the eigenvector of the greater eigenvalue, middle + off.
+    float dx = xx > yy ? middle + off - yy : xy, dy = xx > yy ? xy : middle + off - xx;
+    const float norm = std::sqrt(dx * dx + dy * dy);
+    const float per_norm = norm > 0 ? longer / norm : 0;
+    dx *= per_norm / w, dy *= per_norm / h;
+    const float share = 1 / static_cast<float>(looks);
+    for (int i = 0; i < looks; ++i) {
+        const float t = (static_cast<float>(i) + 0.5f) * share - 0.5f;
+        add_at_level(u + t * dx, v + t * dy, level, share, sum);
+    }
+    return sum;
+}
+
+EarthSample EarthMap::sample(float u, float v, float width) const {
+    EarthSample sum;
+    add_at_level(u, v, std::log2(std::max(1.0f, width * static_cast<float>(height()))), 1, sum);
+    return sum;
+}
+
+EarthSample EarthMap::mean() const {
+    // The level of a degree or so is enough, weighted by the areas of its rows.
+    const auto fine =
+        std::find_if(levels_.begin(), levels_.end(), [](const Level& l) { return l.height <= 256; });
+    EarthSample sum;
+    double weights = 0;
+    for (int y = 0; y < fine->height; ++y) weights += std::sin(kPi * (y + 0.5) / fine->height);
+    for (int y = 0; y < fine->height; ++y) {
+        const double weight = std::sin(kPi * (y + 0.5) / fine->height) / (weights * fine->width);
+        for (int x = 0; x < fine->width; ++x)
+            add_texel(fine->texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine->width) +
+                                   static_cast<std::size_t>(x)],
+                      static_cast<float>(weight), sum);
+    }
+    return sum;
+}
+
+}  // namespace hilcam

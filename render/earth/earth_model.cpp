@@ -1,0 +1,400 @@
+#include "render/earth/earth_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/sky/bodies.h"
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr Figure kEarth = kFigures[index_of(BodyId::kEarth)];
+constexpr double kRadius_m = 6371008.8;  // mean (Moritz, J. Geodesy 74, 128, 2000)
+constexpr float kPerPi = static_cast<float>(1 / kPi);
+// A ray looks for clouds here first, then at their own height.
+constexpr float kUsualTop_m = 4000;
+constexpr float kMinCloud = 2e-3f;
+
+Vec3d stretched(Vec3d v) { return {v.x, v.y, v.z * kEarth.equatorial_radius_m / kEarth.polar_radius_m}; }
+
+struct MapPlace {
+    float u, v;
+};
+MapPlace map_place(Vec3d normal) {
+    return {static_cast<float>(std::atan2(normal.y, normal.x) / (2 * kPi) + 0.5),
+            static_cast<float>(0.5 - std::asin(std::clamp(normal.z, -1.0, 1.0)) / kPi)};
+}
+
+float by_steps(const EarthAspect::Steps& steps, float c) {
+    const float at = std::sqrt(c) * (EarthAspect::kSteps - 1);
+    const int low = std::clamp(static_cast<int>(at), 0, EarthAspect::kSteps - 2);
+    const auto i = static_cast<std::size_t>(low);
+    return steps[i] + (at - static_cast<float>(low)) * (steps[i + 1] - steps[i]);
+}
+
+// The mix that the maps have at one look.
+struct Mix {
+    float water, mirrored, glint_sr;
+    float direct, diffuse,
+        back;  // shares of sunlight on the ground: in the beam, spread by clouds; of light that goes up: sent back
+    bool clouded;
+    float share, passed;         // light that comes down, and up, through the cloud
+    float high;                  // 0: its top is on the ground; 1: at kHigh_m
+    float many, once, from_sky;  // the cloud's reflection
+};
+
+// Ground, air below the cloud, cloud, air above it; per bin.
+HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum& land,
+                             const Spectrum& sea_diffuse, const Spectrum& sea_albedo, Spectrum& out) {
+    for (int b = 0; b < kMaxBins; ++b) {
+        const float sky = a.sky_low[b] * (1 - m.back) + a.sun_low[b] * m.diffuse;
+        // Between ground and cloud it goes up and down.
+        const float light =
+            (a.sun_low[b] * m.direct + sky) / (1 - (land[b] + m.water * sea_albedo[b]) * m.back);
+        const float ground_sr =
+            kPerPi * ((land[b] + m.water * sea_diffuse[b]) * light + m.water * m.mirrored * sky) +
+            m.glint_sr * a.sun_low[b];
+        out[b] = a.seen_low[b] * ground_sr;
+    }
+    if (!m.clouded) {
+        out += a.air_low;
+        return;
+    }
+    for (int b = 0; b < kMaxBins; ++b) {
+        const auto at_top = [&](const Spectrum& low, const Spectrum& high) {
+            return low[b] + m.high * (high[b] - low[b]);
+        };
+        const float air = at_top(a.air_low, a.air_high);
+        const float below = out[b] + m.share * std::max(0.0f, a.air_low[b] - air);
+        const float reflected = std::max(0.0f, m.many + m.once * a.once[b]);
+        out[b] = air + m.passed * below +
+                 at_top(a.seen_low, a.seen_high) * kPerPi *
+                     (at_top(a.sun_low, a.sun_high) * reflected + at_top(a.sky_low, a.sky_high) * m.from_sky);
+    }
+}
+
+// The ellipsoid at a height.
+Figure raised(double height_m) {
+    return {kEarth.equatorial_radius_m + height_m, kEarth.polar_radius_m + height_m};
+}
+
+}  // namespace
+
+Fields fields(EarthConfig& c) {
+    return {
+        path("map", c.map,
+             "map of land, water, clouds and lights, as tools/make_earth_map.py makes it; left out: the "
+             "Earth is "
+             "earth.albedo or earth.albedo_map"),
+        number("wind_m_s", c.wind_m_s, 1, {0, 30},
+               "wind over all seas at 12.5 m, which makes the glint wide"),
+        number("cloud_thickness", c.cloud_thickness, 1, {0, 10},
+               "factor on the clouds' optical thickness; 0: no clouds"),
+        path("cloud_map", c.cloud_map,
+             "another map of the same form, whose clouds are used; left out: those of map"),
+        integer("cloud_seed", c.cloud_seed, {0, 1e9}, "seed of invented clouds; 0: those of a map"),
+        number("lights", c.lights, 1, {0, 100}, "factor on the light of cities at night"),
+    };
+}
+
+void validate(const EarthConfig& c) {
+    if (c.map.empty() && !c.cloud_map.empty()) throw KeyError("cloud_map", "has no effect without 'map'");
+    if (c.map.empty() && c.cloud_seed != 0) throw KeyError("cloud_seed", "has no effect without 'map'");
+    if (!c.cloud_map.empty() && c.cloud_seed != 0)
+        throw KeyError("cloud_seed", "and 'cloud_map' both say where clouds are; accepted: one of them");
+}
+
+// The place where a ray ends.
+struct EarthModel::Place {
+    Vec3d point_m, normal;
+    float mu, mu0, cos_phase;  // zenith cosines of viewer and Sun, cosine of the angle between them
+    Place(Vec3d point, Vec3d to_viewer, Vec3d sun)
+        : point_m(point),
+          normal(earth_normal(point)),
+          mu(static_cast<float>(std::max(1e-3, dot(normal, to_viewer)))),
+          mu0(static_cast<float>(dot(normal, sun))),
+          cos_phase(static_cast<float>(dot(sun, to_viewer))) {}
+};
+
+EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, EarthMap clouds, const Atmosphere* air,
+                       const SpectralGrid& grid)
+    : ground_(std::move(ground)),
+      clouds_(std::move(clouds)),
+      air_(air),
+      land_(grid),
+      sea_(config.wind_m_s, grid),
+      cloud_factor_(static_cast<float>(config.cloud_thickness)),
+      bins_(grid.size()),
+      wind_m_s_(config.wind_m_s),
+      lights_(config.lights) {
+    if (air) columns_ = std::make_unique<AirColumns>(*air, static_cast<double>(EarthAspect::kHigh_m));
+    if (cloud_factor_ > 0) table_ = std::make_unique<CloudTable>(grid);
+    // The brightest places of the map: 100 nW cm^-2 sr^-1 from 0.5 to 0.9 um, what the day/night band of VIIRS sees over the
+    // centres of great cities, to a factor of two (Elvidge et al., Int. J. Remote Sens. 38, 5860, 2017, about its maps'
+    // values). Their spectrum is assumed: mostly high-pressure sodium, some white light-emitting diodes.
+    constexpr double kBrightest_w_m2_sr = 100e-9 * 1e4;
+    const Curve lamps{{0.40, 0.44, 0.46, 0.49, 0.54, 0.57, 0.59, 0.61, 0.64, 0.70, 0.80, 0.82, 0.84, 0.95},
+                      {0.05, 0.15, 0.40, 0.20, 0.45, 0.90, 1.00, 0.85, 0.45, 0.15, 0.15, 0.50, 0.10, 0.05},
+                      {}};
+    const double band = 0.4 * lamps.mean(0.5, 0.9);
+    city_w_m2_sr_um_ = static_cast<float>(config.lights * kBrightest_w_m2_sr / band) * grid.average(lamps);
+}
+
+float EarthModel::cloud_of(const EarthSample& sample) const {
+    const float c = sample.cloud();
+    if (cloud_factor_ == 1) return c;
+    // c = x / (1 + x): the factor is on x.
+    return cloud_factor_ * c / (1 - c + cloud_factor_ * c + 1e-6f);
+}
+
+void EarthModel::place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const {
+    const float mu0 = std::max(0.0f, place.mu0);
+    // From a height the Sun is seen when it is below the level: such light grazes.
+    const float high_mu0 = std::max(0.01f, place.mu0);
+    if (!air_) {
+        const float lit = place.mu0 > 0 ? 1.0f : 0.0f;
+        for (int b = 0; b < bins_; ++b) {
+            out.seen_low[b] = out.seen_high[b] = 1;
+            out.sun_low[b] = out.sun_high[b] = mu0 * lit;
+        }
+        return;
+    }
+    const Vec3d low = stretched(place.point_m), sun = normalized(stretched(ray.sun_dir));
+    const Vec3d high = low * (1 + static_cast<double>(EarthAspect::kHigh_m) / length(low));
+    out.sun_low = mu0 * air_->sun_transmittance(low, sun), out.sky_low = air_->sky_irradiance(low, sun);
+    out.sun_high = high_mu0 * air_->sun_transmittance(high, sun),
+    out.sky_high = air_->sky_irradiance(high, sun);
+    const Vec3d origin = stretched(ray.origin_m);
+    const double top_m = kEarth.equatorial_radius_m + air_->top_m();
+    AirColumns::Looks looks;
+    if (dot(origin, origin) >= top_m * top_m) {
+        looks = columns_->look(place.mu, place.mu0, place.cos_phase);
+    } else {
+        const Vec3d dir = stretched(ray.dir);
+        const double per_length = length(dir);
+        const auto look = [&](double to_m) {
+            return air_->look(origin, dir / per_length, to_m * per_length, sun);
+        };
+        looks.low = look(distance_m);
+        // Clouds above a viewer among them are not before the ground.
+        const double to_high_m =
+            intersect_ellipsoid(raised(static_cast<double>(EarthAspect::kHigh_m)), ray.origin_m, ray.dir);
+        looks.high = look(std::clamp(to_high_m, 0.0, distance_m));
+    }
+    out.air_low = looks.low.radiance_sr, out.seen_low = looks.low.transmittance;
+    out.air_high = looks.high.radiance_sr, out.seen_high = looks.high.transmittance;
+}
+
+// Returns the aspect of a ray that ends at a distance, on the ground or on a level above it.
+EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double height_m) const {
+    const Place place(ray.origin_m + distance_m * ray.dir, -ray.dir, ray.sun_dir);
+    EarthAspect out;
+    place_air(ray, distance_m, place, out);
+    if (table_) table_->place(place.mu0, place.mu, place.cos_phase, out);
+    if (place.mu0 > 0)
+        out.glint_sr = sea_.glint_sr(place.mu0, place.mu, place.cos_phase) / std::max(0.02f, place.mu0);
+    out.mirrored = sea_.sky_mirrored(place.mu);
+
+    // East and north on the level; a step there, as a share of the map.
+    const Vec3d n = place.normal;
+    const double polar = std::max(1e-3, std::sqrt(n.x * n.x + n.y * n.y));
+    const Vec3d east{-n.y / polar, n.x / polar, 0}, north = cross(n, east);
+    const double per_u = 1 / (2 * kPi * kRadius_m * polar), per_v = -1 / (kPi * kRadius_m);
+    const auto step = [&](Vec3d level_m, float& u, float& v) {
+        u = static_cast<float>(dot(level_m, east) * per_u),
+        v = static_cast<float>(dot(level_m, north) * per_v);
+    };
+    const MapPlace at = hilcam::map_place(n);
+    out.u = at.u, out.v = at.v;
+    // The ray's cone is as wide as it is across, and longer by 1 / mu along.
+    const Vec3d along = ray.dir - dot(ray.dir, n) * n;
+    const double level = length(along);
+    const Vec3d away = level > 1e-9 ? along / level : east;
+    const double width_m = ray.width_rad * distance_m;
+    step(width_m / std::max(0.02, static_cast<double>(place.mu)) * away, out.footprint.u1, out.footprint.v1);
+    step(width_m * cross(n, away), out.footprint.u2, out.footprint.v2);
+    // The ray passes the usual height of clouds so much before its end; on a sphere, per metre of height.
+    constexpr double kTop_m = static_cast<double>(kUsualTop_m);
+    const double rmu = kRadius_m * static_cast<double>(place.mu);
+    const double back_m = std::sqrt(rmu * rmu + 2 * kRadius_m * kTop_m) - rmu;
+    if (!(height_m > 0)) step(-back_m * level / kTop_m * away, out.cloud_u, out.cloud_v);
+    const Vec3d sun_level = ray.sun_dir - static_cast<double>(place.mu0) * n;
+    step(1 / std::max(0.05, static_cast<double>(place.mu0)) * sun_level, out.shade_u, out.shade_v);
+    return out;
+}
+
+bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
+    const double distance_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
+    if (!(distance_m >= 0)) return false;
+    constexpr double kGrazing = 0.15;
+    if (-dot(earth_normal(ray.origin_m + distance_m * ray.dir), ray.dir) < kGrazing) return false;
+    aspect = aspect_at(ray, distance_m, 0);
+    return true;
+}
+
+float EarthModel::texels_across(const MapFootprint& f) const {
+    const auto height =
+        static_cast<float>(std::max(ground_.height(), clouds_.empty() ? 0 : clouds_.height()));
+    return height * std::sqrt(std::max(4 * f.u1 * f.u1 + f.v1 * f.v1, 4 * f.u2 * f.u2 + f.v2 * f.v2));
+}
+
+bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
+    const double distance_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
+    if (!(distance_m >= 0)) return false;
+    const MapPlace at = hilcam::map_place(earth_normal(ray.origin_m + distance_m * ray.dir));
+    u = at.u, v = at.v;
+    return true;
+}
+
+EarthModel::Shade EarthModel::shade(const EarthAspect& a) const {
+    const EarthSample ground = ground_.sample(a.u, a.v, a.footprint);
+    const Spectrum land = land_.reflectance(ground);
+    const float water = ground.water();
+    float direct = 1, diffuse = 0, back = 0, cloud = 0, share = 1, passed = 1, high = 0;
+    if (table_) {
+        const EarthMap& map = clouds_.empty() ? ground_ : clouds_;
+        // What is nearer than a good part of the footprint is seen by the same look.
+        const MapFootprint& f = a.footprint;
+        const float seen_as_one = 0.12f * (f.u1 * f.u1 + f.u2 * f.u2 + 0.25f * (f.v1 * f.v1 + f.v2 * f.v2)) /
+                                  (kUsualTop_m * kUsualTop_m);
+        const bool together = clouds_.empty();
+        const EarthSample over =
+            together && a.cloud_u * a.cloud_u + 0.25f * a.cloud_v * a.cloud_v < seen_as_one
+                ? ground
+                : map.sample(a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v, a.footprint);
+        cloud = cloud_of(over);
+        if (!(cloud > kMinCloud)) cloud = 0;
+        // Where the Sun's ray comes through the clouds; and what they spread, which comes from a place as wide as they are
+        // high, both ways.
+        const float towards_sun =
+            together && a.shade_u * a.shade_u + 0.25f * a.shade_v * a.shade_v < seen_as_one
+                ? cloud_of(ground)
+                : cloud_of(
+                      map.sample(a.u + kUsualTop_m * a.shade_u, a.v + kUsualTop_m * a.shade_v, a.footprint));
+        constexpr float kSpread =
+            static_cast<float>(2 * static_cast<double>(kUsualTop_m) / (kPi * kRadius_m));
+        const bool wide = f.v1 * f.v1 + f.v2 * f.v2 > kSpread * kSpread;
+        const float mean = wide && together
+                               ? cloud_of(ground)
+                               : cloud_of(map.sample(a.u, a.v, std::max(kSpread, std::abs(f.v2))));
+        direct = by_steps(a.beam, towards_sun);
+        share = by_steps(a.lit, mean);
+        diffuse = std::max(0.0f, share - by_steps(a.beam, mean));
+        back = table_->spherical_albedo(mean);
+        if (cloud > 0) {
+            passed = by_steps(a.seen, cloud);
+            // Air thins out by e in this height; 1 - 1/e at kHigh_m.
+            high = (1 - std::exp(-over.cloud_top_m() / EarthAspect::kHigh_m)) * 1.5819767f;
+        }
+    }
+    Mix mix{water,     a.mirrored, water * direct * a.glint_sr,
+            direct,    diffuse,    back,
+            cloud > 0, share,      passed,
+            high,      0,          0,
+            0};
+    if (cloud > 0) {
+        mix.many = by_steps(a.many, cloud), mix.once = by_steps(a.share, cloud);
+        mix.from_sky = table_->spherical_albedo(cloud);
+    }
+    Shade out;
+    const float lights = passed * ground.lights();
+    mix_light(a, mix, land, sea_.diffuse(), sea_.albedo(), out.over_sun_sr);
+    if (lights > 0) out.lights_w_m2_sr_um = lights * (city_w_m2_sr_um_ * a.seen_low);
+    return out;
+}
+
+// Along a ray that misses the ground.
+Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
+    const Vec3d origin = stretched(ray.origin_m), dir = normalized(stretched(ray.dir)),
+                sun = normalized(stretched(ray.sun_dir));
+    const double to_lowest_m = -dot(origin, dir);
+    const Vec3d lowest = origin + to_lowest_m * dir;
+    const double radius_m = length(lowest), top_m = kEarth.equatorial_radius_m + air_->top_m();
+    if (to_lowest_m <= 0 || dot(origin, origin) < top_m * top_m)
+        return air_->look(origin, dir, std::numeric_limits<double>::infinity(), sun);
+    if (radius_m >= top_m) {
+        Atmosphere::Sight clear;
+        clear.transmittance.bin.fill(1);
+        return clear;
+    }
+    return columns_->look_past(static_cast<float>(radius_m - kEarth.equatorial_radius_m),
+                               static_cast<float>(dot(lowest, sun) / radius_m),
+                               static_cast<float>(dot(dir, sun)));
+}
+
+bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
+    const double to_ground_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
+    if (to_ground_m >= 0) {
+        const Shade seen = shade(aspect_at(ray, to_ground_m, 0));
+        radiance += weight * (ray.irradiance_w_m2_um * seen.over_sun_sr + seen.lights_w_m2_sr_um);
+        return true;
+    }
+    // Beyond the limb: a cloud that stands out, else air alone.
+    const double to_level_m =
+        table_ ? intersect_ellipsoid(raised(static_cast<double>(kUsualTop_m)), ray.origin_m, ray.dir) : -1;
+    if (to_level_m > 0) {
+        EarthAspect aspect = aspect_at(ray, to_level_m, static_cast<double>(kUsualTop_m));
+        const float cloud =
+            cloud_of((clouds_.empty() ? ground_ : clouds_).sample(aspect.u, aspect.v, aspect.footprint));
+        if (cloud > kMinCloud) {
+            // No ground is below it: nothing comes up through it.
+            aspect.seen.fill(0);
+            radiance += weight * ray.irradiance_w_m2_um * shade(aspect).over_sun_sr;
+            weight = table_->transmitted(cloud, 0) * (weight * aspect.seen_high);
+            return false;
+        }
+    }
+    if (air_) {
+        const Atmosphere::Sight air = air_past(ray);
+        radiance += weight * ray.irradiance_w_m2_um * air.radiance_sr;
+        weight = weight * air.transmittance;
+    }
+    return false;
+}
+
+Spectrum EarthModel::disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) const {
+    // Parallel rays over the disk of the Earth and its air, on a spiral of equal areas (Vogel, Math. Biosci. 44, 179, 1979).
+    const Vec3d side = normalized(std::abs(camera_dir.z) < 0.9 ? cross(camera_dir, Vec3d{0, 0, 1})
+                                                               : cross(camera_dir, Vec3d{1, 0, 0}));
+    const Vec3d up = cross(side, camera_dir);
+    const double radius_m = kEarth.equatorial_radius_m + (air_ ? 60e3 : 0);
+    constexpr double kAway_m = 1e9, kGolden = 0.6180339887498949;
+    Spectrum sum;
+    for (int i = 0; i < looks; ++i) {
+        const double r = radius_m * std::sqrt((i + 0.5) / looks), phi = 2 * kPi * kGolden * i;
+        Ray ray{kAway_m * camera_dir + r * std::cos(phi) * side + r * std::sin(phi) * up,
+                -camera_dir,
+                sun_dir,
+                0,
+                {}};
+        ray.width_rad = radius_m * std::sqrt(kPi / looks) / kAway_m;
+        for (int b = 0; b < bins_; ++b) ray.irradiance_w_m2_um[b] = 1;
+        Spectrum weight;
+        weight.bin.fill(1);
+        add(ray, weight, sum);
+    }
+    const double area =
+        kPi * radius_m * radius_m / (looks * kEarth.equatorial_radius_m * kEarth.equatorial_radius_m);
+    return static_cast<float>(area) * sum;
+}
+
+std::vector<std::string> EarthModel::describe() const {
+    const auto rounded = [](double value) {
+        std::string text = std::to_string(value);
+        return text.substr(0, text.find('.') + 2);
+    };
+    std::vector<std::string> out;
+    out.push_back("map of " + std::to_string(ground_.width()) + " x " + std::to_string(ground_.height()) +
+                  ", " + std::to_string((ground_.bytes() + clouds_.bytes()) >> 20) + " MB with its halves");
+    out.push_back("sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s");
+    if (table_)
+        out.push_back("clouds: table by doubling, shadows" +
+                      std::string(clouds_.empty() ? "" : ", a map of their own"));
+    if (lights_ > 0) out.push_back("lights of cities");
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,89 @@
+#pragma once
+// The Earth as a camera in space sees it: land, sea and ice under clouds, all within the air, and lights of cities.
+//
+// A ray ends on the ground where it meets the ellipsoid, and passes the cloud whose top it meets above that. Clouds are plane
+// layers (cloud_table.h), each texel by itself; what they leave of the Sun is looked for at the cloud towards the Sun,
+// so shadows lie where they fall. Between ground and cloud light goes up and down (1 / (1 - A r)). The air (atmosphere.h) above a cloud
+// and below it are told apart; below it is dimmed as the ground is. Lights shine through cloud and air.
+//
+// The law stands once, in shade(): everything else is either smooth over a picture, an aspect, or in the maps.
+//
+// What it does not model: relief, sea ice that the map has not, clouds that shade each other, twilight's colours on the sides of
+// clouds, the Moon's light, lightning, airglow.
+//
+// Body axes (ITRF), metres. Light per unit of solar irradiance unless the unit says otherwise. const functions: loop, any
+// thread.
+
+#include <memory>
+#include <string>
+
+#include "render/earth/air_columns.h"
+#include "render/earth/cloud_table.h"
+#include "render/earth/earth_config.h"
+#include "render/earth/earth_map.h"
+#include "render/earth/land.h"
+#include "render/earth/sea.h"
+
+namespace hilcam {
+
+class EarthModel {
+  public:
+    // air: may be null; must outlive this. clouds: their map where it is not the ground's; may be empty.
+    EarthModel(const EarthConfig& config, EarthMap ground, EarthMap clouds, const Atmosphere* air,
+               const SpectralGrid& grid);
+
+    struct Ray {
+        Vec3d origin_m, dir;  // unit
+        Vec3d sun_dir;
+        double width_rad = 0;  // width of the cone that it stands for
+        Spectrum irradiance_w_m2_um;
+    };
+    // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
+    // before the sky; else weight is dimmed by what air it met.
+    bool add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const;
+    static constexpr double kHighest_m = 16000;  // height of clouds
+    // The same in two steps, for pixels that share an aspect. False where the ground is not met, or grazed.
+    bool aspect_of(const Ray& ray, EarthAspect& aspect) const;
+    // The longest side of a footprint in texels of the finest map.
+    float texels_across(const MapFootprint& footprint) const;
+    // Where a ray meets the ground, as EarthMap has it: u, v. False where it does not.
+    static bool map_place(const Ray& ray, float& u, float& v);
+    // Radiance by an aspect and the maps, per unit of irradiance [sr^-1], and that of lights [W m^-2 sr^-1 um^-1].
+    struct Shade {
+        Spectrum over_sun_sr, lights_w_m2_sr_um;
+    };
+    Shade shade(const EarthAspect& aspect) const;
+
+    // An upper bound of radiance over irradiance at the body [sr^-1]; glint apart.
+    static constexpr float kMaxOverSun = 0.32f;
+    // Returns what the whole disk sends at a phase angle, over (R/d)^2 and the irradiance: geometric albedo times phase
+    // function, from `looks` directions. camera_dir, sun_dir: unit, from the centre.
+    Spectrum disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) const;
+
+    // One line each for `hilcam check`.
+    std::vector<std::string> describe() const;
+
+  private:
+    EarthMap ground_, clouds_;
+    const Atmosphere* air_;
+    std::unique_ptr<const AirColumns> columns_;  // null without air
+    std::unique_ptr<const CloudTable> table_;    // null without clouds
+    LandBands land_;
+    Sea sea_;
+    float cloud_factor_;
+    Spectrum city_w_m2_sr_um_;  // radiance of the brightest
+    int bins_;
+    double wind_m_s_, lights_;
+
+    struct Place;
+    void place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const;
+    Atmosphere::Sight air_past(const Ray& ray) const;
+    float cloud_of(const EarthSample& sample) const;
+    EarthAspect aspect_at(const Ray& ray, double distance_m, double height_m) const;
+};
+
+// A map of clouds that nobody saw: bands of latitude as the mean Earth has them, shapes from noise. height: of the map, a
+// power of two.
+EarthMap seeded_clouds(std::uint64_t seed, int height = 1024);
+
+}  // namespace hilcam

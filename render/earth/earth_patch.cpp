@@ -1,0 +1,115 @@
+#include "render/earth/earth_patch.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "render/vocabulary/clones.h"
+
+namespace hilcam {
+namespace {
+
+using Floats = std::array<float, sizeof(EarthAspect) / sizeof(float)>;
+
+HILCAM_CLONES void mix_nodes(const Floats& a, const Floats& b, const Floats& c, const Floats& d,
+                             const std::array<float, 4>& w, Floats& sum) {
+    for (std::size_t k = 0; k < sum.size(); ++k)
+        sum[k] = w[0] * a[k] + w[1] * b[k] + w[2] * c[k] + w[3] * d[k];
+}
+
+}  // namespace
+
+void EarthPatch::place_node(int at, const EarthModel::Ray& ray) {
+    const auto i = static_cast<std::size_t>(at);
+    EarthAspect aspect;
+    // Near the poles longitude turns too fast.
+    constexpr float kPole = 0.03f;
+    carries_[i] = earth_->aspect_of(ray, aspect) && aspect.v > kPole && aspect.v < 1 - kPole;
+    nodes_[i] = std::bit_cast<Node>(aspect);
+    halves_[static_cast<std::size_t>(2 * (at / kMaxNodes) * kHalves + 2 * (at % kMaxNodes))] = {aspect.u,
+                                                                                                aspect.v};
+}
+
+void EarthPatch::place_half(int row, int column, const EarthModel::Ray& ray) {
+    MapPlace& at = halves_[static_cast<std::size_t>(row * kHalves + column)];
+    if (!EarthModel::map_place(ray, at.u, at.v)) at = {};  // no node about it carries
+}
+
+void EarthPatch::choose_steps() {
+    looked_.fill(false);
+    for (int j = 0; j + 1 < down_; ++j)
+        for (int i = 0; i + 1 < across_; ++i) {
+            float texels = 0;
+            bool carries = true;
+            for (const int k : {0, 1, kMaxNodes, kMaxNodes + 1}) {
+                const auto at = static_cast<std::size_t>(j * kMaxNodes + i + k);
+                carries = carries && carries_[at];
+                if (carries)
+                    texels = std::max(
+                        texels, earth_->texels_across(std::bit_cast<EarthAspect>(nodes_[at]).footprint));
+            }
+            // Half a texel from look to look: what bends between texels is seen.
+            step_px_[static_cast<std::size_t>(j * kMaxNodes + i)] =
+                !carries ? 0 : (texels < 0.125f ? 4 : (texels < 0.25f ? 2 : 1));
+        }
+}
+
+Spectrum EarthPatch::look(Cell cell, float s, float t) const {
+    const auto at = static_cast<std::size_t>(cell.row * kMaxNodes + cell.column);
+    Node sum;
+    mix_nodes(nodes_[at], nodes_[at + 1], nodes_[at + kMaxNodes], nodes_[at + kMaxNodes + 1],
+              {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t}, sum);
+    EarthAspect aspect = std::bit_cast<EarthAspect>(sum);
+    // Lagrange's parabolas, both ways; longitudes as turns from the first.
+    const std::array<float, 3> across{(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)},
+        along{(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
+    const MapPlace* const first = halves_.data() + 2 * cell.row * kHalves + 2 * cell.column;
+    aspect.u = first->u, aspect.v = 0;
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 3; ++column) {
+            const MapPlace& here = first[row * kHalves + column];
+            const float w = along[row] * across[column], off = here.u - first->u;
+            aspect.u += w * (off > 0.5f ? off - 1 : (off < -0.5f ? off + 1 : off));
+            aspect.v += w * here.v;
+        }
+    const EarthModel::Shade seen = earth_->shade(aspect);
+    return irradiance_ * seen.over_sun_sr + seen.lights_w_m2_sr_um;
+}
+
+// By the cell that asks: on an edge that cells share, either gives the same but for rounding.
+const Spectrum& EarthPatch::look_at_corner(Cell cell, int column, int row) {
+    const auto at = static_cast<std::size_t>(row * kLooks + column);
+    if (!looked_[at]) {
+        const auto per_cell = static_cast<float>(pitch_px_ / 2);
+        looks_[at] = look(cell, static_cast<float>(column) / per_cell - static_cast<float>(cell.column),
+                          static_cast<float>(row) / per_cell - static_cast<float>(cell.row));
+        looked_[at] = true;
+    }
+    return looks_[at];
+}
+
+bool EarthPatch::add(float x, float y, const Spectrum& weight, Spectrum& radiance) {
+    const float in_x = x - static_cast<float>(box_.x0), in_y = y - static_cast<float>(box_.y0);
+    const Cell cell{std::clamp(static_cast<int>(in_x) / pitch_px_, 0, across_ - 2),
+                    std::clamp(static_cast<int>(in_y) / pitch_px_, 0, down_ - 2)};
+    const int step_px = step_px_[static_cast<std::size_t>(cell.row * kMaxNodes + cell.column)];
+    if (step_px == 0) return false;
+    if (step_px == 1) {
+        radiance +=
+            weight * look(cell, in_x / static_cast<float>(pitch_px_) - static_cast<float>(cell.column),
+                          in_y / static_cast<float>(pitch_px_) - static_cast<float>(cell.row));
+        return true;
+    }
+    const int column = static_cast<int>(in_x) / step_px, row = static_cast<int>(in_y) / step_px,
+              n = step_px / 2;
+    const float s = in_x / static_cast<float>(step_px) - static_cast<float>(column),
+                t = in_y / static_cast<float>(step_px) - static_cast<float>(row);
+    Spectrum seen = ((1 - s) * (1 - t)) * look_at_corner(cell, n * column, n * row);
+    seen += (s * (1 - t)) * look_at_corner(cell, n * (column + 1), n * row);
+    seen += ((1 - s) * t) * look_at_corner(cell, n * column, n * (row + 1));
+    seen += (s * t) * look_at_corner(cell, n * (column + 1), n * (row + 1));
+    radiance += weight * seen;
+    return true;
+}
+
+}  // namespace hilcam

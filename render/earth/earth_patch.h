@@ -1,0 +1,71 @@
+#pragma once
+// A part of a picture in which neighbouring pixels share what changes slowly: aspects at its nodes, 8 or 16 pixels apart, linear
+// between; places on the map by parabolas through twice as many. Only the maps are looked at for each pixel; where
+// their texels are large, for each second or fourth, linear between.
+//
+// How far it is from EarthModel::add(), which works out every pixel: tests/unit/io/files/shipped_earth_test.cpp, and docs/earth.md in units of sensor noise.
+
+#include "render/earth/earth_model.h"
+#include "render/vocabulary/pixel_box.h"
+
+namespace hilcam {
+
+class EarthPatch {
+  public:
+    static constexpr int kMaxPixels = 64, kFinePitch_px = 8, kWidePitch_px = 16;
+    static constexpr int kMaxNodes = kMaxPixels / kFinePitch_px + 1;
+
+    // pitch_px: one of the two; fine where the Earth is small, so that fewer pixels are left out at its limb.
+    // ray_at(x, y): the ray of a place in the picture [px]. At most kMaxPixels each way. Loop.
+    template <class RayAt>
+    void place(const EarthModel& earth, const PixelBox& box, int pitch_px, const RayAt& ray_at) {
+        earth_ = &earth, box_ = box, pitch_px_ = pitch_px;
+        across_ = (box.x1 - box.x0 + pitch_px_ - 1) / pitch_px_ + 1;
+        down_ = (box.y1 - box.y0 + pitch_px_ - 1) / pitch_px_ + 1;
+        for (int j = 0; j < down_; ++j)
+            for (int i = 0; i < across_; ++i)
+                place_node(j * kMaxNodes + i, ray_at(box.x0 + i * pitch_px_, box.y0 + j * pitch_px_));
+        for (int j = 0; j < 2 * down_ - 1; ++j)
+            for (int i = 0; i < 2 * across_ - 1; ++i)
+                if (i % 2 || j % 2)
+                    place_half(j, i, ray_at(box.x0 + i * (pitch_px_ / 2), box.y0 + j * (pitch_px_ / 2)));
+        choose_steps();
+        irradiance_ = ray_at(box.x0, box.y0).irradiance_w_m2_um;
+    }
+    // Radiance [W m^-2 sr^-1 um^-1] at a place within the box, times weight; false where the nodes about it do not carry: near
+    // the limb, at a pole. Loop.
+    bool add(float x, float y, const Spectrum& weight, Spectrum& radiance);
+
+  private:
+    using Node = std::array<float, sizeof(EarthAspect) / sizeof(float)>;
+    const EarthModel* earth_ = nullptr;
+    PixelBox box_;
+    int pitch_px_ = kWidePitch_px, across_ = 0, down_ = 0;
+    Spectrum irradiance_;
+    std::array<Node, kMaxNodes * kMaxNodes> nodes_;
+    std::array<bool, kMaxNodes * kMaxNodes> carries_;
+    // Places on the map at every half of the pitch.
+    static constexpr int kHalves = 2 * kMaxNodes - 1;
+    struct MapPlace {
+        float u, v;
+    };
+    std::array<MapPlace, kHalves * kHalves> halves_;
+
+    // Pixels from one look at the maps to the next, per cell between nodes; 0: it does not carry.
+    std::array<int, kMaxNodes * kMaxNodes> step_px_;
+    // Looks at every second pixel's corner, worked out when they are asked for.
+    static constexpr int kLooks = kMaxPixels / 2 + 1;
+    std::array<Spectrum, kLooks * kLooks> looks_;
+    std::array<bool, kLooks * kLooks> looked_;
+
+    struct Cell {
+        int column, row;
+    };
+    void choose_steps();
+    Spectrum look(Cell cell, float s, float t) const;  // s, t: within the cell, 0..1
+    const Spectrum& look_at_corner(Cell cell, int column, int row);
+    void place_node(int at, const EarthModel::Ray& ray);
+    void place_half(int row, int column, const EarthModel::Ray& ray);
+};
+
+}  // namespace hilcam
