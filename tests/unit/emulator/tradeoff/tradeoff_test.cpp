@@ -231,9 +231,13 @@ TEST_F(TradeoffLadder, IsTheFrontOfWhatMayChangeBetweenFramesBestFirst) {
     EXPECT_NEAR(s.loop.frame_budget_s, 0.0165, 1e-9);
     ASSERT_EQ(s.loop.levels.size(), 3u);
     EXPECT_EQ(s.loop.levels[0].values.max_depth, 2);
-    EXPECT_FALSE(s.loop.levels[0].has_lod_error_px);
+    const auto gives = [&s](std::size_t level, const char* key) {
+        const auto found = s.loop.levels[level].given.find(key);
+        return found != s.loop.levels[level].given.end() && found->second;
+    };
+    EXPECT_FALSE(gives(0, "lod_error_px"));
     EXPECT_EQ(s.loop.levels[1].values.max_depth, 1);
-    EXPECT_TRUE(s.loop.levels[2].has_max_depth && s.loop.levels[2].has_lod_error_px);
+    EXPECT_TRUE(gives(2, "max_depth") && gives(2, "lod_error_px"));
 }
 
 TEST_F(TradeoffLadder, IsNoneWhereNothingIsFaster) {
