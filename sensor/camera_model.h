@@ -19,8 +19,10 @@
 #include "sensor/exposure.h"
 #include "sensor/fixed_pattern.h"
 #include "sensor/motion.h"
+#include "sensor/outside_light.h"
 #include "sensor/packing.h"
 #include "sensor/shutter.h"
+#include "sensor/spider.h"
 #include "sensor/stray_light.h"
 
 namespace hilcam {
@@ -74,6 +76,8 @@ struct CameraModel {
     double cos_power = 4;  // irradiance falls as cos^n of the field angle
     Table vignetting;      // image height fraction, relative illumination on top of cos^n
     StrayLightConfig stray_light;
+    OutsideLightConfig outside_light;
+    SpiderConfig spider;
 
     JitterConfig jitter;
     ShutterConfig shutter;
@@ -132,6 +136,7 @@ struct CameraModel {
     std::vector<SettingsStep> sequence;  // frame k takes step (k - 1) mod n
 
     bool has_gain_dn_e = false, has_gain_e_dn = false, has_t_number = false, has_transmission = false;
+    bool has_outside_light = false;
 
     double aperture_diameter_m() const { return focal_length_m / f_number; }
     // DN per electron at a gain setting.

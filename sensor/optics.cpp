@@ -9,7 +9,8 @@ namespace hilcam {
 
 double aperture_area_m2(const CameraModel& c) {
     const double d = c.aperture_diameter_m();
-    return kPi / 4 * d * d * (1 - c.central_obscuration_ratio * c.central_obscuration_ratio);
+    const double open_m2 = kPi / 4 * d * d * (1 - c.central_obscuration_ratio * c.central_obscuration_ratio);
+    return open_m2 - vane_area_m2(c);
 }
 
 double lens_transmission(const CameraModel& c, double wavelength_um) {

@@ -18,7 +18,7 @@
 
 namespace hilcam {
 
-// Unobscured aperture area [m^2].
+// Aperture area [m^2] that neither the central obscuration nor a spider's vanes cover.
 double aperture_area_m2(const CameraModel& camera);
 
 // Glass and filters at a wavelength; with a T-number (N / T)^2 at all of them.

@@ -75,6 +75,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ScenarioConfig& s, 
       shutter_(s.camera.shutter),
       rows_pass_object_(!s.has_terrain && (s.camera.shutter.kind == ShutterKind::kRolling ||
                                            s.camera.shutter.kind == ShutterKind::kLineScan)),
+      looks_beside_(s.camera.has_outside_light),
       focal_length_px_(s.camera.focal_length_m / s.camera.pitch_m),
       oversampling_(static_cast<double>(s.quality.oversampling)),
       jitter_(s.camera.jitter, static_cast<std::uint64_t>(s.seed), parse_utc(s.time_utc)),
@@ -203,6 +204,11 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     }
     renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
     return result;
+}
+
+void ExposureRenderer::look_beside(std::vector<SideLight>& lights) const {
+    lights.clear();
+    if (looks_beside_) renderer_.find_side_light(lights);
 }
 
 // The mean of parts may come from worse ones: each draws its own samples.

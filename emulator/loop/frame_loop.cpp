@@ -39,6 +39,7 @@ FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const Came
     for (Slot& slot : slots_) {
         slot.radiance = exposures.make_image();
         slot.points.reserve(exposures.most_points());
+        if (camera.has_outside_light) ExposureRenderer::reserve_beside(slot.beside);
     }
     // Frames are smaller when they are binned more.
     const auto [width, height] = array_size(camera);
@@ -224,6 +225,7 @@ void FrameLoop::render_into(Slot& slot) {
     FrameRecord& record = slot.record;
     if (slot.use.shutter_closed) {
         exposures_.keep_dark(slot.radiance, slot.points, slot.exposure);
+        slot.beside.clear();
         slot.render_ns = 0;  // says nothing of what frames cost
         return;
     }
@@ -237,6 +239,7 @@ void FrameLoop::render_into(Slot& slot) {
     const ShownWorld moment{slot.use.shown_at, slot.use.moving};
     const ExposureRenderer::Result result = exposures_.render(
         world_, moment, {seed_, record.id}, slot.radiance, slot.points, slot.exposure, truth);
+    exposures_.look_beside(slot.beside);
     const ShownCommand& shown = result.shown;
     record.camera = exposures_.middle_world().camera;
     record.pose_sequence = shown.sequence;
@@ -293,7 +296,7 @@ void FrameLoop::sense(Slot& slot) {
     const std::int64_t begun_ns = monotonic_ns();
     const auto [width, height] = frame_size(camera_, slot.exposure.binning_x, slot.exposure.binning_y);
     frame_.reshape(width, height);
-    chain_.expose(slot.radiance, slot.points, slot.exposure, electrons_);
+    chain_.expose(slot.radiance, slot.points, slot.exposure, electrons_, slot.beside);
     chain_.digitise(electrons_, slot.exposure, {seed_, slot.record.id}, frame_);
     slot.next_exposure_s = 0;
     if (slot.automatic) measure_exposure(slot);

@@ -154,6 +154,7 @@ class FrameLoop {
     struct Slot {
         RadianceImage radiance;
         std::vector<PointSource> points;
+        std::vector<SideLight> beside;
         FrameUse use;
         FrameRecord record;
         std::vector<std::uint64_t> shown_numbers;  // for the recorder: the newest command of each thing

@@ -7,6 +7,7 @@
 #include "render/frame/object_probe.h"
 #include "render/frame/render_bench.h"
 #include "render/frame/truth_probe.h"
+#include "render/light/find_side_light.h"
 #include "render/light/point_field.h"
 #include "render/vocabulary/check.h"
 
@@ -138,6 +139,11 @@ FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int hei
 }
 
 void Renderer::tell_truth(FrameTruth& truth) const { TruthProbe(implementation_->placer, truth).tell(); }
+
+void Renderer::find_side_light(std::vector<SideLight>& lights) const {
+    const FramePlacer& placer = implementation_->placer;
+    hilcam::find_side_light(placer.frame(), placer.world(), lights);
+}
 
 std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     Implementation& my = *implementation_;

@@ -24,6 +24,7 @@
 #include "render/vocabulary/pixel_noise.h"
 #include "render/vocabulary/point_source.h"
 #include "render/vocabulary/random.h"
+#include "render/vocabulary/side_light.h"
 
 namespace hilcam {
 
@@ -82,6 +83,10 @@ class Renderer {
     // What the world that was placed last, by render() or motion(), shows; truth.raster is set. Loop, as
     // render().
     void tell_truth(FrameTruth& truth) const;
+
+    // Finds what shines from beside the picture of the world that was placed last (find_side_light.h). Loop, as
+    // render(); room for kMostSideLights.
+    void find_side_light(std::vector<SideLight>& lights) const;
 
     // An upper bound of the points that render() can give.
     std::size_t most_points() const;

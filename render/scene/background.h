@@ -51,6 +51,8 @@ class Background {
     // The Sun as the objects have it: direction, and irradiance with eclipses and air [W m^-2 um^-1].
     Vec3d sun_world_dir() const { return sun_world_dir_; }
     const Spectrum& sun_irradiance_w_m2_um() const { return sun_irradiance_; }
+    // Without eclipses and air.
+    const Spectrum& sun_clear_irradiance_w_m2_um() const { return sun_clear_irradiance_; }
     double sun_disk_cosine() const { return sun_disk_cosine_; }
     const SunDisk& sun_disk() const { return disk_; }
     // As the camera sees it.
