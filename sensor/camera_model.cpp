@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/vocabulary/check.h"
+#include "sensor/optics.h"
 
 namespace hilcam {
 
@@ -228,7 +229,7 @@ void check_lens(const CameraModel& c) {
 }
 
 void check_detector(const CameraModel& c) {
-    check_spider(c);
+    check_spider(c.spider, spider_pupil(c));
     if (c.pixel_aperture_m.size() == 2)
         for (const double side : c.pixel_aperture_m)
             if (side > c.pitch_m)

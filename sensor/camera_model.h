@@ -19,11 +19,11 @@
 #include "sensor/exposure.h"
 #include "sensor/fixed_pattern.h"
 #include "sensor/motion.h"
-#include "sensor/outside_light.h"
 #include "sensor/packing.h"
 #include "sensor/shutter.h"
-#include "sensor/spider.h"
-#include "sensor/stray_light.h"
+#include "sensor/stray/outside_light.h"
+#include "sensor/stray/spider.h"
+#include "sensor/stray/stray_light.h"
 
 namespace hilcam {
 

@@ -10,10 +10,10 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
-#include "sensor/far_wings.h"
 #include "sensor/mtf.h"
-#include "sensor/outside_light.h"
 #include "sensor/point_light.h"
+#include "sensor/stray/far_wings.h"
+#include "sensor/stray/outside_light.h"
 
 namespace hilcam {
 namespace {
@@ -96,7 +96,8 @@ struct FocalPlane::Implementation {
         std::vector<OutsideLight> out;
         if (!view.camera.has_outside_light) return out;
         for (std::size_t c = 0; c < channels.size(); ++c)
-            out.emplace_back(view.camera, view.detector, channels[c].per_irradiance, grid.size(), wings[c]);
+            out.emplace_back(view.camera.outside_light, outside_lens(view.camera), view.detector,
+                             channels[c].per_irradiance, grid.size(), wings[c]);
         return out;
     }
 

@@ -13,7 +13,7 @@
 
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/point_source.h"
-#include "sensor/far_wings.h"
+#include "sensor/stray/far_wings.h"
 #include "sensor/light_channel.h"
 #include "sensor/point_trail.h"
 

@@ -11,7 +11,7 @@
 
 #include "sensor/camera_model.h"
 #include "sensor/optics_otf.h"
-#include "sensor/spider.h"
+#include "sensor/stray/spider.h"
 
 namespace hilcam {
 

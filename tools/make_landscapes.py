@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Makes the ground of configs/scenarios/landing.yaml and the body of configs/scenarios/asteroid.yaml, neither of which is any real place:
+"""Makes the ground of configs/scenarios/landing.yaml and the body of configs/scenarios/asteroid.yaml, neither of which is any real place, and a ball:
 
-    tools/make_landscapes.py configs/maps/crater_field.raw configs/meshes/asteroid.ply
+    tools/make_landscapes.py configs/maps/crater_field.raw configs/meshes/asteroid.ply configs/meshes/ball.ply
 
 The ground is 800 x 800 heights of int16 in units of 1 cm, 1.25 m apart, rows from the north, 0 in the middle. The body is a mesh of 81920
-triangles in metres with normals, some 600 m long along x. The same call makes the same files.
+triangles in metres with normals, some 600 m long along x. The ball has 20480 and a radius of 10 m. The same call makes the same files.
 
 Craters have a bowl of 0.2 of their diameter (Pike, Geophysical Research Letters 1, 291, 1974) and a rim of 0.04 of it that falls with the
 third power of the distance (McGetchin, Settle & Head, Earth and Planetary Science Letters 20, 226, 1973); there are more small ones than
@@ -16,6 +16,7 @@ import numpy as np
 
 COLUMNS, SPACING_M, UNIT_M = 800, 1.25, 0.01
 SUBDIVISIONS, RADII_M = 6, (300.0, 220.0, 190.0)
+BALL_SUBDIVISIONS, BALL_RADIUS_M = 5, 10.0
 
 
 def hashed(x, y, z, seed):
@@ -72,7 +73,7 @@ def ground():
     return np.round((heights_m - middle_m) / UNIT_M).astype("<i2").tobytes()
 
 
-def sphere():
+def sphere(subdivisions):
     """Points and triangles of an icosahedron whose triangles are divided into four, again and again."""
     g = (1 + 5 ** 0.5) / 2
     points = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g),
@@ -80,7 +81,7 @@ def sphere():
     points = [np.array(p) / np.linalg.norm(p) for p in points]
     triangles = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8),
                  (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
-    for _ in range(SUBDIVISIONS):
+    for _ in range(subdivisions):
         between = {}
 
         def middle(a, b):
@@ -109,7 +110,7 @@ def normals(points, triangles):
 
 
 def asteroid():
-    points, triangles = sphere()
+    points, triangles = sphere(SUBDIVISIONS)
     draw = np.random.Generator(np.random.PCG64(9))
     size = 1 + 0.35 * rough(1.1 * points, 2, 3) + 0.06 * rough(5 * points, 6, 7)
     for _ in range(260):
@@ -118,7 +119,16 @@ def asteroid():
         fresh = 0.4 + 0.6 * draw.uniform()
         size += fresh * crater_height(np.arccos(np.clip(points @ (axis / np.linalg.norm(axis)), -1, 1)), radius)
     points = points * RADII_M * size[:, None]
-    vertices = np.hstack([points, normals(points, triangles)]).astype("<f4")
+    return ply(points, normals(points, triangles), triangles)
+
+
+def ball():
+    points, triangles = sphere(BALL_SUBDIVISIONS)
+    return ply(BALL_RADIUS_M * points, points, triangles)
+
+
+def ply(points, upright, triangles):
+    vertices = np.hstack([points, upright]).astype("<f4")
     faces = np.zeros(len(triangles), dtype=[("count", "u1"), ("corners", "<u2", 3)])
     faces["count"], faces["corners"] = 3, triangles
     header = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(vertices)}\n"
@@ -127,8 +137,8 @@ def asteroid():
     return header.encode() + vertices.tobytes() + faces.tobytes()
 
 
-if len(sys.argv) != 3:
+if len(sys.argv) != 4:
     sys.exit(__doc__)
-for path, content in ((sys.argv[1], ground()), (sys.argv[2], asteroid())):
+for path, content in ((sys.argv[1], ground()), (sys.argv[2], asteroid()), (sys.argv[3], ball())):
     with open(path, "wb") as file:
         file.write(content)

@@ -100,7 +100,7 @@ class FramePlacer {
     Lamps lamps_;
     StarSky stars_;
     std::size_t most_stars_;
-    std::array<SceneBody, kBodyCount> bodies_;
+    std::array<SceneBody, kMostBodies> bodies_;
     std::unique_ptr<Atmosphere> air_;
     ColorBands bands_;
     Background background_;

@@ -2,12 +2,12 @@
 
 #include <chrono>
 
+#include "render/frame/find_side_light.h"
 #include "render/frame/frame_placer.h"
 #include "render/frame/frame_tracer.h"
 #include "render/frame/object_probe.h"
 #include "render/frame/render_bench.h"
 #include "render/frame/truth_probe.h"
-#include "render/light/find_side_light.h"
 #include "render/light/point_field.h"
 #include "render/vocabulary/check.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double ms_since(Clock::time_point start) {
+double elapsed_ms(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
@@ -81,7 +81,7 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 std::size_t Renderer::most_points() const {
     const FramePlacer& placer = implementation_->placer;
     const std::size_t cells = ObjectProbe::kMostCells * ObjectProbe::kMostCells;
-    return placer.most_stars() + placer.objects() * cells + kBodyCount + placer.lamps().all().size();
+    return placer.most_stars() + placer.objects() * cells + kMostBodies + placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const {
@@ -98,16 +98,16 @@ void Renderer::render(const WorldSnapshot& world, RandomKey key, RadianceImage& 
     const auto start = Clock::now();
     my.placer.place(world, key);
     my.placer.place_visibility();
-    stats.setup_ms = ms_since(start);
+    stats.setup_ms = elapsed_ms(start);
 
     const auto traced = Clock::now();
     TileStats sum = my.tracer.trace(my.placer, radiance);
-    stats.trace_ms = ms_since(traced);
+    stats.trace_ms = elapsed_ms(traced);
 
     const auto pointed = Clock::now();
     points.clear();
     sum += my.add_points(points);
-    stats.points_ms = ms_since(pointed);
+    stats.points_ms = elapsed_ms(pointed);
 
     static_cast<RayCounts&>(stats) = sum;
     stats.coverage = sum.covered_px / (static_cast<double>(g.padded_width()) * g.padded_height());

@@ -1,12 +1,10 @@
-#include "sensor/spider.h"
+#include "sensor/stray/spider.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "render/sky/sun.h"
 #include "render/vocabulary/units.h"
-#include "sensor/camera_model.h"
-#include "sensor/mtf.h"
 
 namespace hilcam {
 
@@ -22,31 +20,36 @@ Fields fields(SpiderConfig& s) {
 
 namespace {
 
-double vane_length_m(const CameraModel& c) {
-    return 0.5 * c.aperture_diameter_m() * (1 - c.central_obscuration_ratio);
+double vane_length_m(const SpiderPupil& p) { return 0.5 * p.diameter_m * (1 - p.obscuration_ratio); }
+
+double sinc_squared(double x) {
+    const double a = kPi * x, s = std::abs(a) < 1e-6 ? 1 : std::sin(a) / a;
+    return s * s;
 }
 
 }  // namespace
 
-double vane_area_m2(const CameraModel& c) {
-    return static_cast<double>(c.spider.vanes) * c.spider.width_m * vane_length_m(c);
+double SpiderPupil::open_area_m2() const {
+    return kPi / 4 * diameter_m * diameter_m * (1 - obscuration_ratio * obscuration_ratio);
 }
 
-void check_spider(const CameraModel& c) {
-    if (c.spider.vanes > 0 && !(c.spider.width_m > 0))
-        throw InputError("spider.width_mm: found 0 with " + std::to_string(c.spider.vanes) +
+double vane_area_m2(const SpiderConfig& c, const SpiderPupil& pupil) {
+    return static_cast<double>(c.vanes) * c.width_m * vane_length_m(pupil);
+}
+
+void check_spider(const SpiderConfig& c, const SpiderPupil& pupil) {
+    if (c.vanes > 0 && !(c.width_m > 0))
+        throw InputError("spider.width_mm: found 0 with " + std::to_string(c.vanes) +
                          " vanes; accepted: a width above 0");
-    const double d = c.aperture_diameter_m();
-    const double open_m2 = kPi / 4 * d * d * (1 - c.central_obscuration_ratio * c.central_obscuration_ratio);
-    if (vane_area_m2(c) > 0.5 * open_m2)
+    if (vane_area_m2(c, pupil) > 0.5 * pupil.open_area_m2())
         throw InputError("spider: its vanes cover more than half of the aperture; accepted: less");
 }
 
-SpiderSpikes::SpiderSpikes(const CameraModel& c, const SpectralGrid& grid, const Spectrum& response) {
-    if (c.spider.vanes == 0) return;
-    const double vanes_m2 = vane_area_m2(c), d = c.aperture_diameter_m();
-    const double open_m2 = kPi / 4 * d * d * (1 - c.central_obscuration_ratio * c.central_obscuration_ratio);
-    share_ = vanes_m2 / (open_m2 - vanes_m2);
+SpiderSpikes::SpiderSpikes(const SpiderConfig& c, const SpiderPupil& pupil, const SpectralGrid& grid,
+                           const Spectrum& response) {
+    if (c.vanes == 0) return;
+    const double vanes_m2 = vane_area_m2(c, pupil);
+    share_ = vanes_m2 / (pupil.open_area_m2() - vanes_m2);
     const Spectrum sun = solar_irradiance_1au_w_m2_um(grid);
     double total = 0;
     for (int b = 0; b < grid.size(); ++b) total += static_cast<double>(response[b] * sun[b]);
@@ -59,30 +62,27 @@ SpiderSpikes::SpiderSpikes(const CameraModel& c, const SpectralGrid& grid, const
         if (!(weight > 0)) continue;
         for (int k = 0; k < kParts; ++k) {
             const double wavelength_m = (grid.from_um(b) + (k + 0.5) / kParts * grid.width_um(b)) * 1e-6;
-            const double scale = c.pitch_m / (wavelength_m * c.focal_length_m);
-            bins_.push_back({weight / kParts, c.spider.width_m * scale, vane_length_m(c) * scale});
+            const double scale = pupil.pitch_m / (wavelength_m * pupil.focal_length_m);
+            bins_.push_back({weight / kParts, c.width_m * scale, vane_length_m(pupil) * scale});
             length_px += weight / kParts / bins_.back().length_cy_px;
         }
     }
-    for (std::int64_t k = 0; k < c.spider.vanes; ++k) {
-        const double angle =
-            c.spider.angle_rad + 2 * kPi * static_cast<double>(k) / static_cast<double>(c.spider.vanes);
+    for (std::int64_t k = 0; k < c.vanes; ++k) {
+        const double angle = c.angle_rad + 2 * kPi * static_cast<double>(k) / static_cast<double>(c.vanes);
         vanes_.push_back({-std::sin(angle), std::cos(angle)});
     }
     // sinc^2(y / a) is at half its height at 0.443 a, a Gaussian at 1.177 sigma.
     const double across_px = 0.443 / 1.177 * length_px;
-    const double diffusion_px = c.diffusion_m / c.pitch_m;
+    const double diffusion_px = pupil.diffusion_m / pupil.pitch_m;
     across_sigma_px_ = std::sqrt(across_px * across_px + diffusion_px * diffusion_px);
-    const auto reach = static_cast<std::size_t>(
-        std::ceil(1.5 * std::hypot(static_cast<double>(c.width_px), static_cast<double>(c.height_px))) + 2);
+    const auto reach = static_cast<std::size_t>(std::ceil(1.5 * pupil.reach_px) + 2);
     constexpr int kSteps = 8;
     for (std::size_t i = 0; i < reach; ++i) {
         double sum = 0;
         for (int k = 0; k < kSteps; ++k) {
             const double x = static_cast<double>(i) + (k + 0.5) / kSteps - 0.5;
             for (const Bin& bin : bins_) {
-                const double s = sinc(x * bin.width_cy_px);
-                sum += bin.weight * bin.width_cy_px * s * s;
+                sum += bin.weight * bin.width_cy_px * sinc_squared(x * bin.width_cy_px);
             }
         }
         along_.push_back(static_cast<float>(sum / kSteps));

@@ -30,11 +30,9 @@
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/side_light.h"
 #include "render/vocabulary/units.h"
-#include "sensor/far_wings.h"
+#include "sensor/stray/far_wings.h"
 
 namespace hilcam {
-
-struct CameraModel;
 
 struct OutsideGhostConfig {
     double from_rad = 0, to_rad = 0.5 * kPi;  // angle of the source from the boresight
@@ -58,12 +56,19 @@ void validate(const OutsideLightConfig& config);
 // The share of the aperture that a baffle leaves lit, 0..1. any thread.
 double lit_share(double angle_rad, double field_rad, double baffle_rad);
 
+// What it takes of a camera's data sheet.
+struct OutsideLens {
+    double f_number = 4, obscuration_ratio = 0, pitch_m = 0, fill_factor = 1;
+    double aperture_area_m2 = 0;
+    double best_transmission = 1;  // of the glass, at the wavelength that it passes best
+};
+
 // One for each channel of light (light_channel.h).
 class OutsideLight {
   public:
     // per_irradiance: e- s^-1 of all the aperture per W m^-2 um^-1. wings: the channel's. Owner thread.
-    OutsideLight(const CameraModel& camera, const ImageGeometry& detector, const Spectrum& per_irradiance,
-                 int bins, const FarWings& wings);
+    OutsideLight(const OutsideLightConfig& config, const OutsideLens& lens, const ImageGeometry& detector,
+                 const Spectrum& per_irradiance, int bins, const FarWings& wings);
 
     // The light of this exposure; nothing to add when false. Loop, one thread; no allocation.
     bool collect(std::span<const SideLight> lights, double exposure_s);
@@ -90,10 +95,9 @@ class OutsideLight {
     Table curve_;
     double baffle_rad_, field_rad_, leak_;
     std::vector<OutsideGhostConfig> ghost_kinds_;
-    double f_number_, obscuration_, pitch_m_, fill_;
-    double
-        measured_px_;  // electrons in a pixel at PST 1 over those in the whole aperture, at best transmission
-    double best_transmission_, area_px_;
+    OutsideLens lens_;
+    double area_px_;      // of the aperture
+    double measured_px_;  // at PST 1 and best transmission, electrons of a pixel over those of the aperture
     Spectrum per_irradiance_;
     int bins_;
     std::vector<Vec2d> node_across_;  // of the directions that the nodes see, across the boresight

@@ -1,4 +1,4 @@
-#include "sensor/spider.h"
+#include "sensor/stray/spider.h"
 
 #include <gtest/gtest.h>
 
@@ -20,6 +20,11 @@ CameraModel spider_camera() {
     return c;
 }
 
+SpiderSpikes spikes_of(const Bench& bench) {
+    const CameraModel& c = bench.camera;
+    return {c.spider, spider_pupil(c), bench.grid, electrons_per_s_per_radiance(c, bench.grid)};
+}
+
 TEST(Spider, VanesTakeTheirAreaFromTheAperture) {
     CameraModel c = spider_camera();
     const double with = aperture_area_m2(c);
@@ -35,7 +40,7 @@ TEST(Spider, EnergyIsKept) {
     const PointSource p = point_at(128.3, 127.8, 1e-6);
     const double all = static_cast<double>(electrons_per_s_per_irradiance(c, bench.grid)[0]) * 1e-6;
     const double kept = sum(bench.expose({.exposure_s = 1}, {&p, 1})) / all;
-    const double share = SpiderSpikes(c, bench.grid, electrons_per_s_per_radiance(c, bench.grid)).share();
+    const double share = spikes_of(bench).share();
     // Beyond 128 px along it: the integral of sinc^2 is about 1 / (pi^2 u0 X), u0 = w / (lambda f).
     const double u0 = 1.5e-3 / (0.55e-6 * 0.5) * 5.5e-6;
     EXPECT_NEAR(kept, 1 - share / (kPi * kPi * u0 * 135), 0.002);
@@ -49,7 +54,7 @@ TEST(Spider, SpikesStandAcrossTheVanesAsTheirSlitsDo) {
     const PointSource p = point_at(128.5, 128.5, 2e-6);
     const ElectronImage& e = bench.expose({.exposure_s = 1}, {&p, 1});
     const double all = static_cast<double>(electrons_per_s_per_irradiance(c, bench.grid)[0]) * 2e-6;
-    const SpiderSpikes spikes(c, bench.grid, electrons_per_s_per_radiance(c, bench.grid));
+    const SpiderSpikes spikes = spikes_of(bench);
     for (const double r : {50.0, 70.0, 90.0}) {
         // Across a spike at 110 degrees, its light within 6 px, per px of its length.
         const double psi = (20 + 90) * kDegree_rad;
@@ -88,12 +93,12 @@ TEST(Spider, TheTransferFunctionHasThem) {
     CameraModel bare = c;
     bare.spider = {};
     const Bench with(c), without(bare);
-    const double share = SpiderSpikes(c, with.grid, electrons_per_s_per_radiance(c, with.grid)).share();
+    const double share = spikes_of(with).share();
     EXPECT_NEAR(with.chain.mtf(0, 0), 1, 2e-6);  // sums of floats
     // Far beyond w / (lambda f) in every direction nothing of the spikes is left.
     EXPECT_NEAR(with.chain.mtf(0.2, 0.25) / without.chain.mtf(0.2, 0.25), 1 - share, 1e-6);
     // Along a vane (20 degrees) its transfer function is still high where across it is gone.
-    const SpiderSpikes spikes(c, with.grid, electrons_per_s_per_radiance(c, with.grid));
+    const SpiderSpikes spikes = spikes_of(with);
     const double f = 0.05, a = 20 * kDegree_rad;
     EXPECT_GT(spikes.transfer(f * std::cos(a), f * std::sin(a)), 0.3);
     EXPECT_LT(spikes.transfer(f * std::cos(a + kPi / 4), f * std::sin(a + kPi / 4)), 0.01);

@@ -1,4 +1,4 @@
-#include "render/light/find_side_light.h"
+#include "render/frame/find_side_light.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

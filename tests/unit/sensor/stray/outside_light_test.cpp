@@ -1,4 +1,4 @@
-#include "sensor/outside_light.h"
+#include "sensor/stray/outside_light.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sensor/outside_light.h"
+#include "sensor/stray/outside_light.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -8,8 +8,6 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
-#include "sensor/camera_model.h"
-#include "sensor/optics.h"
 
 namespace hilcam {
 
@@ -76,27 +74,22 @@ double lit_share(double angle_rad, double field_rad, double baffle_rad) {
     return std::clamp(lens / kPi, 0.0, 1.0);
 }
 
-OutsideLight::OutsideLight(const CameraModel& c, const ImageGeometry& detector,
-                           const Spectrum& per_irradiance, int bins, const FarWings& wings)
+OutsideLight::OutsideLight(const OutsideLightConfig& c, const OutsideLens& lens,
+                           const ImageGeometry& detector, const Spectrum& per_irradiance, int bins,
+                           const FarWings& wings)
     : wings_(wings),
       geometry_(detector),
-      curve_(c.outside_light.transmittance),
-      baffle_rad_(c.outside_light.baffle_rad),
-      field_rad_(c.outside_light.baffle_field_rad),
-      leak_(c.outside_light.baffle_leak),
-      ghost_kinds_(c.outside_light.ghosts),
-      f_number_(c.f_number),
-      obscuration_(c.central_obscuration_ratio),
-      pitch_m_(c.pitch_m),
-      fill_(c.fill_factor),
-      best_transmission_(lens_transmission(c, 0.55)),
-      area_px_(aperture_area_m2(c) / (c.pitch_m * c.pitch_m)),
+      curve_(c.transmittance),
+      baffle_rad_(c.baffle_rad),
+      field_rad_(c.baffle_field_rad),
+      leak_(c.baffle_leak),
+      ghost_kinds_(c.ghosts),
+      lens_(lens),
+      area_px_(lens.aperture_area_m2 / (lens.pitch_m * lens.pitch_m)),
+      measured_px_(lens.best_transmission > 0 ? 1 / (area_px_ * lens.best_transmission) : 0),
       per_irradiance_(per_irradiance),
       bins_(bins),
       veil_(static_cast<std::size_t>(kNodes) * kNodes) {
-    if (!c.has_t_number)
-        best_transmission_ = *std::max_element(c.transmission.value.begin(), c.transmission.value.end());
-    measured_px_ = best_transmission_ > 0 ? 1 / (area_px_ * best_transmission_) : 0;
     ghosts_.reserve(ghost_kinds_.size() * kMostSideLights);
     for (int j = 0; j < kNodes; ++j)
         for (int i = 0; i < kNodes; ++i) {
@@ -110,7 +103,7 @@ double OutsideLight::electrons_of(const SideLight& light, double exposure_s) con
     double sum = 0;
     for (int b = 0; b < bins_; ++b)
         sum += static_cast<double>(per_irradiance_[b]) * static_cast<double>(light.irradiance_w_m2_um[b]);
-    return sum * exposure_s * fill_;
+    return sum * exposure_s * lens_.fill_factor;
 }
 
 namespace {
@@ -146,7 +139,7 @@ double OutsideLight::veil_px(Vec3f source, double cosine, Vec2d across) const {
 
 double OutsideLight::transmittance(double angle_rad) const {
     const Vec3f source{static_cast<float>(std::sin(angle_rad)), 0, static_cast<float>(std::cos(angle_rad))};
-    return veil_px(source, std::cos(angle_rad), {}) * area_px_ * best_transmission_;
+    return veil_px(source, std::cos(angle_rad), {}) * area_px_ * lens_.best_transmission;
 }
 
 void OutsideLight::add_ghosts(const SideLight& light, double angle_rad, double electrons) {
@@ -158,8 +151,8 @@ void OutsideLight::add_ghosts(const SideLight& light, double angle_rad, double e
         const Vec2d center = geometry_.center_px();
         const double reach = kind.scale * geometry_.focal_length_px / cosine;
         // A sharp one is a pixel wide at least.
-        const double radius = std::max(0.6, kind.defocus_m / (2 * f_number_) / pitch_m_);
-        const double hole = radius > 2 ? obscuration_ * radius : 0;
+        const double radius = std::max(0.6, kind.defocus_m / (2 * lens_.f_number) / lens_.pitch_m);
+        const double hole = radius > 2 ? lens_.obscuration_ratio * radius : 0;
         ghosts_.push_back({{center.x + reach * static_cast<double>(light.camera_dir.x),
                             center.y + reach * static_cast<double>(light.camera_dir.y)},
                            radius,
