@@ -101,6 +101,11 @@ void Background::add_planetshine(const WorldSnapshot& world, PlacedBody& out) co
         for (std::size_t k = out.shine_count - 1; k > at; --k) out.shine[k] = out.shine[k - 1];
         out.shine[at] = shine;
     }
+    // What nobody sees beside the first is not worth a ray's time.
+    constexpr float kSeen = 1e-3f;
+    if (out.shine_count == 2 &&
+        largest(out.shine[1].irradiance_w_m2_um) < kSeen * largest(out.shine[0].irradiance_w_m2_um))
+        out.shine_count = 1;
 }
 
 double Background::met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const {
@@ -192,10 +197,11 @@ std::string Background::describe(const PlacedBody& body) const {
     std::string out;
     const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
     if (scene.look.is_hapke()) add("Hapke's law at each ray");
-    if (!scene.relief.empty())
-        add("relief of " +
-            std::to_string(static_cast<int>(std::lround(scene.relief.spacing_m() * 1e-2)) / 10) +
-            " km: rays are followed to the ground, and to the Sun where it stands low");
+    if (!scene.relief.empty()) {
+        const long tenths = std::lround(scene.relief.spacing_m() * 1e-2);
+        add("relief with posts " + std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) +
+            " km apart: rays are followed to the ground, and to the Sun where it stands low");
+    }
     if (has_rings(body.id)) add("its rings at each ray, with the shadows of each on the other");
     for (std::size_t k = 0; k < body.shine_count; ++k)
         if (largest(body.shine[k].irradiance_w_m2_um) > 0 && k == 0) add("light of other bodies on it");

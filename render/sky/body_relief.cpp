@@ -83,12 +83,34 @@ double BodyRelief::height_m(Vec3d dir, double footprint_m) const {
 Vec3d BodyRelief::normal(Vec3d dir, double footprint_m) const {
     const auto [east, north] = local_axes(dir);
     const double reach_m = std::max(spacing_m_, footprint_m), turn = reach_m / radius_m_;
-    const auto along = [&](Vec3d way) {
-        const double ahead = height_m(normalized(dir + turn * way), footprint_m),
-                     behind = height_m(normalized(dir - turn * way), footprint_m);
-        return (ahead - behind) / (2 * reach_m);
-    };
-    return normalized(dir - along(east) * east - along(north) * north);
+    double to_east, to_north;
+    const double across = std::sqrt(dir.x * dir.x + dir.y * dir.y);
+    if (across > 4 * turn) {
+        // On the grid's own axes, away from the poles.
+        const double u = std::atan2(dir.y, dir.x) / (2 * kPi) + 0.5;
+        const double v = 0.5 - std::asin(std::clamp(dir.z, -1.0, 1.0)) / kPi;
+        const double du = turn / (2 * kPi * across), dv = turn / kPi;
+        // Linear between two levels, as heights are.
+        const double where =
+            std::clamp(std::log2(footprint_m / spacing_m_), 0.0, static_cast<double>(levels_.size() - 1));
+        const auto i = static_cast<std::size_t>(where);
+        const auto difference = [&](double u0, double v0, double u1, double v1) {
+            const double fine = at(levels_[i], u1, v1) - at(levels_[i], u0, v0);
+            if (where <= 0 || i + 1 == levels_.size()) return fine;
+            const double coarse = at(levels_[i + 1], u1, v1) - at(levels_[i + 1], u0, v0);
+            return fine + (where - static_cast<double>(i)) * (coarse - fine);
+        };
+        to_east = difference(u - du, v, u + du, v);
+        to_north = difference(u, v + dv, u, v - dv);
+    } else {
+        const auto along = [&](Vec3d way) {
+            return height_m(normalized(dir + turn * way), footprint_m) -
+                   height_m(normalized(dir - turn * way), footprint_m);
+        };
+        to_east = along(east), to_north = along(north);
+    }
+    const double per_m = 1 / (2 * reach_m);
+    return normalized(dir - (to_east * per_m) * east - (to_north * per_m) * north);
 }
 
 double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
@@ -110,6 +132,17 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
         const double r = length(p);
         return r - radius_m_ - height_m(p / r);
     };
+    // Steeply from above there is one place: the height above the ground over the descent leads to it.
+    constexpr double kSteep = 0.6, kNear_m = 1;
+    if (begin > -to_closest && -begin > kSteep * outer_m) {
+        double s = begin;
+        for (int i = 0; i < 10; ++i) {
+            const Vec3d p = closest + s * dir;
+            const double r = length(p), above = r - radius_m_ - height_m(p / r);
+            if (std::abs(above) < kNear_m) return to_closest + s;
+            s += above * r / std::max(-s, 0.3 * r);
+        }
+    }
     constexpr double kMostSteps = 256;
     const double steps = std::clamp(std::ceil((end - begin) / (0.7 * spacing_m_)), 2.0, kMostSteps);
     double before = begin, height_before = above_m(begin);
@@ -126,6 +159,7 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
                 before +
                 (after - before) * std::clamp(height_before / (height_before - height_after), 0.05, 0.95);
             const double height = above_m(s);
+            if (std::abs(height) < kNear_m) return to_closest + s;
             if (height > 0)
                 before = s, height_before = height;
             else
@@ -136,33 +170,45 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
     return miss_m < inner_m ? to_closest + end : -1;
 }
 
-double BodyRelief::horizon_rad(Vec3d place_m, Vec3d towards, double highest_rad) const {
+namespace {
+
+// How high the ground stands towards a direction, where it is between two angles: what is below the least does not
+// matter, and above the most no more is asked.
+double horizon_between(const BodyRelief& relief, double radius_m, Vec3d place_m, Vec3d towards,
+                       double least_rad, double most_rad) {
     const double r = length(place_m);
     const Vec3d up = place_m / r;
     const Vec3d flat = towards - dot(towards, up) * up;
     const double horizontal = length(flat);
-    double highest = -0.5 * kPi;
+    double highest = least_rad;
     if (!(horizontal > 1e-6)) return highest;
     const Vec3d way = flat / horizontal;
-    const double most_m = radius_m_ + highest_m_;
-    for (double s = 0.75 * spacing_m_;; s += 0.5 * spacing_m_ + 0.04 * s) {
+    const double most_m = radius_m + relief.highest_m();
+    for (double s = 0.75 * relief.spacing_m();; s += 0.5 * relief.spacing_m() + 0.04 * s) {
         const Vec3d p = place_m + s * way;
         const double level_m = length(p);
         // Even the highest ground there is hides no more than what was found.
-        if (level_m - most_m > 0 && std::atan2(most_m - level_m, s) < highest) break;
-        if (s > radius_m_) break;
+        if (std::atan2(most_m - level_m, s) < highest) break;
+        if (s > radius_m) break;
         const Vec3d dir = p / level_m;
-        const Vec3d ground = (radius_m_ + height_m(dir, 0.1 * s)) * dir - place_m;
+        const Vec3d ground = (radius_m + relief.height_m(dir, 0.1 * s)) * dir - place_m;
         highest = std::max(highest, std::atan2(dot(ground, up), dot(ground, way)));
-        if (highest > highest_rad) break;
+        if (highest > most_rad) break;
     }
     return highest;
+}
+
+}  // namespace
+
+double BodyRelief::horizon_rad(Vec3d place_m, Vec3d towards, double highest_rad) const {
+    return horizon_between(*this, radius_m_, place_m, towards, -0.5 * kPi, highest_rad);
 }
 
 double BodyRelief::sun_share(Vec3d place_m, Vec3d sun_dir, double sun_radius_rad) const {
     const double elevation = std::asin(std::clamp(dot(place_m, sun_dir) / length(place_m), -1.0, 1.0));
     if (elevation - sun_radius_rad > kSteepest_rad) return 1;
-    const double horizon = horizon_rad(place_m, sun_dir, elevation + sun_radius_rad);
+    const double horizon = horizon_between(*this, radius_m_, place_m, sun_dir, elevation - sun_radius_rad,
+                                           elevation + sun_radius_rad);
     return share_above((elevation - horizon) / sun_radius_rad);
 }
 
