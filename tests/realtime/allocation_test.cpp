@@ -298,7 +298,7 @@ TEST_F(Allocation, NorWithLightFromBesideThePictureAndBodiesWithAllTheyHave) {
     EXPECT_EQ(allocations(
                   {"camera.stray_light={veiling_glare_fraction: 0.001, glare_radius_px: 3}",
                    "camera.outside_light={ghosts: [{gain: 1.0e-6, defocus_mm: 2}]}",
-                   "camera.spider={vanes: 4, width_mm: 0.1}", "moon={law: hapke, planetshine: true}",
+                   "camera.spider={vanes: 4, width_mm: 0.01}", "moon={law: hapke, planetshine: true}",
                    "saturn.rings=true",
                    "bodies=[{name: io, equatorial_radius_km: 1800, kepler: {semi_major_axis_km: 421800}}]"}),
               0);

@@ -63,11 +63,11 @@ constexpr Mistake kMistakes[] = {
      "unknown key; there is camera.exposure_ms; known keys"},
     // Keys that contradict each other.
     {"CurveAndBaffle", 11,
-     "  outside_light: {transmittance: [[10, 1.0e-4], [20, 1.0e-6]], baffle_angle_deg: 30}", "11:64",
+     "  outside_light: {transmittance: [[10, 1.0e-4], [20, 1.0e-6]], baffle_angle_deg: 30}", "11:82",
      "a measured transmittance has the baffle in it; accepted: one of the two"},
-    {"MagnitudeOfHapke", 24, "moon: {law: hapke, measured_magnitude: true}", "24:20",
+    {"MagnitudeOfHapke", 24, "moon: {law: hapke, measured_magnitude: true}", "24:40",
      "which has its own scale"},
-    {"HeightsWithoutMap", 24, "moon: {law: hapke, height_zero_m: -10000}", "24:20",
+    {"HeightsWithoutMap", 24, "moon: {law: hapke, height_zero_m: -10000}", "24:35",
      "has no effect without height_map"},
     // Values.
     {"WordForNumber", 9, "  f_number: wide", "9:13", "found 'wide'; accepted: a number"},
