@@ -239,8 +239,7 @@ SensorChain::SensorChain(const CameraModel& camera, const SpectralGrid& grid, co
 SensorChain::~SensorChain() = default;
 
 void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSource> points,
-                         const Exposure& exposure, ElectronImage& mean_e,
-                         std::span<const SideLight> beside) {
+                         const Exposure& exposure, ElectronImage& mean_e, std::span<const SideLight> beside) {
     Implementation& my = *implementation_;
     auto start = Clock::now();
     my.focal_plane.collapse(radiance, exposure);

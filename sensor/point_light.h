@@ -13,9 +13,9 @@
 
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/point_source.h"
-#include "sensor/stray/far_wings.h"
 #include "sensor/light_channel.h"
 #include "sensor/point_trail.h"
+#include "sensor/stray/far_wings.h"
 
 namespace hilcam {
 

@@ -44,11 +44,10 @@ std::optional<FrameTime> frame_time(CameraStation& station, WorldState& world, E
     std::vector<double> render_ms, sensor_ms;
     for (std::uint32_t i = 0; i <= kFrames; ++i) {
         const RandomKey key{seed_of_camera(s, station.number() - 1), i};
-        const double render =
-            milliseconds([&] {
-                exposures.render(world, start, key, radiance, points, exposure);
-                exposures.look_beside(beside);
-            });
+        const double render = milliseconds([&] {
+            exposures.render(world, start, key, radiance, points, exposure);
+            exposures.look_beside(beside);
+        });
         const double sensor = milliseconds([&] {
             station.chain().expose(radiance, points, exposure, electrons, beside);
             station.chain().digitise(electrons, exposure, key, frame);
