@@ -30,7 +30,7 @@ double next_exposure_s(const AutoExposureConfig& c, Brightness seen, double pres
         stops = std::min(stops, -1.0);
     else if (std::abs(missing_stops) <= c.tolerance_stops)
         stops = 0;
-    return std::clamp(present_s * std::exp2(stops), limits.least_s, limits.most_s);
+    return std::clamp(present_s * std::exp2(stops), limits.min_s, limits.max_s);
 }
 
 DnScale dn_scale_of(const CameraModel& c, const Exposure& exposure) {

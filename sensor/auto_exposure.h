@@ -35,7 +35,7 @@ struct Brightness {
 
 // [s]
 struct ExposureLimits {
-    double least_s = 0, most_s = 0;
+    double min_s = 0, max_s = 0;
 };
 // The exposure to set after a frame of present_s showed that brightness.
 double next_exposure_s(const AutoExposureConfig& config, Brightness seen, double present_s,

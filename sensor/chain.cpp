@@ -30,12 +30,12 @@ const tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 // Mean charge of a row: light times each pixel's gain, plus its dark current.
 HILCAM_CLONES void to_charge(float* light, std::size_t count, const float* gain, const float* dark_e_s,
                              float uniform_dark_e, float exposure_s) {
-    constexpr float kMost_e = 1e9f;
+    constexpr float kMax_e = 1e9f;
     if (gain)
         for (std::size_t x = 0; x < count; ++x) light[x] *= gain[x];
     for (std::size_t x = 0; x < count; ++x) {
         const float all = light[x] + (dark_e_s ? dark_e_s[x] * exposure_s : uniform_dark_e);
-        light[x] = all > 0 ? (all < kMost_e ? all : kMost_e) : 0.0f;
+        light[x] = all > 0 ? (all < kMax_e ? all : kMax_e) : 0.0f;
     }
 }
 

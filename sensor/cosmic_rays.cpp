@@ -61,7 +61,7 @@ void add_tracks(const CosmicRayConfig& c, double pitch_m, double exposure_s, Ran
     const double area_cm2 = static_cast<double>(charge_e.pixels()) * pitch_m * pitch_m * 1e4;
     const auto words = random_words(key, RandomPurpose::kCosmicRay, 0, 0);
     const std::uint32_t tracks = std::min(
-        kMostTracks,
+        kMaxTracks,
         poisson_count(c.rate_cm2_s * area_cm2 * exposure_s, static_cast<double>(uniform01(words[0]))));
     for (std::uint32_t i = 0; i < tracks; ++i) add_track(draw_track(c, pitch_m, key, i, charge_e), charge_e);
 }

@@ -19,8 +19,8 @@ struct CosmicRayConfig {
 };
 Fields fields(CosmicRayConfig& config);
 
-// The tracks of one exposure, at most kMostTracks. Loop, one thread.
-inline constexpr std::uint32_t kMostTracks = 1'000'000;
+// The tracks of one exposure, at most kMaxTracks. Loop, one thread.
+inline constexpr std::uint32_t kMaxTracks = 1'000'000;
 void add_tracks(const CosmicRayConfig& config, double pitch_m, double exposure_s, RandomKey key,
                 ElectronImage& charge_e);
 

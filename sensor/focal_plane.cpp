@@ -20,12 +20,12 @@ namespace {
 
 const tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 
-constexpr float kMost_e = 1e9f;         // greatest mean charge of a pixel
-constexpr float kMostBefore_e = 1e12f;  // greatest charge of a radiance pixel
+constexpr float kMax_e = 1e9f;         // greatest mean charge of a pixel
+constexpr float kMaxBefore_e = 1e12f;  // greatest charge of a radiance pixel
 // Brighter pixels than so many full wells are drawn as points: in the FFT the Sun would ring along its rows
 // and columns and come back over the picture's edges.
 constexpr float kBrightWells = 10;
-constexpr std::size_t kMostBright = 4096;
+constexpr std::size_t kMaxBright = 4096;
 
 HILCAM_CLONES void weigh(const RadianceImage& radiance, const Spectrum& factor, int bins, int y,
                          std::size_t begin, std::size_t end, const float* illumination, float* out) {
@@ -38,7 +38,7 @@ HILCAM_CLONES void weigh(const RadianceImage& radiance, const Spectrum& factor, 
     }
     for (std::size_t x = begin; x < end; ++x) {
         const float value = out[x] * illumination[x];
-        out[x] = value < kMostBefore_e ? value : kMostBefore_e;
+        out[x] = value < kMaxBefore_e ? value : kMaxBefore_e;
     }
 }
 
@@ -51,7 +51,7 @@ HILCAM_CLONES float greatest(const float* in, std::size_t count) {
 HILCAM_CLONES void cut_off(const float* in, std::size_t count, float* out) {
     for (std::size_t x = 0; x < count; ++x) {
         const float value = in[x] > 0 ? in[x] : 0.0f;
-        out[x] = value < kMost_e ? value : kMost_e;
+        out[x] = value < kMax_e ? value : kMax_e;
     }
 }
 
@@ -122,7 +122,7 @@ struct FocalPlane::Implementation {
                         zone_weight(c.field_zones, z,
                                     view.lens.field_fraction(view.detector_px(x), view.detector_px(y)))));
         row_peaks.resize(static_cast<std::size_t>(image.padded_height()));
-        bright.reserve(kMostBright * channels.size());
+        bright.reserve(kMaxBright * channels.size());
     }
 
     // --- radiance to electrons
@@ -193,7 +193,7 @@ struct FocalPlane::Implementation {
     }
 
     // Turns what is over the limit into points and leaves the limit in the picture. Where more than
-    // kMostBright pixels are over it, ten times the limit.
+    // kMaxBright pixels are over it, ten times the limit.
     void take_out_bright(LightChannel& channel) {
         auto limit = kBrightWells * static_cast<float>(view.camera.full_well_e);
         const std::size_t before = bright.size();
@@ -221,7 +221,7 @@ struct FocalPlane::Implementation {
             for (int x = 0; x < view.image.padded_width(); ++x) {
                 const float value = row[static_cast<std::size_t>(x)];
                 if (value <= limit) continue;
-                if (bright.size() - before == kMostBright) return false;
+                if (bright.size() - before == kMaxBright) return false;
                 bright.push_back(
                     {{view.detector_px(x), view.detector_px(y)}, static_cast<double>(value - limit), number});
             }

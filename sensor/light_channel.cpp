@@ -59,7 +59,7 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
     const int width = fft_size(view.image.padded_width()), height = fft_size(view.image.padded_height());
     convolver.emplace(width, height, transfers);
     // A kernel's border of nothing must lie in the guard band.
-    if (transfers.size() == 1 && view.image.guard_px >= CompactKernel::kMostRadius && !sampling.always_fft) {
+    if (transfers.size() == 1 && view.image.guard_px >= CompactKernel::kMaxRadius && !sampling.always_fft) {
         std::vector<RayGrid> grids = sampling.other_grids;
         grids.push_back(sampling.samples_per_axis);
         for (const RayGrid rays : grids)

@@ -15,7 +15,7 @@ constexpr float kInversionBelow_e = 32;
 constexpr std::size_t kBlock = 128;
 constexpr std::size_t kLanes = 32;  // pixels that are inverted side by side
 // P(Poisson(32) > 92) is 1e-17: no uniform number below 1 gets there.
-constexpr int kMostInverted_e = 92;
+constexpr int kMaxInverted_e = 92;
 
 // Natural logarithm of a normal positive float: mantissa in [sqrt(1/2), sqrt(2)), then the series of
 // log((1+s)/(1-s)) to s^9; error below 2e-7. Written without branches so that loops over it become vector
@@ -118,7 +118,7 @@ HILCAM_CLONES void shoot_small(const float* mean_e, const float* shot, float* el
     std::memcpy(cumulative, chance.data(), sizeof cumulative);
     std::memcpy(uniform, shot, sizeof uniform);
     for (Lanes& f : found) f = Lanes{};
-    for (int k = 1; k <= kMostInverted_e; ++k) {
+    for (int k = 1; k <= kMaxInverted_e; ++k) {
         const float inverse = 1.0f / static_cast<float>(k);
         Words walking = {};
         for (std::size_t v = 0; v < kVectors; ++v) {

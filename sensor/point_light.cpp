@@ -17,7 +17,7 @@ constexpr std::size_t kSourcesAtOnce = 8192;
 constexpr std::size_t kSpotsAtOnce = 8192;
 constexpr std::size_t kFewSpots = 64;  // fewer spots are not worth waking threads for
 
-constexpr int kReach = PointSpread::kMostRadius_px;
+constexpr int kReach = PointSpread::kMaxRadius_px;
 constexpr int kAcross = 2 * kReach + 1;
 
 // Around a point: its wings, which are added elsewhere, and those of its copies, one in every field, that the

@@ -102,7 +102,7 @@ class SliceWatch {
 std::size_t slices_of(const SoakOptions& options) {
     const double wanted_s = options.slice_s > 0 ? options.slice_s : std::max(10.0, options.seconds / 60);
     return static_cast<std::size_t>(
-        std::clamp(std::floor(options.seconds / wanted_s + 1e-9), 1.0, SoakOptions::kMostSlices));
+        std::clamp(std::floor(options.seconds / wanted_s + 1e-9), 1.0, SoakOptions::kMaxSlices));
 }
 
 SoakCourse course(const std::vector<SoakSlice>& slices, double (*figure)(const SoakSlice&)) {
@@ -163,7 +163,7 @@ SoakVerdict judge(const Soak& soak) {
     v.memory_mb = course(soak.slices, [](const SoakSlice& s) { return s.memory_mb; });
     v.latency_p50_ms = course(soak.slices, [](const SoakSlice& s) { return s.latency.p50_ms; });
     v.latency_p99_ms = course(soak.slices, [](const SoakSlice& s) { return s.latency.p99_ms; });
-    v.enough = soak.slices.size() >= kLeastForTrend;
+    v.enough = soak.slices.size() >= kMinForTrend;
     v.memory_flat =
         std::max(v.memory_mb.growth, v.memory_mb.last - v.memory_mb.first) <= SoakVerdict::kFlat_mb;
     v.latency_steady = steady(v.latency_p50_ms) && steady(v.latency_p99_ms);

@@ -18,10 +18,10 @@
 namespace hilcam {
 
 struct SoakOptions {
-    static constexpr double kMostSlices = 1440;
+    static constexpr double kMaxSlices = 1440;
 
     double seconds = 0;    // without warming up
-    double slice_s = 0;    // 0: a sixtieth of the seconds, at least 10 s; no more than kMostSlices
+    double slice_s = 0;    // 0: a sixtieth of the seconds, at least 10 s; no more than kMaxSlices
     bool outputs = false;  // also the scenario's outputs and command ports
 };
 
@@ -64,7 +64,7 @@ struct SoakVerdict {
     static constexpr double kFlat_mb = 1;
     static constexpr double kSteady_fraction = 0.05;
 
-    bool enough = false;  // slices to tell a trend: kLeastForTrend
+    bool enough = false;  // slices to tell a trend: kMinForTrend
     bool memory_flat = false, latency_steady = false;
     SoakCourse memory_mb, latency_p50_ms, latency_p99_ms;
 };

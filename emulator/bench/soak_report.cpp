@@ -102,8 +102,7 @@ std::string soak_text(const Soak& soak) {
                                        : "drifts",
                     course_text(v.latency_p50_ms, "ms"), course_text(v.latency_p99_ms, "ms"));
     if (v.enough) return figures;
-    return figures +
-           fmt::format("; a trend takes {} slices, there are {}", kLeastForTrend, soak.slices.size());
+    return figures + fmt::format("; a trend takes {} slices, there are {}", kMinForTrend, soak.slices.size());
 }
 
 void write_soak(const Soak& soak, const json& json, const std::filesystem::path& folder) {

@@ -18,9 +18,9 @@ struct Trend {
 // Of fewer than two figures: none.
 Trend trend_of(std::span<const double> values);
 
-// A trend of this much is no chance (2.7 in a thousand, both signs). Fewer figures than kLeastForTrend cannot
+// A trend of this much is no chance (2.7 in a thousand, both signs). Fewer figures than kMinForTrend cannot
 // reach it, whatever they are.
 inline constexpr double kSignificant_sigma = 3;
-inline constexpr std::size_t kLeastForTrend = 7;
+inline constexpr std::size_t kMinForTrend = 7;
 
 }  // namespace hilcam

@@ -90,7 +90,7 @@ void CameraBench::show(const BenchTarget& target) {
     quality.samples_per_axis = sampling_.samples_per_axis;
     Renderer renderer(std::move(scene), grid_, image_, quality);
     std::vector<PointSource> points;
-    points.reserve(renderer.most_points());
+    points.reserve(renderer.max_points());
     RenderStats stats;
     renderer.render(empty_room(), {kSeed, 0}, full_, points, stats);
     filter_ = -1;

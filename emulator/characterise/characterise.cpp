@@ -18,7 +18,7 @@ constexpr double kLightPixels = 5e5;
 constexpr double kDefectSigmas = 6;  // of a Gaussian 2e-9: none of 262,144 good pixels
 // Relative error of the dark current that the longest exposures' frames are counted for.
 constexpr double kDarkCurrentError = 0.004;
-constexpr int kFewestDarkPairs = 4, kMostDarkPairs = 256;
+constexpr int kMinDarkPairs = 4, kMaxDarkPairs = 256;
 // 1/25 to 0.92 of saturation for the curves, then by hundredths for the place where it begins.
 constexpr int kLevels = 23;
 
@@ -81,8 +81,8 @@ class Laboratory {
   public:
     Laboratory(const CameraModel& camera, const DetectorPictures& pictures)
         : pictures_(pictures),
-          setup_(bench_setup(camera)),
-          selection_(bench_selection(setup_)),
+          setup_(lab_setup(camera)),
+          selection_(lab_selection(setup_)),
           bench_(setup_.camera, setup_.grid, kSampling, setup_.lamp_w_m2_um, pictures) {
         bench_.show({1, 1, 0});
     }
@@ -315,14 +315,14 @@ class Laboratory {
         const double mean_e2 = noise_e2 / static_cast<double>(selection_.count()) +
                                std::pow(c.row_noise_e, 2) / selection_.height;
         const double wanted = dark_e > 0 ? mean_e2 / std::pow(kDarkCurrentError * dark_e, 2) : 0;
-        const int pairs = static_cast<int>(std::clamp(wanted, 1.0 * kFewestDarkPairs, 1.0 * kMostDarkPairs));
+        const int pairs = static_cast<int>(std::clamp(wanted, 1.0 * kMinDarkPairs, 1.0 * kMaxDarkPairs));
         constexpr int kSteps = 8;
         for (int i = 0; i <= kSteps; ++i) {
             const double exposure_s = setup_.shortest_s + (setup_.longest_s - setup_.shortest_s) * i / kSteps;
             expose_dark(exposure_s, setup_.dark_gain_db);
             // The ends of the line decide its slope.
             const bool end = i == 0 || i == kSteps;
-            out_.dark.push_back({exposure_s, take_pairs(bench_, selection_, end ? pairs : kFewestDarkPairs)});
+            out_.dark.push_back({exposure_s, take_pairs(bench_, selection_, end ? pairs : kMinDarkPairs)});
             if (setup_.longest_s <= setup_.shortest_s) break;
         }
         if (out_.dark.size() > 2)
@@ -349,7 +349,7 @@ class Laboratory {
     }
 
     const DetectorPictures& pictures_;
-    BenchSetup setup_;
+    LabSetup setup_;
     PixelSelection selection_;
     CameraBench bench_;
     PixelSelection evenly_lit_;  // for what depends on how much light there is

@@ -19,7 +19,7 @@ struct LightLevel {
 };
 
 struct Characterisation {
-    BenchSetup setup;
+    LabSetup setup;
     std::size_t pixels = 0, defects = 0;  // looked at; left out as defects
     std::uint64_t frames = 0;
 

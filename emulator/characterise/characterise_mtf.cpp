@@ -20,9 +20,9 @@ constexpr SensorSampling kFineSampling{16, 8, 2};
 // Noise of a calibrated pixel over the edge's step. The MTF at Nyquist is a mean over some ten thousand
 // pixels and errs by about the same number.
 constexpr double kPixelNoise = 7e-4;
-constexpr int kFewestFrames = 16, kMostFrames = 2048;
+constexpr int kMinFrames = 16, kMaxFrames = 2048;
 
-BenchSetup windowed(BenchSetup s, EdgeDirection direction) {
+LabSetup windowed(LabSetup s, EdgeDirection direction) {
     const PixelRectangle w = window_of(s.camera);
     const bool rows = direction == EdgeDirection::kAlongRows;
     require_lines(s.camera, kAlong_px);
@@ -59,7 +59,7 @@ struct LightPicture {
     double variance = 0;  // of a pixel's mean
 };
 
-LightPicture light_of(CameraBench& bench, const BenchSetup& s, const ResponseCurve& response, double filter,
+LightPicture light_of(CameraBench& bench, const LabSetup& s, const ResponseCurve& response, double filter,
                       const PixelSelection& selection, int frames) {
     const bool smears = s.camera.shutter.kind == ShutterKind::kFrameTransfer;
     const auto at = [&](double exposure_s) {
@@ -101,10 +101,10 @@ std::size_t MtfCurve::nyquist() const {
     return static_cast<std::size_t>(at - frequency_cy_px.begin());
 }
 
-MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, EdgeDirection direction,
+MtfCurve measure_mtf(const LabSetup& setup, const ResponseCurve& response, EdgeDirection direction,
                      const DetectorPictures& pictures, const std::function<void(double)>& told) {
-    const BenchSetup s = windowed(setup, direction);
-    PixelSelection selection = bench_selection(s);
+    const LabSetup s = windowed(setup, direction);
+    PixelSelection selection = lab_selection(s);
     CameraBench bench(s.camera, s.grid, kFineSampling, s.lamp_w_m2_um, pictures);
     const double tilt_rad = direction == EdgeDirection::kAlongRows ? kTilt_rad : kTilt_rad - kPi / 2;
     const double filter = kBright_fraction / kOverexposure / kBrightAlbedo;
@@ -114,7 +114,7 @@ MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, Edg
     const double step_e = bright_e * (1 - kDarkAlbedo / kBrightAlbedo);
     const double noise = std::hypot(std::sqrt(2.5 * bright_e), 3 * s.camera.dark_noise_e()) / step_e;
     const int frames = static_cast<int>(
-        std::clamp(std::ceil(std::pow(noise / kPixelNoise, 2)), 1.0 * kFewestFrames, 1.0 * kMostFrames));
+        std::clamp(std::ceil(std::pow(noise / kPixelNoise, 2)), 1.0 * kMinFrames, 1.0 * kMaxFrames));
 
     int pictures_taken = 0;
     const auto picture_of = [&](double left, double right) {

@@ -25,7 +25,7 @@ struct MtfCurve {
 // Edge near the columns (the MTF along the rows), or near the rows.
 enum class EdgeDirection { kAlongRows, kAlongColumns };
 // told: is given the share of the work that is done, 0 to 1, now and then.
-MtfCurve measure_mtf(const BenchSetup& setup, const ResponseCurve& response, EdgeDirection direction,
+MtfCurve measure_mtf(const LabSetup& setup, const ResponseCurve& response, EdgeDirection direction,
                      const DetectorPictures& pictures, const std::function<void(double)>& told);
 
 }  // namespace hilcam

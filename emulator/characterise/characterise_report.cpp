@@ -127,7 +127,7 @@ json mtf_json(const MtfCurve& m) {
 }
 
 json settings_json(const Characterisation& r) {
-    const BenchSetup& s = r.setup;
+    const LabSetup& s = r.setup;
     return {{"window_px", s.camera.window_px},
             {"wavelength_um", s.wavelength_um},
             {"color_filter", s.filter ? json(std::string(1, s.filter)) : json(nullptr)},
@@ -192,7 +192,7 @@ std::vector<SheetFigure> sheet_figures(const Characterisation& r, const Detector
 json characterisation_json(const Characterisation& r, const DetectorPictures& pictures) {
     json out = {
         {"camera", r.setup.camera.name},
-        {"linearity_extremes_fraction", {r.linearity.least_fraction, r.linearity.most_fraction}},
+        {"linearity_extremes_fraction", {r.linearity.min_fraction, r.linearity.max_fraction}},
         {"prnu", parts(r.prnu_fraction)},
         {"dsnu", parts(r.dsnu_e)},
         {"defects", r.defects},

@@ -19,9 +19,9 @@ constexpr int kLineWidth_px = 8192, kLines = 64;
 constexpr int kMargin_px = 8;
 // Least noise of a dark pixel [DN] at which rounding adds 1/12 DN^2 to its variance: what is missing is of
 // the order exp(-2 pi^2 sigma^2) (Widrow, Kollar & Liu, IEEE Trans. Instrum. Meas. 45, 1996), here 6e-5.
-constexpr double kLeastDarkNoise_dn = 0.7;
+constexpr double kMinDarkNoise_dn = 0.7;
 // Of saturation: dark signal at the longest exposure, where the response is straight yet.
-constexpr double kMostDark_fraction = 0.1;
+constexpr double kMaxDark_fraction = 0.1;
 constexpr double kLine_um = 0.001;  // width of the lamp's line
 
 bool line_scan(const CameraModel& c) { return c.shutter.kind == ShutterKind::kLineScan; }
@@ -50,12 +50,12 @@ double best_wavelength_um(const CameraModel& c, char letter) {
         if (curve)
             candidates.insert(candidates.end(), curve->wavelength_um.begin(), curve->wavelength_um.end());
     // Constants have a place of their own, which says nothing about the others' range.
-    double most_transmission = 0;
+    double max_transmission = 0;
     for (const double um : candidates)
-        most_transmission = std::max(most_transmission, lens_transmission(c, um));
+        max_transmission = std::max(max_transmission, lens_transmission(c, um));
     double best_um = 0, best = -1;
     for (const double um : candidates) {
-        if (um < 0.21 || um > 2.49 || lens_transmission(c, um) < 0.1 * most_transmission) continue;
+        if (um < 0.21 || um > 2.49 || lens_transmission(c, um) < 0.1 * max_transmission) continue;
         const double efficiency = c.quantum_efficiency.at(um) * (filter ? filter->at(um) : 1);
         if (efficiency > best) best = efficiency, best_um = um;
     }
@@ -76,7 +76,7 @@ std::vector<double> central_window(const CameraModel& c, int width, int height) 
             1.0 * height};
 }
 
-void set_window(BenchSetup& s) {
+void set_window(LabSetup& s) {
     CameraModel& c = s.camera;
     const bool lines = line_scan(c);
     require_lines(c, kLines);
@@ -85,7 +85,7 @@ void set_window(BenchSetup& s) {
     s.remarks.push_back(fmt::format("window {} x {} px about the boresight", c.window_px[2], c.window_px[3]));
 }
 
-void switch_off(BenchSetup& s) {
+void switch_off(LabSetup& s) {
     CameraModel& c = s.camera;
     const auto set = [&](bool on, const char* remark) {
         if (on) s.remarks.emplace_back(remark);
@@ -114,7 +114,7 @@ void switch_off(BenchSetup& s) {
 }
 
 // Section 6.5: so that the noise's lower half is not cut off.
-void set_black_level(BenchSetup& s) {
+void set_black_level(LabSetup& s) {
     CameraModel& c = s.camera;
     const double gain = std::max(c.system_gain_dn_e(s.gain_db), c.system_gain_dn_e(s.dark_gain_db));
     const double spread_e =
@@ -127,41 +127,41 @@ void set_black_level(BenchSetup& s) {
     c.offset_dn = least;
 }
 
-void choose_gains(BenchSetup& s) {
+void choose_gains(LabSetup& s) {
     const CameraModel& c = s.camera;
     s.gain_db = std::clamp(0.0, c.gain_range_db[0], c.gain_range_db[1]);
     const double noise_dn = c.dark_noise_e() * c.system_gain_dn_e(s.gain_db);
     s.dark_gain_db = s.gain_db;
-    if (noise_dn <= 0 || noise_dn >= kLeastDarkNoise_dn) return;
+    if (noise_dn <= 0 || noise_dn >= kMinDarkNoise_dn) return;
     s.dark_gain_db =
-        std::min(s.gain_db + std::ceil(20 * std::log10(kLeastDarkNoise_dn / noise_dn)), c.gain_range_db[1]);
+        std::min(s.gain_db + std::ceil(20 * std::log10(kMinDarkNoise_dn / noise_dn)), c.gain_range_db[1]);
     if (s.dark_gain_db > s.gain_db)
         s.remarks.push_back(fmt::format(
             "in the dark at {:g} dB: at {:g} dB the noise of {:.2f} DN would not cross the converter's steps",
             s.dark_gain_db, s.gain_db, noise_dn));
 }
 
-void choose_exposures(BenchSetup& s) {
+void choose_exposures(LabSetup& s) {
     const CameraModel& c = s.camera;
     const double dark_e_s = c.dark_current_now_e_s();
-    const double most_dark_e = kMostDark_fraction * configured_saturation_e(c, s.dark_gain_db);
-    double least_s = c.exposure_range_s[0], most_s = c.exposure_range_s[1];
-    if (line_scan(c)) least_s = most_s = static_cast<double>(c.shutter.tdi_stages) * c.shutter.line_time_s;
-    const bool fixed = most_s < 2 * least_s;
+    const double max_dark_e = kMaxDark_fraction * configured_saturation_e(c, s.dark_gain_db);
+    double min_s = c.exposure_range_s[0], max_s = c.exposure_range_s[1];
+    if (line_scan(c)) min_s = max_s = static_cast<double>(c.shutter.tdi_stages) * c.shutter.line_time_s;
+    const bool fixed = max_s < 2 * min_s;
     if (fixed)
         s.remarks.push_back(
             "one exposure time: levels by light; dark current with the camera's clock slowed down");
-    s.shortest_s = least_s;
-    s.longest_s = fixed ? 1e4 * least_s : most_s;
-    if (dark_e_s > 0) s.longest_s = std::clamp(most_dark_e / dark_e_s, s.shortest_s, s.longest_s);
+    s.shortest_s = min_s;
+    s.longest_s = fixed ? 1e4 * min_s : max_s;
+    if (dark_e_s > 0) s.longest_s = std::clamp(max_dark_e / dark_e_s, s.shortest_s, s.longest_s);
     // Levels go down to 1/25 of the longest exposure; dark current stays a trifle; a frame-transfer CCD's
     // rows pass the light in a small part of it.
-    s.by_light = most_s < 50 * least_s;
-    double top_s = std::clamp(c.exposure_s, 30 * least_s, std::max(30 * least_s, most_s));
+    s.by_light = max_s < 50 * min_s;
+    double top_s = std::clamp(c.exposure_s, 30 * min_s, std::max(30 * min_s, max_s));
     if (c.shutter.kind == ShutterKind::kFrameTransfer)
         top_s = std::max(top_s, 20 * c.window_px[3] * c.shutter.line_time_s);
-    if (dark_e_s > 0) top_s = std::min(top_s, std::max(30 * least_s, most_dark_e / dark_e_s));
-    s.exposure_s = s.by_light ? std::clamp(c.exposure_s, least_s, most_s) : std::min(top_s, most_s);
+    if (dark_e_s > 0) top_s = std::min(top_s, std::max(30 * min_s, max_dark_e / dark_e_s));
+    s.exposure_s = s.by_light ? std::clamp(c.exposure_s, min_s, max_s) : std::min(top_s, max_s);
 }
 
 }  // namespace
@@ -172,8 +172,8 @@ void require_lines(CameraModel& c, int lines) {
     c.height_px = std::max<std::int64_t>(c.height_px, lines);
 }
 
-BenchSetup bench_setup(const CameraModel& camera) {
-    BenchSetup s;
+LabSetup lab_setup(const CameraModel& camera) {
+    LabSetup s;
     s.camera = camera;
     s.filter = most_frequent_filter(camera.color_filter.pattern);
     if (s.filter != 0)
@@ -188,12 +188,12 @@ BenchSetup bench_setup(const CameraModel& camera) {
 
     s.lamp_w_m2_um = 1;
     const double per_lamp =
-        photons_per_s(s, evenly_lit(s, bench_selection(s))) * configured_quantum_efficiency(s) * s.exposure_s;
+        photons_per_s(s, evenly_lit(s, lab_selection(s))) * configured_quantum_efficiency(s) * s.exposure_s;
     s.lamp_w_m2_um = kOverexposure * configured_saturation_e(s.camera, s.gain_db) / per_lamp;
     return s;
 }
 
-PixelSelection bench_selection(const BenchSetup& s) {
+PixelSelection lab_selection(const LabSetup& s) {
     const CameraModel& c = s.camera;
     const PixelRectangle w = window_of(c);
     const int margin_x = std::min(kMargin_px, w.width / 8), margin_y = std::min(kMargin_px, w.height / 8);
@@ -221,7 +221,7 @@ namespace {
 
 // Calls visit(index of the pixel, relative illumination) for those that count.
 template <class Visit>
-void visit_light(const BenchSetup& s, const PixelSelection& selection, const Visit& visit) {
+void visit_light(const LabSetup& s, const PixelSelection& selection, const Visit& visit) {
     const RelativeIllumination lens(s.camera, geometry_of(s.camera, 0));
     std::size_t i = 0;
     for (int y = 0; y < selection.height; ++y)
@@ -233,7 +233,7 @@ void visit_light(const BenchSetup& s, const PixelSelection& selection, const Vis
 
 }  // namespace
 
-PixelSelection evenly_lit(const BenchSetup& s, PixelSelection selection) {
+PixelSelection evenly_lit(const LabSetup& s, PixelSelection selection) {
     double most = 0;
     visit_light(s, selection, [&](std::size_t, double light) { most = std::max(most, light); });
     const PixelSelection all = selection;
@@ -242,7 +242,7 @@ PixelSelection evenly_lit(const BenchSetup& s, PixelSelection selection) {
     return selection;
 }
 
-double photons_per_s(const BenchSetup& s, const PixelSelection& selection) {
+double photons_per_s(const LabSetup& s, const PixelSelection& selection) {
     const CameraModel& c = s.camera;
     double sum = 0;
     visit_light(s, selection, [&](std::size_t, double light) { sum += light; });
@@ -253,7 +253,7 @@ double photons_per_s(const BenchSetup& s, const PixelSelection& selection) {
     return power_w / photon_energy_j(s.wavelength_um) * sum / static_cast<double>(selection.count());
 }
 
-double configured_quantum_efficiency(const BenchSetup& s) {
+double configured_quantum_efficiency(const LabSetup& s) {
     const Curve* filter = filter_curve(s.camera, s.filter);
     return s.camera.quantum_efficiency.at(s.wavelength_um) * (filter ? filter->at(s.wavelength_um) : 1);
 }

@@ -10,7 +10,7 @@
 
 namespace hilcam {
 
-struct BenchSetup {
+struct LabSetup {
     CameraModel camera;                // with window, binning, ... as set for the measurement
     std::vector<std::string> remarks;  // what was set, for the report
     double wavelength_um = 0.55;       // of the light: a line at the greatest quantum efficiency
@@ -26,26 +26,26 @@ struct BenchSetup {
 };
 inline constexpr double kOverexposure = 3;
 
-BenchSetup bench_setup(const CameraModel& camera);
+LabSetup lab_setup(const CameraModel& camera);
 
 // A line camera takes as many lines as one wants; map files fix its size.
 void require_lines(CameraModel& camera, int lines);
 
 // What the pixels of the window count: without black ones and without a margin where what lies outside the
 // window is missing; of one colour filter.
-PixelSelection bench_selection(const BenchSetup& setup);
+PixelSelection lab_selection(const LabSetup& setup);
 
 // Those of them that the lens lights within one percent of the brightest (section 5.2 asks for 3 %): others
 // would not saturate together.
-PixelSelection evenly_lit(const BenchSetup& setup, PixelSelection selection);
+PixelSelection evenly_lit(const LabSetup& setup, PixelSelection selection);
 
 // Photons a second on the light-sensitive area of a mean pixel of the selection, from the lamp's radiance on
 // the white plate: L dlambda A (pitch/f)^2 fill T lambda / (h c), with the lens's relative illumination.
-double photons_per_s(const BenchSetup& setup, const PixelSelection& selection);
+double photons_per_s(const LabSetup& setup, const PixelSelection& selection);
 
 // --- what the data sheet promises
 // Electrons per photon at the wavelength, the colour filter's transmission included.
-double configured_quantum_efficiency(const BenchSetup& setup);
+double configured_quantum_efficiency(const LabSetup& setup);
 // What the converter shows of a charge, without black level [DN]: gain, nonlinearity, integral error.
 double configured_signal_dn(const CameraModel& camera, double charge_e, double gain_db);
 // The lesser of the full well and the charge at the converter's end [e-].

@@ -14,27 +14,27 @@ namespace {
 using Lines = std::vector<std::string>;
 
 // Sensors of cameras hold thousands.
-constexpr double kLeastWell_e = 500;
+constexpr double kMinWell_e = 500;
 // Designers let the converter end near the full well; a gain at power-up may leave a tenth of it.
-constexpr double kLeastShare = 0.02;
+constexpr double kMinShare = 0.02;
 // Below black a Gaussian has 0.13 % of its values beyond three standard deviations.
 constexpr double kSigmasBelowBlack = 3;
 
 void judge_well(const CameraSheet& s, Lines& out) {
     const double converter_share = s.converter_e / s.well_e;
     const double well_share = (s.well_dn - s.camera.offset_dn) / (s.most_dn - s.camera.offset_dn);
-    if (s.well_e < kLeastWell_e)
+    if (s.well_e < kMinWell_e)
         out.push_back(
             fmt::format("camera.full_well_e is {:.4g}: sensors of cameras hold thousands of electrons; does "
                         "the data sheet count in ke-?",
                         s.well_e));
-    else if (converter_share < kLeastShare)
+    else if (converter_share < kMinShare)
         out.push_back(fmt::format(
             "the camera's converter ends at {:.4g} e-, {:.2g} % of its full well of {:.4g} e-: "
             "camera.gain_dn_e "
             "or gain_db is too high (now {:.4g} DN/e-; {:.3g} DN/e- would take the whole well)",
             s.converter_e, 100 * converter_share, s.well_e, s.gain_dn_e, s.gain_dn_e * converter_share));
-    else if (well_share < kLeastShare)
+    else if (well_share < kMinShare)
         out.push_back(fmt::format(
             "the camera's full well of {:.4g} e- is {:.3g} DN, {:.2g} % of what its converter takes: "
             "camera.gain_dn_e or gain_db is too low (now {:.4g} DN/e-)",

@@ -159,8 +159,8 @@ void set_stars(const CameraModel& c, const SpectralGrid& grid, const Curve* filt
         s.stars.push_back({magnitude, total_e, peak_e, snr_of(s, peak_e)});
     }
     const double background_e2 = 9 * s.dark_total_e * s.dark_total_e;
-    const double least_e = 0.5 * (25 + std::sqrt(625 + 100 * background_e2));
-    s.faintest_magnitude = 2.5 * std::log10(electrons(0) * s.core_share / least_e);
+    const double min_e = 0.5 * (25 + std::sqrt(625 + 100 * background_e2));
+    s.faintest_magnitude = 2.5 * std::log10(electrons(0) * s.core_share / min_e);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr double kLongest_m = 500;
 // What is smaller, and covers no pixel, is likely to have been scaled twice.
 constexpr double kShortest_m = 0.05;
 // Most of a constellation's objects are elsewhere.
-constexpr std::size_t kMostTold = 10;
+constexpr std::size_t kMaxTold = 10;
 // Less of the Sun than this is an eclipse, less of the disk lit than this is its night side.
 constexpr double kDark = 0.02;
 
@@ -121,7 +121,7 @@ std::vector<std::string> judge(const ScenarioConfig& s, const CameraReport& came
         std::vector<std::string> own;
         judge_place(o, camera, own);
         judge_light(s, o, camera, own);
-        if (out.size() < kMostTold)
+        if (out.size() < kMaxTold)
             out.insert(out.end(), own.begin(), own.end());
         else
             left += own.empty() ? 0u : 1u;

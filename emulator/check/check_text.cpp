@@ -10,8 +10,8 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostObjects = 50;
-constexpr std::size_t kMostSurfaces = 20;  // that are listed; `hilcam mesh` has all
+constexpr std::size_t kMaxObjects = 50;
+constexpr std::size_t kMaxSurfaces = 20;  // that are listed; `hilcam mesh` has all
 
 std::string place_text(const SeenObject& o) {
     switch (o.place) {
@@ -32,16 +32,16 @@ void add_surfaces(const LoadedObject& o, std::string& out) {
     std::size_t listed = 0;
     for (const LoadedSurface& surface : o.surfaces) {
         if (surface.triangles == 0) continue;
-        if (++listed > kMostSurfaces) continue;
+        if (++listed > kMaxSurfaces) continue;
         out += fmt::format(
             "    {:<9} '{}': {} triangles, {:.4g} m2, reflectance {:.2f}, {}\n",
             listed == 1 ? "surfaces" : "", harmless(surface.name), surface.triangles, surface.area_m2,
             surface.reflectance,
             surface.rule.empty() ? "the mesh's own look" : "by rule '" + harmless(surface.rule) + "'");
     }
-    if (listed > kMostSurfaces)
+    if (listed > kMaxSurfaces)
         out +=
-            fmt::format("    {:<9} and {} more: 'hilcam mesh FILE' lists them\n", "", listed - kMostSurfaces);
+            fmt::format("    {:<9} and {} more: 'hilcam mesh FILE' lists them\n", "", listed - kMaxSurfaces);
 }
 
 void add_object(const SeenObject& o, std::size_t number, const CameraSheet& sheet, std::string& out) {
@@ -126,10 +126,10 @@ void add_camera(const CameraReport& c, std::span<const CameraReport> earlier, st
     if (cameras > 1) out += fmt::format("camera {} of {}\n", c.number, cameras);
     out += "first instant\n";
     const FirstSight& sight = c.sight;
-    for (std::size_t i = 0; i < std::min(sight.objects.size(), kMostObjects); ++i)
+    for (std::size_t i = 0; i < std::min(sight.objects.size(), kMaxObjects); ++i)
         add_object(sight.objects[i], i + 1, c.sheet, out);
-    if (sight.objects.size() > kMostObjects)
-        out += fmt::format("  and {} more objects: --json has them\n", sight.objects.size() - kMostObjects);
+    if (sight.objects.size() > kMaxObjects)
+        out += fmt::format("  and {} more objects: --json has them\n", sight.objects.size() - kMaxObjects);
     out += fmt::format("  boresight   right ascension {} deg, declination {:.4f} deg, roll {} deg (ICRF)\n",
                        turn_text(sight.pointing.right_ascension_rad, 4),
                        degrees(sight.pointing.declination_rad), turn_text(sight.pointing.roll_rad, 2));

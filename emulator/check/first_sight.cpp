@@ -19,7 +19,7 @@ FrameTruth truth_of(const ScenarioConfig& s, const Renderer& renderer) {
     FrameTruth truth = make_truth(s, renderer, wishes);
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),
                              {s.camera.binning_x, s.camera.binning_y});
-    renderer.tell_truth(truth);
+    renderer.report_truth(truth);
     return truth;
 }
 

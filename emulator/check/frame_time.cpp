@@ -10,7 +10,7 @@
 namespace hilcam {
 namespace {
 
-constexpr double kMostRays = 32e6;
+constexpr double kMaxRays = 32e6;
 constexpr int kFrames = 3;
 
 double primary_rays(const ScenarioConfig& s) {
@@ -30,11 +30,11 @@ double milliseconds(const Work& work) {
 
 std::optional<FrameTime> frame_time(CameraStation& station, WorldState& world, ExposureRenderer& exposures) {
     const ScenarioConfig& s = station.scenario();
-    if (primary_rays(s) > kMostRays) return {};
+    if (primary_rays(s) > kMaxRays) return {};
     const TimeTai start = parse_utc(s.time_utc);
     RadianceImage radiance = exposures.make_image();
     std::vector<PointSource> points;
-    points.reserve(exposures.most_points());
+    points.reserve(exposures.max_points());
     std::vector<SideLight> beside;
     const auto [array_width, array_height] = array_size(s.camera);
     ElectronImage electrons(array_width, array_height);

@@ -87,7 +87,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ScenarioConfig& s, 
         world->objects.resize(placed_objects);
     if (motion_ != MotionQuality::kExact) return;
     part_ = make_image();
-    part_points_.reserve(renderer.most_points());
+    part_points_.reserve(renderer.max_points());
 }
 
 RadianceImage ExposureRenderer::make_image() const {
@@ -95,8 +95,8 @@ RadianceImage ExposureRenderer::make_image() const {
     return {g.padded_width(), g.padded_height(), static_cast<int>(bins_)};
 }
 
-std::size_t ExposureRenderer::most_points() const {
-    return renderer_.most_points() * (motion_ == MotionQuality::kExact ? kMostParts : 1);
+std::size_t ExposureRenderer::max_points() const {
+    return renderer_.max_points() * (motion_ == MotionQuality::kExact ? kMaxParts : 1);
 }
 
 // The jitter of the whole exposure is that of its middle: what is faster is blur.
@@ -126,8 +126,8 @@ ExposureRenderer::Plan ExposureRenderer::plan_of(const ImageMotion& motion) cons
     plan.picture_px = std::hypot(motion.displacement_px.x, motion.displacement_px.y) / oversampling_;
     plan.largest_px = motion.largest_px / oversampling_;
     const double asked = std::ceil(plan.largest_px / motion_error_px_);
-    plan.parts = static_cast<int>(std::clamp(asked, 1.0, static_cast<double>(kMostParts)));
-    plan.parts_limited = asked > kMostParts;
+    plan.parts = static_cast<int>(std::clamp(asked, 1.0, static_cast<double>(kMaxParts)));
+    plan.parts_limited = asked > kMaxParts;
     return plan;
 }
 
@@ -142,8 +142,8 @@ void ExposureRenderer::sample_middle(WorldState& world, const Span& span, ShownC
 }
 
 // Velocity and rate are both in the camera's time.
-void ExposureRenderer::tell_truth(FrameTruth& truth) {
-    renderer_.tell_truth(truth);
+void ExposureRenderer::report_truth(FrameTruth& truth) {
+    renderer_.report_truth(truth);
     truth.camera_velocity_m_s = told_moving_ * truth.camera_velocity_m_s;
 }
 
@@ -183,20 +183,20 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
         sample_ends(world, span, true);
         // The middle is placed now, and parts will not be it.
         const ImageMotion motion = renderer_.motion(middle_, before_, after_);
-        if (truth) tell_truth(*truth);
+        if (truth) report_truth(*truth);
         const Plan plan = plan_of(motion);
         result.parts = plan.parts;
         result.parts_limited = plan.parts_limited;
         set_rates(motion, result.parts, exposure);
         if (result.parts > 1) {
-            tell_noise(exposure, result.parts);
+            report_noise(exposure, result.parts);
             render_parts(world, span, key, radiance, points, result);
             return result;
         }
     }
-    tell_noise(exposure, 1);
+    report_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
-    if (truth && motion_ != MotionQuality::kExact) tell_truth(*truth);
+    if (truth && motion_ != MotionQuality::kExact) report_truth(*truth);
     if (motion_ == MotionQuality::kOff) return result;
     if (motion_ == MotionQuality::kFast) {
         sample_ends(world, span, renderer_.last_shows_body());
@@ -212,7 +212,7 @@ void ExposureRenderer::look_beside(std::vector<SideLight>& lights) const {
 }
 
 // The mean of parts may come from worse ones: each draws its own samples.
-void ExposureRenderer::tell_noise(const Exposure& exposure, int parts) {
+void ExposureRenderer::report_noise(const Exposure& exposure, int parts) {
     PixelNoise noise = noise_.of(exposure);
     noise.averaged *= static_cast<float>(parts);
     renderer_.set_pixel_noise(noise);

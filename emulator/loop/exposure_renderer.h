@@ -39,7 +39,7 @@ struct ShownWorld {
 
 class ExposureRenderer {
   public:
-    static constexpr int kMostParts = 64;
+    static constexpr int kMaxParts = 64;
 
     // Allocates all that render() needs. Owner thread.
     ExposureRenderer(Renderer& renderer, const ScenarioConfig& scenario, const SpectralGrid& grid,
@@ -47,7 +47,7 @@ class ExposureRenderer {
 
     // Fits what render() fills. Owner thread.
     RadianceImage make_image() const;
-    std::size_t most_points() const;
+    std::size_t max_points() const;
 
     // The quality of the next exposures (lower_levels()): 0, as configured, or one of those below. Loop.
     void use_level(std::size_t level) { renderer_.use_level(level); }
@@ -59,7 +59,7 @@ class ExposureRenderer {
         RenderStats stats;  // of all parts
         ShownCommand shown;
         int parts = 1;
-        bool parts_limited = false;  // more than kMostParts were asked for
+        bool parts_limited = false;  // more than kMaxParts were asked for
     };
     // The exposure of exposure.exposure_s of a world about an instant; sets the exposure's rates and ray
     // grid. truth: to be told of the frame's middle, or null. Loop, one thread; no allocation.
@@ -68,7 +68,7 @@ class ExposureRenderer {
     // What shines from beside the picture, as it stood in the last exposure (of its last part), for a camera whose
     // lens scatters it (camera.outside_light); nothing for others. Loop.
     void look_beside(std::vector<SideLight>& lights) const;
-    static void reserve_beside(std::vector<SideLight>& lights) { lights.reserve(kMostSideLights); }
+    static void reserve_beside(std::vector<SideLight>& lights) { lights.reserve(kMaxSideLights); }
     // The same with the shutter closed. Loop.
     void keep_dark(RadianceImage& radiance, std::vector<PointSource>& points, Exposure& exposure) const;
 
@@ -108,12 +108,12 @@ class ExposureRenderer {
     };
     void sample_middle(WorldState& world, const Span& span, ShownCommand& shown);
     Vec3d seen_velocity_m_s(const WorldState& world, const WorldSnapshot& now) const;
-    void tell_truth(FrameTruth& truth);
+    void report_truth(FrameTruth& truth);
     Plan plan_of(const ImageMotion& motion) const;
     void sample_again(const WorldState& world, const Span& span, TimeTai time, bool with_bodies,
                       WorldSnapshot& out) const;
     void sample_ends(const WorldState& world, const Span& span, bool with_bodies);
-    void tell_noise(const Exposure& exposure, int parts);
+    void report_noise(const Exposure& exposure, int parts);
     void render_parts(const WorldState& world, const Span& span, RandomKey key, RadianceImage& radiance,
                       std::vector<PointSource>& points, Result& result);
     double unexpected_px_s(double rate_px_s) const;

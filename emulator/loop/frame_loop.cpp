@@ -38,7 +38,7 @@ FrameLoop::FrameLoop(ExposureRenderer& exposures, SensorChain& chain, const Came
       free_(limits.prefer == LoopPreference::kLatency ? 1 : 2) {
     for (Slot& slot : slots_) {
         slot.radiance = exposures.make_image();
-        slot.points.reserve(exposures.most_points());
+        slot.points.reserve(exposures.max_points());
         if (camera.has_outside_light) ExposureRenderer::reserve_beside(slot.beside);
     }
     // Frames are smaller when they are binned more.
@@ -77,9 +77,9 @@ void FrameLoop::render_frames() {
         Slot& slot = slots_[turn % slots_.size()];
         if (enough || !begin(slot)) break;
         latch(slot);
-        tell(CameraEvent::Kind::kExposureStart, slot.use.id, slot.use.begin_ns);
+        notify(CameraEvent::Kind::kExposureStart, slot.use.id, slot.use.begin_ns);
         render_into(slot);
-        tell_watcher(slot);
+        notify_watcher(slot);
         if (slot.ends_order) settings_.order_done();
         if (script_) script_->seen();
         rendered_.release();
@@ -137,7 +137,7 @@ void FrameLoop::take_settings(const FrameStarter::Start& start, Slot& slot) {
 // What a frame depends on, from here on its own.
 void FrameLoop::latch(Slot& slot) {
     const FrameUse& use = slot.use;
-    settings_.tell_own(use.exposure_s, use.gain_db);
+    settings_.report_own(use.exposure_s, use.gain_db);
     FrameRecord& record = slot.record;
     record = {};
     record.id = use.id;
@@ -216,7 +216,7 @@ void FrameLoop::take_light(FrameUse& use) {
     counters_.last_without_light.store(use.id, std::memory_order_relaxed);
 }
 
-void FrameLoop::tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const {
+void FrameLoop::notify(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const {
     for (FrameSink* sink : sinks_) sink->happened({kind, frame, monotonic_ns});
 }
 
@@ -271,7 +271,7 @@ void FrameLoop::count_budget() {
         counters_.worst_within_budget.store(share, std::memory_order_relaxed);
 }
 
-void FrameLoop::tell_watcher(const Slot& slot) {
+void FrameLoop::notify_watcher(const Slot& slot) {
     const FrameUse& use = slot.use;
     if (watcher_)
         watcher_->seen({use.id, use.begin_ns, use.exposure_mid, use.exposure_s, use.shutter_closed},
@@ -314,7 +314,7 @@ void FrameLoop::sense(Slot& slot) {
     wait_to_publish(slot);
     if (!script_) know_machine_times(slot);
     if (recorder_) keep(slot);
-    tell(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.use.end_ns);
+    notify(CameraEvent::Kind::kExposureEnd, slot.record.id, slot.use.end_ns);
     const std::int64_t publish_ns = monotonic_ns();
     for (FrameSink* sink : sinks_) sink->publish(frame_, slot.record);
     std::swap(frame_, before_);

@@ -99,7 +99,7 @@ struct LoopCounters {
     std::atomic<bool> lacks_light{false};  // the newest frame is one
     // Quality levels: that of the newest frame, how often it changed, how many frames each has had.
     std::atomic<std::uint32_t> level{0}, level_changes{0};
-    std::array<std::atomic<std::uint64_t>, kMostLevels> frames_at_level{};
+    std::array<std::atomic<std::uint64_t>, kMaxLevels> frames_at_level{};
     // With a noise budget: pixels with light, those within it, of all frames; the share in the newest and the
     // worst frame (1 without light).
     std::atomic<std::uint64_t> lit_px{0}, within_budget_px{0};
@@ -132,9 +132,9 @@ class FrameLoop {
     // Before start(); they outlive the loop. Cameras count from 1.
     void record_to(FrameRecorder& recorder, std::uint16_t camera);
     void follow(FrameScript& script) { script_ = &script; }
-    void tell(FrameWatcher& watcher) { watcher_ = &watcher; }
+    void notify(FrameWatcher& watcher) { watcher_ = &watcher; }
     // One of the sinks, which is told what frames show while they are rendered. Before start().
-    void tell_truth_to(TruthSink& sink) { truth_ = &sink; }
+    void report_truth_to(TruthSink& sink) { truth_ = &sink; }
 
     void start();
     void stop() noexcept;
@@ -180,13 +180,13 @@ class FrameLoop {
     void take_light(FrameUse& use);
     void render_into(Slot& slot);
     void count_budget();
-    void tell_watcher(const Slot& slot);
+    void notify_watcher(const Slot& slot);
     void sense(Slot& slot);
     void keep(const Slot& slot);
     void finish_picture(const Slot& slot);
     void wait_to_publish(const Slot& slot) const;
     void know_machine_times(Slot& slot) const;
-    void tell(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const;
+    void notify(CameraEvent::Kind kind, std::uint64_t frame, std::int64_t monotonic_ns) const;
     void measure_exposure(Slot& slot);
 
     ExposureRenderer& exposures_;

@@ -119,7 +119,7 @@ bool FrameStarter::begin_ordered(const std::atomic<bool>& stopping, Start& start
     if (lockstep_) {
         last_mid_ = clock_.simulated_of_camera(next_ns_ + to_ns(timing_.middle_s(start.exposure_s)));
         clock_.step_to(last_mid_);
-        settings_.tell_middle(last_mid_);
+        settings_.report_middle(last_mid_);
     } else {
         start.late = camera_now() > next_ns_ + period_ns;
     }

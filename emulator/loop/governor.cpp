@@ -13,7 +13,7 @@ std::size_t Governor::take(std::size_t level, double frame_ms) {
         return level_;
     }
     measure(frame_ms);
-    if (std::popcount(misses_) > kMostMisses)
+    if (std::popcount(misses_) > kMaxMisses)
         fall();
     else if (level_ > 0 && frames_ >= wait() && has_room()) {
         measured_[level_].at_climb_ms = measured_[level_].mean_ms;
@@ -28,7 +28,7 @@ void Governor::measure(double frame_ms) {
     // A plain mean at first, later of about the last sixteen.
     double& mean_ms = measured_[level_].mean_ms;
     mean_ms += (frame_ms - mean_ms) / static_cast<double>(std::min<std::int64_t>(frames_, 16));
-    if (climbed_ && frames_ >= kMostStay) climbed_ = false, hold_off_ = kLeastStay;
+    if (climbed_ && frames_ >= kMaxStay) climbed_ = false, hold_off_ = kMinStay;
 }
 
 bool Governor::has_room() const {
@@ -37,7 +37,7 @@ bool Governor::has_room() const {
 
 std::int64_t Governor::wait() const {
     const Measured& here = measured_[level_];
-    return here.mean_ms < kFell * here.at_climb_ms ? std::max(kLeastStay, hold_off_ / 16) : hold_off_;
+    return here.mean_ms < kFell * here.at_climb_ms ? std::max(kMinStay, hold_off_ / 16) : hold_off_;
 }
 
 void Governor::enter(std::size_t level, bool by_climbing) {
@@ -50,7 +50,7 @@ void Governor::enter(std::size_t level, bool by_climbing) {
 
 void Governor::fall() {
     if (level_ + 1 == measured_.size()) return;
-    if (climbed_) hold_off_ = std::min(2 * hold_off_, kMostStay);
+    if (climbed_) hold_off_ = std::min(2 * hold_off_, kMaxStay);
     std::size_t next = level_ + 1;
     while (next + 1 < measured_.size() && measured_[next].mean_ms > settings_.budget_ms) ++next;
     enter(next, false);

@@ -4,18 +4,18 @@
 //
 // Level 0 is the best. A frame is a miss when it takes longer than the budget.
 //
-//   down  when more than kMostMisses of the last kWindow frames at a level were misses: a single hiccup of
+//   down  when more than kMaxMisses of the last kWindow frames at a level were misses: a single hiccup of
 //         the machine changes nothing, three frames in a row that are too slow do. To the next level, past
 //         those that were measured to be too slow as well.
 //   up    by one level, when the level has been kept for the hold-off, its mean leaves room (below kRoom of
 //         the budget) and none of the last kWindow frames was a miss.
 //
 // That alone would swing where the budget lies between two levels: the lower has room, the upper misses. So
-// the hold-off, at first kLeastStay frames, doubles each time a climb has to be taken back, up to kMostStay;
-// a plant that does not change is tried at rising intervals, log2(kMostStay / kLeastStay) times, then once in
-// kMostStay frames (as TCP backs off: Jacobson, SIGCOMM 88). Only a load that has fallen below kFell of what
+// the hold-off, at first kMinStay frames, doubles each time a climb has to be taken back, up to kMaxStay;
+// a plant that does not change is tried at rising intervals, log2(kMaxStay / kMinStay) times, then once in
+// kMaxStay frames (as TCP backs off: Jacobson, SIGCOMM 88). Only a load that has fallen below kFell of what
 // it was at the last climb from here is tried sooner, after a sixteenth of the hold-off. A climb that lasts
-// kMostStay frames is good: the hold-off is as at first.
+// kMaxStay frames is good: the hold-off is as at first.
 
 #include <bit>
 #include <cstddef>
@@ -35,8 +35,8 @@ class Governor {
   public:
     static constexpr int kWarmUp = 8;  // first frames, which do not count
     static constexpr int kWindow = 32;
-    static constexpr int kMostMisses = 2;
-    static constexpr std::int64_t kLeastStay = 64, kMostStay = 65536;
+    static constexpr int kMaxMisses = 2;
+    static constexpr std::int64_t kMinStay = 64, kMaxStay = 65536;
     static constexpr double kRoom = 0.85, kFell = 0.75;
 
     // Owner thread; the others: loop.
@@ -60,7 +60,7 @@ class Governor {
     int warm_up_ = kWarmUp;
     std::int64_t frames_ = 0;   // at this level
     std::uint32_t misses_ = 0;  // a bit for each of the last kWindow of them
-    std::int64_t hold_off_ = kLeastStay;
+    std::int64_t hold_off_ = kMinStay;
     bool climbed_ = false;  // to this level, not long ago
 
     void measure(double frame_ms);

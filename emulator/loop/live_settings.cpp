@@ -9,7 +9,7 @@ namespace hilcam {
 
 namespace {
 
-constexpr std::int64_t kMostBinning = 8;
+constexpr std::int64_t kMaxBinning = 8;
 constexpr std::int64_t kLongestWait_ns = 50'000'000;
 
 // Whose three times are one.
@@ -24,27 +24,27 @@ CameraLimits limits_of(const CameraModel& c, const LiveSettings::Mode& mode) {
     limits.width = width, limits.height = height;
     limits.bits = c.frame_bits();
     limits.color_pattern = bayer_pattern_of(c.color_filter.pattern);
-    limits.least_exposure_s = c.exposure_range_s[0], limits.most_exposure_s = c.exposure_range_s[1];
-    limits.least_gain_db = c.gain_range_db[0], limits.most_gain_db = c.gain_range_db[1];
-    limits.least_frame_rate_hz = c.frame_rate_range_hz[0];
-    limits.most_frame_rate_hz = c.frame_rate_range_hz[1];
-    limits.most_black_level_dn = std::exp2(static_cast<double>(c.bits)) / 4;
+    limits.min_exposure_s = c.exposure_range_s[0], limits.max_exposure_s = c.exposure_range_s[1];
+    limits.min_gain_db = c.gain_range_db[0], limits.max_gain_db = c.gain_range_db[1];
+    limits.min_frame_rate_hz = c.frame_rate_range_hz[0];
+    limits.max_frame_rate_hz = c.frame_rate_range_hz[1];
+    limits.max_black_level_dn = std::exp2(static_cast<double>(c.bits)) / 4;
     limits.temperature_c = c.temperature_c;
     limits.lockstep = mode.lockstep;
     // Mirrored or binned, a mosaic is another one.
     limits.reversible = c.color_filter.pattern.empty();
     if (c.color_filter.pattern.empty() && !mode.fixed_size)
-        while (limits.most_binning < kMostBinning &&
-               2 * limits.most_binning * 4 <= std::min(limits.width, limits.height))
-            limits.most_binning *= 2;
+        while (limits.max_binning < kMaxBinning &&
+               2 * limits.max_binning * 4 <= std::min(limits.width, limits.height))
+            limits.max_binning *= 2;
     const ShutterTiming timing(c);
     limits.exposure_is_own = timing.is_fixed() || !c.sequence.empty();
     limits.gain_is_own = !c.sequence.empty();
     limits.frame_rate_is_own = timing.is_fixed();
     limits.has_automatic_exposure = !limits.exposure_is_own;
     if (timing.is_fixed()) {
-        limits.least_exposure_s = limits.most_exposure_s = timing.exposure_s(c.exposure_s);
-        limits.least_frame_rate_hz = limits.most_frame_rate_hz = 1 / timing.period_s(0, 0);
+        limits.min_exposure_s = limits.max_exposure_s = timing.exposure_s(c.exposure_s);
+        limits.min_frame_rate_hz = limits.max_frame_rate_hz = 1 / timing.period_s(0, 0);
     }
     return limits;
 }
@@ -99,14 +99,14 @@ bool LiveSettings::fits(const CameraSettings& w, const SettingsChange& c) const 
     if ((w.reverse_x || w.reverse_y) && !l.reversible) return false;
     if (l.lockstep && !w.triggered) return false;
     const auto binning_fits = [&](const std::optional<std::int64_t>& b) {
-        return !b || (*b >= 1 && *b <= l.most_binning && (*b & (*b - 1)) == 0);
+        return !b || (*b >= 1 && *b <= l.max_binning && (*b & (*b - 1)) == 0);
     };
-    return inside(w.exposure_s, l.least_exposure_s, l.most_exposure_s) &&
-           inside(w.gain_db, l.least_gain_db, l.most_gain_db) &&
-           (!c.black_level_dn || inside(w.black_level_dn, 0, l.most_black_level_dn)) &&
-           inside(w.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz) &&
-           inside(w.trigger_delay_s, 0, l.most_trigger_delay_s) && w.burst_frames >= 1 &&
-           w.burst_frames <= l.most_burst_frames && binning_fits(c.binning_x) && binning_fits(c.binning_y);
+    return inside(w.exposure_s, l.min_exposure_s, l.max_exposure_s) &&
+           inside(w.gain_db, l.min_gain_db, l.max_gain_db) &&
+           (!c.black_level_dn || inside(w.black_level_dn, 0, l.max_black_level_dn)) &&
+           inside(w.frame_rate_hz, l.min_frame_rate_hz, l.max_frame_rate_hz) &&
+           inside(w.trigger_delay_s, 0, l.max_trigger_delay_s) && w.burst_frames >= 1 &&
+           w.burst_frames <= l.max_burst_frames && binning_fits(c.binning_x) && binning_fits(c.binning_y);
 }
 
 bool LiveSettings::change(const SettingsChange& c) {
@@ -159,7 +159,7 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
         if (!order.at_any_time && newest_ns != 0 && order.at_simulated.ns <= newest_ns)
             return TriggerResult::kTooEarly;
     }
-    bool missed = in - triggers_out_.load(std::memory_order_acquire) == kMostWaiting;
+    bool missed = in - triggers_out_.load(std::memory_order_acquire) == kMaxWaiting;
     if (!limits_.lockstep) {
         const std::int64_t now_ns = monotonic_ns();
         if (order.at_monotonic_ns == 0) order.at_monotonic_ns = now_ns;
@@ -169,14 +169,14 @@ TriggerResult LiveSettings::take_order(const TriggerOrder& asked) {
         if (missed) {
             if (missed_) missed_(now_ns);
         } else {
-            const double rate_hz = order.frames > 1 ? settings_.frame_rate_hz : limits_.most_frame_rate_hz;
+            const double rate_hz = order.frames > 1 ? settings_.frame_rate_hz : limits_.max_frame_rate_hz;
             const double busy_s =
                 static_cast<double>(order.frames) * timing_.period_s(rate_hz, settings_.exposure_s);
             ready_ns_ = due_ns + static_cast<std::int64_t>(busy_s * 1e9);
         }
     }
     if (missed) return TriggerResult::kMissed;
-    triggers_[in % kMostWaiting] = order;
+    triggers_[in % kMaxWaiting] = order;
     triggers_in_.store(in + 1, std::memory_order_release);
     wake();
     return TriggerResult::kTaken;
@@ -211,7 +211,7 @@ std::int64_t LiveSettings::camera_time_of(const TriggerOrder& order, std::int64_
 bool LiveSettings::take_trigger(WaitingOrder& order) {
     const std::uint64_t out = triggers_out_.load(std::memory_order_relaxed);
     if (out == triggers_in_.load(std::memory_order_acquire)) return false;
-    order = triggers_[out % kMostWaiting];
+    order = triggers_[out % kMaxWaiting];
     triggers_out_.store(out + 1, std::memory_order_release);
     return true;
 }

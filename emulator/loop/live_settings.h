@@ -36,7 +36,7 @@ class LiveSettings : public CameraControl {
     CameraLimits limits() const override { return limits_; }
     bool change(const SettingsChange& change) override;
     // A trigger is missed when it comes before the frame or burst before it can be over, at the camera's
-    // highest frame rate, as the camera's time goes now (clock.h); or, in lockstep, when kMostWaiting are
+    // highest frame rate, as the camera's time goes now (clock.h); or, in lockstep, when kMaxWaiting are
     // waiting. Not armed: also where frames wait for poses (pose_watch.h).
     TriggerResult trigger(const TriggerOrder& order) override;
     // Called with a lock held for every trigger that is missed; must not call back. Before the threads start.
@@ -77,15 +77,15 @@ class LiveSettings : public CameraControl {
     // True at once when there is a change or a trigger, or after 50 ms; false when the instant has come.
     bool wait_for_news_until(std::int64_t until_ns);
     // What a camera that sets them itself has set; settings() tells it.
-    void tell_own(double exposure_s, double gain_db) {
+    void report_own(double exposure_s, double gain_db) {
         own_exposure_s_.store(exposure_s, std::memory_order_relaxed);
         own_gain_db_.store(gain_db, std::memory_order_relaxed);
     }
 
     // Lockstep: the middle of the newest frame; none is ordered for an instant that is not after it.
-    void tell_middle(TimeTai middle) { newest_middle_ns_.store(middle.ns, std::memory_order_relaxed); }
+    void report_middle(TimeTai middle) { newest_middle_ns_.store(middle.ns, std::memory_order_relaxed); }
 
-    static constexpr std::size_t kMostWaiting = 64;
+    static constexpr std::size_t kMaxWaiting = 64;
 
   private:
     bool fits(const CameraSettings& wanted, const SettingsChange& change) const;
@@ -101,7 +101,7 @@ class LiveSettings : public CameraControl {
     Latest<CameraSettings> latest_;
     std::atomic<double> own_exposure_s_, own_gain_db_;
     // Writers under the mutex, one reader.
-    std::array<WaitingOrder, kMostWaiting> triggers_;
+    std::array<WaitingOrder, kMaxWaiting> triggers_;
     std::atomic<std::uint64_t> triggers_in_{0}, triggers_out_{0};
     std::int64_t ready_ns_ = std::numeric_limits<std::int64_t>::min();  // for the next trigger; camera's time
     std::counting_semaphore<> news_{0}, done_{0};

@@ -39,7 +39,7 @@ Interpolation chosen(const OemSegment& s) {
 }
 
 StateVector hermite(const Window<StateSample>& w, TimeTai time) {
-    std::array<Node<3>, kMostNodes> nodes;
+    std::array<Node<3>, kMaxNodes> nodes;
     for (std::size_t i = 0; i < w.samples.size(); ++i) {
         const Vec3d& p = w.samples[i].position_m;
         const Vec3d v = w.half_s * w.samples[i].velocity_m_s;
@@ -51,7 +51,7 @@ StateVector hermite(const Window<StateSample>& w, TimeTai time) {
 }
 
 StateVector lagrange(const Window<StateSample>& w, TimeTai time) {
-    std::array<Node<6>, kMostNodes> nodes;
+    std::array<Node<6>, kMaxNodes> nodes;
     for (std::size_t i = 0; i < w.samples.size(); ++i) {
         const Vec3d& p = w.samples[i].position_m;
         const Vec3d& v = w.samples[i].velocity_m_s;
@@ -90,7 +90,7 @@ ReferenceAttitude interpolate_attitude(const AemSegment& s, TimeTai time) {
     if (method == InterpolationMethod::kUnsaid || method == InterpolationMethod::kLinear)
         return turned(w.samples[0], w.samples[1], time);
     const bool with_rates = method == InterpolationMethod::kHermite && s.has_rates;
-    std::array<Node<4>, kMostNodes> nodes;
+    std::array<Node<4>, kMaxNodes> nodes;
     for (std::size_t i = 0; i < w.samples.size(); ++i) {
         const Quat& q = w.samples[i].reference_from_body;
         const Vec3d half = (0.5 * w.half_s) * w.samples[i].rate_body_rad_s;

@@ -22,22 +22,22 @@ struct ValueAndRate {
     std::array<double, N> value{}, rate{};
 };
 
-inline constexpr std::size_t kMostNodes = 32;
+inline constexpr std::size_t kMaxNodes = 32;
 
-// Through the values, and through the rates if `with_rates`, of nodes at different t; at most kMostNodes of
+// Through the values, and through the rates if `with_rates`, of nodes at different t; at most kMaxNodes of
 // them (half with rates). Exact, but for rounding, for polynomials of degree nodes - 1, or 2 nodes - 1 with
 // rates. Nodes are taken in the order of their distance from t: the terms then shrink as they are added up.
 template <std::size_t N>
 ValueAndRate<N> polynomial_at(std::span<const Node<N>> nodes, bool with_rates, double t) {
-    std::array<std::size_t, kMostNodes> order{};
+    std::array<std::size_t, kMaxNodes> order{};
     for (std::size_t i = 0; i < nodes.size(); ++i) order[i] = i;
     std::sort(
         order.begin(), order.begin() + static_cast<std::ptrdiff_t>(nodes.size()),
         [&](std::size_t a, std::size_t b) { return std::abs(nodes[a].t - t) < std::abs(nodes[b].t - t); });
     const std::size_t repeat = with_rates ? 2 : 1, count = nodes.size() * repeat;
     const auto node = [&](std::size_t i) -> const Node<N>& { return nodes[order[i / repeat]]; };
-    std::array<double, kMostNodes> z{};
-    std::array<std::array<double, N>, kMostNodes> c{};
+    std::array<double, kMaxNodes> z{};
+    std::array<std::array<double, N>, kMaxNodes> c{};
     for (std::size_t i = 0; i < count; ++i) z[i] = node(i).t, c[i] = node(i).value;
     for (std::size_t step = 1; step < count; ++step)
         for (std::size_t i = count - 1; i >= step; --i) {

@@ -18,12 +18,12 @@ std::string duration_text(double seconds) {
 }
 
 std::optional<double> left_s(const ProgressItem& item) {
-    constexpr double kLeastTime_s = 1, kLeastFraction = 0.01;
-    if (!item.fraction || item.elapsed_s < kLeastTime_s || *item.fraction < kLeastFraction) return {};
+    constexpr double kMinTime_s = 1, kMinFraction = 0.01;
+    if (!item.fraction || item.elapsed_s < kMinTime_s || *item.fraction < kMinFraction) return {};
     return item.elapsed_s * (1 - *item.fraction) / *item.fraction;
 }
 
-std::string progress_text(const std::vector<ProgressItem>& items, std::size_t most_columns) {
+std::string progress_text(const std::vector<ProgressItem>& items, std::size_t max_columns) {
     const auto named = [](const ProgressItem& item) {
         return item.fraction ? fmt::format("{} {:.0f} %", item.what, std::floor(100 * *item.fraction))
                              : item.what;
@@ -34,7 +34,7 @@ std::string progress_text(const std::vector<ProgressItem>& items, std::size_t mo
     if (items.size() > 1) text += ": " + named(items.back());
     // Names may be any bytes. A byte is a column or less.
     text = harmless(text);
-    if (text.size() > most_columns) text = harmless(text.substr(0, most_columns));
+    if (text.size() > max_columns) text = harmless(text.substr(0, max_columns));
     return text;
 }
 

@@ -19,7 +19,7 @@ std::string duration_text(double seconds);
 // By the pace so far; none in the first second, or before a hundredth is done.
 std::optional<double> left_s(const ProgressItem& item);
 // The outermost first; at least one. "tradeoff 34 %, 12 s, about 23 s left: loading target.glb", cut to
-// most_columns.
-std::string progress_text(const std::vector<ProgressItem>& items, std::size_t most_columns);
+// max_columns.
+std::string progress_text(const std::vector<ProgressItem>& items, std::size_t max_columns);
 
 }  // namespace hilcam

@@ -72,9 +72,9 @@ void Recorder::drain() {
 }
 
 void Recorder::write(const Record& record) {
-    constexpr std::size_t kMost = kRecordPrefixBytes + kMostRecordBytes;
-    if (buffer_.size() - filled_ < kMost) flush();
-    filled_ += encode_record(record, std::span(buffer_).subspan(filled_, kMost));
+    constexpr std::size_t kMax = kRecordPrefixBytes + kMaxRecordBytes;
+    if (buffer_.size() - filled_ < kMax) flush();
+    filled_ += encode_record(record, std::span(buffer_).subspan(filled_, kMax));
 }
 
 // After an error nothing more is written: the file ends with a whole record, or inside one.

@@ -248,7 +248,7 @@ std::size_t seal(std::span<std::uint8_t> bytes, std::size_t body_bytes) {
 std::vector<std::uint8_t> encode_header(const RecordingHeader& header) {
     constexpr std::size_t kRest = 64;  // kind, lengths and numbers
     const std::size_t most = header.program.size() + header.processor.size() + header.scenario.size() + kRest;
-    if (most > kMostHeaderBytes)
+    if (most > kMaxHeaderBytes)
         throw InputError("a scenario of " + std::to_string(header.scenario.size()) +
                          " bytes of values cannot be recorded; accepted: at most 16 MiB");
     std::vector<std::uint8_t> bytes(kRecordPrefixBytes + most);

@@ -18,12 +18,12 @@ namespace hilcam {
 
 inline constexpr std::array<std::uint8_t, 8> kRecordingMagic = {'h', 'i', 'l', 'c', 'r', 'e', 'c', 1};
 inline constexpr std::size_t kRecordPrefixBytes = 8;
-inline constexpr std::size_t kMostRecordBytes = 512;        // of a body
-inline constexpr std::size_t kMostHeaderBytes = 16u << 20;  // of the header's
+inline constexpr std::size_t kMaxRecordBytes = 512;        // of a body
+inline constexpr std::size_t kMaxHeaderBytes = 16u << 20;  // of the header's
 
 // With its length and CRC. Throws InputError when a scenario is longer than a header may be.
 std::vector<std::uint8_t> encode_header(const RecordingHeader& header);
-// The same for a record, into a buffer of kRecordPrefixBytes + kMostRecordBytes; gives the number of bytes.
+// The same for a record, into a buffer of kRecordPrefixBytes + kMaxRecordBytes; gives the number of bytes.
 std::size_t encode_record(const Record& record, std::span<std::uint8_t> bytes);
 
 // Bodies. Nothing for bytes that are none: wrong length, a kind or a word of a fixed list that does not

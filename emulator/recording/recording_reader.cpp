@@ -33,13 +33,13 @@ RecordingReader::RecordingReader(std::unique_ptr<std::istream> in, std::string n
         throw InputError(name_ + ": is a recording of format " + std::to_string(*version_at) +
                          "; accepted: format " + std::to_string(kRecordingMagic.back()));
     offset_ = magic.size();
-    const std::optional<std::size_t> size = read_body(kMostHeaderBytes);
+    const std::optional<std::size_t> size = read_body(kMaxHeaderBytes);
     std::optional<RecordingHeader> header;
     if (size) header = decode_header(std::span(body_).first(*size));
     if (!header) throw InputError(name_ + ": the recording's header is damaged or cut off");
     header_ = std::move(*header);
     offset_ += kRecordPrefixBytes + *size;
-    body_.resize(kMostRecordBytes);
+    body_.resize(kMaxRecordBytes);
 }
 
 // Reads the next record into body_; nothing, and end_ says why, when there is no whole one.
@@ -72,7 +72,7 @@ std::optional<std::size_t> RecordingReader::read_body(std::size_t most) {
 
 bool RecordingReader::next(Record& record) {
     if (end_ != RecordingEnd::kNone) return false;
-    const std::optional<std::size_t> size = read_body(kMostRecordBytes);
+    const std::optional<std::size_t> size = read_body(kMaxRecordBytes);
     if (!size) return false;
     const std::optional<Record> decoded = decode_record(std::span(body_).first(*size));
     if (!decoded) {

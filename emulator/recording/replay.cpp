@@ -199,8 +199,8 @@ std::string Replay::refusal_of(const FrameUse& use) const {
     if (!(use.exposure_s > 0 && use.exposure_s <= 1e5)) return "its exposure is not 0 to 1e5 s";
     if (!(std::abs(use.gain_db) <= 200)) return "its gain is not -200 to 200 dB";
     if (!(use.black_level_dn >= 0 && use.black_level_dn <= 65535)) return "its black level is not 0 to 65535";
-    if (!binning_fits(use.binning_x, own.binning_x, camera_.limits.most_binning) ||
-        !binning_fits(use.binning_y, own.binning_y, camera_.limits.most_binning))
+    if (!binning_fits(use.binning_x, own.binning_x, camera_.limits.max_binning) ||
+        !binning_fits(use.binning_y, own.binning_y, camera_.limits.max_binning))
         return "its binning is not one of the camera";
     if (use.quality_level >= camera_.levels) return "its quality level does not exist";
     if (!is_fraction(use.image.tear_share) || !is_fraction(use.image.flip_rate))

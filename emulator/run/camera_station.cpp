@@ -105,7 +105,7 @@ void CameraStation::prepare(SimulatedClock& clock, const PoseWatch& poses) {
                                         LoopLimits{limits_.frames, limits_.warm_up, limits_.paced,
                                                    governor_of(scenario_), scenario_.loop.prefer},
                                         &poses);
-    if (truth_) loop_->tell_truth_to(*truth_);
+    if (truth_) loop_->report_truth_to(*truth_);
 }
 
 void CameraStation::record_to(Recorder& recorder) {
@@ -146,7 +146,7 @@ void CameraStation::serve_faults(double seconds) {
     FaultBoard::Entry entry;
     while (faults_.take_entry(entry)) {
         fault_log_.push_back(entry);
-        if (fault_log_.size() > kMostLogged) fault_log_.pop_front();
+        if (fault_log_.size() > kMaxLogged) fault_log_.pop_front();
     }
 }
 

@@ -97,7 +97,7 @@ class CameraStation {
     void make_sinks();
     std::string status() const;
 
-    static constexpr std::size_t kMostLogged = 100'000;
+    static constexpr std::size_t kMaxLogged = 100'000;
 
     ScenarioConfig scenario_;
     std::size_t number_;

@@ -131,7 +131,7 @@ void Emulator::make_events() {
                                      receivers_.empty()};
     events_ = std::make_unique<EventDirector>(
         EventSequence(scenario_.events, event_world(scenario_), clock_.start()), bench);
-    loop().tell(*events_);
+    loop().notify(*events_);
     if (clock_.lockstep()) dispatch_->ask_events(*events_);
 }
 
@@ -229,7 +229,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         light_maker_->start();
     }
     on_ready();
-    tell_service_manager("READY=1");
+    notify_service_manager("READY=1");
     const bool terminal = isatty(STDERR_FILENO);
     std::int64_t next_line_ns = begun_ns + 1'000'000'000;
     while (!signalled && !finished()) {
@@ -249,7 +249,7 @@ void Emulator::run(const std::function<void()>& on_ready) {
         if (!terminal) print_missed(now_ns);
         sleep_until_monotonic_ns(now_ns + 10'000'000);
     }
-    tell_service_manager("STOPPING=1");
+    notify_service_manager("STOPPING=1");
     // Loops first: they answer what waits for a frame.
     if (events_) events_->ask_to_stop();
     for (const auto& station : stations_) station->stop_loop();

@@ -67,13 +67,13 @@ json settings_status(const CameraSettings& s) {
 
 // What the settings may be; a setting that the camera keeps to itself is fixed.
 json limits_status(const CameraLimits& l) {
-    return {{"exposure_s", {l.least_exposure_s, l.most_exposure_s}},
-            {"gain_db", {l.least_gain_db, l.most_gain_db}},
-            {"black_level_dn", {0, l.most_black_level_dn}},
-            {"frame_rate_hz", {l.least_frame_rate_hz, l.most_frame_rate_hz}},
-            {"trigger_delay_s", {0, l.most_trigger_delay_s}},
-            {"burst_frames", {1, l.most_burst_frames}},
-            {"binning", {1, l.most_binning}},
+    return {{"exposure_s", {l.min_exposure_s, l.max_exposure_s}},
+            {"gain_db", {l.min_gain_db, l.max_gain_db}},
+            {"black_level_dn", {0, l.max_black_level_dn}},
+            {"frame_rate_hz", {l.min_frame_rate_hz, l.max_frame_rate_hz}},
+            {"trigger_delay_s", {0, l.max_trigger_delay_s}},
+            {"burst_frames", {1, l.max_burst_frames}},
+            {"binning", {1, l.max_binning}},
             {"exposure_is_own", l.exposure_is_own},
             {"gain_is_own", l.gain_is_own},
             {"frame_rate_is_own", l.frame_rate_is_own},

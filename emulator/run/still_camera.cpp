@@ -34,7 +34,7 @@ StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
       radiance_(exposures_.make_image()),
       exposure_(first_exposure(scenario.camera)) {
     renderer_->require_air(snapshot_);
-    points_.reserve(exposures_.most_points());
+    points_.reserve(exposures_.max_points());
 }
 
 void StillCamera::look_from(const Pose& body) {

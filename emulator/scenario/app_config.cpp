@@ -323,9 +323,9 @@ void validate(const ScenarioConfig& s) {
         throw KeyError("camera_motion", "a scenario has either 'camera_pose' or 'camera_motion'; found both");
     check_site(s);
     if (s.has_rays) check_rays(s.models.rays, s.camera.shutter);
-    if (s.more_cameras.size() > kMostCameras - 1)
+    if (s.more_cameras.size() > kMaxCameras - 1)
         throw InputError("more_cameras: found " + std::to_string(s.more_cameras.size()) +
-                         "; accepted: at most " + std::to_string(kMostCameras - 1));
+                         "; accepted: at most " + std::to_string(kMaxCameras - 1));
     for (std::size_t i = 0; i < s.more_cameras.size(); ++i)
         if (const std::int64_t on = s.more_cameras[i].thing; on > static_cast<std::int64_t>(s.objects.size()))
             throw KeyError("more_cameras." + std::to_string(i) + ".on",

@@ -107,7 +107,7 @@ struct OutputsConfig {
 Fields fields(OutputsConfig& outputs);
 
 // All of a bench: telemetry numbers them by a byte, from 1.
-inline constexpr std::size_t kMostCameras = 255;
+inline constexpr std::size_t kMaxCameras = 255;
 
 // A camera beside the first, on the same body or on an object: a stereo pair, a star tracker.
 struct CameraConfig {
@@ -162,7 +162,7 @@ struct ScenarioConfig {
     LoopConfig loop;
     CameraMode mode = CameraMode::kFreeRun;
     Mount mount;  // of the camera that this scenario is about; the first sits where poses say
-    std::vector<CameraConfig> more_cameras;  // kMostCameras - 1 at most
+    std::vector<CameraConfig> more_cameras;  // kMaxCameras - 1 at most
     std::vector<FaultConfig> faults;
     std::vector<EventConfig> events;
     CommandsConfig commands;

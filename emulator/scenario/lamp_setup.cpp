@@ -72,9 +72,9 @@ LampBeam beam_of(const LampConfig& lamp) {
 }  // namespace
 
 std::vector<LampMount> lamp_mounts(const ScenarioConfig& s) {
-    if (s.lamps.size() > kMostLamps)
+    if (s.lamps.size() > kMaxLamps)
         throw InputError("lamps: found " + std::to_string(s.lamps.size()) + "; accepted: at most " +
-                         std::to_string(kMostLamps));
+                         std::to_string(kMaxLamps));
     std::vector<LampMount> mounts;
     for (const LampConfig& lamp : s.lamps)
         mounts.push_back(

@@ -59,7 +59,7 @@ void load_table(std::vector<SceneObject>& objects, std::size_t i, TableOrder ord
 // Objects share the places that light is kept at by their areas; each has some.
 void load_tables(Scene& scene, const ScenarioConfig& scenario, LightLoading& light) {
     if (!wants_kept_light(scenario)) return;
-    constexpr double kLeast = 1000;
+    constexpr double kMin = 1000;
     const auto begun = std::chrono::steady_clock::now();
     std::vector<SceneObject>& objects = scene.objects;
     std::vector<double> area_m2;
@@ -69,7 +69,7 @@ void load_tables(Scene& scene, const ScenarioConfig& scenario, LightLoading& lig
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (objects[i].like || !(area_m2[i] > 0)) continue;
         const auto most = static_cast<double>(scenario.quality.render.kept_nodes);
-        const double nodes = std::max(std::min(kLeast, most), most * area_m2[i] / all_m2);
+        const double nodes = std::max(std::min(kMin, most), most * area_m2[i] / all_m2);
         load_table(objects, i, order_of(objects[i], static_cast<std::size_t>(nodes), scenario), light);
     }
     scene.light_later = !light.orders.empty();

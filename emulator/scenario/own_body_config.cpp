@@ -121,9 +121,9 @@ void validate(const OwnBodyConfig& c) {
 std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig>& bodies,
                                                  const std::string& start_utc) {
     if (bodies.empty()) return nullptr;
-    if (bodies.size() > kMostOwnBodies)
+    if (bodies.size() > kMaxOwnBodies)
         throw InputError("bodies: found " + std::to_string(bodies.size()) +
-                         "; accepted: " + std::to_string(kMostOwnBodies) + " at most");
+                         "; accepted: " + std::to_string(kMaxOwnBodies) + " at most");
     const TimeTai start = parse_utc(start_utc);
     auto out = std::make_shared<OwnBodies>();
     for (const OwnBodyConfig& c : bodies) {

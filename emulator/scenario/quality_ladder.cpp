@@ -50,9 +50,9 @@ Fields fields(LoopConfig& l) {
 }
 
 void validate(const LoopConfig& l) {
-    if (l.levels.size() >= kMostLevels)
+    if (l.levels.size() >= kMaxLevels)
         throw InputError("levels: found " + std::to_string(l.levels.size()) + "; accepted: at most " +
-                         std::to_string(kMostLevels - 1));
+                         std::to_string(kMaxLevels - 1));
 }
 
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& l) {
@@ -74,17 +74,17 @@ std::string difference(const RenderQuality& from, const RenderQuality& to) {
     const auto tell = [&out](const char* key, const std::string& value) {
         out.append(out.empty() ? "" : ", ").append(key).append(" ").append(value);
     };
-    const auto tell_number = [&](const char* key, double before, double after) {
+    const auto report_number = [&](const char* key, double before, double after) {
         if (before < after || after < before) tell(key, plain(after));
     };
     if (from.visibility != to.visibility) tell("visibility", to.visibility);
     if (from.path_model != to.path_model) tell("path_model", to.path_model);
-    tell_number("max_depth", static_cast<double>(from.max_depth), static_cast<double>(to.max_depth));
-    tell_number("samples_per_axis", static_cast<double>(from.samples_per_axis),
-                static_cast<double>(to.samples_per_axis));
-    tell_number("contribution_threshold", from.contribution_threshold, to.contribution_threshold);
-    tell_number("lod_error_px", from.lod_error_px, to.lod_error_px);
-    tell_number("noise_budget", from.noise_budget, to.noise_budget);
+    report_number("max_depth", static_cast<double>(from.max_depth), static_cast<double>(to.max_depth));
+    report_number("samples_per_axis", static_cast<double>(from.samples_per_axis),
+                  static_cast<double>(to.samples_per_axis));
+    report_number("contribution_threshold", from.contribution_threshold, to.contribution_threshold);
+    report_number("lod_error_px", from.lod_error_px, to.lod_error_px);
+    report_number("noise_budget", from.noise_budget, to.noise_budget);
     if (from.sun_disk != to.sun_disk) tell("sun_disk", to.sun_disk ? "true" : "false");
     return out;
 }

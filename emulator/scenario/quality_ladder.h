@@ -24,7 +24,7 @@ struct QualityLevelConfig {
 };
 Fields fields(QualityLevelConfig& level);
 
-inline constexpr std::size_t kMostLevels = 16;  // with level 0
+inline constexpr std::size_t kMaxLevels = 16;  // with level 0
 
 // What the frame loop is good at (frame_loop.h).
 enum class LoopPreference { kThroughput, kLatency };

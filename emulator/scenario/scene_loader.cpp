@@ -220,8 +220,8 @@ BodyRelief load_relief(const std::string& name, const Figure& figure, const Body
     for (float& value : heights_m)
         value = static_cast<float>(config.height_zero_m + config.height_step_m * static_cast<double>(value));
     const auto [least, most] = std::minmax_element(heights_m.begin(), heights_m.end());
-    constexpr double kMostShare = 0.05;
-    const double bound_m = kMostShare * figure.equatorial_radius_m;
+    constexpr double kMaxShare = 0.05;
+    const double bound_m = kMaxShare * figure.equatorial_radius_m;
     if (!(static_cast<double>(*least) > -bound_m && static_cast<double>(*most) < bound_m))
         throw InputError(
             fmt::format("{}: found heights from {:.6g} to {:.6g} m; accepted: within {:.6g} m of the sphere",

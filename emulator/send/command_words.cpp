@@ -227,7 +227,7 @@ void add_clock(CLI::App& app, const Take& take) {
         if (scale->count()) {
             command.action = Action::kScale;
             command.scale = o->scale;
-            if (!(o->scale >= kLeastClockScale && o->scale <= kMostClockScale))
+            if (!(o->scale >= kMinClockScale && o->scale <= kMaxClockScale))
                 throw InputError("--scale: found " + std::to_string(o->scale) + "; accepted: 0.001 to 1000");
         }
         if (o->what == "pause") command.action = Action::kPause;

@@ -41,7 +41,7 @@ void add_config(CLI::App* command, ConfigArguments& config) {
 
 void add_camera(CLI::App* command, std::size_t& camera) {
     command->add_option("--camera", camera, "which of the scenario's cameras, from 1")
-        ->check(CLI::Range(std::size_t{1}, kMostCameras));
+        ->check(CLI::Range(std::size_t{1}, kMaxCameras));
 }
 
 void require_camera(std::size_t camera, const ScenarioConfig& scenario) {

@@ -108,7 +108,7 @@ void add_error_options(CLI::App* bench, BenchArguments& o, CLI::Option* soak) {
         ->needs(errors);
     bench
         ->add_option(
-            "--reference-frames", o.errors.reference.most_frames,
+            "--reference-frames", o.errors.reference.max_frames,
             "of --error, for each view's reference, at most; fewer where its standard error is small "
             "before")
         ->check(power_of_two_from_4())

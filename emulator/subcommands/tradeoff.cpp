@@ -57,7 +57,7 @@ void add_tradeoff_command(CLI::App& app, Action& action) {
         ->capture_default_str();
     tradeoff
         ->add_option(
-            "--reference-frames", o->options.reference.most_frames,
+            "--reference-frames", o->options.reference.max_frames,
             "of the reference: a power of two, this at most; fewer where its standard error is small before")
         ->check(CLI::Range(4, 65536))
         ->capture_default_str();

@@ -20,7 +20,7 @@ namespace hilcam {
 
 struct ErrorBenchOptions {
     int views = 6;
-    ReferenceLimits reference{.most_frames = 4};
+    ReferenceLimits reference{.max_frames = 4};
     std::vector<std::string> reference_set;  // KEY=VALUE, in place of reference_overrides()
 };
 

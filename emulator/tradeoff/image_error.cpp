@@ -48,14 +48,14 @@ std::size_t false_lights(const ElectronImage& image, const ElectronImage& refere
     HILCAM_CHECK(image.pixels() == reference.pixels() && image.pixels() == dark.pixels());
     // Far enough out that the reference's own scatter makes none; dim enough that no frame shows an edge
     // there.
-    constexpr double kLeast_sigma = 5, kMostTrue_e = 100;
+    constexpr double kMin_sigma = 5, kMaxTrue_e = 100;
     std::size_t count = 0;
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const auto dark_e = static_cast<double>(dark.data()[i]),
                    true_e = static_cast<double>(reference.data()[i]);
-        if (true_e - dark_e >= kMostTrue_e) continue;
+        if (true_e - dark_e >= kMaxTrue_e) continue;
         const double excess_e = static_cast<double>(image.data()[i]) - true_e;
-        if (excess_e > kLeast_sigma * noise.sigma_e(true_e, dark_e)) ++count;
+        if (excess_e > kMin_sigma * noise.sigma_e(true_e, dark_e)) ++count;
     }
     return count;
 }

@@ -13,7 +13,7 @@ constexpr double kStep_px = 0.25;
 constexpr std::size_t kSamples = static_cast<std::size_t>(2 * kLimbReach_px / kStep_px) + 1;
 // Of the whole limb: enough that a narrow field, in which a thousandth of it is, still has some.
 constexpr int kCandidates = 65536;
-constexpr std::size_t kMost = 512, kFewest = 8;
+constexpr std::size_t kMax = 512, kMin = 8;
 
 // The body as the camera has it.
 class Limb {
@@ -143,21 +143,21 @@ std::vector<LimbPlace> limb_places(const BodyState& body, const Figure& figure, 
     std::vector<LimbPlace> seen;
     for (int i = 0; i < kCandidates; ++i)
         if (const auto place = place_at(limb, geometry, 2 * kPi * i / kCandidates)) seen.push_back(*place);
-    if (seen.size() < kFewest) return {};
+    if (seen.size() < kMin) return {};
     std::vector<LimbPlace> out;
-    const std::size_t count = std::min(kMost, seen.size());
+    const std::size_t count = std::min(kMax, seen.size());
     for (std::size_t i = 0; i < count; ++i) out.push_back(seen[i * seen.size() / count]);
     return out;
 }
 
 std::optional<LimbError> limb_error(const ElectronImage& image, const ElectronImage& reference,
-                                    std::span<const LimbPlace> places, Vec2d offset_px, double least_step_e) {
+                                    std::span<const LimbPlace> places, Vec2d offset_px, double min_step_e) {
     LimbError error;
     double squares = 0;
     for (const LimbPlace& place : places) {
         const Profile expected = profile_at(reference, place, offset_px);
         const Ends ends = ends_of(expected);
-        if (!(ends.disk_e - ends.sky_e > least_step_e)) continue;
+        if (!(ends.disk_e - ends.sky_e > min_step_e)) continue;
         const double level_e = 0.5 * (ends.sky_e + ends.disk_e);
         const double shift_px =
             first_reach_px(profile_at(image, place, offset_px), level_e) - first_reach_px(expected, level_e);

@@ -36,8 +36,8 @@ struct LimbError {
     int places = 0;  // where the limb is lit
 };
 // offset_px: of the window's corner in the array. Places count whose step in the reference is above
-// least_step_e; where the picture shows no limb within reach it is off by that. None when no place counts.
+// min_step_e; where the picture shows no limb within reach it is off by that. None when no place counts.
 std::optional<LimbError> limb_error(const ElectronImage& image, const ElectronImage& reference,
-                                    std::span<const LimbPlace> places, Vec2d offset_px, double least_step_e);
+                                    std::span<const LimbPlace> places, Vec2d offset_px, double min_step_e);
 
 }  // namespace hilcam

@@ -19,11 +19,11 @@ std::vector<std::size_t> by_time(std::span<const TimedError> points) {
 }
 
 std::vector<std::size_t> front_of(std::span<const TimedError> points, const std::vector<std::size_t>& by_time,
-                                  double least_gain) {
+                                  double min_gain) {
     std::vector<std::size_t> front;
     for (const std::size_t i : by_time)
         if (front.empty() || (points[i].error < points[front.back()].error &&
-                              points[i].error <= (1 - least_gain) * points[front.back()].error))
+                              points[i].error <= (1 - min_gain) * points[front.back()].error))
             front.push_back(i);
     return front;
 }
@@ -52,15 +52,15 @@ std::optional<std::size_t> best(std::span<const TimedError> points, const Accept
 
 }  // namespace
 
-std::vector<std::size_t> pareto_front(std::span<const TimedError> points, double least_gain) {
-    return front_of(points, by_time(points), least_gain);
+std::vector<std::size_t> pareto_front(std::span<const TimedError> points, double min_gain) {
+    return front_of(points, by_time(points), min_gain);
 }
 
-std::vector<std::size_t> by_fronts(std::span<const TimedError> points, std::size_t most, double least_gain) {
+std::vector<std::size_t> by_fronts(std::span<const TimedError> points, std::size_t most, double min_gain) {
     std::vector<std::size_t> left = by_time(points), out;
     most = std::min(most, points.size());
     while (out.size() < most) {
-        const std::vector<std::size_t> front = front_of(points, left, least_gain);
+        const std::vector<std::size_t> front = front_of(points, left, min_gain);
         for (const std::size_t place : spread(front.size())) out.push_back(front[place]);
         std::erase_if(left,
                       [&](std::size_t i) { return std::find(front.begin(), front.end(), i) != front.end(); });

@@ -88,11 +88,11 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
     out.dark = camera.dark();
     PictureSum halves[] = {PictureSum(out.dark), PictureSum(out.dark)};
     Progress progress("reference");
-    for (int goal = 4; goal <= limits.most_frames; goal *= 2) {
+    for (int goal = 4; goal <= limits.max_frames; goal *= 2) {
         for (; out.frames < goal; ++out.frames) {
             progress.now(fmt::format(
                 "reference, frame {} of {}", out.frames + 1,
-                goal == limits.most_frames ? fmt::format("{}", goal) : fmt::format("{} or more", goal)));
+                goal == limits.max_frames ? fmt::format("{}", goal) : fmt::format("{} or more", goal)));
             camera.render({seed, kFirstReferenceFrame + static_cast<std::uint64_t>(out.frames)});
             ElectronImage picture = clone(camera.expose());
             saturate(picture, saturation_of(s.camera));
@@ -100,7 +100,7 @@ ReferencePicture render_reference(StillCamera& camera, const ScenarioConfig& s, 
             if (out.frames > 0) continue;
             const double frame_s = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
             log(fmt::format("a frame of the reference takes {:.2g} s: {:.2g} s for 4, up to {:.2g} s for {}",
-                            frame_s, 4 * frame_s, limits.most_frames * frame_s, limits.most_frames));
+                            frame_s, 4 * frame_s, limits.max_frames * frame_s, limits.max_frames));
         }
         out.standard_error = noise_error(halves[0].mean(), halves[1].mean(), out.dark, noise);
         out.standard_error.p99 *= 0.5, out.standard_error.rms *= 0.5;

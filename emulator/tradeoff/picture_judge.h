@@ -32,7 +32,7 @@ struct PictureErrors {
 
 struct ReferenceLimits {
     double standard_error_sigma = 0.05;  // of 99 % of the lit pixels, in their own sensor noise: enough
-    int most_frames = 64;                // a power of two, 4 at least
+    int max_frames = 64;                 // a power of two, 4 at least
 };
 
 struct ReferencePicture {

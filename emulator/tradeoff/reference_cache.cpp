@@ -53,8 +53,8 @@ bool read(std::ifstream& in, void* to, std::size_t size) {
 
 // The image is as large as the file says, which must be so long.
 bool has_pictures(const Header& header, std::uintmax_t file_size) {
-    constexpr std::int32_t kMost_px = 1 << 16;
-    if (header.width < 1 || header.height < 1 || header.width > kMost_px || header.height > kMost_px)
+    constexpr std::int32_t kMax_px = 1 << 16;
+    if (header.width < 1 || header.height < 1 || header.width > kMax_px || header.height > kMax_px)
         return false;
     const auto pixels =
         static_cast<std::uintmax_t>(header.width) * static_cast<std::uintmax_t>(header.height);
@@ -68,7 +68,7 @@ std::string reference_key(const ScenarioConfig& reference, const Pose& body, con
     const Quat& q = body.world_from_body;
     std::string key =
         fmt::format("frames: {}\nstandard error: {}\nposition: {} {} {}\nattitude: {} {} {} {}\n",
-                    limits.most_frames, limits.standard_error_sigma, p.x, p.y, p.z, q.w, q.x, q.y, q.z);
+                    limits.max_frames, limits.standard_error_sigma, p.x, p.y, p.z, q.w, q.x, q.y, q.z);
     std::set<std::string> defaults;
     ScenarioConfig plain;
     std::istringstream own(scenario_listing(plain)), given(scenario_listing(reference));

@@ -32,7 +32,7 @@ struct TradeoffOptions {
 
 struct FrameTimes {
     double frame_ms = 0, render_ms = 0;  // medians
-    double least_ms = 0, most_ms = 0;    // of the whole frame
+    double min_ms = 0, max_ms = 0;       // of the whole frame
 };
 
 struct MeasuredSetting {

@@ -16,7 +16,7 @@ using Choices = std::vector<std::size_t>;
 constexpr double kFaster = 0.03, kMoreAccurate = 0.05;
 // Between neighbours of the predicted front, whose errors are guesses.
 constexpr double kPredictedGain = 0.05;
-constexpr std::size_t kMostCandidates = 200'000;
+constexpr std::size_t kMaxCandidates = 200'000;
 
 // What a setting is off: squares of this add, where percentiles hide the lesser of two errors behind the
 // greater.
@@ -88,7 +88,7 @@ void limit_candidates(std::vector<std::vector<Effect>>& fronts, double own_error
         for (const auto& front : fronts) count *= static_cast<double>(front.size());
         return count;
     };
-    while (candidates() > static_cast<double>(kMostCandidates)) {
+    while (candidates() > static_cast<double>(kMaxCandidates)) {
         std::vector<Effect>* least = nullptr;
         for (auto& front : fronts)
             if (front.size() > 1 &&

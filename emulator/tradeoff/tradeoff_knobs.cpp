@@ -120,11 +120,11 @@ std::string edges_override(const std::vector<double>& edges_um) {
 // an edge's height and falls with the square (docs/sensor.md): as much as fits into two images of 1 GiB of 8
 // bins.
 std::int64_t reference_oversampling(const ScenarioConfig& s, std::int64_t guard_px) {
-    constexpr std::int64_t kMostPixels = std::int64_t{1} << 25;
+    constexpr std::int64_t kMaxPixels = std::int64_t{1} << 25;
     const PixelRectangle w = window_of(s.camera);
     const std::int64_t pixels = (w.width + 2 * guard_px) * (w.height + 2 * guard_px);
     std::int64_t m = 4;
-    while (m > 1 && m * m * pixels > kMostPixels) --m;
+    while (m > 1 && m * m * pixels > kMaxPixels) --m;
     return std::max(m, s.quality.oversampling);
 }
 

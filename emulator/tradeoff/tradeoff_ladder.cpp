@@ -35,7 +35,7 @@ std::vector<std::size_t> rungs(const Tradeoff& t) {
     }
     // Steps that gain less than a twentieth are not worth a change of the picture.
     const std::vector<std::size_t> front = pareto_front(points, 0.05);
-    const std::size_t count = std::min(front.size(), kMostLevels - 1);
+    const std::size_t count = std::min(front.size(), kMaxLevels - 1);
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t rank = count > 1 ? i * (front.size() - 1) / (count - 1) : 0;

@@ -41,8 +41,8 @@ std::vector<Column> columns_of(const MeasuredSetting& s) {
     const PictureErrors& e = s.errors;
     return {{"frame_ms", s.times.frame_ms},
             {"render_ms", s.times.render_ms},
-            {"frame_least_ms", s.times.least_ms},
-            {"frame_most_ms", s.times.most_ms},
+            {"frame_least_ms", s.times.min_ms},
+            {"frame_most_ms", s.times.max_ms},
             {"error_sigma_p99", e.noise.p99},
             {"error_sigma_rms", e.noise.rms},
             {"within_half_sigma_fraction", e.noise.within_half_fraction},

@@ -22,7 +22,7 @@ std::int64_t scaled(std::int64_t ns, double scale) {
 
 Fields fields(ClockConfig& c) {
     return {
-        number("scale", c.scale, 1, {kLeastClockScale, kMostClockScale},
+        number("scale", c.scale, 1, {kMinClockScale, kMaxClockScale},
                "simulated seconds per second of the machine; frame rate and exposure are in simulated time. "
                "0.1: ten times slower"),
         flag("paused", c.paused,
@@ -47,7 +47,7 @@ std::int64_t SimulatedClock::Piece::camera_at(std::int64_t monotonic) const {
     return std::min(camera_ns + scaled(monotonic - monotonic_ns, scale), camera_most_ns);
 }
 std::int64_t SimulatedClock::Piece::simulated_of(std::int64_t camera) const {
-    return std::clamp(camera + shift_ns, least_ns, most_ns);
+    return std::clamp(camera + shift_ns, min_ns, max_ns);
 }
 // Rounded up: the first nanosecond that is there.
 std::int64_t SimulatedClock::Piece::monotonic_of(std::int64_t camera) const {
@@ -73,12 +73,12 @@ void SimulatedClock::restart(TimeTai start, std::int64_t monotonic_start_ns) {
 SimulatedClock::Piece SimulatedClock::piece_from(const Beginning& from, double scale,
                                                  std::int64_t stand_ns) const {
     Piece piece{from.monotonic_ns, from.camera_ns, scale,    from.simulated_ns - from.camera_ns,
-                from.least_ns,     kNever_ns,      kNever_ns};
+                from.min_ns,       kNever_ns,      kNever_ns};
     if (stand_ns == kNever_ns) return piece;
     if (config_.camera_in_pause == CameraInPause::kWaits)
         piece.camera_most_ns = stand_ns - piece.shift_ns;
     else
-        piece.most_ns = stand_ns;
+        piece.max_ns = stand_ns;
     return piece;
 }
 
@@ -131,7 +131,7 @@ std::int64_t SimulatedClock::when_due(std::int64_t camera_ns) const {
 
 std::int64_t SimulatedClock::camera_of(TimeTai simulated) const {
     const Piece piece = state_.read().now;
-    return simulated.ns > piece.most_ns ? kNever_ns : simulated.ns - piece.shift_ns;
+    return simulated.ns > piece.max_ns ? kNever_ns : simulated.ns - piece.shift_ns;
 }
 
 CommandStatus SimulatedClock::order(const ClockCommand& c) {

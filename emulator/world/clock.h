@@ -109,7 +109,7 @@ class SimulatedClock {
     struct Piece {
         std::int64_t monotonic_ns, camera_ns;
         double scale;
-        std::int64_t shift_ns, least_ns, most_ns, camera_most_ns;
+        std::int64_t shift_ns, min_ns, max_ns, camera_most_ns;
 
         std::int64_t camera_at(std::int64_t monotonic) const;
         std::int64_t simulated_of(std::int64_t camera) const;
@@ -124,7 +124,7 @@ class SimulatedClock {
         const Piece& of(std::int64_t camera) const { return camera < now.camera_ns ? before : now; }
     };
     struct Beginning {
-        std::int64_t monotonic_ns, camera_ns, simulated_ns, least_ns;
+        std::int64_t monotonic_ns, camera_ns, simulated_ns, min_ns;
     };
     Piece piece_from(const Beginning& from, double scale, std::int64_t stand_ns) const;
     State first_state(std::int64_t monotonic_start_ns) const;

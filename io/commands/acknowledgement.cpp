@@ -10,7 +10,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::uint8_t kAcknowledgeBit = 0x80;
-constexpr std::size_t kMostReasonBytes = 96;
+constexpr std::size_t kMaxReasonBytes = 96;
 constexpr std::size_t kClockBytes = 5 * 8;
 
 void write(ByteWriter& out, const ClockReading& r) {
@@ -32,7 +32,7 @@ ClockReading read_clock(ByteReader& in, TimeTai departure) {
 }  // namespace
 
 void write_acknowledgement_body(const Acknowledgement& a, ByteWriter& out) {
-    const std::size_t reason_bytes = std::min(a.reason.size(), kMostReasonBytes);
+    const std::size_t reason_bytes = std::min(a.reason.size(), kMaxReasonBytes);
     out.u8(kProtocolVersion).u8(a.function | kAcknowledgeBit);
     out.u8(static_cast<std::uint8_t>(a.status)).u8(0).u32(a.sequence).u64(a.token);
     out.u64(static_cast<std::uint64_t>(a.simulated_time.ns)).u16(reason_bytes);
@@ -87,7 +87,7 @@ std::string_view name_of(CommandStatus status) {
 
 std::string text_of(const Acknowledgement& a) {
     const std::string name(name_of(a.status));
-    return a.reason.empty() ? name : name + ": " + harmless(a.reason.substr(0, kMostReasonBytes));
+    return a.reason.empty() ? name : name + ": " + harmless(a.reason.substr(0, kMaxReasonBytes));
 }
 
 std::string_view meaning_of(CommandStatus status) {

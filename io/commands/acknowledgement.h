@@ -14,7 +14,7 @@
 namespace hilcam {
 
 inline constexpr std::uint16_t kAcknowledgeApid = 0x101;
-inline constexpr std::size_t kMostAcknowledgeBytes = 192;
+inline constexpr std::size_t kMaxAcknowledgeBytes = 192;
 
 struct Acknowledgement {
     std::uint8_t function = 0;

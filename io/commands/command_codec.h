@@ -13,7 +13,7 @@
 namespace hilcam {
 
 inline constexpr std::uint16_t kCommandApid = 0x100;
-inline constexpr std::size_t kMostCommandBytes = 256;
+inline constexpr std::size_t kMaxCommandBytes = 256;
 
 // What a packet says, or why it is refused. Header fields are filled as far as they could be read.
 struct DecodedCommand {

@@ -71,13 +71,13 @@ bool decode_telemetry(std::span<const std::uint8_t> packet, const DialectConfig&
 }
 
 PacketRule command_rule(const DialectConfig& d) {
-    if (!is_cfs(d)) return {kCommandKinds, 16, kMostPacketBytes, has_crc};
-    return {kCommandKinds, 8, kMostPacketBytes,
+    if (!is_cfs(d)) return {kCommandKinds, 16, kMaxPacketBytes, has_crc};
+    return {kCommandKinds, 8, kMaxPacketBytes,
             d.checksum == ChecksumRule::kRequired ? has_cfs_checksum : has_cfs_shape};
 }
 PacketRule answer_rule(const DialectConfig& d) {
-    if (!is_cfs(d)) return {kAnswerKinds, 16, kMostPacketBytes, has_crc};
-    return {kAnswerKinds, 18, kMostPacketBytes, is_cfs_answer};
+    if (!is_cfs(d)) return {kAnswerKinds, 16, kMaxPacketBytes, has_crc};
+    return {kAnswerKinds, 18, kMaxPacketBytes, is_cfs_answer};
 }
 
 int sequence_bits(const DialectConfig& d) { return is_cfs(d) ? 14 : 32; }

@@ -24,7 +24,7 @@ void add_fields(DialectConfig& dialect, Fields& fields);
 void validate(const DialectConfig& dialect);
 
 // The longest packet of any kind, in either dialect.
-inline constexpr std::size_t kMostPacketBytes = 256;
+inline constexpr std::size_t kMaxPacketBytes = 256;
 
 DecodedCommand decode_command(std::span<const std::uint8_t> packet, const DialectConfig& dialect);
 std::size_t encode_command(const Command& command, std::uint32_t sequence, const DialectConfig& dialect,

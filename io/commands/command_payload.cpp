@@ -189,11 +189,11 @@ Refusal read(ByteReader& in, ClockCommand& clock) {
     clock.action = static_cast<Action>(action);
     if (clock.action != Action::kScale)
         clock.scale = 1;
-    else if (!(clock.scale >= kLeastClockScale && clock.scale <= kMostClockScale))
+    else if (!(clock.scale >= kMinClockScale && clock.scale <= kMaxClockScale))
         return bad("scale of time is not 0.001 to 1000");
     if (clock.action != Action::kStep)
         clock.step_ns = 0;
-    else if (clock.step_ns < 1 || clock.step_ns > kMostClockStep_ns)
+    else if (clock.step_ns < 1 || clock.step_ns > kMaxClockStep_ns)
         return bad("step of time is not 1 to 1e16 ns");
     return {};
 }

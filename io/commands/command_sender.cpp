@@ -6,7 +6,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostWaiting = 1000;
+constexpr std::size_t kMaxWaiting = 1000;
 
 std::int64_t deadline_after(int timeout_ms) { return monotonic_ns() + std::int64_t{timeout_ms} * 1'000'000; }
 
@@ -41,7 +41,7 @@ bool CommandSender::next_packet(std::span<const std::uint8_t>& packet, std::int6
 }
 
 Acknowledgement CommandSender::send(const Command& command, int timeout_ms) {
-    std::array<std::uint8_t, kMostPacketBytes> bytes;
+    std::array<std::uint8_t, kMaxPacketBytes> bytes;
     // What comes back of a sequence number is what travels.
     const std::uint32_t sequence = dialect_.dialect == Dialect::kCfs ? sequence_ & 0x3FFF : sequence_;
     ++sequence_;
@@ -57,7 +57,7 @@ Acknowledgement CommandSender::send(const Command& command, int timeout_ms) {
             if (acknowledgement.sequence == sequence) return acknowledgement;
         } else if (decode_telemetry(packet, dialect_, telemetry)) {
             waiting_.push_back(telemetry);
-            if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+            if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
         }
     }
     throw silent(timeout_ms);

@@ -44,7 +44,7 @@ class CommandStation::Sender {
     SenderReport report;
     SequenceWindow window;
     std::uint16_t acknowledgements = 0, frame_reports = 0, housekeepings = 0;  // packet counts
-    std::array<std::uint8_t, kMostPacketBytes> once{};
+    std::array<std::uint8_t, kMaxPacketBytes> once{};
     std::size_t once_bytes = 0;
     std::int64_t once_arrival_ns = 0;
     CommandStatus once_status = CommandStatus::kAccepted;
@@ -121,7 +121,7 @@ void CommandStation::take_packet(std::span<const std::uint8_t> packet, std::int6
         out.clock = handler_.read_clock(arrival_ns);
         out.simulated_time = out.clock->departure;
     }
-    std::array<std::uint8_t, kMostPacketBytes> bytes;
+    std::array<std::uint8_t, kMaxPacketBytes> bytes;
     const std::size_t size = encode_acknowledgement(out, sender.acknowledgements++, dialect_, bytes);
     answer(std::span(bytes).first(size));
 }
@@ -157,16 +157,16 @@ bool CommandStation::count(std::uint32_t sequence, Sender& sender) {
     return false;
 }
 
-void CommandStation::tell(const Telemetry& telemetry, const Tell& tell) {
+void CommandStation::notify(const Telemetry& telemetry, const Notify& notify) {
     const bool is_report = std::holds_alternative<FrameReport>(telemetry);
     const std::lock_guard lock(mutex_);
     for (Sender& sender : senders_) {
         const SubscribeCommand& wants = sender.report.subscription;
         if (!(is_report ? wants.frame_reports : wants.housekeeping)) continue;
         std::uint16_t& count = is_report ? sender.frame_reports : sender.housekeepings;
-        std::array<std::uint8_t, kMostPacketBytes> bytes;
+        std::array<std::uint8_t, kMaxPacketBytes> bytes;
         const std::size_t size = encode_telemetry(telemetry, count++, dialect_, bytes);
-        tell(sender, std::span(bytes).first(size));
+        notify(sender, std::span(bytes).first(size));
     }
 }
 

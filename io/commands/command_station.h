@@ -26,7 +26,7 @@ class CommandStation {
     class Sender;
     // Gets one whole packet for the sender.
     using Answer = std::function<void(std::span<const std::uint8_t> packet)>;
-    using Tell = std::function<void(Sender& sender, std::span<const std::uint8_t> packet)>;
+    using Notify = std::function<void(Sender& sender, std::span<const std::uint8_t> packet)>;
 
     CommandStation(CommandHandler& handler, const DialectConfig& dialect);
     ~CommandStation();
@@ -44,7 +44,7 @@ class CommandStation {
     // What cannot even be given to a stream: an empty datagram.
     void refuse_empty(Sender& sender, const Answer& answer);
     // To every sender that subscribed to this kind.
-    void tell(const Telemetry& telemetry, const Tell& tell);
+    void notify(const Telemetry& telemetry, const Notify& notify);
     // Frame reports and housekeeping from now on, unasked.
     void subscribe(Sender& sender, SubscribeCommand subscription);
     void count_stranger();

@@ -59,7 +59,7 @@ class FunctionFsReceiver : public CommandReceiver {
     std::string name() const override { return "functionfs " + config_.mount.string(); }
     CommandReport report() const override { return station_.report(); }
     std::vector<SenderReport> senders() const override { return station_.senders(); }
-    void tell(const Telemetry& telemetry) noexcept override {
+    void notify(const Telemetry& telemetry) noexcept override {
         if (telemetry_.put(telemetry)) wake(wakeup_);
     }
 
@@ -249,7 +249,7 @@ void FunctionFsReceiver::send_answers() {
 void FunctionFsReceiver::send_telemetry() {
     Telemetry telemetry;
     while (telemetry_.take(telemetry))
-        station_.tell(telemetry, [&](CommandStation::Sender&, std::span<const std::uint8_t> packet) {
+        station_.notify(telemetry, [&](CommandStation::Sender&, std::span<const std::uint8_t> packet) {
             answers_.put(packet, true);
         });
 }

@@ -24,7 +24,7 @@ StreamServerSetup setup_of(const TcpCommandConfig& c, const std::string& kind, c
     setup.admit = [allow = AllowList(c.allow, c.address, key)](int socket, std::string& peer) {
         return admit_tcp(allow, socket, peer);
     };
-    setup.most_clients = static_cast<std::size_t>(c.clients);
+    setup.max_clients = static_cast<std::size_t>(c.clients);
     return setup;
 }
 

@@ -12,9 +12,9 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostPeers = 16;
+constexpr std::size_t kMaxPeers = 16;
 constexpr std::int64_t kSilence_ns = 60'000'000'000;
-constexpr std::size_t kMostDatagramBytes = 65536;
+constexpr std::size_t kMaxDatagramBytes = 65536;
 
 // The kernel stamps datagrams with CLOCK_REALTIME; the age moves it to CLOCK_MONOTONIC. Without a stamp: now.
 std::int64_t arrival_of(msghdr& message) {
@@ -58,7 +58,7 @@ UdpCommandReceiver::UdpCommandReceiver(const UdpCommandConfig& config, CommandHa
     : config_(config),
       allow_(config.allow, config.address, "commands.udp"),
       station_(handler, config.dialect),
-      stream_(station_.make_stream(kMostDatagramBytes)) {}
+      stream_(station_.make_stream(kMaxDatagramBytes)) {}
 
 std::string UdpCommandReceiver::name() const {
     return "udp " + config_.address + ":" + std::to_string(config_.port);
@@ -81,7 +81,7 @@ void UdpCommandReceiver::stop() noexcept {
     socket_.reset();
 }
 
-void UdpCommandReceiver::tell(const Telemetry& telemetry) noexcept {
+void UdpCommandReceiver::notify(const Telemetry& telemetry) noexcept {
     if (telemetry_.put(telemetry)) wake(wakeup_);
 }
 
@@ -126,7 +126,7 @@ UdpCommandReceiver::Peer& UdpCommandReceiver::peer_of(const sockaddr_in& address
     if (known != peers_.end()) {
         peers_.splice(peers_.end(), peers_, known);
     } else {
-        if (peers_.size() == kMostPeers) {
+        if (peers_.size() == kMaxPeers) {
             station_.close(*peers_.front().sender);
             peers_.pop_front();
         }
@@ -147,7 +147,7 @@ void UdpCommandReceiver::send_telemetry() {
     forget_silent(monotonic_ns());
     Telemetry telemetry;
     while (telemetry_.take(telemetry))
-        station_.tell(telemetry, [&](CommandStation::Sender& sender, std::span<const std::uint8_t> packet) {
+        station_.notify(telemetry, [&](CommandStation::Sender& sender, std::span<const std::uint8_t> packet) {
             for (const Peer& peer : peers_)
                 if (peer.sender == &sender) send(packet, peer.address);
         });

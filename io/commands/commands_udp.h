@@ -37,7 +37,7 @@ class UdpCommandReceiver : public CommandReceiver {
     std::string name() const override;
     CommandReport report() const override { return station_.report(); }
     std::vector<SenderReport> senders() const override { return station_.senders(); }
-    void tell(const Telemetry& telemetry) noexcept override;
+    void notify(const Telemetry& telemetry) noexcept override;
 
   private:
     struct Peer {

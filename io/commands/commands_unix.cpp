@@ -98,7 +98,7 @@ std::unique_ptr<CommandReceiver> make_unix_receiver(const UnixCommandConfig& c, 
         if (FileIdentity::of(path) == *ours) unlink(path.c_str());
     };
     setup.admit = admit;
-    setup.most_clients = static_cast<std::size_t>(c.clients);
+    setup.max_clients = static_cast<std::size_t>(c.clients);
     setup.whole_packets = whole_packets;
     return std::make_unique<StreamServer>(std::move(setup), handler, c.dialect);
 }

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kTransferBytes = 16384;
 constexpr std::size_t kTransfersIn = 4;  // in flight, so that the bus never waits for a command's work
 constexpr std::int64_t kTryAgain_ns = 500'000'000;
-constexpr int kMostErrors = 16;  // one after the other; then the device is opened anew
+constexpr int kMaxErrors = 16;  // one after the other; then the device is opened anew
 
 // One thread opens the device, runs libusb's events and so all callbacks, takes commands and sends answers.
 class UsbCommandReceiver : public CommandReceiver {
@@ -44,7 +44,7 @@ class UsbCommandReceiver : public CommandReceiver {
         const std::lock_guard lock(trouble_mutex_);
         return trouble_;
     }
-    void tell(const Telemetry& telemetry) noexcept override {
+    void notify(const Telemetry& telemetry) noexcept override {
         if (!telemetry_.put(telemetry)) return;
         const std::lock_guard lock(context_mutex_);
         if (context_) libusb_interrupt_event_handler(context_.get());
@@ -146,7 +146,7 @@ int UsbCommandReceiver::on_hotplug(libusb_context*, libusb_device* device, libus
 void UsbCommandReceiver::run() {
     while (!stopping_) {
         const bool detached = detached_by_fault();
-        if (device_ && (lost_ || detached || errors_ > kMostErrors)) close_device();
+        if (device_ && (lost_ || detached || errors_ > kMaxErrors)) close_device();
         if (!device_ && !detached) look_for_device();
         if (device_ && halted_in_) {
             halted_in_ = false;
@@ -305,7 +305,7 @@ void UsbCommandReceiver::on_output(libusb_transfer* usb) {
 void UsbCommandReceiver::send_telemetry() {
     Telemetry telemetry;
     while (telemetry_.take(telemetry))
-        station_.tell(telemetry, [&](CommandStation::Sender&, std::span<const std::uint8_t> packet) {
+        station_.notify(telemetry, [&](CommandStation::Sender&, std::span<const std::uint8_t> packet) {
             answers_.put(packet, true);
         });
 }

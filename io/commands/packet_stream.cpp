@@ -15,8 +15,8 @@ constexpr std::array<std::uint8_t, 4> kSyncMarker = {0x1A, 0xCF, 0xFC, 0x1D};
 }  // namespace
 
 PacketStream::PacketStream(const PacketRule& rule, std::size_t read_bytes)
-    : rule_(rule), read_bytes_(read_bytes), buffer_(rule.most_bytes + kSyncMarker.size() + read_bytes) {
-    HILCAM_CHECK(rule.intact && rule.fewest_bytes > SpacePacketHeader::kBytes);
+    : rule_(rule), read_bytes_(read_bytes), buffer_(rule.max_bytes + kSyncMarker.size() + read_bytes) {
+    HILCAM_CHECK(rule.intact && rule.min_bytes > SpacePacketHeader::kBytes);
 }
 
 std::span<std::uint8_t> PacketStream::room() {
@@ -40,7 +40,7 @@ PacketStream::Verdict PacketStream::judge(std::size_t at, bool known_kind_only, 
     if (bytes.size() < SpacePacketHeader::kBytes) return Verdict::kIncomplete;
     const SpacePacketHeader header = read_packet_header(bytes);
     size = header.total_bytes();
-    if (header.version != 0 || size < rule_.fewest_bytes || size > rule_.most_bytes) return Verdict::kNone;
+    if (header.version != 0 || size < rule_.min_bytes || size > rule_.max_bytes) return Verdict::kNone;
     const auto identification = static_cast<std::uint16_t>(bytes[0] << 8 | bytes[1]);
     if (known_kind_only && std::find(rule_.identifications.begin(), rule_.identifications.end(),
                                      identification) == rule_.identifications.end())
@@ -52,7 +52,7 @@ PacketStream::Verdict PacketStream::judge(std::size_t at, bool known_kind_only, 
 // Where an intact packet begins, or end_.
 std::size_t PacketStream::find_intact(std::size_t from) const {
     std::size_t size = 0;
-    for (std::size_t at = from; at + rule_.fewest_bytes <= end_; ++at)
+    for (std::size_t at = from; at + rule_.min_bytes <= end_; ++at)
         if (judge(at, true, size) == Verdict::kIntact) return at;
     return end_;
 }

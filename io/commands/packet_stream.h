@@ -19,8 +19,8 @@ namespace hilcam {
 // What packets of a stream look like.
 struct PacketRule {
     std::span<const std::uint16_t> identifications;  // a packet's first two bytes, when hunting
-    std::size_t fewest_bytes = 7;
-    std::size_t most_bytes = 65542;
+    std::size_t min_bytes = 7;
+    std::size_t max_bytes = 65542;
     // Does a whole packet pass its check?
     bool (*intact)(std::span<const std::uint8_t> packet) = nullptr;
 };

@@ -44,8 +44,8 @@ inline SequenceWindow::Finding SequenceWindow::take(std::uint32_t sequence) {
     }
     // Half of all numbers lie ahead; the rest are too old to be late. What begins by the clock lands
     // anywhere.
-    constexpr std::uint32_t kMostLost = 1u << 20;
-    if (seen_ != 0 && !anew && ahead <= std::min(mask_ / 2, kMostLost)) {
+    constexpr std::uint32_t kMaxLost = 1u << 20;
+    if (seen_ != 0 && !anew && ahead <= std::min(mask_ / 2, kMaxLost)) {
         newest_ = sequence;
         seen_ = (ahead < 64 ? seen_ << ahead : 0) | 1;
         return ahead == 1 ? Finding{Kind::kNext} : Finding{Kind::kGap, ahead - 1};

@@ -10,9 +10,9 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostQueuedBytes = 256 * 1024;
+constexpr std::size_t kMaxQueuedBytes = 256 * 1024;
 // Telemetry may fill half of the queue: answers have the rest.
-constexpr std::size_t kMostTelemetryQueuedBytes = kMostQueuedBytes / 2;
+constexpr std::size_t kMaxTelemetryQueuedBytes = kMaxQueuedBytes / 2;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void StreamServer::stop() noexcept {
     setup_.closed();
 }
 
-void StreamServer::tell(const Telemetry& telemetry) noexcept {
+void StreamServer::notify(const Telemetry& telemetry) noexcept {
     if (telemetry_.put(telemetry)) wake(wakeup_);
 }
 
@@ -73,11 +73,11 @@ void StreamServer::accept_client() {
         return;
     }
     std::string peer;
-    if (clients_.size() >= setup_.most_clients || !setup_.admit(socket.get(), peer))
+    if (clients_.size() >= setup_.max_clients || !setup_.admit(socket.get(), peer))
         return station_.count_stranger();
     CommandStation::Sender& sender = station_.open(peer);
     clients_.push_back({std::move(socket), sender, station_.make_stream(),
-                        OutputQueue(kMostQueuedBytes, setup_.whole_packets)});
+                        OutputQueue(kMaxQueuedBytes, setup_.whole_packets)});
     if (setup_.read_only) station_.subscribe(sender, {true, true});
 }
 
@@ -111,9 +111,9 @@ void StreamServer::answer(Client& client, std::span<const std::uint8_t> packet) 
 void StreamServer::send_telemetry() {
     Telemetry telemetry;
     while (telemetry_.take(telemetry))
-        station_.tell(telemetry, [&](CommandStation::Sender& sender, std::span<const std::uint8_t> packet) {
+        station_.notify(telemetry, [&](CommandStation::Sender& sender, std::span<const std::uint8_t> packet) {
             for (Client& client : clients_)
-                if (&client.sender == &sender && client.output.bytes() < kMostTelemetryQueuedBytes)
+                if (&client.sender == &sender && client.output.bytes() < kMaxTelemetryQueuedBytes)
                     client.output.put(packet);
         });
     for (Client& client : clients_) client.gone |= !client.output.flush(client.socket.get());

@@ -25,7 +25,7 @@ struct StreamServerSetup {
     // Whether a client that has connected may stay; gives its name and prepares the socket.
     std::function<bool(int socket, std::string& peer)> admit;
     std::function<void()> closed = [] {};  // the listening socket is no more
-    std::size_t most_clients = 8;
+    std::size_t max_clients = 8;
     bool whole_packets = false;  // SOCK_SEQPACKET: a message is one or more whole packets
     bool read_only = false;      // clients get all telemetry; what they send is thrown away
 };
@@ -40,7 +40,7 @@ class StreamServer : public CommandReceiver {
     std::string name() const override { return setup_.name; }
     CommandReport report() const override { return station_.report(); }
     std::vector<SenderReport> senders() const override { return station_.senders(); }
-    void tell(const Telemetry& telemetry) noexcept override;
+    void notify(const Telemetry& telemetry) noexcept override;
 
   private:
     struct Client {

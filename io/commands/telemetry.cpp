@@ -140,12 +140,12 @@ void TelemetrySender::send_reports() {
 }
 
 void TelemetrySender::send(const Telemetry& telemetry) {
-    for (CommandReceiver* receiver : receivers_) receiver->tell(telemetry);
-    if (port_) port_->tell(telemetry);
+    for (CommandReceiver* receiver : receivers_) receiver->notify(telemetry);
+    if (port_) port_->notify(telemetry);
     if (destinations_.empty()) return;
     std::uint16_t& count =
         std::holds_alternative<FrameReport>(telemetry) ? report_count_ : housekeeping_count_;
-    std::array<std::uint8_t, kMostPacketBytes> bytes;
+    std::array<std::uint8_t, kMaxPacketBytes> bytes;
     const std::size_t size = encode_telemetry(telemetry, count++, config_.port.dialect, bytes);
     for (const sockaddr_in& to : destinations_)
         sendto(udp_.get(), bytes.data(), size, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),

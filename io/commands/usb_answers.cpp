@@ -5,12 +5,12 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kLeastPacketSize = 64;  // of a bulk endpoint at full speed; the others are multiples
+constexpr std::size_t kMinPacketSize = 64;  // of a bulk endpoint at full speed; the others are multiples
 
 }  // namespace
 
 bool UsbAnswers::put(std::span<const std::uint8_t> packet, bool telemetry) {
-    if (bytes() + packet.size() > (telemetry ? most_bytes_ / 2 : most_bytes_)) return false;
+    if (bytes() + packet.size() > (telemetry ? max_bytes_ / 2 : max_bytes_)) return false;
     if (begin_ > bytes_.size() / 2) {
         bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(begin_));
         begin_ = 0;
@@ -35,7 +35,7 @@ std::size_t UsbAnswers::next(std::span<std::uint8_t> transfer) {
         size /= 2;
         second_half_ = true;
     }
-    if (size % kLeastPacketSize == 0) --size;
+    if (size % kMinPacketSize == 0) --size;
     std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_), size, transfer.begin());
     begin_ += size;
     ++transfers_;

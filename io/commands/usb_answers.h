@@ -12,8 +12,8 @@ namespace hilcam {
 
 class UsbAnswers {
   public:
-    explicit UsbAnswers(FaultBoard& faults, std::size_t most_bytes = 256 * 1024)
-        : faults_(faults), most_bytes_(most_bytes) {}
+    explicit UsbAnswers(FaultBoard& faults, std::size_t max_bytes = 256 * 1024)
+        : faults_(faults), max_bytes_(max_bytes) {}
 
     // A whole packet; false, and it is dropped, when the queue is full. Telemetry may fill half of it.
     bool put(std::span<const std::uint8_t> packet, bool telemetry);
@@ -26,7 +26,7 @@ class UsbAnswers {
 
   private:
     FaultBoard& faults_;
-    std::size_t most_bytes_;
+    std::size_t max_bytes_;
     std::vector<std::uint8_t> bytes_;
     std::size_t begin_ = 0;
     std::uint64_t packets_ = 0, transfers_ = 0;

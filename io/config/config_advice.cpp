@@ -38,8 +38,8 @@ bool same_but_for_unit(std::string_view a, std::string_view b) {
     return a == b || (ends_in_unit(a) && ends_in_unit(b) && stem(a) == stem(b));
 }
 
-constexpr std::size_t kMostSlips = 3;
-constexpr std::size_t kMostPlaces = 3;
+constexpr std::size_t kMaxSlips = 3;
+constexpr std::size_t kMaxPlaces = 3;
 
 std::string joined(const std::vector<std::string>& words) {
     std::string out;
@@ -66,7 +66,7 @@ std::vector<std::string> places_of(std::string_view key, const Fields& root) {
 
 std::string nearest_of(std::string_view word, std::span<const std::string> known) {
     const std::string* nearest = nullptr;
-    std::size_t least = kMostSlips + 1;
+    std::size_t least = kMaxSlips + 1;
     for (const std::string& candidate : known) {
         const std::size_t distance = edit_distance(word, candidate);
         if (distance < least) least = distance, nearest = &candidate;
@@ -87,7 +87,7 @@ std::string advice_for(std::string_view key, const Fields& known, const Fields& 
     if (!nearest.empty()) return "; nearest known key: " + nearest + "; known keys:" + list;
     const std::vector<std::string> places = places_of(key, root);
     // A word like `name` stands in many places, which helps nobody.
-    if (places.empty() || places.size() > kMostPlaces) return "; known keys:" + list;
+    if (places.empty() || places.size() > kMaxPlaces) return "; known keys:" + list;
     return "; there is " + joined(places) + "; known keys here:" + list;
 }
 
@@ -95,7 +95,7 @@ std::string key_advice(std::string_view whole_key, const Fields& root) {
     const std::string nearest = nearest_of(whole_key, config_keys(root));
     if (!nearest.empty()) return "; nearest: " + nearest;
     const std::vector<std::string> places = places_of(whole_key, root);
-    if (places.empty() || places.size() > kMostPlaces)
+    if (places.empty() || places.size() > kMaxPlaces)
         return "; accepted: a key as `hilcam manual` prints it, as camera.shutter or objects.N.pose";
     return "; there is " + joined(places);
 }

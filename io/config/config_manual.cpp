@@ -129,14 +129,14 @@ void other_defaults(const Entry& section, const Entry& other, const std::string&
     }
 }
 
-constexpr std::size_t kFewestFolded = 4;  // keys of a section that is worth folding
+constexpr std::size_t kMinFolded = 4;  // keys of a section that is worth folding
 
 class ManualTable {
   public:
     explicit ManualTable(const std::vector<Entry>& entries) {
         // Others are like those at the top rather than the other way round.
         for (const Entry& e : entries)
-            if (e.below.size() >= kFewestFolded) seen_.emplace(shape_of(e), &e);
+            if (e.below.size() >= kMinFolded) seen_.emplace(shape_of(e), &e);
         add_all(entries);
     }
     std::string take() { return std::move(out_); }
@@ -144,7 +144,7 @@ class ManualTable {
   private:
     void add(const Entry& e) {
         out_ += "| `" + e.key + "` | " + e.accepted + " | " + e.usual + " | " + e.meaning + " |\n";
-        if (e.below.size() < kFewestFolded) return add_all(e.below);
+        if (e.below.size() < kMinFolded) return add_all(e.below);
         const Entry& like = *seen_.emplace(shape_of(e), &e).first->second;
         if (&like == &e) return add_all(e.below);
         const std::string keys = e.below.front().key.substr(0, e.below.front().key.rfind('.')) + ".*";

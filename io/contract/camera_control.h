@@ -48,14 +48,14 @@ struct CameraLimits {
     int height = 0;
     int bits = 0;                 // of a published DN
     std::string color_pattern{};  // of the colour filter array, its first two rows: "RGGB"; empty: none
-    double least_exposure_s = 0, most_exposure_s = 0;
-    double least_gain_db = 0, most_gain_db = 0;
-    double most_black_level_dn = 0;
-    double least_frame_rate_hz = 0, most_frame_rate_hz = 0;
-    double most_trigger_delay_s = 10;
-    std::int64_t most_burst_frames = 65535;
-    std::int64_t most_binning = 1;  // 1, 2, 4, ... up to this along each axis; 1: fixed
-    double temperature_c = 0;       // of the detector
+    double min_exposure_s = 0, max_exposure_s = 0;
+    double min_gain_db = 0, max_gain_db = 0;
+    double max_black_level_dn = 0;
+    double min_frame_rate_hz = 0, max_frame_rate_hz = 0;
+    double max_trigger_delay_s = 10;
+    std::int64_t max_burst_frames = 65535;
+    std::int64_t max_binning = 1;  // 1, 2, 4, ... up to this along each axis; 1: fixed
+    double temperature_c = 0;      // of the detector
     // The camera sets them itself (a sequence, a line-scan shutter): any change is refused. With automatic
     // exposure on, the exposure is refused too.
     bool exposure_is_own = false, gain_is_own = false, frame_rate_is_own = false;

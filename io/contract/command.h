@@ -83,8 +83,8 @@ struct LampCommand {
     TimeTai time;            // ns = 0: on arrival
     double level = 0;        // 0: off; 1: as its data sheet says
 };
-inline constexpr double kLeastClockScale = 1e-3, kMostClockScale = 1e3;
-inline constexpr std::int64_t kMostClockStep_ns = 10'000'000'000'000'000;  // 116 days
+inline constexpr double kMinClockScale = 1e-3, kMaxClockScale = 1e3;
+inline constexpr std::int64_t kMaxClockStep_ns = 10'000'000'000'000'000;  // 116 days
 
 // In the order of their function codes.
 using Command = std::variant<PoseCommand, SettingsCommand, StartCommand, StopCommand, PingCommand,

@@ -30,7 +30,7 @@ class CommandReceiver {
     virtual bool asks_to_end() const { return false; }
     // To the senders that subscribed to it; never waits for one of them. Any thread but the loop, also before
     // start() and after stop().
-    virtual void tell(const Telemetry& telemetry) noexcept = 0;
+    virtual void notify(const Telemetry& telemetry) noexcept = 0;
 };
 
 // Telemetry on its way to a receiver's own thread. Bounded: the newest is dropped when nobody takes it.
@@ -39,23 +39,23 @@ class TelemetryQueue {
     // False when it is full. Any thread.
     bool put(const Telemetry& telemetry) {
         const std::lock_guard lock(mutex_);
-        if (count_ == kMost) return false;
-        items_[(first_ + count_++) % kMost] = telemetry;
+        if (count_ == kMax) return false;
+        items_[(first_ + count_++) % kMax] = telemetry;
         return true;
     }
     bool take(Telemetry& telemetry) {
         const std::lock_guard lock(mutex_);
         if (count_ == 0) return false;
         telemetry = items_[first_];
-        first_ = (first_ + 1) % kMost;
+        first_ = (first_ + 1) % kMax;
         --count_;
         return true;
     }
 
   private:
-    static constexpr std::size_t kMost = 256;
+    static constexpr std::size_t kMax = 256;
     std::mutex mutex_;
-    std::array<Telemetry, kMost> items_;
+    std::array<Telemetry, kMax> items_;
     std::size_t first_ = 0, count_ = 0;
 };
 

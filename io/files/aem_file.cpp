@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uintmax_t kMostAemBytes = 256u << 20;
+constexpr std::uintmax_t kMaxAemBytes = 256u << 20;
 
 enum class AttitudeType {
     kQuaternion,
@@ -290,7 +290,7 @@ std::vector<AemSegment> read_aem(std::string_view text, const std::string& name,
 }
 
 std::vector<AemSegment> load_aem(const std::filesystem::path& file, const std::string& object) {
-    return read_aem(read_input_file(file, {kMostAemBytes, "an attitude ephemeris message (CCSDS AEM)"}),
+    return read_aem(read_input_file(file, {kMaxAemBytes, "an attitude ephemeris message (CCSDS AEM)"}),
                     file.string(), object);
 }
 

@@ -19,8 +19,8 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kAxes = AtmosphereTable::kAxes;
-constexpr std::size_t kMostCells = 2'000'000;
-constexpr std::uintmax_t kMostTableBytes = std::uintmax_t{4} << 30;  // 2 KiB a cell
+constexpr std::size_t kMaxCells = 2'000'000;
+constexpr std::uintmax_t kMaxTableBytes = std::uintmax_t{4} << 30;  // 2 KiB a cell
 constexpr std::array<const char*, kAxes> kAxisNames = {"sun_zenith_deg", "view_zenith_deg", "azimuth_deg",
                                                        "height_km"};
 constexpr std::array<double, kAxes> kAxisMost = {90, 90, 180, 1e6};
@@ -78,7 +78,7 @@ void require_physical(const std::string& where, const Sample& s) {
 
 // The columns of a run by their names.
 std::vector<Sample> read_run(const std::filesystem::path& file, const Geometry& geometry) {
-    InputStream in(file, {kMostTableBytes, "a MODTRAN text table (tape7.scn)"});
+    InputStream in(file, {kMaxTableBytes, "a MODTRAN text table (tape7.scn)"});
     std::vector<std::string> names;
     std::string line;
     int number = 0;
@@ -141,7 +141,7 @@ std::vector<Sample> read_run(const std::filesystem::path& file, const Geometry& 
 // --- the two kinds of CSV
 
 Samples read_rows(const std::filesystem::path& file) {
-    InputStream in(file, {kMostTableBytes, "a table of an atmosphere in CSV"});
+    InputStream in(file, {kMaxTableBytes, "a table of an atmosphere in CSV"});
     const std::string grid = "sun_zenith_deg,view_zenith_deg,azimuth_deg,height_km,";
     const std::string values = grid + "wavelength_um,tau_1,tau_2,path_radiance_sr,sky_irradiance",
                       runs = grid + "file";
@@ -225,7 +225,7 @@ AtmosphereTable read_atmosphere(const std::filesystem::path& file, const Spectra
         std::sort(axis.begin(), axis.end());
         axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
         cells *= axis.size();
-        if (cells > kMostCells)
+        if (cells > kMaxCells)
             refuse(file.string(), "its geometries make more than two million combinations");
     }
     AtmosphereTable table;

@@ -25,8 +25,8 @@ constexpr std::size_t kRowValues = 5;
 constexpr std::array<std::array<double, 2>, kRowValues> kRanges = {
     {{0, 90}, {0, 180}, {0, 90}, {0.1, 100}, {0, 1e6}}};
 constexpr std::array<const char*, 4> kAxisKeys = {"theta_i_deg", "phi_deg", "theta_o_deg", "wavelength_um"};
-constexpr std::size_t kMostValues = 50'000'000;
-constexpr std::uintmax_t kMostBrdfBytes = std::uintmax_t{4} << 30;  // 80 a value
+constexpr std::size_t kMaxValues = 50'000'000;
+constexpr std::uintmax_t kMaxBrdfBytes = std::uintmax_t{4} << 30;  // 80 a value
 
 using Row = std::array<double, kRowValues>;
 
@@ -63,7 +63,7 @@ struct Sheet {
 };
 
 Sheet read_sheet(const std::filesystem::path& file) {
-    InputStream in(file, {kMostBrdfBytes, "a BRDF in CSV"});
+    InputStream in(file, {kMaxBrdfBytes, "a BRDF in CSV"});
     Sheet sheet;
     std::string line;
     bool headed = false;
@@ -82,7 +82,7 @@ Sheet read_sheet(const std::filesystem::path& file) {
         if (!parse_row(line, row))
             throw InputError(at() + "found " + in_quotes(line) + "; accepted: " + std::string(kHeader) +
                              " with angles of 0 to 90 (phi to 180) and a value from 0");
-        if (sheet.rows.size() >= kMostValues) throw InputError(at() + "more than 50 million values");
+        if (sheet.rows.size() >= kMaxValues) throw InputError(at() + "more than 50 million values");
         sheet.rows.push_back(row);
     }
     if (sheet.rows.empty()) refuse(file, "holds no value");
@@ -114,7 +114,7 @@ BrdfTable read_csv(const std::filesystem::path& file, const SpectralGrid& grid) 
     std::size_t cells = 1;
     for (const auto& axis : sheet.axes) {
         cells *= axis.size();
-        if (cells > kMostValues)
+        if (cells > kMaxValues)
             refuse(file, "its angles and wavelengths make more than 50 million combinations");
     }
     std::vector<double> values(cells, -1);
@@ -147,7 +147,7 @@ BrdfTable read_csv(const std::filesystem::path& file, const SpectralGrid& grid) 
 BrdfTable read_merl(const std::filesystem::path& file, const SpectralGrid& grid) {
     constexpr std::size_t kThetaH = 90, kThetaD = 90, kPhiD = 180, kCells = kThetaH * kThetaD * kPhiD;
     constexpr std::size_t kBytes = 3 * sizeof(std::int32_t) + 3 * kCells * sizeof(double);
-    InputStream in(file, {kMostBrdfBytes, "a BRDF in MERL's binary format"});
+    InputStream in(file, {kMaxBrdfBytes, "a BRDF in MERL's binary format"});
     if (in.bytes() != kBytes)
         refuse(file,
                "has " + std::to_string(in.bytes()) + " bytes; a MERL BRDF has " + std::to_string(kBytes));

@@ -15,7 +15,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uintmax_t kMostCatalogueBytes = std::uintmax_t{1} << 30;  // ten times Tycho-2's stars
+constexpr std::uintmax_t kMaxCatalogueBytes = std::uintmax_t{1} << 30;  // ten times Tycho-2's stars
 constexpr double kMas_rad = kArcsecond_rad * 1e-3;
 
 struct Column {
@@ -99,7 +99,7 @@ bool parse_row(std::string_view line, const std::vector<const Column*>& columns,
 }  // namespace
 
 StarCatalogue load_catalogue(const std::filesystem::path& file) {
-    InputStream in(file, {kMostCatalogueBytes, "a star catalogue in CSV"});
+    InputStream in(file, {kMaxCatalogueBytes, "a star catalogue in CSV"});
     StarCatalogue catalogue;
     std::vector<const Column*> columns;
     std::string text;

@@ -196,10 +196,10 @@ Interpolation KvnSection::interpolation(const TextLines& lines, std::string_view
     const auto number = integer_of(require(lines, "INTERPOLATION_DEGREE").value);
     const bool odd = number && *number % 2 == 1;
     const bool linear = out.method == InterpolationMethod::kLinear;
-    if (!number || *number < 1 || *number > (linear ? 1 : kMostInterpolationDegree) ||
+    if (!number || *number < 1 || *number > (linear ? 1 : kMaxInterpolationDegree) ||
         (out.method == InterpolationMethod::kHermite && !odd))
         lines.refuse(degree->value,
-                     "INTERPOLATION_DEGREE 1 to " + std::to_string(kMostInterpolationDegree) +
+                     "INTERPOLATION_DEGREE 1 to " + std::to_string(kMaxInterpolationDegree) +
                          ", odd with HERMITE, 1 with LINEAR",
                      degree->line);
     out.degree = *number;

@@ -56,7 +56,7 @@ struct Interpolation {
     InterpolationMethod method = InterpolationMethod::kUnsaid;
     int degree = 0;
 };
-inline constexpr int kMostInterpolationDegree = 31;
+inline constexpr int kMaxInterpolationDegree = 31;
 // How many states it takes: degree + 1, of Hermite half as many, as each has a rate, too.
 int interpolation_nodes(const Interpolation& interpolation);
 
@@ -88,14 +88,14 @@ class KvnSection {
 // Samples have a `time`; line: of the segment.
 template <class Sample>
 void check_steps(const TextLines& lines, const std::vector<Sample>& samples, int line) {
-    std::int64_t least_ns = INT64_MAX, most_ns = 0;
+    std::int64_t min_ns = INT64_MAX, max_ns = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) {
         const std::int64_t step_ns = samples[i].time - samples[i - 1].time;
-        least_ns = std::min(least_ns, step_ns), most_ns = std::max(most_ns, step_ns);
+        min_ns = std::min(min_ns, step_ns), max_ns = std::max(max_ns, step_ns);
     }
-    if (most_ns / 1'000'000 > least_ns)
-        lines.fail("the segment that begins here has steps of time from " + std::to_string(least_ns) +
-                       " to " + std::to_string(most_ns) + " ns; accepted: within a factor of a million",
+    if (max_ns / 1'000'000 > min_ns)
+        lines.fail("the segment that begins here has steps of time from " + std::to_string(min_ns) + " to " +
+                       std::to_string(max_ns) + " ns; accepted: within a factor of a million",
                    line);
 }
 

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostDigits = 20, kMostLength = 200;
+constexpr std::size_t kMaxDigits = 20, kMaxLength = 200;
 
 std::string padded(const std::string& number, std::size_t digits) {
     return std::string(digits - std::min(digits, number.size()), '0') + number;
@@ -33,9 +33,9 @@ std::size_t digits_of(std::string_view text, std::string_view pattern) {
     std::size_t digits = 1;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), digits);
     if (!text.empty() && (read.ec != std::errc() || read.ptr != text.data() + text.size() || digits < 1 ||
-                          digits > kMostDigits))
+                          digits > kMaxDigits))
         throw InputError("name: " + in_quotes(pattern) + " has a number of " + in_quotes(text) +
-                         " digits; accepted: 1 to " + std::to_string(kMostDigits));
+                         " digits; accepted: 1 to " + std::to_string(kMaxDigits));
     return digits;
 }
 
@@ -47,8 +47,8 @@ FileNamePattern::FileNamePattern(std::string_view pattern, std::string_view endi
     };
     if (pattern.find('/') != std::string_view::npos)
         refuse("accepted: a name without folders, which is `folder`");
-    if (pattern.empty() || pattern.size() > kMostLength)
-        refuse("accepted: 1 to " + std::to_string(kMostLength) + " characters");
+    if (pattern.empty() || pattern.size() > kMaxLength)
+        refuse("accepted: 1 to " + std::to_string(kMaxLength) + " characters");
     std::string_view stem = pattern;
     if (stem.ends_with(ending)) stem.remove_suffix(ending.size());
     for (const std::string_view other : {".png", ".tiff", ".tif", ".raw", ".fits", ".fit"})

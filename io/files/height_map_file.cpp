@@ -16,7 +16,7 @@ namespace hilcam {
 namespace {
 
 // The most that columns and rows can ask for: a map is not read whole.
-constexpr std::uintmax_t kMostHeightBytes = 4'000'000'000'000;
+constexpr std::uintmax_t kMaxHeightBytes = 4'000'000'000'000;
 
 // A file of another format that is often taken for raw heights, and how heights come out of it; empty: none
 // of them. TIFF 6.0 and BigTIFF begin with their byte order and 42 or 43, PDS3 labels with their version.
@@ -46,7 +46,7 @@ class MappedHeights final : public HeightMap {
           scale_(static_cast<float>(c.scale)),
           offset_m_(static_cast<float>(c.offset_m)) {
         const auto refuse = [&](const std::string& what) { throw InputError(c.file.string() + ": " + what); };
-        const InputFile in = open_input_file(c.file, {kMostHeightBytes, "a raw file of heights"});
+        const InputFile in = open_input_file(c.file, {kMaxHeightBytes, "a raw file of heights"});
         if (const std::string other = format_with_heights_inside(in.fd.get()); !other.empty()) refuse(other);
         size_ = static_cast<std::size_t>(c.columns) * static_cast<std::size_t>(c.rows) * bytes_each();
         if (in.bytes != size_)

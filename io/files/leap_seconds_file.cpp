@@ -9,7 +9,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uintmax_t kMostListBytes = 1u << 20;
+constexpr std::uintmax_t kMaxListBytes = 1u << 20;
 constexpr std::int64_t kSecondsPerDay = 86400;
 // From NTP's epoch, 1900-01-01, to 1970-01-01 (RFC 5905).
 constexpr std::int64_t kNtpToUnix_s = 2208988800;
@@ -73,7 +73,7 @@ LeapSecondsFile read_leap_seconds(std::string_view text, const std::string& name
 }
 
 LeapSecondsFile load_leap_seconds(const std::filesystem::path& file) {
-    return read_leap_seconds(read_input_file(file, {kMostListBytes, "the IERS's leap-seconds.list"}),
+    return read_leap_seconds(read_input_file(file, {kMaxListBytes, "the IERS's leap-seconds.list"}),
                              file.string());
 }
 

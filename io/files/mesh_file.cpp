@@ -14,8 +14,8 @@ namespace hilcam {
 namespace {
 
 // What any mesh may take: a node or a material is a kilobyte and more, and libraries have tables.
-constexpr std::uint64_t kLeastMemory_bytes = std::uint64_t{512} << 20;
-constexpr double kLeastCpu_s = 10;
+constexpr std::uint64_t kMinMemory_bytes = std::uint64_t{512} << 20;
+constexpr double kMinCpu_s = 10;
 
 void write_surface(const MeshSurface& s, ConfinedOutput& out) {
     out.text(s.name);
@@ -127,8 +127,8 @@ ConfinedResult read_confined(const std::filesystem::path& file, const Work& work
         throw InputError(file.string() + ": found a file of kind " + in_quotes(kind) +
                          "; accepted: .glb .gltf .obj .stl .ply");
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
-    const ConfinedLimits limits{kLeastMemory_bytes + kMeshMemoryPerByte * bytes,
-                                kLeastCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
+    const ConfinedLimits limits{kMinMemory_bytes + kMeshMemoryPerByte * bytes,
+                                kMinCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
     return run_confined(file.string(), limits, [&](ConfinedOutput& out) { work(kind, out); });
 }
 

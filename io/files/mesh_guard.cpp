@@ -42,8 +42,8 @@ class NodeCounter {
         for (const json& index : list) {
             if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= seen_.size()) continue;
             count += count_at(static_cast<std::size_t>(index.get<std::uint64_t>()), depth);
-            if (count > kMostNodes)
-                refuse(name_, "has more than " + std::to_string(kMostNodes) +
+            if (count > kMaxNodes)
+                refuse(name_, "has more than " + std::to_string(kMaxNodes) +
                                   " nodes, each counted as often as another has it as a child");
         }
         return count;
@@ -122,13 +122,13 @@ void ObjMaterials::add(std::string_view text, const std::string& name) {
         const std::string_view material = trimmed(line.substr(6));
         if (names_.find(material) != names_.end()) continue;
         names_.emplace(material);
-        if (names_.size() > kMostMaterials) refuse_materials(names_.size(), name);
+        if (names_.size() > kMaxMaterials) refuse_materials(names_.size(), name);
     }
 }
 
 void refuse_materials(std::size_t found, const std::string& name) {
     refuse(name, "has " + std::to_string(found) + " materials or more; accepted: at most " +
-                     std::to_string(kMostMaterials));
+                     std::to_string(kMaxMaterials));
 }
 
 }  // namespace hilcam

@@ -12,13 +12,13 @@
 namespace hilcam {
 
 // More than any exporter makes, and few enough for readers that search them one by one.
-inline constexpr std::size_t kMostMaterials = 10'000;
+inline constexpr std::size_t kMaxMaterials = 10'000;
 // assimp triangulates a polygon in a time that grows with the square of its corners: here about a second.
-inline constexpr std::size_t kMostCorners = 10'000;
+inline constexpr std::size_t kMaxCorners = 10'000;
 // A node is more than a kilobyte in memory.
-inline constexpr std::uint64_t kMostNodes = 200'000;
+inline constexpr std::uint64_t kMaxNodes = 200'000;
 // 120 bytes each in memory, before the tree of the ray tracer.
-inline constexpr std::uint64_t kMostTriangles = 100'000'000;
+inline constexpr std::uint64_t kMaxTriangles = 100'000'000;
 
 // What is in a binary glTF: its parts lie in the file, or it is refused. `binary` is empty without that
 // chunk.

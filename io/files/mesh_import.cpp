@@ -28,7 +28,7 @@ namespace hilcam {
 namespace {
 
 // All textures of a file together have at most so many: 3 GB of colours.
-constexpr std::uint64_t kMostTexels = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxTexels = std::uint64_t{1} << 30;
 // Vertices, normals, places on textures, corners, and the same once more as assimp has them.
 constexpr std::uint64_t kBytesPerTriangle = 250;
 
@@ -111,8 +111,8 @@ class Loader {
             path, file_.string() + ": texture " + in_quotes(path) + " of material " + in_quotes(material));
         texture.name = path;
         texels_ += texture.texels.size();
-        if (texels_ > kMostTexels)
-            refuse(file_, "its textures have more than " + std::to_string(kMostTexels) + " pixels together");
+        if (texels_ > kMaxTexels)
+            refuse(file_, "its textures have more than " + std::to_string(kMaxTexels) + " pixels together");
         mesh_.textures.push_back(std::move(texture));
         return texture_index_[path] = static_cast<int>(mesh_.textures.size()) - 1;
     }
@@ -313,22 +313,22 @@ std::uint64_t placed_triangles(const aiNode& node, const std::vector<std::uint64
 
 // Called before anything is computed of it.
 void require_few(const aiScene& scene, const std::filesystem::path& file) {
-    if (scene.mNumMaterials > kMostMaterials) refuse_materials(scene.mNumMaterials, file.string());
+    if (scene.mNumMaterials > kMaxMaterials) refuse_materials(scene.mNumMaterials, file.string());
     std::vector<std::uint64_t> of_mesh(scene.mNumMeshes);
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
         const aiMesh& mesh = *scene.mMeshes[i];
         for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
             const unsigned corners = mesh.mFaces[k].mNumIndices;
-            if (corners > kMostCorners)
+            if (corners > kMaxCorners)
                 refuse(file, "has a polygon of " + std::to_string(corners) + " corners; accepted: at most " +
-                                 std::to_string(kMostCorners));
+                                 std::to_string(kMaxCorners));
             of_mesh[i] += std::max(3u, corners) - 2;
         }
     }
     const std::uint64_t triangles = scene.mRootNode ? placed_triangles(*scene.mRootNode, of_mesh) : 0;
-    if (triangles > kMostTriangles)
+    if (triangles > kMaxTriangles)
         refuse(file, "has " + std::to_string(triangles) + " triangles; accepted: at most " +
-                         std::to_string(kMostTriangles));
+                         std::to_string(kMaxTriangles));
     allow_more(kBytesPerTriangle * triangles, 1e-6 * static_cast<double>(triangles));
 }
 

@@ -7,7 +7,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::uintmax_t kMostOemBytes = 256u << 20;
+constexpr std::uintmax_t kMaxOemBytes = 256u << 20;
 constexpr double kKilometre_m = 1000;
 
 void read_header(KvnLines& lines, KvnLine& line) {
@@ -141,7 +141,7 @@ std::vector<OemSegment> read_oem(std::string_view text, const std::string& name,
 }
 
 std::vector<OemSegment> load_oem(const std::filesystem::path& file, const std::string& object) {
-    return read_oem(read_input_file(file, {kMostOemBytes, "an orbit ephemeris message (CCSDS OEM)"}),
+    return read_oem(read_input_file(file, {kMaxOemBytes, "an orbit ephemeris message (CCSDS OEM)"}),
                     file.string(), object);
 }
 

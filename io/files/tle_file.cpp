@@ -12,7 +12,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kLineColumns = 69;
-constexpr std::uintmax_t kMostTleBytes = 16u << 20;
+constexpr std::uintmax_t kMaxTleBytes = 16u << 20;
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kMinutesPerDay = 1440;
 
@@ -151,7 +151,7 @@ std::vector<Tle> read_tles(std::string_view text, const std::string& name, TleCh
 }
 
 std::vector<Tle> load_tles(const std::filesystem::path& file, TleChecksum checksum) {
-    return read_tles(read_input_file(file, {kMostTleBytes, "a file of two-line element sets"}), file.string(),
+    return read_tles(read_input_file(file, {kMaxTleBytes, "a file of two-line element sets"}), file.string(),
                      checksum);
 }
 

@@ -22,7 +22,7 @@ Fd open_broadcast(std::uint32_t address) {
     }
 }
 
-void tell_interfaces(const Fd& socket) {
+void report_interfaces(const Fd& socket) {
     const int on = 1;
     if (socket) setsockopt(socket.get(), IPPROTO_IP, IP_PKTINFO, &on, sizeof on);
 }
@@ -71,7 +71,8 @@ GigeSockets::GigeSockets(const NetInterface& net)
       message_(open_udp(net.address, 0)) {
     broadcast_[0] = open_broadcast(INADDR_BROADCAST);
     if (net.mask != 0xFFFFFFFF) broadcast_[1] = open_broadcast(net.address | ~net.mask);
-    for (const Fd* socket : {&control_, &message_, &broadcast_[0], &broadcast_[1]}) tell_interfaces(*socket);
+    for (const Fd* socket : {&control_, &message_, &broadcast_[0], &broadcast_[1]})
+        report_interfaces(*socket);
     const int on = 1;  // an answer may be for everybody
     setsockopt(control_.get(), SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
     sockaddr_in own{};

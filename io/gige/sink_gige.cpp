@@ -18,12 +18,12 @@ namespace {
 
 // Clients ask again for packets up to some 100 ms old (Aravis' frame_retention).
 constexpr double kKept_s = 0.2;
-constexpr double kMostRingBytes = 512e6;
+constexpr double kMaxRingBytes = 512e6;
 
 std::size_t slots_for(double frame_rate_hz, std::size_t bytes_each) {
-    const double wanted = std::min(std::ceil(kKept_s * frame_rate_hz) + GigeRing::kMostWaiting + 1,
-                                   kMostRingBytes / static_cast<double>(bytes_each));
-    return std::max(GigeRing::kLeastSlots, static_cast<std::size_t>(wanted));
+    const double wanted = std::min(std::ceil(kKept_s * frame_rate_hz) + GigeRing::kMaxWaiting + 1,
+                                   kMaxRingBytes / static_cast<double>(bytes_each));
+    return std::max(GigeRing::kMinSlots, static_cast<std::size_t>(wanted));
 }
 
 // Packets longer than the link's MTU would be cut up by the kernel, and most clients' filters lose such.
@@ -103,7 +103,7 @@ struct GigeSink::Implementation {
 
     void serve_control();
     void tell_device(std::int64_t now_ns);
-    void tell(const CameraEvent& event, std::uint64_t block) {
+    void notify(const CameraEvent& event, std::uint64_t block) {
         if (!events.push({event, block})) events_dropped.fetch_add(1, std::memory_order_relaxed);
         wake(wakeup);
     }
@@ -206,7 +206,7 @@ void GigeSink::Implementation::move_to_next_sockets() {
 
 void GigeSink::Implementation::serve_control() {
     make_thread_urgent();
-    std::array<std::uint8_t, gvcp::kMostDatagramBytes> out;
+    std::array<std::uint8_t, gvcp::kMaxDatagramBytes> out;
     const GigeSockets::Receive answer = [&](std::span<const std::uint8_t> datagram, Endpoint from,
                                             bool broadcast) {
         const std::int64_t now_ns = monotonic_ns();
@@ -246,7 +246,7 @@ void GigeSink::Implementation::tell_device(std::int64_t now_ns) {
 GigeSink::GigeSink(const GigeConfig& config, const SinkContext& context) {
     const CameraLimits limits = context.camera.limits();
     const std::size_t bytes =
-        most_payload_bytes(limits.width, limits.height, limits.color_pattern, config.multipart);
+        max_payload_bytes(limits.width, limits.height, limits.color_pattern, config.multipart);
     implementation_ = std::make_unique<Implementation>(config, context, limits, bytes);
 }
 GigeSink::~GigeSink() { stop(); }
@@ -264,7 +264,7 @@ void GigeSink::publish(const DnImage& frame, const FrameRecord& record) noexcept
     Implementation& my = *implementation_;
     const GigeStreamNow& now = my.for_loop.read();
     const std::uint64_t block = my.writer.admit(frame, record, now);
-    if (my.exposure_end) my.tell(*my.exposure_end, my.exposure_end->frame == record.id ? block : 0);
+    if (my.exposure_end) my.notify(*my.exposure_end, my.exposure_end->frame == record.id ? block : 0);
     my.exposure_end.reset();
     const GigeFrameWriter::Outcome outcome = my.writer.write(frame, record, now, block);
     if (outcome.written) my.sender.frame_ready();
@@ -286,7 +286,7 @@ void GigeSink::happened(const CameraEvent& event) noexcept {
     if (event.kind == CameraEvent::Kind::kExposureEnd)
         my.exposure_end = event;
     else
-        my.tell(event, 0);
+        my.notify(event, 0);
 }
 
 void GigeSink::stop() noexcept {

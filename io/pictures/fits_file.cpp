@@ -61,11 +61,11 @@ class Cards {
     }
     // Section 4.4.2.4: as many cards as it takes.
     void comment(const std::string& words) {
-        constexpr std::size_t kMost = 72;
+        constexpr std::size_t kMax = 72;
         std::istringstream in(printable(words));
         std::string line;
         for (std::string word; in >> word; line.append(line.empty() ? "" : " ").append(word)) {
-            if (line.size() + 1 + word.size() <= kMost) continue;
+            if (line.size() + 1 + word.size() <= kMax) continue;
             add("COMMENT " + line);
             line.clear();
         }

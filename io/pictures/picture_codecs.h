@@ -34,7 +34,7 @@ class PictureFault : public std::runtime_error {
 // "does not decode (libpng: bad CRC); accepted: ..."; reason may be empty.
 [[nodiscard]] PictureFault undecodable(const std::string& reason);
 
-// PictureFault when a picture would have more than kMostPicturePixels pixels, or none.
+// PictureFault when a picture would have more than kMaxPicturePixels pixels, or none.
 void require_few_pixels(std::uint64_t width, std::uint64_t height);
 // A black texture of that size, which is required to be one of few pixels.
 Texture blank_texture(std::uint64_t width, std::uint64_t height);

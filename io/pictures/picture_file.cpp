@@ -121,7 +121,7 @@ PixelMap read_pixel_map(const std::filesystem::path& file, bool any_sign) {
     });
     const int width = result.value<int>(), height = result.value<int>();
     if (width < 1 || height < 1 ||
-        static_cast<std::uint64_t>(width) > kMostPicturePixels / static_cast<std::uint64_t>(height))
+        static_cast<std::uint64_t>(width) > kMaxPicturePixels / static_cast<std::uint64_t>(height))
         result.refuse();
     PixelMap map(width, height);
     for (int y = 0; y < height; ++y) {

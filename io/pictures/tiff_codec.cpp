@@ -81,7 +81,7 @@ OpenTiff open_port(TiffPort& port, const char* mode) {
     const std::unique_ptr<TIFFOpenOptions, Close> options(TIFFOpenOptionsAlloc());
     if (!options) throw std::bad_alloc();
     // One strip of the largest picture, four samples of 16 bits a pixel.
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(8 * kMostPicturePixels));
+    TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(8 * kMaxPicturePixels));
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_complaint, &port);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), pass_over, nullptr);
     return OpenTiff(TIFFClientOpenExt("picture", mode, &port, read_tiff, write_tiff, seek_port, close_port,
@@ -161,7 +161,7 @@ void read_rows(TIFF* tiff, const TiffPort& port, const NumberLayout& l, PixelMap
 void read_tiles(TIFF* tiff, const TiffPort& port, const NumberLayout& l, PixelMap& map) {
     const std::uint32_t across = field(tiff, TIFFTAG_TILEWIDTH), down = field(tiff, TIFFTAG_TILELENGTH);
     const std::uint64_t bytes = std::uint64_t{across} * down * l.bytes_px();
-    if (bytes == 0 || bytes > 8 * kMostPicturePixels || TIFFTileSize64(tiff) != bytes)
+    if (bytes == 0 || bytes > 8 * kMaxPicturePixels || TIFFTileSize64(tiff) != bytes)
         throw undecodable("libtiff: tiles of another size");
     std::vector<std::uint8_t> tile(bytes);
     for (std::uint64_t top = 0; top < l.height; top += down)

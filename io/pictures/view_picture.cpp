@@ -11,7 +11,7 @@ namespace hilcam {
 namespace {
 
 constexpr double kGamma = 2.2;
-constexpr double kLit = 1.0 / 64, kLeastSpan = 1.0 / 16, kWhiteShare = 0.995;
+constexpr double kLit = 1.0 / 64, kMinSpan = 1.0 / 16, kWhiteShare = 0.995;
 
 double linear_dn(std::size_t dn, const DnScale& scale) {
     if (!scale.square_root) return static_cast<double>(dn);
@@ -82,7 +82,7 @@ ViewLevels PictureView::levels_of(const DnImage& frame, const DnScale& scale) co
         white_dn = linear_dn(dn, scale);
     }
     return {scale.black_dn,
-            std::clamp(white_dn, scale.black_dn + kLeastSpan * full_span, scale.black_dn + full_span)};
+            std::clamp(white_dn, scale.black_dn + kMinSpan * full_span, scale.black_dn + full_span)};
 }
 
 PictureSamples PictureView::make(const DnImage& frame, const FrameRecord& record) {

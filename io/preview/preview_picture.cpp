@@ -57,7 +57,7 @@ PictureRequest fit_to_frame(PictureRequest r, int width, int height) {
     const auto too_many = [&](int step) {
         return std::int64_t{blocks(right - r.x / step * step, step)} *
                    blocks(bottom - r.y / step * step, step) >
-               kMostPictureSamples;
+               kMaxPictureSamples;
     };
     while (too_many(r.step)) ++r.step;
     r.x = r.x / r.step * r.step, r.y = r.y / r.step * r.step;

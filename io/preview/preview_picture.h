@@ -13,7 +13,7 @@ namespace hilcam {
 
 inline constexpr std::size_t kPictureHeaderBytes = 208;
 // The most samples of one answer: larger parts are reduced further.
-inline constexpr std::int64_t kMostPictureSamples = 1 << 21;
+inline constexpr std::int64_t kMaxPictureSamples = 1 << 21;
 
 struct PictureSource {
     std::span<const std::uint16_t> samples;  // width x height

@@ -17,7 +17,7 @@ namespace hilcam {
 
 class BoundedPool {
   public:
-    BoundedPool(std::size_t workers, std::size_t most_waiting) : most_waiting_(most_waiting) {
+    BoundedPool(std::size_t workers, std::size_t max_waiting) : max_waiting_(max_waiting) {
         for (std::size_t i = 0; i < workers; ++i) threads_.emplace_back([this] { work(); });
     }
     ~BoundedPool() { stop(); }
@@ -25,7 +25,7 @@ class BoundedPool {
     // Waits for room.
     void add(std::function<void()> job) {
         std::unique_lock lock(mutex_);
-        room_.wait(lock, [&] { return jobs_.size() < most_waiting_; });
+        room_.wait(lock, [&] { return jobs_.size() < max_waiting_; });
         jobs_.push_back(std::move(job));
         jobs_there_.notify_one();
     }
@@ -56,7 +56,7 @@ class BoundedPool {
         }
     }
 
-    std::size_t most_waiting_;
+    std::size_t max_waiting_;
     std::mutex mutex_;
     std::condition_variable jobs_there_, room_;
     std::deque<std::function<void()>> jobs_;

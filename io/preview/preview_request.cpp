@@ -12,9 +12,9 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostFields = 32;
+constexpr std::size_t kMaxFields = 32;
 constexpr int kLongestSide_px = 1 << 20;
-constexpr int kMostStep = 256;
+constexpr int kMaxStep = 256;
 
 constexpr std::array<std::string_view, 3> kSources = {"software", "line0", "action1"};
 enum class NumbersFormat { kPng, kTiff };
@@ -89,8 +89,8 @@ FormFields parse_form(std::string_view text) {
         const std::size_t equals = field.find('=');
         if (equals == std::string_view::npos || equals == 0)
             throw InputError("'" + std::string(field.substr(0, 40)) + "' is not KEY=VALUE");
-        if (fields.size() == kMostFields)
-            throw InputError("more than " + std::to_string(kMostFields) + " keys in a request");
+        if (fields.size() == kMaxFields)
+            throw InputError("more than " + std::to_string(kMaxFields) + " keys in a request");
         fields.emplace_back(field.substr(0, equals), field.substr(equals + 1));
     }
     return fields;
@@ -113,7 +113,7 @@ PictureRequest parse_picture_request(std::string_view query) {
         else if (key == "height")
             r.height = pixels(key, text);
         else if (key == "step")
-            r.step = parse_number<int>(key, text, 1, kMostStep);
+            r.step = parse_number<int>(key, text, 1, kMaxStep);
         else if (key == "hold")
             r.hold = parse_flag(key, text);
         else if (key == "truth")

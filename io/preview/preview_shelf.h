@@ -20,15 +20,15 @@ class PreviewShelf {
   public:
     using Frame = std::shared_ptr<const PreviewSlot::Frame>;
     // A frozen frame stays until so many others have been frozen.
-    static constexpr std::size_t kMostFrames = 4;
+    static constexpr std::size_t kMaxFrames = 4;
     // A frame's truth is asked for as soon as the frame is there.
-    static constexpr std::size_t kMostLines = 8;
+    static constexpr std::size_t kMaxLines = 8;
 
     void keep(const PreviewSlot::Frame& frame) {
         auto copy = std::make_shared<const PreviewSlot::Frame>(frame);
         const std::lock_guard lock(mutex_);
         std::erase_if(frames_, [&](const Frame& f) { return f->record.id == frame.record.id; });
-        if (frames_.size() == kMostFrames) frames_.pop_front();
+        if (frames_.size() == kMaxFrames) frames_.pop_front();
         frames_.push_back(std::move(copy));
     }
     // Null when it is not, or no longer, here.
@@ -42,7 +42,7 @@ class PreviewShelf {
     void put_line(std::uint64_t frame, std::string line) {
         {
             const std::lock_guard lock(mutex_);
-            if (lines_.size() == kMostLines) lines_.pop_front();
+            if (lines_.size() == kMaxLines) lines_.pop_front();
             lines_.emplace_back(frame, std::move(line));
         }
         news_.notify_all();

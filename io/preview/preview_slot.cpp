@@ -13,10 +13,10 @@ void become_preview_thread() noexcept {
     pthread_setname_np(pthread_self(), kPreviewThreadName);
 }
 
-PreviewSlot::PreviewSlot(std::size_t most_samples, std::chrono::nanoseconds least_interval)
-    : least_interval_(least_interval) {
-    incoming_.samples.resize(most_samples);
-    shown_.samples.resize(most_samples);
+PreviewSlot::PreviewSlot(std::size_t max_samples, std::chrono::nanoseconds min_interval)
+    : min_interval_(min_interval) {
+    incoming_.samples.resize(max_samples);
+    shown_.samples.resize(max_samples);
 }
 
 void PreviewSlot::start() {
@@ -68,7 +68,7 @@ void PreviewSlot::hand_over() {
         std::swap(incoming_, shown_);
         state_.store(State::kIdle, std::memory_order_release);
         news_.notify_all();
-        asked_.wait_for(lock, least_interval_, [&] { return stopping_; });
+        asked_.wait_for(lock, min_interval_, [&] { return stopping_; });
     }
 }
 

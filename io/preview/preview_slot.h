@@ -33,8 +33,8 @@ class PreviewSlot {
         FrameRecord record;
     };
 
-    // Room for frames of up to `most_samples`; at most one copy per `least_interval`.
-    PreviewSlot(std::size_t most_samples, std::chrono::nanoseconds least_interval);
+    // Room for frames of up to `max_samples`; at most one copy per `min_interval`.
+    PreviewSlot(std::size_t max_samples, std::chrono::nanoseconds min_interval);
     ~PreviewSlot() { stop(); }
 
     void start();
@@ -79,7 +79,7 @@ class PreviewSlot {
     void hand_over();
     void ask_for_truth(Clock::time_point deadline);
 
-    std::chrono::nanoseconds least_interval_;
+    std::chrono::nanoseconds min_interval_;
     std::atomic<State> state_{State::kIdle};
     Frame incoming_;
     std::counting_semaphore<> full_{0};

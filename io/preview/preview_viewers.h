@@ -13,7 +13,7 @@ namespace hilcam {
 class PreviewViewers {
   public:
     static constexpr std::chrono::milliseconds kInterval{66};  // 15 pictures/s
-    static constexpr std::size_t kMost = 16;
+    static constexpr std::size_t kMax = 16;
 
     // Waits so that a viewer gets no more than 15 answers a second. False when there are too many
     // viewers or requests.
@@ -24,7 +24,7 @@ class PreviewViewers {
             const auto now = Clock::now();
             std::erase_if(turns_, [&](const auto& v) { return now - v.second > kForgotten; });
             const auto known = turns_.find(viewer);
-            if (known == turns_.end() && turns_.size() == kMost) return false;
+            if (known == turns_.end() && turns_.size() == kMax) return false;
             turn = known == turns_.end() ? now : std::max(now, known->second + kInterval);
             // Many requests of one viewer at once: they may not queue up.
             if (turn - now > 2 * kInterval) return false;

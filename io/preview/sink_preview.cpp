@@ -29,9 +29,9 @@ constexpr auto kTruthPoll = 1s;
 // A viewer has a poll for pictures and one for figures under way, and now and then an order.
 constexpr std::size_t kWorkers = 24;
 // Those who dawdle with their requests are ended together, however many: so many do not keep others out.
-constexpr std::size_t kMostWaiting = 232;
+constexpr std::size_t kMaxWaiting = 232;
 constexpr int kBacklog = 128;  // in the kernel, behind those
-constexpr std::size_t kMostBody_bytes = 4096;
+constexpr std::size_t kMaxBody_bytes = 4096;
 
 // Browsers send less than 2 KB, at once; a picture over a slow line takes its time.
 ConnectionGuard::Limits connection_limits(const AllowList& allow) {
@@ -56,7 +56,7 @@ class Workers : public httplib::TaskQueue {
     void shutdown() override { pool_.stop(); }
 
   private:
-    BoundedPool pool_{kWorkers, kMostWaiting};
+    BoundedPool pool_{kWorkers, kMaxWaiting};
 };
 
 std::string machine_name() {
@@ -81,7 +81,7 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
 
 void refuse_crowd(httplib::Response& response) {
     refuse(response, 429,
-           "accepted: " + std::to_string(PreviewViewers::kMost) + " viewers, 15 requests/s each");
+           "accepted: " + std::to_string(PreviewViewers::kMax) + " viewers, 15 requests/s each");
 }
 
 std::string_view query_of(const httplib::Request& request) {
@@ -90,7 +90,7 @@ std::string_view query_of(const httplib::Request& request) {
                                          : std::string_view(request.target).substr(question + 1);
 }
 
-std::size_t most_samples(const CameraLimits& limits) {
+std::size_t max_samples(const CameraLimits& limits) {
     return static_cast<std::size_t>(limits.width) * static_cast<std::size_t>(limits.height);
 }
 
@@ -116,7 +116,7 @@ struct PreviewSink::Implementation {
           run(std::move(r)),
           status(std::move(s)),
           color_pattern(sink_context.camera.limits().color_pattern),
-          slot(most_samples(sink_context.camera.limits()), PreviewViewers::kInterval) {}
+          slot(max_samples(sink_context.camera.limits()), PreviewViewers::kInterval) {}
 
     PreviewConfig config;
     AllowList allow;
@@ -161,8 +161,8 @@ bool PreviewSink::Implementation::refuse_stranger(const httplib::Request& reques
         refuse(response, 403, "the header Origin is not http://" + host);
     } else if (request.has_header("Transfer-Encoding")) {
         refuse(response, 411, "accepted: requests with Content-Length");
-    } else if (body_bytes(request) > kMostBody_bytes) {
-        refuse(response, 413, "accepted: up to " + std::to_string(kMostBody_bytes) + " bytes");
+    } else if (body_bytes(request) > kMaxBody_bytes) {
+        refuse(response, 413, "accepted: up to " + std::to_string(kMaxBody_bytes) + " bytes");
     } else {
         return false;
     }
@@ -319,7 +319,7 @@ void PreviewSink::start() {
     i.server.set_keep_alive_timeout(2);
     i.server.set_read_timeout(2s);
     i.server.set_write_timeout(5s);
-    i.server.set_payload_max_length(kMostBody_bytes);
+    i.server.set_payload_max_length(kMaxBody_bytes);
     i.server.set_tcp_nodelay(true);
     // The library's own options let two programs share the port.
     int listening = -1;

@@ -2,7 +2,7 @@
 // A web page with the live picture, the run's figures, the camera's settings and fault buttons
 // (docs/preview.md; the page itself is io/preview/).
 //
-// The loop copies a frame only when somebody is looking, and at most kMostPictures_hz times a second: while
+// The loop copies a frame only when somebody is looking, and at most kMaxPictures_hz times a second: while
 // nobody looks, publish() is one atomic load. The server's threads cut and reduce the copy, at a lower
 // priority than the loop's.
 //

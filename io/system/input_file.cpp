@@ -58,9 +58,9 @@ InputFile open_input_file(const std::filesystem::path& file, const InputKind& ki
     InputFile out{Fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)), 0};
     require_regular(out.fd ? fstat(out.fd.get(), &found) : -1);
     out.bytes = static_cast<std::uintmax_t>(found.st_size);
-    if (out.bytes > kind.most_bytes)
+    if (out.bytes > kind.max_bytes)
         throw InputError(file.string() + ": has " + std::to_string(out.bytes) + " bytes; accepted: at most " +
-                         size_text(kind.most_bytes));
+                         size_text(kind.max_bytes));
     return out;
 }
 

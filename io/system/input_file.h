@@ -16,7 +16,7 @@
 namespace hilcam {
 
 struct InputKind {
-    std::uintmax_t most_bytes;
+    std::uintmax_t max_bytes;
     std::string accepted;  // ends the message "...; accepted: "
 };
 

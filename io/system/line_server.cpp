@@ -30,7 +30,7 @@ void LineServer::stop() noexcept {
     listener_.reset();
 }
 
-void LineServer::tell(std::string_view line) {
+void LineServer::notify(std::string_view line) {
     const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(line.data()),
                                               line.size());
     bool waiting = false;
@@ -99,7 +99,7 @@ void LineServer::accept_client() {
     }
     const std::lock_guard lock(mutex_);
     std::string peer;
-    if (clients_.size() >= setup_.most_clients || !admit_tcp(allow_, socket.get(), peer)) return;
+    if (clients_.size() >= setup_.max_clients || !admit_tcp(allow_, socket.get(), peer)) return;
     clients_.emplace_back().socket = std::move(socket);
     connected_.store(clients_.size(), std::memory_order_relaxed);
 }

@@ -1,6 +1,6 @@
 #pragma once
 // A TCP port whose clients all get the same lines of text and are not listened to. One thread serves them and
-// never waits for one: a client for which more than kMostWaiting_bytes wait is cut off and counted.
+// never waits for one: a client for which more than kMaxWaiting_bytes wait is cut off and counted.
 
 #include <atomic>
 #include <cstdint>
@@ -21,13 +21,13 @@ struct LineServerSetup {
     std::string address = "127.0.0.1";
     std::uint16_t port = 0;
     std::vector<std::string> allow;
-    std::size_t most_clients = 8;
+    std::size_t max_clients = 8;
     std::string key;  // of the configuration, for messages
 };
 
 class LineServer {
   public:
-    static constexpr std::size_t kMostWaiting_bytes = 8 << 20;
+    static constexpr std::size_t kMaxWaiting_bytes = 8 << 20;
 
     // Throws InputError.
     explicit LineServer(const LineServerSetup& setup);
@@ -37,7 +37,7 @@ class LineServer {
     void start();
     void stop() noexcept;
     // To every client; `line` ends with a newline. Any thread but the loop.
-    void tell(std::string_view line);
+    void notify(std::string_view line);
 
     // Any thread.
     std::size_t clients() const { return connected_.load(std::memory_order_relaxed); }
@@ -46,7 +46,7 @@ class LineServer {
   private:
     struct Client {
         Fd socket;
-        OutputQueue output{kMostWaiting_bytes};
+        OutputQueue output{kMaxWaiting_bytes};
         bool gone = false;
     };
     void run();

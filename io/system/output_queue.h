@@ -11,8 +11,8 @@ namespace hilcam {
 class OutputQueue {
   public:
     // `whole_packets`: one send() for each packet, as sockets with message boundaries want it.
-    explicit OutputQueue(std::size_t most_bytes, bool whole_packets = false)
-        : most_bytes_(most_bytes), whole_packets_(whole_packets) {}
+    explicit OutputQueue(std::size_t max_bytes, bool whole_packets = false)
+        : max_bytes_(max_bytes), whole_packets_(whole_packets) {}
 
     // False, and nothing is queued, when it would hold more than its most.
     bool put(std::span<const std::uint8_t> packet);
@@ -24,7 +24,7 @@ class OutputQueue {
   private:
     void advance(std::size_t sent);
 
-    std::size_t most_bytes_;
+    std::size_t max_bytes_;
     bool whole_packets_;
     std::vector<std::uint8_t> bytes_;
     std::deque<std::size_t> sizes_;  // of packets, when they are sent whole

@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-bool tell_service_manager(std::string_view state) noexcept {
+bool notify_service_manager(std::string_view state) noexcept {
     const char* const name = std::getenv("NOTIFY_SOCKET");
     if (!name) return false;
     const std::string_view path = name;

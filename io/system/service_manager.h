@@ -8,6 +8,6 @@ namespace hilcam {
 
 // Sends a state, as "READY=1" or "STOPPING=1", to $NOTIFY_SOCKET. False when nobody asked for it, or it could
 // not be sent, which is no failure of the program. Owner thread.
-bool tell_service_manager(std::string_view state) noexcept;
+bool notify_service_manager(std::string_view state) noexcept;
 
 }  // namespace hilcam

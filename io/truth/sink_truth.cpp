@@ -13,7 +13,7 @@ namespace {
 // Than those that make frames; the preview's threads are nicer still.
 constexpr int kNicer = 10;
 // Of an IPv4 datagram: 65535 bytes less the headers of IP and UDP.
-constexpr std::size_t kMostDatagramBytes = 65507;
+constexpr std::size_t kMaxDatagramBytes = 65507;
 
 LineServerSetup port_of(const TruthConfig& c) {
     return {c.address, static_cast<std::uint16_t>(c.port), c.allow, static_cast<std::size_t>(c.clients),
@@ -120,13 +120,13 @@ void TruthSink::deliver(const Slot& slot) {
     const std::string line = document_.line(slot.truth, slot.record);
     if (slot.for_listener) listener_->take_truth(slot.record.id, line);
     if (!slot.for_outputs) return;
-    if (server_) server_->tell(line + "\n");
+    if (server_) server_->notify(line + "\n");
     if (!destinations_.empty()) send_datagrams(slot.truth, slot.record, line);
     if (files_) files_->write(slot.truth, slot.record.id, line, document_.legend(slot.truth));
 }
 
 void TruthSink::send_datagrams(const FrameTruth& truth, const FrameRecord& record, const std::string& line) {
-    const bool fits = line.size() <= kMostDatagramBytes;
+    const bool fits = line.size() <= kMaxDatagramBytes;
     const std::string shorter = fits ? std::string() : document_.line(truth, record, false);
     const std::string& text = fits ? line : shorter;
     for (const sockaddr_in& to : destinations_)

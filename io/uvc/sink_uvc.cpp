@@ -29,10 +29,9 @@ UvcStreamShape shape_of(const UvcConfig& config, int width, int height, const Ca
     UvcStreamShape shape;
     shape.width = width;
     shape.height = height;
-    shape.intervals_100ns =
-        uvc_intervals(camera.settings().frame_rate_hz, camera.limits().most_frame_rate_hz);
+    shape.intervals_100ns = uvc_intervals(camera.settings().frame_rate_hz, camera.limits().max_frame_rate_hz);
     shape.preset_100ns = uvc_interval(camera.settings().frame_rate_hz);
-    shape.most_payload_bytes = static_cast<std::uint32_t>(config.packet_bytes);
+    shape.max_payload_bytes = static_cast<std::uint32_t>(config.packet_bytes);
     return shape;
 }
 

@@ -42,8 +42,8 @@ UvcControls::Numbers UvcControls::numbers_of(Control control) const {
                 return std::max<std::int64_t>(1, std::llround(seconds / kExposureUnit_s));
             };
             return {ticks(s.exposure_s),
-                    std::max<std::int64_t>(1, up(l.least_exposure_s / kExposureUnit_s)),
-                    std::max<std::int64_t>(1, down(l.most_exposure_s / kExposureUnit_s)),
+                    std::max<std::int64_t>(1, up(l.min_exposure_s / kExposureUnit_s)),
+                    std::max<std::int64_t>(1, down(l.max_exposure_s / kExposureUnit_s)),
                     1,
                     ticks(initial_.exposure_s),
                     4,
@@ -52,8 +52,8 @@ UvcControls::Numbers UvcControls::numbers_of(Control control) const {
         case Control::kGain:
             // Unsigned: a gain below the camera file's own is not offered.
             return {std::max<std::int64_t>(0, std::llround(s.gain_db / kGainUnit_db)),
-                    std::max<std::int64_t>(0, up(l.least_gain_db / kGainUnit_db)),
-                    std::max<std::int64_t>(0, down(l.most_gain_db / kGainUnit_db)),
+                    std::max<std::int64_t>(0, up(l.min_gain_db / kGainUnit_db)),
+                    std::max<std::int64_t>(0, down(l.max_gain_db / kGainUnit_db)),
                     1,
                     std::max<std::int64_t>(0, std::llround(initial_.gain_db / kGainUnit_db)),
                     2,
@@ -61,7 +61,7 @@ UvcControls::Numbers UvcControls::numbers_of(Control control) const {
         case Control::kBrightness:
             return {std::llround(s.black_level_dn),
                     0,
-                    std::min<std::int64_t>(32767, down(l.most_black_level_dn)),
+                    std::min<std::int64_t>(32767, down(l.max_black_level_dn)),
                     1,
                     std::llround(initial_.black_level_dn),
                     2,

@@ -19,10 +19,10 @@ void put(UvcAnswer& answer, std::size_t at, std::uint32_t value, std::size_t byt
 
 std::uint32_t uvc_interval(double rate_hz) { return static_cast<std::uint32_t>(std::lround(1e7 / rate_hz)); }
 
-std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double most_frame_rate_hz) {
+std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double max_frame_rate_hz) {
     std::vector<std::uint32_t> list = {uvc_interval(frame_rate_hz)};
     for (const double rate_hz : {60.0, 30.0, 25.0, 20.0, 15.0, 10.0, 5.0, 1.0})
-        if (rate_hz <= most_frame_rate_hz) list.push_back(uvc_interval(rate_hz));
+        if (rate_hz <= max_frame_rate_hz) list.push_back(uvc_interval(rate_hz));
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     return list;
@@ -41,7 +41,7 @@ UvcAnswer UvcStream::control(std::uint32_t interval_100ns) const {
     put(answer, 3, 1, 1);  // frame
     put(answer, 4, interval_100ns, 4);
     put(answer, 18, shape_.frame_bytes(), 4);
-    put(answer, 22, shape_.most_payload_bytes, 4);
+    put(answer, 22, shape_.max_payload_bytes, 4);
     put(answer, 26, 48'000'000, 4);  // clock of the kernel's header descriptor
     put(answer, 30, 3, 1);           // frame id and end of frame are in the payload headers
     put(answer, 31, 1, 1);

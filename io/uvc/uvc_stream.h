@@ -15,14 +15,14 @@ struct UvcStreamShape {
     int width = 0, height = 0;
     std::vector<std::uint32_t> intervals_100ns;  // rising: the fastest rate first
     std::uint32_t preset_100ns = 0;              // one of them: the camera's own rate
-    std::uint32_t most_payload_bytes = 1024;     // of a USB packet
+    std::uint32_t max_payload_bytes = 1024;      // of a USB packet
 
     std::uint32_t frame_bytes() const {
         return static_cast<std::uint32_t>(2 * width) * static_cast<std::uint32_t>(height);
     }
 };
 // The camera's own rate, and what UVC hosts like to choose from below its highest.
-std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double most_frame_rate_hz);
+std::vector<std::uint32_t> uvc_intervals(double frame_rate_hz, double max_frame_rate_hz);
 std::uint32_t uvc_interval(double frame_rate_hz);
 
 class UvcStream {

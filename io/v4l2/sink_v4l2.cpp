@@ -14,7 +14,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::int64_t kLeastInterval_ns = 1'000'000;  // whatever rate the camera claims
+constexpr std::int64_t kMinInterval_ns = 1'000'000;  // whatever rate the camera claims
 constexpr std::int64_t kRetry_ns = 500'000'000;
 
 void sleep_until(std::int64_t ns) {
@@ -70,9 +70,8 @@ V4l2Sink::V4l2Sink(const V4l2Config& config, int width, int height, double frame
     check_metadata_row(config, pixels_.bytes_per_pixel * static_cast<std::size_t>(width));
     row_.resize(3 * static_cast<std::size_t>(width) + 8);
     // Half a period: jitter of the loop passes, a burst without pauses does not.
-    const double fastest_hz = std::max(frame_rate_hz, context.camera.limits().most_frame_rate_hz);
-    least_interval_ns_ =
-        std::max(kLeastInterval_ns, static_cast<std::int64_t>(std::llround(0.5e9 / fastest_hz)));
+    const double fastest_hz = std::max(frame_rate_hz, context.camera.limits().max_frame_rate_hz);
+    min_interval_ns_ = std::max(kMinInterval_ns, static_cast<std::int64_t>(std::llround(0.5e9 / fastest_hz)));
 }
 
 void V4l2Sink::use(V4l2Format format) {
@@ -145,7 +144,7 @@ void V4l2Sink::strike_faults(std::uint64_t frame) noexcept {
 }
 
 void V4l2Sink::pace() noexcept {
-    const std::int64_t due_ns = last_ns_ + least_interval_ns_;
+    const std::int64_t due_ns = last_ns_ + min_interval_ns_;
     if (monotonic_ns() < due_ns) sleep_until(due_ns);
     last_ns_ = monotonic_ns();
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Frames into a V4L2 output device, the writing side of v4l2loopback 0.12.7 and later.
 //
-// Frames go out as they come, by a thread of its own and never closer together than kLeastInterval: a writer
+// Frames go out as they come, by a thread of its own and never closer together than kMinInterval: a writer
 // without pauses panics the kernel of old modules. `io: mmap` passes the exposure's CLOCK_MONOTONIC time (its
 // middle) to readers; with `io: write` the module gives times of its own, but every version counts frames.
 // Pixels: wire_format.h. A device that fails is reported, closed and tried again every half second; frames
@@ -72,7 +72,7 @@ class V4l2Sink : public FrameSink {
     FrameMailbox mailbox_;
     V4l2Output device_;
     std::vector<std::uint16_t> row_;
-    std::int64_t least_interval_ns_, last_ns_ = 0, retry_ns_ = 0;
+    std::int64_t min_interval_ns_, last_ns_ = 0, retry_ns_ = 0;
     std::thread thread_;
     Counters counters_;
     mutable std::mutex mutex_;

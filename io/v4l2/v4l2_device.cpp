@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kLoadAdvice =
     "; load the module with: modprobe v4l2loopback video_nr=42 card_label=hilcam exclusive_caps=1 "
     "max_buffers=4";
-constexpr std::uint32_t kMostBuffers = 32;  // v4l2loopback's own limit
+constexpr std::uint32_t kMaxBuffers = 32;  // v4l2loopback's own limit
 
 std::string size_text(std::uint32_t width, std::uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
@@ -149,7 +149,7 @@ void V4l2Output::prepare_buffers() {
         // STREAMON before write() too: else the device would not be an output again once we are gone.
         if (v4l2_ioctl(fd_.get(), VIDIOC_STREAMON, &type) < 0) refuse("does not start");
         // REQBUFS would unmap the buffers under readers that already stream.
-        if (!buffers_.map_existing(fd_.get(), kMostBuffers)) refuse("gives no buffers");
+        if (!buffers_.map_existing(fd_.get(), kMaxBuffers)) refuse("gives no buffers");
         in_use_ = buffers_.size();
     } else if (request_.mapped) {
         if (!buffers_.request(fd_.get(), request_.buffers)) refuse("gives no buffers; try 'io: write'");

@@ -19,9 +19,9 @@ namespace hilcam {
 namespace {
 
 // Twice what is read of a SIM_UPDATE (vizard_message.h), so that one too large is answered.
-constexpr std::int64_t kMostMessageBytes = 16 << 20;
-constexpr std::size_t kMostConnections = 8, kMostMessageParts = 1000;
-constexpr std::size_t kMostParts = 16;  // of a request; further ones are left out
+constexpr std::int64_t kMaxMessageBytes = 16 << 20;
+constexpr std::size_t kMaxConnections = 8, kMaxMessageParts = 1000;
+constexpr std::size_t kMaxParts = 16;  // of a request; further ones are left out
 // From the frame rendered (the command's answer) to the frame published: the sensor's part.
 constexpr std::chrono::seconds kPatience{60};
 constexpr std::chrono::milliseconds kStopStep{50};
@@ -56,7 +56,7 @@ class VizardReceiver : public CommandReceiver {
     std::string name() const override { return "vizard " + config_.address; }
     CommandReport report() const override;
     std::vector<SenderReport> senders() const override { return {}; }
-    void tell(const Telemetry&) noexcept override {}
+    void notify(const Telemetry&) noexcept override {}
     bool asks_to_end() const override { return over_.load(); }
 
   private:
@@ -95,7 +95,7 @@ void VizardReceiver::start() {
     try {
         socket_ = zmq::socket_t(context_, zmq::socket_type::rep);
         socket_.set(zmq::sockopt::linger, 0);
-        socket_.set(zmq::sockopt::maxmsgsize, kMostMessageBytes);
+        socket_.set(zmq::sockopt::maxmsgsize, kMaxMessageBytes);
         socket_.set(zmq::sockopt::rcvhwm, 1);  // a simulator waits for its answer
         config_.address.starts_with("tcp://") ? listen_behind_guard() : socket_.bind(config_.address);
     } catch (const zmq::error_t& error) {
@@ -114,8 +114,8 @@ void VizardReceiver::listen_behind_guard() {
     const pid_t own = getpid();
     ZmqGuardSetup setup{config_.address,
                         "hilcam-vizard-" + std::to_string(own) + "-" + std::to_string(monotonic_ns()),
-                        kMostConnections,
-                        {kMostMessageBytes, kMostMessageParts},
+                        kMaxConnections,
+                        {kMaxMessageBytes, kMaxMessageParts},
                         [this](const std::string& why) {
                             // Once: whoever does it may go on and on.
                             if (ended_.fetch_add(1) == 0) remark_("a connection was ended: " + why);
@@ -171,7 +171,7 @@ VizardParts VizardReceiver::receive() {
     zmq::message_t part;
     do {
         if (!socket_.recv(part, zmq::recv_flags::none)) break;
-        if (parts.size() < kMostParts) parts.push_back(part.to_string());
+        if (parts.size() < kMaxParts) parts.push_back(part.to_string());
     } while (part.more());
     return parts;
 }

@@ -24,8 +24,8 @@ constexpr double kFarthest_m = 1.5e15, kFastest_m_s = 3e8;
 constexpr double kLongest_ns = 1.6e18;
 constexpr double kRotationTolerance = 1e-6;
 // Basilisk's messages have some kilobytes.
-constexpr std::size_t kMostBytes = 8u << 20;
-constexpr std::size_t kMostThings = 10'000, kMostCameras = 255, kMostResolutions = 1000;
+constexpr std::size_t kMaxBytes = 8u << 20;
+constexpr std::size_t kMaxThings = 10'000, kMaxCameras = 255, kMaxResolutions = 1000;
 
 // A list of numbers of a message; `what` names it in a refusal.
 struct Numbers {
@@ -173,10 +173,10 @@ bool numbers_fit(std::span<const std::uint8_t> message) {
         if (field == VizMessage::kCamerasFieldNumber) walk(bytes, in_camera);
     });
     if (!good) return false;
-    check_number("spacecraft", spacecraft, kMostThings);
-    check_number("bodies", bodies, kMostThings);
-    check_number("cameras", cameras, kMostCameras);
-    check_number("bytes of resolutions", resolutions, kMostResolutions);
+    check_number("spacecraft", spacecraft, kMaxThings);
+    check_number("bodies", bodies, kMaxThings);
+    check_number("cameras", cameras, kMaxCameras);
+    check_number("bytes of resolutions", resolutions, kMaxResolutions);
     return true;
 }
 
@@ -203,8 +203,8 @@ DecodedVizardUpdate decode_vizard_update(std::span<const std::uint8_t> bytes) {
     static const bool quiet = (google::protobuf::SetLogHandler(nullptr), true);
     static_cast<void>(quiet);
     const std::string size = std::to_string(bytes.size()) + " bytes";
-    if (bytes.size() > kMostBytes)
-        return {{}, "found " + size + "; accepted: up to " + std::to_string(kMostBytes)};
+    if (bytes.size() > kMaxBytes)
+        return {{}, "found " + size + "; accepted: up to " + std::to_string(kMaxBytes)};
     try {
         hilcam_vizard::VizMessage message;
         if (!numbers_fit(bytes) || !message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))

@@ -15,8 +15,8 @@ namespace hilcam {
 namespace {
 
 // Of a run, and of all: a flood of them says no more.
-constexpr std::size_t kMostRemarks = 100, kMostRemarksInAll = 1000;
-constexpr std::size_t kMostNamed = 10;  // that are not shown: a constellation's leave room for other remarks
+constexpr std::size_t kMaxRemarks = 100, kMaxRemarksInAll = 1000;
+constexpr std::size_t kMaxNamed = 10;  // that are not shown: a constellation's leave room for other remarks
 constexpr std::size_t kNoCamera = SIZE_MAX;
 // Of the fields of view: pitch and focal length of data sheets are rounded.
 constexpr double kViewTolerance_ratio = 0.01;
@@ -58,11 +58,11 @@ VizardWorld::VizardWorld(const Rules& rules, VizardBench bench, Remark remark)
     : rules_(rules), bench_(std::move(bench)), remark_(std::move(remark)), start_(bench_.start) {}
 
 void VizardWorld::remark_once(const std::string& topic, const std::string& text) {
-    if (said_.size() >= kMostRemarks || said_in_all_ >= kMostRemarksInAll || !said_.insert(topic).second)
+    if (said_.size() >= kMaxRemarks || said_in_all_ >= kMaxRemarksInAll || !said_.insert(topic).second)
         return;
     remark_(text);
     ++said_in_all_;
-    if (said_.size() == kMostRemarks || said_in_all_ == kMostRemarksInAll)
+    if (said_.size() == kMaxRemarks || said_in_all_ == kMaxRemarksInAll)
         remark_("more remarks than these are not shown");
 }
 
@@ -194,7 +194,7 @@ void VizardWorld::pose_objects(const Shift& shift, std::vector<PoseCommand>& pos
     };
     std::size_t hidden = 0;
     const auto hide = [&](const std::string& kind, const VizardThing& thing) {
-        if (++hidden <= kMostNamed)
+        if (++hidden <= kMaxNamed)
             remark(kind + " " + in_quotes(thing.name) + " is not shown, as no object has its name");
     };
     std::set<const VizardThing*> carriers;
@@ -203,8 +203,8 @@ void VizardWorld::pose_objects(const Shift& shift, std::vector<PoseCommand>& pos
         if (!pose(spacecraft) && carriers.count(&spacecraft) == 0) hide("spacecraft", spacecraft);
     for (const VizardThing& body : update_.bodies)
         if (!pose(body) && !body_of(body.name) && body_word(body.name) != "sun") hide("body", body);
-    if (hidden > kMostNamed)
-        remark_once("hidden", std::to_string(hidden - kMostNamed) +
+    if (hidden > kMaxNamed)
+        remark_once("hidden", std::to_string(hidden - kMaxNamed) +
                                   " more spacecraft and bodies are not shown, as no object has their names");
     for (std::size_t i = 0; i < told.size(); ++i)
         if (!told[i])

@@ -97,7 +97,7 @@ void ZmqGuard::accept_connection() {
         if (errno != EAGAIN && errno != ECONNABORTED) poll(nullptr, 0, 10);
         return;
     }
-    if (connections_.size() >= setup_.most_connections)
+    if (connections_.size() >= setup_.max_connections)
         return setup_.ended("there are " + std::to_string(connections_.size()) + " connections already");
     Fd inner = connect_abstract(setup_.inner);
     if (!inner) return;

@@ -22,7 +22,7 @@ namespace hilcam {
 struct ZmqGuardSetup {
     std::string address;  // "tcp://ADDRESS:PORT", with an address or interface of this machine, or *
     std::string inner;    // the abstract Unix socket's name, without ZeroMQ's "@"
-    std::size_t most_connections = 8;
+    std::size_t max_connections = 8;
     ZmtpMeter::Limits limits{};
     std::function<void(const std::string&)> ended;  // told, in its thread, why a connection was ended
 };

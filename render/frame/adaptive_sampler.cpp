@@ -5,7 +5,7 @@
 
 namespace hilcam {
 
-AdaptiveSampler::AdaptiveSampler() : pass_(kMost), mean_(kMost) {}
+AdaptiveSampler::AdaptiveSampler() : pass_(kMax), mean_(kMax) {}
 
 std::span<const Spectrum> AdaptiveSampler::trace(const FrameView& frame, const PixelBox& box,
                                                  int samples_per_axis, const NoiseBudget& budget,

@@ -42,20 +42,20 @@ class AdaptiveSampler {
   public:
     AdaptiveSampler();
 
-    // Traces the box, of at most PathModel::kMostSamples rays a pass. Gives the mean radiance of its pixels,
+    // Traces the box, of at most PathModel::kMaxSamples rays a pass. Gives the mean radiance of its pixels,
     // row by row, until the next call. What comes out depends on frame, box, n and budget alone. Loop.
     std::span<const Spectrum> trace(const FrameView& frame, const PixelBox& box, int samples_per_axis,
                                     const NoiseBudget& budget, PathModel& paths, TileStats& stats);
 
   private:
-    static constexpr auto kMost = static_cast<std::size_t>(PathModel::kMostSamples);
+    static constexpr auto kMax = static_cast<std::size_t>(PathModel::kMaxSamples);
 
     FacetList facets_;
     std::vector<Spectrum> pass_, mean_;
     // Of the passes' means [e-].
-    std::array<float, kMost> mean_e_, squares_e2_;
-    std::array<std::uint16_t, kMost> passes_;
-    std::array<std::uint8_t, kMost> wanted_;
+    std::array<float, kMax> mean_e_, squares_e2_;
+    std::array<std::uint16_t, kMax> passes_;
+    std::array<std::uint8_t, kMax> wanted_;
     int width_ = 0, height_ = 0;
 
     std::size_t pixels() const { return static_cast<std::size_t>(width_ * height_); }

@@ -79,7 +79,7 @@ void find_side_light(const FrameView& frame, const WorldSnapshot& world, std::ve
         const Axes axes = axes_about(body.world_dir);
         const std::size_t count = samples_of(body.cone_cosine), first = lights.size();
         const double each_sr = 2 * kPi * (1 - body.cone_cosine) / static_cast<double>(count);
-        if (first + count > kMostSideLights) break;
+        if (first + count > kMaxSideLights) break;
         lights.resize(first + count);
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) {

@@ -53,9 +53,8 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     if (!scene.light_later) kept_ = make_kept();
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
-    most_stars_ = rays_->is_still()
-                      ? std::min(stars_.size(), stars_.most_within(2 * half_field_rad(geometry)))
-                      : stars_.size();
+    max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
+                                   : stars_.size();
 
     if (quality.uses_buffer() && !terrain_ && VisibilityBuffer::takes(geometry)) {
         seen_.reserve(objects_.size());
@@ -80,12 +79,12 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
 
 // What is shown in more triangles is for rays: they hardly cost more for more.
 VisibilityBuffer::Room FramePlacer::visibility_room() const {
-    constexpr std::size_t kMostTriangles = 8'000'000;
+    constexpr std::size_t kMaxTriangles = 8'000'000;
     VisibilityBuffer::Room room{objects_.size(), 0, 0};
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const MeshView mesh = embree_.mesh(i, 0);
-        room.vertices = std::min(kMostTriangles, room.vertices + mesh.vertices_m.size());
-        room.triangles = std::min(kMostTriangles, room.triangles + mesh.triangles.size());
+        room.vertices = std::min(kMaxTriangles, room.vertices + mesh.vertices_m.size());
+        room.triangles = std::min(kMaxTriangles, room.triangles + mesh.triangles.size());
     }
     return room;
 }

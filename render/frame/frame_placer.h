@@ -82,7 +82,7 @@ class FramePlacer {
     std::size_t objects() const { return objects_.size(); }
     std::size_t triangles() const { return triangles_; }
     const StarSky& stars() const { return stars_; }
-    std::size_t most_stars() const { return most_stars_; }  // of those that a frame can show
+    std::size_t max_stars() const { return max_stars_; }  // of those that a frame can show
     const Background& background() const { return background_; }
     const Lamps& lamps() const { return lamps_; }
     const Atmosphere* air() const { return air_.get(); }  // may be null
@@ -99,8 +99,8 @@ class FramePlacer {
     std::vector<PixelBox> object_boxes_;  // pixels that can meet an object
     Lamps lamps_;
     StarSky stars_;
-    std::size_t most_stars_;
-    std::array<SceneBody, kMostBodies> bodies_;
+    std::size_t max_stars_;
+    std::array<SceneBody, kMaxBodies> bodies_;
     std::unique_ptr<Atmosphere> air_;
     ColorBands bands_;
     Background background_;

@@ -35,7 +35,7 @@ std::size_t slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_
 FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
                          std::span<const RenderQuality> levels)
     : width_(geometry.padded_width()), height_(geometry.padded_height()) {
-    int most_tiles = 0;
+    int max_tiles = 0;
     bool budget = false, buffer = false;
     for (const RenderQuality& quality : levels) {
         // The visibility buffer's samples cost no memory of a path model's.
@@ -46,12 +46,12 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
             model->reserve_depth(static_cast<int>(quality.max_depth));
         levels_.push_back(
             {quality, set, edge_px, (width_ + edge_px - 1) / edge_px, (height_ + edge_px - 1) / edge_px});
-        most_tiles = std::max(most_tiles, levels_.back().tiles_across * levels_.back().tiles_down);
+        max_tiles = std::max(max_tiles, levels_.back().tiles_across * levels_.back().tiles_down);
         buffer = buffer || !rays;
         budget = budget || quality.noise_budget > 0;
     }
-    tile_stats_.resize(static_cast<std::size_t>(most_tiles));
-    tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMostSamples));
+    tile_stats_.resize(static_cast<std::size_t>(max_tiles));
+    tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
     if (buffer) seen_.resize(slots());
     facets_.resize(slots());
     for (std::size_t i = 0; budget && i < slots(); ++i)

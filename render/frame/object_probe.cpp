@@ -27,7 +27,7 @@ ObjectProbe::ObjectProbe(const FrameView& frame, int samples)
       rays_(make_pinhole_rays()),
       mask_(picture_of(samples, 1, 2)),
       view_(frame),
-      tile_(PathModel::kMostSamples),
+      tile_(PathModel::kMaxSamples),
       picture_(static_cast<std::size_t>(samples * samples)) {
     mask_.fill();
     view_.rays = rays_.get();
@@ -89,7 +89,7 @@ TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& w
     // A sample's solid angle; the picture is a few pixels of the camera, so cosines are 1.
     const double sample_rad = 1 / view_.geometry.focal_length_px;
     const auto solid_angle = static_cast<float>(sample_rad * sample_rad);
-    const int cells = std::clamp(static_cast<int>(std::ceil(2 * plan.size_px)), 1, kMostCells);
+    const int cells = std::clamp(static_cast<int>(std::ceil(2 * plan.size_px)), 1, kMaxCells);
     for (int cy = 0; cy < cells; ++cy)
         for (int cx = 0; cx < cells; ++cx) {
             Spectrum sum;

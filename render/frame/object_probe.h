@@ -15,8 +15,7 @@ namespace hilcam {
 
 class ObjectProbe {
   public:
-    static constexpr int kMostCells =
-        16;  // along an axis: an object gives at most the square of it of points
+    static constexpr int kMaxCells = 16;  // along an axis: an object gives at most the square of it of points
 
     // samples: rays along an axis of the picture. The frame's view must have its pointers and sizes by now.
     ObjectProbe(const FrameView& frame, int samples);

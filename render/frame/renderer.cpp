@@ -78,10 +78,10 @@ bool Renderer::take_light() { return implementation_->placer.take_light(); }
 const RenderQuality& Renderer::quality() const { return implementation_->tracer.quality(); }
 void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->tracer.set_pixel_noise(noise); }
 
-std::size_t Renderer::most_points() const {
+std::size_t Renderer::max_points() const {
     const FramePlacer& placer = implementation_->placer;
-    const std::size_t cells = ObjectProbe::kMostCells * ObjectProbe::kMostCells;
-    return placer.most_stars() + placer.objects() * cells + kMostBodies + placer.lamps().all().size();
+    const std::size_t cells = ObjectProbe::kMaxCells * ObjectProbe::kMaxCells;
+    return placer.max_stars() + placer.objects() * cells + kMaxBodies + placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const {
@@ -138,7 +138,7 @@ FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int hei
     return hilcam::make_truth(implementation_->placer, wishes, width_px, height_px);
 }
 
-void Renderer::tell_truth(FrameTruth& truth) const { TruthProbe(implementation_->placer, truth).tell(); }
+void Renderer::report_truth(FrameTruth& truth) const { TruthProbe(implementation_->placer, truth).report(); }
 
 void Renderer::find_side_light(std::vector<SideLight>& lights) const {
     const FramePlacer& placer = implementation_->placer;

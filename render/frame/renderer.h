@@ -82,14 +82,14 @@ class Renderer {
     FrameTruth make_truth(const TruthWishes& wishes, int width_px, int height_px) const;
     // What the world that was placed last, by render() or motion(), shows; truth.raster is set. Loop, as
     // render().
-    void tell_truth(FrameTruth& truth) const;
+    void report_truth(FrameTruth& truth) const;
 
     // Finds what shines from beside the picture of the world that was placed last (find_side_light.h). Loop, as
-    // render(); room for kMostSideLights.
+    // render(); room for kMaxSideLights.
     void find_side_light(std::vector<SideLight>& lights) const;
 
     // An upper bound of the points that render() can give.
-    std::size_t most_points() const;
+    std::size_t max_points() const;
     std::size_t triangles() const;
     // Of the sphere about an object's origin that holds it, in the scene's order.
     double object_radius_m(std::size_t object) const;

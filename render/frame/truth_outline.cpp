@@ -19,7 +19,7 @@ namespace hilcam {
 namespace {
 
 // Beside the frame, per thing: where it is larger one ray stands for a square of several pixels.
-constexpr double kMostRaysBeside = 65536;
+constexpr double kMaxRaysBeside = 65536;
 // Across the bounds of a small thing.
 constexpr int kFine = 64;
 
@@ -192,7 +192,7 @@ void TruthProbe::measure_outline(SeenThing& thing) {
                                              {std::max(bounds.x0, width), y0, bounds.x1, y1}}};
     double area_px = 0;
     for (const PixelBox& box : beside) area_px += area_of(box);
-    const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area_px / kMostRaysBeside))));
+    const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area_px / kMaxRaysBeside))));
     for (const PixelBox& box : beside) all.add(part_beside(thing, box, step));
     thing.silhouette_px = all.area_px;
     thing.silhouette_box_px = all.box();

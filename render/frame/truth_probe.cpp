@@ -39,12 +39,12 @@ FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int 
     FrameTruth truth;
     truth.wishes = wishes;
     const std::size_t objects = placer.objects();
-    truth.things.reserve(objects + 1 + kMostBodies);
+    truth.things.reserve(objects + 1 + kMaxBodies);
     truth.parts.reserve(objects);
     truth.point_boxes.reserve(objects);
     if (wishes.stars) {
-        truth.stars.reserve(std::min(placer.most_stars(), kMostTruthStars));
-        truth.star_field.reserve(placer.most_stars());
+        truth.stars.reserve(std::min(placer.max_stars(), kMaxTruthStars));
+        truth.star_field.reserve(placer.max_stars());
     }
     if (wishes.rays()) truth.layers.object = IdImage(width_px, height_px);
     if (wishes.range) truth.layers.range_m = LengthImage(width_px, height_px);
@@ -62,7 +62,7 @@ TruthProbe::TruthProbe(const FramePlacer& placer, FrameTruth& truth)
       rays_(placer),
       camera_from_world_(transposed(to_matrix(placer.world().camera.world_from_body))) {}
 
-void TruthProbe::tell() {
+void TruthProbe::report() {
     const auto start = std::chrono::steady_clock::now();
     truth_.time = world_.time;
     truth_.camera = world_.camera;
@@ -72,14 +72,14 @@ void TruthProbe::tell() {
     truth_.height_above_ground_m = placer_.height_above_ground_m();
     truth_.things.clear();
     truth_.parts.clear();
-    tell_objects();
-    tell_sun_and_bodies();
+    report_objects();
+    report_sun_and_bodies();
     if (truth_.wishes.rays()) trace_pixels();
     if (truth_.wishes.visibility) {
         count_pixels();
         for (SeenThing& thing : truth_.things) measure_outline(thing);
     }
-    if (truth_.wishes.stars) tell_stars();
+    if (truth_.wishes.stars) report_stars();
     const auto took = std::chrono::steady_clock::now() - start;
     truth_.took_ms = std::chrono::duration<double, std::milli>(took).count();
 }
@@ -114,7 +114,7 @@ SeenThing TruthProbe::described(std::uint32_t id, const Pose& world, Vec3d from_
     return thing;
 }
 
-void TruthProbe::tell_objects() {
+void TruthProbe::report_objects() {
     HILCAM_CHECK(truth_.wishes.thing_of_object.empty() ||
                  truth_.wishes.thing_of_object.size() == placer_.objects());
     for (std::size_t i = 0; i < placer_.objects(); ++i) {
@@ -140,7 +140,7 @@ void TruthProbe::tell_objects() {
     }
 }
 
-void TruthProbe::tell_sun_and_bodies() {
+void TruthProbe::report_sun_and_bodies() {
     const Vec3d to_sun_m = world_.bodies.sun_world_m - world_.camera.position_world_m;
     truth_.sun_distance_m = length(to_sun_m);
     truth_.sun_world_dir = frame_.background->sun_camera_dir();
@@ -165,7 +165,7 @@ void TruthProbe::tell_sun_and_bodies() {
     for (const PlacedBody& body : frame_.background->points()) add(body);
 }
 
-void TruthProbe::tell_stars() {
+void TruthProbe::report_stars() {
     truth_.stars.clear();
     truth_.stars_left_out = 0;
     const PointField field(frame_, world_);

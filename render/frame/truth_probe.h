@@ -13,7 +13,7 @@
 namespace hilcam {
 
 // Of the stars of a frame, at most.
-inline constexpr std::size_t kMostTruthStars = 16384;
+inline constexpr std::size_t kMaxTruthStars = 16384;
 
 // A record with room for all that TruthProbe tells of the placer's frames, up to a size. Owner thread.
 FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int width_px, int height_px);
@@ -23,12 +23,12 @@ class TruthProbe {
     // Fills `truth`, which make_truth() made for this placer; its raster is set. Loop: nothing is allocated.
     // Runs on oneTBB; the result does not depend on the thread count.
     TruthProbe(const FramePlacer& placer, FrameTruth& truth);
-    void tell();
+    void report();
 
   private:
-    void tell_sun_and_bodies();
-    void tell_objects();
-    void tell_stars();
+    void report_sun_and_bodies();
+    void report_objects();
+    void report_stars();
     SeenThing described(std::uint32_t id, const Pose& world) const;
     SeenThing described(std::uint32_t id, const Pose& world, Vec3d from_camera_m) const;
     bool project(Vec3d from_camera_m, Vec2d& frame_px) const;

@@ -53,7 +53,7 @@ class Reflection {
 
     FacetLight of_all() {
         for (const Facet* facet = at_.facets; facet; facet = facet->next) {
-            if (lanes_.count + LevelFacets::kMost > lanes_.x.size()) reflect();
+            if (lanes_.count + LevelFacets::kMax > lanes_.x.size()) reflect();
             put(*facet);
         }
         reflect();
@@ -83,7 +83,7 @@ class Reflection {
             const LevelFacets::Leans lean = facet.flattened->leans();
             const LevelFacets::Floats share = facet.flattened->shares();
             const float side = at_.back ? -1.0f : 1.0f;
-            for (std::size_t i = 0; i < LevelFacets::kMost; ++i)
+            for (std::size_t i = 0; i < LevelFacets::kMax; ++i)
                 lanes_.put(facet.normal, side * Vec3f{lean.x[i], lean.y[i], lean.z[i]}, share[i],
                            facet.flattened->alpha());
         } else {

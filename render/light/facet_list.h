@@ -13,15 +13,15 @@ class FacetList {
   public:
     void clear() { count_ = 0; }
     // So many calls of add() have a place; each takes two at most, as a vertex's own part comes late.
-    std::size_t room() const { return (kMost - count_) / 2; }
+    std::size_t room() const { return (kMax - count_) / 2; }
 
     // Adds a part to a vertex, whose own is the first. Facets are made where there is more than one, and of
     // what a level has flattened: its own lobe is wider than theirs. Loop, any thread.
     void add(const FrameView& frame, Facet part, std::uint32_t triangle, bool first, Vertex& vertex);
 
   private:
-    static constexpr std::size_t kMost = 4096;
-    std::array<Facet, kMost> facets_;
+    static constexpr std::size_t kMax = 4096;
+    std::array<Facet, kMax> facets_;
     std::size_t count_ = 0;
 
     void push(const Facet& facet, Vertex& vertex);

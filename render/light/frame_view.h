@@ -54,8 +54,8 @@ struct FrameView {
     bool paths_sample_lobes = false;  // a path's own directions meet lamps too: both are weighed
     float alpha_behind_diffuse = 0;   // facet lobes met behind a diffuse bounce are at least this wide
     RandomKey key;
-    bool bodies_may_hide = false;                  // an object is so far away that a body can stand before it
-    std::array<PixelBox, kMostBodies> body_boxes;  // pixels that can meet a body of disks() or its air
+    bool bodies_may_hide = false;                 // an object is so far away that a body can stand before it
+    std::array<PixelBox, kMaxBodies> body_boxes;  // pixels that can meet a body of disks() or its air
     std::size_t body_box_count = 0;
     PixelBox sun_box;  // pixels that can meet the Sun's disk
 

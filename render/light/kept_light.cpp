@@ -32,12 +32,12 @@ KeptLight::Bounds sphere_about(std::span<const LightNode> nodes) {
 
 }  // namespace
 
-KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float least_alpha) {
+KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float min_alpha) {
     std::vector<float> throws;
     for (const Material& material : surfaces.materials) {
         own.emplace_back(material);
         Material other = material;
-        other.ggx_alpha = std::max(material.ggx_alpha, least_alpha);
+        other.ggx_alpha = std::max(material.ggx_alpha, min_alpha);
         wide.emplace_back(other);
         const bool is_mirror =
             material.has_facets() && material.ggx_alpha < kNarrowestKept && material.texture < 0;
@@ -47,7 +47,7 @@ KeptAlbedos::KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, f
 }
 
 // A lobe's half width is about twice its alpha; sixty directions stand 0.32 rad apart.
-float KeptLight::least_alpha(const TransferTable& table) {
+float KeptLight::min_alpha(const TransferTable& table) {
     return 1.16f / std::sqrt(static_cast<float>(table.directions()));
 }
 

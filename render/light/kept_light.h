@@ -40,8 +40,8 @@ inline float tail_share(float alpha) { return alpha * alpha / (alpha * alpha + 0
 
 // What an object's materials reflect in all, and where it mirrors; objects of one make share it.
 struct KeptAlbedos {
-    // mesh: with the object's triangles. least_alpha: of facets as other surfaces see them.
-    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float least_alpha);
+    // mesh: with the object's triangles. min_alpha: of facets as other surfaces see them.
+    KeptAlbedos(const ObjectSurfaces& surfaces, const MeshView& mesh, float min_alpha);
 
     std::vector<MaterialAlbedo> own, wide;  // by surface; the latter of facets as other surfaces see them
     std::vector<FlatMirror> mirrors;        // of the object; whoever looks them up has their sunlight
@@ -73,7 +73,7 @@ class KeptLight {
     };
 
     // Facets that another surface sees are at least so wide (GGX alpha), for its directions to find them.
-    static float least_alpha(const TransferTable& table);
+    static float min_alpha(const TransferTable& table);
     // The object has a table and outlives this. step_rad: of the grid that sources are rounded to.
     KeptLight(const ShownObject& object, std::shared_ptr<const KeptAlbedos> albedos, const ColorBands& bands,
               float step_rad);
@@ -145,7 +145,7 @@ class KeptLight {
     struct Lobe {
         Spectrum kept;  // mean radiance of the term, times the share that meets it
         // Share of what each cone gives to the whole lobe that comes without a way.
-        std::array<float, SkyLight::kMostBodies> free{1, 1};
+        std::array<float, SkyLight::kMaxBodies> free{1, 1};
         float of_irradiance = 0;  // radiance of what it meets, times the share, over the node's irradiance
     };
     struct Cone {
@@ -183,7 +183,7 @@ class KeptLight {
     Bounds bounds_;
     float step_rad_;
     // Local directions, component by component, and after them some that never count, to full vectors.
-    static constexpr std::size_t kMostDirections = 256;
+    static constexpr std::size_t kMaxDirections = 256;
     std::vector<float> local_x_, local_y_, local_z_, counts_;
     std::vector<Spectrum> colors_;          // by node where there are textures; else empty
     std::vector<PackedSpectrum> white_;     // by node: albedo over pi

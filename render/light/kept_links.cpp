@@ -71,8 +71,8 @@ class Prober {
                                            std::min<std::size_t>(kPacketSize, asked.size() - first));
             rays.count = static_cast<int>(packet.size());
             from.fill(0);
-            constexpr int kMostSheets = 16;
-            for (int sheet = 0; sheet < kMostSheets; ++sheet) {
+            constexpr int kMaxSheets = 16;
+            for (int sheet = 0; sheet < kMaxSheets; ++sheet) {
                 for (std::size_t i = 0; i < packet.size(); ++i)
                     rays.set(static_cast<int>(i), other.place(packet[i]->origin_m), other.dir(packet[i]->dir),
                              from[i], packet[i]->distance_m);

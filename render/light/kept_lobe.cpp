@@ -82,7 +82,7 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
                     .view = axes.dir(view_dir),
                     .mirror = axes.dir(reflect(view_dir, normal)),
                     .narrow = alpha < kNarrowestKept};
-    alignas(64) std::array<float, kMostDirections> whole, kept;  // weights, by direction
+    alignas(64) std::array<float, kMaxDirections> whole, kept;  // weights, by direction
     lobe_weights(local_x_.data(), local_y_.data(), local_z_.data(), counts_.data(), counts_.size(), query,
                  whole.data(), kept.data());
     // Points that are buried do not count.

@@ -27,9 +27,9 @@ Spectrum tint(const Scatterer& at) {
 
 // The grid for an object that turns: light is made anew twice a second at most, up to steps of 10 degrees,
 // which are worth 0.7 of the sensor's noise (docs/performance.md).
-float step_of(const ShownObject& object, float least_rad) {
-    constexpr float kSolve_s = 0.5f, kMost_rad = 0.175f;
-    return std::max(least_rad, std::min(kMost_rad, kSolve_s * static_cast<float>(object.turn_rate_rad_s)));
+float step_of(const ShownObject& object, float min_rad) {
+    constexpr float kSolve_s = 0.5f, kMax_rad = 0.175f;
+    return std::max(min_rad, std::min(kMax_rad, kSolve_s * static_cast<float>(object.turn_rate_rad_s)));
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ KeptScene::KeptScene(std::span<const ShownObject> objects, const EmbreeScene& sc
         std::shared_ptr<const KeptAlbedos>& of_make = albedos[objects[i].levels.front().get()];
         if (!of_make)
             of_make = std::make_shared<const KeptAlbedos>(*objects[i].levels.front(), scene.mesh(i, 0),
-                                                          KeptLight::least_alpha(*objects[i].transfer));
+                                                          KeptLight::min_alpha(*objects[i].transfer));
         objects_[i].light =
             std::make_unique<KeptLight>(objects[i], of_make, bands, step_of(objects[i], settings.step_rad));
         lights[i] = objects_[i].light.get();
@@ -166,13 +166,13 @@ KeptScene::Place* KeptScene::shared_place(const Tile& tile, std::span<Place> pla
 }
 
 void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
-    constexpr std::size_t kMostSharing = 128;
+    constexpr std::size_t kMaxSharing = 128;
     std::array<Place, 32> places;
     struct Use {
         Vertex* at;
         Place* place;
     };
-    std::array<Use, kMostSharing> uses;
+    std::array<Use, kMaxSharing> uses;
     for (std::size_t next = 0; next < vertices.size();) {
         std::size_t count = 0, used = 0;
         for (; next < vertices.size() && count < places.size() && used < uses.size(); ++next) {
@@ -277,7 +277,7 @@ Spectrum KeptScene::reflect_lobe(const FrameView& frame, const Place& place) con
     KeptLight::Lobe lobe;
     if (place.found) {
         const Mat3f& axes = frame.world_from_body[at.object];
-        std::array<KeptLight::Cone, SkyLight::kMostBodies> cones;
+        std::array<KeptLight::Cone, SkyLight::kMaxBodies> cones;
         for (std::size_t b = 0; b < bodies; ++b)
             cones[b] = {to_body(axes, sky_.bodies()[b].light_dir), sky_.bodies()[b].light_cosine};
         lobe =

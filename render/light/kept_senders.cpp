@@ -180,7 +180,7 @@ void KeptSolver::send(const KeptLight& light, std::size_t n, Vec3f source_dir, V
     sender.normal = pack_normal(normal);
     sender.ni = cosine;
     if (!material.has_facets()) return;
-    sender.alpha = std::max(material.ggx_alpha, KeptLight::least_alpha(light.table()));
+    sender.alpha = std::max(material.ggx_alpha, KeptLight::min_alpha(light.table()));
     Spectrum normal_incidence = material.highlight;
     if (material.model == ReflectionModel::kDielectric)
         normal_incidence.bin.fill(schlick_normal_incidence(material.refractive_index));

@@ -129,10 +129,10 @@ void KeptSolver::gather_first(const Member& member, std::span<const Member> grou
 // Bounces until what is left is little, and that by its geometric series: white paint in a hollow keeps light
 // for long.
 void KeptSolver::bounce(std::span<const Member> group) {
-    constexpr int kMostBounces = 64;
-    constexpr double kLeft = 0.03, kMostRatio = 0.95;
+    constexpr int kMaxBounces = 64;
+    constexpr double kLeft = 0.03, kMaxRatio = 0.95;
     double before = 0;
-    for (int i = 0; i < kMostBounces; ++i) {
+    for (int i = 0; i < kMaxBounces; ++i) {
         for (const Member& member : group) {
             const KeptLight& light = *lights_[member.object];
             const std::size_t base = base_[member.object];
@@ -146,7 +146,7 @@ void KeptSolver::bounce(std::span<const Member> group) {
             const Progress one = gather_again(member);
             step.change += one.change, step.light += one.light;
         }
-        const double ratio = before > 0 ? std::min(step.change / before, kMostRatio) : kMostRatio;
+        const double ratio = before > 0 ? std::min(step.change / before, kMaxRatio) : kMaxRatio;
         const double left = ratio / (1 - ratio);
         before = step.change;
         if (left * step.change > kLeft * step.light) continue;

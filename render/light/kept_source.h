@@ -65,8 +65,8 @@ struct ConeShare {
 
     ConeShare() = default;
     ConeShare(Vec3f node_axis, float cone_cosine, int directions) : axis(node_axis), inside(cone_cosine) {
-        constexpr float kEnough = 6, kLeastCosine = 0.25f, kSoft_rad = 0.05f;
-        const float share = kEnough / (static_cast<float>(directions) * std::max(axis.z, kLeastCosine));
+        constexpr float kEnough = 6, kMinCosine = 0.25f, kSoft_rad = 0.05f;
+        const float share = kEnough / (static_cast<float>(directions) * std::max(axis.z, kMinCosine));
         const float half_angle = std::acos(std::clamp(cone_cosine, -1.0f, 1.0f));
         outside = std::cos(std::max(half_angle + kSoft_rad, std::asin(std::sqrt(std::min(share, 1.0f)))));
     }

@@ -19,16 +19,16 @@ Quat extrapolated(Quat then, Quat now, double by) {
 }
 
 // Scenes of more objects keep each one's light for itself: pairs would be too many.
-constexpr std::size_t kMostLinked = 64;
+constexpr std::size_t kMaxLinked = 64;
 // An object that covers less than this of the sky, where it is nearest, is not looked for.
-constexpr float kLeastShare = 0.004f;
+constexpr float kMinShare = 0.004f;
 
 // Whether the other is worth a look from this object; both in the other's axes.
 bool is_near(const KeptLight& self, const KeptLight& other, const KeptNeighbour& there) {
     const float gap_m =
         length(there.place(self.bounds().middle_m) - other.bounds().middle_m) - self.bounds().radius_m;
     const float radius_m = other.bounds().radius_m;
-    return gap_m <= radius_m || radius_m * radius_m > kLeastShare * gap_m * gap_m;
+    return gap_m <= radius_m || radius_m * radius_m > kMinShare * gap_m * gap_m;
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ void KeptTarget::reserve(std::size_t objects, const KeptTerms& terms) {
     near.resize(objects), group.resize(objects);
     sources.assign(objects, std::vector<KeptSource>(terms.count()));
     for (std::vector<KeptNeighbour>& others : near)
-        if (objects <= kMostLinked) others.reserve(objects);
+        if (objects <= kMaxLinked) others.reserve(objects);
 }
 
 void KeptTarget::set(const KeptInputs& inputs, std::span<const KeptLight* const> lights,
@@ -103,7 +103,7 @@ void KeptTarget::set(const KeptInputs& inputs, std::span<const KeptLight* const>
                  .position_m = to_float(axes * (lamp.position_world_m - pose.position_world_m)),
                  .beam = lamp.beam});
         if (terms.emission) add(terms.glow(), {.kind = Kind::kGlow});
-        for (std::size_t k = 0; k < count && count <= kMostLinked; ++k) {
+        for (std::size_t k = 0; k < count && count <= kMaxLinked; ++k) {
             if (k == i || !lights[k]) continue;
             // A step of the turn moves what is met by as much as two of the Sun's move its light.
             const KeptNeighbour there = KeptNeighbour::rounded(pose, inputs.objects[k], k, 2 * step_rad,

@@ -14,7 +14,7 @@ namespace hilcam {
 
 // The terms of an object, by number.
 struct KeptTerms {
-    static constexpr std::size_t kSun = 0, kBodies = 1, kLamps = 1 + SkyLight::kMostBodies;
+    static constexpr std::size_t kSun = 0, kBodies = 1, kLamps = 1 + SkyLight::kMaxBodies;
     std::size_t lamps = 0;
     bool emission = false;
 
@@ -39,7 +39,7 @@ struct KeptInputs {
     bool sun = false;
     Vec3f sun_dir;
     std::size_t body_count = 0;
-    std::array<Body, SkyLight::kMostBodies> bodies;
+    std::array<Body, SkyLight::kMaxBodies> bodies;
     std::vector<Lamp> lamps;
 
     // What comes after `now`, as far from it as `by` times what lies between it and `then`, everything moving

@@ -49,9 +49,9 @@ bool PlacedLamp::shines_on(Vec3d place_m, LampRay& ray) const {
 }
 
 Lamps::Lamps(std::vector<SceneLamp> lamps) : lamps_(std::move(lamps)) {
-    if (lamps_.size() > kMostLamps)
+    if (lamps_.size() > kMaxLamps)
         throw InputError("lamps: found " + std::to_string(lamps_.size()) + "; accepted: at most " +
-                         std::to_string(kMostLamps));
+                         std::to_string(kMaxLamps));
 }
 
 void Lamps::place(const WorldSnapshot& world, Vec3d ray_space_world_m) {

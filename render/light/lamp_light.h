@@ -48,7 +48,7 @@ struct PlacedLamp {
 // A scene's lamps.
 class Lamps {
   public:
-    // Throws InputError when there are more than kMostLamps.
+    // Throws InputError when there are more than kMaxLamps.
     explicit Lamps(std::vector<SceneLamp> lamps);
     Lamps(const Lamps&) = delete;  // what is placed points to the beams
     Lamps& operator=(const Lamps&) = delete;
@@ -61,7 +61,7 @@ class Lamps {
 
   private:
     std::vector<SceneLamp> lamps_;
-    std::array<PlacedLamp, kMostLamps> lit_;
+    std::array<PlacedLamp, kMaxLamps> lit_;
     std::size_t lit_count_ = 0;
 };
 

@@ -17,7 +17,7 @@ namespace {
 // two.
 constexpr float kHalfSun_rad = 0.0033f;
 // At flatter angles a mirror throws next to nothing.
-constexpr float kLeastCosine = 0.01f;
+constexpr float kMinCosine = 0.01f;
 // GGX's slopes in one direction are spread by a^2 / (2 (a^2 + x^2)^1.5) (its density of both, Heitz, JCGT
 // 3(2), 2014, integrated): the share within x is x / (a^2 + x^2)^0.5. Even spreads of these half widths, in
 // a, with these shares have it to 0.025.
@@ -100,7 +100,7 @@ class Asker {
             light = frame_.background->sun_irradiance_w_m2_um();
         asked.sun = sun;
         asked.cosine = dot(sun, shown_.normal);
-        if (asked.cosine < kLeastCosine) return;
+        if (asked.cosine < kMinCosine) return;
         asked.dir = sun - 2 * asked.cosine * shown_.normal;
         asked.distance_m = above_m / asked.cosine;
         const Vec3f from = at.point_m + asked.distance_m * asked.dir - shown_.corner_m;
@@ -262,7 +262,7 @@ void MirroredSuns::place(const FrameView& frame, const WorldSnapshot& world) {
         if (dot(normal, sun) < 0) normal = -normal;
         const float cosine = dot(normal, sun);
         const Spectrum reflectance = mirror.albedo->lobe(cosine);
-        if (cosine < kLeastCosine || largest(reflectance) < frame.contribution_threshold) continue;
+        if (cosine < kMinCosine || largest(reflectance) < frame.contribution_threshold) continue;
         const Vec3f origin_m = to_float(world.objects[mirror.number].position_world_m - frame.rays_world_m);
         Shown out{mirror,
                   normal,
@@ -301,10 +301,10 @@ PlaceBox box_of(std::span<const Vertex> vertices) {
 
 void MirroredSuns::add_light(Tile& tile, std::span<const Vertex> vertices) const {
     BeamPlaces places;
-    for (std::size_t first = 0; first < vertices.size() && !shown_.empty(); first += BeamPlaces::kMost) {
+    for (std::size_t first = 0; first < vertices.size() && !shown_.empty(); first += BeamPlaces::kMax) {
         const std::span<const Vertex> some =
-            vertices.subspan(first, std::min(BeamPlaces::kMost, vertices.size() - first));
-        for (std::size_t i = 0; i < BeamPlaces::kMost; ++i) {
+            vertices.subspan(first, std::min(BeamPlaces::kMax, vertices.size() - first));
+        for (std::size_t i = 0; i < BeamPlaces::kMax; ++i) {
             const Vec3f point_m = some[std::min(i, some.size() - 1)].point_m;
             places.x[i] = point_m.x, places.y[i] = point_m.y, places.z[i] = point_m.z;
         }

@@ -12,11 +12,11 @@ class DirectPaths final : public PathModel {
     void trace(Tile& tile) override {
         PrimaryVertices seen(tile);
         while (const std::size_t count = seen.next(vertices_))
-            tile.frame.radiance->add_light(tile, {vertices_.data(), count}, LampLight::kNone);
+            tile.frame.radiance->add_light(tile, {vertices_.data(), count}, BodySampling::kNone);
     }
 
   private:
-    std::array<Vertex, kMostSamples> vertices_;
+    std::array<Vertex, kMaxSamples> vertices_;
 };
 
 }  // namespace

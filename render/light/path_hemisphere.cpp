@@ -23,7 +23,7 @@ namespace hilcam {
 namespace {
 
 constexpr std::size_t kDirections = 60;
-constexpr std::size_t kMostRays = kDirections + 2;  // and the exact two
+constexpr std::size_t kMaxRays = kDirections + 2;  // and the exact two
 
 // All 120 triangles' middles: the orbit of one point under the symmetries of the dodecahedron, kept where z >
 // 0. The plane z = 0 is one of its 15 planes of symmetry, so that exactly half of them are above it.
@@ -92,15 +92,15 @@ class HemispherePaths final : public PathModel {
         bool sees_sun;  // exact by itself: no highlight has counted the Sun
     };
     struct Level {
-        std::array<Vertex, kMostRays> vertices;
+        std::array<Vertex, kMaxRays> vertices;
     };
-    std::array<Vertex, kMostSamples> first_;
-    std::array<Ray, kMostRays> rays_;
+    std::array<Vertex, kMaxSamples> first_;
+    std::array<Ray, kMaxRays> rays_;
     std::vector<Level> levels_;
 
     void follow(Tile& tile, std::span<const Vertex> vertices) {
         if (vertices.empty()) return;
-        tile.frame.radiance->add_light(tile, vertices, LampLight::kQuadrature);
+        tile.frame.radiance->add_light(tile, vertices, BodySampling::kQuadrature);
         // What comes by way of each vertex is summed by itself: a pixel gets 60^depth contributions, and
         // single precision loses the small ones when each is added to all that came before.
         for (const Vertex& at : vertices) {
@@ -187,7 +187,8 @@ class HemispherePaths final : public PathModel {
     static void add_background(Tile& tile, const Vertex& at, const Ray& ray) {
         const Background& background = *tile.frame.background;
         Spectrum weight = ray.weight;
-        if (!ray.exact && !(background.camera_in_air() && lamp_density(tile.frame, at, ray.dir) == 0)) return;
+        if (!ray.exact && !(background.camera_in_air() && body_light_density(tile.frame, at, ray.dir) == 0))
+            return;
         if (background.add_bodies(ray.origin_m, to_double(ray.dir), weight, tile.pixels[at.pixel])) return;
         if (ray.sees_sun) background.add_sun_disk(to_double(ray.dir), weight, tile.pixels[at.pixel]);
     }

@@ -22,7 +22,7 @@ namespace hilcam {
 // construction.
 class PathModel {
   public:
-    static constexpr int kMostSamples = 1024;  // of a tile
+    static constexpr int kMaxSamples = 1024;  // of a tile
 
     virtual ~PathModel() = default;
 
@@ -39,7 +39,7 @@ class PathModel {
 // The tile's edge [px] such that its samples fit a PathModel.
 inline int tile_edge_px(int samples_per_axis) {
     for (const int edge : {32, 16, 8, 4, 2, 1})
-        if (edge * edge * samples_per_axis * samples_per_axis <= PathModel::kMostSamples) return edge;
+        if (edge * edge * samples_per_axis * samples_per_axis <= PathModel::kMaxSamples) return edge;
     HILCAM_CHECK(!"samples_per_axis is at most 32");
     return 1;
 }

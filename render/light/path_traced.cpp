@@ -46,7 +46,7 @@ class TracedPaths final : public PathModel {
 
     void trace(Tile& tile) override {
         PrimaryVertices seen(tile);
-        while (const std::size_t count = seen.next({current_, kMost})) trace_on(tile, count);
+        while (const std::size_t count = seen.next({current_, kMax})) trace_on(tile, count);
     }
 
     bool samples_lobes() const override { return true; }
@@ -54,10 +54,10 @@ class TracedPaths final : public PathModel {
 
   private:
     bool kept_;
-    static constexpr auto kMost = static_cast<std::size_t>(kMostSamples);
+    static constexpr auto kMax = static_cast<std::size_t>(kMaxSamples);
     static constexpr int kLobeRays = 4;  // of a narrow lobe at the first surface
-    std::array<Vertex, kLobeRays * kMost> a_, b_;
-    std::array<NextRay, kLobeRays * kMost> next_;
+    std::array<Vertex, kLobeRays * kMax> a_, b_;
+    std::array<NextRay, kLobeRays * kMax> next_;
     Vertex* current_ = a_.data();
     Vertex* following_ = b_.data();
 
@@ -69,11 +69,11 @@ class TracedPaths final : public PathModel {
                 Vertex* const others =
                     std::partition(current_, current_ + count, [](const Vertex& v) { return v.keeps_light; });
                 keep = static_cast<std::size_t>(others - current_);
-                frame.radiance->add_light(tile, {current_, keep}, LampLight::kNone);
+                frame.radiance->add_light(tile, {current_, keep}, BodySampling::kNone);
                 frame.kept->add_reflected(tile, {current_, keep});
                 frame.kept->add_mirrored_suns(tile, {current_, keep});
             }
-            frame.radiance->add_light(tile, {current_ + keep, count - keep}, LampLight::kSampled);
+            frame.radiance->add_light(tile, {current_ + keep, count - keep}, BodySampling::kSampled);
             const bool last = depth == frame.max_depth;
             std::size_t rays = 0;
             for (std::size_t i = 0; i < keep; ++i) continue_kept(tile, current_[i], rays);
@@ -228,7 +228,7 @@ class TracedPaths final : public PathModel {
             return;
         }
         const bool exact = ray.density == 0;
-        const float lamps = exact ? 0 : lamp_density(frame, *ray.from, ray.dir);
+        const float lamps = exact ? 0 : body_light_density(frame, *ray.from, ray.dir);
         Spectrum weight = exact ? ray.weight : (ray.density / (ray.density + lamps)) * ray.weight;
         if (background.may_meet_body(ray.dir) &&
             background.add_bodies(ray.origin_m, to_double(ray.dir), weight, pixel))

@@ -14,7 +14,7 @@ PointField::PointField(const FrameView& frame, const WorldSnapshot& world)
       world_(world),
       boresight_dir_(to_matrix(world.camera.world_from_body) * Vec3d{0, 0, 1}),
       field_rad_(std::min(kPi, half_field_rad(frame.geometry) + frame.rays->sweep_rad())),
-      least_cosine_(std::cos(field_rad_)) {}
+      min_cosine_(std::cos(field_rad_)) {}
 
 double half_field_rad(const ImageGeometry& g) {
     // Distortion may push any of the four corners out.
@@ -38,7 +38,7 @@ StarObserver PointField::observer_of(TimeTai star_time) const {
 
 bool PointField::find(Vec3d dir, double distance_m, Sighting& seen) const {
     // Parallax moves a thing at hand; only what is far away can be told by its direction alone.
-    if (std::isinf(distance_m) && dot(dir, boresight_dir_) < least_cosine_) return false;
+    if (std::isinf(distance_m) && dot(dir, boresight_dir_) < min_cosine_) return false;
     if (!frame_.rays->find(dir, distance_m, seen)) return false;
     const ImageGeometry& g = frame_.geometry;
     const double x = seen.position_px.x + g.guard_px, y = seen.position_px.y + g.guard_px;

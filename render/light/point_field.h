@@ -45,8 +45,8 @@ class PointField {
     const FrameView& frame_;
     const WorldSnapshot& world_;
     Vec3d boresight_dir_;
-    double field_rad_;     // from the boresight at the frame's time, of what can be in the image
-    double least_cosine_;  // of that angle
+    double field_rad_;   // from the boresight at the frame's time, of what can be in the image
+    double min_cosine_;  // of that angle
 
     StarObserver observer_of(TimeTai star_time) const;
     bool find(Vec3d dir, double distance_m, Sighting& seen) const;

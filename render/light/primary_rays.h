@@ -8,7 +8,7 @@
 
 namespace hilcam {
 
-// Writes at most vertices.size() vertices (PathModel::kMostSamples are enough) and adds the background to the
+// Writes at most vertices.size() vertices (PathModel::kMaxSamples are enough) and adds the background to the
 // tile's pixels. Returns how many. Loop, any thread.
 std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices);
 // Adds the background alone. uncovered: how many of a pixel's kVisibilitySamples see no object, row by row.

@@ -79,7 +79,7 @@ std::size_t PrimaryVertices::next(std::span<Vertex> vertices) {
 std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
     const PixelBox& box = tile_.box;
     if (!std::exchange(begun_, true)) {
-        HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMostSamples &&
+        HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMaxSamples &&
                      tile_.samples_per_axis == kVisibilitySamplesAcross);
         uncovered_.fill(kVisibilitySamples);
         part_ = {box.x0 - kVisibilityTile_px, box.y0, box.x0, box.y0};

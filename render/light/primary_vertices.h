@@ -16,8 +16,8 @@ class PrimaryVertices {
   public:
     explicit PrimaryVertices(Tile& tile) : tile_(tile) {}
 
-    // Writes the next vertices, PathModel::kMostSamples at a time at most, and adds the background to the
-    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMostSamples. Loop, any thread.
+    // Writes the next vertices, PathModel::kMaxSamples at a time at most, and adds the background to the
+    // tile's pixels. Returns how many; 0: that was all. vertices: room for kMaxSamples. Loop, any thread.
     std::size_t next(std::span<Vertex> vertices);
 
   private:
@@ -32,7 +32,7 @@ class PrimaryVertices {
     PixelBox part_{};  // of the tile, as the buffer has it
     static constexpr int kPartPixels = kVisibilityTile_px * kVisibilityTile_px;
     int next_pixel_ = kPartPixels;  // there
-    std::array<std::uint8_t, PathModel::kMostSamples> uncovered_;
+    std::array<std::uint8_t, PathModel::kMaxSamples> uncovered_;
     std::array<Fragment, 2 * kPacketSize> fragments_;
     std::size_t fragment_count_ = 0;
     // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.

@@ -15,12 +15,12 @@ namespace {
 // of independent causes add by their squares.
 float sun_widened(float alpha) { return std::min(1.0f, std::sqrt(alpha * alpha + 0.00233f * 0.00233f)); }
 
-bool in_cone(const BodyLamp& lamp, Vec3f dir) {
+bool in_cone(const BodyLight& lamp, Vec3f dir) {
     const Vec3f axis = to_float(lamp.world_dir);
     const Vec3f across = cross(axis, dir);
     return dot(axis, dir) > 0 && dot(across, across) <= lamp.cone_sine_squared;
 }
-float cone_density(const BodyLamp& lamp) { return 1 / (2 * kPiF * std::max(1e-20f, lamp.one_minus_cosine)); }
+float cone_density(const BodyLight& lamp) { return 1 / (2 * kPiF * std::max(1e-20f, lamp.one_minus_cosine)); }
 
 // The path's own next direction may meet the lamp as well.
 bool is_weighed(const FrameView& frame, const Vertex& at) {
@@ -29,9 +29,9 @@ bool is_weighed(const FrameView& frame, const Vertex& at) {
 
 // Whether the whole of a body could add what the threshold asks for, against white paint in the Sun, and
 // stands over the surface's horizon.
-bool lamp_counts(const FrameView& frame, const Vertex& at, const BodyLamp& lamp) {
+bool body_light_counts(const FrameView& frame, const Vertex& at, const BodyLight& lamp) {
     const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
-    if (at.importance(at.weight) * largest(lamp.most_over_sun) * solid_angle < frame.contribution_threshold)
+    if (at.importance(at.weight) * largest(lamp.max_over_sun) * solid_angle < frame.contribution_threshold)
         return false;
     return dot(at.geometric_normal, to_float(lamp.world_dir)) >= -std::sqrt(lamp.cone_sine_squared);
 }
@@ -87,7 +87,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
 }
 
 // Directions to the bodies, over each one's cone.
-void add_lamplight(Tile& tile, std::span<const Vertex> vertices, LampLight how) {
+void add_body_light(Tile& tile, std::span<const Vertex> vertices, BodySampling how) {
     const FrameView& frame = tile.frame;
     const Background& background = *frame.background;
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
@@ -98,16 +98,16 @@ void add_lamplight(Tile& tile, std::span<const Vertex> vertices, LampLight how) 
     // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
     constexpr int kQuadrature = 64;
     constexpr float kGolden = 0.61803399f;
-    const int count = how == LampLight::kSampled ? 1 : kQuadrature;
+    const int count = how == BodySampling::kSampled ? 1 : kQuadrature;
     std::uint32_t use = 2;
-    for (const BodyLamp& lamp : background.lamps()) {
+    for (const BodyLight& lamp : background.body_lights()) {
         const Frame axis(to_float(lamp.world_dir));
         ++use;
         for (const Vertex& at : vertices) {
-            if (!at.surface.has_lobes() || !lamp_counts(frame, at, lamp)) continue;
+            if (!at.surface.has_lobes() || !body_light_counts(frame, at, lamp)) continue;
             for (int i = 0; i < count; ++i) {
                 float u1 = (static_cast<float>(i) + 0.5f) / kQuadrature, u2 = static_cast<float>(i) * kGolden;
-                if (how == LampLight::kSampled) {
+                if (how == BodySampling::kSampled) {
                     const auto random = tile.random_of(at, use);
                     u1 = uniform01(random[0]), u2 = uniform01(random[1]);
                 }
@@ -116,10 +116,10 @@ void add_lamplight(Tile& tile, std::span<const Vertex> vertices, LampLight how) 
                 if (ni <= 0 || dot(at.geometric_normal, dir) <= 0) continue;
                 const Cosines c{std::max(dot(at.normal, at.view_dir), 1e-4f), ni, dot(at.view_dir, dir)};
                 Scatterer surface = at.surface;
-                if (how == LampLight::kQuadrature && surface.alpha < kNarrowAlpha) surface.alpha = 0;
+                if (how == BodySampling::kQuadrature && surface.alpha < kNarrowAlpha) surface.alpha = 0;
                 float density = cone_density(lamp) * kQuadrature;
-                if (how == LampLight::kSampled)
-                    density = lamp_density(frame, at, dir) +
+                if (how == BodySampling::kSampled)
+                    density = body_light_density(frame, at, dir) +
                               (is_weighed(frame, at) ? brdf_density(at.surface, c) : 0);
                 const Spectrum weight = (ni / density) * (at.weight * brdf_value(surface, c));
                 if (largest(weight) > 0) shadow.add(at.start(), dir, {&at, weight, dir});
@@ -132,13 +132,13 @@ class RadianceEquation final : public RadianceModel {
   public:
     explicit RadianceEquation(bool emission) : emission_(emission) {}
 
-    void add_light(Tile& tile, std::span<const Vertex> vertices, LampLight lamps) const override {
+    void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const override {
         if (tile.frame.has_emission)
             for (const Vertex& at : vertices)
                 tile.pixels[at.pixel] += at.weight * at.surface.material->emission;
         add_sunlight(tile, vertices);
         add_lamps_reflected(tile, vertices);
-        if (lamps != LampLight::kNone) add_lamplight(tile, vertices, lamps);
+        if (lamps != BodySampling::kNone) add_body_light(tile, vertices, lamps);
     }
     bool emits() const override { return emission_; }
 
@@ -152,10 +152,10 @@ std::unique_ptr<RadianceModel> make_radiance_equation(bool emission) {
     return std::make_unique<RadianceEquation>(emission);
 }
 
-float lamp_density(const FrameView& frame, const Vertex& at, Vec3f dir) {
+float body_light_density(const FrameView& frame, const Vertex& at, Vec3f dir) {
     float density = 0;
-    for (const BodyLamp& lamp : frame.background->lamps())
-        if (in_cone(lamp, dir) && lamp_counts(frame, at, lamp)) density += cone_density(lamp);
+    for (const BodyLight& lamp : frame.background->body_lights())
+        if (in_cone(lamp, dir) && body_light_counts(frame, at, lamp)) density += cone_density(lamp);
     return density;
 }
 

@@ -12,7 +12,7 @@
 namespace hilcam {
 
 // Who finds the light of the Earth, the Moon and the planets on the objects.
-enum class LampLight {
+enum class BodySampling {
     kNone,        // nobody
     kSampled,     // one random direction to each, weighed against the path's own direction
     kQuadrature,  // fixed directions over each one's disk, for what scatters wider than kNarrowAlpha
@@ -27,7 +27,7 @@ class RadianceModel {
 
     // Adds to the tile's pixels, vertex by vertex, weight times radiance towards the viewer. All vertices are
     // of one depth. Loop, any thread.
-    virtual void add_light(Tile& tile, std::span<const Vertex> vertices, LampLight lamps) const = 0;
+    virtual void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const = 0;
     // The materials' own emission counts.
     virtual bool emits() const = 0;
 };

@@ -13,13 +13,13 @@ namespace hilcam {
 // thread.
 inline Spectrum passed_through_glass(const FrameView& frame, Vec3f origin_m, Vec3f dir,
                                      float until_m = std::numeric_limits<float>::infinity()) {
-    constexpr int kMostSheets = 64;
+    constexpr int kMaxSheets = 64;
     Spectrum passed;
     passed.bin.fill(1);
     RayPacket ray;
     HitPacket hit;
     ray.count = 1;
-    for (int sheet = 0; sheet < kMostSheets; ++sheet) {
+    for (int sheet = 0; sheet < kMaxSheets; ++sheet) {
         ray.set(0, origin_m, dir, 0, until_m);
         frame.scene->intersect(ray, Coherence::kIncoherent, hit);
         if (hit.object[0] == HitPacket::kMiss) return passed;

@@ -112,10 +112,10 @@ Spectrum SkyLight::DirectionMap::at(Vec3f dir) const {
 void SkyLight::place(const Background& background) {
     background_ = &background;
     count_ = 0;
-    for (std::size_t number = 0; number < background.lamps().size(); ++number) {
-        const BodyLamp& lamp = background.lamps()[number];
+    for (std::size_t number = 0; number < background.body_lights().size(); ++number) {
+        const BodyLight& lamp = background.body_lights()[number];
         const float solid_angle = 2 * kPiF * lamp.one_minus_cosine;
-        if (count_ == kMostBodies || largest(lamp.most_over_sun) * solid_angle < kLeastOverSun) continue;
+        if (count_ == kMaxBodies || largest(lamp.max_over_sun) * solid_angle < kMinOverSun) continue;
         place_disks(background, number, disks_[count_]);
         const Disk& disk = disks_[count_].of.back();
         Body& body = bodies_[count_];
@@ -139,7 +139,7 @@ void SkyLight::place(const Background& background) {
 
 // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
 void SkyLight::place_disks(const Background& background, std::size_t number, Disks& disks) {
-    const BodyLamp& lamp = background.lamps()[number];
+    const BodyLight& lamp = background.body_lights()[number];
     const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
     disks.cosine = std::cos(half_angle), disks.sine = std::sin(half_angle);
     disks.half_angle_rad = half_angle;
@@ -158,7 +158,7 @@ void SkyLight::place_disks(const Background& background, std::size_t number, Dis
     for (std::size_t k = 0; k < kParts.size(); ++k) {
         // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half
         // of that.
-        disks.of[k].least_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
+        disks.of[k].min_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
         if (kParts[k] < kPatches) place_parts(whole, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
         for (std::size_t b = 0; b < kMaxBins; ++b)
             for (std::size_t i = 0; i < kParts[k]; ++i)
@@ -167,7 +167,7 @@ void SkyLight::place_disks(const Background& background, std::size_t number, Dis
 }
 
 void SkyLight::find_limb(const Background& background, std::size_t lamp, Disks& disks) {
-    const Frame frame(to_float(background.lamps()[lamp].world_dir));
+    const Frame frame(to_float(background.body_lights()[lamp].world_dir));
     for (std::size_t i = 0; i < Disks::kPlanes; ++i) {
         const float phi = 2 * kPiF * static_cast<float>(i) / Disks::kPlanes;
         const Vec3f way = std::cos(phi) * frame.t + std::sin(phi) * frame.b;
@@ -259,7 +259,7 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
     const Disks& disks = disks_[body];
     // So many parts that facets' alpha is what they lie apart; else all.
     std::size_t k = 0;
-    while (k + 1 < kParts.size() && alpha < 2 * disks.of[k].least_alpha) ++k;
+    while (k + 1 < kParts.size() && alpha < 2 * disks.of[k].min_alpha) ++k;
     const Disk& disk = disks.of[k];
     // Those beyond its own shine with nothing.
     const std::size_t count = std::max(kParts[k], kLanes);
@@ -268,7 +268,7 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
     const float off = std::clamp(dot(reflect(view_dir, normal), bodies_[body].world_dir), -1.0f, 1.0f);
     // Two parts' distance past the limb a narrow lobe's tail is even over a part, and the disk is no half of
     // the sky.
-    if (alpha < disk.least_alpha && off > std::cos(disks.half_angle_rad + 4 * disk.least_alpha))
+    if (alpha < disk.min_alpha && off > std::cos(disks.half_angle_rad + 4 * disk.min_alpha))
         return past_limb(body, normal, view_dir, alpha);
     const float limb =
         off >= disks.cosine ? 1.0f : off * disks.cosine + std::sqrt(1 - off * off) * disks.sine;

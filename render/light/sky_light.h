@@ -12,9 +12,9 @@ namespace hilcam {
 
 class SkyLight {
   public:
-    static constexpr std::size_t kMostBodies = 2;
+    static constexpr std::size_t kMaxBodies = 2;
     // Bodies that cannot give this share of what white paint sends in the Sun are left out.
-    static constexpr float kLeastOverSun = 1e-5f;
+    static constexpr float kMinOverSun = 1e-5f;
 
     SkyLight();
 
@@ -59,7 +59,7 @@ class SkyLight {
         std::array<Spectrum, kPatches> irradiance{};  // of each, on a surface that faces it
         alignas(
             64) std::array<std::array<float, kPatches>, kMaxBins> by_bin{};  // the same, for sums in vectors
-        float least_alpha = 0;
+        float min_alpha = 0;
     };
     struct Disks {
         std::array<Disk, kParts.size()> of;              // by kParts
@@ -73,9 +73,9 @@ class SkyLight {
 
     const Background* background_ = nullptr;
     std::size_t count_ = 0;
-    std::array<Body, kMostBodies> bodies_;
-    std::array<DirectionMap, kMostBodies> irradiance_;
-    std::array<Disks, kMostBodies> disks_;
+    std::array<Body, kMaxBodies> bodies_;
+    std::array<DirectionMap, kMaxBodies> irradiance_;
+    std::array<Disks, kMaxBodies> disks_;
 
     Spectrum past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);

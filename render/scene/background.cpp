@@ -18,7 +18,7 @@ Vec3f mean_texel(const MipTexture& map) {
 
 }  // namespace
 
-Background::Background(const std::array<SceneBody, kMostBodies>& bodies, const Atmosphere* air,
+Background::Background(const std::array<SceneBody, kMaxBodies>& bodies, const Atmosphere* air,
                        const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening,
                        const SpectralGrid& grid)
     : scene_(bodies),
@@ -28,7 +28,7 @@ Background::Background(const std::array<SceneBody, kMostBodies>& bodies, const A
       bands_(grid),
       rings_(grid),
       bins_(grid.size()) {
-    for (std::size_t i = 0; i < kMostBodies; ++i) {
+    for (std::size_t i = 0; i < kMaxBodies; ++i) {
         map_factor_[i].bin.fill(1);
         map_mean_[i].bin.fill(1);
         if (scene_[i].map.empty()) continue;
@@ -62,10 +62,10 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
         seen_in_motion(world.bodies.sun_world_m - world.camera.position_world_m, kSunRadius_m, velocity_m_s));
     sun_disk_cosine_ = cone_cosine_of(kSunRadius_m, sun_distance_m);
 
-    disk_count_ = point_count_ = lamp_count_ = 0;
+    disk_count_ = point_count_ = body_light_count_ = 0;
     nearest_m_ = kInfinity;
     camera_in_air_ = false;
-    for (std::size_t i = 0; i < kMostBodies; ++i) {
+    for (std::size_t i = 0; i < kMaxBodies; ++i) {
         if (!scene_[i].visible) continue;
         const PlacedBody body = placed(static_cast<BodyId>(i), world, static_cast<BodyId>(i) == ground);
         const double radius_m = this->figure(i).equatorial_radius_m;
@@ -83,15 +83,15 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
               [](const PlacedBody& a, const PlacedBody& b) { return a.distance_m < b.distance_m; });
     for (const PlacedBody& body : disks()) {
         // Lambert's radiance is at most albedo / pi; Lommel-Seeliger's w / 4 pi at the bright limb.
-        const Spectrum most = scene_[index_of(body.id)].look.most_sr();
+        const Spectrum most = scene_[index_of(body.id)].look.max_sr();
         const float sun_share = body.irradiance_w_m2_um[0] / std::max(1e-30f, sun_irradiance_1au_[0]);
         const Vec3d to_body_m = world.bodies[body.id].world_m - objects_world_m;
         const double radius_m =
             this->figure(index_of(body.id)).equatorial_radius_m + (has_air(body.id) ? air_->top_m() : 0);
         const double sine = std::min(1.0, radius_m / length(to_body_m));
-        lamps_[lamp_count_++] = {normalized(to_body_m), static_cast<float>(sine * sine),
-                                 static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))),
-                                 sun_share * most};
+        body_lights_[body_light_count_++] = {
+            normalized(to_body_m), static_cast<float>(sine * sine),
+            static_cast<float>(sine * sine / (1 + std::sqrt(1 - sine * sine))), sun_share * most};
     }
 
     const double au = kAstronomicalUnit_m / sun_distance_m;
@@ -114,7 +114,7 @@ double Background::limb_angle_rad(std::size_t lamp, Vec3d way) const {
     const Mat3d& fixed = body.fixed_from_world;
     return hilcam::limb_angle_rad(this->figure(index_of(body.id)),
                                   body.camera_m + fixed * objects_from_camera_m_,
-                                  fixed * lamps_[lamp].world_dir, fixed * way);
+                                  fixed * body_lights_[lamp].world_dir, fixed * way);
 }
 
 Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) const {
@@ -124,9 +124,9 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
     const double sun_m = length(to_sun_m);
     const Vec3d sun_dir = to_sun_m / sun_m;
     const double disk_cosine = cone_cosine_of(kSunRadius_m, sun_m);
-    std::array<std::size_t, kMostBodies> before{};
+    std::array<std::size_t, kMaxBodies> before{};
     std::size_t count = 0;
-    for (std::size_t i = 0; i < kMostBodies; ++i) {
+    for (std::size_t i = 0; i < kMaxBodies; ++i) {
         if (!scene_[i].visible || i == index_of(standing_on)) continue;
         const Vec3d to_body = bodies_.body[i].world_m - place_world_m;
         const double body_m = length(to_body);

@@ -16,11 +16,11 @@
 namespace hilcam {
 
 // A body that shines on the objects: the cone that holds it.
-struct BodyLamp {
+struct BodyLight {
     Vec3d world_dir;          // from the objects
     float cone_sine_squared;  // of its half angle; 1 inside it
     float one_minus_cosine;   // of its half angle, with all its digits where it is small
-    Spectrum most_over_sun;   // of its radiance, per unit of solar irradiance [sr^-1]
+    Spectrum max_over_sun;    // of its radiance, per unit of solar irradiance [sr^-1]
 };
 
 // A body for one frame. Body axes: its own; "from" the body's centre.
@@ -49,7 +49,7 @@ struct PlacedBody {
 class Background {
   public:
     // The bodies and the air of the scene must outlive this.
-    Background(const std::array<SceneBody, kMostBodies>& bodies, const Atmosphere* air,
+    Background(const std::array<SceneBody, kMaxBodies>& bodies, const Atmosphere* air,
                const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening, const SpectralGrid& grid);
 
     // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h).
@@ -71,7 +71,7 @@ class Background {
     // Bodies with a disk, nearest first; and those that are points.
     std::span<const PlacedBody> disks() const { return {disks_.data(), disk_count_}; }
     std::span<const PlacedBody> points() const { return {points_.data(), point_count_}; }
-    std::span<const BodyLamp> lamps() const { return {lamps_.data(), lamp_count_}; }
+    std::span<const BodyLight> body_lights() const { return {body_lights_.data(), body_light_count_}; }
     // Returns the angle from the middle of a lamp's disk to the limb of its ground [rad], as seen from the
     // objects, in the plane of a direction across (unit, world).
     double limb_angle_rad(std::size_t lamp, Vec3d way) const;
@@ -90,7 +90,7 @@ class Background {
     }
     // Cheaply, whether add_bodies() could add anything. dir: unit.
     bool may_meet_body(Vec3f dir) const {
-        for (const BodyLamp& lamp : lamps()) {
+        for (const BodyLight& lamp : body_lights()) {
             const Vec3f axis = to_float(lamp.world_dir);
             const float cosine = dot(axis, dir);
             // The cone with a margin for single precision and for the objects' own size.
@@ -145,19 +145,19 @@ class Background {
     Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const;
 
   private:
-    const std::array<SceneBody, kMostBodies>& scene_;
+    const std::array<SceneBody, kMaxBodies>& scene_;
     const Atmosphere* air_;
     Spectrum sun_irradiance_1au_;
     SunDisk disk_;
     ColorBands bands_;
     SaturnRings rings_;
     int bins_;
-    std::array<Spectrum, kMostBodies> map_factor_;  // on texel colours
-    std::array<Spectrum, kMostBodies> map_mean_;    // what they then are on the mean; 1 without a map
+    std::array<Spectrum, kMaxBodies> map_factor_;  // on texel colours
+    std::array<Spectrum, kMaxBodies> map_mean_;    // what they then are on the mean; 1 without a map
 
-    std::array<PlacedBody, kMostBodies> disks_, points_;
-    std::array<BodyLamp, kMostBodies> lamps_;
-    std::size_t disk_count_ = 0, point_count_ = 0, lamp_count_ = 0;
+    std::array<PlacedBody, kMaxBodies> disks_, points_;
+    std::array<BodyLight, kMaxBodies> body_lights_;
+    std::size_t disk_count_ = 0, point_count_ = 0, body_light_count_ = 0;
     const PlacedBody* plain_ = nullptr;
     Spectrum plain_radiance_;
     Bodies bodies_;

@@ -53,7 +53,7 @@ PlacedBody Background::placed(BodyId id, const WorldSnapshot& world, bool stays)
     out.irradiance_w_m2_um = static_cast<float>(au * au) * sun_irradiance_1au_;
     out.sun_radius_rad = kSunRadius_m / sun_m;
     if (scene_[index_of(id)].planetshine) add_planetshine(world, out);
-    for (std::size_t i = 0; i < kMostBodies; ++i) {
+    for (std::size_t i = 0; i < kMaxBodies; ++i) {
         if (!scene_[i].visible || i == index_of(id)) continue;
         const Vec3d to_other = world.bodies.body[i].world_m - state.world_m;
         const double other_m = length(to_other);
@@ -79,7 +79,7 @@ double Background::outer_radius_m(BodyId id) const {
 // Each of the others as a disk of the phase at which this body sees it, its air apart.
 void Background::add_planetshine(const WorldSnapshot& world, PlacedBody& out) const {
     const Vec3d here_m = world.bodies[out.id].world_m;
-    for (std::size_t i = 0; i < kMostBodies; ++i) {
+    for (std::size_t i = 0; i < kMaxBodies; ++i) {
         if (!scene_[i].visible || i == index_of(out.id)) continue;
         const Vec3d to_other_m = world.bodies.body[i].world_m - here_m;
         const Vec3d to_sun_m = world.bodies.sun_world_m - world.bodies.body[i].world_m;

@@ -85,8 +85,8 @@ struct ClosestTriangle::Implementation {
         search.distance = distance;
         search.found = Found{number, at.u, at.v};
         // A little more, so that no other one that is as near is cut off.
-        constexpr float kAsNear = 1.0001f, kLeast_m = 1e-12f;
-        arguments->query->radius = std::min(arguments->query->radius, std::max(kAsNear * distance, kLeast_m));
+        constexpr float kAsNear = 1.0001f, kMin_m = 1e-12f;
+        arguments->query->radius = std::min(arguments->query->radius, std::max(kAsNear * distance, kMin_m));
         return true;
     }
 };

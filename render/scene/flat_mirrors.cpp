@@ -14,9 +14,9 @@ constexpr double kSamePlane = 0.999986;  // cosine of 0.3 degrees
 constexpr float kFlatCorner = 0.99985f;  // cosine of a degree: corner normals against their triangle's
 // Mirrors that are smaller than this share of the object's radius, squared, throw too little; so do those
 // that fill less than this of their rectangle, as bars do.
-constexpr double kLeastArea = 1e-2, kLeastFilled = 0.2;
+constexpr double kMinArea = 1e-2, kMinFilled = 0.2;
 // So many of the largest parts are looked at, each with all that lies in its plane.
-constexpr std::size_t kMostSeeds = 64;
+constexpr std::size_t kMaxSeeds = 64;
 
 // Triangles that lie in one plane to the last digits that count.
 struct PlanePart {
@@ -98,12 +98,12 @@ class MirrorFinder {
         join_parts();
         const std::vector<std::vector<FlatTriangle>> of = triangles();
         std::vector<FlatMirror> out;
-        for (std::size_t m = 0; m < mirrors_.size() && out.size() < kMostFlatMirrors; ++m) {
+        for (std::size_t m = 0; m < mirrors_.size() && out.size() < kMaxFlatMirrors; ++m) {
             FlatMirror mirror;
             lay_out(of[m], normalized(mirrors_[m].area), mirrors_[m].middle, mirror);
             const double whole_m2 =
                 static_cast<double>(mirror.width_m) * static_cast<double>(mirror.height_m);
-            if (!(mirrors_[m].area_m2 > kLeastFilled * whole_m2)) continue;
+            if (!(mirrors_[m].area_m2 > kMinFilled * whole_m2)) continue;
             mirror.surface = mirrors_[m].surface;
             mirror.area_m2 = static_cast<float>(mirrors_[m].area_m2);
             mirror.tolerance_m = static_cast<float>(2 * tolerance_m_);
@@ -179,7 +179,7 @@ class MirrorFinder {
 
     void join_parts() {
         std::size_t seeds = 0;
-        for (std::size_t s = 0; s < parts_.size() && seeds < kMostSeeds; ++s) {
+        for (std::size_t s = 0; s < parts_.size() && seeds < kMaxSeeds; ++s) {
             const PlanePart& seed = parts_[s];
             if (seed.mirror >= 0) continue;
             ++seeds;
@@ -200,7 +200,7 @@ class MirrorFinder {
             }
             mirror.middle = mirror.middle / mirror.area_m2;
             mirror.thrown_m2 = mirror.area_m2 * static_cast<double>(throws_[seed.surface]);
-            if (mirror.area_m2 > kLeastArea * surfaces_.radius_m * surfaces_.radius_m)
+            if (mirror.area_m2 > kMinArea * surfaces_.radius_m * surfaces_.radius_m)
                 mirrors_.push_back(std::move(mirror));
         }
         std::stable_sort(mirrors_.begin(), mirrors_.end(),

@@ -50,9 +50,9 @@ class FlatMirror {
     double sum_to(double x, double y) const;
 };
 
-// The flat mirrors of a mesh, those that throw the most light first, kMostFlatMirrors of them at most.
+// The flat mirrors of a mesh, those that throw the most light first, kMaxFlatMirrors of them at most.
 // throws: by surface, the share of the light that it mirrors; 0: it is no mirror. Owner thread.
-inline constexpr std::size_t kMostFlatMirrors = 8;
+inline constexpr std::size_t kMaxFlatMirrors = 8;
 std::vector<FlatMirror> find_flat_mirrors(const MeshView& mesh, const ObjectSurfaces& surfaces,
                                           std::span<const float> throws);
 

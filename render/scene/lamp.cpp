@@ -39,7 +39,7 @@ double LampBeam::at(Vec3d axis, Vec3d dir) const {
 }
 
 void ShownLamps::resize(std::size_t size) {
-    HILCAM_CHECK(size <= kMostLamps);
+    HILCAM_CHECK(size <= kMaxLamps);
     size_ = size;
 }
 

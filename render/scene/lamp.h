@@ -41,7 +41,7 @@ class LampBeam {
 };
 
 // More would want another way than a shadow ray to each.
-inline constexpr std::size_t kMostLamps = 16;
+inline constexpr std::size_t kMaxLamps = 16;
 
 // As it stands after loading.
 struct SceneLamp {
@@ -62,13 +62,13 @@ struct ShownLamp {
 class ShownLamps {
   public:
     std::size_t size() const { return size_; }
-    // At most kMostLamps.
+    // At most kMaxLamps.
     void resize(std::size_t size);
     ShownLamp& operator[](std::size_t i) { return lamps_[i]; }
     const ShownLamp& operator[](std::size_t i) const { return lamps_[i]; }
 
   private:
-    std::array<ShownLamp, kMostLamps> lamps_;
+    std::array<ShownLamp, kMaxLamps> lamps_;
     std::size_t size_ = 0;
 };
 

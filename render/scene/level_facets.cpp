@@ -107,11 +107,11 @@ std::size_t divide(const Group& group, std::span<Group> halves) {
 LevelFacets facets_of_parts(std::span<Part> parts) {
     const Group all = group_of(parts);
     std::array<Group, 2> halves;
-    std::array<Group, LevelFacets::kMost> groups;
+    std::array<Group, LevelFacets::kMax> groups;
     std::size_t count = 0;
     const std::size_t two = divide(all, halves);
     for (std::size_t i = 0; i < two; ++i) count += divide(halves[i], std::span(groups).subspan(count, 2));
-    std::array<LevelFacets::Facet, LevelFacets::kMost> facets{};
+    std::array<LevelFacets::Facet, LevelFacets::kMax> facets{};
     double variance = 0;  // within the groups, of both axes together: alpha squared (Beckmann's)
     for (std::size_t i = 0; i < count; ++i) {
         const Group& g = groups[i];
@@ -126,13 +126,13 @@ LevelFacets facets_of_parts(std::span<Part> parts) {
 
 }  // namespace
 
-LevelFacets LevelFacets::of(const std::array<Facet, kMost>& facets, float alpha) {
+LevelFacets LevelFacets::of(const std::array<Facet, kMax>& facets, float alpha) {
     LevelFacets out;
     out.alpha_ = alpha;
     const auto whole = [](float lean) {
         return static_cast<std::int16_t>(std::lround(std::clamp(lean, -2.0f, 2.0f) * kLean));
     };
-    for (std::size_t i = 0; i < kMost; ++i) {
+    for (std::size_t i = 0; i < kMax; ++i) {
         out.x_[i] = whole(facets[i].lean.x), out.y_[i] = whole(facets[i].lean.y);
         out.z_[i] = whole(facets[i].lean.z);
         // A facet that is there stays there.

@@ -18,23 +18,23 @@ namespace hilcam {
 
 class LevelFacets {
   public:
-    static constexpr std::size_t kMost = 4;
+    static constexpr std::size_t kMax = 4;
     struct Facet {
         Vec3f lean;   // added to the level's own normal there, before it is made a unit vector; body axes
         float share;  // of the area of all; 0: there are no more
     };
     // alpha: GGX's, of how normals scatter about the facets' own.
-    static LevelFacets of(const std::array<Facet, kMost>& facets, float alpha);
+    static LevelFacets of(const std::array<Facet, kMax>& facets, float alpha);
     // Leans nowhere.
     static LevelFacets flat() { return of({Facet{{}, 1}}, 0); }
 
-    using Floats = std::array<float, kMost>;
+    using Floats = std::array<float, kMax>;
     struct Leans {
         Floats x, y, z;
     };
     Leans leans() const {
         Leans out;
-        for (std::size_t i = 0; i < kMost; ++i) {
+        for (std::size_t i = 0; i < kMax; ++i) {
             out.x[i] = static_cast<float>(x_[i]) * (1 / kLean);
             out.y[i] = static_cast<float>(y_[i]) * (1 / kLean);
             out.z[i] = static_cast<float>(z_[i]) * (1 / kLean);
@@ -43,7 +43,7 @@ class LevelFacets {
     }
     Floats shares() const {
         Floats out;
-        for (std::size_t i = 0; i < kMost; ++i) out[i] = static_cast<float>(share_[i]) * (1 / kAll);
+        for (std::size_t i = 0; i < kMax; ++i) out[i] = static_cast<float>(share_[i]) * (1 / kAll);
         return out;
     }
     float alpha() const { return alpha_; }
@@ -52,8 +52,8 @@ class LevelFacets {
 
   private:
     static constexpr float kLean = 16383, kAll = 255;  // units of a lean (2 at most), and of a share
-    std::array<std::int16_t, kMost> x_{}, y_{}, z_{};
-    std::array<std::uint8_t, kMost> share_{};
+    std::array<std::int16_t, kMax> x_{}, y_{}, z_{};
+    std::array<std::uint8_t, kMax> share_{};
     float alpha_ = 0;
 };
 static_assert(sizeof(LevelFacets) == 32);

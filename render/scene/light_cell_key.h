@@ -17,7 +17,7 @@ struct SurfaceSide {
     bool back = false;  // the triangle's own normal (right-handed) points to the other side
 };
 
-inline constexpr int kMostCubes = 32700;  // along an axis
+inline constexpr int kMaxCubes = 32700;  // along an axis
 
 struct Cube {
     int x, y, z;
@@ -64,7 +64,7 @@ struct CubeGrid {
     float cube_m;
 
     Cube cube(Vec3f m) const {
-        const auto part = [this](float x) { return std::clamp(static_cast<int>(x / cube_m), 0, kMostCubes); };
+        const auto part = [this](float x) { return std::clamp(static_cast<int>(x / cube_m), 0, kMaxCubes); };
         return {part(m.x - corner_m.x), part(m.y - corner_m.y), part(m.z - corner_m.z)};
     }
 };

@@ -131,17 +131,17 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
     const MeshExtent extent = extent_of(mesh, keeps);
     if (!(extent.area_m2 > 0) || !std::isfinite(extent.area_m2)) return;
     const Vec3f size = extent.most - extent.least;
-    const float least_cube_m = std::max({size.x, size.y, size.z}) / (kMostCubes - 8);
+    const float min_cube_m = std::max({size.x, size.y, size.z}) / (kMaxCubes - 8);
     // Two sides; a wall that is aslant lies in half as many cubes again. Corrected by what is found.
-    cube_m_ = std::max(least_cube_m,
-                       static_cast<float>(std::sqrt(3 * extent.area_m2 / static_cast<double>(wanted))));
+    cube_m_ =
+        std::max(min_cube_m, static_cast<float>(std::sqrt(3 * extent.area_m2 / static_cast<double>(wanted))));
     std::vector<FoundCell> cells;
     for (int attempt = 0; attempt < 4; ++attempt) {
         corner_m_ = extent.least - Vec3f{0.37f * cube_m_, 0.41f * cube_m_, 0.43f * cube_m_};
         cells = find_cells(mesh, keeps, {corner_m_, cube_m_});
         const double ratio = static_cast<double>(cells.size()) / static_cast<double>(wanted);
         if (ratio > 0.6 && ratio < 1.3) break;
-        cube_m_ = std::max(least_cube_m, cube_m_ * static_cast<float>(std::sqrt(ratio)));
+        cube_m_ = std::max(min_cube_m, cube_m_ * static_cast<float>(std::sqrt(ratio)));
     }
 
     prefer_open_points(mesh, keeps, {corner_m_, cube_m_}, above_of(mesh), openness, cells);

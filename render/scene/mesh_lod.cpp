@@ -72,13 +72,13 @@ float flattened_alpha(double area, double level_area) {
 // meshoptimizer asks each triangle at a vertex about each other one there: a fan of 100,000 takes it a
 // minute. What has so many stays as it is.
 bool is_crowded(std::span<const unsigned> indices, std::span<const Vec3f> positions) {
-    constexpr std::uint32_t kMostAtAPlace = 4096;
+    constexpr std::uint32_t kMaxAtAPlace = 4096;
     std::vector<unsigned> places(indices.size());
     meshopt_generateShadowIndexBuffer(places.data(), indices.data(), indices.size(), positions.data(),
                                       positions.size(), sizeof(Vec3f), sizeof(Vec3f));
     std::vector<std::uint32_t> triangles(positions.size());
     return std::any_of(places.begin(), places.end(),
-                       [&](unsigned place) { return ++triangles[place] > kMostAtAPlace; });
+                       [&](unsigned place) { return ++triangles[place] > kMaxAtAPlace; });
 }
 
 Mesh simplified(const Mesh& mesh, float error_m) {

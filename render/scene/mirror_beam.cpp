@@ -13,7 +13,7 @@ HILCAM_CLONES void find_places_in_beam(const MirrorBeam& beam, BeamPlaces& place
     const Line d = beam.distance, u = beam.x, v = beam.y;
     const float nearest_m = beam.least_m, width_m = beam.width_m, height_m = beam.height_m;
     const Vec2f margin = beam.margin, margin_m = beam.margin_m;
-    for (std::size_t i = 0; i < BeamPlaces::kMost; ++i) {
+    for (std::size_t i = 0; i < BeamPlaces::kMax; ++i) {
         const float px = places.x[i], py = places.y[i], pz = places.z[i];
         const auto at = [&](const Line& line) {
             return line.by_place.x * px + line.by_place.y * py + line.by_place.z * pz + line.constant;

@@ -29,11 +29,11 @@ struct MirrorBeam {
 
 // Places side by side.
 struct BeamPlaces {
-    static constexpr std::size_t kMost = 256;
-    alignas(64) std::array<float, kMost> x, y, z;
-    alignas(64) std::array<std::uint8_t, kMost> in_beam;  // 1: it is
+    static constexpr std::size_t kMax = 256;
+    alignas(64) std::array<float, kMax> x, y, z;
+    alignas(64) std::array<std::uint8_t, kMax> in_beam;  // 1: it is
 };
-// Sets in_beam of all kMost. Loop, any thread.
+// Sets in_beam of all kMax. Loop, any thread.
 void find_places_in_beam(const MirrorBeam& beam, BeamPlaces& places);
 
 // A box along the axes.

@@ -65,9 +65,9 @@ struct Scene {
     std::unique_ptr<SceneTerrain> terrain;  // null: none
     std::vector<SceneLamp> lamps;
     std::vector<Star> stars;
-    TimeTai stars_time;                         // of their places
-    std::array<SceneBody, kMostBodies> bodies;  // by BodyId
-    std::unique_ptr<Atmosphere> air;            // the Earth's; null: none
+    TimeTai stars_time;                        // of their places
+    std::array<SceneBody, kMaxBodies> bodies;  // by BodyId
+    std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
     Spectrum sun_irradiance_1au_w_m2_um;
     bool limb_darkening = true;
     // Objects' tables of directions come when frames are being made already (Renderer::give_tables).

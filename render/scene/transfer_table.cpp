@@ -119,9 +119,9 @@ class Tracer {
         if (glass_[surface]) {
             // As rays leave surfaces in path_vertex.cpp.
             const float greatest = std::max({std::abs(point_m.x), std::abs(point_m.y), std::abs(point_m.z)});
-            constexpr int kMostSheets = 16;
+            constexpr int kMaxSheets = 16;
             out = kDark;
-            if (ray.sheets < kMostSheets)
+            if (ray.sheets < kMaxSheets)
                 through.push_back({ray.direction,
                                    point_m + 32 * std::numeric_limits<float>::epsilon() * greatest * ray.dir,
                                    ray.dir, ray.sheets + 1});
@@ -199,7 +199,7 @@ TransferTable::TransferTable(const Mesh& mesh, std::span<const std::uint8_t> gla
     for (const std::uint8_t is_glass : glass) keeps.push_back(!is_glass);
     EmbreeScene scene(std::vector<std::vector<const Mesh*>>{{&mesh}}, false);
     scene.place(std::vector<Pose>(1), std::vector<std::size_t>(1), {});
-    nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMostNodes / 2),
+    nodes_ = LightNodes(mesh, keeps, std::min(settings.nodes, kMaxNodes / 2),
                         [&](Vec3f point_m, Vec3f normal, float within_m) {
                             if (watcher) watcher(0);
                             return openness(mesh, glass, scene, point_m, normal, within_m);
@@ -321,7 +321,7 @@ std::size_t TransferTable::bytes() const {
 bool TransferTable::is_whole() const {
     const std::size_t n = size();
     if (directions_ < 4 || directions_ % LightNode::kPoints != 0 || directions_ > 256 || !nodes_.is_whole() ||
-        n > kMostNodes)
+        n > kMaxNodes)
         return false;
     if (first_entry_.size() != n + 1 || first_entry_.front() != 0 || first_entry_.back() != entries_.size() ||
         free_.size() != n * free_words() || live_.size() != n || counted_.size() != n || turns_.size() != n)

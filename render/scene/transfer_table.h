@@ -56,7 +56,7 @@ class TransferTable {
         std::uint32_t node : 24;
         std::uint32_t direction : 8;
     };
-    static constexpr std::size_t kMostNodes = (1u << 24) - 1;
+    static constexpr std::size_t kMaxNodes = (1u << 24) - 1;
     std::span<const Entry> entries(std::size_t node) const {
         return {entries_.data() + first_entry_[node], first_entry_[node + 1] - first_entry_[node]};
     }

@@ -267,10 +267,10 @@ class PrecomputedAtmosphere final : public Atmosphere {
     // psi, order by order: the mean over all directions of the light that arrives after n scatterings or
     // reflections, then of what that light sends on, until an order adds a thousandth.
     void fill_multiple() {
-        constexpr int kMostOrders = 30;
+        constexpr int kMaxOrders = 30;
         Orders last = next_order(nullptr);
         Table total = last.mean;
-        for (int order = 2; order <= kMostOrders; ++order) {
+        for (int order = 2; order <= kMaxOrders; ++order) {
             last = next_order(&last);
             float most = 0;
             for (std::size_t i = 0; i < total.cells().size(); ++i) {

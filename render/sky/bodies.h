@@ -37,9 +37,9 @@ inline constexpr std::size_t kBodyCount = 9;
 inline constexpr std::array<std::string_view, kBodyCount> kBodyNames = {
     "mercury", "venus", "earth", "moon", "mars", "jupiter", "saturn", "uranus", "neptune"};
 // Bodies of the scenario's own (own_bodies.h) come after these.
-inline constexpr std::size_t kMostOwnBodies = 8;
-inline constexpr std::size_t kMostBodies = kBodyCount + kMostOwnBodies;
-inline constexpr BodyId kNoBody{kMostBodies};
+inline constexpr std::size_t kMaxOwnBodies = 8;
+inline constexpr std::size_t kMaxBodies = kBodyCount + kMaxOwnBodies;
+inline constexpr BodyId kNoBody{kMaxBodies};
 inline constexpr std::size_t index_of(BodyId id) { return static_cast<std::size_t>(id); }
 
 // An ellipsoid of revolution about its z axis.
@@ -124,7 +124,7 @@ struct BodyState {
 struct Bodies {
     Vec3d sun_world_m;
     StateVector origin_from_barycenter;  // ICRF axes
-    std::array<BodyState, kMostBodies> body;
+    std::array<BodyState, kMaxBodies> body;
 
     BodyState& operator[](BodyId id) { return body[index_of(id)]; }
     const BodyState& operator[](BodyId id) const { return body[index_of(id)]; }

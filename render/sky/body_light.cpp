@@ -23,7 +23,7 @@ Curve moon_scattering() {
 }
 
 // Where the disk is a thin crescent its brightness against a sphere's is not known; it is held from here on.
-constexpr double kMostPhase_deg = 165;
+constexpr double kMaxPhase_deg = 165;
 
 double disk_phase(SurfaceLaw law, double phase_rad) {
     return law == SurfaceLaw::kLambert ? lambert_phase(phase_rad) : lommel_seeliger_phase(phase_rad);
@@ -196,7 +196,7 @@ BodyLook::BodyLook(BodyId id, const BodyConfig& config, const SpectralGrid& grid
             by_degree_[i] = 1;
             continue;
         }
-        const double g = std::min(static_cast<double>(i), kMostPhase_deg) * kDegree_rad;
+        const double g = std::min(static_cast<double>(i), kMaxPhase_deg) * kDegree_rad;
         // Geometric albedo times phase function: flux ratio over (R / 1 au)^2.
         const double ratio = kAstronomicalUnit_m / kFigures[index_of(id)].equatorial_radius_m;
         const double flux = std::pow(10.0, -0.4 * (magnitude_v_1au(id, g) - kSunMagnitudeV)) * ratio * ratio;
@@ -236,7 +236,7 @@ void BodyLook::integrate_disk() {
     }
 }
 
-Spectrum BodyLook::most_sr() const {
+Spectrum BodyLook::max_sr() const {
     if (law_ != SurfaceLaw::kHapke) return reflectance_sr(1, 0, 1);
     Spectrum most;
     for (const auto& [mu0, mu, cosine] :

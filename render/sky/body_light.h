@@ -77,7 +77,7 @@ class BodyLook {
     bool is_hapke() const { return law_ == SurfaceLaw::kHapke; }
     const Spectrum& albedo() const { return albedo_; }
     // No element sends more per unit of irradiance [sr^-1].
-    Spectrum most_sr() const;
+    Spectrum max_sr() const;
 
   private:
     float coefficient(double phase_rad) const;

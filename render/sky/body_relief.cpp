@@ -143,8 +143,8 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
             s += above * r / std::max(-s, 0.3 * r);
         }
     }
-    constexpr double kMostSteps = 256;
-    const double steps = std::clamp(std::ceil((end - begin) / (0.7 * spacing_m_)), 2.0, kMostSteps);
+    constexpr double kMaxSteps = 256;
+    const double steps = std::clamp(std::ceil((end - begin) / (0.7 * spacing_m_)), 2.0, kMaxSteps);
     double before = begin, height_before = above_m(begin);
     if (height_before <= 0) return to_closest + begin;
     for (double k = 1; k <= steps; ++k) {
@@ -175,12 +175,12 @@ namespace {
 // How high the ground stands towards a direction, where it is between two angles: what is below the least does not
 // matter, and above the most no more is asked.
 double horizon_between(const BodyRelief& relief, double radius_m, Vec3d place_m, Vec3d towards,
-                       double least_rad, double most_rad) {
+                       double min_rad, double max_rad) {
     const double r = length(place_m);
     const Vec3d up = place_m / r;
     const Vec3d flat = towards - dot(towards, up) * up;
     const double horizontal = length(flat);
-    double highest = least_rad;
+    double highest = min_rad;
     if (!(horizontal > 1e-6)) return highest;
     const Vec3d way = flat / horizontal;
     const double most_m = radius_m + relief.highest_m();
@@ -193,7 +193,7 @@ double horizon_between(const BodyRelief& relief, double radius_m, Vec3d place_m,
         const Vec3d dir = p / level_m;
         const Vec3d ground = (radius_m + relief.height_m(dir, 0.1 * s)) * dir - place_m;
         highest = std::max(highest, std::atan2(dot(ground, up), dot(ground, way)));
-        if (highest > most_rad) break;
+        if (highest > max_rad) break;
     }
     return highest;
 }

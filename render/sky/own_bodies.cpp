@@ -26,7 +26,7 @@ Mat3d fixed_from_icrf(const OwnBody& body, const StateVector& s, TimeTai time) {
 }
 
 void place_own_bodies(TimeTai time, const OwnBodies& own, std::optional<BodyId> home, Bodies& out) {
-    HILCAM_CHECK(own.list.size() <= kMostOwnBodies);
+    HILCAM_CHECK(own.list.size() <= kMaxOwnBodies);
     for (std::size_t k = 0; k < own.list.size(); ++k) {
         const OwnBody& body = own.list[k];
         const Vec3d center_m = body.center ? out[*body.center].world_m : out.sun_world_m;

@@ -27,7 +27,7 @@ struct OwnBody {
     double meridian_rad = 0, rate_rad_s = 0;
 };
 struct OwnBodies {
-    std::vector<OwnBody> list;  // kMostOwnBodies at most
+    std::vector<OwnBody> list;  // kMaxOwnBodies at most
 };
 
 // Its axes at an instant from its state about its centre.

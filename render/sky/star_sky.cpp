@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kStarsPerCell = 100;
 // A face has at most so many by as many: more would cost a frame more to look through than they save.
-constexpr int kMostCellsAcross = 64;
+constexpr int kMaxCellsAcross = 64;
 
 // On the face of the cube that the direction meets, in cells that are about equally wide as seen from the
 // middle.
@@ -32,7 +32,7 @@ std::uint32_t cell_of(Vec3d dir, int across) {
 StarSky::StarSky(std::vector<Star> stars, TimeTai time) : time_(time) {
     const auto across =
         std::clamp(static_cast<int>(std::sqrt(static_cast<double>(stars.size()) / (6 * kStarsPerCell))), 1,
-                   kMostCellsAcross);
+                   kMaxCellsAcross);
     std::vector<std::uint32_t> cell(stars.size());
     for (std::size_t i = 0; i < stars.size(); ++i) cell[i] = cell_of(stars[i].world_dir, across);
     std::vector<std::size_t> order(stars.size());
@@ -44,7 +44,7 @@ StarSky::StarSky(std::vector<Star> stars, TimeTai time) : time_(time) {
     for (const std::size_t i : order) {
         stars_.push_back(stars[i]);
         fastest_rad_yr_ = std::max(fastest_rad_yr_, static_cast<double>(length(stars[i].motion_rad_yr)));
-        most_parallax_rad_ = std::max(most_parallax_rad_, static_cast<double>(stars[i].parallax_rad));
+        max_parallax_rad_ = std::max(max_parallax_rad_, static_cast<double>(stars[i].parallax_rad));
     }
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         while (end < order.size() && cell[order[end]] == cell[order[begin]]) ++end;
@@ -70,12 +70,12 @@ StarSky::Cone StarSky::cone_of(std::size_t begin, std::size_t end) const {
 double StarSky::farthest_shift_rad(const StarObserver& observer) const {
     // A unit vector that is displaced by less than its length turns by the arc sine of that at most.
     const double displaced =
-        std::abs(observer.years()) * fastest_rad_yr_ + length(observer.position_au()) * most_parallax_rad_;
+        std::abs(observer.years()) * fastest_rad_yr_ + length(observer.position_au()) * max_parallax_rad_;
     return (displaced < 1 ? std::asin(displaced) : kPi) + std::asin(length(observer.beta()));
 }
 
 // A grid of axes over the sky: any other axis is within half a diagonal of its cell's.
-std::size_t StarSky::most_within(double angle_rad) const {
+std::size_t StarSky::max_within(double angle_rad) const {
     constexpr int kAcross = 16;
     const double half_diagonal_rad = std::sqrt(0.5) * (kPi / 2) / kAcross;
     const auto along = [](int i) { return std::tan(((i + 0.5) / kAcross - 0.5) * (kPi / 2)); };

@@ -24,7 +24,7 @@ class StarSky {
     bool empty() const { return stars_.empty(); }
     TimeTai time() const { return time_; }
     // At most so many stars are in a cone of this half angle, wherever it points. Slow.
-    std::size_t most_within(double angle_rad) const;
+    std::size_t max_within(double angle_rad) const;
 
     // Calls use(star, apparent direction) for each star that the observer may see within a cone, and for some
     // just outside. In the order of the cells. Loop, any thread.
@@ -63,7 +63,7 @@ class StarSky {
     std::vector<Star> stars_;
     std::vector<Cell> cells_;
     TimeTai time_;
-    double fastest_rad_yr_ = 0, most_parallax_rad_ = 0;
+    double fastest_rad_yr_ = 0, max_parallax_rad_ = 0;
 
     Cone cone_of(std::size_t begin, std::size_t end) const;
     double farthest_shift_rad(const StarObserver& observer) const;

@@ -9,7 +9,7 @@ namespace hilcam {
 namespace {
 
 constexpr double kSide_px = kVisibilityTile_px;
-constexpr double kMostError_px = 0.05;
+constexpr double kMaxError_px = 0.05;
 constexpr int kSteps = 32;  // of the grid on which the lens's derivatives are looked at
 // What lies between the grid's places may be curved more.
 constexpr double kSafety = 1.3;
@@ -120,12 +120,12 @@ int tiles_in(int size_px) { return (size_px + kVisibilityTile_px - 1) / kVisibil
 
 // Returns the greatest error of every fourth tile and the last ones: lenses change slowly.
 double tile_error_px(const ImageGeometry& g) {
-    double most_px = 0;
+    double max_px = 0;
     const int across = tiles_in(g.padded_width()), down = tiles_in(g.padded_height());
     for (int y = 0; y < down + 3; y += 4)
         for (int x = 0; x < across + 3; x += 4)
-            most_px = std::max(most_px, fit(g, std::min(x, across - 1), std::min(y, down - 1)).error_px);
-    return kSafety * most_px;
+            max_px = std::max(max_px, fit(g, std::min(x, across - 1), std::min(y, down - 1)).error_px);
+    return kSafety * max_px;
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ bool LensTiles::takes(const ImageGeometry& geometry) {
     if (geometry.distortion.projection != Projection::kRectilinear) return false;
     const Box box = ideal_box(geometry);
     if (!(box.x1 - box.x0 < 1e5 && box.y1 - box.y0 < 1e5)) return false;
-    return !curvature_in(geometry, box).folds && tile_error_px(geometry) <= kMostError_px;
+    return !curvature_in(geometry, box).folds && tile_error_px(geometry) <= kMaxError_px;
 }
 
 LensTiles::LensTiles(const ImageGeometry& geometry)

@@ -25,7 +25,7 @@ bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std
         const Vec3d from = camera_from_body * to_double(least_m) + offset_m;
         const Vec3d size = to_double(most_m) - to_double(least_m);
         const std::array<Vec3d, 3> edges = {size.x * axes.x, size.y * axes.y, size.z * axes.z};
-        double least_x = 1e300, least_y = 1e300, most_x = -1e300, most_y = -1e300;
+        double min_x = 1e300, min_y = 1e300, max_x = -1e300, max_y = -1e300;
         int in_front = 0;
         for (unsigned corner = 0; corner < 8; ++corner) {
             Vec3d p = from;
@@ -35,8 +35,8 @@ bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std
             if (!(p.z > 1e-9 * (std::abs(p.x) + std::abs(p.y)))) continue;
             ++in_front;
             const double x = p.x / p.z, y = p.y / p.z;
-            least_x = std::min(least_x, x), most_x = std::max(most_x, x);
-            least_y = std::min(least_y, y), most_y = std::max(most_y, y);
+            min_x = std::min(min_x, x), max_x = std::max(max_x, x);
+            min_y = std::min(min_y, y), max_y = std::max(max_y, y);
         }
         if (in_front == 0) continue;
         // A box that reaches through the camera's plane has no outline.
@@ -44,18 +44,18 @@ bool ScreenMask::add(const Pose& camera, const Pose& object, std::span<const std
             fill();
             return true;
         }
-        any_marked |= mark({least_x, least_y}, {most_x, most_y});
+        any_marked |= mark({min_x, min_y}, {max_x, max_y});
     }
     return any_marked;
 }
 
 // least, most: of the box's outline on the plane at distance 1.
 bool ScreenMask::mark(Vec2d least, Vec2d most) {
-    double least_x = 1e300, least_y = 1e300, most_x = -1e300, most_y = -1e300;
+    double min_x = 1e300, min_y = 1e300, max_x = -1e300, max_y = -1e300;
     const auto grow = [&](double x, double y) {
         const Vec2d px = geometry_.project_px({x, y, 1});
-        least_x = std::min(least_x, px.x), most_x = std::max(most_x, px.x);
-        least_y = std::min(least_y, px.y), most_y = std::max(most_y, px.y);
+        min_x = std::min(min_x, px.x), max_x = std::max(max_x, px.x);
+        min_y = std::min(min_y, px.y), max_y = std::max(max_y, px.y);
     };
     // A lens bends the outline: its sides are followed in steps, and what is between them gets a margin.
     const int steps = geometry_.distortion.none() ? 1 : 8;
@@ -65,18 +65,18 @@ bool ScreenMask::mark(Vec2d least, Vec2d most) {
         grow(x, least.y), grow(x, most.y), grow(least.x, y), grow(most.x, y);
     }
     if (steps > 1) {
-        const double margin = 0.02 * std::max(most_x - least_x, most_y - least_y);
-        least_x -= margin, least_y -= margin, most_x += margin, most_y += margin;
+        const double margin = 0.02 * std::max(max_x - min_x, max_y - min_y);
+        min_x -= margin, min_y -= margin, max_x += margin, max_y += margin;
     }
     // A quarter of a pixel covers the rounding of rays to single precision.
     const auto block = [&](double px, int blocks) {
         const double at = std::floor((px + geometry_.guard_px) / kBlock_px);
         return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(blocks)));
     };
-    const int x0 = std::max(0, block(least_x - 0.25, across_));
-    const int x1 = std::min(across_ - 1, block(most_x + 0.25, across_));
-    const int y0 = std::max(0, block(least_y - 0.25, down_));
-    const int y1 = std::min(down_ - 1, block(most_y + 0.25, down_));
+    const int x0 = std::max(0, block(min_x - 0.25, across_));
+    const int x1 = std::min(across_ - 1, block(max_x + 0.25, across_));
+    const int y0 = std::max(0, block(min_y - 0.25, down_));
+    const int y1 = std::min(down_ - 1, block(max_y + 0.25, down_));
     for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x) blocks_[static_cast<std::size_t>(y * across_ + x)] = 1;
     return x0 <= x1 && y0 <= y1;

@@ -49,8 +49,8 @@ VisibilityBuffer::VisibilityBuffer(const ImageGeometry& geometry, const Room& ro
     vertices_.resize(room.vertices);
     first_.resize(tiles * kGroups);
     // Most triangles are met by one tile or none; of a block's sixteen places half are taken.
-    constexpr std::size_t kLeast = 1 << 16;  // for few that fill the screen many times
-    const std::size_t blocks = room.triangles / 4 + 32 * tiles + kLeast;
+    constexpr std::size_t kMin = 1 << 16;  // for few that fill the screen many times
+    const std::size_t blocks = room.triangles / 4 + 32 * tiles + kMin;
     blocks_.resize(blocks);
     heads_.resize(blocks);
 }
@@ -235,7 +235,7 @@ void VisibilityBuffer::set_up_cut(const Placed& placed, std::uint32_t triangle, 
     setup.x0[0] = setup.y0[0] = 0;
     setup.y1[0] = kVisibilityTile_px - 1;
     setup.x1[0] = volume == 0 ? -1 : kVisibilityTile_px - 1;
-    setup.least_depth[0] = -1, setup.most_depth[0] = 1e30f;
+    setup.min_depth[0] = -1, setup.max_depth[0] = 1e30f;
     setup.id[0] = static_cast<std::uint32_t>(placed.first_triangle) + triangle;
     if (volume == 0) return;
     Vec3d sum;

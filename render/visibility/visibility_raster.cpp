@@ -140,10 +140,10 @@ HWY_INLINE Bent bend(const ScreenLens& lens, Corners& c) {
     const auto number = [&](float value) { return hn::Set(d, value); };
     const V x0 = least(c.x), x1 = most(c.x), y0 = least(c.y), y1 = most(c.y);
     const auto known = hn::Not(hn::IsNaN(hn::Add(hn::Add(c.x[0], c.x[1]), c.x[2])));
-    const auto beside = hn::Or(hn::Or(hn::Lt(x1, number(lens.least_x)), hn::Gt(x0, number(lens.most_x))),
-                               hn::Or(hn::Lt(y1, number(lens.least_y)), hn::Gt(y0, number(lens.most_y))));
-    const auto leaves = hn::Or(hn::Or(hn::Lt(x0, number(lens.least_x)), hn::Gt(x1, number(lens.most_x))),
-                               hn::Or(hn::Lt(y0, number(lens.least_y)), hn::Gt(y1, number(lens.most_y))));
+    const auto beside = hn::Or(hn::Or(hn::Lt(x1, number(lens.min_x)), hn::Gt(x0, number(lens.max_x))),
+                               hn::Or(hn::Lt(y1, number(lens.min_y)), hn::Gt(y0, number(lens.max_y))));
+    const auto leaves = hn::Or(hn::Or(hn::Lt(x0, number(lens.min_x)), hn::Gt(x1, number(lens.max_x))),
+                               hn::Or(hn::Lt(y0, number(lens.min_y)), hn::Gt(y1, number(lens.max_y))));
     const V extent = hn::Max(hn::Sub(x1, x0), hn::Sub(y1, y0));
     distort(lens, c);
     // Beside the picture the polynomial may fold back: such corners have no place.
@@ -284,8 +284,8 @@ void set_up(const ScreenMesh& mesh, const std::array<std::uint32_t, kTrianglesAt
         const V gy = hn::Mul(hn::Sub(hn::Mul(dv, ux), hn::Mul(du, vx)), inverse);
         hn::Store(gx, d, s.depth_x.data() + k), hn::Store(gy, d, s.depth_y.data() + k);
         hn::Store(hn::Sub(c.depth[0], times_plus(gx, c.x[0], hn::Mul(gy, c.y[0]))), d, s.depth.data() + k);
-        hn::Store(least(c.depth), d, s.least_depth.data() + k),
-            hn::Store(most(c.depth), d, s.most_depth.data() + k);
+        hn::Store(least(c.depth), d, s.min_depth.data() + k),
+            hn::Store(most(c.depth), d, s.max_depth.data() + k);
         const V last = hn::Set(d, kSide_px - 1);
         const auto pixel = [&](V at) { return hn::ConvertTo(di, hn::Min(hn::Max(at, zero), last)); };
         const auto flat = hn::RebindMask(di, hn::Eq(area, zero));
@@ -334,7 +334,7 @@ Span span_of_row(const TriangleSetup& s, std::size_t k, int row) {
 // Whether all that a triangle may cover is nearer.
 bool is_hidden(const TriangleSetup& s, std::size_t k, const VisibilityTile& tile) {
     constexpr int kHalf = kSide_px / 2;
-    const float nearest = s.most_depth[k];
+    const float nearest = s.max_depth[k];
     for (int j = s.y0[k] / kHalf; j <= s.y1[k] / kHalf; ++j)
         for (int i = s.x0[k] / kHalf; i <= s.x1[k] / kHalf; ++i)
             if (nearest > tile.farthest[static_cast<std::size_t>(2 * j + i)]) return false;
@@ -370,7 +370,7 @@ void fill(const TriangleSetup& s, VisibilityTile& tile) {
         const auto flip = [&](std::size_t i) { return hn::Set(di, static_cast<std::int32_t>(s.flip[i][k])); };
         const I f0 = flip(0), f1 = flip(1), f2 = flip(2);
         const V gx = hn::Set(d, s.depth_x[k]), gy = hn::Set(d, s.depth_y[k]), g = hn::Set(d, s.depth[k]);
-        const V near_most = hn::Set(d, s.most_depth[k]), far_most = hn::Set(d, s.least_depth[k]);
+        const V near_most = hn::Set(d, s.max_depth[k]), far_most = hn::Set(d, s.min_depth[k]);
         const I id = hn::Set(di, static_cast<std::int32_t>(s.id[k]));
         for (int row = s.y0[k]; row <= s.y1[k]; ++row) {
             Span span{x0, x1};

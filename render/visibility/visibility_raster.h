@@ -45,7 +45,7 @@ void project_vertices(std::span<const Vec3f> vertices_m, const ScreenProjection&
 struct ScreenLens {
     float center_x, center_y, focal_px;
     float k1, k2, k3, p1, p2;
-    float least_x, most_x, least_y, most_y;  // ideal places of the picture
+    float min_x, max_x, min_y, max_y;  // ideal places of the picture
     float bend_per_px;    // an edge in a box of so many px leaves its chord by that times its square
     float tile_error_px;  // of a tile's own map
 };
@@ -74,7 +74,7 @@ std::size_t find_tiles(const ScreenVertex* vertices, std::span<const TriangleCor
 struct alignas(64) TriangleSetup {
     std::array<std::array<float, kTrianglesAtOnce>, 3> a, b, c;
     std::array<std::array<std::uint32_t, kTrianglesAtOnce>, 3> flip;
-    std::array<float, kTrianglesAtOnce> depth_x, depth_y, depth, least_depth, most_depth;
+    std::array<float, kTrianglesAtOnce> depth_x, depth_y, depth, min_depth, max_depth;
     std::array<std::int32_t, kTrianglesAtOnce> x0, x1, y0, y1;  // pixels of the tile; x1 < x0: none
     std::array<std::uint32_t, kTrianglesAtOnce> id;
     std::size_t count = 0;

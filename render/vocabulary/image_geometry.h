@@ -81,8 +81,8 @@ struct LensDistortion {
             if (!(std::abs(slope) > 1e-12)) break;
             theta -= (fisheye_radius(theta) - radius) / slope;
         }
-        constexpr double kMost_rad = 1.5706217938697063;
-        const double scale = std::tan(theta < kMost_rad ? theta : kMost_rad) / radius;
+        constexpr double kMax_rad = 1.5706217938697063;
+        const double scale = std::tan(theta < kMax_rad ? theta : kMax_rad) / radius;
         return {q.x * scale, q.y * scale};
     }
 };

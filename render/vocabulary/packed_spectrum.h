@@ -12,7 +12,7 @@ namespace hilcam {
 class PackedSpectrum {
   public:
     PackedSpectrum() = default;
-    explicit PackedSpectrum(const Spectrum& s) : scale_(largest(s) * (1 / kMost)) {
+    explicit PackedSpectrum(const Spectrum& s) : scale_(largest(s) * (1 / kMax)) {
         const float inverse = scale_ > 0 ? 1 / scale_ : 0.0f;
         for (std::size_t i = 0; i < share_.size(); ++i)
             share_[i] = static_cast<std::uint16_t>(s.bin[i] * inverse + 0.5f);
@@ -24,7 +24,7 @@ class PackedSpectrum {
     }
 
   private:
-    static constexpr float kMost = 65535;
+    static constexpr float kMax = 65535;
 
     std::array<std::uint16_t, kMaxBins> share_{};
     float scale_ = 0;

@@ -5,7 +5,7 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kMostShown_bytes = 60;
+constexpr std::size_t kMaxShown_bytes = 60;
 
 struct Character {
     char32_t code = 0;
@@ -26,8 +26,8 @@ Character first_of(std::string_view text) {
         if ((byte(i) & 0xC0) != 0x80) return {};
         code = code << 6 | (byte(i) & 0x3Fu);
     }
-    constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-    if (code < kLeast[bytes] || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return {};
+    constexpr char32_t kMin[] = {0, 0, 0x80, 0x800, 0x10000};
+    if (code < kMin[bytes] || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return {};
     return {code, bytes, true};
 }
 
@@ -53,8 +53,8 @@ std::string harmless(std::string_view text) {
 }
 
 std::string shortened(std::string_view text) {
-    if (text.size() <= kMostShown_bytes) return harmless(text);
-    std::size_t end = kMostShown_bytes - 3;
+    if (text.size() <= kMaxShown_bytes) return harmless(text);
+    std::size_t end = kMaxShown_bytes - 3;
     // Back to where a character begins; not further than one is long.
     for (int i = 0; i < 3 && (static_cast<std::uint8_t>(text[end]) & 0xC0) == 0x80; ++i) --end;
     return harmless(text.substr(0, end)) + "...";

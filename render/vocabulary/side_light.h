@@ -14,6 +14,6 @@ struct SideLight {
 };
 
 // No instant has more of them: as find_side_light.h samples the Sun and the bodies.
-inline constexpr std::size_t kMostSideLights = 24 + 256 * 24;
+inline constexpr std::size_t kMaxSideLights = 24 + 256 * 24;
 
 }  // namespace hilcam

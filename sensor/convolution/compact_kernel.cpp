@@ -66,13 +66,13 @@ HILCAM_CLONES void add_weighted(const float* in, std::size_t count, float weight
 }  // namespace
 
 std::optional<CompactKernel> CompactKernel::find(const Transfer& transfer, int width, int height) {
-    for (int radius = 1; radius <= kMostRadius; ++radius) {
+    for (int radius = 1; radius <= kMaxRadius; ++radius) {
         const auto u_part = weights_of([&](double u) { return transfer(u, 0).real(); }, radius);
         const auto v_part = weights_of([&](double v) { return transfer(0, v).real(); }, radius);
         CompactKernel kernel;
         kernel.across_.assign(u_part.begin(), u_part.end());
         kernel.down_.assign(v_part.begin(), v_part.end());
-        if (largest_error(kernel, transfer) > kMostError) continue;
+        if (largest_error(kernel, transfer) > kMaxError) continue;
         kernel.filtered_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
         kernel.lit_.resize(static_cast<std::size_t>(height));
         return kernel;

@@ -4,7 +4,7 @@
 //
 // A transfer function has such a kernel when it is a product of one function of u and one of v (a Gaussian
 // blur, a square pixel) that is close to zero at the image's Nyquist frequency. The kernel's own transfer
-// function then differs from it by at most kMostError anywhere, less than what the sampling of the radiance
+// function then differs from it by at most kMaxError anywhere, less than what the sampling of the radiance
 // image folds back.
 
 #include <optional>
@@ -16,8 +16,8 @@ namespace hilcam {
 
 class CompactKernel {
   public:
-    static constexpr int kMostRadius = 5;  // beyond, the FFT pair is faster
-    static constexpr double kMostError = 2.5e-3;
+    static constexpr int kMaxRadius = 5;  // beyond, the FFT pair is faster
+    static constexpr double kMaxError = 2.5e-3;
 
     // None where the function is no such product, or its kernel too wide. Owner thread.
     static std::optional<CompactKernel> find(const Transfer& transfer, int width, int height);

@@ -105,7 +105,7 @@ struct Convolver::Implementation {
     // work(first) for the columns of every whole vector.
     template <typename Work>
     void for_columns(const Work& work) {
-        const std::size_t step = PlaneFourier::kMostLanes;
+        const std::size_t step = PlaneFourier::kMaxLanes;
         const std::size_t count = (static_cast<std::size_t>(width) + step - 1) / step;
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) work(i * step);

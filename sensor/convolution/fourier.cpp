@@ -37,7 +37,7 @@ namespace hilcam {
 namespace HWY_NAMESPACE {
 
 constexpr std::size_t kLanes = HWY_LANES(float);
-static_assert(PlaneFourier::kMostLanes % kLanes == 0);
+static_assert(PlaneFourier::kMaxLanes % kLanes == 0);
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
 // A transform of this thread may use this memory beside its values.
@@ -208,7 +208,7 @@ class LanesFourier final : public PlaneFourier {
     void columns(float* plane, std::size_t first, float* room, bool forward) const {
         auto* values = reinterpret_cast<Lanes*>(room);
         room_of_transform = values + height_;
-        for (std::size_t x = first; x < first + kMostLanes; x += kLanes) {
+        for (std::size_t x = first; x < first + kMaxLanes; x += kLanes) {
             for (std::size_t y = 0; y < height_; ++y) values[y] = load(plane + y * stride_ + x);
             along_y_.exec(values, 1.0f, forward);
             for (std::size_t y = 0; y < height_; ++y) store(values[y], plane + y * stride_ + x);
@@ -230,7 +230,7 @@ namespace hilcam {
 namespace {
 
 std::size_t whole_vectors(int count) {
-    constexpr std::size_t most = PlaneFourier::kMostLanes;
+    constexpr std::size_t most = PlaneFourier::kMaxLanes;
     return (static_cast<std::size_t>(count) + most - 1) / most * most;
 }
 
@@ -238,11 +238,11 @@ std::size_t whole_vectors(int count) {
 
 std::size_t PlaneFourier::stride(int width) {
     const std::size_t floats = whole_vectors(width);
-    return floats % 64 == 0 ? floats + kMostLanes : floats;
+    return floats % 64 == 0 ? floats + kMaxLanes : floats;
 }
-std::size_t PlaneFourier::block_floats(int width) { return 2 * kMostLanes * whole_vectors(width); }
+std::size_t PlaneFourier::block_floats(int width) { return 2 * kMaxLanes * whole_vectors(width); }
 std::size_t PlaneFourier::room_floats(int width, int height) {
-    return std::max(block_floats(width), 2 * kMostLanes * static_cast<std::size_t>(height));
+    return std::max(block_floats(width), 2 * kMaxLanes * static_cast<std::size_t>(height));
 }
 
 HWY_EXPORT(make);

@@ -31,7 +31,7 @@ struct SpectrumBlur {
 
 class PlaneFourier {
   public:
-    static constexpr std::size_t kMostLanes = 16;
+    static constexpr std::size_t kMaxLanes = 16;
     // Floats from one row of the plane to the next: whole vectors, and no power of two, which would
     // put all rows of a column into the same few lines of the cache.
     static std::size_t stride(int width);
@@ -41,7 +41,7 @@ class PlaneFourier {
 
     virtual ~PlaneFourier() = default;
     virtual std::size_t lanes() const = 0;
-    // Columns first .. first + kMostLanes - 1 of a 64-byte aligned plane. Loop.
+    // Columns first .. first + kMaxLanes - 1 of a 64-byte aligned plane. Loop.
     virtual void columns_forward(float* plane, std::size_t first, float* room) const = 0;
     virtual void columns_back(float* plane, std::size_t first, float* room) const = 0;
     // Frequencies v .. v + lanes() - 1; those above height / 2 are zero, and are dropped on the way back.

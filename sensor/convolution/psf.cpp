@@ -61,10 +61,10 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
             std::span(phases_).subspan(p * kField_px * kField_px, std::size_t{kField_px} * kField_px);
         phase_sums_[p] = std::accumulate(table.begin(), table.end(), 0.0);
     }
-    outside_.assign(kMostRadius_px + 1, 0.0);
+    outside_.assign(kMaxRadius_px + 1, 0.0);
     const double total = phase_sums_[0];
     const float* centred = phase(0, 0);
-    for (int r = 0; r <= kMostRadius_px; ++r) {
+    for (int r = 0; r <= kMaxRadius_px; ++r) {
         double inside = 0;
         for (int y = -r; y <= r; ++y)
             for (int x = -r; x <= r; ++x)
@@ -104,9 +104,9 @@ const float* PointSpread::phase(int px, int py) const {
 }
 
 int PointSpread::radius_for(double electrons) const {
-    for (int r = kLeastRadius_px; r < kMostRadius_px; ++r)
+    for (int r = kMinRadius_px; r < kMaxRadius_px; ++r)
         if (electrons * outside_[static_cast<std::size_t>(r)] < 0.05) return r;
-    return kMostRadius_px;
+    return kMaxRadius_px;
 }
 
 namespace {
@@ -117,7 +117,7 @@ struct ShiftedTable {
     float weight;
 };
 
-constexpr std::size_t kLeastAcross = 7;  // pixels of the least image; its tables have rows of eight
+constexpr std::size_t kMinAcross = 7;  // pixels of the least image; its tables have rows of eight
 // Sums the tables, one after the other. Returns the sum over all pixels.
 HILCAM_CLONES double sum_least(const ShiftedTable* tables, std::size_t count, float* out) {
     using TwoRows [[gnu::vector_size(64)]] = float;
@@ -131,11 +131,11 @@ HILCAM_CLONES double sum_least(const ShiftedTable* tables, std::size_t count, fl
     std::array<float, 64> rows;
     std::memcpy(rows.data(), sums.data(), sizeof(rows));
     std::array<double, 8> columns{};
-    for (std::size_t y = 0; y < kLeastAcross; ++y) {
+    for (std::size_t y = 0; y < kMinAcross; ++y) {
         for (std::size_t x = 0; x < columns.size(); ++x) columns[x] += static_cast<double>(rows[8 * y + x]);
-        std::memcpy(out + kLeastAcross * y, rows.data() + 8 * y, kLeastAcross * sizeof(float));
+        std::memcpy(out + kMinAcross * y, rows.data() + 8 * y, kMinAcross * sizeof(float));
     }
-    return std::accumulate(columns.begin(), columns.begin() + kLeastAcross, 0.0);
+    return std::accumulate(columns.begin(), columns.begin() + kMinAcross, 0.0);
 }
 
 double sum_large(std::span<const ShiftedTable> tables, std::size_t pitch, std::size_t size, float* out) {
@@ -158,8 +158,8 @@ PointPatch PointSpread::at(double x_px, double y_px, double electrons, Room& roo
     const double sy = (cy + 0.5 - y_px) * kOversampling;
     const int ix = static_cast<int>(std::floor(sx));
     const int iy = static_cast<int>(std::floor(sy));
-    const bool least = radius == kLeastRadius_px;
-    static_assert(kLeastAcross == 2 * kLeastRadius_px + 1);
+    const bool least = radius == kMinRadius_px;
+    static_assert(kMinAcross == 2 * kMinRadius_px + 1);
     // The cubic's outer samples are lost to sight in faint points.
     const bool linear = least && electrons * linear_error_ < kLinear_e;
     const auto wx = linear ? linear_weights(sx - ix) : cubic_weights(sx - ix);

@@ -30,9 +30,9 @@ class PointSpread {
     PointSpread(const std::function<std::complex<double>(double u, double v)>& transfer, double fill_factor);
 
     static constexpr int kField_px = 64;  // farther light comes back from the other side
-    static constexpr int kMostRadius_px = 30;
-    static constexpr int kMostAcross_px = 2 * kMostRadius_px + 1;
-    using Room = std::array<float, std::size_t{kMostAcross_px} * kMostAcross_px>;
+    static constexpr int kMaxRadius_px = 30;
+    static constexpr int kMaxAcross_px = 2 * kMaxRadius_px + 1;
+    using Room = std::array<float, std::size_t{kMaxAcross_px} * kMaxAcross_px>;
 
     // The image of `electrons` (on a full-fill detector) at a position [px; centre of pixel (0, 0) at (0.5,
     // 0.5)]: as large as it takes to leave out less than 0.05 e-. It lies in `room`. Loop; any thread.
@@ -42,12 +42,12 @@ class PointSpread {
 
   private:
     static constexpr int kOversampling = 16;
-    static constexpr int kLeastRadius_px = 3;
+    static constexpr int kMinRadius_px = 3;
     // Points are interpolated linearly where that is off by less [e-] in any pixel.
     static constexpr double kLinear_e = 0.005;
     // The smallest images need at least this of a phase: eight rows of eight pixels, four lines of a cache.
     static constexpr int kCoreAcross_px = 8, kCoreSize = kCoreAcross_px * kCoreAcross_px;
-    static_assert(kCoreAcross_px >= 2 * kLeastRadius_px + 2);
+    static_assert(kCoreAcross_px >= 2 * kMinRadius_px + 2);
 
     // Samples of one phase lie together: phases_[py][px][y][x].
     const float* phase(int px, int py) const;

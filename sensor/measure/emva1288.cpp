@@ -211,8 +211,8 @@ Linearity linearity(std::span<const ResponsePoint> points, double saturation_dn)
         const double line = fit.coefficient[0] + fit.coefficient[1] * photons[i];
         const double deviation = signal[i] / line - 1;
         out.points.push_back({photons[i], signal[i], line, deviation});
-        out.least_fraction = std::min(out.least_fraction, deviation);
-        out.most_fraction = std::max(out.most_fraction, deviation);
+        out.min_fraction = std::min(out.min_fraction, deviation);
+        out.max_fraction = std::max(out.max_fraction, deviation);
         sum += std::abs(deviation);
         error += variance[i] / square(line);
     }

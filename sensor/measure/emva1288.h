@@ -84,7 +84,7 @@ struct LinearityPoint {
 };
 struct Linearity {
     Measured error_fraction;
-    double least_fraction = 0, most_fraction = 0;
+    double min_fraction = 0, max_fraction = 0;
     std::vector<LinearityPoint> points;
 };
 struct ResponsePoint {

@@ -90,7 +90,7 @@ OutsideLight::OutsideLight(const OutsideLightConfig& c, const OutsideLens& lens,
       per_irradiance_(per_irradiance),
       bins_(bins),
       veil_(static_cast<std::size_t>(kNodes) * kNodes) {
-    ghosts_.reserve(ghost_kinds_.size() * kMostSideLights);
+    ghosts_.reserve(ghost_kinds_.size() * kMaxSideLights);
     for (int j = 0; j < kNodes; ++j)
         for (int i = 0; i < kNodes; ++i) {
             const Vec3d dir = normalized(geometry_.direction_camera(

@@ -99,8 +99,8 @@ TEST(KeptMotion, LightThatComesLaterIsWhatWouldHaveBeenThere) {
         later.renderer->give_tables(tables);
     });
     int without = 0, with = 0;
-    constexpr int kMost = 100'000;
-    for (int frame = 0; with < 3 && without < kMost; ++frame) {
+    constexpr int kMax = 100'000;
+    for (int frame = 0; with < 3 && without < kMax; ++frame) {
         if (frame == 2) go = true;
         const bool lit = later.renderer->take_light();
         EXPECT_FALSE(lit && frame < 2) << "before it was given";

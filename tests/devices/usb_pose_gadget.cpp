@@ -87,7 +87,7 @@ class Gadget {
 
   private:
     static void add_pose(std::uint32_t number, std::vector<std::uint8_t>& bytes) {
-        std::array<std::uint8_t, kMostPacketBytes> packet;
+        std::array<std::uint8_t, kMaxPacketBytes> packet;
         PoseCommand pose;
         pose.motion.pose.position_world_m = {static_cast<double>(number), 0, 0};
         const std::size_t size = encode_command(pose, number, packet);

@@ -147,7 +147,7 @@ Group attitude_commands() {
             {components_of(row.q), {0, 2 * kDoubleGrain}, [row] {
                  PoseCommand pose;
                  pose.motion.pose.world_from_body = row.q;
-                 std::array<std::uint8_t, kMostCommandBytes> bytes;
+                 std::array<std::uint8_t, kMaxCommandBytes> bytes;
                  const std::size_t size = encode_command(pose, 1, bytes);
                  const DecodedCommand decoded = decode_command(std::span(bytes).first(size));
                  const bool accepted = decoded.status == CommandStatus::kAccepted;

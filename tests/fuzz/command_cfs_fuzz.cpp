@@ -10,7 +10,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hilcam;
     const std::span<const std::uint8_t> bytes(data, size);
-    std::array<std::uint8_t, kMostPacketBytes> again;
+    std::array<std::uint8_t, kMaxPacketBytes> again;
     for (const bool checksum_required : {false, true}) {
         const DecodedCommand decoded = decode_cfs_command(bytes, checksum_required);
         if (decoded.status != CommandStatus::kAccepted) {

@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         HILCAM_CHECK(is_finite(pose->motion.pose.position_world_m));
         HILCAM_CHECK(std::abs(norm(pose->motion.pose.world_from_body) - 1) < 1e-9);
     }
-    std::array<std::uint8_t, kMostCommandBytes> again;
+    std::array<std::uint8_t, kMaxCommandBytes> again;
     const std::size_t written = encode_command(decoded.command, decoded.sequence, again);
     const DecodedCommand back = decode_command(std::span(again).first(written));
     HILCAM_CHECK(back.status == CommandStatus::kAccepted && back.sequence == decoded.sequence);

@@ -58,9 +58,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     feeder.feed(std::span(data, size).subspan(1));
     // Two in a row: the first may end up in a packet that the bytes above began. The dialect without a CRC
     // can be fooled for longer.
-    std::array<std::uint8_t, kMostPacketBytes> packet;
+    std::array<std::uint8_t, kMaxPacketBytes> packet;
     const std::size_t packet_bytes = encode_command(PingCommand{kToken}, 1, dialect, packet);
-    const std::size_t repeats = dialect.dialect == Dialect::kHilcam ? 2 : 2 + kMostPacketBytes / packet_bytes;
+    const std::size_t repeats = dialect.dialect == Dialect::kHilcam ? 2 : 2 + kMaxPacketBytes / packet_bytes;
     for (std::size_t i = 0; i < repeats; ++i) feeder.feed(std::span(packet).first(packet_bytes));
     HILCAM_CHECK(feeder.last_seen);
     feeder.stream.end();

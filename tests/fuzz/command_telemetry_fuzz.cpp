@@ -13,9 +13,9 @@ using namespace hilcam;
 static void check_acknowledgement(std::span<const std::uint8_t> packet) {
     Acknowledgement answer, back;
     if (!decode_acknowledgement(packet, answer)) return;
-    std::array<std::uint8_t, kMostPacketBytes> again;
+    std::array<std::uint8_t, kMaxPacketBytes> again;
     const std::size_t written = encode_acknowledgement(answer, 0, again);
-    HILCAM_CHECK(written <= kMostAcknowledgeBytes);
+    HILCAM_CHECK(written <= kMaxAcknowledgeBytes);
     HILCAM_CHECK(decode_acknowledgement(std::span(again).first(written), back));
     HILCAM_CHECK(back.sequence == answer.sequence && back.token == answer.token);
     HILCAM_CHECK(back.clock.has_value() == answer.clock.has_value());
@@ -25,7 +25,7 @@ static void check_acknowledgement(std::span<const std::uint8_t> packet) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::span<const std::uint8_t> bytes(data, size);
     // With a right CRC, too: mutations seldom find one.
-    std::array<std::uint8_t, kMostPacketBytes> sealed;
+    std::array<std::uint8_t, kMaxPacketBytes> sealed;
     std::copy_n(data, std::min(size, sealed.size()), sealed.begin());
     std::size_t sealed_bytes = 0;
     if (size > 8 && size <= sealed.size())
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         check_acknowledgement(packet);
         Telemetry telemetry, back;
         if (!decode_telemetry(packet, telemetry)) continue;
-        std::array<std::uint8_t, kMostPacketBytes> again, third;
+        std::array<std::uint8_t, kMaxPacketBytes> again, third;
         const std::size_t written = encode_telemetry(telemetry, 0, again);
         HILCAM_CHECK(decode_telemetry(std::span(again).first(written), back));
         HILCAM_CHECK(back.index() == telemetry.index());

@@ -23,13 +23,13 @@ class AnyCamera : public CameraControl {
                    .height = 480,
                    .bits = 12,
                    .color_pattern = {},
-                   .least_exposure_s = 1e-5,
-                   .most_exposure_s = 1,
-                   .least_gain_db = 0,
-                   .most_gain_db = 24,
-                   .least_frame_rate_hz = 0.1,
-                   .most_frame_rate_hz = 200,
-                   .most_binning = 4,
+                   .min_exposure_s = 1e-5,
+                   .max_exposure_s = 1,
+                   .min_gain_db = 0,
+                   .max_gain_db = 24,
+                   .min_frame_rate_hz = 0.1,
+                   .max_frame_rate_hz = 200,
+                   .max_binning = 4,
                    .reversible = true};
 
     CameraSettings settings() const override { return s; }
@@ -38,9 +38,9 @@ class AnyCamera : public CameraControl {
         const auto within = [](const auto& value, double least, double most) {
             return !value || (static_cast<double>(*value) >= least && static_cast<double>(*value) <= most);
         };
-        if (!within(c.exposure_s, l.least_exposure_s, l.most_exposure_s) ||
-            !within(c.gain_db, l.least_gain_db, l.most_gain_db) ||
-            !within(c.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz) ||
+        if (!within(c.exposure_s, l.min_exposure_s, l.max_exposure_s) ||
+            !within(c.gain_db, l.min_gain_db, l.max_gain_db) ||
+            !within(c.frame_rate_hz, l.min_frame_rate_hz, l.max_frame_rate_hz) ||
             !within(c.binning_x, 1, 4) || !within(c.binning_y, 1, 4))
             return false;
         s.exposure_s = c.exposure_s.value_or(s.exposure_s);
@@ -58,8 +58,8 @@ class AnyCamera : public CameraControl {
 void check(const GigeStreamState& s) {
     HILCAM_CHECK(s.width >= 1 && s.height >= 1 && s.width + s.offset_x <= 640 / s.binning_x &&
                  s.height + s.offset_y <= 480 / s.binning_y);
-    HILCAM_CHECK(s.packet_bytes >= GigeTransport::kLeastPacketBytes &&
-                 s.packet_bytes <= GigeTransport::kMostPacketBytes && s.packet_bytes % 4 == 0);
+    HILCAM_CHECK(s.packet_bytes >= GigeTransport::kMinPacketBytes &&
+                 s.packet_bytes <= GigeTransport::kMaxPacketBytes && s.packet_bytes % 4 == 0);
     HILCAM_CHECK(s.payload_bytes() < 640 * 480 * 3 + 1000);
     HILCAM_CHECK(s.chunks < 1u << kChunks);
 }
@@ -165,7 +165,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FaultBoard faults;
     GigeDevice device({"camera", "S1", "", 0x7F000001, 0xFF000000, 0, 0x020000000001, 1500}, camera, faults,
                       effects());
-    std::vector<std::uint8_t> out(gvcp::kMostDatagramBytes);
+    std::vector<std::uint8_t> out(gvcp::kMaxDatagramBytes);
     std::span<const std::uint8_t> rest(data, size);
     std::int64_t now_ns = 1'000'000'000;
     while (rest.size() >= 3) {

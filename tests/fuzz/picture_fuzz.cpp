@@ -13,7 +13,7 @@ namespace {
 
 using namespace hilcam;
 
-constexpr std::uint64_t kMostPixels = 1u << 20;
+constexpr std::uint64_t kMaxPixels = 1u << 20;
 
 void require_one_line(std::string_view words) { HILCAM_CHECK(words.find('\n') == std::string_view::npos); }
 
@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto found = picture_size({data, size});
     HILCAM_CHECK(!found || (found->width > 0 && found->height > 0));
     // Larger ones cost time here and nothing else.
-    if (found && found->width > kMostPixels / found->height) return 0;
+    if (found && found->width > kMaxPixels / found->height) return 0;
     try {
         const Texture texture = decode_texture({data, size}, "it");
         HILCAM_CHECK(texture.texels.size() ==

@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             HILCAM_CHECK(r.x >= 0 && r.y >= 0 && r.width > 0 && r.height > 0);
             HILCAM_CHECK(r.x + r.width <= width && r.y + r.height <= height && r.x % r.step == 0);
             HILCAM_CHECK(std::int64_t{(r.width - 1) / r.step + 1} * ((r.height - 1) / r.step + 1) <=
-                         kMostPictureSamples);
+                         kMaxPictureSamples);
         }
     });
     refuse_or([&] {

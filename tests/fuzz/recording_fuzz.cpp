@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     try {
         RecordingReader reader(std::make_unique<std::istringstream>(bytes), "fuzz");
-        std::array<std::uint8_t, kRecordPrefixBytes + kMostRecordBytes> again{};
+        std::array<std::uint8_t, kRecordPrefixBytes + kMaxRecordBytes> again{};
         std::uint64_t before = reader.offset();
         for (Record record; reader.next(record); before = reader.offset()) {
             const std::size_t written = encode_record(record, again);

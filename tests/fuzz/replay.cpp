@@ -61,12 +61,12 @@ void damage(Bytes& bytes, std::mt19937& random) {
     }
 }
 
-constexpr std::size_t kMostGrowth = 4096;
+constexpr std::size_t kMaxGrowth = 4096;
 
 Bytes damaged(Bytes bytes, bool in_chain, std::mt19937& random) {
     if (LLVMFuzzerCustomMutator && (in_chain || random() % 2)) {
         const std::size_t size = bytes.size();
-        bytes.resize(size + kMostGrowth);
+        bytes.resize(size + kMaxGrowth);
         bytes.resize(
             LLVMFuzzerCustomMutator(bytes.data(), size, bytes.size(), static_cast<unsigned>(random())));
     } else {

@@ -29,7 +29,7 @@ TEST(Plugin, AModelFromALibraryIsChosenByItsName) {
     s.add(plate(lambert(0.5), s.grid), {0, 0, 3});
     s.quality.path_model = "distance";
     Renderer renderer(copy_of(s.scene), s.grid, s.geometry, s.quality, s.models, modules);
-    s.points.reserve(renderer.most_points());
+    s.points.reserve(renderer.max_points());
     renderer.render(s.world, {1, 1}, s.radiance, s.points, s.stats);
     EXPECT_NEAR(s.middle(), 3, 0.001);
     EXPECT_EQ(s.radiance.row(0)[0], 0);

@@ -12,7 +12,7 @@ namespace hilcam {
 
 inline std::vector<std::uint8_t> encoded(const Command& command, std::uint32_t sequence,
                                          const DialectConfig& dialect = {}) {
-    std::vector<std::uint8_t> bytes(kMostPacketBytes);
+    std::vector<std::uint8_t> bytes(kMaxPacketBytes);
     bytes.resize(encode_command(command, sequence, dialect, bytes));
     return bytes;
 }

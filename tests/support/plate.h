@@ -116,7 +116,7 @@ struct LoopRig {
                &poses) {
         if (!truth) return;
         truth->start();
-        loop.tell_truth_to(*truth);
+        loop.report_truth_to(*truth);
     }
     ~LoopRig() {
         loop.stop();

@@ -16,12 +16,12 @@ struct QuietCamera : CameraControl {
         CameraLimits limits;
         limits.color_pattern = pattern;
         limits.bits = 12;
-        limits.least_exposure_s = 1e-5;
-        limits.most_exposure_s = 0.1;
-        limits.most_gain_db = 24;
-        limits.most_black_level_dn = 1000;
-        limits.least_frame_rate_hz = 0.1;
-        limits.most_frame_rate_hz = 50;
+        limits.min_exposure_s = 1e-5;
+        limits.max_exposure_s = 0.1;
+        limits.max_gain_db = 24;
+        limits.max_black_level_dn = 1000;
+        limits.min_frame_rate_hz = 0.1;
+        limits.max_frame_rate_hz = 50;
         limits.has_automatic_exposure = true;
         return limits;
     }

@@ -147,7 +147,7 @@ class Stage {
     }
     // The same scene in another world.
     void render_again() {
-        points.reserve(renderer->most_points());
+        points.reserve(renderer->max_points());
         renderer->render(world, {1, 1}, radiance, points, stats);
     }
     // A square image of this size, and a field of `half_width` tangents on each side.

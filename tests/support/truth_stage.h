@@ -25,7 +25,7 @@ class TruthStage : public Stage {
         render();
         FrameTruth truth = renderer->make_truth(wishes, 128, 128);
         truth.raster = raster;
-        renderer->tell_truth(truth);
+        renderer->report_truth(truth);
         return truth;
     }
 };

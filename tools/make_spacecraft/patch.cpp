@@ -7,8 +7,8 @@ namespace spacecraft {
 
 std::array<int, 2> pieces_of(const Patch& p, double scale) {
     const double pieces = p.detail * scale;
-    return {std::max(p.least_u, static_cast<int>(std::lround(std::sqrt(pieces * p.aspect)))),
-            std::max(p.least_v, static_cast<int>(std::lround(std::sqrt(pieces / p.aspect))))};
+    return {std::max(p.min_u, static_cast<int>(std::lround(std::sqrt(pieces * p.aspect)))),
+            std::max(p.min_v, static_cast<int>(std::lround(std::sqrt(pieces / p.aspect))))};
 }
 
 std::size_t triangles_of(const Patch& p, double scale) {

@@ -19,9 +19,9 @@ struct Patch {
     std::string material;  // see materials.h
     // Right-handed: du x dv points outwards.
     std::function<Vec3d(double u, double v)> at;
-    int least_u = 1, least_v = 1;  // pieces along u and v that keep the shape recognisable
-    double detail = 0;             // share of the free triangles; 0: always the least
-    double aspect = 1;             // length along u over length along v
+    int min_u = 1, min_v = 1;  // pieces along u and v that keep the shape recognisable
+    double detail = 0;         // share of the free triangles; 0: always the least
+    double aspect = 1;         // length along u over length along v
 };
 
 // Pieces along u and v when `scale` free pieces fall on a detail of 1.

@@ -79,14 +79,14 @@ void add_box(std::vector<Patch>& patches, const std::string& part, const std::st
 }
 
 Patch revolution(std::string part, std::string material, const Placement& place,
-                 std::function<std::array<double, 2>(double)> profile, int least_around, int least_along,
+                 std::function<std::array<double, 2>(double)> profile, int min_around, int min_along,
                  double detail) {
     auto at = [=](double u, double v) {
         const auto [radius, z] = profile(v);
         const double angle = 2 * hilcam::kPi * u;
         return place({radius * std::cos(angle), radius * std::sin(angle), z});
     };
-    return {std::move(part), std::move(material), at, least_around, least_along, detail, 2};
+    return {std::move(part), std::move(material), at, min_around, min_along, detail, 2};
 }
 
 Patch tube(std::string part, std::string material, Vec3d a, Vec3d b, double radius, double detail) {

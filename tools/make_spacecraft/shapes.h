@@ -30,7 +30,7 @@ void add_box(std::vector<Patch>& patches, const std::string& part, const std::st
 
 // A body of revolution about the placement's z axis: profile(t) gives (radius, z) for t in [0, 1].
 Patch revolution(std::string part, std::string material, const Placement& place,
-                 std::function<std::array<double, 2>(double)> profile, int least_around, int least_along,
+                 std::function<std::array<double, 2>(double)> profile, int min_around, int min_along,
                  double detail);
 
 // A round tube from a to b.

@@ -12,7 +12,7 @@ using gvcp::Status;
 namespace {
 
 constexpr std::uint32_t kExclusive = 1, kControl = 2, kSwitchover = 4;
-constexpr std::uint32_t kLeastHeartbeat_ms = 500, kMostHeartbeat_ms = 600'000;
+constexpr std::uint32_t kMinHeartbeat_ms = 500, kMaxHeartbeat_ms = 600'000;
 constexpr std::uint32_t kHeartbeat_ms = 3000;
 
 }  // namespace
@@ -27,7 +27,7 @@ GigeAccess::GigeAccess(GigeCore& core, Effects effects) : core_(core), effects_(
          .open = true});
     r.add({.address = b::kPrimaryPort, .read = [this] { return controller_.port; }, .open = true});
     r.add({.address = b::kPrimaryIp, .read = [this] { return controller_.ip; }, .open = true});
-    r.variable(b::kHeartbeat, heartbeat_ms_, {kLeastHeartbeat_ms, kMostHeartbeat_ms});
+    r.variable(b::kHeartbeat, heartbeat_ms_, {kMinHeartbeat_ms, kMaxHeartbeat_ms});
     r.number(
         b::kSwitchoverKey, [] { return 0u; },
         [this](std::uint64_t key) {

@@ -107,7 +107,7 @@ Status GigeAcquisition::enable_rate(bool on) {
     GigeSettings& s = core_.settings;
     if (on == s.rate_enabled) return Status::kSuccess;
     const double before_hz = core_.camera.settings().frame_rate_hz;
-    const Status status = core_.change({.frame_rate_hz = on ? s.rate_hz : core_.limits.most_frame_rate_hz});
+    const Status status = core_.change({.frame_rate_hz = on ? s.rate_hz : core_.limits.max_frame_rate_hz});
     if (status != Status::kSuccess) return status;
     s.rate_enabled = on;
     if (!on) s.rate_hz = before_hz;

@@ -44,7 +44,7 @@ class GigeAnswers {
         std::uint64_t request_hash = 0;
         std::int64_t time_ns = 0;  // kept: of the request; held: due
         std::size_t bytes = 0;
-        std::array<std::uint8_t, gvcp::kMostDatagramBytes> answer{};
+        std::array<std::uint8_t, gvcp::kMaxDatagramBytes> answer{};
 
         std::span<const std::uint8_t> view() const { return std::span(answer).first(bytes); }
     };

@@ -30,14 +30,14 @@ constexpr std::int64_t kReadingError_ns = 2'000;
 GigeSystemClock read_system_clock() {
     GigeSystemClock clock;
     // Of several readings the one that took the least time is the best.
-    std::int64_t least_ns = std::numeric_limits<std::int64_t>::max();
+    std::int64_t min_ns = std::numeric_limits<std::int64_t>::max();
     for (int i = 0; i < 3; ++i) {
         const std::int64_t before_ns = read_ns(CLOCK_MONOTONIC);
         const std::int64_t tai_ns = read_ns(CLOCK_TAI);
         const std::int64_t after_ns = read_ns(CLOCK_MONOTONIC);
-        if (after_ns - before_ns >= least_ns) continue;
-        least_ns = after_ns - before_ns;
-        clock.tai_minus_monotonic_ns = tai_ns - before_ns - least_ns / 2;
+        if (after_ns - before_ns >= min_ns) continue;
+        min_ns = after_ns - before_ns;
+        clock.tai_minus_monotonic_ns = tai_ns - before_ns - min_ns / 2;
     }
     timex state{};
     const int result = adjtimex(&state);

@@ -16,7 +16,7 @@ namespace {
 
 // What fits into a datagram of 576 bytes with its IP and UDP headers, in the registers' own bytes: 135 read
 // or 67 written.
-constexpr std::size_t kMostPayloadBytes = gvcp::kMostDatagramBytes - 28 - gvcp::kHeaderBytes;
+constexpr std::size_t kMaxPayloadBytes = gvcp::kMaxDatagramBytes - 28 - gvcp::kHeaderBytes;
 constexpr std::uint32_t kEverybody = 0xFFFFFFFF;  // 255.255.255.255
 
 bool changes_something(std::uint16_t command) {
@@ -148,7 +148,7 @@ GigeDevice::Answer GigeDevice::answer(const Header& header, std::span<const std:
 GigeDevice::Answer GigeDevice::read_registers(std::span<const std::uint8_t> payload,
                                               std::span<std::uint8_t> out) {
     const GigeCore& core = parts_->core;
-    if (payload.empty() || payload.size() % 4 != 0 || payload.size() > kMostPayloadBytes)
+    if (payload.empty() || payload.size() % 4 != 0 || payload.size() > kMaxPayloadBytes)
         return {Status::kInvalidParameter};
     ByteReader in(payload);
     for (std::size_t at = 0; at < payload.size(); at += 4) {
@@ -175,7 +175,7 @@ GigeDevice::Answer GigeDevice::read_memory(std::span<const std::uint8_t> payload
 GigeDevice::Answer GigeDevice::write_registers(std::span<const std::uint8_t> payload,
                                                std::span<std::uint8_t> out) {
     GigeCore& core = parts_->core;
-    const bool fits = !payload.empty() && payload.size() % 8 == 0 && payload.size() <= kMostPayloadBytes;
+    const bool fits = !payload.empty() && payload.size() % 8 == 0 && payload.size() <= kMaxPayloadBytes;
     Status status = fits ? Status::kSuccess : Status::kInvalidParameter;
     std::uint16_t done = 0;
     for (std::size_t at = 0; status == Status::kSuccess && at < payload.size(); at += 8) {
@@ -197,7 +197,7 @@ GigeDevice::Answer GigeDevice::write_memory(std::span<const std::uint8_t> payloa
     ByteReader in(payload);
     const std::uint32_t address = in.u32();
     const auto data = in.rest();
-    const bool fits = !data.empty() && payload.size() <= kMostPayloadBytes;
+    const bool fits = !data.empty() && payload.size() <= kMaxPayloadBytes;
     Status status = fits ? Status::kSuccess : Status::kInvalidParameter;
     std::size_t done = 0;
     if (status == Status::kSuccess)

@@ -33,7 +33,7 @@ class GigeDevice {
     void set_ports(std::uint16_t stream, std::uint16_t message);
 
     // Answers one datagram of the control socket, and takes the acknowledgements that come to the message
-    // channel's socket. Gives the number of bytes written to `out` (at least kMostDatagramBytes), 0: no
+    // channel's socket. Gives the number of bytes written to `out` (at least kMaxDatagramBytes), 0: no
     // answer now. `now_ns`: CLOCK_MONOTONIC. `broadcast`: it came to a broadcast address; then only
     // DISCOVERY, FORCEIP and ACTION count, and a discovery is answered only when `from` is in the camera's
     // own subnet (the client would talk to an address that the stream does not come from) or allows a

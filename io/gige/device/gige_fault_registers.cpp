@@ -30,7 +30,7 @@ GigeFaultRegisters::GigeFaultRegisters(GigeCore& core) : core_(core) {
     r.real(
         reg::kFaultValue, [this] { return shown().value; },
         [this](double v) {
-            return std::abs(v) <= kMostValue ? set(&FaultOrder::value, v) : Status::kInvalidParameter;
+            return std::abs(v) <= kMaxValue ? set(&FaultOrder::value, v) : Status::kInvalidParameter;
         });
     r.number64(
         reg::kFaultFromFrame, [this] { return shown().from_frame; },
@@ -72,7 +72,7 @@ FaultOrder GigeFaultRegisters::shown() const {
 }
 
 Status GigeFaultRegisters::set_frames(std::uint64_t FaultOrder::*member, std::uint64_t value) {
-    return value <= kMostFrames ? set(member, value) : Status::kInvalidParameter;
+    return value <= kMaxFrames ? set(member, value) : Status::kInvalidParameter;
 }
 
 // The value's range depends on the kind: FaultEnable checks the whole order.

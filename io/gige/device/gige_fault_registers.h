@@ -13,8 +13,8 @@ std::string fault_feature_name(FaultKind kind);
 class GigeFaultRegisters {
   public:
     // Bounds of FaultValue, and of FaultFromFrame and FaultFrames.
-    static constexpr double kMostValue = 1e9;
-    static constexpr std::uint64_t kMostFrames = 9'200'000'000'000'000'000u;
+    static constexpr double kMaxValue = 1e9;
+    static constexpr std::uint64_t kMaxFrames = 9'200'000'000'000'000'000u;
 
     explicit GigeFaultRegisters(GigeCore& core);
 

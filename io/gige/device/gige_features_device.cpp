@@ -10,10 +10,10 @@ namespace r = feature_register;
 
 namespace {
 
-constexpr double kMost64 = 9.2e18;  // below the largest 64-bit integer of GenICam
+constexpr double kMax64 = 9.2e18;  // below the largest 64-bit integer of GenICam
 
 Feature count(const char* name, std::uint32_t address, const char* meaning) {
-    return integer64(name, address, meaning).between(0, kMost64).read_only();
+    return integer64(name, address, meaning).between(0, kMax64).read_only();
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ void add_device_features(FeatureTable& t) {
               command("TimestampReset", b::kTimestampControl, "The device's clock begins at 0").bit(0),
               command("TimestampLatch", b::kTimestampControl, "Reads the clock").bit(1),
               integer64("TimestampLatchValue", b::kTimestamp, "The clock as it was read")
-                  .between(0, kMost64)
+                  .between(0, kMax64)
                   .unit("ns")
                   .read_only(),
           });
@@ -89,11 +89,11 @@ void add_fault_features(FeatureTable& t) {
                             "FaultCount", "FaultActive", "FaultEnable", "FaultClear"}),
               real("FaultRate", r::kFaultRate, "Share of what it strikes").between(0, 1),
               real("FaultValue", r::kFaultValue, "By kind: ms, bytes, MB/s, ...")
-                  .between(-GigeFaultRegisters::kMostValue, GigeFaultRegisters::kMostValue),
+                  .between(-GigeFaultRegisters::kMaxValue, GigeFaultRegisters::kMaxValue),
               integer64("FaultFromFrame", r::kFaultFromFrame, "First frame; 0: at once")
-                  .between(0, GigeFaultRegisters::kMostFrames),
+                  .between(0, GigeFaultRegisters::kMaxFrames),
               integer64("FaultFrames", r::kFaultFrames, "Frames; 0: no end by frames")
-                  .between(0, GigeFaultRegisters::kMostFrames),
+                  .between(0, GigeFaultRegisters::kMaxFrames),
               real("FaultDuration", r::kFaultDuration_s, "From FaultEnable; 0: no end by time")
                   .between(0, 1e7)
                   .unit("s"),

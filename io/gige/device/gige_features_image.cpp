@@ -23,8 +23,8 @@ std::vector<EnumEntry> pixel_formats(const CameraLimits& l) {
 void add_image_features(FeatureTable& t) {
     const CameraLimits& l = t.limits;
     const double w = l.width, h = l.height, step = GigeImage::step(l);
-    const auto most_binning = static_cast<double>(l.most_binning);
-    const bool no_binning = l.most_binning <= 1;
+    const auto max_binning = static_cast<double>(l.max_binning);
+    const bool no_binning = l.max_binning <= 1;
     t.add("ImageFormatControl",
           {
               integer("SensorWidth", r::kSensorWidth, "Columns").between(w, w).unit("px").read_only(),
@@ -52,11 +52,11 @@ void add_image_features(FeatureTable& t) {
                   .unit("px")
                   .locked(),
               integer("BinningHorizontal", r::kBinningX, "Columns added up to one: 1, 2, 4, ...")
-                  .between(1, most_binning)
+                  .between(1, max_binning)
                   .read_only(no_binning)
                   .locked(),
               integer("BinningVertical", r::kBinningY, "Rows added up to one: 1, 2, 4, ...")
-                  .between(1, most_binning)
+                  .between(1, max_binning)
                   .read_only(no_binning)
                   .locked(),
               enumeration("PixelFormat", r::kPixelFormat, pixel_formats(l), "Of the stream").locked(),
@@ -108,9 +108,9 @@ void add_acquisition_features(FeatureTable& t) {
                 .between(1, 65535)
                 .locked(),
             integer("AcquisitionBurstFrameCount", r::kBurstFrameCount, "Frames of a FrameBurstStart trigger")
-                .between(1, static_cast<double>(l.most_burst_frames)),
+                .between(1, static_cast<double>(l.max_burst_frames)),
             real("AcquisitionFrameRate", r::kFrameRate_hz, "Without triggers, and inside a burst")
-                .between(l.least_frame_rate_hz, l.most_frame_rate_hz)
+                .between(l.min_frame_rate_hz, l.max_frame_rate_hz)
                 .unit("Hz")
                 .read_only(l.frame_rate_is_own)
                 .locked_by("AcquisitionFrameRateFixed"),
@@ -122,7 +122,7 @@ void add_acquisition_features(FeatureTable& t) {
                         l.has_automatic_exposure ? counted({"Off", "Continuous"}) : counted({"Off"}),
                         "Whether the camera chooses its exposure"),
             real("ExposureTime", r::kExposureTime_us, "Of the next frame that has not begun")
-                .between(l.least_exposure_s * 1e6, l.most_exposure_s * 1e6)
+                .between(l.min_exposure_s * 1e6, l.max_exposure_s * 1e6)
                 .unit("us")
                 .read_only(l.exposure_is_own)
                 .locked_by("ExposureAutoReg"),
@@ -137,7 +137,7 @@ void add_acquisition_features(FeatureTable& t) {
             command("TriggerSoftware", r::kTriggerSoftware, "A trigger"),
             enumeration("TriggerActivation", r::kTriggerActivation, counted({"RisingEdge"}), "Of a line"),
             real("TriggerDelay", r::kTriggerDelay_us, "From a trigger to its first frame")
-                .between(0, l.most_trigger_delay_s * 1e6)
+                .between(0, l.max_trigger_delay_s * 1e6)
                 .unit("us"),
         });
     t.formulas.push_back(
@@ -146,13 +146,13 @@ void add_acquisition_features(FeatureTable& t) {
           {
               enumeration("GainSelector", r::kGainSelector, counted({"All"}), "Which gain").selects({"Gain"}),
               real("Gain", r::kGain_db, "Over the camera's own")
-                  .between(l.least_gain_db, l.most_gain_db)
+                  .between(l.min_gain_db, l.max_gain_db)
                   .unit("dB")
                   .read_only(l.gain_is_own),
               enumeration("BlackLevelSelector", r::kBlackLevelSelector, counted({"All"}), "Which black level")
                   .selects({"BlackLevel"}),
               real("BlackLevel", r::kBlackLevel_dn, "DN of no light")
-                  .between(0, l.most_black_level_dn)
+                  .between(0, l.max_black_level_dn)
                   .unit("DN"),
           });
 }

@@ -11,11 +11,11 @@ namespace r = feature_register;
 
 namespace {
 
-constexpr double kMost32 = 4294967295.0;
-constexpr double kMost64 = 9.2e18;
+constexpr double kMax32 = 4294967295.0;
+constexpr double kMax64 = 9.2e18;
 
 Feature ip(const char* name, std::uint32_t address, const char* meaning) {
-    return integer(name, address, meaning).between(0, kMost32).as("IPV4Address");
+    return integer(name, address, meaning).between(0, kMax32).as("IPV4Address");
 }
 
 std::vector<EnumEntry> ptp_states() {
@@ -27,7 +27,7 @@ void add_actions_and_time(FeatureTable& t) {
     t.add("ActionControl",
           {
               integer("ActionDeviceKey", b::kActionDeviceKey, "Must be that of an ACTION command")
-                  .between(0, kMost32)
+                  .between(0, kMax32)
                   .as("HexNumber")
                   .write_only(),
               fixed_number("ActionQueueSize", 16, "Scheduled actions that can wait"),
@@ -35,10 +35,10 @@ void add_actions_and_time(FeatureTable& t) {
                   .between(1, 1)
                   .selects({"ActionGroupKey", "ActionGroupMask"}),
               integer("ActionGroupKey", b::kActionGroupKey, "Must be that of an ACTION command")
-                  .between(0, kMost32)
+                  .between(0, kMax32)
                   .as("HexNumber"),
               integer("ActionGroupMask", b::kActionGroupMask, "Must have a bit in common with the command's")
-                  .between(0, kMost32)
+                  .between(0, kMax32)
                   .as("HexNumber"),
               boolean("ActionUnconditionalMode", b::kGvcpConfig, "Actions without a controller, too").bit(3),
           });
@@ -58,7 +58,7 @@ void add_gvcp(FeatureTable& t) {
         "TransportLayerControl",
         {
             integer("PayloadSize", r::kPayloadSize, "Bytes of a frame, chunks included")
-                .between(1, kMost32)
+                .between(1, kMax32)
                 .unit("B")
                 .read_only(),
             integer("TLParamsLocked", r::kParamsLocked, "1: the geometry is locked")
@@ -84,7 +84,7 @@ void add_gvcp(FeatureTable& t) {
                 .as("MACAddress")
                 .read_only(),
             integer("GevLinkSpeed", b::kLinkSpeed, "Of the interface; 0: not known")
-                .between(0, kMost32)
+                .between(0, kMax32)
                 .unit("Mbps")
                 .read_only(),
             boolean("GevCurrentIPConfigurationLLA", b::kIpCurrent, "Link-local addresses").bit(2),
@@ -116,7 +116,7 @@ void add_gvcp(FeatureTable& t) {
             boolean("GevGVCPHeartbeatDisable", b::kGvcpConfig, "Silence does not end control").bit(0),
             boolean("GevGVCPPendingAck", b::kGvcpConfig, "Slow answers are announced").bit(1),
             integer("GevGVCPPendingTimeout", b::kPendingTimeout, "The slowest answer")
-                .between(0, kMost32)
+                .between(0, kMax32)
                 .unit("ms")
                 .read_only(),
             boolean("GevGVCPExtendedStatusCodesVersion1_1", b::kGvcpConfig, "Status codes of GEV 1.1").bit(2),
@@ -133,7 +133,7 @@ void add_gvcp(FeatureTable& t) {
             command("GevTimestampControlLatch", b::kTimestampControl, "Reads the clock").bit(1),
             command("GevTimestampControlReset", b::kTimestampControl, "The clock begins at 0").bit(0),
             integer64("GevTimestampValue", b::kTimestamp, "The clock as it was read")
-                .between(0, kMost64)
+                .between(0, kMax64)
                 .read_only(),
         });
 }
@@ -167,7 +167,7 @@ void add_channels(FeatureTable& t) {
                 .between(0, 65535)
                 .read_only(),
             integer("GevSCPSPacketSize", b::kPacketSize, "IP, UDP and GVSP headers included")
-                .between(GigeTransport::kLeastPacketBytes, GigeTransport::kMostPacketBytes)
+                .between(GigeTransport::kMinPacketBytes, GigeTransport::kMaxPacketBytes)
                 .every(GigeTransport::kPacketStep)
                 .unit("B")
                 .bits(15, 0)
@@ -211,7 +211,7 @@ void add_event_features(FeatureTable& t) {
         const std::string port = name + "Port";
         t.ports.push_back({.name = port, .event = event.id});
         const auto value = [&](const char* what, const char* meaning, const char* place) {
-            Feature f = integer64((name + what).c_str(), 0, meaning).between(0, kMost64).read_only();
+            Feature f = integer64((name + what).c_str(), 0, meaning).between(0, kMax64).read_only();
             f.port = port;
             f.address_feature = place;
             return f;

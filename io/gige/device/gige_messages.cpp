@@ -71,7 +71,7 @@ void GigeMessages::happened(gvcp::Event::Id id) {
 
 void GigeMessages::send(const gvcp::Event& event, std::span<const std::uint8_t> data) {
     const bool acknowledge = timeout_ms_ != 0;
-    if (acknowledge && count_ == kMostWaiting) {
+    if (acknowledge && count_ == kMaxWaiting) {
         ++core_.events_lost;
         return;
     }
@@ -84,7 +84,7 @@ void GigeMessages::send(const gvcp::Event& event, std::span<const std::uint8_t> 
         transmit(message);
         return;
     }
-    waiting_[(first_ + count_) % kMostWaiting] = message;
+    waiting_[(first_ + count_) % kMaxWaiting] = message;
     if (count_++ == 0) next();
 }
 
@@ -103,7 +103,7 @@ void GigeMessages::transmit(const Message& message) {
 
 void GigeMessages::acknowledged(std::uint16_t request_id, const Endpoint& from) {
     if (count_ == 0 || !(from == destination_) || waiting_[first_].request_id != request_id) return;
-    first_ = (first_ + 1) % kMostWaiting;
+    first_ = (first_ + 1) % kMaxWaiting;
     --count_;
     next();
 }
@@ -117,7 +117,7 @@ void GigeMessages::tick() {
         return;
     }
     ++core_.events_lost;
-    first_ = (first_ + 1) % kMostWaiting;
+    first_ = (first_ + 1) % kMaxWaiting;
     --count_;
     next();
 }

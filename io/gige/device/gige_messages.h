@@ -40,7 +40,7 @@ class GigeMessages {
     void reset();
 
   private:
-    static constexpr std::size_t kMostWaiting = 64;
+    static constexpr std::size_t kMaxWaiting = 64;
     struct Message {
         std::uint16_t request_id = 0;
         std::array<std::uint8_t, 64> bytes{};
@@ -59,7 +59,7 @@ class GigeMessages {
     std::uint32_t selector_ = 0;
     std::uint16_t next_id_ = 1;
     // Unacknowledged ones, the oldest first.
-    std::array<Message, kMostWaiting> waiting_;
+    std::array<Message, kMaxWaiting> waiting_;
     std::size_t first_ = 0, count_ = 0;
     std::uint32_t tries_left_ = 0;  // of the oldest
     std::int64_t due_ns_ = 0;

@@ -18,7 +18,7 @@ std::uint32_t stream_can(const GigeIdentity& id) {
            (id.multipart ? b::stream_config::kMultipart : 0);
 }
 constexpr std::size_t kIpAndUdpBytes = 28;
-constexpr std::uint64_t kLeastThroughput_bytes_s = 100'000, kMostThroughput_bytes_s = 100'000'000'000;
+constexpr std::uint64_t kMinThroughput_bytes_s = 100'000, kMaxThroughput_bytes_s = 100'000'000'000;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ GigeTransport::GigeTransport(GigeCore& core, std::function<void()> closed)
 
 void GigeTransport::add_throughput() {
     GigeRegisterFile& r = core_.registers;
-    core_.settings.throughput_limit_bytes_s = kMostThroughput_bytes_s;
+    core_.settings.throughput_limit_bytes_s = kMaxThroughput_bytes_s;
     r.number(
         reg::kThroughputMode, [this] { return core_.settings.throughput_limited; },
         [this](std::uint64_t on) {
@@ -66,7 +66,7 @@ void GigeTransport::add_throughput() {
     r.number64(
         reg::kThroughputLimit, [this] { return core_.settings.throughput_limit_bytes_s; },
         [this](std::uint64_t limit) {
-            if (limit < kLeastThroughput_bytes_s || limit > kMostThroughput_bytes_s)
+            if (limit < kMinThroughput_bytes_s || limit > kMaxThroughput_bytes_s)
                 return Status::kInvalidParameter;
             core_.settings.throughput_limit_bytes_s = limit;
             core_.publish_stream();
@@ -84,7 +84,7 @@ Status GigeTransport::write_port(std::uint64_t value) {
 Status GigeTransport::write_packet_size(std::uint64_t value) {
     GigeStreamState& s = core_.stream;
     const auto size = static_cast<std::uint32_t>(value & 0xFFFF);
-    if (size < kLeastPacketBytes || size > kMostPacketBytes || size % kPacketStep != 0)
+    if (size < kMinPacketBytes || size > kMaxPacketBytes || size % kPacketStep != 0)
         return Status::kInvalidParameter;
     // Receivers compute a packet's place from the size: it must not change inside a stream.
     if (s.acquiring && size != s.packet_bytes) return Status::kWriteProtect;

@@ -8,7 +8,7 @@ namespace hilcam {
 
 class GigeTransport {
   public:
-    static constexpr std::uint32_t kLeastPacketBytes = 576, kMostPacketBytes = 16384, kPacketStep = 4;
+    static constexpr std::uint32_t kMinPacketBytes = 576, kMaxPacketBytes = 16384, kPacketStep = 4;
 
     // `closed` is called when a client sets the stream's port to 0.
     GigeTransport(GigeCore& core, std::function<void()> closed);

@@ -51,7 +51,7 @@ std::uint64_t GigeTrigger::burst_count() const {
 }
 
 Status GigeTrigger::set_burst_count(std::uint64_t count) {
-    if (count < 1 || count > static_cast<std::uint64_t>(core_.limits.most_burst_frames))
+    if (count < 1 || count > static_cast<std::uint64_t>(core_.limits.max_burst_frames))
         return Status::kInvalidParameter;
     if (core_.camera.settings().triggered && core_.settings.burst_trigger)
         if (const Status status = core_.change({.burst_frames = static_cast<std::int64_t>(count)});

@@ -83,7 +83,7 @@ std::optional<MemoryRange> read_memory_range(std::span<const std::uint8_t> paylo
     range.address = in.u32();
     in.skip(2);
     range.bytes = in.u16();
-    if (range.bytes == 0 || range.bytes > kMostMemoryBytes) return {};
+    if (range.bytes == 0 || range.bytes > kMaxMemoryBytes) return {};
     return range;
 }
 

@@ -13,10 +13,10 @@ namespace hilcam::gvcp {
 
 inline constexpr std::uint16_t kPort = 3956;
 inline constexpr std::size_t kHeaderBytes = 8;
-inline constexpr std::size_t kMostDatagramBytes = 576;  // every GVCP message fits
-inline constexpr std::size_t kDiscoveryBytes = 248;     // registers 0x00 to 0xF7
+inline constexpr std::size_t kMaxDatagramBytes = 576;  // every GVCP message fits
+inline constexpr std::size_t kDiscoveryBytes = 248;    // registers 0x00 to 0xF7
 // A READMEM's answer has the address before the data.
-inline constexpr std::size_t kMostMemoryBytes = kMostDatagramBytes - 28 - kHeaderBytes - 4;
+inline constexpr std::size_t kMaxMemoryBytes = kMaxDatagramBytes - 28 - kHeaderBytes - 4;
 
 enum Command : std::uint16_t {
     kDiscovery = 0x0002,

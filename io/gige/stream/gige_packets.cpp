@@ -25,7 +25,7 @@ gvsp::Image image_of(const GigeFrame& f) {
 }
 
 // Of the parts, in the order of the payload's bytes; 0: not there. A plain stream is one of a single part.
-std::array<std::size_t, gvsp::kMostParts> part_bytes(const GigeStreamState& s) {
+std::array<std::size_t, gvsp::kMaxParts> part_bytes(const GigeStreamState& s) {
     if (!s.multipart) return {s.payload_bytes()};
     return {s.image_bytes(), s.confidence_bytes(), s.chunk_data_bytes()};
 }
@@ -36,11 +36,11 @@ std::size_t write_parts_leader(const GigeFrame& f, const gvsp::PacketHeader& hea
     gvsp::Image confidence = image_of(f);
     confidence.pixel_format = kConfidence8;
     const auto [image_bytes, confidence_bytes, chunk_bytes] = part_bytes(s);
-    const std::array<gvsp::Part, gvsp::kMostParts> all = {
+    const std::array<gvsp::Part, gvsp::kMaxParts> all = {
         {{gvsp::Part::k2dImage, image_bytes, image_of(f), id_of(GigeComponent::kIntensity)},
          {gvsp::Part::kConfidenceMap, confidence_bytes, confidence, id_of(GigeComponent::kConfidence)},
          {gvsp::Part::kChunkData, chunk_bytes, {}}}};
-    std::array<gvsp::Part, gvsp::kMostParts> parts;
+    std::array<gvsp::Part, gvsp::kMaxParts> parts;
     const auto end =
         std::copy_if(all.begin(), all.end(), parts.begin(), [](const gvsp::Part& p) { return p.bytes > 0; });
     return gvsp::write_multipart_leader(header, s.chunk_mode, f.timestamp_ns, {parts.begin(), end}, out);
@@ -139,7 +139,7 @@ void write_chunk(ByteWriter& out, Chunk chunk, const FrameRecord& r, const GigeS
 
 }  // namespace
 
-std::size_t most_payload_bytes(int width, int height, BayerPattern pattern, bool multipart) {
+std::size_t max_payload_bytes(int width, int height, BayerPattern pattern, bool multipart) {
     GigeStreamState all;
     all.width = static_cast<std::uint32_t>(width);
     all.height = static_cast<std::uint32_t>(height);

@@ -28,7 +28,7 @@ struct GigeFrame {
 };
 
 // The largest payload of such a camera, whatever the format, the chunks and, if it has them, the parts.
-std::size_t most_payload_bytes(int width, int height, BayerPattern pattern, bool multipart);
+std::size_t max_payload_bytes(int width, int height, BayerPattern pattern, bool multipart);
 
 // The frame's window and its chunks: exactly stream.payload_bytes() bytes of `out`. `scratch`: at least
 // 3 * stream.width + 8 numbers. The frame must contain the window. Loop.
@@ -40,7 +40,7 @@ void write_gige_payload(const DnImage& frame, const FrameRecord& record, const G
 std::uint32_t trailer_id(const GigeStreamState& stream);
 
 struct GigePacket {
-    std::array<std::uint8_t, gvsp::kMostHeadBytes> head;
+    std::array<std::uint8_t, gvsp::kMaxHeadBytes> head;
     std::size_t head_bytes = 0;
     std::span<const std::uint8_t> data;  // of the frame's payload
 

@@ -5,7 +5,7 @@
 namespace hilcam {
 
 GigeRing::GigeRing(std::size_t slots, std::size_t bytes_each) : slots_(slots) {
-    HILCAM_CHECK(slots >= kLeastSlots);
+    HILCAM_CHECK(slots >= kMinSlots);
     for (GigeSlot& slot : slots_) {
         slot.bytes.resize(bytes_each);
         slot.turn_ = ++turns_;

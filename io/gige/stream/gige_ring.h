@@ -37,10 +37,10 @@ class GigeSlot {
 class GigeRing {
   public:
     // Frames that wait to be sent or are being sent; a further one is dropped.
-    static constexpr std::size_t kMostWaiting = 3;
+    static constexpr std::size_t kMaxWaiting = 3;
     // Kept for resends, whatever happens.
-    static constexpr std::size_t kLeastKept = 8;
-    static constexpr std::size_t kLeastSlots = kLeastKept + kMostWaiting + 1;
+    static constexpr std::size_t kMinKept = 8;
+    static constexpr std::size_t kMinSlots = kMinKept + kMaxWaiting + 1;
 
     GigeRing(std::size_t slots, std::size_t bytes_each);
 
@@ -48,8 +48,7 @@ class GigeRing {
     GigeSlot* claim() noexcept;
     // Loop: claim() would give one.
     bool has_room() const noexcept {
-        return written_.load(std::memory_order_relaxed) - sent_.load(std::memory_order_acquire) <
-               kMostWaiting;
+        return written_.load(std::memory_order_relaxed) - sent_.load(std::memory_order_acquire) < kMaxWaiting;
     }
     void publish(GigeSlot& slot) noexcept;
 
@@ -65,7 +64,7 @@ class GigeRing {
     using Use = GigeSlot::Use;
     std::vector<GigeSlot> slots_;
     std::uint64_t turns_ = 0;  // the loop's
-    std::array<GigeSlot*, 2 * kMostWaiting> waiting_{};
+    std::array<GigeSlot*, 2 * kMaxWaiting> waiting_{};
     std::atomic<std::uint64_t> written_{0}, sent_{0};
     std::uint64_t taken_ = 0;  // the sender's
 };

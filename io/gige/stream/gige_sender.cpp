@@ -39,7 +39,7 @@ GigeSender::GigeSender(GigeRing& ring, FaultBoard& faults, DeliveryListener* lis
       pace_config_(pace),
       finished_(std::move(finished)),
       wakeup_(open_wakeup()) {
-    delayed_.reserve(kMostDelayed);
+    delayed_.reserve(kMaxDelayed);
     refusal_pacer_.begin(kRefusalPace, 0);
 }
 
@@ -138,10 +138,10 @@ void GigeSender::send_frame(GigeSlot& slot) {
 void GigeSender::fill_batch(const GigeSlot& slot, PacketOrder& order) {
     const GigeStreamState& s = slot.frame.stream;
     const std::uint32_t trailer = trailer_id(s);
-    const std::size_t most_bytes =
+    const std::size_t max_bytes =
         std::min(pacer_.batch_bytes(), kBatchRoom / ReceiverRoom::bytes_of(s.packet_bytes) * s.packet_bytes);
     // One place stays free for a duplicate.
-    for (std::size_t taken = 0; !order.done() && batch_.count() + 1 < PacketBatch::kMostPackets;) {
+    for (std::size_t taken = 0; !order.done() && batch_.count() + 1 < PacketBatch::kMaxPackets;) {
         const std::uint32_t id = order.next(faults_, slot.record.id);
         const PacketFate fate = fate_of_packet(faults_, slot.record.id, id, trailer);
         const GigePacket packet = packet_of(slot.frame, id, gvsp::kFresh);
@@ -153,7 +153,7 @@ void GigeSender::fill_batch(const GigeSlot& slot, PacketOrder& order) {
             batch_.add(packet, fate, s.long_ids());
         if (fate.twice) batch_.add(packet, fate, s.long_ids());
         taken += packet.bytes() + 28;
-        if (taken + s.packet_bytes > most_bytes) break;
+        if (taken + s.packet_bytes > max_bytes) break;
     }
 }
 
@@ -226,9 +226,9 @@ void GigeSender::serve_resend() {
             r.last);
     const std::uint32_t trailer = trailer_id(slot->frame.stream);
     const std::uint32_t end = std::min(r.last, trailer);
-    const std::uint64_t most_resent = kMostResent * (std::uint64_t{trailer} + 1);
-    const bool past_the_end = r.next > end, too_often = slot->resent >= most_resent;
-    if (!past_the_end && !too_often) resend_batch(*slot, end, most_resent);
+    const std::uint64_t max_resent = kMaxResent * (std::uint64_t{trailer} + 1);
+    const bool past_the_end = r.next > end, too_often = slot->resent >= max_resent;
+    if (!past_the_end && !too_often) resend_batch(*slot, end, max_resent);
     give_back(slot);
     if (past_the_end) return refuse(gvsp::kUnavailable, r.last);
     if (too_often) {
@@ -238,7 +238,7 @@ void GigeSender::serve_resend() {
     if (r.next > end) resend_.reset();
 }
 
-void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t most_resent) {
+void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t max_resent) {
     GigeOrder& r = *resend_;
     Pace pace = pacer_.pace();
     if (current_) {
@@ -246,7 +246,7 @@ void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t m
         pace.delay_ns = static_cast<std::int64_t>(static_cast<double>(pace.delay_ns) / kResendShare);
     }
     resend_pacer_.begin(pace, monotonic_ns());
-    const std::size_t most_bytes = std::min(
+    const std::size_t max_bytes = std::min(
         resend_pacer_.batch_bytes(), kBatchRoom / ReceiverRoom::bytes_of(r.packet_bytes) * r.packet_bytes);
     std::uint64_t resent = 0, refused = 0;
     do {
@@ -260,8 +260,8 @@ void GigeSender::resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t m
             batch_.add(packet_of(slot.frame, id, gvsp::kResent), fate, r.extended_ids);
         ++(fate.lost ? refused : resent);
         ++slot.resent;
-    } while (r.next <= end && slot.resent < most_resent && !batch_.full() &&
-             batch_.bytes() + r.packet_bytes <= most_bytes);
+    } while (r.next <= end && slot.resent < max_resent && !batch_.full() &&
+             batch_.bytes() + r.packet_bytes <= max_bytes);
     counts_.packets_resent.fetch_add(resent, std::memory_order_relaxed);
     counts_.packets_refused.fetch_add(refused, std::memory_order_relaxed);
     // The stream waits for its own receiver alone: another one's buffer is that one's to read.
@@ -308,7 +308,7 @@ void GigeSender::give_back(GigeSlot* slot) {
 
 void GigeSender::delay(const GigeSlot& slot, std::uint32_t id, gvsp::Status status, const PacketFate& fate,
                        const sockaddr_in& to) {
-    if (delayed_.size() == kMostDelayed) {
+    if (delayed_.size() == kMaxDelayed) {
         counts_.packets_dropped.fetch_add(1, std::memory_order_relaxed);
         return;
     }

@@ -9,7 +9,7 @@
 // A request of twenty bytes can ask for a whole frame, so requests get what the frames leave. Fresh packets
 // keep their schedule whatever is asked for; packets sent again have a schedule of their own, at half of the
 // stream's rate while a frame is on its way and at all of it between frames. Of each block at most
-// kMostResent times its packets are sent again; the rest is refused (PACKET_UNAVAILABLE). Example: of a block
+// kMaxResent times its packets are sent again; the rest is refused (PACKET_UNAVAILABLE). Example: of a block
 // of 73 packets 292 are sent again.
 
 #include <atomic>
@@ -62,7 +62,7 @@ class GigeSender {
     // A client that loses a share p of all packets asks for each p / (1 - p) times on average: once when half
     // of them are lost. Four times leaves room for the listeners of a group, who ask each for their own, and
     // for clients that ask for whole ranges where single packets are missing.
-    static constexpr std::uint64_t kMostResent = 4;
+    static constexpr std::uint64_t kMaxResent = 4;
 
     // `listener` may be null. `finished`: called from the sender's thread with the number of an acquisition
     // whose last frame has been sent.
@@ -95,7 +95,7 @@ class GigeSender {
         std::int64_t id_error = 0;
         sockaddr_in to{};
     };
-    static constexpr std::size_t kMostDelayed = 4096;
+    static constexpr std::size_t kMaxDelayed = 4096;
 
     void run();
     void send_frame(GigeSlot& slot);
@@ -111,7 +111,7 @@ class GigeSender {
     bool serve_orders();
     void serve_resend();
     void refuse(gvsp::Status reason, std::uint32_t last);
-    void resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t most_resent);
+    void resend_batch(GigeSlot& slot, std::uint32_t end, std::uint64_t max_resent);
     void serve_delayed(std::int64_t now_ns);
     void send_test_packet(const GigeOrder& order);
     // The frame when it is kept or is being sent now.

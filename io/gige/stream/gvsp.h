@@ -55,11 +55,11 @@ struct Part {
     std::uint16_t purpose = 0;  // the component that it shows: ComponentIDValue
 };
 
-inline constexpr std::size_t kMostParts = 3;
+inline constexpr std::size_t kMaxParts = 3;
 // The longest header with what follows it: a multipart leader.
-inline constexpr std::size_t kMostHeadBytes = header_bytes(true) + 12 + 48 * kMostParts;
+inline constexpr std::size_t kMaxHeadBytes = header_bytes(true) + 12 + 48 * kMaxParts;
 
-// All write to the front of `out` (kMostHeadBytes are enough) and give the number of bytes; header included.
+// All write to the front of `out` (kMaxHeadBytes are enough) and give the number of bytes; header included.
 std::size_t write_header(const PacketHeader& header, std::span<std::uint8_t> out);
 std::size_t write_image_leader(const PacketHeader& header, bool chunks, std::uint64_t timestamp_ns,
                                const Image& image, std::span<std::uint8_t> out);

@@ -14,11 +14,11 @@ namespace hilcam {
 
 class PacketBatch {
   public:
-    static constexpr std::size_t kMostPackets = 32;
+    static constexpr std::size_t kMaxPackets = 32;
 
     // Forgets the packets; those to come go to `to`.
     void begin(const sockaddr_in& to) { to_ = to, count_ = 0, bytes_ = 0; }
-    bool full() const { return count_ == kMostPackets; }
+    bool full() const { return count_ == kMaxPackets; }
     // Must not be full. Damage as `fate` says, but for what concerns when and how often it is sent.
     void add(const GigePacket& packet, const PacketFate& fate, bool extended);
     std::size_t count() const { return count_; }
@@ -35,8 +35,8 @@ class PacketBatch {
         std::uint8_t inverted = 0;
         std::array<iovec, 4> parts{};
     };
-    std::array<Message, kMostPackets> messages_;
-    std::array<mmsghdr, kMostPackets> headers_{};
+    std::array<Message, kMaxPackets> messages_;
+    std::array<mmsghdr, kMaxPackets> headers_{};
     sockaddr_in to_{};
     std::size_t count_ = 0, bytes_ = 0;
 };

@@ -205,7 +205,7 @@ void print_judged(const std::string& digits) {
     const DecodedCommand d = decode_command(packet, DialectConfig{});
     std::printf("%u ", static_cast<unsigned>(d.status));
     if (d.status == CommandStatus::kAccepted) {
-        std::vector<std::uint8_t> bytes(kMostPacketBytes);
+        std::vector<std::uint8_t> bytes(kMaxPacketBytes);
         bytes.resize(encode_command(d.command, d.sequence, DialectConfig{}, bytes, d.camera));
         for (const std::uint8_t byte : bytes) std::printf("%02x", byte);
     }
@@ -257,7 +257,7 @@ int main() {
             print_filtered(line);
             continue;
         }
-        std::vector<std::uint8_t> bytes(kMostPacketBytes);
+        std::vector<std::uint8_t> bytes(kMaxPacketBytes);
         bytes.resize(verb == "encode" ? encode(line, bytes) : answer(line, bytes));
         for (const std::uint8_t byte : bytes) std::printf("%02x", byte);
         std::printf("\n");

@@ -46,10 +46,10 @@ TEST(Trend, TiesAreNoTrendAndNarrowTheVariance) {
 }
 
 TEST(Trend, FewerThanTheLeastAreNeverSignificant) {
-    for (std::size_t n = 2; n <= kLeastForTrend; ++n) {
+    for (std::size_t n = 2; n <= kMinForTrend; ++n) {
         std::vector<double> line(n);
         std::iota(line.begin(), line.end(), 0.0);
-        EXPECT_EQ(trend_of(line).sigma >= kSignificant_sigma, n == kLeastForTrend) << n;
+        EXPECT_EQ(trend_of(line).sigma >= kSignificant_sigma, n == kMinForTrend) << n;
     }
 }
 

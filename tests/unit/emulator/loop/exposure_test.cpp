@@ -34,7 +34,7 @@ Shot shoot(const std::filesystem::path& file, const std::vector<std::string>& ov
     ExposureRenderer exposures(*renderer, s, grid, world.placed_objects());
     Shot shot;
     shot.radiance = exposures.make_image();
-    shot.points.reserve(exposures.most_points());
+    shot.points.reserve(exposures.max_points());
     shot.exposure.exposure_s = s.camera.exposure_s;
     shot.result = exposures.render(world, start, {1, 1}, shot.radiance, shot.points, shot.exposure);
     return shot;
@@ -191,7 +191,7 @@ TEST_F(PlateTest, AStillSceneIsTheSameToTheBitInEveryMode) {
 TEST_F(PlateTest, TooMuchMotionIsLimitedAndTold) {
     const auto file = scenario("", "camera_pose: {rate_deg_s: [0, -34.377, 0]}\n");
     const Shot exact = shoot(file, {"quality.motion=exact", "quality.motion_error_px=0.01"});
-    EXPECT_EQ(exact.result.parts, ExposureRenderer::kMostParts);
+    EXPECT_EQ(exact.result.parts, ExposureRenderer::kMaxParts);
     EXPECT_TRUE(exact.result.parts_limited);
 }
 
@@ -284,7 +284,7 @@ TEST(LiveSettings, RefusesWhatTheCameraSetsItself) {
     a.auto_exposure.on = true;
     LiveSettings automatic(a);
     EXPECT_FALSE(automatic.change({.exposure_s = 1e-3}));
-    automatic.tell_own(0.25, 0);
+    automatic.report_own(0.25, 0);
     EXPECT_EQ(automatic.settings().exposure_s, 0.25);
 
     const Motion initial;

@@ -55,10 +55,9 @@ struct Plant {
 // A plant that does not change: down at most levels - 1 times at first; after that each climb that is taken
 // back doubles the hold-off, 10 times from 64 to 65536 frames, then there is one in 65536 frames. Each is two
 // changes; a climb may be to a level in between, which holds, before the one that does not.
-int most_changes(std::size_t levels, int frames) {
-    const int doublings = static_cast<int>(std::log2(Governor::kMostStay / Governor::kLeastStay));
-    return 2 * static_cast<int>(levels - 1) +
-           2 * (doublings + frames / static_cast<int>(Governor::kMostStay));
+int max_changes(std::size_t levels, int frames) {
+    const int doublings = static_cast<int>(std::log2(Governor::kMaxStay / Governor::kMinStay));
+    return 2 * static_cast<int>(levels - 1) + 2 * (doublings + frames / static_cast<int>(Governor::kMaxStay));
 }
 
 TEST(Governor, KeepsTheBestLevelThatFitsAndGoesStraightToIt) {
@@ -69,7 +68,7 @@ TEST(Governor, KeepsTheBestLevelThatFitsAndGoesStraightToIt) {
     // Two levels down: three misses each, and what was under way.
     const int first = Governor::kWarmUp + 2 * (3 + plant.delay);
     EXPECT_EQ(out.level[static_cast<std::size_t>(first)], 2u);
-    EXPECT_LE(out.changes, most_changes(4, 2000));
+    EXPECT_LE(out.changes, max_changes(4, 2000));
     // It is all but a few frames at the level that fits.
     EXPECT_GT(std::count(out.level.begin(), out.level.end(), 2u), 1900);
 }
@@ -79,7 +78,7 @@ TEST(Governor, StaysWhereTheBudgetLiesBetweenTwoLevels) {
         const Plant plant{[&](std::size_t level, int) { return level == 0 ? above_ms : 12.0; }, 2};
         constexpr int kFrames = 1'000'000;
         const Plant::Outcome out = plant.run(kFrames);
-        EXPECT_LE(out.changes, most_changes(2, kFrames)) << above_ms;
+        EXPECT_LE(out.changes, max_changes(2, kFrames)) << above_ms;
         EXPECT_GT(out.changes, 1) << above_ms;  // it does look again
         // Of an hour at 60 Hz, the last half: a try in 18 minutes.
         EXPECT_LE(out.changes_in(500'000, kFrames), 2 * (500'000 / 65536 + 1)) << above_ms;
@@ -92,8 +91,8 @@ TEST(Governor, ATryEveryLeastStayWouldBeSeen) {
     int changes = 0;
     std::size_t level = 1;
     for (int i = 0, stay = 0; i < 1'000'000; ++i, ++stay)
-        if (stay >= (level == 1 ? Governor::kLeastStay : 3)) level = 1 - level, stay = 0, ++changes;
-    EXPECT_GT(changes, 10 * most_changes(2, 1'000'000));
+        if (stay >= (level == 1 ? Governor::kMinStay : 3)) level = 1 - level, stay = 0, ++changes;
+    EXPECT_GT(changes, 10 * max_changes(2, 1'000'000));
 }
 
 TEST(Governor, NoiseIsNoReasonToSwing) {
@@ -111,7 +110,7 @@ TEST(Governor, NoiseIsNoReasonToSwing) {
         constexpr int kFrames = 500'000;
         const Plant::Outcome out = plant.run(kFrames);
         // Noise may also push it from the middle level to the last and back: levels - 1 times the bound.
-        EXPECT_LE(out.changes, 2 * most_changes(3, kFrames)) << upper_ms;
+        EXPECT_LE(out.changes, 2 * max_changes(3, kFrames)) << upper_ms;
         EXPECT_LE(out.changes_in(250'000, kFrames), 2 * 2 * (250'000 / 65536 + 1)) << upper_ms;
     }
 }
@@ -149,8 +148,8 @@ TEST(Governor, AnAlternatingLoadIsFollowedEverLessOften) {
                           2};
         constexpr int kFrames = 500'000;
         const Plant::Outcome out = plant.run(kFrames);
-        // Two changes in kMostStay / 16 frames at the most, when the hold-off has grown.
-        const int least = static_cast<int>(Governor::kMostStay / 16);
+        // Two changes in kMaxStay / 16 frames at the most, when the hold-off has grown.
+        const int least = static_cast<int>(Governor::kMaxStay / 16);
         EXPECT_LE(out.changes_in(250'000, kFrames), 2 * (250'000 / least + 1)) << period;
     }
 }

@@ -22,7 +22,7 @@ using testing::Not;
 // --- bytes
 
 std::vector<std::uint8_t> bytes_of(const Record& record) {
-    std::vector<std::uint8_t> bytes(kRecordPrefixBytes + kMostRecordBytes);
+    std::vector<std::uint8_t> bytes(kRecordPrefixBytes + kMaxRecordBytes);
     bytes.resize(encode_record(record, bytes));
     return bytes;
 }

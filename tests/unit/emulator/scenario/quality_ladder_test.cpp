@@ -46,7 +46,7 @@ TEST_F(LadderTest, WhatCannotChangeBetweenFramesIsRefused) {
         EXPECT_THAT(error.what(), HasSubstr("levels.0"));
     }
     std::string many = "levels: [";
-    for (std::size_t i = 0; i < kMostLevels; ++i) many += std::string(i ? ", " : "") + "{max_depth: 1}";
+    for (std::size_t i = 0; i < kMaxLevels; ++i) many += std::string(i ? ", " : "") + "{max_depth: 1}";
     EXPECT_THROW(loop(many + "]\n"), InputError);
 }
 
@@ -69,7 +69,7 @@ TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
         last.noise_budget = name == "reference.yaml" ? 0.1 : 0;
         const std::vector<RenderQuality> levels = built_in_levels(last);
         EXPECT_GE(levels.size(), 3u) << name;
-        EXPECT_LT(levels.size(), kMostLevels);
+        EXPECT_LT(levels.size(), kMaxLevels);
         for (const RenderQuality& q : levels) {
             EXPECT_NE(difference(last, q), "");
             EXPECT_LE(q.samples_per_axis, last.samples_per_axis);

@@ -120,7 +120,7 @@ TEST(ReferenceKey, HasAllThatThePictureDependsOn) {
         EXPECT_NE(reference_key(minimal_with({change}), here, limits), key) << change;
     EXPECT_NE(reference_key(minimal_with(), {{1, 2, 3.0000001}, {}}, limits), key);
     EXPECT_NE(reference_key(minimal_with(), {{1, 2, 3}, from_rotation_vector({0, 0, 1e-9})}, limits), key);
-    EXPECT_NE(reference_key(minimal_with(), here, {.most_frames = 8}), key);
+    EXPECT_NE(reference_key(minimal_with(), here, {.max_frames = 8}), key);
     EXPECT_NE(reference_key(minimal_with(), here, {.standard_error_sigma = 0.1}), key);
 }
 

@@ -249,7 +249,7 @@ TEST_F(TradeoffLadder, OfManyRungsKeepsBothEnds) {
     tradeoff.knobs = {knob_of_quality("max_depth", depths)};
     for (std::size_t i = 0; i < 40; ++i) add({i}, 50 - static_cast<double>(i), std::pow(1.2, i));
     const ScenarioConfig s = minimal().load({"loop=" + write("loop.yaml", ladder_yaml(tradeoff)).string()});
-    ASSERT_EQ(s.loop.levels.size(), kMostLevels - 1);
+    ASSERT_EQ(s.loop.levels.size(), kMaxLevels - 1);
     EXPECT_EQ(s.loop.levels.front().values.max_depth, 39);
     EXPECT_EQ(s.loop.levels.back().values.max_depth, 1);
 }

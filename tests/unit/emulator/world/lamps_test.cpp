@@ -166,7 +166,7 @@ TEST_F(LampsTest, MistakesAreNamed) {
     EXPECT_THAT(refusal("intensity_w_sr_um: 1, beam: [[5, 1], [9, 0]]"), HasSubstr("begin at 0 degrees"));
     EXPECT_THAT(refusal("intensity_w_sr_um: 1, level: 1.5"), HasSubstr("level"));
     std::string many = "intensity_w_sr_um: 1}";
-    for (std::size_t i = 0; i < kMostLamps; ++i) many += ", {name: more, intensity_w_sr_um: 1}";
+    for (std::size_t i = 0; i < kMaxLamps; ++i) many += ", {name: more, intensity_w_sr_um: 1}";
     many.pop_back();
     EXPECT_THAT(refusal(many), HasSubstr("lamps: found 17; accepted: at most 16"));
     EXPECT_EQ(refusal("intensity_w_sr_um: [[0.4, 1], [0.5, 2]], beam: [[0, 1], [30, 0]]"), "no error");
@@ -220,7 +220,7 @@ TEST_F(LampsTest, AnEventSwitchesAtItsTime) {
     EventDirector events(EventSequence(rig.scenario.events, event_world(rig.scenario), rig.start),
                          {rig.dispatch, rig.settings, rig.clock, ShutterTiming(rig.scenario.camera),
                           rig.world.placed_objects(), false});
-    rig.loop.tell(events);
+    rig.loop.notify(events);
     rig.dispatch.ask_events(events);
     events.start();
     rig.loop.start();
@@ -252,7 +252,7 @@ TEST_F(LampsTest, ASwitchDuringTheExposureCountsForItsShareOfTheTime) {
         ExposureRenderer exposures(*renderer, s, grid, world.placed_objects());
         RadianceImage radiance = exposures.make_image();
         std::vector<PointSource> points;
-        points.reserve(exposures.most_points());
+        points.reserve(exposures.max_points());
         Exposure exposure;
         exposure.exposure_s = 0.02;
         const auto result = exposures.render(world, start, {1, 1}, radiance, points, exposure);

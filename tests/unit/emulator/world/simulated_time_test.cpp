@@ -177,7 +177,7 @@ TEST_F(PlateTest, AStandingWorldHasNoBlur) {
     LoopRig rig(scenario("", "camera_pose: {rate_deg_s: [0, 20, 0]}\n"), {1, false});
     RadianceImage radiance = rig.exposures.make_image();
     std::vector<PointSource> points;
-    points.reserve(rig.exposures.most_points());
+    points.reserve(rig.exposures.max_points());
     Exposure exposure;
     exposure.exposure_s = 0.02;
     const auto rate = [&](double moving) {

@@ -85,9 +85,9 @@ TEST(ClockFilter, SimulatedTimeGoesOnAsTheNewestAnswerSays) {
 
 // From the wire: any bytes. Nothing overflows (a sanitizer would see it).
 TEST(ClockFilter, ClocksOfAnyEpochAreTaken) {
-    constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min(),
-                           kMost = std::numeric_limits<std::int64_t>::max();
-    const std::int64_t values[] = {kLeast, kLeast + 1, -1, 0, 1, kMost - 1, kMost};
+    constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min(),
+                           kMax = std::numeric_limits<std::int64_t>::max();
+    const std::int64_t values[] = {kMin, kMin + 1, -1, 0, 1, kMax - 1, kMax};
     std::size_t taken = 0;
     for (const std::int64_t sent : values)
         for (const std::int64_t arrival : values)
@@ -100,16 +100,16 @@ TEST(ClockFilter, ClocksOfAnyEpochAreTaken) {
                     x.reading.scale = 1e300;
                     x.reading.departure.ns = arrival;
                     taken += filter.take(x);
-                    filter.simulated_at(kLeast), filter.simulated_at(kMost);
+                    filter.simulated_at(kMin), filter.simulated_at(kMax);
                 }
     EXPECT_GT(taken, 0u);
     // The epochs cancel.
     ClockFilter filter;
     ClockExchange x;
-    x.sent_ns = kMost - 1'000, x.received_ns = kMost - 790;
-    x.reading.arrival_monotonic_ns = kLeast + 100, x.reading.departure_monotonic_ns = kLeast + 110;
+    x.sent_ns = kMax - 1'000, x.received_ns = kMax - 790;
+    x.reading.arrival_monotonic_ns = kMin + 100, x.reading.departure_monotonic_ns = kMin + 110;
     ASSERT_TRUE(filter.take(x));
-    EXPECT_EQ(filter.estimate(kMost)->delay_ns, 200);
+    EXPECT_EQ(filter.estimate(kMax)->delay_ns, 200);
 }
 
 }  // namespace

@@ -28,12 +28,12 @@ class ProtocolDocument : public testing::Test {
 };
 
 Bytes encoded(const Acknowledgement& a, const DialectConfig& dialect) {
-    Bytes bytes(kMostPacketBytes);
+    Bytes bytes(kMaxPacketBytes);
     bytes.resize(encode_acknowledgement(a, 0, dialect, bytes));
     return bytes;
 }
 Bytes encoded(const Telemetry& t, std::uint16_t count) {
-    Bytes bytes(kMostPacketBytes);
+    Bytes bytes(kMaxPacketBytes);
     bytes.resize(encode_telemetry(t, count, DialectConfig{}, bytes));
     return bytes;
 }
@@ -118,7 +118,7 @@ TEST_F(ProtocolDocument, Cfs) {
 
 TEST(TelemetryCodec, ComesBackAsItWentInBothDialects) {
     for (const DialectConfig& dialect : {DialectConfig{}, kCfs}) {
-        Bytes bytes(kMostPacketBytes);
+        Bytes bytes(kMaxPacketBytes);
         bytes.resize(encode_telemetry(some_report(), 7, dialect, bytes));
         Telemetry back;
         ASSERT_TRUE(decode_telemetry(bytes, dialect, back));
@@ -129,7 +129,7 @@ TEST(TelemetryCodec, ComesBackAsItWentInBothDialects) {
         EXPECT_EQ(report.pose_time.ns, 1'000'000'000);
         EXPECT_EQ(report.latency_ns, 12'345'678);
         EXPECT_EQ(report.faults, 1u);
-        bytes.assign(kMostPacketBytes, 0);
+        bytes.assign(kMaxPacketBytes, 0);
         bytes.resize(encode_telemetry(some_figures(), 7, dialect, bytes));
         ASSERT_TRUE(decode_telemetry(bytes, dialect, back));
         const auto& figures = std::get<HousekeepingFigures>(back);

@@ -226,7 +226,8 @@ TEST_F(StationTest, TelemetryGoesToSubscribersOfItsKindAlone) {
     answers(encoded(SubscribeCommand{true, false}, 0), 0);
     station.open("b");
     int told = 0;
-    const CommandStation::Tell tell = [&](CommandStation::Sender& to, std::span<const std::uint8_t> packet) {
+    const CommandStation::Notify notify = [&](CommandStation::Sender& to,
+                                              std::span<const std::uint8_t> packet) {
         EXPECT_EQ(&to, &sender);
         Telemetry telemetry;
         ASSERT_TRUE(decode_telemetry(packet, telemetry));
@@ -235,11 +236,11 @@ TEST_F(StationTest, TelemetryGoesToSubscribersOfItsKindAlone) {
     };
     FrameReport report;
     report.frame = 3;
-    station.tell(report, tell);
-    station.tell(HousekeepingFigures{}, tell);
+    station.notify(report, notify);
+    station.notify(HousekeepingFigures{}, notify);
     EXPECT_EQ(told, 1);
     answers(encoded(SubscribeCommand{}, 1), 0);
-    station.tell(report, tell);
+    station.notify(report, notify);
     EXPECT_EQ(told, 1);
 }
 

@@ -180,7 +180,7 @@ TEST(CommandsTcp, TelemetryGoesToSubscribersAndToTheReadOnlyPort) {
     report.frame = 12;
     HousekeepingFigures figures;
     figures.frames = 34;
-    for (CommandReceiver* r : {commands.get(), port.get()}) r->tell(report), r->tell(figures);
+    for (CommandReceiver* r : {commands.get(), port.get()}) r->notify(report), r->notify(figures);
     Bytes packet;
     Telemetry telemetry;
     ASSERT_TRUE(listener.receive(packet) && decode_telemetry(packet, telemetry));
@@ -292,10 +292,10 @@ TEST(CommandsUdp, TelemetryGoesToASubscriber) {
            sizeof to);
     std::array<std::uint8_t, 256> bytes;
     ASSERT_GT(recv(fd.get(), bytes.data(), bytes.size(), 0), 0);
-    receiver.tell(FrameReport{});
+    receiver.notify(FrameReport{});
     HousekeepingFigures figures;
     figures.frames = 99;
-    receiver.tell(figures);
+    receiver.notify(figures);
     const ssize_t got = recv(fd.get(), bytes.data(), bytes.size(), 0);
     Telemetry telemetry;
     ASSERT_TRUE(decode_telemetry(std::span(bytes).first(static_cast<std::size_t>(got)), telemetry));
@@ -331,7 +331,7 @@ TEST(CommandSender, TalksOverEveryTransportAndDialect) {
                       CommandStatus::kAccepted);
             FrameReport report;
             report.frame = 5;
-            receiver->tell(report);
+            receiver->notify(report);
             EXPECT_EQ(sender.send(PingCommand{77}, kPatience_ms).token, 77u) << endpoint;
             Telemetry telemetry;
             ASSERT_TRUE(sender.receive(telemetry, kPatience_ms)) << endpoint;

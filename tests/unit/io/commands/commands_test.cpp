@@ -117,15 +117,15 @@ TEST(CommandCodec, ClockComesBackAndWildOnesAreRefused) {
     EXPECT_EQ(scale.sender_ns, -5);
     EXPECT_EQ(scale.scale, 0.25);
     EXPECT_EQ(scale.step_ns, 0);  // not looked at
-    const ClockCommand step = there_and_back(ClockCommand{Action::kStep, 9, std::nan(""), kMostClockStep_ns});
-    EXPECT_EQ(step.step_ns, kMostClockStep_ns);
+    const ClockCommand step = there_and_back(ClockCommand{Action::kStep, 9, std::nan(""), kMaxClockStep_ns});
+    EXPECT_EQ(step.step_ns, kMaxClockStep_ns);
     EXPECT_EQ(step.scale, 1);
     const auto reason = [](const ClockCommand& command) {
         return std::string(decode_command(encoded(command, 1)).reason);
     };
     for (const double wild : {0.0, -1.0, 0.0009, 1001.0, std::nan(""), HUGE_VAL})
         EXPECT_EQ(reason({Action::kScale, 0, wild, 0}), "scale of time is not 0.001 to 1000") << wild;
-    for (const std::int64_t wild : {std::int64_t{0}, std::int64_t{-1}, kMostClockStep_ns + 1})
+    for (const std::int64_t wild : {std::int64_t{0}, std::int64_t{-1}, kMaxClockStep_ns + 1})
         EXPECT_EQ(reason({Action::kStep, 0, 1, wild}), "step of time is not 1 to 1e16 ns") << wild;
     EXPECT_EQ(reason({static_cast<Action>(5), 0, 1, 0}), "action of the clock is not 0 to 4");
 }
@@ -148,7 +148,7 @@ TEST(AcknowledgementCodec, CarriesAReadingOfTheClockAfterAClockCommandAlone) {
         ClockReading& r = a.clock.emplace();
         r.arrival.ns = 4, r.arrival_monotonic_ns = 5, r.departure_monotonic_ns = 6, r.scale = 0.1;
         r.stands_at.ns = -7;
-        std::vector<std::uint8_t> bytes(kMostPacketBytes);
+        std::vector<std::uint8_t> bytes(kMaxPacketBytes);
         bytes.resize(encode_acknowledgement(a, 1, dialect, bytes));
         Acknowledgement back;
         ASSERT_TRUE(decode_acknowledgement(bytes, dialect, back));
@@ -161,7 +161,7 @@ TEST(AcknowledgementCodec, CarriesAReadingOfTheClockAfterAClockCommandAlone) {
         EXPECT_EQ(back.clock->scale, 0.1);
         EXPECT_EQ(back.clock->stands_at.ns, -7);
         a.function = 5;  // the same bytes behind another answer are too many
-        bytes.assign(kMostPacketBytes, 0);
+        bytes.assign(kMaxPacketBytes, 0);
         bytes.resize(encode_acknowledgement(a, 1, dialect, bytes));
         EXPECT_FALSE(decode_acknowledgement(bytes, dialect, back));
     }

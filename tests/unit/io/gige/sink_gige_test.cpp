@@ -36,9 +36,9 @@ class StreamedCamera : public CameraControl {
         l.width = kWidth;
         l.height = kHeight;
         l.bits = 12;
-        l.least_exposure_s = 1e-5, l.most_exposure_s = 1;
-        l.most_gain_db = 24;
-        l.least_frame_rate_hz = 0.1, l.most_frame_rate_hz = 200;
+        l.min_exposure_s = 1e-5, l.max_exposure_s = 1;
+        l.max_gain_db = 24;
+        l.min_frame_rate_hz = 0.1, l.max_frame_rate_hz = 200;
         return l;
     }
     bool change(const SettingsChange&) override { return true; }

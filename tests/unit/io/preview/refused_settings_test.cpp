@@ -7,10 +7,10 @@ namespace {
 
 CameraLimits limits() {
     CameraLimits l;
-    l.least_exposure_s = 1e-5, l.most_exposure_s = 1;
-    l.least_gain_db = 0, l.most_gain_db = 24;
-    l.least_frame_rate_hz = 1, l.most_frame_rate_hz = 60;
-    l.most_binning = 4;
+    l.min_exposure_s = 1e-5, l.max_exposure_s = 1;
+    l.min_gain_db = 0, l.max_gain_db = 24;
+    l.min_frame_rate_hz = 1, l.max_frame_rate_hz = 60;
+    l.max_binning = 4;
     return l;
 }
 std::string refusal(const SettingsChange& change, const CameraSettings& now = {},

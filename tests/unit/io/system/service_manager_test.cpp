@@ -36,12 +36,12 @@ TEST_F(ServiceManager, IsToldAtAPathAndAtAnAbstractName) {
     const std::string path = (folder_ / "notify").string();
     const Fd at_path = listen_at(path);
     setenv("NOTIFY_SOCKET", path.c_str(), 1);
-    EXPECT_TRUE(tell_service_manager("READY=1"));
+    EXPECT_TRUE(notify_service_manager("READY=1"));
     EXPECT_EQ(heard(at_path), "READY=1");
 
     const Fd abstract = listen_at(std::string(1, '\0') + path);
     setenv("NOTIFY_SOCKET", ("@" + path).c_str(), 1);
-    EXPECT_TRUE(tell_service_manager("STOPPING=1"));
+    EXPECT_TRUE(notify_service_manager("STOPPING=1"));
     EXPECT_EQ(heard(abstract), "STOPPING=1");
     EXPECT_EQ(heard(at_path), "");
     unsetenv("NOTIFY_SOCKET");
@@ -49,11 +49,11 @@ TEST_F(ServiceManager, IsToldAtAPathAndAtAnAbstractName) {
 
 TEST_F(ServiceManager, NobodyThereIsNoFailure) {
     unsetenv("NOTIFY_SOCKET");
-    EXPECT_FALSE(tell_service_manager("READY=1"));
+    EXPECT_FALSE(notify_service_manager("READY=1"));
     for (const std::string& bad : {std::string(), std::string("/"), std::string("relative"),
                                    "/" + std::string(200, 'a'), (folder_ / "nobody").string()}) {
         setenv("NOTIFY_SOCKET", bad.c_str(), 1);
-        EXPECT_FALSE(tell_service_manager("READY=1")) << bad;
+        EXPECT_FALSE(notify_service_manager("READY=1")) << bad;
     }
     unsetenv("NOTIFY_SOCKET");
 }

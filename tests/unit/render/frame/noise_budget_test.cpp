@@ -232,7 +232,7 @@ TEST(QualityLevels, ALevelIsTheQualityThatItNames) {
         s.add(sphere(8, lambert(0.5), s.grid), {-20, 20, 60});
         s.renderer =
             std::make_unique<Renderer>(copy_of(s.scene), s.grid, s.geometry, own, s.models, Modules(), lower);
-        s.points.reserve(s.renderer->most_points());
+        s.points.reserve(s.renderer->max_points());
     };
     BudgetStage all;
     prepare(all, levels.front(), std::span(levels).subspan(1));

@@ -45,7 +45,7 @@ TEST(Truth, WhatTheLensFoldsBackHasNoPlace) {
     s.render_again();
     FrameTruth t = s.renderer->make_truth(s.wishes, 128, 128);
     t.raster = s.raster;
-    s.renderer->tell_truth(t);
+    s.renderer->report_truth(t);
     ASSERT_TRUE(t.things[0].has_center);
     EXPECT_NEAR(t.things[0].center_px.x, 64 + 256 * 0.2 * (1 - 0.04), 1e-9);
 }

@@ -291,7 +291,7 @@ TEST(Truth, InThePenumbraTheSunlitFractionIsTheShareOfTheDisk) {
                 moon_m * Vec3d{std::sin(away_rad) * std::cos(phi), std::sin(away_rad) * std::sin(phi),
                                -std::cos(away_rad)};
             s.render_again();
-            s.renderer->tell_truth(t);
+            s.renderer->report_truth(t);
             const double curve = std::tan(moon_rad) / sun_rad;
             const double error = t.things[0].sunlit - left_of_disk(curve + off, curve);
             EXPECT_NEAR(error, 0, 0.014) << turn << " " << off;

@@ -39,7 +39,7 @@ double light_of(const Mesh& level, const std::vector<LevelFacets>& facets, Look 
         const LevelFacets::Leans lean = facets[t].leans();
         const LevelFacets::Floats share = facets[t].shares();
         double seen = 0, lit = 0;
-        for (std::size_t i = 0; i < LevelFacets::kMost; ++i) {
+        for (std::size_t i = 0; i < LevelFacets::kMax; ++i) {
             const Vec3d n = normalized(flat + to_double({lean.x[i], lean.y[i], lean.z[i]}));
             const double each = static_cast<double>(share[i]) * std::max(0.0, dot(n, look.view));
             seen += each;

@@ -29,7 +29,7 @@ class Crowd {
     // At its corners and inside.
     BeamPlaces places_in(const PlaceBox& box) {
         BeamPlaces out;
-        for (std::size_t i = 0; i < BeamPlaces::kMost; ++i) {
+        for (std::size_t i = 0; i < BeamPlaces::kMax; ++i) {
             const auto along = [&](std::size_t bit) {
                 return i < 8 ? (i >> bit & 1u ? 1.0f : -1.0f) : 2 * share_(random_) - 1;
             };

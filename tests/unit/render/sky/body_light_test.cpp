@@ -58,7 +58,7 @@ TEST(BodyLight, TheMoonsReflectanceFactorIsThatOfItsParameters) {
 TEST(BodyLight, NothingIsBrighterThanItsBound) {
     const SpectralGrid grid({0.6, 0.7});
     const BodyLook look(BodyId::kMoon, hapke_moon(), grid);
-    const float most = look.most_sr()[0];
+    const float most = look.max_sr()[0];
     for (int g_deg = 0; g_deg <= 150; g_deg += 5)
         for (int lon_deg = g_deg - 89; lon_deg < 90; lon_deg += 2) {
             const double lon = lon_deg * kDegree_rad, g = g_deg * kDegree_rad;

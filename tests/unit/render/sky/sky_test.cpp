@@ -148,22 +148,22 @@ TEST(Spectrum, RefusesBadEdges) {
 // The Moon's near side: the Earth stays within 8.2 deg of its prime meridian and 6.9 deg of its equator
 // (librations).
 TEST(Bodies, TheMoonTurnsItsNearSideToTheEarth) {
-    double most_longitude = 0, most_latitude = 0;
+    double max_longitude = 0, max_latitude = 0;
     for (int day = 0; day < 365; ++day) {
         const TimeTai time = parse_utc("2026-01-01T00:00:00Z") + day * 86'400'000'000'000LL;
         const Bodies bodies = bodies_at(time, {});
         const BodyState& moon = bodies[BodyId::kMoon];
         const Vec3d earth = normalized(moon.fixed_from_world * (bodies.earth().world_m - moon.world_m));
-        most_longitude = std::max(most_longitude, std::abs(std::atan2(earth.y, earth.x)) / kDegree_rad);
-        most_latitude = std::max(most_latitude, std::abs(std::asin(earth.z)) / kDegree_rad);
+        max_longitude = std::max(max_longitude, std::abs(std::atan2(earth.y, earth.x)) / kDegree_rad);
+        max_latitude = std::max(max_latitude, std::abs(std::asin(earth.z)) / kDegree_rad);
         // Perigee and apogee: 356,400 to 406,700 km.
         EXPECT_GT(length(moon.world_m), 356.3e6);
         EXPECT_LT(length(moon.world_m), 406.8e6);
     }
-    EXPECT_GT(most_longitude, 5);
-    EXPECT_LT(most_longitude, 8.3);
-    EXPECT_GT(most_latitude, 6);
-    EXPECT_LT(most_latitude, 7);
+    EXPECT_GT(max_longitude, 5);
+    EXPECT_LT(max_longitude, 8.3);
+    EXPECT_GT(max_latitude, 6);
+    EXPECT_LT(max_latitude, 7);
 }
 
 // Total eclipse of 2026-08-12: greatest at 17:45:51 UT, the Moon's shadow axis passes 0.898 Earth radii from

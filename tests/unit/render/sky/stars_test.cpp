@@ -149,7 +149,7 @@ TEST(StarSky, AFieldHasTheStarsThatLookingAtAllOfThemFinds) {
                     EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()))
                         << count << " " << angle_rad;
                     if (&observer == observers) {
-                        EXPECT_LE(found.size(), sky.most_within(angle_rad));
+                        EXPECT_LE(found.size(), sky.max_within(angle_rad));
                     }
                 }
     }

@@ -21,7 +21,7 @@ TEST(CompactKernel, IsFoundForSmallGaussiansOnly) {
     ASSERT_TRUE(kernel);
     for (const double u : {0.0, 0.1, 0.3, 0.5})
         for (const double v : {0.0, 0.2, 0.45})
-            EXPECT_NEAR(kernel->at(u, v), gaussian(1.0)(u, v).real(), CompactKernel::kMostError)
+            EXPECT_NEAR(kernel->at(u, v), gaussian(1.0)(u, v).real(), CompactKernel::kMaxError)
                 << u << ' ' << v;
     EXPECT_NEAR(kernel->at(0, 0), 1, 1e-6);
     EXPECT_FALSE(CompactKernel::find(gaussian(4.0), 64, 64));  // wide
@@ -50,7 +50,7 @@ TEST(CompactKernel, GivesTheFftsPicture) {
         for (int y = 0; y < 80; ++y)
             for (std::size_t x = 0; x < 100; ++x)
                 // The error of every frequency at most, times the picture's largest value.
-                ASSERT_NEAR(by_fft.row(y)[x], by_kernel.row(y)[x], 130 * 2 * CompactKernel::kMostError)
+                ASSERT_NEAR(by_fft.row(y)[x], by_kernel.row(y)[x], 130 * 2 * CompactKernel::kMaxError)
                     << x << ' ' << y;
     }
 }

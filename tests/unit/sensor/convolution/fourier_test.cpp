@@ -58,7 +58,7 @@ TEST_P(EverySize, IsTheSumThatDefinesIt) {
         room(PlaneFourier::room_floats(w, h));
     for (std::size_t y = 0; y < height; ++y)
         for (std::size_t x = 0; x < width; ++x) plane.data()[y * stride + x] = pixel(x, y);
-    for (std::size_t x = 0; x < width; x += PlaneFourier::kMostLanes)
+    for (std::size_t x = 0; x < width; x += PlaneFourier::kMaxLanes)
         fourier->columns_forward(plane.data(), x, room.data());
     const double tolerance = 1e-6 * 64 * w * h;
     for (std::size_t v = 0; v <= height / 2; v += lanes) {
@@ -72,7 +72,7 @@ TEST_P(EverySize, IsTheSumThatDefinesIt) {
             }
         fourier->rows_back(block.data(), v, plane.data(), room.data());
     }
-    for (std::size_t x = 0; x < width; x += PlaneFourier::kMostLanes)
+    for (std::size_t x = 0; x < width; x += PlaneFourier::kMaxLanes)
         fourier->columns_back(plane.data(), x, room.data());
     for (std::size_t y = 0; y < height; ++y)
         for (std::size_t x = 0; x < stride; ++x)

@@ -243,8 +243,8 @@ TEST(Emva1288, LinearityErrorOfAParabola) {
     const Linearity found = linearity(points, 0.9);
     EXPECT_EQ(found.points.size(), 18u);
     EXPECT_NEAR(found.error_fraction.value, 0.0167598946, 1e-9);
-    EXPECT_NEAR(found.least_fraction, -0.0318296201, 1e-9);
-    EXPECT_NEAR(found.most_fraction, 0.0244328421, 1e-9);
+    EXPECT_NEAR(found.min_fraction, -0.0318296201, 1e-9);
+    EXPECT_NEAR(found.max_fraction, 0.0244328421, 1e-9);
 }
 
 TEST(Emva1288, DefectsAreCountedAndLeftOut) {

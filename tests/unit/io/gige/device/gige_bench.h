@@ -18,14 +18,14 @@ class PlainCamera : public CameraControl {
                    .height = 480,
                    .bits = 12,
                    .color_pattern = {},
-                   .least_exposure_s = 1e-5,
-                   .most_exposure_s = 1,
-                   .least_gain_db = 0,
-                   .most_gain_db = 24,
-                   .most_black_level_dn = 200,
-                   .least_frame_rate_hz = 0.1,
-                   .most_frame_rate_hz = 200,
-                   .most_binning = 4,
+                   .min_exposure_s = 1e-5,
+                   .max_exposure_s = 1,
+                   .min_gain_db = 0,
+                   .max_gain_db = 24,
+                   .max_black_level_dn = 200,
+                   .min_frame_rate_hz = 0.1,
+                   .max_frame_rate_hz = 200,
+                   .max_binning = 4,
                    .has_automatic_exposure = true,
                    .reversible = true};
     std::vector<TriggerOrder> triggers;
@@ -38,13 +38,13 @@ class PlainCamera : public CameraControl {
             return !value || (static_cast<double>(*value) >= least && static_cast<double>(*value) <= most);
         };
         const auto binning = [&](const std::optional<std::int64_t>& b) {
-            return !b || (*b >= 1 && *b <= l.most_binning && (*b & (*b - 1)) == 0);
+            return !b || (*b >= 1 && *b <= l.max_binning && (*b & (*b - 1)) == 0);
         };
-        if (!within(c.exposure_s, l.least_exposure_s, l.most_exposure_s) ||
-            !within(c.gain_db, l.least_gain_db, l.most_gain_db) ||
-            !within(c.black_level_dn, 0, l.most_black_level_dn) ||
-            !within(c.frame_rate_hz, l.least_frame_rate_hz, l.most_frame_rate_hz) ||
-            !within(c.trigger_delay_s, 0, l.most_trigger_delay_s) || !binning(c.binning_x) ||
+        if (!within(c.exposure_s, l.min_exposure_s, l.max_exposure_s) ||
+            !within(c.gain_db, l.min_gain_db, l.max_gain_db) ||
+            !within(c.black_level_dn, 0, l.max_black_level_dn) ||
+            !within(c.frame_rate_hz, l.min_frame_rate_hz, l.max_frame_rate_hz) ||
+            !within(c.trigger_delay_s, 0, l.max_trigger_delay_s) || !binning(c.binning_x) ||
             !binning(c.binning_y))
             return false;
         const auto take = [](const auto& from, auto& to) {
@@ -189,7 +189,7 @@ struct GigeBench {
         device.tick(now_ns);
     }
 
-    std::vector<std::uint8_t> out = std::vector<std::uint8_t>(gvcp::kMostDatagramBytes);
+    std::vector<std::uint8_t> out = std::vector<std::uint8_t>(gvcp::kMaxDatagramBytes);
 };
 
 }  // namespace hilcam

@@ -201,7 +201,7 @@ TEST(GigeSettings, UserSetsKeepAllThatIsSet) {
     EXPECT_EQ(b.device.stream_state().width, 128u);
     EXPECT_EQ(b.read(reg::kHeight), 240u);
     EXPECT_DOUBLE_EQ(b.camera.s.exposure_s, 0.005);
-    b.camera.l.most_exposure_s = 0.0005;  // all or nothing
+    b.camera.l.max_exposure_s = 0.0005;  // all or nothing
     b.write(reg::kUserSetSelector, 0);
     EXPECT_EQ(b.write(reg::kUserSetLoad, 1), gvcp::kInvalidParameter);
     EXPECT_EQ(b.read(reg::kWidth), 128u);

@@ -208,7 +208,7 @@ TEST(GigeDevice, DamagedDatagramsNeverBreakIt) {
     std::uint32_t state = 99;
     const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
     const std::uint16_t commands[] = {2, 4, 0x40, 0x80, 0x82, 0x84, 0x86, 0xC0, 0x100};
-    std::vector<std::uint8_t> out(gvcp::kMostDatagramBytes);
+    std::vector<std::uint8_t> out(gvcp::kMaxDatagramBytes);
     for (int i = 0; i < 200000; ++i) {
         std::vector<std::uint8_t> bytes(8 + next() % 560);
         for (std::uint8_t& byte : bytes) byte = next() % 2 ? static_cast<std::uint8_t>(next()) : 0;

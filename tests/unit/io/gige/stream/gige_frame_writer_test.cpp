@@ -9,7 +9,7 @@ namespace {
 
 class FrameWriter : public testing::Test {
   protected:
-    GigeRing ring_{GigeRing::kLeastSlots, most_payload_bytes(16, 8, "", false)};
+    GigeRing ring_{GigeRing::kMinSlots, max_payload_bytes(16, 8, "", false)};
     FaultBoard faults_;
     GigeFrameWriter writer_{ring_, faults_, "", 16};
     DnImage image_{16, 8};

@@ -254,9 +254,9 @@ TEST(GigePackets, APixelAtFullScaleIsNotBelieved) {
 TEST(GigePackets, TheLargestPayloadHoldsEveryFormatAndAllChunks) {
     // Image tail; 8 chunks of 8 bytes and 7 of 4, each with its id and length.
     constexpr std::size_t kAllChunks = 8 + 8 * 16 + 7 * 12;
-    EXPECT_EQ(most_payload_bytes(101, 51, "", false), 3u * 101 * 51 + kAllChunks);
-    EXPECT_EQ(most_payload_bytes(101, 51, "RGGB", false), 3u * 101 * 51 + kAllChunks);
-    EXPECT_EQ(most_payload_bytes(101, 51, "", true), 4u * 101 * 51 + kAllChunks);
+    EXPECT_EQ(max_payload_bytes(101, 51, "", false), 3u * 101 * 51 + kAllChunks);
+    EXPECT_EQ(max_payload_bytes(101, 51, "RGGB", false), 3u * 101 * 51 + kAllChunks);
+    EXPECT_EQ(max_payload_bytes(101, 51, "", true), 4u * 101 * 51 + kAllChunks);
 }
 
 }  // namespace

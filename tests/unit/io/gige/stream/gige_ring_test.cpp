@@ -30,7 +30,7 @@ void send_all(GigeRing& ring) {
 }
 
 TEST(GigeRing, KeepsTheNewestFramesAndAtLeastEight) {
-    GigeRing ring(GigeRing::kLeastSlots, 1);
+    GigeRing ring(GigeRing::kMinSlots, 1);
     for (std::uint64_t block = 1; block <= 40; ++block) {
         ASSERT_TRUE(put(ring, block));
         send_all(ring);
@@ -38,7 +38,7 @@ TEST(GigeRing, KeepsTheNewestFramesAndAtLeastEight) {
     std::uint64_t oldest = 0;
     for (std::uint64_t block = 1; block <= 40; ++block) {
         GigeSlot* slot = ring.find(1, block, oldest);
-        EXPECT_EQ(slot != nullptr, block > 40 - GigeRing::kLeastSlots) << block;
+        EXPECT_EQ(slot != nullptr, block > 40 - GigeRing::kMinSlots) << block;
         if (!slot) {
             EXPECT_EQ(oldest, 29u);
             continue;
@@ -52,7 +52,7 @@ TEST(GigeRing, KeepsTheNewestFramesAndAtLeastEight) {
     for (std::uint64_t block = 41; block <= 43; ++block) ASSERT_TRUE(put(ring, block));
     ASSERT_TRUE(ring.next());
     EXPECT_FALSE(ring.claim());
-    for (std::uint64_t block = 41 - GigeRing::kLeastKept; block <= 40; ++block) {
+    for (std::uint64_t block = 41 - GigeRing::kMinKept; block <= 40; ++block) {
         GigeSlot* slot = ring.find(1, block, oldest);
         ASSERT_TRUE(slot) << block;
         ring.keep(*slot);
@@ -60,7 +60,7 @@ TEST(GigeRing, KeepsTheNewestFramesAndAtLeastEight) {
 }
 
 TEST(GigeRing, FramesThatWaitAreDroppedNotWaitedFor) {
-    GigeRing ring(GigeRing::kLeastSlots, 1);
+    GigeRing ring(GigeRing::kMinSlots, 1);
     EXPECT_TRUE(put(ring, 1) && put(ring, 2) && put(ring, 3));
     EXPECT_FALSE(put(ring, 4));
     GigeSlot* first = ring.next();
@@ -73,8 +73,8 @@ TEST(GigeRing, FramesThatWaitAreDroppedNotWaitedFor) {
 }
 
 TEST(GigeRing, AFrameThatIsReadIsPassedOver) {
-    GigeRing ring(GigeRing::kLeastSlots, 1);
-    for (std::uint64_t block = 1; block <= GigeRing::kLeastSlots; ++block) {
+    GigeRing ring(GigeRing::kMinSlots, 1);
+    for (std::uint64_t block = 1; block <= GigeRing::kMinSlots; ++block) {
         put(ring, block);
         send_all(ring);
     }
@@ -93,7 +93,7 @@ TEST(GigeRing, AFrameThatIsReadIsPassedOver) {
 // Loop and sender at once: what is read is never half of another frame. Runs under TSan too.
 TEST(GigeRing, ReaderAndWriterNeverMeet) {
     constexpr std::size_t kBytes = 4096;
-    GigeRing ring(GigeRing::kLeastSlots, kBytes);
+    GigeRing ring(GigeRing::kMinSlots, kBytes);
     constexpr std::uint64_t kReads = 1000;
     std::atomic<bool> enough{false};
     std::thread loop([&] {

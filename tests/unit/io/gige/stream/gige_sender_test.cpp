@@ -20,7 +20,7 @@ constexpr std::uint32_t kHere = 0x7F530101;  // 127.83.1.1
 class Sender : public testing::TestWithParam<bool> {
   protected:
     FaultBoard faults_{3};
-    GigeRing ring_{GigeRing::kLeastSlots, most_payload_bytes(kWidth, kHeight, "", false)};
+    GigeRing ring_{GigeRing::kMinSlots, max_payload_bytes(kWidth, kHeight, "", false)};
     GigeFrameWriter writer_{ring_, faults_, "", kWidth};
     std::atomic<std::uint64_t> finished_{0};
     GigeSender sender_{ring_, faults_, nullptr, {}, [this](std::uint64_t a) { finished_ = a; }};
@@ -188,7 +188,7 @@ TEST_P(Sender, TwiceLateAndInAnotherOrder) {
 TEST_P(Sender, WhatCannotBeHadIsRefusedWithTheReason) {
     for (int i = 0; i < 30; ++i) send_frame();
     EXPECT_EQ(ask(30, 1, 1).status, gvsp::kResent);
-    EXPECT_EQ(ask(30 - GigeRing::kLeastKept + 1, 1, 1).status, gvsp::kResent);
+    EXPECT_EQ(ask(30 - GigeRing::kMinKept + 1, 1, 1).status, gvsp::kResent);
     EXPECT_EQ(ask(2, 1, 1).status, gvsp::kRemovedWithAllBefore);
     EXPECT_EQ(ask(31, 1, 1).status, gvsp::kNotYetAvailable);
     EXPECT_EQ(ask(30, trailer() + 1, trailer() + 5).status, gvsp::kUnavailable);
@@ -209,14 +209,14 @@ TEST_P(Sender, WhatCannotBeHadIsRefusedWithTheReason) {
 TEST_P(Sender, ABlockIsSentAgainSoOftenAndThenRefused) {
     send_frame();
     const std::uint64_t packets = trailer() + 1;
-    for (std::uint64_t i = 0; i < GigeSender::kMostResent; ++i) {
+    for (std::uint64_t i = 0; i < GigeSender::kMaxResent; ++i) {
         EXPECT_EQ(ask(1, 0, 0xFFFFFF).status, gvsp::kResent);
         take(100);
     }
     EXPECT_EQ(ask(1, 0, 0xFFFFFF).status, gvsp::kUnavailable);
     EXPECT_EQ(ask(1, 3, 3).status, gvsp::kUnavailable);
     take(100);
-    EXPECT_EQ(sender_.counts().packets_resent, GigeSender::kMostResent * packets);
+    EXPECT_EQ(sender_.counts().packets_resent, GigeSender::kMaxResent * packets);
     EXPECT_EQ(sender_.counts().packets_over_limit, packets + 1);
     // Another block has a share of its own, and refusals end.
     send_frame();
@@ -278,7 +278,7 @@ TEST_P(Sender, FreshPacketsComeBeforeThoseAskedForAgain) {
     }
     EXPECT_EQ(sender_.counts().frames, kFrames);
     EXPECT_EQ(sender_.counts().packets, kFrames * (trailer() + 1));
-    EXPECT_LE(sender_.counts().packets_resent, GigeSender::kMostResent * kFrames * (trailer() + 1));
+    EXPECT_LE(sender_.counts().packets_resent, GigeSender::kMaxResent * kFrames * (trailer() + 1));
 }
 
 TEST_P(Sender, ACountedAcquisitionTellsItsEnd) {

@@ -86,9 +86,9 @@ TEST(Gvsp, EveryPacketHasTheStandardsBytes) {
          "0000 0000 82 000000 123456789ABCDEF0 89ABCDEF 0000 400A 000001E0 00012345 00000042"},
     };
     for (const Row& row : rows) {
-        std::vector<std::uint8_t> out(kMostHeadBytes + 1, 0xEE);
-        const std::size_t size = row.write(std::span(out).first(kMostHeadBytes));
-        ASSERT_LE(size, kMostHeadBytes) << row.name;
+        std::vector<std::uint8_t> out(kMaxHeadBytes + 1, 0xEE);
+        const std::size_t size = row.write(std::span(out).first(kMaxHeadBytes));
+        ASSERT_LE(size, kMaxHeadBytes) << row.name;
         EXPECT_EQ(out[size], 0xEE) << row.name;
         out.resize(size);
         EXPECT_EQ(out, bytes(row.expected)) << row.name;
@@ -98,7 +98,7 @@ TEST(Gvsp, EveryPacketHasTheStandardsBytes) {
 TEST(Gvsp, APacketIdCanBeWrittenOver) {
     for (const bool extended : {false, true}) {
         PacketHeader header{.extended = extended, .block = 7, .packet = 1};
-        std::vector<std::uint8_t> out(kMostHeadBytes), expected(kMostHeadBytes);
+        std::vector<std::uint8_t> out(kMaxHeadBytes), expected(kMaxHeadBytes);
         write_header(header, out);
         overwrite_packet_id(out, extended, 0x123456);
         header.packet = 0x123456;
