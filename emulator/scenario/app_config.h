@@ -17,6 +17,7 @@
 #include "emulator/scenario/motion_config.h"
 #include "emulator/scenario/object_config.h"
 #include "emulator/scenario/outputs_config.h"
+#include "emulator/scenario/own_body_config.h"
 #include "emulator/scenario/quality_config.h"
 #include "emulator/scenario/quality_ladder.h"
 #include "emulator/world/clock.h"
@@ -68,6 +69,7 @@ struct ScenarioConfig {
     std::vector<LampConfig> lamps;
     SunConfig sun;
     std::array<BodyConfig, kBodyCount> bodies;
+    std::vector<OwnBodyConfig> own_bodies;
     AtmosphereConfig atmosphere;
     std::optional<StarsConfig> stars;
     std::vector<double> spectrum_edges_um = {0.40, 0.52, 0.62, 0.75, 0.95};

@@ -5,8 +5,8 @@
 
 #include "render/scene/brdf_diffuse.h"
 #include "render/scene/brdf_microfacet.h"
-#include "render/scene/brdf_regolith.h"
 #include "render/scene/brdf_table.h"
+#include "render/sky/regolith.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/lane_sum.h"
 

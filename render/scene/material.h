@@ -10,7 +10,7 @@
 //   glass            not used; a thin clear sheet, `transmittance` inside it at normal incidence
 //   phong            diffuse part k_d; `specular` is k_s, `exponent` n (legacy data)
 //   lommel_seeliger  I/F at normal incidence and zero phase
-//   hapke            single-scattering albedo w (brdf_regolith.h)
+//   hapke            single-scattering albedo w (render/sky/regolith.h)
 //   table            a factor on a measured BRDF (brdf_table.h)
 // metal and dielectric keep all energy: what leaves the facets after several reflections (metal: Kulla &
 // Conty, SIGGRAPH 2017 course) or enters the body (dielectric: Kelemen & Szirmay-Kalos, Eurographics 2001
@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-#include "render/scene/brdf_regolith.h"
+#include "render/sky/regolith.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/mesh.h"
 #include "render/vocabulary/spectrum.h"

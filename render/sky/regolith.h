@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/scene/brdf_microfacet.h"
 #include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 
