@@ -21,7 +21,7 @@ namespace hilcam {
 // Aperture area [m^2] that neither the central obscuration nor a spider's vanes cover.
 double aperture_area_m2(const CameraModel& camera);
 
-// What the rooms of stray light take of a camera.
+// These give the figures of a camera that the room of stray light uses.
 SpiderPupil spider_pupil(const CameraModel& camera);
 OutsideLens outside_lens(const CameraModel& camera);
 

@@ -68,7 +68,7 @@ std::string truth_line(const ScenarioConfig& s) {
     return out;
 }
 
-// What is done about light from beside the picture, how much of it there is now, and what that takes.
+// The line says how light from beside the picture becomes glare, how much of it there is now, and how long it takes to find.
 std::string outside_line(const ScenarioConfig& s, ExposureRenderer& exposures) {
     if (!s.camera.outside_light) return {};
     std::vector<SideLight> lights;

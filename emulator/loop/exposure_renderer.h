@@ -66,8 +66,8 @@ class ExposureRenderer {
     // grid. truth: to be told of the frame's middle, or null. Loop, one thread; no allocation.
     Result render(WorldState& world, const ShownWorld& shown, RandomKey key, RadianceImage& radiance,
                   std::vector<PointSource>& points, Exposure& exposure, FrameTruth* truth = nullptr);
-    // What shines from beside the picture, as it stood in the last exposure (of its last part), for a camera whose
-    // lens scatters it (camera.outside_light); nothing for others. Loop.
+    // Finds the light from beside the picture, as it stood in the last exposure (in its last part), for a camera
+    // whose lens scatters it (camera.outside_light); finds nothing for others. Loop.
     void look_beside(std::vector<SideLight>& lights) const;
     static void reserve_beside(std::vector<SideLight>& lights) { lights.reserve(kMaxSideLights); }
     // The same with the shutter closed. Loop.

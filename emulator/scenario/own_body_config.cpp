@@ -36,7 +36,7 @@ std::function<StateVector(TimeTai)> kepler_orbit(const OwnBodyConfig& c, TimeTai
         [orbit, epoch](TimeTai time) { return orbit.at(static_cast<double>(time - epoch) * kSecondsPerNs); };
 }
 
-// Outside the ephemeris it stands as at its nearest instant.
+// The body stands outside the ephemeris as at its nearest instant.
 std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, TimeTai start) {
     auto segments =
         std::make_shared<const std::vector<OemSegment>>(load_oem(c.oem.value().file, c.oem->object));

@@ -17,7 +17,7 @@ struct OwnBodyConfig {
 
     std::string name;
     double equatorial_radius_m = 0, polar_radius_m = 0;  // polar 0: round
-    std::size_t center = 5;                              // as MotionConfig::center: Jupiter
+    std::size_t center = 5;                              // numbered as MotionConfig::center: Jupiter
     std::optional<KeplerConfig> kepler;
     std::optional<EphemerisFileConfig> oem;  // one of these two
     bool synchronous = true, has_synchronous = false, has_pole = false;

@@ -15,7 +15,7 @@
 
 namespace hilcam {
 
-// For the frame that was placed last. lights: cleared first. Loop; nothing is allocated while there is room for
+// Finds it for the frame that was placed last. lights: cleared first. Loop; nothing is allocated while there is room for
 // kMaxSideLights; runs on oneTBB, and gives the same on any number of threads.
 void find_side_light(const FrameView& frame, const WorldSnapshot& world, std::vector<SideLight>& lights);
 

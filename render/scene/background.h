@@ -35,7 +35,7 @@ struct PlacedBody {
     Mat3d fixed_from_world;
     Figure figure{};
     Spectrum irradiance_w_m2_um;  // irradiance by the Sun at the body
-    double sun_radius_rad = 0;    // as the body sees it
+    double sun_radius_rad = 0;    // the Sun's radius, seen from the body
     // Another body's light on it (planetshine), the strongest first.
     struct Shine {
         Vec3d dir;  // to that body, in this one's axes
@@ -61,7 +61,7 @@ class Background {
     // The Sun as the objects have it: direction, and irradiance with eclipses and air [W m^-2 um^-1].
     Vec3d sun_world_dir() const { return sun_world_dir_; }
     const Spectrum& sun_irradiance_w_m2_um() const { return sun_irradiance_; }
-    // Without eclipses and air.
+    // The same without eclipses and air.
     const Spectrum& sun_clear_irradiance_w_m2_um() const { return sun_clear_irradiance_; }
     double sun_disk_cosine() const { return sun_disk_cosine_; }
     const SunDisk& sun_disk() const { return disk_; }
@@ -174,7 +174,7 @@ class Background {
     bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance) const;
     bool hides_from(Vec3d origin_m, Vec3d dir, double distance) const;
     void add_planetshine(const WorldSnapshot& world, PlacedBody& body) const;
-    // With air or mountains.
+    // Radius with air or mountains.
     double outer_radius_m(BodyId id) const;
     double met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
     bool has_rings(BodyId id) const { return id == BodyId::kSaturn && scene_[index_of(id)].rings; }

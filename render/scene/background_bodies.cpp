@@ -172,7 +172,7 @@ Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec
     return out;
 }
 
-// What a ray meets of the rings before `until`; Saturn's shadow lies on them.
+// Adds the rings that a ray meets before `until`; Saturn's shadow lies on them.
 void Background::add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double until, Spectrum& weight,
                            Spectrum& radiance) const {
     const SaturnRings::Met there = SaturnRings::meet(origin_m, dir);

@@ -43,7 +43,7 @@ struct SceneBody {
     BodyRelief relief{};       // empty: smooth
     bool planetshine = false;  // other bodies light it
     bool rings = false;        // Saturn's
-    std::string name{};        // of the scenario's own
+    std::string name{};        // name of a body of the scenario's own
 };
 
 // Ground from a height map (terrain.h), at rest in the world or on a body that turns.

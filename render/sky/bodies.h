@@ -121,7 +121,7 @@ struct BodyState {
     Mat3d fixed_from_world;
     // Its motion in the world that world_m does not show yet as light time: where the origin turns with it.
     Vec3d velocity_m_s;
-    Figure figure{};  // of the scenario's own; the others have kFigures
+    Figure figure{};  // figure of a body of the scenario's own; the others have kFigures
 };
 struct Bodies {
     Vec3d sun_world_m;
@@ -157,7 +157,7 @@ inline double cone_cosine_of(double radius_m, double distance_m) {
     const double sine = radius_m < distance_m ? radius_m / distance_m : 1.0;
     return std::sqrt(1 - sine * sine);
 }
-// Whether a disk of one half angle can touch another whose middle is at an angle; all by their cosines.
+// True when a disk of one half angle can touch another whose middle is at an angle; all by their cosines.
 inline bool can_cover(double cosine_between, double one_cosine, double other_cosine) {
     const auto angle = [](double cosine) { return std::acos(std::fmin(1.0, std::fmax(-1.0, cosine))); };
     return angle(cosine_between) < angle(one_cosine) + angle(other_cosine);

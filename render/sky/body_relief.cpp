@@ -172,7 +172,7 @@ double BodyRelief::intersect(Vec3d origin_m, Vec3d dir) const {
 
 namespace {
 
-// How high the ground stands towards a direction, where it is between two angles: what is below the least does not
+// Returns how high the ground stands towards a direction, where that is between two angles: what is below the least does not
 // matter, and above the most no more is asked.
 double horizon_between(const BodyRelief& relief, double radius_m, Vec3d place_m, Vec3d towards,
                        double min_rad, double max_rad) {

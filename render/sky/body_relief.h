@@ -24,13 +24,13 @@ class BodyRelief {
     bool empty() const { return levels_.empty(); }
     double highest_m() const { return highest_m_; }
     double lowest_m() const { return lowest_m_; }
-    // Between neighbours of the grid at the equator.
+    // Distance of neighbours of the grid at the equator.
     double spacing_m() const { return spacing_m_; }
 
     // All of them: loop, any thread. dir: unit, from the centre. footprint_m: 0 is the grid as it is.
     double height_m(Vec3d dir, double footprint_m = 0) const;
     Vec3d normal(Vec3d dir, double footprint_m) const;
-    // From a place outside along a unit direction to the ground; negative: it is missed.
+    // Returns the distance from a place outside along a unit direction to the ground; negative: it is missed.
     double intersect(Vec3d origin_m, Vec3d dir) const;
     // Angle over the level of a place (of its sphere's tangent plane) up to which ground stands towards a direction
     // [rad], as far as it matters for a Sun no higher than `highest_rad`.

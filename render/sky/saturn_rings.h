@@ -36,7 +36,7 @@ class SaturnRings {
         float transmittance = 1;
     };
     Look look(Vec3d point_m, double footprint_m, Vec3d to_viewer, Vec3d to_sun) const;
-    // What the rings leave of light along a ray that they may cross.
+    // Returns the share of light that the rings leave along a ray that may cross them.
     static double transmittance(Vec3d origin_m, Vec3d dir);
 
     // Normal optical depth and single-scattering albedo by distance from Saturn's axis.

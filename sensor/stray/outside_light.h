@@ -53,14 +53,14 @@ struct OutsideLightConfig {
 Fields fields(OutsideLightConfig& config);
 void validate(const OutsideLightConfig& config);
 
-// The share of the aperture that a baffle leaves lit, 0..1. any thread.
+// The share of the aperture that a baffle leaves lit, 0..1. Any thread.
 double lit_share(double angle_rad, double field_rad, double baffle_rad);
 
-// What it takes of a camera's data sheet.
+// The figures of a camera's data sheet that it uses.
 struct OutsideLens {
     double f_number = 4, obscuration_ratio = 0, pitch_m = 0, fill_factor = 1;
     double aperture_area_m2 = 0;
-    double best_transmission = 1;  // of the glass, at the wavelength that it passes best
+    double best_transmission = 1;  // transmission of the glass, at the wavelength that it passes best
 };
 
 // One for each channel of light (light_channel.h).
@@ -96,11 +96,11 @@ class OutsideLight {
     double baffle_rad_, field_rad_, leak_;
     std::vector<OutsideGhostConfig> ghost_kinds_;
     OutsideLens lens_;
-    double area_px_;      // of the aperture
+    double area_px_;      // area of the aperture
     double measured_px_;  // at PST 1 and best transmission, electrons of a pixel over those of the aperture
     Spectrum per_irradiance_;
     int bins_;
-    std::vector<Vec2d> node_across_;  // of the directions that the nodes see, across the boresight
+    std::vector<Vec2d> node_across_;  // directions that the nodes see, across the boresight
     std::vector<float> veil_;         // [kNodes][kNodes]
     std::vector<Ghost> ghosts_;
 };

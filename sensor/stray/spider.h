@@ -25,11 +25,11 @@ namespace hilcam {
 struct SpiderConfig {
     std::int64_t vanes = 0;
     double width_m = 0;
-    double angle_rad = 0;  // of the first vane, from the image's +x to its +y
+    double angle_rad = 0;  // angle of the first vane, from the image's +x to its +y
 };
 Fields fields(SpiderConfig& spider);
 
-// What it takes of a camera's data sheet.
+// The figures of a camera's data sheet that it uses.
 struct SpiderPupil {
     double diameter_m = 0, obscuration_ratio = 0, focal_length_m = 0, pitch_m = 0, diffusion_m = 0;
     double reach_px = 0;  // a frame is no longer across
@@ -37,12 +37,12 @@ struct SpiderPupil {
     double open_area_m2() const;  // without vanes
 };
 
-// Of all vanes, from the central obscuration's rim to the aperture's [m^2].
+// Returns the area of all vanes, from the central obscuration's rim to the aperture's [m^2].
 double vane_area_m2(const SpiderConfig& spider, const SpiderPupil& pupil);
 // Throws InputError where the vanes cover the pupil, or there are vanes without width.
 void check_spider(const SpiderConfig& spider, const SpiderPupil& pupil);
 
-// Of one channel of light.
+// The spikes of one channel of light.
 class SpiderSpikes {
   public:
     SpiderSpikes() = default;  // no spider
@@ -70,7 +70,7 @@ class SpiderSpikes {
         double weight, width_cy_px, length_cy_px;  // frequencies at which a strip's transfer function ends
     };
     struct Vane {
-        double cosine, sine;  // of its spike
+        double cosine, sine;  // direction of its spike
     };
     // Light of a spike in a step of a pixel, at whole pixels from the point, one side of it.
     double along(double distance_px) const;
