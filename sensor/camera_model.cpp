@@ -5,6 +5,7 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
+#include "sensor/optics.h"
 
 namespace hilcam {
 
@@ -63,7 +64,10 @@ Fields optics_fields(CameraModel& c) {
         number("cos_power", c.cos_power, 1, {0, 8}, "n: irradiance falls as cos^n of the field angle"),
         table("vignetting", c.vignetting, {"field_fraction", "transmission"}, {0, 1}, {0, 1},
               "transmission over image height, on top of cos^n"),
+        section("spider", c.spider, "vanes that hold the central obscuration"),
         section("stray_light", c.stray_light, "glare and ghost of the lens"),
+        section("outside_light", c.outside_light,
+                "glare and ghosts of the Sun and bodies beside the picture; left out: none"),
         section("jitter", c.jitter, "jitter of the line of sight"),
     };
 }
@@ -222,6 +226,7 @@ void check_lens(const CameraModel& c) {
 }
 
 void check_detector(const CameraModel& c) {
+    check_spider(c.spider, spider_pupil(c));
     if (c.pixel_aperture_m.size() == 2)
         for (const double side : c.pixel_aperture_m)
             if (side > c.pitch_m)

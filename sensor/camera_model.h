@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "render/vocabulary/config_field.h"
@@ -21,7 +22,9 @@
 #include "sensor/motion.h"
 #include "sensor/packing.h"
 #include "sensor/shutter.h"
-#include "sensor/stray_light.h"
+#include "sensor/stray/outside_light.h"
+#include "sensor/stray/spider.h"
+#include "sensor/stray/stray_light.h"
 
 namespace hilcam {
 
@@ -74,6 +77,8 @@ struct CameraModel {
     double cos_power = 4;  // irradiance falls as cos^n of the field angle
     Table vignetting;      // image height fraction, relative illumination on top of cos^n
     StrayLightConfig stray_light;
+    std::optional<OutsideLightConfig> outside_light;
+    SpiderConfig spider;
 
     JitterConfig jitter;
     ShutterConfig shutter;

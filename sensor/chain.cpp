@@ -237,7 +237,7 @@ SensorChain::SensorChain(const CameraModel& camera, const SpectralGrid& grid, co
 SensorChain::~SensorChain() = default;
 
 void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSource> points,
-                         const Exposure& exposure, ElectronImage& mean_e) {
+                         const Exposure& exposure, ElectronImage& mean_e, std::span<const SideLight> beside) {
     Implementation& my = *implementation_;
     const Stopwatch collapse;
     my.focal_plane.collapse(radiance, exposure);
@@ -248,7 +248,7 @@ void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSou
     times_.convolve_ms = convolve.ms();
 
     const Stopwatch gather;
-    my.focal_plane.gather(points, exposure, mean_e);
+    my.focal_plane.gather(points, beside, exposure, mean_e);
     if (my.camera.shutter.kind == ShutterKind::kFrameTransfer) my.smear(mean_e, exposure.exposure_s);
     tbb::parallel_for(rows_of(mean_e.height()), [&](const tbb::blocked_range<int>& range) {
         for (int y = range.begin(); y < range.end(); ++y) my.charge_row(y, mean_e, exposure.exposure_s);

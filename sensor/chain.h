@@ -11,6 +11,7 @@
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/point_source.h"
 #include "render/vocabulary/random.h"
+#include "render/vocabulary/side_light.h"
 #include "sensor/camera_model.h"
 #include "sensor/exposure.h"
 #include "sensor/fixed_pattern.h"
@@ -34,9 +35,10 @@ class SensorChain {
     ~SensorChain();
 
     // Mean charge after one exposure [e-], dark current included; finite and not negative. mean_e has the
-    // size of the read-out array. Loop, one thread at a time.
+    // size of the read-out array. beside: light from beside the picture (outside_light.h). Loop, one thread at a
+    // time.
     void expose(const RadianceImage& radiance, std::span<const PointSource> points, const Exposure& exposure,
-                ElectronImage& mean_e);
+                ElectronImage& mean_e, std::span<const SideLight> beside = {});
     // Adds noise and converts; `frame` has the frame_size() of the
     // exposure's binning. Loop, one thread at a time.
     void digitise(const ElectronImage& mean_e, const Exposure& exposure, RandomKey key, DnImage& frame);

@@ -10,9 +10,10 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
-#include "sensor/far_wings.h"
 #include "sensor/mtf.h"
 #include "sensor/point_light.h"
+#include "sensor/stray/far_wings.h"
+#include "sensor/stray/outside_light.h"
 
 namespace hilcam {
 namespace {
@@ -60,7 +61,8 @@ struct FocalPlane::Implementation {
     DetectorView view;
     int bins;
     std::vector<LightChannel> channels;
-    std::vector<FarWings> wings;  // far wings of bright light, by channel
+    std::vector<FarWings> wings;        // far wings of bright light, by channel
+    std::vector<OutsideLight> outside;  // by channel; empty: the camera has none
     PointLight points;
     std::vector<float> illumination;               // over the radiance image
     std::vector<std::vector<float>> zone_weights;  // over the FFT's image, by zone; empty with one zone
@@ -89,11 +91,23 @@ struct FocalPlane::Implementation {
         return out;
     }
 
+    static std::vector<OutsideLight> make_outside(const DetectorView& view, const SpectralGrid& grid,
+                                                  const std::vector<LightChannel>& channels,
+                                                  const std::vector<FarWings>& wings) {
+        std::vector<OutsideLight> out;
+        if (!view.camera.outside_light) return out;
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            out.emplace_back(*view.camera.outside_light, outside_lens(view.camera), view.detector,
+                             channels[c].per_irradiance, grid.size(), wings[c]);
+        return out;
+    }
+
     Implementation(const CameraModel& c, const SpectralGrid& grid, const SensorSampling& s)
         : view(c, s),
           bins(grid.size()),
           channels(make_channels(view, grid)),
           wings(make_wings(view, channels)),
+          outside(make_outside(view, grid, channels, wings)),
           points(view, channels, wings, bins) {
         const ImageGeometry& image = view.image;
         for (int y = 0; y < image.padded_height(); ++y)
@@ -288,6 +302,14 @@ struct FocalPlane::Implementation {
             if (!wings[c].empty()) add(wings[c]);
         }
     }
+    // What comes from beside the picture; each pixel that of its own channel.
+    void veil_row(int y, std::span<float> row) const {
+        if (view.mosaic.one_color()) return outside.front().add_to_row(y, 0, 1, row);
+        const auto period = static_cast<std::size_t>(view.mosaic.period(y));
+        for (std::size_t phase = 0; phase < std::min(period, row.size()); ++phase)
+            outside[static_cast<std::size_t>(view.mosaic.channel(static_cast<int>(phase), y))].add_to_row(
+                y, phase, period, row);
+    }
     // Each pixel gets its own channel; under a mosaic, charge that crosses over comes from neighbours of
     // other colours. At the window's edge a pixel is its own neighbour.
     void mix_row(int y, float* out) const {
@@ -358,8 +380,8 @@ void FocalPlane::convolve(const Exposure& exposure) {
     }
 }
 
-void FocalPlane::gather(std::span<const PointSource> sources, const Exposure& exposure,
-                        ElectronImage& light_e) {
+void FocalPlane::gather(std::span<const PointSource> sources, std::span<const SideLight> beside,
+                        const Exposure& exposure, ElectronImage& light_e) {
     Implementation& my = *implementation_;
     const auto [width, height] = array_size(my.view.camera);
     HILCAM_CHECK(light_e.width() == width && light_e.height() == height);
@@ -368,10 +390,13 @@ void FocalPlane::gather(std::span<const PointSource> sources, const Exposure& ex
         if (!wings.empty()) wings.spread();
     const auto left = static_cast<std::size_t>(my.view.camera.black_columns);
     const int top = static_cast<int>(my.view.camera.black_rows);
+    bool veiled = false;
+    for (OutsideLight& outside : my.outside) veiled = outside.collect(beside, exposure.exposure_s);
     tbb::parallel_for(rows_of(height), [&](const tbb::blocked_range<int>& range) {
         for (int y = range.begin(); y < range.end(); ++y) {
             std::fill(light_e.row(y).begin(), light_e.row(y).end(), 0.0f);
             if (y >= top) my.sample_row(y - top, light_e.row(y).data() + left);
+            if (y >= top && veiled) my.veil_row(y - top, light_e.row(y).subspan(left));
         }
     });
     for (const BrightPixel& pixel : my.bright) my.points.add(pixel, light_e);

@@ -12,6 +12,7 @@
 
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/point_source.h"
+#include "render/vocabulary/side_light.h"
 #include "sensor/camera_model.h"
 #include "sensor/convolution/convolve.h"
 #include "sensor/exposure.h"
@@ -26,8 +27,10 @@ class FocalPlane {
     // These functions are called in this order each frame. Loop, one thread at a time.
     void collapse(const RadianceImage& radiance, const Exposure& exposure);
     void convolve(const Exposure& exposure);
-    // Writes into the light-sensitive part of the read-out array; black pixels get 0.
-    void gather(std::span<const PointSource> points, const Exposure& exposure, ElectronImage& light_e);
+    // Writes into the light-sensitive part of the read-out array; black pixels get 0. beside: light from beside
+    // the picture.
+    void gather(std::span<const PointSource> points, std::span<const SideLight> beside,
+                const Exposure& exposure, ElectronImage& light_e);
 
     // Modulus of MTF_sys, of the first channel in the middle of the field [cycles/px of the detector].
     double mtf(double u, double v) const;

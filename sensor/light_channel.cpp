@@ -42,7 +42,8 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
     : per_radiance(electrons_per_s_per_radiance(view.camera, grid, filter)),
       per_irradiance(electrons_per_s_per_irradiance(view.camera, grid, filter)) {
     for (const LensState& state : lens_states(view.camera))
-        mtfs.emplace_back(view.camera, OpticsOtf(view.camera, grid, per_radiance, state));
+        mtfs.emplace_back(view.camera, OpticsOtf(view.camera, grid, per_radiance, state),
+                          SpiderSpikes(view.camera.spider, spider_pupil(view.camera), grid, per_radiance));
     const SensorSampling& sampling = view.sampling;
     const auto transfer_of = [&](const SystemMtf& mtf, RayGrid rays) -> Transfer {
         return [&mtf, rays, m = sampling.oversampling](double u, double v) {

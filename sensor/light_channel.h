@@ -11,7 +11,7 @@
 #include "sensor/exposure.h"
 #include "sensor/mosaic.h"
 #include "sensor/optics.h"
-#include "sensor/stray_light.h"
+#include "sensor/stray/stray_light.h"
 #include "sensor/system_mtf.h"
 
 namespace hilcam {

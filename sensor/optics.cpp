@@ -9,7 +9,24 @@ namespace hilcam {
 
 double aperture_area_m2(const CameraModel& c) {
     const double d = c.aperture_diameter_m();
-    return kPi / 4 * d * d * (1 - c.central_obscuration_ratio * c.central_obscuration_ratio);
+    const double open_m2 = kPi / 4 * d * d * (1 - c.central_obscuration_ratio * c.central_obscuration_ratio);
+    return c.spider.vanes > 0 ? open_m2 - vane_area_m2(c.spider, spider_pupil(c)) : open_m2;
+}
+
+SpiderPupil spider_pupil(const CameraModel& c) {
+    return {c.aperture_diameter_m(),
+            c.central_obscuration_ratio,
+            c.focal_length_m,
+            c.pitch_m,
+            c.diffusion_m,
+            std::hypot(static_cast<double>(c.width_px), static_cast<double>(c.height_px))};
+}
+
+OutsideLens outside_lens(const CameraModel& c) {
+    const double best = c.has_t_number
+                            ? lens_transmission(c, 0.55)
+                            : *std::max_element(c.transmission.value.begin(), c.transmission.value.end());
+    return {c.f_number, c.central_obscuration_ratio, c.pitch_m, c.fill_factor, aperture_area_m2(c), best};
 }
 
 double lens_transmission(const CameraModel& c, double wavelength_um) {

@@ -18,8 +18,12 @@
 
 namespace hilcam {
 
-// Unobscured aperture area [m^2].
+// Aperture area [m^2] that neither the central obscuration nor a spider's vanes cover.
 double aperture_area_m2(const CameraModel& camera);
+
+// These give the figures of a camera that the room of stray light uses.
+SpiderPupil spider_pupil(const CameraModel& camera);
+OutsideLens outside_lens(const CameraModel& camera);
 
 // Glass and filters at a wavelength; with a T-number (N / T)^2 at all of them.
 double lens_transmission(const CameraModel& camera, double wavelength_um);

@@ -157,12 +157,19 @@ void PointLight::make_spots(std::size_t first_spot) {
 
 PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) const {
     const StrayLightConfig& stray = view_.camera.stray_light;
-    Spot out{at_px, electrons, 0, c, 0};
+    Spot out{at_px, electrons, 0, 0, c, 0};
     if (stray.glare_radius_px <= 0) {
         out.glare_e = electrons * view_.camera.fill_factor * stray.veiling_glare_fraction;
         out.electrons *= 1 - stray.veiling_glare_fraction;
     }
-    for (const PointSpread& spread : channels_[static_cast<std::size_t>(c)].spreads)
+    const LightChannel& channel = channels_[static_cast<std::size_t>(c)];
+    const SpiderSpikes& spikes = channel.mtfs.front().spikes();
+    constexpr double kSeen_e = 0.02;  // fainter spikes stay in the core
+    if (out.electrons * spikes.peak() > kSeen_e) {
+        out.spikes_e = spikes.share() * out.electrons;
+        out.electrons -= out.spikes_e;
+    }
+    for (const PointSpread& spread : channel.spreads)
         out.radius_px = std::max(out.radius_px, spread.radius_for(out.electrons));
     return out;
 }
@@ -175,7 +182,8 @@ void PointLight::sort_into_bands() {
     for (std::size_t i = 0; i < spots_.size(); ++i) {
         const Spot& spot = spots_[i];
         if (spot.radius_px == Spot::kNone) continue;
-        const int y = static_cast<int>(std::floor(spot.at_px.y)), reach = spot.radius_px + 1;
+        const int y = static_cast<int>(std::floor(spot.at_px.y)),
+                  reach = (spot.spikes_e > 0 ? std::abs(y) + height : spot.radius_px) + 1;
         if (y + reach < 0 || y - reach >= height) continue;
         // A row's band is the last that begins at it or before.
         const auto band_of = [&](int row) {
@@ -205,6 +213,7 @@ void PointLight::draw(const Spot& spot, Rows rows, ElectronImage& light_e) const
     PointSpread::Room room;
     const Vec2d at_px = spot.at_px;
     const LightChannel& channel = channels_[static_cast<std::size_t>(spot.channel)];
+    if (spot.spikes_e > 0) draw_spikes(spot, rows, light_e);
     const double field = channel.spreads.size() > 1 ? view_.lens.field_fraction(at_px.x, at_px.y) : 0;
     for (std::size_t z = 0; z < channel.spreads.size(); ++z) {
         const double weight = zone_weight(view_.camera.field_zones, z, field);
@@ -212,6 +221,18 @@ void PointLight::draw(const Spot& spot, Rows rows, ElectronImage& light_e) const
             add_patch(channel.spreads[z].at(at_px.x, at_px.y, spot.electrons * weight, room), spot.channel,
                       rows, light_e);
     }
+}
+
+void PointLight::draw_spikes(const Spot& spot, Rows rows, ElectronImage& light_e) const {
+    const auto left = static_cast<std::size_t>(view_.camera.black_columns);
+    const int top = static_cast<int>(view_.camera.black_rows);
+    const bool one_color = view_.mosaic.one_color();
+    channels_[static_cast<std::size_t>(spot.channel)].mtfs.front().spikes().draw(
+        spot.at_px.x, spot.at_px.y, spot.spikes_e * view_.camera.fill_factor, view_.detector.width_px,
+        {rows.begin, rows.end}, [&](int x, int y, float electrons) {
+            if (!one_color && view_.mosaic.channel(x, y) != spot.channel) return;
+            light_e.row(y + top)[static_cast<std::size_t>(x) + left] += electrons;
+        });
 }
 
 void PointLight::take_off_wings(Vec2d at_px, int c, double electrons, ElectronImage& light_e) {

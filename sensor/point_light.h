@@ -13,9 +13,9 @@
 
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/point_source.h"
-#include "sensor/far_wings.h"
 #include "sensor/light_channel.h"
 #include "sensor/point_trail.h"
+#include "sensor/stray/far_wings.h"
 
 namespace hilcam {
 
@@ -54,7 +54,8 @@ class PointLight {
     struct Spot {
         Vec2d at_px;
         double electrons = 0;
-        double glare_e = 0;  // charge that glare has taken of it
+        double glare_e = 0;   // charge that glare has taken of it
+        double spikes_e = 0;  // charge of a spider's spikes, which reach over the frame
         int channel = 0;
         int radius_px = kNone;
         static constexpr int kNone = -1;  // nothing is drawn
@@ -72,6 +73,7 @@ class PointLight {
     void sort_into_bands();
     void draw(const Spot& spot, Rows rows, ElectronImage& light_e) const;
     void draw_spots(ElectronImage& light_e);
+    void draw_spikes(const Spot& spot, Rows rows, ElectronImage& light_e) const;
     void add_patch(const PointPatch& patch, int channel, Rows rows, ElectronImage& light_e) const;
     Rows all_rows() const { return {0, view_.detector.height_px}; }
     void take_off_wings(Vec2d at_px, int channel, double electrons, ElectronImage& light_e);

@@ -8,8 +8,9 @@
 
 namespace hilcam {
 
-SystemMtf::SystemMtf(const CameraModel& c, OpticsOtf optics)
+SystemMtf::SystemMtf(const CameraModel& c, OpticsOtf optics, SpiderSpikes spikes)
     : optics_(std::move(optics)),
+      spikes_(std::move(spikes)),
       aperture_x_px_(c.pixel_aperture_x_m() / c.pitch_m),
       aperture_y_px_(c.pixel_aperture_y_m() / c.pitch_m),
       diffusion_px_(c.diffusion_m / c.pitch_m),
@@ -24,18 +25,24 @@ SystemMtf::SystemMtf(const CameraModel& c, OpticsOtf optics)
     drift_px_ = static_cast<double>(c.shutter.tdi_stages) * c.shutter.tdi_mismatch_fraction;
 }
 
-std::complex<double> SystemMtf::of_point(double u, double v) const {
+double SystemMtf::behind_lens(double u, double v) const {
     const double detector = sinc(u * aperture_x_px_) * sinc(v * aperture_y_px_) *
                             gaussian_mtf(std::hypot(u, v), diffusion_px_) * crosstalk_mtf(u, v, crosstalk_);
     const double motion = gaussian_mtf(u, jitter_x_px_) * gaussian_mtf(v, jitter_y_px_) * sinc(v * step_px_) *
                           sinc(v * drift_px_);
     const double halo = glare_radius_px_ > 0 ? glare_factor(u, v) : 1;
-    return optics_.at(u, v) * (detector * motion * halo);
+    return detector * motion * halo;
+}
+
+std::complex<double> SystemMtf::of_point(double u, double v) const {
+    return optics_.at(u, v) * behind_lens(u, v);
 }
 
 std::complex<double> SystemMtf::at(double u, double v) const {
     const double even = glare_radius_px_ > 0 ? 1 : glare_factor(u, v);
-    return of_point(u, v) * even;
+    if (spikes_.share() == 0) return of_point(u, v) * even;
+    const double spikes = spikes_.share() * spikes_.transfer(u, v);
+    return ((1 - spikes_.share()) * optics_.at(u, v) + spikes) * (behind_lens(u, v) * even);
 }
 
 double SystemMtf::wing_slope_px() const {

@@ -11,26 +11,31 @@
 
 #include "sensor/camera_model.h"
 #include "sensor/optics_otf.h"
+#include "sensor/stray/spider.h"
 
 namespace hilcam {
 
 class SystemMtf {
   public:
-    SystemMtf(const CameraModel& camera, OpticsOtf optics);
+    SystemMtf(const CameraModel& camera, OpticsOtf optics, SpiderSpikes spikes = {});
 
     // Frequencies [cycles/px of the detector]. With glare: its even part leaves 1 - glare of all but (0, 0).
     std::complex<double> at(double u, double v) const;
-    // Returns the transfer function of a point's image, without what glare spreads evenly: 1 at (0, 0).
+    // Returns the transfer function of a point's image, without what glare spreads evenly and without a spider's
+    // spikes, which are drawn: 1 at (0, 0).
     std::complex<double> of_point(double u, double v) const;
 
     // Returns how steeply the lens's modulation falls from frequency 0 on [px], which makes the far wings of
     // its images.
     double wing_slope_px() const;
+    const SpiderSpikes& spikes() const { return spikes_; }
 
   private:
+    double behind_lens(double u, double v) const;
     double glare_factor(double u, double v) const;
 
     OpticsOtf optics_;
+    SpiderSpikes spikes_;
     double aperture_x_px_, aperture_y_px_;
     double diffusion_px_, jitter_x_px_, jitter_y_px_;
     double crosstalk_;

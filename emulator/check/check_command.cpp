@@ -15,6 +15,7 @@
 #include "emulator/scenario/motion_builder.h"
 #include "emulator/scenario/scenario_warnings.h"
 #include "emulator/scenario/scene_loader.h"
+#include "emulator/world/clock.h"
 #include "io/config/config_yaml.h"
 #include "io/system/net_interface.h"
 #include "io/system/resident_memory.h"
@@ -66,6 +67,24 @@ std::string truth_line(const ScenarioConfig& s) {
                            wishes.visibility && wishes.layers() ? ", " : "", wishes.layers() ? "layers" : "");
     if (wishes.stars) out += "; stars in view";
     return out;
+}
+
+// The line says how light from beside the picture becomes glare, how much of it there is now, and how long it takes to find.
+std::string outside_line(const ScenarioConfig& s, ExposureRenderer& exposures) {
+    if (!s.camera.outside_light) return {};
+    std::vector<SideLight> lights;
+    const std::int64_t start_ns = monotonic_ns();
+    exposures.look_beside(lights);
+    const double ms = static_cast<double>(monotonic_ns() - start_ns) * 1e-6;
+    const OutsideLightConfig& outside = *s.camera.outside_light;
+    return fmt::format(
+        "light from beside the picture: {} directions of the Sun and bodies, found in {:.2g} ms; glare by "
+        "{}, {} ghosts",
+        lights.size(), ms,
+        !outside.transmittance.empty() ? "the measured transmittance"
+        : outside.baffle_rad > 0       ? "the lens's halo and wings, behind a baffle"
+                                       : "the lens's halo and wings",
+        outside.ghosts.size());
 }
 
 std::string seed_line(const ScenarioConfig& s) {
@@ -156,6 +175,8 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
     report.frame_time = frame_time(*station, world, exposures);
     if (const std::string light = light_line(s, station->light()); !light.empty())
         report.plan.push_back(light);
+    if (const std::string outside = outside_line(s, exposures); !outside.empty())
+        report.plan.push_back(outside);
     report.plan.push_back(motion_line(s, world, exposures));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
     idle_rules.clear();

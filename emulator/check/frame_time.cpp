@@ -35,6 +35,7 @@ std::optional<FrameTime> frame_time(CameraStation& station, WorldState& world, E
     RadianceImage radiance = exposures.make_image();
     std::vector<PointSource> points;
     points.reserve(exposures.max_points());
+    std::vector<SideLight> beside;
     const auto [array_width, array_height] = array_size(s.camera);
     ElectronImage electrons(array_width, array_height);
     const auto [width, height] = frame_size(s.camera);
@@ -43,10 +44,12 @@ std::optional<FrameTime> frame_time(CameraStation& station, WorldState& world, E
     std::vector<double> render_ms, sensor_ms;
     for (std::uint32_t i = 0; i <= kFrames; ++i) {
         const RandomKey key{seed_of_camera(s, station.number() - 1), i};
-        const double render =
-            milliseconds([&] { exposures.render(world, start, key, radiance, points, exposure); });
+        const double render = milliseconds([&] {
+            exposures.render(world, start, key, radiance, points, exposure);
+            exposures.look_beside(beside);
+        });
         const double sensor = milliseconds([&] {
-            station.chain().expose(radiance, points, exposure, electrons);
+            station.chain().expose(radiance, points, exposure, electrons, beside);
             station.chain().digitise(electrons, exposure, key, frame);
         });
         if (i == 0) continue;

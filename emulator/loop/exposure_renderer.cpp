@@ -79,6 +79,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
       shutter_(camera.shutter),
       rows_pass_object_(!config.has_terrain && (camera.shutter.kind == ShutterKind::kRolling ||
                                                 camera.shutter.kind == ShutterKind::kLineScan)),
+      looks_beside_(camera.outside_light.has_value()),
       focal_length_px_(camera.focal_length_m / camera.pitch_m),
       oversampling_(static_cast<double>(config.sampling.oversampling)),
       jitter_(camera.jitter, config.seed, config.start),
@@ -207,6 +208,11 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     }
     renderer_.set_drifts(before_, after_, 1 / exposure.exposure_s, points);
     return result;
+}
+
+void ExposureRenderer::look_beside(std::vector<SideLight>& lights) const {
+    lights.clear();
+    if (looks_beside_) renderer_.find_side_light(lights);
 }
 
 // The mean of parts may come from worse ones: each draws its own samples.

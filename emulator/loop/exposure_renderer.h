@@ -66,6 +66,10 @@ class ExposureRenderer {
     // grid. truth: to be told of the frame's middle, or null. Loop, one thread; no allocation.
     Result render(WorldState& world, const ShownWorld& shown, RandomKey key, RadianceImage& radiance,
                   std::vector<PointSource>& points, Exposure& exposure, FrameTruth* truth = nullptr);
+    // Finds the light from beside the picture, as it stood in the last exposure (in its last part), for a camera
+    // whose lens scatters it (camera.outside_light); finds nothing for others. Loop.
+    void look_beside(std::vector<SideLight>& lights) const;
+    static void reserve_beside(std::vector<SideLight>& lights) { lights.reserve(kMaxSideLights); }
     // The same with the shutter closed. Loop.
     void keep_dark(RadianceImage& radiance, std::vector<PointSource>& points, Exposure& exposure) const;
 
@@ -88,6 +92,7 @@ class ExposureRenderer {
     double motion_error_px_;
     ShutterConfig shutter_;
     bool rows_pass_object_;  // are of several instants, and it is not the ground that they see
+    bool looks_beside_;
     double focal_length_px_, oversampling_;
     PointingJitter jitter_;
     ExpectedNoise noise_;

@@ -9,6 +9,7 @@
 #include "io/contract/frame_sink.h"
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/point_source.h"
+#include "render/vocabulary/side_light.h"
 #include "sensor/chain.h"
 
 namespace hilcam {
@@ -20,8 +21,9 @@ struct FrameSlot {
     Exposure exposure;
     RadianceImage radiance;
     std::vector<PointSource> points;
+    std::vector<SideLight> beside;             // light from beside the picture
     std::vector<std::uint64_t> shown_numbers;  // for a recorder: the newest command of each thing
-    std::int64_t not_before_ns = 0;            // earliest time at which a script's frame may be published; 0: any
+    std::int64_t not_before_ns = 0;  // earliest time at which a script's frame may be published; 0: any
     std::int64_t middle_camera_ns = 0, end_camera_ns = 0;  // instants of the exposure, camera's time
     bool until_end = false;                                // is not to be published before that end
     bool automatic = false;                                // the camera sets the next exposure itself

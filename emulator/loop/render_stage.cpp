@@ -25,6 +25,7 @@ RenderStage::RenderStage(const LoopParts& parts, LoopFigures& figures)
 void RenderStage::prepare(FrameSlot& slot) const {
     slot.radiance = exposures_.make_image();
     slot.points.reserve(exposures_.max_points());
+    if (camera_.outside_light) ExposureRenderer::reserve_beside(slot.beside);
     if (observers_.recorder) slot.shown_numbers.resize(world_.things());
 }
 
@@ -101,6 +102,7 @@ void RenderStage::render(FrameSlot& slot) {
     FrameRecord& record = slot.record;
     if (slot.use.shutter_closed) {
         exposures_.keep_dark(slot.radiance, slot.points, slot.exposure);
+        slot.beside.clear();
         slot.render_ns = 0;  // says nothing of what frames cost
         return;
     }
@@ -110,6 +112,7 @@ void RenderStage::render(FrameSlot& slot) {
     const ExposureRenderer::Result result =
         exposures_.render(world_, {slot.use.shown_at, slot.use.moving}, {seed_, record.id}, slot.radiance,
                           slot.points, slot.exposure, truth);
+    exposures_.look_beside(slot.beside);
     record.camera = exposures_.middle_world().camera;
     tell_commands(result.shown, slot);
 

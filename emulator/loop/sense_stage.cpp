@@ -46,7 +46,7 @@ void SenseStage::sense(FrameSlot& slot) {
     const std::int64_t begun_ns = monotonic_ns();
     const auto [width, height] = frame_size(camera_, slot.exposure.binning_x, slot.exposure.binning_y);
     frame_.reshape(width, height);
-    chain_.expose(slot.radiance, slot.points, slot.exposure, electrons_);
+    chain_.expose(slot.radiance, slot.points, slot.exposure, electrons_, slot.beside);
     chain_.digitise(electrons_, slot.exposure, {seed_, slot.record.id}, frame_);
     slot.next_exposure_s = 0;
     if (slot.automatic) measure_exposure(slot);

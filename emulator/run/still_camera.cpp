@@ -62,11 +62,12 @@ SensorChain& StillCamera::chain() {
 
 const RadianceImage& StillCamera::render(RandomKey key, FrameTruth* truth) {
     exposures_.render(world_, time_, key, radiance_, points_, exposure_, truth);
+    exposures_.look_beside(beside_);
     return radiance_;
 }
 
 const ElectronImage& StillCamera::expose() {
-    chain().expose(radiance_, points_, exposure_, electrons_);
+    chain().expose(radiance_, points_, exposure_, electrons_, beside_);
     return electrons_;
 }
 

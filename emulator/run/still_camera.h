@@ -55,6 +55,7 @@ class StillCamera {
     ExposureRenderer exposures_;
     RadianceImage radiance_;
     std::vector<PointSource> points_;
+    std::vector<SideLight> beside_;
     Exposure exposure_;
     std::optional<SensorChain> chain_;
     ElectronImage electrons_;

@@ -97,6 +97,9 @@ Fields fields(ScenarioConfig& s) {
             section("telemetry", s.telemetry, "receivers that get frame reports and housekeeping unasked")),
         beside_frames(section("outputs", s.outputs, "destinations of frames")),
     };
+    list.push_back(sections(
+        "bodies", s.own_bodies,
+        "round bodies of the scenario's own, up to 8: moons of planets, asteroids (docs/bodies.md)"));
     for (std::size_t i = 0; i < kBodyCount; ++i)
         list.push_back(section(std::string(kBodyNames[i]), s.bodies[i], "look of the body of that name"));
     return list;
@@ -266,6 +269,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const 
         validate(scenario);
     };
     read_config(file, root, overrides);
+    scenario.origin.own = load_own_bodies(scenario.own_bodies, scenario.time_utc);
     if (scenario.leap_seconds) {
         const std::string warning = apply_leap_seconds(*scenario.leap_seconds, scenario.time_utc);
         if (!warning.empty()) scenario.warnings.push_back(warning);

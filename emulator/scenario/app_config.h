@@ -17,6 +17,7 @@
 #include "emulator/scenario/motion_config.h"
 #include "emulator/scenario/object_config.h"
 #include "emulator/scenario/outputs.h"
+#include "emulator/scenario/own_body_config.h"
 #include "emulator/scenario/quality_config.h"
 #include "emulator/scenario/quality_ladder.h"
 #include "emulator/world/clock.h"
@@ -69,6 +70,7 @@ struct ScenarioConfig {
     std::vector<LampConfig> lamps;
     SunConfig sun;
     std::array<BodyConfig, kBodyCount> bodies;
+    std::vector<OwnBodyConfig> own_bodies;
     AtmosphereConfig atmosphere;
     EarthConfig earth_surface;
     std::optional<StarsConfig> stars;

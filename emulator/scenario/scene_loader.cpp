@@ -209,6 +209,42 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
     return objects;
 }
 
+BodyRelief load_relief(const std::string& name, const Figure& figure, const BodyConfig& config) {
+    const std::string key = name + ".height_map";
+    if (figure.equatorial_radius_m != figure.polar_radius_m)
+        throw InputError(key + ": the body is flattened; accepted: a round one");
+    const PixelMap map = read_pixel_map(config.height_map, true);
+    if (map.width() < 8 || map.height() < 4)
+        throw InputError(
+            fmt::format("{}: found {} x {} pixels; accepted: 8 x 4 or more", key, map.width(), map.height()));
+    std::vector<float> heights_m(map.all().begin(), map.all().end());
+    for (float& value : heights_m)
+        value = static_cast<float>(config.height_zero_m + config.height_step_m * static_cast<double>(value));
+    const auto [least, most] = std::minmax_element(heights_m.begin(), heights_m.end());
+    constexpr double kMaxShare = 0.05;
+    const double bound_m = kMaxShare * figure.equatorial_radius_m;
+    if (!(static_cast<double>(*least) > -bound_m && static_cast<double>(*most) < bound_m))
+        throw InputError(
+            fmt::format("{}: found heights from {:.6g} to {:.6g} m; accepted: within {:.6g} m of the sphere",
+                        key, *least, *most, bound_m));
+    return {figure.equatorial_radius_m, map.width(), map.height(), std::move(heights_m)};
+}
+
+SceneBody load_body(BodyId id, const std::string& name, const Figure& figure, const BodyConfig& config,
+                    const SpectralGrid& grid) {
+    SceneBody body;
+    body.visible = config.visible;
+    body.look = BodyLook(id, config, grid);
+    if (!config.albedo_map.empty()) body.map = MipTexture(read_picture(config.albedo_map));
+    body.map_reference = config.albedo_map_reference;
+    if (config.visible && !config.height_map.empty()) body.relief = load_relief(name, figure, config);
+    body.planetshine = config.planetshine;
+    if (config.rings && id != BodyId::kSaturn)
+        throw InputError(name + ".rings: found true; accepted: saturn alone has rings");
+    body.rings = config.rings;
+    return body;
+}
+
 // A frame's radiance is the largest of all images: where it alone does not fit, nothing is begun.
 void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
     constexpr double kGigabyte = 1e9;
@@ -284,12 +320,14 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     scene.stars_time = time;
     if (const auto& stars = scenario.stars; stars && !stars->catalogue.empty())
         scene.stars = stars_at(load_catalogue(stars->catalogue), time, stars->faintest_magnitude, grid);
-    for (std::size_t i = 0; i < kBodyCount; ++i) {
-        const BodyConfig& config = scenario.bodies[i];
-        SceneBody& body = scene.bodies[i];
-        body.visible = config.visible;
-        body.look = BodyLook(static_cast<BodyId>(i), config, grid);
-        if (!config.albedo_map.empty()) body.map = MipTexture(read_picture(config.albedo_map));
+    for (std::size_t i = 0; i < kBodyCount; ++i)
+        scene.bodies[i] = load_body(static_cast<BodyId>(i), std::string(kBodyNames[i]), kFigures[i],
+                                    scenario.bodies[i], grid);
+    for (std::size_t k = 0; k < scenario.own_bodies.size(); ++k) {
+        const OwnBodyConfig& own = scenario.own_bodies[k];
+        scene.bodies[kBodyCount + k] = load_body(static_cast<BodyId>(kBodyCount + k), own.name,
+                                                 scenario.origin.own->list[k].figure, own.look, grid);
+        scene.bodies[kBodyCount + k].name = own.name;
     }
     AtmosphereConfig air = scenario.atmosphere;
     if (air.cache.empty()) air.cache = cache_folder();

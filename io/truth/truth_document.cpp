@@ -34,6 +34,11 @@ std::string_view name_of_body(std::uint32_t id) {
     if (id == kSunId) return "sun";
     for (std::size_t i = 0; i < kBodyCount; ++i)
         if (truth_id(static_cast<BodyId>(i)) == id) return kBodyNames[i];
+    // Those of the scenario's own, in its order.
+    constexpr std::array<std::string_view, kMaxOwnBodies> kOwn = {"body_1", "body_2", "body_3", "body_4",
+                                                                  "body_5", "body_6", "body_7", "body_8"};
+    for (std::size_t i = 0; i < kMaxOwnBodies; ++i)
+        if (truth_id(static_cast<BodyId>(kBodyCount + i)) == id) return kOwn[i];
     return {};
 }
 

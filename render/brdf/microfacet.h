@@ -11,8 +11,6 @@
 
 namespace hilcam {
 
-inline constexpr float kPiF = static_cast<float>(kPi);
-
 // (1 - cosine)^5 of Schlick's Fresnel term: F = F0 + (1 - F0) * this (Computer Graphics Forum 13(3), 1994).
 inline float schlick_weight(float cosine) {
     const float x = std::clamp(1.0f - cosine, 0.0f, 1.0f);

@@ -101,7 +101,7 @@ class FramePlacer {
     Lamps lamps_;
     StarSky stars_;
     std::size_t max_stars_;
-    std::array<SceneBody, kBodyCount> bodies_;
+    std::array<SceneBody, kMaxBodies> bodies_;
     std::unique_ptr<Atmosphere> air_;
     std::shared_ptr<const EarthModel> earth_;
     ColorBands bands_;

@@ -65,7 +65,7 @@ Seen look(const FrameView& frame, const WorldSnapshot& world, Vec3d dir) {
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const PlacedBody& body : frame.background->disks()) {
         const double distance_m =
-            intersect_ellipsoid(kFigures[index_of(body.id)], body.camera_m, body.fixed_from_world * dir);
+            intersect_ellipsoid(body.figure, body.camera_m, body.fixed_from_world * dir);
         if (distance_m < 0 || distance_m >= nearest_m) continue;
         nearest_m = distance_m;
         seen = {Seen::Thing::kBody, index_of(body.id), world.camera.position_world_m + distance_m * dir};

@@ -60,11 +60,13 @@ const char* reason(ObjectUse use) {
 std::string body_line(const FrameView& f, std::size_t i) {
     const PlacedBody& body = f.background->disks()[i];
     std::ostringstream line;
-    line << kBodyNames[index_of(body.id)] << ", " << body.distance_m * 1e-3 << " km away, "
+    line << f.background->name_of(body.id) << ", " << body.distance_m * 1e-3 << " km away, "
          << 2 * std::acos(body.disk_cosine) / kDegree_rad << " deg wide: "
          << (f.body_boxes[i].empty() ? "not drawn (outside the field)" : "may be in the field, then drawn")
          << "; lights and is reflected where that reaches the threshold";
     if (body.may_be_eclipsed) line << "; another body may shadow it";
+    const std::string look = f.background->describe(body);
+    if (!look.empty()) line << "; " << look;
     return line.str();
 }
 
@@ -75,7 +77,7 @@ std::string sun_line(const FrameView& f, const WorldSnapshot& world) {
          << (f.sun_box.empty() ? "not drawn (outside the field)"
                                : "may be in the field, then its disk is drawn")
          << "; light from its " << (f.sun_is_disk ? "whole disk" : "middle (sun_disk: false)");
-    const float seen = f.background->sun_seen_from(f.rays_world_m, BodyId{kBodyCount})[0];
+    const float seen = f.background->sun_seen_from(f.rays_world_m, kNoBody)[0];
     if (seen < 1) line << "; bodies leave " << 100 * seen << " % of it to the objects (first bin)";
     return line.str();
 }
@@ -137,7 +139,7 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
     for (std::size_t i = 0; i < f.background->disks().size(); ++i) lines.push_back(body_line(f, i));
     std::string far;
     for (const PlacedBody& body : f.background->points())
-        far.append(" ").append(kBodyNames[index_of(body.id)]);
+        far.append(" ").append(f.background->name_of(body.id));
     lines.push_back(far.empty() ? "no body is a point" : "points (smaller than a pixel):" + far);
     for (std::size_t i = 0; i < f.lamps->all().size(); ++i) lines.push_back(lamp_line(f, i));
     if (f.lamps->all().empty()) lines.push_back("no lamps");

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "render/frame/find_side_light.h"
 #include "render/frame/frame_placer.h"
 #include "render/frame/frame_tracer.h"
 #include "render/frame/object_probe.h"
@@ -75,7 +76,7 @@ void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->trace
 std::size_t Renderer::max_points() const {
     const FramePlacer& placer = implementation_->placer;
     const std::size_t cells = ObjectProbe::kMaxCells * ObjectProbe::kMaxCells;
-    return placer.max_stars() + placer.objects() * cells + kBodyCount + placer.lamps().all().size();
+    return placer.max_stars() + placer.objects() * cells + kMaxBodies + placer.lamps().all().size();
 }
 std::size_t Renderer::triangles() const { return implementation_->placer.triangles(); }
 double Renderer::object_radius_m(std::size_t object) const {
@@ -133,6 +134,11 @@ FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int hei
 }
 
 void Renderer::report_truth(FrameTruth& truth) const { TruthProbe(implementation_->placer, truth).report(); }
+
+void Renderer::find_side_light(std::vector<SideLight>& lights) const {
+    const FramePlacer& placer = implementation_->placer;
+    hilcam::find_side_light(placer.frame(), placer.world(), lights);
+}
 
 std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     Implementation& my = *implementation_;

@@ -17,13 +17,14 @@
 #include "render/frame/plan.h"
 #include "render/frame/render_quality.h"
 #include "render/light/modules.h"
-#include "render/vocabulary/ray_counts.h"
 #include "render/scene/scene.h"
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_noise.h"
 #include "render/vocabulary/point_source.h"
 #include "render/vocabulary/random.h"
+#include "render/vocabulary/ray_counts.h"
+#include "render/vocabulary/side_light.h"
 
 namespace hilcam {
 
@@ -84,6 +85,10 @@ class Renderer {
     // Fills `truth` with what the world shows that was placed last, by render() or motion(); truth.raster is
     // set. Loop, as render().
     void report_truth(FrameTruth& truth) const;
+
+    // Finds what shines from beside the picture of the world that was placed last (find_side_light.h). Loop, as
+    // render(); room for kMaxSideLights.
+    void find_side_light(std::vector<SideLight>& lights) const;
 
     // An upper bound of the points that render() can give.
     std::size_t max_points() const;

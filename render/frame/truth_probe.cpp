@@ -39,7 +39,7 @@ FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int 
     FrameTruth truth;
     truth.wishes = wishes;
     const std::size_t objects = placer.objects();
-    truth.things.reserve(objects + 1 + kBodyCount);
+    truth.things.reserve(objects + 1 + kMaxBodies);
     truth.parts.reserve(objects);
     truth.point_boxes.reserve(objects);
     if (wishes.stars) {
@@ -130,7 +130,7 @@ void TruthProbe::report_objects() {
         }
         SeenThing thing = described(id, pose);
         thing.radius_m = placer_.radius_m(i);
-        const Spectrum seen = frame_.background->sun_seen_from(pose.position_world_m, BodyId{kBodyCount});
+        const Spectrum seen = frame_.background->sun_seen_from(pose.position_world_m, kNoBody);
         double sum = 0;
         for (int b = 0; b < frame_.bins; ++b) sum += static_cast<double>(seen[b]);
         thing.sunlit = sum / frame_.bins;
@@ -155,8 +155,8 @@ void TruthProbe::report_sun_and_bodies() {
             described(truth_id(body.id), {state.world_m, to_quat(transposed(state.fixed_from_world))},
                       body.distance_m * body.world_dir);
         thing.is_body = true;
-        thing.radius_m = kFigures[index_of(body.id)].equatorial_radius_m;
-        thing.polar_radius_m = kFigures[index_of(body.id)].polar_radius_m;
+        thing.radius_m = body.figure.equatorial_radius_m;
+        thing.polar_radius_m = body.figure.polar_radius_m;
         truth_.things.push_back(thing);
     };
     for (const PlacedBody& body : frame_.background->disks()) add(body);

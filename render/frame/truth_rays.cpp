@@ -107,8 +107,7 @@ std::uint32_t TruthRays::meets_body(std::span<const Vec2d> points_px, const Plac
     generate(points_px, std::span(rays).first(count));
     std::uint32_t met = 0;
     for (std::size_t k = 0; k < count; ++k)
-        if (intersect_ellipsoid(kFigures[index_of(body.id)], body.camera_m,
-                                body.fixed_from_world * rays[k].dir) >= 0)
+        if (intersect_ellipsoid(body.figure, body.camera_m, body.fixed_from_world * rays[k].dir) >= 0)
             met |= 1u << k;
     return met;
 }

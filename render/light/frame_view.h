@@ -55,7 +55,7 @@ struct FrameView {
     float alpha_behind_diffuse = 0;   // facet lobes met behind a diffuse bounce are at least this wide
     RandomKey key;
     bool bodies_may_hide = false;                 // an object is so far away that a body can stand before it
-    std::array<PixelBox, kBodyCount> body_boxes;  // pixels that can meet a body of disks() or its air
+    std::array<PixelBox, kMaxBodies> body_boxes;  // pixels that can meet a body of disks() or its air
     std::size_t body_box_count = 0;
     PixelBox sun_box;  // pixels that can meet the Sun's disk
 

@@ -10,7 +10,7 @@ namespace hilcam {
 namespace {
 
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
-constexpr std::size_t kBlock = 256;  // nodes
+constexpr std::size_t kNodesAtOnce = 256;  // nodes
 
 struct Probe {
     std::size_t node;  // number of the node in the block
@@ -142,9 +142,9 @@ void KeptLinks::make(std::span<const KeptNeighbour> near, std::size_t self,
     const TransferTable& table = light.table();
     if (near.empty() || table.size() == 0) return;
     const Prober prober(near_, light, lights, scene);
-    std::vector<std::vector<Probe>> blocks((table.size() + kBlock - 1) / kBlock);
+    std::vector<std::vector<Probe>> blocks((table.size() + kNodesAtOnce - 1) / kNodesAtOnce);
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
-        blocks[b] = prober.probe(b * kBlock, std::min(table.size(), (b + 1) * kBlock));
+        blocks[b] = prober.probe(b * kNodesAtOnce, std::min(table.size(), (b + 1) * kNodesAtOnce));
         std::stable_sort(blocks[b].begin(), blocks[b].end(),
                          [](const Probe& x, const Probe& y) { return x.node < y.node; });
     });
@@ -153,9 +153,9 @@ void KeptLinks::make(std::span<const KeptNeighbour> near, std::size_t self,
         free_.insert(free_.end(), table.free(n).begin(), table.free(n).end());
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         std::size_t next = 0;
-        for (std::size_t n = b * kBlock; n < std::min(table.size(), (b + 1) * kBlock); ++n) {
+        for (std::size_t n = b * kNodesAtOnce; n < std::min(table.size(), (b + 1) * kNodesAtOnce); ++n) {
             first_.push_back(static_cast<std::uint32_t>(links_.size()));
-            for (; next < blocks[b].size() && blocks[b][next].node == n - b * kBlock; ++next) {
+            for (; next < blocks[b].size() && blocks[b][next].node == n - b * kNodesAtOnce; ++next) {
                 const Probe& probe = blocks[b][next];
                 free_[n * words + probe.direction / 64] &= ~(std::uint64_t{1} << (probe.direction % 64));
                 if (probe.link.node != Prober::kDark) links_.push_back(probe.link);

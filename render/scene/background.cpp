@@ -11,24 +11,6 @@ namespace hilcam {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr BodyId kNowhere{kBodyCount};  // standing on no body
-
-// Body axes with z stretched so that the ellipsoid is a sphere.
-Vec3d stretched(const Figure& figure, Vec3d v) {
-    return {v.x, v.y, v.z * figure.equatorial_radius_m / figure.polar_radius_m};
-}
-
-double cone_cosine_of(double radius_m, double distance_m) {
-    const double sine = std::min(1.0, radius_m / distance_m);
-    return std::sqrt(1 - sine * sine);
-}
-
-// True when a body as large as this, in this direction, can touch the Sun's disk.
-bool can_cover(double cosine_to_sun, double body_cone_cosine, double sun_disk_cosine) {
-    return std::acos(std::clamp(cosine_to_sun, -1.0, 1.0)) <
-           std::acos(std::clamp(body_cone_cosine, -1.0, 1.0)) +
-               std::acos(std::clamp(sun_disk_cosine, -1.0, 1.0));
-}
 
 // Mean colour of a map over the sphere.
 Vec3f mean_texel(const MipTexture& map) {
@@ -37,7 +19,7 @@ Vec3f mean_texel(const MipTexture& map) {
 
 }  // namespace
 
-Background::Background(const std::array<SceneBody, kBodyCount>& bodies, const Atmosphere* air,
+Background::Background(const std::array<SceneBody, kMaxBodies>& bodies, const Atmosphere* air,
                        const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um,
                        bool limb_darkening, const SpectralGrid& grid)
     : scene_(bodies),
@@ -46,12 +28,19 @@ Background::Background(const std::array<SceneBody, kBodyCount>& bodies, const At
       sun_irradiance_1au_(sun_irradiance_1au_w_m2_um),
       disk_(grid, limb_darkening),
       bands_(grid),
+      rings_(grid),
       bins_(grid.size()) {
-    for (std::size_t i = 0; i < kBodyCount; ++i) {
+    for (std::size_t i = 0; i < kMaxBodies; ++i) {
         map_factor_[i].bin.fill(1);
         map_mean_[i].bin.fill(1);
         if (scene_[i].map.empty()) continue;
         const Spectrum mean = bands_.spectrum(mean_texel(scene_[i].map));
+        if (scene_[i].map_reference > 0) {
+            const auto one = static_cast<float>(1 / scene_[i].map_reference);
+            map_factor_[i].bin.fill(one);
+            map_mean_[i] = one * mean;
+            continue;
+        }
         if (scene_[i].look.plain_lambert()) {
             map_mean_[i] = mean;
             continue;
@@ -59,60 +48,6 @@ Background::Background(const std::array<SceneBody, kBodyCount>& bodies, const At
         // A look tied to a magnitude keeps its light under a map: the map is relative to its mean.
         for (int b = 0; b < bins_; ++b) map_factor_[i][b] = mean[b] > 0 ? 1 / mean[b] : 0.0f;
     }
-}
-
-namespace {
-
-// The body's middle from the camera as one in motion sees it: its limb exactly. The ground below the camera
-// is nearer than the limb and seen later by less, which turning the body makes up for.
-Vec3d place_seen(BodyId id, const WorldSnapshot& world, Mat3d& fixed_from_world) {
-    const BodyState& state = world.bodies[id];
-    const double radius_m = kFigures[index_of(id)].equatorial_radius_m;
-    const Vec3d to_body_m = state.world_m - world.camera.position_world_m;
-    const double distance_m = length(to_body_m);
-    if (distance_m <= radius_m) return to_body_m;
-    const Vec3d velocity_m_s = world.shifting_velocity_m_s() - state.velocity_m_s;
-    const double height_m = distance_m - radius_m;
-    const double tangent_m = std::sqrt(height_m * (distance_m + radius_m));
-    const Vec3d turn_rad = ((tangent_m - height_m) / (kSpeedOfLight_m_s * radius_m * distance_m)) *
-                           cross(to_body_m, velocity_m_s);
-    fixed_from_world = fixed_from_world * transposed(to_matrix(from_rotation_vector(turn_rad)));
-    return seen_in_motion(to_body_m, radius_m, velocity_m_s);
-}
-
-}  // namespace
-
-PlacedBody Background::placed(BodyId id, const WorldSnapshot& world, bool stays) const {
-    const BodyState& state = world.bodies[id];
-    const Figure& figure = kFigures[index_of(id)];
-    PlacedBody out;
-    out.id = id;
-    out.fixed_from_world = state.fixed_from_world;
-    const Vec3d from_camera_m =
-        stays ? state.world_m - world.camera.position_world_m : place_seen(id, world, out.fixed_from_world);
-    out.camera_m = out.fixed_from_world * -from_camera_m;
-    out.distance_m = length(from_camera_m);
-    out.world_dir = out.distance_m > 0 ? from_camera_m / out.distance_m : Vec3d{0, 0, 1};
-    out.disk_cosine = cone_cosine_of(figure.equatorial_radius_m, out.distance_m);
-    out.cone_cosine = top_m(id) > 0 ? cone_cosine_of(figure.equatorial_radius_m + top_m(id), out.distance_m)
-                                    : out.disk_cosine;
-    const Vec3d to_sun_m = world.bodies.sun_world_m - state.world_m;
-    const double sun_m = length(to_sun_m);
-    out.sun_dir = out.fixed_from_world * (to_sun_m / sun_m);
-    const double au = kAstronomicalUnit_m / sun_m;
-    out.irradiance_w_m2_um = static_cast<float>(au * au) * sun_irradiance_1au_;
-    for (std::size_t i = 0; i < kBodyCount; ++i) {
-        if (!scene_[i].visible || i == index_of(id)) continue;
-        const Vec3d to_other = world.bodies.body[i].world_m - state.world_m;
-        const double other_m = length(to_other);
-        // The shadow cone grows by the body's own radius over the distance.
-        const double reach = (kFigures[i].equatorial_radius_m + figure.equatorial_radius_m) / other_m;
-        if (other_m < sun_m && reach < 1 &&
-            can_cover(dot(to_other, to_sun_m) / (other_m * sun_m), std::sqrt(1 - reach * reach),
-                      cone_cosine_of(kSunRadius_m, sun_m)))
-            out.may_be_eclipsed = true;
-    }
-    return out;
 }
 
 void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double pixel_rad,
@@ -132,27 +67,29 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
     disk_count_ = point_count_ = body_light_count_ = 0;
     nearest_m_ = kInfinity;
     camera_in_air_ = false;
-    for (std::size_t i = 0; i < kBodyCount; ++i) {
+    for (std::size_t i = 0; i < kMaxBodies; ++i) {
         if (!scene_[i].visible) continue;
         const PlacedBody body = placed(static_cast<BodyId>(i), world, static_cast<BodyId>(i) == ground);
-        const double radius_m = kFigures[i].equatorial_radius_m;
+        const double radius_m = this->figure(i).equatorial_radius_m;
         if (2 * radius_m < pixel_rad * body.distance_m) {
             points_[point_count_++] = body;
             continue;
         }
         disks_[disk_count_++] = body;
-        nearest_m_ = std::min(nearest_m_, std::max(0.0, body.distance_m - radius_m));
+        const bool reaches = !scene_[i].relief.empty() || has_rings(body.id);
+        const double reach_m = reaches ? outer_radius_m(body.id) : radius_m;
+        nearest_m_ = std::min(nearest_m_, std::max(0.0, body.distance_m - reach_m));
         if (has_air(body.id) && body.distance_m < radius_m + air_->top_m()) camera_in_air_ = true;
     }
     std::sort(disks_.begin(), disks_.begin() + static_cast<std::ptrdiff_t>(disk_count_),
               [](const PlacedBody& a, const PlacedBody& b) { return a.distance_m < b.distance_m; });
     for (const PlacedBody& body : disks()) {
         // Lambert's radiance is at most albedo / pi; Lommel-Seeliger's w / 4 pi at the bright limb.
-        Spectrum most = scene_[index_of(body.id)].look.reflectance_sr(1, 0, 1);
+        Spectrum most = scene_[index_of(body.id)].look.max_sr();
         if (is_modelled(body.id)) most.bin.fill(EarthModel::kMaxOverSun);
         const float sun_share = body.irradiance_w_m2_um[0] / std::max(1e-30f, sun_irradiance_1au_[0]);
         const Vec3d to_body_m = world.bodies[body.id].world_m - objects_world_m;
-        const double radius_m = kFigures[index_of(body.id)].equatorial_radius_m + top_m(body.id);
+        const double radius_m = this->figure(index_of(body.id)).equatorial_radius_m + top_m(body.id);
         const double sine = std::min(1.0, radius_m / length(to_body_m));
         body_lights_[body_light_count_++] = {
             normalized(to_body_m), static_cast<float>(sine * sine),
@@ -161,7 +98,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
 
     const double au = kAstronomicalUnit_m / sun_distance_m;
     sun_clear_irradiance_ = static_cast<float>(au * au) * sun_irradiance_1au_;
-    sun_irradiance_ = sun_clear_irradiance_ * sun_seen_from(objects_world_m, kNowhere);
+    sun_irradiance_ = sun_clear_irradiance_ * sun_seen_from(objects_world_m, kNoBody);
 
     earth_in_patches_ =
         disk_count_ > 0 && is_modelled(disks_[0].id) && !disks_[0].may_be_eclipsed && !camera_in_air_;
@@ -180,7 +117,8 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
 double Background::limb_angle_rad(std::size_t lamp, Vec3d way) const {
     const PlacedBody& body = disks_[lamp];  // place() makes a lamp of each disk, in order
     const Mat3d& fixed = body.fixed_from_world;
-    return hilcam::limb_angle_rad(kFigures[index_of(body.id)], body.camera_m + fixed * objects_from_camera_m_,
+    return hilcam::limb_angle_rad(this->figure(index_of(body.id)),
+                                  body.camera_m + fixed * objects_from_camera_m_,
                                   fixed * body_lights_[lamp].world_dir, fixed * way);
 }
 
@@ -191,14 +129,14 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
     const double sun_m = length(to_sun_m);
     const Vec3d sun_dir = to_sun_m / sun_m;
     const double disk_cosine = cone_cosine_of(kSunRadius_m, sun_m);
-    std::array<std::size_t, kBodyCount> before{};
+    std::array<std::size_t, kMaxBodies> before{};
     std::size_t count = 0;
-    for (std::size_t i = 0; i < kBodyCount; ++i) {
+    for (std::size_t i = 0; i < kMaxBodies; ++i) {
         if (!scene_[i].visible || i == index_of(standing_on)) continue;
         const Vec3d to_body = bodies_.body[i].world_m - place_world_m;
         const double body_m = length(to_body);
         const double radius_m =
-            kFigures[i].equatorial_radius_m + (has_air(static_cast<BodyId>(i)) ? air_->top_m() : 0);
+            this->figure(i).equatorial_radius_m + (has_air(static_cast<BodyId>(i)) ? air_->top_m() : 0);
         if (body_m - radius_m < sun_m &&
             can_cover(dot(to_body, sun_dir) / body_m, cone_cosine_of(radius_m, body_m), disk_cosine))
             before[count++] = i;
@@ -225,7 +163,7 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
             Spectrum passed = radiance;
             for (std::size_t k = 0; k < count; ++k) {
                 const std::size_t i = before[k];
-                const Figure& figure = kFigures[i];
+                const Figure& figure = this->figure(i);
                 const Mat3d& fixed = bodies_.body[i].fixed_from_world;
                 const Vec3d origin = fixed * (place_world_m - bodies_.body[i].world_m);
                 const Vec3d body_dir = fixed * dir;
@@ -243,51 +181,17 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
     return whole;
 }
 
-Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir) const {
-    const std::size_t i = index_of(body.id);
-    const SceneBody& scene = scene_[i];
-    const Figure& figure = kFigures[i];
-    const Vec3d normal = ellipsoid_normal(figure, point_m);
-    const double mu0 = dot(normal, body.sun_dir);
-    Spectrum light =
-        scene.look.reflectance_sr(static_cast<float>(mu0), static_cast<float>(dot(normal, to_viewer_dir)),
-                                  static_cast<float>(dot(body.sun_dir, to_viewer_dir)));
-    if (has_air(body.id)) {
-        // tau_1 dims the Sun; the sky adds its own light on the ground, taken as Lambert.
-        const Vec3d p = stretched(figure, point_m), s = normalized(stretched(figure, body.sun_dir));
-        light = light * air_->sun_transmittance(p, s);
-        light += static_cast<float>(1 / kPi) * (scene.look.albedo() * air_->sky_irradiance(p, s));
-    } else if (mu0 <= 0) {
-        return {};
-    }
-    if (!scene.map.empty()) {
-        // Latitude is the normal's own; longitude runs with u from 180 W.
-        const auto u = static_cast<float>(std::atan2(normal.y, normal.x) / (2 * kPi) + 0.5);
-        const auto v = static_cast<float>(0.5 - std::asin(std::clamp(normal.z, -1.0, 1.0)) / kPi);
-        // A pixel on the ground, against the equator's length.
-        const double slant = std::max(0.25, dot(normal, to_viewer_dir));
-        const double footprint = pixel_rad_ * length(point_m - body.camera_m) /
-                                 (std::sqrt(slant) * 2 * kPi * figure.equatorial_radius_m);
-        light =
-            light * bands_.spectrum(scene.map.sample(u, v, static_cast<float>(footprint))) * map_factor_[i];
-    }
-    if (body.may_be_eclipsed)
-        light = light *
-                sun_seen_from(bodies_.body[i].world_m + transposed(body.fixed_from_world) * point_m, body.id);
-    return body.irradiance_w_m2_um * light;
-}
-
 bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
                                  double width_rad) const {
     for (const PlacedBody& body : disks()) {
-        const Figure& figure = kFigures[index_of(body.id)];
+        const Figure& figure = this->figure(index_of(body.id));
         const Vec3d origin = body.camera_m + body.fixed_from_world * origin_m;
         const Vec3d d = body.fixed_from_world * dir;
         if (is_modelled(body.id)) {
             if (add_earth(body, origin, d, width_rad, weight, radiance)) return true;
             continue;
         }
-        const double distance = intersect_ellipsoid(figure, origin, d);
+        const double distance = met(body, origin, d);
         const bool hit = distance >= 0;
         if (has_air(body.id)) {
             const Vec3d o = stretched(figure, origin), sd = stretched(figure, d);
@@ -303,6 +207,7 @@ bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Sp
                 weight = weight * sight.transmittance;
             }
         }
+        if (has_rings(body.id)) add_rings(body, origin, d, hit ? distance : kInfinity, weight, radiance);
         if (!hit) continue;
         radiance += weight * surface_radiance(body, origin + distance * d, -normalized(d));
         return true;
@@ -313,7 +218,7 @@ bool Background::add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Sp
 Atmosphere::Sight Background::air_before(Vec3d dir, double distance_m) const {
     const PlacedBody& earth = *std::find_if(disks().begin(), disks().end(),
                                             [](const PlacedBody& body) { return body.id == BodyId::kEarth; });
-    const Figure& figure = kFigures[index_of(earth.id)];
+    const Figure& figure = this->figure(index_of(earth.id));
     const Vec3d d = stretched(figure, earth.fixed_from_world * normalized(dir));
     Atmosphere::Sight sight =
         air_->look(stretched(figure, earth.camera_m), normalized(d), distance_m * length(d),
@@ -324,7 +229,7 @@ Atmosphere::Sight Background::air_before(Vec3d dir, double distance_m) const {
 
 std::string Background::air_missing(Vec3d dir) const {
     for (const PlacedBody& body : disks()) {
-        const Figure& figure = kFigures[index_of(body.id)];
+        const Figure& figure = this->figure(index_of(body.id));
         const Vec3d d = body.fixed_from_world * dir;
         const double distance = intersect_ellipsoid(figure, body.camera_m, d);
         if (distance < 0) continue;
@@ -338,7 +243,7 @@ std::string Background::air_missing(Vec3d dir) const {
 
 EarthRays Background::plain_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_dir) const {
     const Mat3d& fixed = plain_->fixed_from_world;
-    return {kFigures[index_of(plain_->id)],
+    return {this->figure(index_of(plain_->id)),
             plain_->camera_m,
             plain_->sun_dir,
             fixed * corner_dir,
@@ -348,19 +253,18 @@ EarthRays Background::plain_rays(Vec3d corner_dir, Vec3d right_dir, Vec3d down_d
 
 bool Background::hides_from(Vec3d origin_m, Vec3d dir, double distance) const {
     for (const PlacedBody& body : disks()) {
-        const double met =
-            intersect_ellipsoid(kFigures[index_of(body.id)], body.camera_m + body.fixed_from_world * origin_m,
-                                body.fixed_from_world * dir);
-        if (met >= 0 && met < distance) return true;
+        const double there =
+            met(body, body.camera_m + body.fixed_from_world * origin_m, body.fixed_from_world * dir);
+        if (there >= 0 && there < distance) return true;
     }
     return false;
 }
 
 Background::BodyMet Background::first_body_seen(Vec3d dir) const {
     for (const PlacedBody& body : disks()) {
-        const Figure& figure = kFigures[index_of(body.id)];
+        const Figure& figure = this->figure(index_of(body.id));
         const Vec3d d = body.fixed_from_world * dir;
-        const double distance = intersect_ellipsoid(figure, body.camera_m, d);
+        const double distance = met(body, body.camera_m, d);
         if (distance < 0) continue;
         return {&body, distance,
                 transposed(body.fixed_from_world) * ellipsoid_normal(figure, body.camera_m + distance * d)};
@@ -377,25 +281,6 @@ void Background::add_sun_disk(Vec3d dir, const Spectrum& weight, Spectrum& radia
     const double mu = std::sqrt(std::max(0.0, 1 - sine_squared / disk_sine_squared));
     radiance += static_cast<float>(1 / (kPi * disk_sine_squared)) *
                 (weight * sun_clear_irradiance_ * disk_.relative_radiance(static_cast<float>(mu)));
-}
-
-Spectrum Background::point_irradiance(const PlacedBody& body) const {
-    const std::size_t i = index_of(body.id);
-    const Figure& figure = kFigures[i];
-    const double a = figure.equatorial_radius_m, b = figure.polar_radius_m;
-    const Vec3d to_camera = body.camera_m / body.distance_m;
-    if (is_modelled(body.id)) {
-        return static_cast<float>(a * a / (body.distance_m * body.distance_m)) *
-               (body.irradiance_w_m2_um * earth_->disk_albedo(to_camera, body.sun_dir, 400));
-    }
-    const double phase = std::acos(std::clamp(dot(to_camera, body.sun_dir), -1.0, 1.0));
-    // These are the semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's
-    // latitude.
-    const double sine = to_camera.z;
-    const double area_ratio =
-        a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);
-    return static_cast<float>(area_ratio) *
-           (body.irradiance_w_m2_um * scene_[i].look.disk_albedo(phase) * map_mean_[i]);
 }
 
 }  // namespace hilcam

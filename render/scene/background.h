@@ -10,6 +10,7 @@
 #include "render/earth/earth_rays.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/scene.h"
+#include "render/sky/saturn_rings.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/pixel_box.h"
 
@@ -35,16 +36,25 @@ struct PlacedBody {
     Vec3d camera_m;          // the camera in body axes
     Vec3d sun_dir;           // in body axes
     Mat3d fixed_from_world;
-    Spectrum irradiance_w_m2_um;   // irradiance by the Sun at the body
+    Figure figure{};
+    Spectrum irradiance_w_m2_um;  // irradiance by the Sun at the body
+    double sun_radius_rad = 0;    // the Sun's radius, seen from the body
+    // Another body's light on it (planetshine), the strongest first.
+    struct Shine {
+        Vec3d dir;  // to that body, in this one's axes
+        Spectrum irradiance_w_m2_um;
+    };
+    std::array<Shine, 2> shine{};
+    std::size_t shine_count = 0;
     bool may_be_eclipsed = false;  // another body can stand between it and the Sun
 };
 
 class Background {
   public:
     // The bodies, the air and the Earth of the scene must outlive this.
-    Background(const std::array<SceneBody, kBodyCount>& bodies, const Atmosphere* air,
-               const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening,
-               const SpectralGrid& grid);
+    Background(const std::array<SceneBody, kMaxBodies>& bodies, const Atmosphere* air,
+               const EarthModel* earth,
+               const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening, const SpectralGrid& grid);
 
     // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h).
     // pixel_rad: bodies smaller than this are points, not here. Bodies are where a camera in motion sees
@@ -55,6 +65,8 @@ class Background {
     // The Sun as the objects have it: direction, and irradiance with eclipses and air [W m^-2 um^-1].
     Vec3d sun_world_dir() const { return sun_world_dir_; }
     const Spectrum& sun_irradiance_w_m2_um() const { return sun_irradiance_; }
+    // The same without eclipses and air.
+    const Spectrum& sun_clear_irradiance_w_m2_um() const { return sun_clear_irradiance_; }
     double sun_disk_cosine() const { return sun_disk_cosine_; }
     const SunDisk& sun_disk() const { return disk_; }
     // Returns the Sun's direction as the camera sees it.
@@ -71,6 +83,7 @@ class Background {
     Spectrum point_irradiance(const PlacedBody& body) const;
     const Atmosphere* air() const { return air_; }
     const EarthModel* earth() const { return earth_; }
+    std::string name_of(BodyId id) const;
     // The camera is in air, so that objects are seen through it.
     bool camera_in_air() const { return camera_in_air_; }
 
@@ -123,6 +136,9 @@ class Background {
     // Light and transmittance of the air before an object at a distance; only where camera_in_air().
     Atmosphere::Sight air_before(Vec3d dir, double distance_m) const;
 
+    // Says in words what makes a body's look cost more than its law; empty: nothing does. Not for the loop.
+    std::string describe(const PlacedBody& body) const;
+
     // Says what the air lacks for a ray of the camera (Atmosphere::missing).
     std::string air_missing(Vec3d dir) const;
 
@@ -144,18 +160,19 @@ class Background {
     Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const;
 
   private:
-    const std::array<SceneBody, kBodyCount>& scene_;
+    const std::array<SceneBody, kMaxBodies>& scene_;
     const Atmosphere* air_;
     const EarthModel* earth_;
     Spectrum sun_irradiance_1au_;
     SunDisk disk_;
     ColorBands bands_;
+    SaturnRings rings_;
     int bins_;
-    std::array<Spectrum, kBodyCount> map_factor_;  // on texel colours
-    std::array<Spectrum, kBodyCount> map_mean_;    // mean colour after that; 1 without a map
+    std::array<Spectrum, kMaxBodies> map_factor_;  // on texel colours
+    std::array<Spectrum, kMaxBodies> map_mean_;    // mean colour after that; 1 without a map
 
-    std::array<PlacedBody, kBodyCount> disks_, points_;
-    std::array<BodyLight, kBodyCount> body_lights_;
+    std::array<PlacedBody, kMaxBodies> disks_, points_;
+    std::array<BodyLight, kMaxBodies> body_lights_;
     std::size_t disk_count_ = 0, point_count_ = 0, body_light_count_ = 0;
     const PlacedBody* plain_ = nullptr;
     Spectrum plain_radiance_;
@@ -168,12 +185,20 @@ class Background {
     double pixel_rad_ = 0;
     bool camera_in_air_ = false, earth_in_patches_ = false;
 
+    const Figure& figure(std::size_t i) const { return bodies_.figure(static_cast<BodyId>(i)); }
     PlacedBody placed(BodyId id, const WorldSnapshot& world, bool stays) const;
     bool add_bodies_from(Vec3d origin_m, Vec3d dir, Spectrum& weight, Spectrum& radiance,
                          double width_rad) const;
     bool add_earth(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double width_rad, Spectrum& weight,
                    Spectrum& radiance) const;
     bool hides_from(Vec3d origin_m, Vec3d dir, double distance) const;
+    void add_planetshine(const WorldSnapshot& world, PlacedBody& body) const;
+    // Radius with air or mountains.
+    double outer_radius_m(BodyId id) const;
+    double met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
+    bool has_rings(BodyId id) const { return id == BodyId::kSaturn && scene_[index_of(id)].rings; }
+    void add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double until, Spectrum& weight,
+                   Spectrum& radiance) const;
     bool has_air(BodyId id) const { return air_ && id == BodyId::kEarth; }
     bool is_modelled(BodyId id) const { return earth_ && id == BodyId::kEarth; }
     // Returns how far above its ground a body is to be seen [m].

@@ -16,6 +16,7 @@
 #include "render/sky/atmosphere.h"
 #include "render/sky/bodies.h"
 #include "render/sky/body_light.h"
+#include "render/sky/body_relief.h"
 #include "render/sky/stars.h"
 #include "render/vocabulary/mesh.h"
 
@@ -38,7 +39,12 @@ struct SceneObject {
 struct SceneBody {
     bool visible = false;
     BodyLook look;
-    MipTexture map;  // empty: uniform. Relative to its mean where the look is tied to a magnitude
+    MipTexture map;            // empty: uniform. Relative to its mean where the look is tied to a magnitude
+    double map_reference = 0;  // or to this value, linear; 0: the mean
+    BodyRelief relief{};       // empty: smooth
+    bool planetshine = false;  // other bodies light it
+    bool rings = false;        // Saturn's
+    std::string name{};        // name of a body of the scenario's own
 };
 
 // Ground from a height map (terrain.h), at rest in the world or on a body that turns.
@@ -61,7 +67,7 @@ struct Scene {
     std::vector<SceneLamp> lamps;
     std::vector<Star> stars;
     TimeTai stars_time;                        // time of the stars' places
-    std::array<SceneBody, kBodyCount> bodies;  // by BodyId
+    std::array<SceneBody, kMaxBodies> bodies;  // by BodyId
     std::unique_ptr<Atmosphere> air;           // the Earth's; null: none
     // Refers to air; null: the Earth is its look and map. Shared, so that scenes need not know its type.
     std::shared_ptr<const EarthModel> earth;

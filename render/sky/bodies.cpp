@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "render/sky/own_bodies.h"
 #include "render/sky/planet_series.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
@@ -279,6 +280,7 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
         out.body[i] = {
             apparent(there.position_m - home.position_m), body_fixed_from_icrf(id, then, origin.earth), {}};
     }
+    if (origin.own) place_own_bodies(time, *origin.own, center, out);
     return out;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -35,6 +36,10 @@ enum class BodyId : std::uint8_t {
 inline constexpr std::size_t kBodyCount = 9;
 inline constexpr std::array<std::string_view, kBodyCount> kBodyNames = {
     "mercury", "venus", "earth", "moon", "mars", "jupiter", "saturn", "uranus", "neptune"};
+// Bodies of the scenario's own (own_bodies.h) come after these.
+inline constexpr std::size_t kMaxOwnBodies = 8;
+inline constexpr std::size_t kMaxBodies = kBodyCount + kMaxOwnBodies;
+inline constexpr BodyId kNoBody{kMaxBodies};
 inline constexpr std::size_t index_of(BodyId id) { return static_cast<std::size_t>(id); }
 
 // An ellipsoid of revolution about its z axis.
@@ -88,6 +93,7 @@ Mat3d body_fixed_from_local(const Geodetic& place);
 
 // The scenario's world origin: a body's centre, a place that rides with a rotating body, or a place in free
 // space that is at rest against the Sun.
+struct OwnBodies;
 struct OriginConfig {
     enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed, kFree } kind = Kind::kEarthCenter;
     BodyId body = BodyId::kEarth;
@@ -95,6 +101,7 @@ struct OriginConfig {
     Geodetic place;
     EarthOrientation earth;  // no key of this section either: `earth_orientation` of the scenario
     Vec3d sun_m;  // position of the Sun with kFree; no key of this section (emulator/scenario/free_space.h)
+    std::shared_ptr<const OwnBodies> own;  // `bodies` of the scenario; null: none
     bool has_body = false, has_longitude = false, has_latitude = false, has_height = false;
 
     // The body that the origin belongs to; none: free space.
@@ -114,14 +121,18 @@ struct BodyState {
     Mat3d fixed_from_world;
     // Its motion in the world that world_m does not show yet as light time: where the origin turns with it.
     Vec3d velocity_m_s;
+    Figure figure{};  // figure of a body of the scenario's own; the others have kFigures
 };
 struct Bodies {
     Vec3d sun_world_m;
     StateVector origin_from_barycenter;  // ICRF axes
-    std::array<BodyState, kBodyCount> body;
+    std::array<BodyState, kMaxBodies> body;
 
     BodyState& operator[](BodyId id) { return body[index_of(id)]; }
     const BodyState& operator[](BodyId id) const { return body[index_of(id)]; }
+    const Figure& figure(BodyId id) const {
+        return index_of(id) < kBodyCount ? kFigures[index_of(id)] : (*this)[id].figure;
+    }
     const BodyState& earth() const { return (*this)[BodyId::kEarth]; }
 };
 // Loop: some hundred microseconds, no allocation.
@@ -136,6 +147,21 @@ Vec3d aberrated(Vec3d dir, Vec3d observer_velocity_m_s);
 // of the length of its tangent and the place of its middle, and is boosted as such. A radius of 0 is
 // aberration.
 Vec3d seen_in_motion(Vec3d to_body_m, double radius_m, Vec3d observer_velocity_m_s);
+
+// Body axes with z stretched so that the ellipsoid is a sphere.
+inline Vec3d stretched(const Figure& figure, Vec3d v) {
+    return {v.x, v.y, v.z * figure.equatorial_radius_m / figure.polar_radius_m};
+}
+// The cosine of half the angle of a ball at a distance; 0 inside it.
+inline double cone_cosine_of(double radius_m, double distance_m) {
+    const double sine = radius_m < distance_m ? radius_m / distance_m : 1.0;
+    return std::sqrt(1 - sine * sine);
+}
+// True when a disk of one half angle can touch another whose middle is at an angle; all by their cosines.
+inline bool can_cover(double cosine_between, double one_cosine, double other_cosine) {
+    const auto angle = [](double cosine) { return std::acos(std::fmin(1.0, std::fmax(-1.0, cosine))); };
+    return angle(cosine_between) < angle(one_cosine) + angle(other_cosine);
+}
 
 // The nearer intersection of a ray from outside with an ellipsoid. Origin and direction in its axes, metres
 // from its centre. Closed form in double. Distance in lengths of the direction, or a negative value: no hit.

@@ -14,6 +14,14 @@ constexpr double kSunColorBv = 0.653;
 // Mercury ... Neptune; the Earth's is not used.
 constexpr std::array<double, kBodyCount> kColorBv = {0.93, 0.82, 0.0, 0.92, 1.36, 0.83, 1.04, 0.56, 0.41};
 
+// The Moon's single-scattering albedo (body_light.h).
+Curve moon_scattering() {
+    return {
+        {0.353, 0.411, 0.467, 0.549, 0.643, 0.687, 0.761, 0.873, 0.937, 1.06, 1.243, 1.586, 1.982, 2.189},
+        {0.199, 0.264, 0.286, 0.335, 0.3854, 0.408, 0.4315, 0.463, 0.452, 0.5095, 0.544, 0.625, 0.673, 0.737},
+        {}};
+}
+
 // The brightness of a thin crescent against a sphere's is not known; it is held from this phase on.
 constexpr double kMaxPhase_deg = 165;
 
@@ -22,6 +30,10 @@ double disk_phase(SurfaceLaw law, double phase_rad) {
 }
 // Geometric albedo of a sphere whose c(0) is 1: 2/3 for Lambert, 1/8 for Lommel-Seeliger.
 double full_disk(SurfaceLaw law) { return law == SurfaceLaw::kLambert ? 2.0 / 3 : 1.0 / 8; }
+
+std::string name_of(BodyId id) {
+    return index_of(id) < kBodyCount ? std::string(kBodyNames[index_of(id)]) : "look";
+}
 
 Curve color_of(BodyId id) {
     const double blue = std::pow(10.0, -0.4 * (kColorBv[index_of(id)] - kSunColorBv));
@@ -98,24 +110,87 @@ Fields fields(BodyConfig& c) {
                       "true: the body is drawn and reflected, shines on the objects and casts shadow; with "
                       "origin.kind free it is false unless given"),
                  c.has_visible),
-        choice("law", c.law, {"lambert", "lommel_seeliger"}, "law by which the surface reflects"),
-        flag("measured_magnitude", c.measured_magnitude,
-             "true: the body is scaled to its measured V magnitude at every phase, and albedo is then a "
-             "factor (not for the Earth)"),
-        curve("albedo", c.albedo, {0, 2},
-              "albedo (lambert) or w (lommel_seeliger), or a factor on magnitude or map"),
+        choice("law", c.law, {"lambert", "lommel_seeliger", "hapke"},
+               "law by which the surface reflects; hapke is that of regolith, not tied to a magnitude"),
+        optional(
+            flag("measured_magnitude", c.measured_magnitude,
+                 "true: the body is scaled to its measured V magnitude at every phase, and albedo is then a "
+                 "factor (not for the Earth, nor with law hapke)"),
+            c.has_measured),
+        optional(
+            curve(
+                "albedo", c.albedo, {0, 2},
+                "albedo (lambert), w (lommel_seeliger) or single-scattering albedo (hapke; the Moon has its "
+                "own), or a factor on magnitude or map"),
+            c.has_albedo),
+        section("regolith", c.regolith, "parameters of law hapke; left out: the Moon's"),
         path("albedo_map", c.albedo_map,
              "equirectangular picture, left edge 180 W, top 90 N; left out: uniform"),
+        number("albedo_map_reference", c.albedo_map_reference, 1, {0, 1},
+               "value of the map, linear, at which the law's albedo or the magnitude holds; 0: its mean"),
+        path("height_map", c.height_map,
+             "heights over a round body's sphere, a number a pixel (TIFF or PNG), placed as albedo_map; left "
+             "out: "
+             "smooth"),
+        number("height_step_m", c.height_step_m, 1, {1e-3, 1e6}, "height of a step of height_map"),
+        number("height_zero_m", c.height_zero_m, 1, {-1e6, 1e6}, "height where height_map has 0"),
+        flag("planetshine", c.planetshine,
+             "true: light that the other bodies send onto it is added (earthshine)"),
+        flag("rings", c.rings, "true: Saturn's rings are drawn, shade it and are shaded by it"),
+    };
+}
+
+void validate(const BodyConfig& c) {
+    if (c.law == SurfaceLaw::kHapke && c.has_measured && c.measured_magnitude)
+        throw KeyError("measured_magnitude",
+                       "found true with law: hapke, which has its own scale; accepted: false");
+    if (c.albedo_map_reference > 0 && c.albedo_map.empty())
+        throw KeyError("albedo_map_reference", "has no effect without albedo_map; accepted: both or neither");
+    if ((c.height_step_m != 1 || c.height_zero_m != 0) && c.height_map.empty())
+        throw KeyError(c.height_step_m != 1 ? "height_step_m" : "height_zero_m",
+                       "has no effect without height_map; accepted: both or neither");
+}
+
+Fields fields(RegolithConfig& r) {
+    return {
+        number("lobe_width", r.lobe_width, 1, {0, 0.95}, "b, width of both lobes of the phase function"),
+        number("lobe_backward", r.lobe_backward, 1, {-1, 1},
+               "c, (1 + c) / 2 is the share of the lobe that scatters back"),
+        number("surge_amplitude", r.surge_amplitude, 1, {0, 10}, "amplitude of the opposition surge"),
+        number("surge_width", r.surge_width, 1, {1e-4, 1}, "angular width of the opposition surge"),
+        number("slope_deg", r.slope_rad, kDegree_rad, {0, 60}, "mean slope of the roughness"),
     };
 }
 
 BodyLook::BodyLook(BodyId id, const BodyConfig& config, const SpectralGrid& grid)
-    : law_(config.law), measured_(config.measured_magnitude), albedo_(grid.average(config.albedo)) {
+    : law_(config.law),
+      measured_(config.measured_magnitude && config.law != SurfaceLaw::kHapke),
+      albedo_(grid.average(config.albedo)),
+      bins_(grid.size()) {
     require_cover(config.albedo, grid, "albedo");
+    if (law_ == SurfaceLaw::kHapke) {
+        if (!config.has_albedo && id != BodyId::kMoon)
+            throw InputError(
+                name_of(id) +
+                ".albedo: not given with law: hapke; accepted: the single-scattering albedo, 0 to 1");
+        if (!config.has_albedo) albedo_ = grid.average(moon_scattering());
+        for (int b = 0; b < bins_; ++b)
+            if (albedo_[b] > 1)
+                throw InputError(
+                    name_of(id) +
+                    ".albedo: found above 1 with law: hapke; accepted: a single-scattering albedo, 0 to 1");
+        const RegolithConfig& r = config.regolith;
+        hapke_ = {static_cast<float>(r.lobe_width), static_cast<float>(r.lobe_backward),
+                  static_cast<float>(r.surge_amplitude), static_cast<float>(r.surge_width),
+                  static_cast<float>(std::tan(r.slope_rad))};
+        integrate_disk();
+        return;
+    }
     if (measured_ && id == BodyId::kEarth)
         throw InputError("earth.measured_magnitude: there is no such law for the Earth; accepted: false");
-    if (measured_) albedo_ = albedo_ * grid.average(color_of(id));
-    const Figure& figure = kFigures[index_of(id)];
+    if (measured_ && index_of(id) < kBodyCount) albedo_ = albedo_ * grid.average(color_of(id));
+    if (measured_ && index_of(id) >= kBodyCount)
+        throw InputError("look.measured_magnitude: there is no such law for it; accepted: false");
     for (std::size_t i = 0; i < by_degree_.size(); ++i) {
         if (!measured_) {
             by_degree_[i] = 1;
@@ -123,7 +198,7 @@ BodyLook::BodyLook(BodyId id, const BodyConfig& config, const SpectralGrid& grid
         }
         const double g = std::min(static_cast<double>(i), kMaxPhase_deg) * kDegree_rad;
         // Geometric albedo times phase function: flux ratio over (R / 1 au)^2.
-        const double ratio = kAstronomicalUnit_m / figure.equatorial_radius_m;
+        const double ratio = kAstronomicalUnit_m / kFigures[index_of(id)].equatorial_radius_m;
         const double flux = std::pow(10.0, -0.4 * (magnitude_v_1au(id, g) - kSunMagnitudeV)) * ratio * ratio;
         by_degree_[i] = static_cast<float>(flux / (full_disk(law_) * disk_phase(law_, g)));
     }
@@ -136,8 +211,50 @@ float BodyLook::coefficient(double phase_rad) const {
     return by_degree_[i] + share * (by_degree_[i + 1] - by_degree_[i]);
 }
 
+// The visible lit part of a unit sphere, seen along z: by its chords along y, which the phase does not shorten, and
+// along each of them.
+void BodyLook::integrate_disk() {
+    constexpr int kRows = 24, kColumns = 64;
+    for (int degree = 0; degree <= 181; ++degree) {
+        const double g = std::min(degree, 180) * kDegree_rad;
+        Spectrum sum;
+        for (int j = 0; j < kRows; ++j) {
+            const double y = std::sin(0.5 * kPi * (j + 0.5) / kRows);
+            const double half = std::sqrt(1 - y * y), strip = 0.5 * kPi / kRows * half;
+            // From the terminator to the bright limb, longitudes along the chord.
+            const double least = g - 0.5 * kPi, most = 0.5 * kPi;
+            for (int i = 0; i < kColumns; ++i) {
+                const double lon = least + (most - least) * (i + 0.5) / kColumns;
+                const auto mu = static_cast<float>(half * std::cos(lon)),
+                           mu0 = static_cast<float>(half * std::cos(lon - g));
+                const double area = strip * (most - least) / kColumns * half * std::cos(lon);
+                sum +=
+                    static_cast<float>(2 * area) * reflectance_sr(mu0, mu, static_cast<float>(std::cos(g)));
+            }
+        }
+        disk_by_degree_.push_back(sum);
+    }
+}
+
+Spectrum BodyLook::max_sr() const {
+    if (law_ != SurfaceLaw::kHapke) return reflectance_sr(1, 0, 1);
+    Spectrum most;
+    for (const auto& [mu0, mu, cosine] :
+         {std::array{1.0f, 1.0f, 1.0f}, {1.0f, 0.02f, 0.02f}, {0.1f, 0.02f, 0.99f}}) {
+        const Spectrum at = reflectance_sr(mu0, mu, cosine);
+        for (int b = 0; b < bins_; ++b) most[b] = std::max(most[b], at[b]);
+    }
+    return most;
+}
+
 Spectrum BodyLook::reflectance_sr(float mu0, float mu, float cos_phase) const {
     if (!(mu0 > 0)) return {};
+    if (law_ == SurfaceLaw::kHapke) {
+        const HapkeGeometry g = hapke_geometry(hapke_, std::max(mu, 1e-3f), mu0, cos_phase);
+        Spectrum out;
+        for (int b = 0; b < bins_; ++b) out[b] = mu0 * hapke(g, albedo_[b]);
+        return out;
+    }
     const float law = law_ == SurfaceLaw::kLambert
                           ? mu0 / static_cast<float>(kPi)
                           : mu0 / (4 * static_cast<float>(kPi) * (mu0 + std::max(mu, 0.0f)));
@@ -147,6 +264,12 @@ Spectrum BodyLook::reflectance_sr(float mu0, float mu, float cos_phase) const {
 }
 
 Spectrum BodyLook::disk_albedo(double phase_rad) const {
+    if (law_ == SurfaceLaw::kHapke) {
+        const double degrees = std::clamp(phase_rad / kDegree_rad, 0.0, 180.0);
+        const auto i = static_cast<std::size_t>(degrees);
+        const auto share = static_cast<float>(degrees - static_cast<double>(i));
+        return (1 - share) * disk_by_degree_[i] + share * disk_by_degree_[i + 1];
+    }
     return static_cast<float>(static_cast<double>(coefficient(phase_rad)) * full_disk(law_) *
                               disk_phase(law_, phase_rad)) *
            albedo_;

@@ -11,17 +11,34 @@
 // (Explanatory Supplement to the Astronomical Almanac, 1992, table 15.8; Sun 0.653, Ramirez et al., ApJ 752,
 // 2012), straight on to 0.65 um and flat beyond. What is not in it: bands of methane, which make Uranus and
 // Neptune several times darker beyond 0.7 um.
+//
+// Or Hapke's law (render/brdf/hapke.h), L = E_s mu_0 f, with no magnitude behind it: the Moon as LROC's Wide Angle Camera
+// measured it, Sato et al., J. Geophys. Res. Planets 119, 1775 (2014), with the medians of their maps at 643 nm
+// between 30 S and 30 N: w 0.3854, b 0.2375, h_s 0.0672, roughness 23.657 deg, no coherent backscatter; c by their
+// eq. 2 and the surge by their eq. 4 from these, 0.3253 and 1.686. Only the colour is not theirs: w at other wavelengths gives a
+// sphere the ratio of reflectance to that at 643 nm which ROLO has at 30 deg of phase (Kieffer & Stone, Astron. J.
+// 129, 2887, 2005, table 4, means of neighbouring bands and of waxing and waning). So the scale at 643 nm and the
+// phase curve in all bands may be held against ROLO; the colour at 30 deg may not.
 
 #include <array>
 #include <filesystem>
 
 #include "render/sky/bodies.h"
+#include "render/brdf/hapke.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/spectrum.h"
 
 namespace hilcam {
 
-enum class SurfaceLaw { kLambert, kLommelSeeliger };
+enum class SurfaceLaw { kLambert, kLommelSeeliger, kHapke };
+
+// Hapke's law but for w; the defaults are the Moon's.
+struct RegolithConfig {
+    double lobe_width = 0.2375, lobe_backward = 0.3253;
+    double surge_amplitude = 1.686, surge_width = 0.0672;
+    double slope_rad = 23.657 * kDegree_rad;
+};
+Fields fields(RegolithConfig& regolith);
 
 struct BodyConfig {
     bool visible = true;
@@ -29,11 +46,20 @@ struct BodyConfig {
     SurfaceLaw law = SurfaceLaw::kLambert;
     bool measured_magnitude = false;    // c(g) from the measured magnitude; `albedo` is then a factor
     Curve albedo = Curve::constant(1);  // Lambert: albedo; Lommel-Seeliger: w, 8 times the normal reflectance
-    std::filesystem::path albedo_map;   // equirectangular, left edge 180 W, top 90 N
+    bool has_albedo = false, has_measured = false;
+    RegolithConfig regolith;
+    std::filesystem::path albedo_map;  // equirectangular, left edge 180 W, top 90 N
+    double albedo_map_reference = 0;   // linear value of the map that has the law's own light; 0: its mean
+    std::filesystem::path height_map;  // likewise; value x step + zero
+    double height_step_m = 1, height_zero_m = 0;
+    bool planetshine = false;
+    bool rings = false;
 };
 // The keys of a body's section; defaults are the body's own.
 BodyConfig default_body(BodyId id);
 Fields fields(BodyConfig& config);
+// Throws KeyError for keys that contradict each other.
+void validate(const BodyConfig& config);
 
 // The look of a body on the run's spectral grid.
 class BodyLook {
@@ -48,15 +74,22 @@ class BodyLook {
     // geometric albedo times phase function.
     Spectrum disk_albedo(double phase_rad) const;
     bool plain_lambert() const { return law_ == SurfaceLaw::kLambert && !measured_; }
+    bool is_hapke() const { return law_ == SurfaceLaw::kHapke; }
     const Spectrum& albedo() const { return albedo_; }
+    // No element sends more per unit of irradiance [sr^-1].
+    Spectrum max_sr() const;
 
   private:
     float coefficient(double phase_rad) const;
+    void integrate_disk();
 
     SurfaceLaw law_ = SurfaceLaw::kLambert;
     bool measured_ = false;
     Spectrum albedo_;
     std::array<float, 182> by_degree_{};  // c at 0, 1, ... 180 degrees
+    HapkeParameters hapke_;
+    int bins_ = 0;
+    std::vector<Spectrum> disk_by_degree_;  // hapke: disk_albedo() at 0, 1, ... 181 degrees
 };
 
 // Disk-integrated phase functions of a sphere, 1 at zero phase: Lambert 1760; Seeliger 1887 (Hapke

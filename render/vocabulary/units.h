@@ -4,6 +4,7 @@
 namespace hilcam {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr float kPiF = static_cast<float>(kPi);
 inline constexpr double kTurn_rad = 2 * kPi;
 inline constexpr double kDegree_rad = kPi / 180.0;
 inline constexpr double kArcsecond_rad = kPi / 648000.0;

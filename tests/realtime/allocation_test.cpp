@@ -295,6 +295,16 @@ TEST_F(Allocation, NorWithLamps) {
                   0);
 }
 
+TEST_F(Allocation, NorWithLightFromBesideThePictureAndBodiesWithAllTheyHave) {
+    EXPECT_EQ(allocations(
+                  {"camera.stray_light={veiling_glare_fraction: 0.001, glare_radius_px: 3}",
+                   "camera.outside_light={ghosts: [{gain: 1.0e-6, defocus_mm: 2}]}",
+                   "camera.spider={vanes: 4, width_mm: 0.01}", "moon={law: hapke, planetshine: true}",
+                   "saturn.rings=true",
+                   "bodies=[{name: io, equatorial_radius_km: 1800, kepler: {semi_major_axis_km: 421800}}]"}),
+              0);
+}
+
 TEST_F(Allocation, NorWithANoiseBudget) { EXPECT_EQ(allocations({"quality.noise_budget=0.2"}), 0); }
 
 // Below a budget that nothing meets it goes down a ladder of fifteen levels, some frames each: it is on its

@@ -61,6 +61,14 @@ constexpr Mistake kMistakes[] = {
     {"SectionMisspelt", 20, "object:", "20:1", "unknown key; nearest known key: objects"},
     {"KeyOfAnotherSection", 1, "exposure_ms: 5", "1:1",
      "unknown key; there is camera.exposure_ms; known keys"},
+    // Keys that contradict each other.
+    {"CurveAndBaffle", 11,
+     "  outside_light: {transmittance: [[10, 1.0e-4], [20, 1.0e-6]], baffle_angle_deg: 30}", "11:82",
+     "a measured transmittance has the baffle in it; accepted: one of the two"},
+    {"MagnitudeOfHapke", 24, "moon: {law: hapke, measured_magnitude: true}", "24:40",
+     "which has its own scale"},
+    {"HeightsWithoutMap", 24, "moon: {law: hapke, height_zero_m: -10000}", "24:35",
+     "has no effect without height_map"},
     // Values.
     {"WordForNumber", 9, "  f_number: wide", "9:13", "found 'wide'; accepted: a number"},
     {"UnitInValue", 8, "  focal_length_mm: 6.4 mm", "8:20", "found '6.4 mm'; accepted: a number"},

@@ -1,4 +1,4 @@
-#include "sensor/far_wings.h"
+#include "sensor/stray/far_wings.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

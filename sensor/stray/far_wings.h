@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "render/vocabulary/image_geometry.h"
-#include "sensor/stray_light.h"
+#include "sensor/stray/stray_light.h"
 
 namespace hilcam {
 

@@ -1,4 +1,4 @@
-#include "sensor/stray_light.h"
+#include "sensor/stray/stray_light.h"
 
 #include <algorithm>
 #include <cmath>

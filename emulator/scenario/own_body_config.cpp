@@ -1,0 +1,150 @@
+#include "emulator/scenario/own_body_config.h"
+
+#include <algorithm>
+
+#include "emulator/motion/ephemeris.h"
+#include "emulator/motion/kepler_orbit.h"
+#include "emulator/motion/world_frame.h"
+#include "io/files/oem_file.h"
+#include "render/sky/earth_frames.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+std::vector<std::string> names_of_centers() {
+    std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
+    names.emplace_back("sun");
+    return names;
+}
+
+std::optional<BodyId> center_id(const OwnBodyConfig& c) {
+    if (c.center == kBodyCount) return std::nullopt;
+    return static_cast<BodyId>(c.center);
+}
+
+std::function<StateVector(TimeTai)> kepler_orbit(const OwnBodyConfig& c, TimeTai start) {
+    const KeplerConfig& k = c.kepler.value();
+    const double mean = k.has_true ? mean_anomaly(k.true_anomaly_rad, k.eccentricity) : k.mean_anomaly_rad;
+    const TimeTai epoch = k.epoch_utc.empty() ? start : parse_utc(k.epoch_utc);
+    const KeplerOrbit orbit(
+        {k.semi_major_axis_m, k.eccentricity, k.inclination_rad, k.node_rad, k.periapsis_rad, mean},
+        gravity_m3_s2({center_id(c)}));
+    return
+        [orbit, epoch](TimeTai time) { return orbit.at(static_cast<double>(time - epoch) * kSecondsPerNs); };
+}
+
+// The body stands outside the ephemeris as at its nearest instant.
+std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, TimeTai start) {
+    auto segments =
+        std::make_shared<const std::vector<OemSegment>>(load_oem(c.oem.value().file, c.oem->object));
+    const std::string file = c.oem->file.string(), center = names_of_centers()[c.center];
+    for (const OemSegment& s : *segments) {
+        std::string name = s.center_name;
+        std::transform(name.begin(), name.end(), name.begin(),
+                       [](char l) { return l >= 'A' && l <= 'Z' ? static_cast<char>(l - 'A' + 'a') : l; });
+        const std::string where = file + ":" + std::to_string(s.line);
+        if (name != center && name != center + " barycenter")
+            throw InputError(where + ": CENTER_NAME: found " + in_quotes(s.center_name) +
+                             "; accepted: " + center + ", as the body's 'center' says");
+        if (s.frame != CcsdsFrame::kIcrf && s.frame != CcsdsFrame::kEme2000)
+            throw InputError(where + ": REF_FRAME of a body; accepted: ICRF, GCRF, EME2000");
+    }
+    const MotionValidity validity = validity_of(*segments, start);
+    if (validity.status != MotionStatus::kOk)
+        throw InputError(file + ": does not know the scenario's start; the nearest instant it knows is " +
+                         format_utc(validity.nearest));
+    return [segments, from_eme2000 = icrf_from_eme2000()](TimeTai time) {
+        const MotionValidity known = validity_of(*segments, time);
+        const TimeTai at = known.status == MotionStatus::kOk ? time : known.nearest;
+        const OemSegment& segment = segment_of(*segments, at);
+        const StateVector s = interpolate_state(segment, at);
+        if (segment.frame == CcsdsFrame::kIcrf) return s;
+        return StateVector{from_eme2000 * s.position_m, from_eme2000 * s.velocity_m_s};
+    };
+}
+
+}  // namespace
+
+// A grey one, by the law of dark powder.
+OwnBodyConfig::OwnBodyConfig() {
+    look.law = SurfaceLaw::kLommelSeeliger;
+    look.albedo = Curve::constant(0.5);
+}
+
+Fields fields(OwnBodyConfig& c) {
+    return {
+        required(text("name", c.name, "name of the body")),
+        required(
+            number("equatorial_radius_km", c.equatorial_radius_m, 1e3, {1, 1e6}, "radius of its equator")),
+        number("polar_radius_km", c.polar_radius_m, 1e3, {0, 1e6},
+               "distance of its poles from its centre; 0: the equator's radius"),
+        choice("center", c.center, names_of_centers(), "body that it goes around"),
+        section("kepler", c.kepler, "elements of its orbit about the centre, unperturbed"),
+        section("oem", c.oem, "orbit ephemeris message about the centre; replaces kepler"),
+        optional(flag("synchronous", c.synchronous,
+                      "true: its x axis points to the centre and z along the orbit's normal; default: unless "
+                      "pole_deg "
+                      "is given"),
+                 c.has_synchronous),
+        optional(numbers("pole_deg", c.pole_rad, kDegree_rad, {-360, 360}, {2, 2},
+                         "right ascension and declination of its north pole"),
+                 c.has_pole),
+        number("meridian_deg", c.meridian_rad, kDegree_rad, {-360, 360},
+               "angle of its prime meridian from the node on ICRF's equator at J2000"),
+        number("rate_deg_day", c.rate_rad_s, kDegree_rad / 86400, {-1e5, 1e5}, "rate at which it turns"),
+        section("look", c.look, "look of the body, as that of the planets; grey unless said otherwise"),
+    };
+}
+
+void validate(const OwnBodyConfig& c) {
+    if (c.kepler.has_value() == c.oem.has_value())
+        throw KeyError(c.kepler ? "oem" : "kepler", std::string("found ") + (c.kepler ? "both" : "neither") +
+                                                        " of 'kepler' and 'oem'; accepted: one of them");
+    if (c.polar_radius_m > 0 &&
+        (c.polar_radius_m < 0.3 * c.equatorial_radius_m || c.polar_radius_m > 3 * c.equatorial_radius_m))
+        throw KeyError("polar_radius_km", "accepted: a third to three times equatorial_radius_km");
+    if (c.has_pole && c.has_synchronous && c.synchronous)
+        throw KeyError("pole_deg", "has no effect with synchronous: true; accepted: one of them");
+    if (!c.has_pole && (c.rate_rad_s != 0 || c.meridian_rad != 0))
+        throw KeyError(c.rate_rad_s != 0 ? "rate_deg_day" : "meridian_deg",
+                       "has no effect without pole_deg; accepted: both or neither");
+    if (c.look.has_measured && c.look.measured_magnitude)
+        throw KeyError("look.measured_magnitude", "there is no measured magnitude of it; accepted: false");
+    if (c.look.rings) throw KeyError("look.rings", "accepted: false; saturn alone has rings");
+}
+
+std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig>& bodies,
+                                                 const std::string& start_utc) {
+    if (bodies.empty()) return nullptr;
+    if (bodies.size() > kMaxOwnBodies)
+        throw InputError("bodies: found " + std::to_string(bodies.size()) +
+                         "; accepted: " + std::to_string(kMaxOwnBodies) + " at most");
+    const TimeTai start = parse_utc(start_utc);
+    auto out = std::make_shared<OwnBodies>();
+    for (const OwnBodyConfig& c : bodies) {
+        if (std::find(kBodyNames.begin(), kBodyNames.end(), c.name) != kBodyNames.end() || c.name == "sun")
+            throw InputError("bodies: name: found " + in_quotes(c.name) +
+                             "; accepted: not that of a planet, the Moon or the Sun");
+        OwnBody& body = out->list.emplace_back();
+        body.name = c.name;
+        body.figure = {c.equatorial_radius_m,
+                       c.polar_radius_m > 0 ? c.polar_radius_m : c.equatorial_radius_m};
+        body.center = center_id(c);
+        try {
+            body.orbit = c.kepler ? kepler_orbit(c, start) : ephemeris_orbit(c, start);
+        } catch (const InputError& error) {
+            throw InputError("body " + in_quotes(c.name) + ": " + error.what());
+        }
+        body.synchronous = !c.has_pole;
+        if (c.has_pole)
+            body.pole_right_ascension_rad = c.pole_rad[0], body.pole_declination_rad = c.pole_rad[1];
+        body.meridian_rad = c.meridian_rad;
+        body.rate_rad_s = c.rate_rad_s;
+    }
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,38 @@
+#pragma once
+// Round bodies of the scenario's own beside the Moon and the planets: moons of other planets, asteroids, a moon that
+// nobody has found. They are drawn, shine, cast shadows on each other and on the planets, and hide stars as those do.
+//
+// Their places are those of an orbit about their centre, added to where the centre is seen, at the time that the
+// light left it: aberration is the centre's.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/sky/bodies.h"
+
+namespace hilcam {
+
+struct OwnBody {
+    std::string name;
+    Figure figure{};
+    std::optional<BodyId> center;  // none: the Sun
+    // The state about the centre [m, m/s], ICRF axes. Loop, any thread.
+    std::function<StateVector(TimeTai)> orbit;
+    // Its axes: z to the pole; x towards the centre (synchronous, z the orbit's normal), or at an angle from the node
+    // on ICRF's equator at J2000 and turning at a rate (Archinal et al. 2018, figure 1).
+    bool synchronous = true;
+    double pole_right_ascension_rad = 0, pole_declination_rad = 0.5 * kPi;
+    double meridian_rad = 0, rate_rad_s = 0;
+};
+struct OwnBodies {
+    std::vector<OwnBody> list;  // kMaxOwnBodies at most
+};
+
+// Its axes at an instant from its state about its centre.
+Mat3d fixed_from_icrf(const OwnBody& body, const StateVector& about_center, TimeTai time);
+// Puts them into `bodies`, whose planets stand already; home: the body that the origin belongs to. Loop.
+void place_own_bodies(TimeTai time, const OwnBodies& own, std::optional<BodyId> home, Bodies& bodies);
+
+}  // namespace hilcam

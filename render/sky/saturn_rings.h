@@ -1,0 +1,52 @@
+#pragma once
+// Saturn's rings: a sheet of particles in its equator's plane.
+//
+// Radii of the rings and of Cassini's and Encke's divisions, ranges of optical depth and albedo: Saturnian Rings Fact Sheet,
+// NASA GSFC (NSSDC). Depths between the ranges' ends are set by hand as the rings look. A particle scatters as
+// Callisto does, P(alpha) = c (pi - alpha)^n with n = 3.09 (Dones, Cuzzi & Showalter, Icarus 105, 184, 1993), and
+// light once only: with normal optical depth tau and the cosines mu_0, mu to the plane's normal
+//     lit face    L / E = w P / 4 pi mu_0 / (mu_0 + mu) (1 - exp(-tau / mu_0 - tau / mu))
+//     other face  L / E = w P / 4 pi mu_0 / (mu_0 - mu) (exp(-tau / mu_0) - exp(-tau / mu))
+// (Chandrasekhar, Radiative Transfer, 1960, for a layer in first order). Particles are darker in the blue: w falls by
+// a third from 0.55 to 0.40 um, assumed. Not modelled: light between particles and from Saturn, spokes, waves, the D and outer
+// rings, and what the rings add to a Saturn of less than a pixel.
+
+#include "render/vocabulary/spectrum.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+class SaturnRings {
+  public:
+    static constexpr double kOuter_m = 136775e3;
+
+    explicit SaturnRings(const SpectralGrid& grid);
+
+    // Where the rings are met, in Saturn's axes.
+    struct Met {
+        double distance = -1;  // in lengths of the direction; negative: nowhere
+        Vec3d point_m;
+    };
+    static Met meet(Vec3d origin_m, Vec3d dir);
+
+    // Radiance per unit of the Sun's irradiance [sr^-1], and the share of light that passes, averaged over a footprint
+    // along the radius. Directions are unit, from the rings.
+    struct Look {
+        Spectrum radiance_sr;
+        float transmittance = 1;
+    };
+    Look look(Vec3d point_m, double footprint_m, Vec3d to_viewer, Vec3d to_sun) const;
+    // Returns the share of light that the rings leave along a ray that may cross them.
+    static double transmittance(Vec3d origin_m, Vec3d dir);
+
+    // Normal optical depth and single-scattering albedo by distance from Saturn's axis.
+    static double depth(double radius_m);
+    static double albedo(double radius_m);
+    // Normalised: its mean over all directions is 1.
+    static double phase_function(double phase_rad);
+
+  private:
+    Spectrum color_;
+};
+
+}  // namespace hilcam
