@@ -38,11 +38,11 @@ TEST(CameraModel, RefusesWhatCannotBeByName) {
          [](CameraModel& c) {
              c.measured_mtf.mtf = {{0}, {1}}, c.defocus_m = 1e-6;
          }},
-        {"field_zones: field_fraction does not rise",
+        {"field_zones: found field_fraction 0.5 after 0.5",
          [](CameraModel& c) {
              c.field_zones = {{0.5, 0, 0}, {0.5, 0, 0}};
          }},
-        {"nonlinearity: what is read falls",
+        {"nonlinearity: found a response that falls",
          [](CameraModel& c) {
              c.nonlinearity = {-0.5, -0.5};
          }},
@@ -50,7 +50,7 @@ TEST(CameraModel, RefusesWhatCannotBeByName) {
          [](CameraModel& c) {
              c.window_px = {60, 0, 10, 10};
          }},
-        {"binning_x, binning_y: larger",
+        {"binning_x, binning_y: found 2 and 1",
          [](CameraModel& c) {
              c.window_px = {0, 0, 1, 1}, c.binning_x = 2;
          }},

@@ -163,7 +163,8 @@ TEST_F(LampsTest, MistakesAreNamed) {
     EXPECT_THAT(refusal("intensity_w_sr_um: 1, joint: 1"), HasSubstr("the camera has none"));
     EXPECT_THAT(refusal("intensity_w_sr_um: 1, axis: [0, 0, 0]"), HasSubstr("'axis' has no direction"));
     EXPECT_THAT(refusal("intensity_w_sr_um: 1, beam_angle_deg: 30, beam: [[0, 1]]"), HasSubstr("found both"));
-    EXPECT_THAT(refusal("intensity_w_sr_um: 1, beam: [[5, 1], [9, 0]]"), HasSubstr("begin at 0 degrees"));
+    EXPECT_THAT(refusal("intensity_w_sr_um: 1, beam: [[5, 1], [9, 0]]"),
+                HasSubstr("'beam' begins off the axis"));
     EXPECT_THAT(refusal("intensity_w_sr_um: 1, level: 1.5"), HasSubstr("level"));
     std::string many = "intensity_w_sr_um: 1}";
     for (std::size_t i = 0; i < kMaxLamps; ++i) many += ", {name: more, intensity_w_sr_um: 1}";
