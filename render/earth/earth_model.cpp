@@ -86,7 +86,8 @@ Figure raised(double height_m) {
 Fields fields(EarthConfig& c) {
     return {
         path("map", c.map,
-             "map of land, water, clouds and lights, as tools/make_earth_map.py makes it; left out: the "
+             "map of land, water, clouds and lights, as the source tree's tools/make_earth_map.py makes it; "
+             "left out: the "
              "Earth is "
              "earth.albedo or earth.albedo_map"),
         number("wind_m_s", c.wind_m_s, 1, {0, 30},
