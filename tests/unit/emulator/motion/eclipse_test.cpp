@@ -52,8 +52,8 @@ class PolarOrbit {
         world.bodies = bodies_at(world.time, {});
         const Vec3d place_m = orbit_->at(seconds).position_m;
         world.camera.position_world_m = place_m;
-        Background background(stage_.scene.bodies, nullptr, stage_.scene.sun_irradiance_1au_w_m2_um, true,
-                              stage_.grid);
+        Background background(stage_.scene.bodies, nullptr, nullptr, stage_.scene.sun_irradiance_1au_w_m2_um,
+                              true, stage_.grid);
         background.place(world, place_m, 1e-4);
         return background.sun_irradiance_w_m2_um()[0] > 0;
     }

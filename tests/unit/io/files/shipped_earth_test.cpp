@@ -19,26 +19,26 @@
 namespace hilcam {
 namespace {
 
-const SpectralGrid kGrid({0.30, 0.40, 0.48, 0.58, 0.69, 0.80, 1.0, 1.2});
+const SpectralGrid kEarthGrid({0.30, 0.40, 0.48, 0.58, 0.69, 0.80, 1.0, 1.2});
 
 struct ShippedEarth {
     std::unique_ptr<Atmosphere> air;
     std::unique_ptr<EarthModel> model;
-    Spectrum sun = solar_irradiance_1au_w_m2_um(kGrid);
+    Spectrum sun = solar_irradiance_1au_w_m2_um(kEarthGrid);
     ShippedEarth() {
         AtmosphereConfig config;
         config.model = "precomputed";
         config.cache = std::filesystem::temp_directory_path() / "hilcam_earth_test";
-        air = make_precomputed_atmosphere({config, kGrid, nullptr});
+        air = make_precomputed_atmosphere({config, kEarthGrid, nullptr});
         model = std::make_unique<EarthModel>(
             EarthConfig{}, read_earth_map(std::string(HILCAM_SOURCE_DIR) + "/configs/maps/earth.map"),
-            EarthMap{}, air.get(), kGrid);
+            EarthMap{}, air.get(), kEarthGrid);
     }
     // Mean over bins by what the Sun gives them.
     double mean(const Spectrum& s, int from, int to) const {
         double sum = 0, weights = 0;
         for (int b = from; b < to; ++b) {
-            const double w = static_cast<double>(sun[b]) * kGrid.width_um(b);
+            const double w = static_cast<double>(sun[b]) * kEarthGrid.width_um(b);
             sum += w * static_cast<double>(s[b]), weights += w;
         }
         return sum / weights;
@@ -80,8 +80,8 @@ TEST(ShippedEarth, ReflectsAsMuchAsTheEarth) {
     }
     std::ostringstream bins;
     bins.precision(3);
-    for (int b = 0; b < kGrid.size(); ++b)
-        bins << kGrid.from_um(b) << "-" << kGrid.to_um(b) << " um " << bond[b] << "; ";
+    for (int b = 0; b < kEarthGrid.size(); ++b)
+        bins << kEarthGrid.from_um(b) << "-" << kEarthGrid.to_um(b) << " um " << bond[b] << "; ";
     std::cout << table << "Bond albedo: " << bins.str() << "0.40-0.69 um " << earth().mean(bond, 1, 4)
               << "\n";
     EXPECT_NEAR(earth().mean(bond, 1, 4), 0.297, 0.02);
@@ -136,7 +136,7 @@ TEST(ShippedEarth, ZonesAreAsBrightAsCeresHasThem) {
                         Spectrum weight, light;
                         weight.bin.fill(1);
                         earth().model->add(ray, weight, light);
-                        up += kPi / 12 * earth().mean(light, 0, kGrid.size());
+                        up += kPi / 12 * earth().mean(light, 0, kEarthGrid.size());
                     }
                 }
         model[static_cast<std::size_t>(z)] = up / down;
