@@ -22,16 +22,16 @@ TEST(BodyLight, DiskSumsUpToTheMagnitude) {
         for (const double phase : {0.0, 40 * kDegree_rad}) {
             const Vec3d sun{std::sin(phase), 0, std::cos(phase)};
             double sum = 0;
-            constexpr int kGrid = 1000;
-            for (int i = 0; i < kGrid; ++i)
-                for (int j = 0; j < kGrid; ++j) {
-                    const double x = 2 * (i + 0.5) / kGrid - 1, y = 2 * (j + 0.5) / kGrid - 1;
+            constexpr int kAcross = 1000;
+            for (int i = 0; i < kAcross; ++i)
+                for (int j = 0; j < kAcross; ++j) {
+                    const double x = 2 * (i + 0.5) / kAcross - 1, y = 2 * (j + 0.5) / kAcross - 1;
                     if (x * x + y * y >= 1) continue;
                     const Vec3d n{x, y, std::sqrt(1 - x * x - y * y)};
                     sum += static_cast<double>(look.reflectance_sr(static_cast<float>(dot(n, sun)),
                                                                    static_cast<float>(n.z),
                                                                    static_cast<float>(sun.z))[0]) *
-                           4 / (kGrid * kGrid);
+                           4 / (kAcross * kAcross);
                 }
             EXPECT_NEAR(sum / static_cast<double>(look.disk_albedo(phase)[0]), 1, 2e-3)
                 << static_cast<int>(id);
