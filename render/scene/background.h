@@ -53,8 +53,8 @@ class Background {
   public:
     // The bodies, the air and the Earth of the scene must outlive this.
     Background(const std::array<SceneBody, kMaxBodies>& bodies, const Atmosphere* air,
-               const EarthModel* earth,
-               const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening, const SpectralGrid& grid);
+               const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um, bool limb_darkening,
+               const SpectralGrid& grid);
 
     // Once per frame. objects_world_m: where the objects are and rays are counted from (frame_view.h).
     // pixel_rad: bodies smaller than this are points, not here. Bodies are where a camera in motion sees

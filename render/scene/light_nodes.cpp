@@ -180,7 +180,7 @@ LightNodes::LightNodes(const Mesh& mesh, std::span<const std::uint8_t> keeps, st
         Group group{{}, i};
         group.set.fill(kClosed);
         std::size_t count = 0;
-        // Of a wall with more than eight cells about a corner, which a third one joins, eight are enough.
+        // A wall may have more than eight cells about a corner, which a third one joins: eight are enough.
         for (const CornerUse& use = uses[i]; i < uses.size() && uses[i].together(use); ++i)
             if (count < group.set.size()) group.set[count++] = uses[i].cell;
         groups.push_back(group);
