@@ -216,7 +216,8 @@ Spectrum Background::point_irradiance(const PlacedBody& body) const {
         return static_cast<float>(a * a / (body.distance_m * body.distance_m)) *
                (body.irradiance_w_m2_um * earth_->disk_albedo(to_camera, body.sun_dir, 400));
     const double phase = std::acos(std::clamp(dot(to_camera, body.sun_dir), -1.0, 1.0));
-    // These are the semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's latitude.
+    // These are the semi-axes of the ellipse that it shows: a and sqrt(a^2 sin^2 + b^2 cos^2) of the camera's
+    // latitude.
     const double sine = to_camera.z;
     const double area_ratio =
         a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);

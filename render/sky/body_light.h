@@ -23,8 +23,8 @@
 #include <array>
 #include <filesystem>
 
-#include "render/sky/bodies.h"
 #include "render/brdf/hapke.h"
+#include "render/sky/bodies.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/spectrum.h"
 
