@@ -30,7 +30,7 @@ class OutputList {
         const Given<Config>& output = std::get<Given<Config>>(all_);
         return output.given ? &output.config : nullptr;
     }
-    // As the scenario gives it, or its defaults.
+    // Returns it as the scenario gives it, or its defaults.
     template <class Config>
     const Config& config() const {
         return std::get<Given<Config>>(all_).config;

@@ -1,4 +1,5 @@
 """What the comparisons with flight pictures share: where they are, how they are read, how hilcam's are made and shown."""
+import math
 import os
 import pathlib
 import subprocess
@@ -97,3 +98,19 @@ class Judgement:
         if self.missed:
             print("missed: " + ", ".join(self.missed))
         return 1 if self.missed else 0
+
+
+def propagated(place, velocity, duration_s, gm_km3_s2):
+    """Returns the place [km] after so long about one point mass, by Runge and Kutta's fourth order in steps of 10 s at most."""
+    steps = math.ceil(abs(duration_s) / 10)
+    h, state = duration_s / steps, numpy.concatenate([place, velocity])
+
+    def rate(s):
+        return numpy.concatenate([s[3:], -gm_km3_s2 * s[:3] / numpy.linalg.norm(s[:3]) ** 3])
+
+    for _ in range(steps):
+        a = rate(state)
+        b = rate(state + h / 2 * a)
+        c = rate(state + h / 2 * b)
+        state = state + h / 6 * (a + 2 * b + 2 * c + rate(state + h * c))
+    return state[:3]

@@ -13,7 +13,7 @@ import tempfile
 
 import numpy
 
-from flight_pictures import (DATA, PICTURE, SKIPPED, SOURCE, Judgement, blurred, correlation, fits_arrays, render, shift_between,
+from flight_pictures import (DATA, PICTURE, SKIPPED, SOURCE, Judgement, blurred, correlation, fits_arrays, propagated, render, shift_between,
                              side_by_side, top)
 
 # The label has the attitude, the Sun and the distance from Eros, but not from where. Place and velocity in ICRF relative to Eros, 6.4
@@ -62,21 +62,6 @@ def turned(axis, angle_deg):
     """Returns the matrix that takes a vector's components to axes turned by an angle about x (0) or z (2)."""
     c, s = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
     return numpy.array([[1, 0, 0], [0, c, s], [0, -s, c]] if axis == 0 else [[c, s, 0], [-s, c, 0], [0, 0, 1]])
-
-
-def propagated(place, velocity, duration_s, steps=2000):
-    """Returns the place after so long about Eros as a point, by Runge and Kutta's fourth order."""
-    h, state = duration_s / steps, numpy.concatenate([place, velocity])
-
-    def rate(s):
-        return numpy.concatenate([s[3:], -EROS_KM3_S2 * s[:3] / numpy.linalg.norm(s[:3]) ** 3])
-
-    for _ in range(steps):
-        a = rate(state)
-        b = rate(state + h / 2 * a)
-        c = rate(state + h / 2 * b)
-        state = state + h / 6 * (a + 2 * b + 2 * c + rate(state + h * c))
-    return state[:3]
 
 
 def listed(values):
@@ -133,7 +118,7 @@ def main():
     place_of_row = (LINES / 2 - 0.5) + (numpy.arange(HEIGHT) - (HEIGHT / 2 - 0.5)) / LINE_PX
     flight = numpy.stack([numpy.interp(place_of_row, numpy.arange(LINES), column) for column in raw.T], axis=1)
 
-    place = propagated(PLACE_KM, VELOCITY_KM_S, PICTURE_ET_S - PLACE_ET_S)
+    place = propagated(PLACE_KM, VELOCITY_KM_S, PICTURE_ET_S - PLACE_ET_S, EROS_KM3_S2)
     print(f"distance {numpy.linalg.norm(place):.2f} km, the label's {numbers['TARGET_CENTER_DISTANCE'][0]}")
     camera = CAMERA_FROM_SPACECRAFT @ from_quaternion(numbers["EMECL_SC_QUATERNION"])
     sun_km = -numpy.array(numbers["SUN_SC_POSITION_VECTOR"])

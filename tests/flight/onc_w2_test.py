@@ -11,7 +11,7 @@ import sys
 
 import numpy
 
-from flight_pictures import DATA, PICTURE, SKIPPED, SOURCE, Judgement, fits_arrays, render, side_by_side
+from flight_pictures import DATA, PICTURE, SKIPPED, SOURCE, Judgement, fits_arrays, propagated, render, side_by_side
 
 # What the picture must be compared with is published elsewhere. Place and velocity in ICRF at 2015-12-03T08:44:58.179 UTC [km, km/s]:
 # instrument position of hyb2_onc_20151203_084458_w2f_l2a in DOI-USGS/ale, tests/pytests/data/isds/hayabusa2_isd.json, after JAXA's kernels.
@@ -33,22 +33,6 @@ moon: {visible: false}
 atmosphere: {model: %(air)s}
 spectrum_edges_um: [0.48, 0.66]
 """
-
-
-def propagated(place, velocity, duration_s):
-    """Returns the place after so long about the Earth alone, by Runge and Kutta's fourth order in steps of 10 s at most."""
-    steps = math.ceil(abs(duration_s) / 10)
-    h, state = duration_s / steps, numpy.concatenate([place, velocity])
-
-    def rate(s):
-        return numpy.concatenate([s[3:], -EARTH_KM3_S2 * s[:3] / numpy.linalg.norm(s[:3]) ** 3])
-
-    for _ in range(steps):
-        a = rate(state)
-        b = rate(state + h / 2 * a)
-        c = rate(state + h / 2 * b)
-        state = state + h / 6 * (a + 2 * b + 2 * c + rate(state + h * c))
-    return state[:3]
 
 
 def direction(header, index=""):
@@ -129,7 +113,7 @@ def main():
         print(f"skipped: no {path} or no {land_map}")
         return SKIPPED
     header, flight = fits_arrays(path)[1]
-    place = propagated(PLACE_KM, VELOCITY_KM_S, PICTURE_S - PLACE_S)
+    place = propagated(PLACE_KM, VELOCITY_KM_S, PICTURE_S - PLACE_S, EARTH_KM3_S2)
     distance = numpy.linalg.norm(place)
     keys = {"camera": SOURCE / "configs/cameras/hyb2_onc_w2.yaml", "place": ", ".join(str(1000 * p) for p in place),
             "pointing": ", ".join(map(str, pointing_deg(header)))}
