@@ -20,7 +20,7 @@
 namespace hilcam {
 namespace {
 
-const tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
+tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
 
 // Mean charge of a row: light times each pixel's gain, plus its dark current.
 HILCAM_CLONES void to_charge(float* light, std::size_t count, const float* gain, const float* dark_e_s,

@@ -120,8 +120,9 @@ Bench over_runs(const std::vector<Run>& runs) {
     out.p99_ms = median_of(runs, [](const Run& r) { return r.p99_ms; });
     for (const Run& run : runs) out.runs_p50_ms.push_back(run.p50_ms);
     out.core_ms_per_frame = median_of(runs, [](const Run& r) { return r.core_ms; });
-    for (const auto& [stage, ignored] : last.stages)
-        out.stages[stage] = median_percentiles(runs, [&](const Run& r) { return r.stages.at(stage); });
+    for (const auto& entry : last.stages)
+        out.stages[entry.first] =
+            median_percentiles(runs, [&](const Run& r) { return r.stages.at(entry.first); });
     out.latency = median_percentiles(runs, [](const Run& r) { return r.latency; });
     out.floor = {median_of(runs, [](const Run& r) { return r.floor.embree_ms; }),
                  median_of(runs, [](const Run& r) { return r.floor.fft_pair_ms; }),

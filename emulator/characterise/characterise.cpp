@@ -221,6 +221,7 @@ class Laboratory {
     }
     static std::vector<LightPoint> points_of(const std::vector<LightLevel>& levels) {
         std::vector<LightPoint> out;
+        out.reserve(levels.size());
         for (const LightLevel& level : levels) out.push_back(level.point);
         return out;
     }
@@ -267,6 +268,7 @@ class Laboratory {
         out_.linearity = linearity(response_points(points), saturation_dn);
         // The same procedure on the data sheet's curve, at the same light and over the same range.
         std::vector<ResponsePoint> promised;
+        promised.reserve(points.size());
         const double efficiency = configured_quantum_efficiency(setup_);
         for (const LightPoint& p : points)
             promised.push_back(

@@ -15,14 +15,14 @@ class Findings {
   public:
     void good(std::string topic, std::string found) { add(Level::kGood, topic, found, ""); }
     void note(std::string topic, std::string found, std::string advice) {
-        add(Level::kNote, topic, found, advice);
+        add(Level::kNote, topic, found, std::move(advice));
     }
     void problem(std::string topic, std::string found, std::string advice) {
-        add(Level::kProblem, topic, found, advice);
+        add(Level::kProblem, topic, found, std::move(advice));
     }
     // A part that is needed and lacks is a problem; one that is not needed is worth a note.
     void lacking(bool needed, std::string topic, std::string found, std::string advice) {
-        add(needed ? Level::kProblem : Level::kNote, topic, found, advice);
+        add(needed ? Level::kProblem : Level::kNote, topic, found, std::move(advice));
     }
     std::vector<Finding> take() { return std::move(list_); }
 

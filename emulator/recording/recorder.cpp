@@ -45,7 +45,7 @@ void Recorder::stop() noexcept {
     thread_.join();
 }
 
-void Recorder::run() noexcept {
+void Recorder::run() {
     while (!stopping_.load()) {
         drain();
         std::this_thread::sleep_for(kPause);

@@ -58,7 +58,7 @@ class Recorder : public FrameRecorder {
   private:
     static constexpr std::size_t kQueueLength = 16384;  // records: 8 s of a command and a frame per ms
 
-    void run() noexcept;
+    void run();
     void drain();
     void write(const Record& record);
     void flush();

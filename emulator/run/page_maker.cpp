@@ -19,6 +19,7 @@ void run_page_maker(const std::string& name, const std::vector<std::string>& arg
     std::vector<std::string> words = {name};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     pid_t child = 0;

@@ -10,6 +10,7 @@ namespace hilcam {
 
 Fields fields(FaultConfig& f) {
     std::vector<std::string> words;
+    words.reserve(std::size(kAllFaults));
     for (const FaultKind kind : kAllFaults) words.emplace_back(name_of(kind));
     const auto present = [&f] {
         return static_cast<std::size_t>(std::find(kAllFaults.begin(), kAllFaults.end(), f.kind) -

@@ -17,7 +17,10 @@ Fields per_frame_fields(RenderQuality& quality) {
 // The renderer's own keys, with their ranges and meanings.
 Fields fields(QualityLevelConfig& l) {
     Fields list = per_frame_fields(l.values);
-    for (Field& field : list) field = optional(std::move(field), l.given[field.key]);
+    for (Field& field : list) {
+        bool& given = l.given[field.key];
+        field = optional(std::move(field), given);
+    }
     return list;
 }
 

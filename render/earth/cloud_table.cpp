@@ -43,8 +43,8 @@ float CloudTable::cosine_at(int i) {
 }
 
 CloudTable::CloudTable(const SpectralGrid& grid) {
-    std::vector<PhaseFunction> phases;
-    for (int b = 0; b < grid.size(); ++b) phases.push_back(PhaseFunction::henyey_greenstein(0.85));
+    std::vector<PhaseFunction> phases(static_cast<std::size_t>(grid.size()),
+                                      PhaseFunction::henyey_greenstein(0.85));
     tbb::parallel_for(0, grid.size(), [&](int b) {
         const double um = grid.center_um(b);
         phases[static_cast<std::size_t>(b)] =
@@ -59,6 +59,7 @@ CloudTable::CloudTable(const SpectralGrid& grid) {
     const std::vector<double> moments =
         phases[static_cast<std::size_t>(grid.size() / 2)].moments(2 * kStreams + 1);
     std::vector<double> cosines;
+    cosines.reserve(kCosines);
     for (int i = 0; i < kCosines; ++i) cosines.push_back(static_cast<double>(cosine_at(i)));
     const ScatteringLayers made = scattering_layers(moments, kStreams, cosines, kThinnest, kThickest);
     left_ = static_cast<float>(1 - made.forward_share);
@@ -95,6 +96,7 @@ CloudTable::CloudTable(const SpectralGrid& grid) {
         for (int a = 0; a < kAzimuths; ++a) {
             const double phi = kPi * a / (kAzimuths - 1);
             std::vector<double> turns;
+            turns.reserve(2 * kStreams);
             for (int m = 0; m < 2 * kStreams; ++m) turns.push_back(m == 0 ? 1 : 2 * std::cos(m * phi));
             for (int s = 0; s < kCosines; ++s)
                 for (int v = 0; v < kCosines; ++v) {

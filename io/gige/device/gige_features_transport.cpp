@@ -195,6 +195,7 @@ void add_channels(FeatureTable& t) {
 
 void add_event_features(FeatureTable& t) {
     std::vector<EnumEntry> kinds;
+    kinds.reserve(std::size(kGigeEvents));
     for (const GigeEvent& event : kGigeEvents) kinds.push_back({event.name, kinds.size()});
     t.add(
         "EventControl",
