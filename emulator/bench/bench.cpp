@@ -97,6 +97,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
 template <class Figure>
 double median_of(const std::vector<Run>& runs, const Figure& figure) {
     std::vector<double> values;
+    values.reserve(runs.size());
     for (const Run& run : runs) values.push_back(figure(run));
     return median(values);
 }

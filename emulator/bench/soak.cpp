@@ -108,6 +108,7 @@ std::size_t slices_of(const SoakOptions& options) {
 SoakCourse course(const std::vector<SoakSlice>& slices, double (*figure)(const SoakSlice&)) {
     if (slices.empty()) return {};
     std::vector<double> values;
+    values.reserve(slices.size());
     for (const SoakSlice& slice : slices) values.push_back(figure(slice));
     const Trend trend = trend_of(values);
     const auto steps = static_cast<double>(values.size() - 1);
