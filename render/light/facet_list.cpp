@@ -15,8 +15,10 @@ struct Lanes {
     using Floats = BrdfSum::Lanes;
     // A normal, how the lane leans against it (body axes), and its share of the area.
     Floats x, y, z, lean_x, lean_y, lean_z, share;
-    Floats rougher;       // square of the alpha that its normals scatter by
-    Floats no, ni, seen;  // cosines, above zero; the part of the share that the viewer sees
+    Floats rougher;                 // square of the alpha that its normals scatter by
+    Floats no, ni;                  // cosines, above zero
+    Floats seen, lit;               // the share as the viewer and the light see it
+    Floats area_x, area_y, area_z;  // the share along its normal
     std::size_t count = 0;
 
     void put(Vec3f normal, Vec3f lean, float part, float alpha) {
@@ -36,9 +38,12 @@ HILCAM_CLONES void look_at(Lanes& lanes, const Mat3f& world_from_body, Vec3f vie
         const float z = lanes.z[i] + (m.z.x * lx + m.z.y * ly + m.z.z * lz);
         const float inverse = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-12f));
         const float no = inverse * (x * view.x + y * view.y + z * view.z);
+        const float area = lanes.share[i] * inverse;
         lanes.seen[i] = lanes.share[i] * std::max(no, 0.0f);
         lanes.no[i] = std::max(no, 1e-4f);
         lanes.ni[i] = std::max(inverse * (x * dir.x + y * dir.y + z * dir.z), 0.0f);
+        lanes.lit[i] = lanes.share[i] * lanes.ni[i];
+        lanes.area_x[i] = area * x, lanes.area_y[i] = area * y, lanes.area_z[i] = area * z;
     }
 }
 
@@ -78,6 +83,7 @@ class Reflection {
 
     void put(const Facet& facet) {
         samples_ += facet.samples;
+        if (dot(facet.geometric_normal, dir_) <= 0) return;
         const std::size_t first = lanes_.count;
         if (facet.flattened) {
             const LevelFacets::Leans lean = facet.flattened->leans();
@@ -87,10 +93,28 @@ class Reflection {
                 lanes_.put(facet.normal, side * Vec3f{lean.x[i], lean.y[i], lean.z[i]}, share[i],
                            facet.flattened->alpha());
         } else {
-            if (dot(facet.geometric_normal, dir_) <= 0) return;
             lanes_.put(facet.normal, {}, 1, 0);
         }
         groups_[group_count_++] = {&facet, first, lanes_.count - first};
+    }
+
+    static float sum_of(const Lanes::Floats& floats, const Group& group) {
+        float sum = 0;
+        for (std::size_t i = group.first; i < group.first + group.count; ++i) sum += floats[i];
+        return sum;
+    }
+
+    // Wrinkles shade each other, most where the light comes along them: as much of it falls on all of them together
+    // as on the flat triangle, whatever their sides face (the condition that Smith's shadowing is made of: Heitz,
+    // JCGT 3(2), 2014, section 2). More than 1 where all of them lean away from the light, by the error of the level.
+    float share_in_light(const Group& group) const {
+        constexpr float kMost = 4;
+        if (!group.facet->flattened) return 1;
+        const float lit = sum_of(lanes_.lit, group);
+        if (!(lit > 0)) return 1;
+        const Vec3f area{sum_of(lanes_.area_x, group), sum_of(lanes_.area_y, group),
+                         sum_of(lanes_.area_z, group)};
+        return std::min(dot(group.facet->geometric_normal, dir_) * length(area) / lit, kMost);
     }
 
     void reflect() {
@@ -99,11 +123,11 @@ class Reflection {
         look_at(lanes_, world_from_body_, at_.view_dir, dir_);
         Lanes::Floats weight{};
         for (const Group& group : std::span(groups_).first(group_count_)) {
-            float seen = 0, lit = 0;
-            for (std::size_t i = group.first; i < group.first + group.count; ++i) seen += lanes_.seen[i];
+            const float seen = sum_of(lanes_.seen, group), in_light = share_in_light(group);
             // A facet that leans away from the viewer as a whole is seen as it lies itself.
             const bool hidden = !(seen > 0);
-            const float each = group.facet->samples / (hidden ? 1 : seen);
+            const float each = in_light * group.facet->samples / (hidden ? 1 : seen);
+            float lit = 0;
             for (std::size_t i = group.first; i < group.first + group.count; ++i)
                 lit += weight[i] = each * (hidden ? lanes_.share[i] : lanes_.seen[i]) * lanes_.ni[i];
             light_.add_start(group.facet->start_m, lit);

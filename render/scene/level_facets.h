@@ -6,7 +6,7 @@
 // The parts of the mesh belong to the triangle of the same surface that is nearest to them and faces as they
 // do. Their normals are divided twice across the axis in which they scatter most, at their mean (as colours
 // are by Wu, ACM Trans. Graphics 10(4), 1991), which keeps their mean and most of their scatter; what is
-// left over within the four groups is kept as roughness. Parts do not hide each other.
+// left over within the four groups is kept as roughness. That parts shade each other is light/facet_list.h's.
 
 #include <array>
 #include <cstdint>

@@ -159,6 +159,39 @@ TEST(Visibility, LevelsOfDetailKeepTheLightOfWrinkles) {
     }
 }
 
+// The Sun stands 4 and 2 degrees above a plate whose waves are up to 14 steep. Without their shadows on each other a
+// level has 15 and 40 % too much light.
+TEST(Visibility, LevelsOfDetailKeepTheShadowsOfWrinkles) {
+    MaterialConfig metal = lambert(0.9);
+    metal.model = kModel<brdf::Metal>;
+    metal.roughness = 0.4;
+    struct Low {
+        double up, within;
+    };
+    for (const MaterialConfig& material : {lambert(0.5), metal})
+        for (const Low low : {Low{0.15, 0.02}, Low{0.1, 0.07}}) {
+            Stage s;
+            s.quality.path_model = "direct";
+            s.quality.rays_across = 0;
+            s.quality.samples_per_axis = 4;
+            s.geometry.focal_length_px = 160;
+            s.sun({1, 0.3, -low.up});
+            SceneObject object = foil(material, s.grid);
+            object.levels = coarser_levels(object.mesh);
+            s.add(object, {0, 0, 15}, {kPi - 0.3, 0.2, 0});
+            s.quality.visibility = "rays";
+            s.quality.lod_error_px = 0;
+            s.render();
+            const double mesh = sum_of(s.radiance);
+            s.quality.lod_error_px = 16;
+            for (const char* visibility : {"rays", "buffer"}) {
+                s.quality.visibility = visibility;
+                s.render();
+                EXPECT_NEAR(sum_of(s.radiance) / mesh, 1, low.within) << visibility << " " << low.up;
+            }
+        }
+}
+
 // A frame with more triangles than there is room for, or no room at all, is for rays: terrain, lenses that
 // bend lines.
 TEST(Visibility, ALensThatBendsLinesIsForRays) {
