@@ -113,10 +113,8 @@ class KeptLight {
     std::span<const FlatMirror> mirrors() const { return albedos_->mirrors; }
     // Returns the irradiance by way of other surfaces, per unit of the source.
     Spectrum irradiance(std::size_t term, const NodesAbout& about) const {
-        Spectrum sum;
-        for (std::size_t i = 0; i < about.count; ++i)
-            sum += about.weight[i] * irradiance_[about.node[i] * terms_.size() + term].unpacked();
-        return sum;
+        return PackedSpectrum::weighted_sum(irradiance_.data() + term, terms_.size(), about.node.data(),
+                                            about.weight.data(), about.count);
     }
     // The same, at one node.
     Spectrum irradiance(std::size_t term, std::uint32_t node) const {

@@ -110,11 +110,9 @@ KeptLight::Lobe KeptLight::lobe(std::size_t sun, std::span<const Cone> cones, st
     float occupied = 0;
     std::size_t met_nodes = node.entries;
     const TransferTable::Entry* const entries = table_->entry(node.first_entry);
-    for (std::size_t i = 0; i < node.entries; ++i) {
-        const float weight = kept[entries[i].direction];
-        occupied += weight;
-        if (along) out.kept += weight * along[i].unpacked();
-    }
+    std::array<float, kMaxDirections> of_entry;  // a direction meets one thing at most
+    for (std::size_t i = 0; i < node.entries; ++i) occupied += of_entry[i] = kept[entries[i].direction];
+    if (along) out.kept = PackedSpectrum::weighted_sum(along, of_entry.data(), node.entries);
     if (links_ && !links_->empty()) {
         const PackedSpectrum* there =
             sun != kNoTerm ? terms_[sun].along_links.data() + links_->first(n) : nullptr;

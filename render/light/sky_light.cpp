@@ -7,7 +7,6 @@
 #include "render/brdf/microfacet.h"
 #include "render/scene/material.h"
 #include "render/vocabulary/clones.h"
-#include "render/vocabulary/lane_sum.h"
 
 namespace hilcam {
 namespace {
@@ -28,24 +27,21 @@ void lobe_weights(const float* x, const float* y, const float* z, std::size_t co
     }
 }
 
-// Sums of weight times value, bin by bin: sixteen sums side by side, so that every width of vectors adds in
-// the same order. count: a multiple of sixteen.
+// Sum of weight times value: a vector holds the bins of one, and four sums side by side do not wait for each other.
+// count: a multiple of four.
 HILCAM_CLONES
-void weighted_sums(const float* weights, const float* values, std::size_t stride, std::size_t count,
-                   Spectrum& sums) {
-    using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
-    for (int b = 0; b < kMaxBins; ++b, values += stride) {
-        Lanes sum = {};
-        for (std::size_t i = 0; i < count; i += kLanes) {
-            Lanes weight, value;
-            std::memcpy(&weight, weights + i, sizeof weight);
-            std::memcpy(&value, values + i, sizeof value);
-            sum += weight * value;
+void weighted_sum(const float* weights, const Spectrum* values, std::size_t count, Spectrum& sum) {
+    using Bins [[gnu::vector_size(sizeof(Spectrum))]] = float;
+    constexpr std::size_t kSums = 4;
+    std::array<Bins, kSums> sums = {};
+    for (std::size_t i = 0; i < count; i += kSums)
+        for (std::size_t k = 0; k < kSums; ++k) {
+            Bins value;
+            std::memcpy(&value, values[i + k].bin.data(), sizeof value);
+            sums[k] += weights[i + k] * value;
         }
-        std::array<float, kLanes> part;
-        std::memcpy(part.data(), &sum, sizeof part);
-        sums[b] = lane_sum(part);
-    }
+    const Bins all = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    std::memcpy(sum.bin.data(), &all, sizeof all);
 }
 
 // Direction i of count, evenly on a cone.
@@ -161,9 +157,6 @@ void SkyLight::place_disks(const Background& background, std::size_t number, Dis
         // of that.
         disks.of[k].min_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
         if (kParts[k] < kPatches) place_parts(whole, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
-        for (std::size_t b = 0; b < kMaxBins; ++b)
-            for (std::size_t i = 0; i < kParts[k]; ++i)
-                disks.of[k].by_bin[b][i] = disks.of[k].irradiance[i][static_cast<int>(b)];
     }
 }
 
@@ -282,7 +275,7 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
     alignas(64) std::array<float, kPatches> weight;
     lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), count, normal, view_dir, alpha, weight.data());
     Spectrum sum;
-    weighted_sums(weight.data(), disk.by_bin[0].data(), kPatches, count, sum);
+    weighted_sum(weight.data(), disk.irradiance.data(), kParts[k], sum);
     return (1 / whole_lobe(alpha, no)) * sum;
 }
 

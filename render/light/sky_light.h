@@ -57,8 +57,6 @@ class SkyLight {
     struct Disk {
         alignas(64) std::array<float, kPatches> x{}, y{}, z{};
         std::array<Spectrum, kPatches> irradiance{};  // irradiance by each, on a surface that faces it
-        alignas(
-            64) std::array<std::array<float, kPatches>, kMaxBins> by_bin{};  // the same, for sums in vectors
         float min_alpha = 0;
     };
     struct Disks {

@@ -3,6 +3,7 @@
 // negative values. Largest error: 8e-6 of the largest bin.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "render/vocabulary/spectrum.h"
@@ -23,9 +24,16 @@ class PackedSpectrum {
         return s;
     }
 
+    // Returns the sum of each one's weight times it, in vectors: of those at first[index[i] * stride], or of those one
+    // behind the other. Weights and spectra: count of them.
+    static Spectrum weighted_sum(const PackedSpectrum* first, std::size_t stride, const std::uint32_t* index,
+                                 const float* weight, std::size_t count);
+    static Spectrum weighted_sum(const PackedSpectrum* first, const float* weight, std::size_t count);
+
   private:
     static constexpr float kMax = 65535;
 
+    friend struct PackedSums;
     std::array<std::uint16_t, kMaxBins> share_{};
     float scale_ = 0;
 };
