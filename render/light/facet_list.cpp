@@ -83,7 +83,7 @@ class Reflection {
 
     void put(const Facet& facet) {
         samples_ += facet.samples;
-        if (dot(facet.geometric_normal, dir_) <= 0) return;
+        if (!facet.flattened && dot(facet.geometric_normal, dir_) <= 0) return;
         const std::size_t first = lanes_.count;
         if (facet.flattened) {
             const LevelFacets::Leans lean = facet.flattened->leans();
@@ -106,15 +106,17 @@ class Reflection {
 
     // Wrinkles shade each other, most where the light comes along them: as much of it falls on all of them together
     // as on the flat triangle, whatever their sides face (the condition that Smith's shadowing is made of: Heitz,
-    // JCGT 3(2), 2014, section 2). More than 1 where all of them lean away from the light, by the error of the level.
+    // JCGT 3(2), 2014, section 2). More than 1 where they lean away from the light; so much only, as the triangle
+    // has an error of its own.
     float share_in_light(const Group& group) const {
-        constexpr float kMost = 4;
+        constexpr float kMost = 2;
         if (!group.facet->flattened) return 1;
         const float lit = sum_of(lanes_.lit, group);
-        if (!(lit > 0)) return 1;
+        const float flat = dot(group.facet->geometric_normal, dir_);
+        if (!(lit > 0 && flat > 0)) return 1;
         const Vec3f area{sum_of(lanes_.area_x, group), sum_of(lanes_.area_y, group),
                          sum_of(lanes_.area_z, group)};
-        return std::min(dot(group.facet->geometric_normal, dir_) * length(area) / lit, kMost);
+        return std::min(flat * length(area) / lit, kMost);
     }
 
     void reflect() {

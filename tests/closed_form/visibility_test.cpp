@@ -169,7 +169,7 @@ TEST(Visibility, LevelsOfDetailKeepTheShadowsOfWrinkles) {
         double up, within;
     };
     for (const MaterialConfig& material : {lambert(0.5), metal})
-        for (const Low low : {Low{0.15, 0.02}, Low{0.1, 0.07}}) {
+        for (const Low low : {Low{0.15, 0.04}, Low{0.1, 0.07}}) {
             Stage s;
             s.quality.path_model = "direct";
             s.quality.rays_across = 0;
