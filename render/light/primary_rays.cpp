@@ -60,7 +60,11 @@ class PrimaryRays {
                     }
                 if (rays_.count == 0) continue;
                 if (tile_.scattered) choose_sequences();
-                const bool even = uncovered_ && (pictured_ || is_even(bx, by));
+                const Block block = !uncovered_ ? Block::kUneven
+                                    : pictured_ ? Block::kEven
+                                                : block_at(bx, by);
+                if (block == Block::kDark) continue;
+                const bool even = block == Block::kEven;
                 const int n = even ? 1 : tile_.samples_per_axis;
                 ray_weight_ = even ? kVisibilitySamples : 1;
                 const float step = 1.0f / static_cast<float>(n);
@@ -102,32 +106,33 @@ class PrimaryRays {
     std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
     std::size_t count_ = 0;
 
-    // Nothing of a block of 4 x 4 pixels is near the rim of a body or of its air, or near the Sun: one ray
-    // tells of all of a pixel.
-    bool is_even(int x, int y) const {
-        if (frame_.background->camera_in_air()) return false;
-        if (frame_.sun_box.overlaps({x, y, x + 4, y + 4})) return false;
+    enum class Block { kDark, kEven, kUneven };
+    // A block of 4 x 4 pixels is even where nothing of it is near the rim of a body or of its air, or near the Sun: one ray
+    // tells of all of a pixel. It is dark where no body can be met.
+    Block block_at(int x, int y) const {
+        if (frame_.background->camera_in_air()) return Block::kUneven;
+        if (frame_.sun_box.overlaps({x, y, x + 4, y + 4})) return Block::kUneven;
         const float at_x = static_cast<float>(x - tile_.box.x0) + 2,
                     at_y = static_cast<float>(y - tile_.box.y0) + 2;
         const Vec3d dir = normalized(linear_ ? corner_ + static_cast<double>(at_x) * linear_->right +
                                                    static_cast<double>(at_y) * linear_->down
                                              : frame_.visibility->direction(x + 2, y + 2, {}));
         const double block_rad = 3 / frame_.geometry.focal_length_px;  // its middle to its corners
+        Block out = Block::kDark;
         for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
             const PlacedBody& body = frame_.background->disks()[i];
             const double radius_rad = std::acos(body.cone_cosine);
             const double from_middle_rad = std::acos(std::clamp(dot(dir, body.world_dir), -1.0, 1.0));
+            if (from_middle_rad - block_rad >= radius_rad) continue;
+            out = Block::kEven;
             // The Earth is flat by a third of a hundredth, and its air a hundredth high.
             constexpr double kWithin = 0.97;
-            if (frame_.background->earth() && body.id == BodyId::kEarth) {
-                if (meets_earths_rim(body, from_middle_rad, block_rad)) return false;
-                continue;
-            }
-            if (from_middle_rad + block_rad > kWithin * radius_rad &&
-                from_middle_rad - block_rad < radius_rad)
-                return false;
+            const bool modelled = frame_.background->earth() && body.id == BodyId::kEarth;
+            if (modelled ? meets_earths_rim(body, from_middle_rad, block_rad)
+                         : from_middle_rad + block_rad > kWithin * radius_rad)
+                return Block::kUneven;
         }
-        return true;
+        return out;
     }
 
     void place_picture() {
