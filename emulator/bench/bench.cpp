@@ -1,6 +1,7 @@
 #include "emulator/bench/bench.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "emulator/bench/pilot.h"
 #include "emulator/progress/progress.h"
@@ -21,14 +22,17 @@ struct Run {
     std::optional<double> within_budget;
 };
 
-// The world at nine places of the circle, the first one where it begins.
-std::vector<WorldSnapshot> around(Emulator& emulator, const CircleFlight& flight) {
+// The world at nine places of the circle, the first one where it begins; without one, as the scenario has it.
+std::vector<WorldSnapshot> around(Emulator& emulator, const std::optional<CircleFlight>& flight) {
     std::vector<WorldSnapshot> out(9);
     for (std::size_t i = 0; i < out.size(); ++i) {
         const std::int64_t now_ns = monotonic_ns();
         const TimeTai now = emulator.clock().at(now_ns);
-        const double seconds = flight.period_s * static_cast<double>(i) / static_cast<double>(out.size());
-        emulator.world().set(0, flight.at(seconds, now), {0, now_ns});
+        if (flight) {
+            const double seconds =
+                flight->period_s * static_cast<double>(i) / static_cast<double>(out.size());
+            emulator.world().set(0, flight->at(seconds, now), {0, now_ns});
+        }
         out[i].objects.resize(emulator.world().placed_objects());
         ShownCommand shown;
         emulator.world().sample(now, out[i], shown);
@@ -57,16 +61,18 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     limits.paced = false;
     limits.outputs = false;
     Emulator emulator(scenario, limits);
-    const CircleFlight flight = flight_around_target(scenario);
+    const std::optional<CircleFlight> flight = flight_around_target(scenario);
     {
         const Progress progress("frames", static_cast<double>(limits.frames), [&emulator] {
             return static_cast<double>(emulator.loop().counters().frames.load());
         });
         // Once round in the frames of a run, so that every run sees the same views however fast it is.
-        const double seconds_per_frame = flight.period_s / static_cast<double>(limits.frames);
-        const Pilot pilot(emulator, flight, [&emulator, seconds_per_frame](std::int64_t) {
-            return seconds_per_frame * static_cast<double>(emulator.loop().counters().frames.load());
-        });
+        const double seconds_per_frame = flight ? flight->period_s / static_cast<double>(limits.frames) : 0;
+        std::optional<Pilot> pilot;
+        if (flight)
+            pilot.emplace(emulator, *flight, [&emulator, seconds_per_frame](std::int64_t) {
+                return seconds_per_frame * static_cast<double>(emulator.loop().counters().frames.load());
+            });
         emulator.run([] {});
     }
     const std::int64_t processor = processor_ns() - emulator.loop().warm_processor_ns();

@@ -6,10 +6,11 @@
 
 namespace hilcam {
 
-CircleFlight flight_around_target(const ScenarioConfig& scenario) {
+std::optional<CircleFlight> flight_around_target(const ScenarioConfig& scenario) {
     const std::vector<Motion> motions = initial_motions(scenario, parse_utc(scenario.time_utc));
+    if (motions.size() < 2) return {};
     CircleFlight flight;
-    if (motions.size() > 1) flight.center_m = motions[1].pose.position_world_m;
+    flight.center_m = motions[1].pose.position_world_m;
     flight.start_m = motions[0].pose.position_world_m;
     flight.axis = flight.up = scenario.camera_pose.up;
     flight.period_s = 120;

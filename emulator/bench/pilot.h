@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include "emulator/motion/flight.h"
@@ -11,8 +12,9 @@
 
 namespace hilcam {
 
-// Once around the first object, from the camera's pose on, in two minutes.
-CircleFlight flight_around_target(const ScenarioConfig& scenario);
+// Once around the first object, from the camera's pose on, in two minutes; none where a scene has no object: its camera moves as the
+// scenario says.
+std::optional<CircleFlight> flight_around_target(const ScenarioConfig& scenario);
 
 // Sends the first camera's poses while it lives, 100 a second on average, each true when it is sent. They
 // come 5 to 15 ms apart, so that they keep no rhythm with the frames: with one, latency would drift with

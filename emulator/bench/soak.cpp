@@ -136,8 +136,8 @@ Soak soak(const ScenarioConfig& configured, const SoakOptions& options) {
     // The watch ends by itself; a second in case it is late.
     limits.seconds = soak.round_s + options.seconds + 1;
     Emulator emulator(scenario, limits);
-    CircleFlight flight = flight_around_target(scenario);
-    flight.period_s = soak.round_s;
+    std::optional<CircleFlight> flight = flight_around_target(scenario);
+    if (flight) flight->period_s = soak.round_s;
     std::optional<SliceWatch> watch;
     {
         std::optional<Pilot> pilot;
@@ -146,8 +146,10 @@ Soak soak(const ScenarioConfig& configured, const SoakOptions& options) {
                                 [begun_ns] { return static_cast<double>(monotonic_ns() - begun_ns) * 1e-9; });
         emulator.run([&] {
             const std::int64_t ready_ns = monotonic_ns();
-            pilot.emplace(emulator, flight,
-                          [ready_ns](std::int64_t ns) { return static_cast<double>(ns - ready_ns) * 1e-9; });
+            if (flight)
+                pilot.emplace(emulator, *flight, [ready_ns](std::int64_t ns) {
+                    return static_cast<double>(ns - ready_ns) * 1e-9;
+                });
             watch.emplace(emulator.loop(), ready_ns + static_cast<std::int64_t>(soak.round_s * 1e9),
                           soak.slice_s, soak.slices);
         });

@@ -6,6 +6,7 @@
 #include "render/light/point_field.h"
 #include "render/visibility/screen_bounds.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
@@ -53,6 +54,10 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
                           any_material(objects_, [](const Material& m) { return largest(m.emission) > 0; });
     kept_settings_ = {static_cast<float>(quality.kept_step_rad), lamps_.all().size(), emission};
     if (!scene.light_later) kept_ = make_kept();
+    if (earth_ && quality.kept_earth)
+        kept_earth_ =
+            std::make_unique<KeptEarth>(*earth_, scene.sun_irradiance_1au_w_m2_um,
+                                        1 / geometry.focal_length_px, background_.top_m(BodyId::kEarth));
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
@@ -205,6 +210,13 @@ void FramePlacer::place_background() {
         frame_.body_boxes[i] = bounds(body.world_dir, body.cone_cosine);
     }
     frame_.sun_box = bounds(background_.sun_camera_dir(), background_.sun_disk_cosine());
+    frame_.earth_picture = nullptr;
+    if (kept_earth_ && rays_->is_still() && background_.earth_in_patches()) {
+        const PlacedBody& earth = background_.disks().front();
+        if (kept_earth_->place(earth.camera_m, earth.sun_dir)) frame_.earth_picture = &kept_earth_->picture();
+        const double au = kAstronomicalUnit_m * earth.sun_radius_rad / kSunRadius_m;
+        frame_.earth_picture_factor = static_cast<float>(au * au);
+    }
 }
 
 void FramePlacer::place_visibility() {

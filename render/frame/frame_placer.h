@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "render/earth/kept_earth.h"
 #include "render/frame/image_motion.h"
 #include "render/frame/kept_handover.h"
 #include "render/frame/plan.h"
@@ -105,6 +106,7 @@ class FramePlacer {
     std::unique_ptr<Atmosphere> air_;
     std::shared_ptr<const EarthModel> earth_;
     ColorBands bands_;
+    std::unique_ptr<KeptEarth> kept_earth_;  // null: none
     Background background_;
     KeptScene::Settings kept_settings_;
     std::unique_ptr<KeptScene> kept_;  // null: its tables have not come

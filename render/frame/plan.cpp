@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "render/earth/earth_model.h"
+#include "render/frame/sky_cost.h"
 #include "render/light/kept_scene.h"
 #include "render/light/lamp_light.h"
 #include "render/visibility/visibility_raster.h"
@@ -57,7 +58,7 @@ const char* reason(ObjectUse use) {
     return "";
 }
 
-std::string body_line(const FrameView& f, std::size_t i) {
+std::string body_line(const FrameView& f, std::size_t i, std::span<const double> costs_ms) {
     const PlacedBody& body = f.background->disks()[i];
     std::ostringstream line;
     line << f.background->name_of(body.id) << ", " << body.distance_m * 1e-3 << " km away, "
@@ -67,6 +68,9 @@ std::string body_line(const FrameView& f, std::size_t i) {
     if (body.may_be_eclipsed) line << "; another body may shadow it";
     const std::string look = f.background->describe(body);
     if (!look.empty()) line << "; " << look;
+    if (f.earth_picture && i == 0) line << "; seen as a kept picture";
+    if (!costs_ms.empty() && !f.body_boxes[i].empty())
+        line << "; its pixels take " << std::round(10 * costs_ms[i]) / 10 << " ms of a core";
     return line.str();
 }
 
@@ -136,7 +140,8 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
                                                    : std::string("random paths (nothing is kept)"));
     }
     lines.push_back(sun_line(f, world));
-    for (std::size_t i = 0; i < f.background->disks().size(); ++i) lines.push_back(body_line(f, i));
+    const std::vector<double> costs_ms = sky_costs_ms(f);
+    for (std::size_t i = 0; i < f.background->disks().size(); ++i) lines.push_back(body_line(f, i, costs_ms));
     std::string far;
     for (const PlacedBody& body : f.background->points())
         far.append(" ").append(f.background->name_of(body.id));

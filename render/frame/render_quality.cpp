@@ -30,6 +30,10 @@ Fields fields(RenderQuality& q) {
                "kept: step of the grid, in an object's own axes, to which directions of the Sun and the "
                "bodies are rounded; an object that turns faster than two steps a second has a wider one, to "
                "10 degrees"),
+        flag("kept_earth", q.kept_earth,
+             "true: the Earth by earth_surface.map is seen as a kept picture where the camera is three radii "
+             "or more above it and its "
+             "disk is 12 to 1280 pixels wide; false: each pixel is worked out"),
         number("facets_behind_diffuse", q.facets_behind_diffuse, 1, {0, 1},
                "path: least GGX alpha of surfaces seen by way of a diffuse one, which prevents sparkle; 0: "
                "surfaces as they are"),

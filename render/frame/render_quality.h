@@ -22,6 +22,7 @@ struct RenderQuality {
     std::int64_t kept_directions = 60;     // kept light: 16, 60 or 256
     std::int64_t kept_nodes = 100'000;     // about, of all objects together
     double kept_step_rad = 1.0 * kDegree_rad;
+    bool kept_earth = false;             // the Earth by its model from a kept picture, from afar
     double facets_behind_diffuse = 0.4;  // least GGX alpha there; 0: as they are
     bool watertight = true;              // no ray slips through between two triangles
     double lod_error_px = 0.25;          // error of a coarser level of detail; 0: the mesh itself, always

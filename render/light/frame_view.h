@@ -20,6 +20,7 @@
 
 namespace hilcam {
 
+class EarthPicture;
 class KeptScene;
 class Lamps;
 class RadianceModel;
@@ -36,8 +37,10 @@ struct FrameView {
         nullptr;  // visibility_buffer.h; null: rays find what the camera sees
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;
-    const Lamps* lamps = nullptr;     // lamp_light.h; null: none
-    const KeptScene* kept = nullptr;  // kept_scene.h; null: the path model does without
+    const Lamps* lamps = nullptr;                 // lamp_light.h; null: none
+    const KeptScene* kept = nullptr;              // kept_scene.h; null: the path model does without
+    const EarthPicture* earth_picture = nullptr;  // the first body's; null: it is worked out pixel by pixel
+    float earth_picture_factor = 1;               // on its radiance, by the Sun's distance
     const ColorBands* bands = nullptr;
     const RayGenerator* rays = nullptr;
     ImageGeometry geometry;
@@ -73,6 +76,13 @@ struct FrameView {
             plain = true;
         }
         return plain;
+    }
+    // Nothing but the kept picture of the Earth can be met in the box.
+    bool sees_earth_picture_only(const PixelBox& box) const {
+        if (!earth_picture || box.overlaps(sun_box)) return false;
+        for (std::size_t i = 1; i < body_box_count; ++i)
+            if (box.overlaps(body_boxes[i])) return false;
+        return box.overlaps(body_boxes[0]);
     }
     // Returns where a ray of the camera begins in ray space; from_camera_m is not zero when rows have poses
     // of their own.

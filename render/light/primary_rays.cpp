@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "render/earth/earth_patch.h"
+#include "render/earth/earth_picture.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/place_sequence.h"
 
@@ -25,7 +26,8 @@ class PrimaryRays {
           sun_(tile.box.overlaps(frame_.sun_box)),
           linear_(frame_.rays->linear()),
           plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)),
-          patched_(bodies_ && linear_ && frame_.background->earth_in_patches()) {
+          pictured_(frame_.sees_earth_picture_only(tile.box)),
+          patched_(bodies_ && linear_ && !pictured_ && frame_.background->earth_in_patches()) {
         sample_rad_ = static_cast<float>(1 / frame_.geometry.focal_length_px) /
                       static_cast<float>(tile.samples_per_axis);
         std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
@@ -34,6 +36,7 @@ class PrimaryRays {
             // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
             corner_ = linear_->corner + tile.box.x0 * linear_->right + tile.box.y0 * linear_->down;
         }
+        if (pictured_) place_picture();
     }
 
     // uncovered: samples of each pixel that see no object, of kVisibilitySamples; null: rays find the
@@ -57,7 +60,11 @@ class PrimaryRays {
                     }
                 if (rays_.count == 0) continue;
                 if (tile_.scattered) choose_sequences();
-                const bool even = uncovered_ && is_even(bx, by);
+                const Block block = !uncovered_ ? Block::kUneven
+                                    : pictured_ ? Block::kEven
+                                                : block_at(bx, by);
+                if (block == Block::kDark) continue;
+                const bool even = block == Block::kEven;
                 const int n = even ? 1 : tile_.samples_per_axis;
                 ray_weight_ = even ? kVisibilitySamples : 1;
                 const float step = 1.0f / static_cast<float>(n);
@@ -82,8 +89,11 @@ class PrimaryRays {
     float ray_weight_ = 1;
     bool bodies_, sun_;
     const LinearRays* linear_;
-    bool plain_;    // the one body in view is done sixteen rays at a time
-    bool patched_;  // the Earth is seen in patches, where that is good enough
+    bool plain_;     // the one body in view is done sixteen rays at a time
+    bool pictured_;  // the Earth alone is in view, and its picture is kept
+    bool patched_;   // the Earth is seen in patches, where that is good enough
+    EarthPicture::Tile picture_{};
+    std::array<Spectrum, kPacketSize> earth_;  // radiance of the packet's samples by the picture
     std::optional<EarthPatch> patch_;
     float sample_rad_;  // angle between neighbouring rays
     Spectrum weight_;
@@ -96,28 +106,69 @@ class PrimaryRays {
     std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
     std::size_t count_ = 0;
 
-    // Nothing of a block of 4 x 4 pixels is near the rim of a body or of its air, or near the Sun: one ray
-    // tells of all of a pixel.
-    bool is_even(int x, int y) const {
-        if (frame_.background->camera_in_air()) return false;
-        if (frame_.sun_box.overlaps({x, y, x + 4, y + 4})) return false;
+    enum class Block { kDark, kEven, kUneven };
+    // A block of 4 x 4 pixels is even where nothing of it is near the rim of a body or of its air, or near the Sun: one ray
+    // tells of all of a pixel. It is dark where no body can be met.
+    Block block_at(int x, int y) const {
+        if (frame_.background->camera_in_air()) return Block::kUneven;
+        if (frame_.sun_box.overlaps({x, y, x + 4, y + 4})) return Block::kUneven;
         const float at_x = static_cast<float>(x - tile_.box.x0) + 2,
                     at_y = static_cast<float>(y - tile_.box.y0) + 2;
         const Vec3d dir = normalized(linear_ ? corner_ + static_cast<double>(at_x) * linear_->right +
                                                    static_cast<double>(at_y) * linear_->down
                                              : frame_.visibility->direction(x + 2, y + 2, {}));
         const double block_rad = 3 / frame_.geometry.focal_length_px;  // its middle to its corners
+        Block out = Block::kDark;
         for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
             const PlacedBody& body = frame_.background->disks()[i];
             const double radius_rad = std::acos(body.cone_cosine);
             const double from_middle_rad = std::acos(std::clamp(dot(dir, body.world_dir), -1.0, 1.0));
+            if (from_middle_rad - block_rad >= radius_rad) continue;
+            out = Block::kEven;
             // The Earth is flat by a third of a hundredth, and its air a hundredth high.
             constexpr double kWithin = 0.97;
-            if (from_middle_rad + block_rad > kWithin * radius_rad &&
-                from_middle_rad - block_rad < radius_rad)
-                return false;
+            const bool modelled = frame_.background->earth() && body.id == BodyId::kEarth;
+            if (modelled ? meets_earths_rim(body, from_middle_rad, block_rad)
+                         : from_middle_rad + block_rad > kWithin * radius_rad)
+                return Block::kUneven;
         }
-        return true;
+        return out;
+    }
+
+    void place_picture() {
+        const PixelBox& box = tile_.box;
+        std::array<Vec2d, 9> points;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            points[i] = {box.x0 + 0.5 * static_cast<double>(i % 3) * (box.x1 - box.x0),
+                         box.y0 + 0.5 * static_cast<double>(i / 3) * (box.y1 - box.y0)};
+        std::array<CameraRay, 9> rays;
+        frame_.rays->generate(points, rays);
+        const PlacedBody& earth = frame_.background->disks()[0];
+        std::array<Vec3d, 9> dirs;
+        for (std::size_t i = 0; i < dirs.size(); ++i) dirs[i] = earth.fixed_from_world * rays[i].dir;
+        picture_ = frame_.earth_picture->tile(earth.camera_m, dirs);
+    }
+
+    // The packet's samples, each of which stands for a part of its pixel's width.
+    void look_at_picture(bool whole) {
+        const float per_x = 1 / static_cast<float>(tile_.box.x1 - tile_.box.x0),
+                    per_y = 1 / static_cast<float>(tile_.box.y1 - tile_.box.y0);
+        EarthPicture::Floats x, y;
+        for (std::size_t k = 0; k < kPacketSize; ++k) x[k] = per_x * x_at_[k], y[k] = per_y * y_at_[k];
+        const float share =
+            whole ? 1.0f : (tile_.scattered ? 0.0f : 1 / static_cast<float>(tile_.samples_per_axis));
+        frame_.earth_picture->look(picture_, x, y, static_cast<std::size_t>(rays_.count), share, earth_);
+    }
+
+    // By its model, which filters what a ray stands for, the Earth is uneven only where its ground ends: within three pixels, and what
+    // the flattening moves the limb by, a third of a hundredth of the radius. From afar the air is about as thin as that.
+    bool meets_earths_rim(const PlacedBody& earth, double from_middle_rad, double block_rad) const {
+        const double rim_rad = 3 / frame_.geometry.focal_length_px + block_rad;
+        const double disk_rad = std::acos(earth.disk_cosine);
+        constexpr double kFlattening = 0.0034;
+        const double flat_rad = kFlattening * std::sqrt(1 - earth.disk_cosine * earth.disk_cosine) /
+                                std::max(0.1, earth.disk_cosine);
+        return from_middle_rad > disk_rad - flat_rad - rim_rad && from_middle_rad < disk_rad + rim_rad;
     }
 
     bool wants(int x, int y) const {
@@ -193,6 +244,10 @@ class PrimaryRays {
     }
 
     void add_backdrop(std::size_t k, float sun_cosine, Spectrum weight, Spectrum& pixel) {
+        if (pictured_) {
+            pixel += frame_.earth_picture_factor * weight * earth_[k];
+            return;
+        }
         if (plain_) {
             if (sun_cosine > EarthRays::kMiss)
                 return frame_.background->add_plain_at(sun_cosine, weight, pixel);
@@ -215,7 +270,8 @@ class PrimaryRays {
     }
 
     void trace_packet(bool objects, std::uint16_t sample) {
-        aim();
+        if (!pictured_ || objects) aim();
+        if (pictured_) look_at_picture(uncovered_ != nullptr);
         if (objects) {
             frame_.scene->intersect(rays_, Coherence::kCoherent, hits_);
             tile_.stats.primary_rays += static_cast<std::uint64_t>(rays_.count);

@@ -84,6 +84,8 @@ class Background {
     const Atmosphere* air() const { return air_; }
     const EarthModel* earth() const { return earth_; }
     std::string name_of(BodyId id) const;
+    // Returns how far above its ground a body is to be seen [m].
+    double top_m(BodyId id) const;
     // The camera is in air, so that objects are seen through it.
     bool camera_in_air() const { return camera_in_air_; }
 
@@ -201,8 +203,6 @@ class Background {
                    Spectrum& radiance) const;
     bool has_air(BodyId id) const { return air_ && id == BodyId::kEarth; }
     bool is_modelled(BodyId id) const { return earth_ && id == BodyId::kEarth; }
-    // Returns how far above its ground a body is to be seen [m].
-    double top_m(BodyId id) const;
     Spectrum surface_radiance(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir) const;
 };
 

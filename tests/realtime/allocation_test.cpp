@@ -305,6 +305,14 @@ TEST_F(Allocation, NorWithLightFromBesideThePictureAndBodiesWithAllTheyHave) {
               0);
 }
 
+TEST_F(Allocation, NorWithAKeptPictureOfTheEarth) {
+    EXPECT_EQ(
+        allocations({"quality.kept_earth=true", "camera_pose.position_m=[0, 0, 0]",
+                     "camera_pose.look_at_m=[-1, 0.5, 0]",
+                     std::string("earth_surface.map=") + HILCAM_SOURCE_DIR + "/configs/maps/earth.map"}),
+        0);
+}
+
 TEST_F(Allocation, NorWithANoiseBudget) { EXPECT_EQ(allocations({"quality.noise_budget=0.2"}), 0); }
 
 // Below a budget that nothing meets it goes down a ladder of fifteen levels, some frames each: it is on its

@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <vector>
 
 #include "io/files/earth_map_file.h"
 #include "render/earth/earth_patch.h"
+#include "render/earth/earth_picture.h"
 #include "render/sky/atmosphere_config.h"
 #include "render/sky/atmosphere_models.h"
 #include "render/sky/bodies.h"
@@ -201,6 +204,125 @@ TEST(ShippedEarth, PixelsThatShareAnAspectLookLikeThoseOfTheirOwn) {
         std::cout << view.height_m * 1e-3 << " km: " << pixels << " px, rms " << 100 * rms
                   << " % of their mean\n";
         EXPECT_LT(rms, view.max_rms);
+    }
+}
+
+// Errors in the noise of inspector_1k (13 e-, full well 13500 e-) when the brightest hundredth of the disk has half of its full well.
+struct NoiseErrors {
+    std::vector<double> errors;
+    double squares = 0;
+    void add(double error) { errors.push_back(std::abs(error)), squares += error * error; }
+    double rms() const { return std::sqrt(squares / static_cast<double>(errors.size())); }
+    std::string words() {
+        std::sort(errors.begin(), errors.end());
+        std::ostringstream text;
+        text.precision(3);
+        text << "rms " << rms() << ", p99 " << errors[errors.size() * 99 / 100];
+        return text.str();
+    }
+};
+
+// A place and a Sun so many steps beside those for which a picture is kept (earth_picture.cpp: 1 and 2 mrad, 0.4 % of distance),
+// on the equator 10 degrees east in geostationary height.
+struct KeptView {
+    Vec3d camera_m, sun_dir;
+    KeptView(double sun_longitude_deg, double steps_off) {
+        const auto at = [&](double value, double step) {
+            return step * (std::round(value / step) + steps_off);
+        };
+        const auto out = [](double lon, double lat) {
+            return Vec3d{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+        };
+        camera_m = kEarthEquatorialRadius_m * std::exp(at(std::log(6.62), 4e-3)) *
+                   out(at(10 * kDegree_rad, 1e-3), at(0, 1e-3));
+        sun_dir = out(at(sun_longitude_deg * kDegree_rad, 2e-3), at(0, 2e-3));
+    }
+};
+
+// A kept picture against the mean of 16 narrow rays a pixel (64 of the pixel's width at the limb), and a ray a pixel against that, too: the
+// picture is to be no worse. What the steps of its grid add, half of each, is told by rays apart: a tenth of the noise.
+TEST(ShippedEarth, IsKeptAsAPictureThatIsAsGoodAsARayAPixel) {
+    constexpr double kPixel_rad =
+        5.19e-4;  // of inspector_1k with a lens of 10.6 mm: the disk fills a quarter
+    constexpr int kTile_px = 32, kHalf_px = 320;
+    constexpr float kShare = 1.0f / kTile_px;
+    EarthPicture picture(kPixel_rad, earth().air->top_m());
+    for (const double sun_longitude_deg : {40.0, 88.0}) {
+        const KeptView kept(sun_longitude_deg, 0), view(sun_longitude_deg, 0.49);
+        const Vec3d out = normalized(view.camera_m), east = normalized(cross(Vec3d{0, 0, 1}, out)),
+                    north = cross(out, east);
+        const auto dir_at = [&](double x, double y) {
+            return normalized(x * kPixel_rad * east - y * kPixel_rad * north - out);
+        };
+        const auto light = [&](Vec3d from_m, Vec3d dir, Vec3d sun_dir, double width_rad) {
+            const EarthModel::Ray ray{from_m, dir, sun_dir, width_rad, earth().sun};
+            Spectrum weight, sum;
+            weight.bin.fill(1);
+            earth().model->add(ray, weight, sum);
+            return static_cast<double>(sum[2]);
+        };
+        picture.make(*earth().model, EarthPicture::key_of(view.camera_m, view.sun_dir), earth().sun);
+        struct Pixel {
+            double kept, one_ray, mean, step;
+            bool limb;
+        };
+        std::vector<Pixel> pixels;
+        for (int i = 0; i < 4 * kHalf_px * kHalf_px / (kTile_px * kTile_px); ++i) {
+            const int x0 = i % (2 * kHalf_px / kTile_px) * kTile_px - kHalf_px,
+                      y0 = i / (2 * kHalf_px / kTile_px) * kTile_px - kHalf_px;
+            std::array<Vec3d, 9> dirs;
+            for (int k = 0; k < 9; ++k)
+                dirs[static_cast<std::size_t>(k)] =
+                    dir_at(x0 + 0.5 * kTile_px * (k % 3), y0 + 0.5 * kTile_px * (k / 3));
+            const EarthPicture::Tile tile = picture.tile(view.camera_m, dirs);
+            for (int k = i % 13; k < kTile_px * kTile_px; k += 13) {
+                const double x = x0 + k % kTile_px + 0.5, y = y0 + k / kTile_px + 0.5;
+                const Vec3d dir = dir_at(x, y);
+                const double from_limb_px = (length(cross(view.camera_m, dir)) - kEarthEquatorialRadius_m) /
+                                            (length(view.camera_m) * kPixel_rad);
+                if (from_limb_px > 4) continue;
+                const bool limb = from_limb_px > -3;
+                const int n = limb ? 8 : 4;
+                double mean = 0;
+                for (int s = 0; s < n * n; ++s)
+                    mean +=
+                        light(view.camera_m, dir_at(x + (s % n + 0.5) / n - 0.5, y + (s / n + 0.5) / n - 0.5),
+                              view.sun_dir, limb ? kPixel_rad : kPixel_rad / n) /
+                        (n * n);
+                EarthPicture::Floats in_x{}, in_y{};
+                std::array<Spectrum, EarthPicture::kCount> seen;
+                in_x[0] = kShare * static_cast<float>(x - x0), in_y[0] = kShare * static_cast<float>(y - y0);
+                picture.look(tile, in_x, in_y, 1, 1, seen);
+                // The same place on the ground from where the picture is kept, under its Sun.
+                const Vec3d ground_m =
+                    view.camera_m + std::max(0.0, intersect_earth(view.camera_m, dir)) * dir;
+                const double one_ray = light(view.camera_m, dir, view.sun_dir, kPixel_rad);
+                const double from_kept = limb ? one_ray
+                                              : light(kept.camera_m, normalized(ground_m - kept.camera_m),
+                                                      kept.sun_dir, kPixel_rad);
+                pixels.push_back({static_cast<double>(seen[0][2]), one_ray, mean, from_kept - one_ray, limb});
+            }
+        }
+        std::vector<double> levels;
+        for (const Pixel& pixel : pixels) levels.push_back(pixel.mean);
+        std::sort(levels.begin(), levels.end());
+        const double electrons = 6750 / levels[levels.size() * 99 / 100];
+        NoiseErrors kept_disk, kept_limb, ray_disk, ray_limb, steps;
+        for (const Pixel& pixel : pixels) {
+            const double per_sigma = electrons / std::sqrt(pixel.mean * electrons + 13 * 13);
+            (pixel.limb ? kept_limb : kept_disk).add((pixel.kept - pixel.mean) * per_sigma);
+            (pixel.limb ? ray_limb : ray_disk).add((pixel.one_ray - pixel.mean) * per_sigma);
+            if (!pixel.limb) steps.add(pixel.step * per_sigma);
+        }
+        ASSERT_GT(kept_disk.errors.size(), 15000u);
+        std::cout << "Sun " << sun_longitude_deg - 10 << " deg from the camera: kept " << kept_disk.words()
+                  << ", a ray a pixel " << ray_disk.words() << "; at the limb kept " << kept_limb.words()
+                  << ", a ray a pixel " << ray_limb.words() << "; half a step of camera and Sun "
+                  << steps.words() << " of the noise; " << static_cast<double>(picture.bytes()) * 1e-6
+                  << " MB\n";
+        EXPECT_LT(kept_disk.rms(), ray_disk.rms());
+        EXPECT_LT(kept_limb.rms(), ray_limb.rms());
+        EXPECT_LT(steps.rms(), 0.1);
     }
 }
 

@@ -1,0 +1,286 @@
+#include "render/earth/earth_picture.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "render/sky/bodies.h"
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr Figure kEarthFigure = kFigures[index_of(BodyId::kEarth)];
+constexpr double kEarthRadius_m = kEarthFigure.equatorial_radius_m;
+// From ring to ring and from column to column, and the width for which a ray of them stands: with what is linear between them these
+// come nearest to a pixel's mean (ShippedEarth.IsKeptAsAPictureThatIsAsGoodAsARayAPixel).
+constexpr double kSpacing_px = 0.7, kWidth_px = 0.6;
+// A step of the Sun takes 27 s. The angles at which the ground is seen change as much with a step of the camera's distance.
+constexpr double kSunStep_rad = 2e-3, kCameraStep_rad = 1e-3, kDistanceStep = 4e-3;
+// The disk's radius in pixels, and the camera's distance from the middle in radii.
+constexpr double kSmallest_px = 6, kLargest_px = 640, kNearest = 4;
+constexpr int kRings = 16;  // of a band, without the one that the next one shares
+// The limb's rings begin so far inside [px]; rings of theirs to one of the others; rays for each across its width, of a pixel's
+// width.
+constexpr double kLimb_px = 1.5;
+constexpr int kFiner = 3, kLimbLooks = 4;
+// A look at the limb takes four places of a pixel, 0.75 px apart at most, each between two rings.
+constexpr int kLimbRows = 6;
+
+Vec3d from_steps(double longitude_rad, double latitude_rad) {
+    return {std::cos(latitude_rad) * std::cos(longitude_rad),
+            std::cos(latitude_rad) * std::sin(longitude_rad), std::sin(latitude_rad)};
+}
+std::int32_t steps(double value, double step) { return static_cast<std::int32_t>(std::lround(value / step)); }
+
+// Where 16 places of a tile lie: closest approach over the radius, and turns about the Earth's middle, 0..1. The arc tangent is a
+// polynomial (Abramowitz & Stegun, 4.4.49, to 2e-8), its angle brought below an eighth of a turn first.
+HILCAM_CLONES void place_looks(const EarthPicture::Tile& tile, const float* x, const float* y, float distance,
+                               float* approach, float* turn) {
+    const std::array<float, 9>&a = tile.across, &d = tile.down;
+    for (std::size_t i = 0; i < EarthPicture::kCount; ++i) {
+        const float s = x[i], t = y[i];
+        const float right = a[0] + s * (a[1] + s * a[2]) + t * (a[3] + s * (a[4] + s * a[5])) +
+                            t * t * (a[6] + s * (a[7] + s * a[8]));
+        const float down = d[0] + s * (d[1] + s * d[2]) + t * (d[3] + s * (d[4] + s * d[5])) +
+                           t * t * (d[6] + s * (d[7] + s * d[8]));
+        const float squared = right * right + down * down;
+        approach[i] = distance * std::sqrt(squared / (1 + squared));
+        const float u = std::abs(right), v = std::abs(down);
+        const float high = u > v ? u : v, low = u > v ? v : u;
+        const float ratio = low / (high > 1e-12f ? high : 1e-12f), q = ratio * ratio;
+        const float arc =
+            ratio *
+            (1 + q * (-0.3333314528f +
+                      q * (0.1999355085f +
+                           q * (-0.1420889944f +
+                                q * (0.1065626393f + q * (-0.0752896400f +
+                                                          q * (0.0429096138f + q * (-0.0161657367f +
+                                                                                    q * 0.0028662257f))))))));
+        const float of_turn = 0.15915494f * arc;
+        const float quarter = u > v ? of_turn : 0.25f - of_turn;
+        const float half = right < 0 ? 0.5f - quarter : quarter;
+        turn[i] = down < 0 ? 1 - half : half;
+    }
+}
+
+// Radiance and 2^-21 W m^-2 sr^-1 um^-1 in 16 bits: five of the exponent, from there on, and eleven digits, so an error of 1 / 4096 at
+// most. What is brighter than 2^11, brighter than any cloud, counts as that.
+constexpr std::uint32_t kDropped = 12, kLowest = (127u - 21) << 23;
+constexpr float kDark = 0x1p-21f;
+static_assert(std::bit_cast<std::uint32_t>(kDark) == kLowest);
+std::uint16_t coded(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(std::max(0.0f, value) + kDark) + (1u << (kDropped - 1));
+    return static_cast<std::uint16_t>(std::min((bits - kLowest) >> kDropped, 0xFFFFu));
+}
+
+// What sixteen looks need of the picture: places in its rows, and weights.
+struct Looks {
+    static constexpr std::size_t kCount = EarthPicture::kCount;
+    std::array<const std::uint16_t*, kCount> light;  // of the row before and the column before
+    std::array<std::size_t, kCount> stride;          // to the next row, in values of a place
+    EarthPicture::Floats in_row, in_column;          // from there, 0..1
+    std::array<bool, kCount> at_limb;
+    std::array<std::array<float, kLimbRows>, kCount> by_row;  // where it is at the limb, instead of in_row
+};
+
+using Bins = float __attribute__((vector_size(32), may_alias));
+using BinBits = std::uint32_t __attribute__((vector_size(32)));
+using BinCodes = std::uint16_t __attribute__((vector_size(16), may_alias));
+static_assert(sizeof(Bins) == sizeof(Spectrum));
+
+HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* out) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto* light = reinterpret_cast<const BinCodes*>(looks.light[i]);
+        const std::size_t stride = looks.stride[i];
+        const auto value = [&](std::size_t at) {
+            return reinterpret_cast<Bins>((__builtin_convertvector(light[at], BinBits) << kDropped) +
+                                          kLowest);
+        };
+        const auto row = [&](std::size_t r) {
+            const Bins left = value(r * stride);
+            return left + looks.in_column[i] * (value(r * stride + 1) - left);
+        };
+        Bins sum;
+        if (looks.at_limb[i]) {
+            sum = looks.by_row[i][0] * row(0);
+            for (std::size_t r = 1; r < kLimbRows; ++r) sum += looks.by_row[i][r] * row(r);
+        } else {
+            const Bins before = row(0);
+            sum = before + looks.in_row[i] * (row(1) - before);
+        }
+        *reinterpret_cast<Bins*>(out + i) = sum - kDark;
+    }
+}
+
+}  // namespace
+
+EarthPicture::Key EarthPicture::key_of(Vec3d camera_m, Vec3d sun_dir) {
+    const double distance_m = length(camera_m);
+    return {{steps(std::atan2(camera_m.y, camera_m.x), kCameraStep_rad),
+             steps(std::asin(camera_m.z / distance_m), kCameraStep_rad),
+             steps(std::log(distance_m / kEarthRadius_m), kDistanceStep)},
+            {steps(std::atan2(sun_dir.y, sun_dir.x), kSunStep_rad),
+             steps(std::asin(std::clamp(sun_dir.z, -1.0, 1.0)), kSunStep_rad)}};
+}
+
+bool EarthPicture::is_for(Vec3d camera_m, double pixel_rad) {
+    const double distance = length(camera_m) / kEarthRadius_m;
+    const double radius_px = 1 / (distance * pixel_rad);
+    return distance > kNearest && radius_px > kSmallest_px && radius_px < kLargest_px;
+}
+
+EarthPicture::EarthPicture(double pixel_rad, double top_m) : pixel_rad_(pixel_rad), top_m_(top_m) {
+    bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kRings + 4);
+}
+
+// Into the picture's axes.
+Vec3d EarthPicture::to_place(Vec3d v) const { return {dot(v, right_), dot(v, down_), dot(v, ahead_)}; }
+
+void EarthPicture::place_bands() {
+    bands_.clear();
+    const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // of a radius
+    const double step = kSpacing_px * pixel, fine = step / kFiner;
+    pixel_ = static_cast<float>(pixel);
+    inner_per_b_ = static_cast<float>(1 / step);
+    const double limb_from = 1 - kLimb_px * pixel;
+    limb_from_ = static_cast<float>(limb_from);
+    used_ = 0;
+    const auto add = [&](double first, double spacing, int rows) {
+        const double circumference = 2 * kPi * (first + (rows - 1) * spacing) / step;
+        const int columns = std::max(8, static_cast<int>(std::ceil(circumference)));
+        bands_.push_back({static_cast<float>(first), static_cast<float>(1 / spacing), rows, columns, used_});
+        used_ += static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns + 1);
+    };
+    const int inner = static_cast<int>(std::ceil(limb_from / step)) + 1;
+    for (int from = 0; from < inner; from += kRings)
+        add(from * step, step, std::min(kRings, inner - from) + 1);
+    // A ring's middle lies half a step off the limb of the ground; dark ones end them.
+    const int below = static_cast<int>(std::ceil(kLimb_px * pixel / fine)) + 3;
+    const int above =
+        static_cast<int>(std::ceil((top_m_ / kEarthRadius_m + 0.5 * pixel) / fine)) + kLimbRows + 1;
+    add(1 - (below - 0.5) * fine, fine, below + above);
+    dark_from_ = static_cast<float>(1 + top_m_ / kEarthRadius_m + 0.5 * pixel + fine);
+    if (light_.size() < used_) light_.resize(used_ + used_ / 4);
+}
+
+void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row) {
+    const bool limb = &band == &bands_.back();
+    const int looks = limb ? kLimbLooks : 1;
+    const double spacing = 1 / static_cast<double>(band.per_step);
+    const double b = static_cast<double>(band.first) + row * spacing;
+    Coded* out = light_.data() + band.offset +
+                 static_cast<std::size_t>(row) * static_cast<std::size_t>(band.columns + 1);
+    EarthModel::Ray ray{camera_m_, {}, sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_, irradiance};
+    const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
+    for (int column = 0; column < band.columns; ++column) {
+        const double turn = 2 * kPi * column / band.columns;
+        const Vec3d out_dir = std::cos(turn) * right_ + std::sin(turn) * down_;
+        Spectrum sum;
+        for (int i = 0; i < looks; ++i) {
+            const double sine = (b + ((i + 0.5) / looks - 0.5) * spacing) * kEarthRadius_m / distance_m_;
+            const Vec3d dir = std::sqrt(1 - sine * sine) * ahead_ + sine * out_dir;
+            ray.dir = normalized(Vec3d{dir.x, dir.y, dir.z * per_stretch});
+            Spectrum weight;
+            weight.bin.fill(1);
+            earth.add(ray, weight, sum);
+        }
+        for (int k = 0; k < kMaxBins; ++k)
+            out[column][static_cast<std::size_t>(k)] = coded(sum[k] / static_cast<float>(looks));
+    }
+    out[band.columns] = out[0];
+}
+
+void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance) {
+    camera_m_ = kEarthRadius_m * std::exp(key.camera[2] * kDistanceStep) *
+                from_steps(key.camera[0] * kCameraStep_rad, key.camera[1] * kCameraStep_rad);
+    sun_dir_ = from_steps(key.sun[0] * kSunStep_rad, key.sun[1] * kSunStep_rad);
+    const Vec3d from_m = stretched(kEarthFigure, camera_m_);
+    distance_m_ = length(from_m);
+    ahead_ = from_m / -distance_m_;
+    right_ = normalized(cross(ahead_, std::abs(ahead_.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}));
+    down_ = cross(ahead_, right_);
+    place_bands();
+    int rows = 0;
+    for (const Band& band : bands_) rows += band.rows;
+    tbb::parallel_for(0, rows, [&](int row) {
+        std::size_t i = 0;
+        while (row >= bands_[i].rows) row -= bands_[i++].rows;
+        fill_row(earth, sun_irradiance, bands_[i], row);
+    });
+}
+
+EarthPicture::Tile EarthPicture::tile(Vec3d camera_m, const std::array<Vec3d, kNodes * kNodes>& dirs) const {
+    const Vec3d from_m = stretched(kEarthFigure, camera_m), kept_m = -distance_m_ * ahead_;
+    std::array<double, 9> across{}, down{};
+    for (std::size_t i = 0; i < dirs.size(); ++i) {
+        // Where it meets the ground; past it, where it is closest to the middle: both as seen from the kept place.
+        const Vec3d dir = normalized(stretched(kEarthFigure, dirs[i]));
+        const double to_closest = -dot(from_m, dir);
+        const Vec3d closest = from_m + to_closest * dir;
+        const double rest = std::max(0.0, kEarthRadius_m * kEarthRadius_m - dot(closest, closest));
+        const Vec3d seen = to_place(from_m - kept_m + (to_closest - std::sqrt(rest)) * dir);
+        across[i] = seen.x / seen.z, down[i] = seen.y / seen.z;
+    }
+    // Lagrange's parabolas through 0, 1/2, 1 by powers: rows, then columns.
+    const auto powers = [](std::array<double, 9>& v) {
+        const auto parabola = [](double& p0, double& p1, double& p2) {
+            const double c1 = -3 * p0 + 4 * p1 - p2, c2 = 2 * p0 - 4 * p1 + 2 * p2;
+            p1 = c1, p2 = c2;
+        };
+        for (std::size_t i = 0; i < 3; ++i) parabola(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
+        for (std::size_t i = 0; i < 3; ++i) parabola(v[i], v[3 + i], v[6 + i]);
+        std::array<float, 9> out;
+        for (std::size_t i = 0; i < 9; ++i) out[i] = static_cast<float>(v[i]);
+        return out;
+    };
+    return {powers(across), powers(down)};
+}
+
+void EarthPicture::look(const Tile& tile, const Floats& x, const Floats& y, std::size_t count, float share,
+                        std::array<Spectrum, kCount>& radiance) const {
+    Floats approach, turn;
+    place_looks(tile, x.data(), y.data(), static_cast<float>(distance_m_ / kEarthRadius_m), approach.data(),
+                turn.data());
+    Looks looks;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float b = approach[i], ring = b * inner_per_b_;
+        const bool limb = !(b < limb_from_), dark = b > dark_from_;
+        const auto row_of_disk = static_cast<std::size_t>(ring);
+        const Band& band = limb ? bands_.back() : bands_[row_of_disk / kRings];
+        const float column = turn[i] * static_cast<float>(band.columns);
+        const int left = std::min(static_cast<int>(column), band.columns - 1);
+        looks.in_column[i] = column - static_cast<float>(left);
+        looks.stride[i] = static_cast<std::size_t>(band.columns) + 1;
+        std::size_t row = row_of_disk % kRings;
+        looks.in_row[i] = ring - static_cast<float>(row_of_disk);
+        looks.at_limb[i] = limb && !dark;
+        if (dark)
+            row = static_cast<std::size_t>(band.rows) - 2, looks.in_row[i] = 0;
+        else if (limb)
+            row = weigh_limb(b, share, looks.by_row[i]);
+        looks.light[i] = light_[band.offset + row * looks.stride[i] + static_cast<std::size_t>(left)].data();
+    }
+    mix_looks(looks, count, radiance.data());
+}
+
+// A pixel's mean across the limb: four places have its variance, at any angle. Returns the first of the rows.
+std::size_t EarthPicture::weigh_limb(float b, float share, std::array<float, 6>& by_row) const {
+    const Band& band = bands_.back();
+    const float middle = (b - band.first) * band.per_step, reach = share * pixel_ * band.per_step;
+    const int row = std::clamp(static_cast<int>(middle - 0.375f * reach), 0, band.rows - kLimbRows);
+    by_row.fill(0);
+    for (const float off : {-0.375f, -0.125f, 0.125f, 0.375f}) {
+        const float at = std::max(0.0f, middle + off * reach - static_cast<float>(row));
+        const int low = std::min(static_cast<int>(at), kLimbRows - 2);
+        const float part = std::min(1.0f, at - static_cast<float>(low));
+        by_row[static_cast<std::size_t>(low)] += 0.25f * (1 - part);
+        by_row[static_cast<std::size_t>(low) + 1] += 0.25f * part;
+    }
+    return static_cast<std::size_t>(row);
+}
+
+}  // namespace hilcam

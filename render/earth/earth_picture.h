@@ -1,0 +1,84 @@
+#pragma once
+// A picture of the whole Earth from one place under one Sun, kept to be seen by cameras of any attitude about there: a few tens
+// of nanoseconds a pixel instead of microseconds.
+//
+// Light lies in rings about the Earth's middle, somewhat closer than the camera's pixels, and three times as close
+// where ground ends and air goes on, linear between them. In space with z stretched so that the Earth is a sphere of radius R, a ring is told by
+// its rays' closest approach to the middle, so the limb of each camera falls onto R.
+//
+// Cameras and Suns belong to a grid of whole steps (Key), never to what was shown before: a frame is a function of its own
+// place and time. What a camera off the grid's place sees is looked for by the place on the ground (Tile), so coasts stay
+// where they are; what is off is light by up to half a step of both angles. How much that is, in units of
+// sensor noise: ShippedEarth.IsKeptAsAPictureThatIsAsGoodAsARayAPixel.
+//
+// Light is for the Sun at 1 AU; frames scale it, that of cities with it, by up to 3.4 % too much. What it does not hold: other bodies behind
+// the air, eclipses (EarthModel::add() has both).
+
+#include <cstdint>
+#include <vector>
+
+#include "render/earth/earth_model.h"
+
+namespace hilcam {
+
+class EarthPicture {
+  public:
+    // Steps from zero.
+    struct Key {
+        std::array<std::int32_t, 3> camera{};  // longitude, latitude, logarithm of distance
+        std::array<std::int32_t, 2> sun{};     // longitude, latitude
+        bool operator==(const Key&) const = default;
+    };
+    // camera_m, sun_dir: in the Earth's axes. Loop.
+    static Key key_of(Vec3d camera_m, Vec3d sun_dir);
+    // A picture is worth while: the camera is far enough that it is seldom made anew, and the disk is neither a few pixels nor larger
+    // than there is room for. Loop.
+    static bool is_for(Vec3d camera_m, double pixel_rad);
+
+    // pixel_rad: the camera's. top_m: the height up to which there is light.
+    EarthPicture(double pixel_rad, double top_m);
+    // Works a picture out on all threads of the arena; takes more memory where the disk has grown by a tenth. sun_irradiance_1au: [W m^-2 um^-1].
+    void make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance_1au_w_m2_um);
+    std::size_t bytes() const { return light_.size() * sizeof(Coded); }
+
+    // A square of a camera's picture. Places in it are parabolas, both ways, through those of its corners, middles and centre.
+    struct Tile {
+        std::array<float, 9> across, down;  // by powers of x and y
+    };
+    static constexpr int kNodes = 3;
+    // camera_m: the camera's own place, one that the key is of; dirs: rays of any length at x, y = 0, 1/2, 1 of the square, row by row.
+    Tile tile(Vec3d camera_m, const std::array<Vec3d, kNodes * kNodes>& dirs) const;
+
+    static constexpr std::size_t kCount = 16;
+    using Floats = std::array<float, kCount>;
+    // Radiance for the Sun at 1 AU [W m^-2 sr^-1 um^-1] at places of a tile, x and y from 0 to 1. share: of a pixel's width that each
+    // stands for, 0..1. Loop, any thread.
+    void look(const Tile& tile, const Floats& x, const Floats& y, std::size_t count, float share,
+              std::array<Spectrum, kCount>& radiance) const;
+
+  private:
+    // Rings with as many columns each; neighbours share one, so that a look needs one band.
+    struct Band {
+        float first, per_step;  // row = (b - first) per_step, b: closest approach over the radius
+        int rows, columns;      // the first column is stored once more behind the last
+        std::size_t offset;
+    };
+
+    double pixel_rad_, top_m_;
+    Vec3d camera_m_, sun_dir_;
+    double distance_m_ = 1;       // stretched
+    Vec3d ahead_, right_, down_;  // stretched axes, unit
+    std::vector<Band> bands_;     // the last is the limb's
+    float limb_from_ = 0, dark_from_ = 0, pixel_ = 0, inner_per_b_ = 0;
+    // Floats without their sign, lowest digits and most of their exponent (encoded()).
+    using Coded = std::array<std::uint16_t, kMaxBins>;
+    std::vector<Coded> light_;
+    std::size_t used_ = 0;
+
+    void place_bands();
+    void fill_row(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row);
+    std::size_t weigh_limb(float b, float share, std::array<float, 6>& by_row) const;
+    Vec3d to_place(Vec3d stretched_m) const;
+};
+
+}  // namespace hilcam

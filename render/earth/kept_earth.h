@@ -1,0 +1,61 @@
+#pragma once
+// Has the picture of the Earth (earth_picture.h) that frames ask for: at once where one needs it, and ahead of time, on a
+// thread of its own, where the camera and the Sun move on as they did. What a picture shows is the same either way.
+
+#include <atomic>
+#include <thread>
+
+#include "render/earth/earth_picture.h"
+
+namespace hilcam {
+
+class KeptEarth {
+  public:
+    // The Earth outlives this. Owner thread.
+    KeptEarth(const EarthModel& earth, const Spectrum& sun_irradiance_1au_w_m2_um, double pixel_rad,
+              double top_m);
+    ~KeptEarth();
+    KeptEarth(const KeptEarth&) = delete;
+    KeptEarth& operator=(const KeptEarth&) = delete;
+
+    // Has the picture of a frame, the camera and the Sun in the Earth's axes; false: for such a camera none is kept.
+    // Loop; makes it, or waits for the thread, where it is not there yet.
+    bool place(Vec3d camera_m, Vec3d sun_dir);
+    // The one that was placed last. Any thread.
+    const EarthPicture& picture() const { return *pictures_[shown_].picture; }
+    // Returns the memory of all pictures that have been made.
+    std::size_t bytes() const;
+
+  private:
+    enum class State : int { kIdle, kAsked, kStop };
+    struct Kept {
+        std::unique_ptr<EarthPicture> picture;
+        EarthPicture::Key key;
+        bool made = false;
+        std::uint64_t last_shown = 0;
+    };
+    struct Place {
+        Vec3d camera_m, sun_dir;
+    };
+
+    const EarthModel& earth_;
+    Spectrum sun_irradiance_1au_;
+    double pixel_rad_;
+    // Two for a camera that sways over a step, and one ahead.
+    std::array<Kept, 3> pictures_;
+    std::size_t shown_ = 0, asked_ = 0;
+    std::uint64_t frames_ = 0;
+    static constexpr std::uint64_t kStride = 16;  // frames
+    Place before_, long_before_;
+    std::atomic<State> state_{State::kIdle};
+    std::thread thread_;
+
+    void make(std::size_t at);
+    std::size_t find(const EarthPicture::Key& key) const;
+    std::size_t room_for(const EarthPicture::Key& key);
+    void look_ahead(const Place& now);
+    void wait();
+    void work();
+};
+
+}  // namespace hilcam
