@@ -44,6 +44,9 @@ class FramePlacer {
     // See Renderer.
     void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
     bool take_light();
+    void stop_looking_ahead() {
+        if (kept_) kept_->stop_looking_ahead();
+    }
     // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
     // buffer. Loop.
     void place_visibility();

@@ -70,6 +70,8 @@ void Renderer::give_tables(std::span<const std::shared_ptr<const TransferTable>>
     implementation_->placer.give_tables(tables);
 }
 bool Renderer::take_light() { return implementation_->placer.take_light(); }
+
+void Renderer::stop_looking_ahead() { implementation_->placer.stop_looking_ahead(); }
 const RenderQuality& Renderer::quality() const { return implementation_->tracer.quality(); }
 void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->tracer.set_pixel_noise(noise); }
 
