@@ -16,7 +16,7 @@ add_custom_target(pages ALL DEPENDS ${pages}/hilcam.bash)
 
 # --- the program ---
 install(TARGETS hilcam RUNTIME COMPONENT program)
-install(PROGRAMS tools/hilcam-plot-characterise tools/hilcam-plot-soak tools/hilcam-plot-tradeoff
+install(PROGRAMS tools/hilcam-plot-campaign tools/hilcam-plot-characterise tools/hilcam-plot-soak tools/hilcam-plot-tradeoff
     DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT program)
 install(DIRECTORY configs/cameras configs/maps configs/materials configs/quality configs/schema configs/stars
     DESTINATION ${data} COMPONENT program)
