@@ -45,7 +45,7 @@ void StillCamera::take(const ScenarioConfig& scenario, double time_offset_s) {
 }
 
 void StillCamera::tell(FrameTruth& truth) {
-    renderer_->motion(snapshot_, snapshot_, snapshot_);
+    renderer_->place_for_truth(snapshot_);
     renderer_->report_truth(truth);
 }
 

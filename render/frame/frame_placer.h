@@ -54,6 +54,8 @@ class FramePlacer {
     void set_paths(const PathModel& paths);
     // Loop; nothing is allocated after the first call.
     void place(const WorldSnapshot& world, RandomKey key);
+    // Does so without the light that is kept: for what asks where things are, and no more. Loop.
+    void place_shapes(const WorldSnapshot& world, RandomKey key);
 
     // --- the frame that was placed last
 

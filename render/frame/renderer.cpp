@@ -131,6 +131,10 @@ void Renderer::set_drifts(const WorldSnapshot& before, const WorldSnapshot& afte
 
 bool Renderer::last_shows_body() const { return implementation_->placer.shows_body(); }
 
+void Renderer::place_for_truth(const WorldSnapshot& world) {
+    implementation_->placer.place_shapes(world, {});
+}
+
 FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int height_px) const {
     return hilcam::make_truth(implementation_->placer, wishes, width_px, height_px);
 }

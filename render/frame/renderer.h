@@ -83,9 +83,12 @@ class Renderer {
     // A body's disk or terrain on one may be in the last picture: how it moves depends on the bodies.
     bool last_shows_body() const;
 
+    // Places a world for report_truth() alone, without its light, which may take longer than all else. Loop.
+    void place_for_truth(const WorldSnapshot& world);
+
     // A record with room for what frames show, up to a size of them. Owner thread.
     FrameTruth make_truth(const TruthWishes& wishes, int width_px, int height_px) const;
-    // Fills `truth` with what the world shows that was placed last, by render() or motion(); truth.raster is
+    // Fills `truth` with what the world shows that was placed last, by render(), motion() or place_for_truth(); its raster is
     // set. Loop, as render().
     void report_truth(FrameTruth& truth) const;
 
