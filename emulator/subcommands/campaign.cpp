@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include "emulator/campaign/campaign.h"
+#include "emulator/campaign/case_record.h"
+#include "emulator/campaign/slurm_script.h"
 #include "emulator/run/page_maker.h"
 #include "emulator/subcommands/arguments.h"
 #include "emulator/subcommands/scenario_use.h"
@@ -17,6 +19,8 @@ struct CampaignArguments {
     CampaignOptions options;
     std::uint64_t only = 0;  // --case; 0: not told
     std::string cases;       // "1-1000"
+    bool slurm = false, submit = true;
+    double task_s = 900;
 };
 
 CaseRange parsed_cases(const std::string& text) {
@@ -41,8 +45,47 @@ void say_outcome(const CampaignOutcome& outcome, const std::filesystem::path& fo
                  folder.string());
 }
 
+// Cases that are there say how long one takes; without any, the first is made here.
+double seconds_of_case(const CampaignConfig& campaign, const CampaignOptions& options) {
+    const CaseRange all{1, static_cast<std::uint64_t>(campaign.count)};
+    if (CampaignFolder(campaign, options.out, true).missing(all, false).size() ==
+        static_cast<std::uint64_t>(campaign.count)) {
+        CampaignOptions first = options;
+        first.cases = CaseRange{1, 1};
+        first.jobs = 1;
+        run_campaign(campaign, first);
+    }
+    double sum_s = 0;
+    int count = 0;
+    for (std::uint64_t n = 1; n <= all.last && count < 100; ++n)
+        if (const auto record = read_record(options.out, n)) sum_s += record->all_s, ++count;
+    return count > 0 ? sum_s / count : 1;
+}
+
+int go_to_slurm(const CampaignArguments& o, const CampaignConfig& campaign) {
+    const double case_s = seconds_of_case(campaign, o.options);
+    SlurmPlan plan{campaign.name,
+                   std::filesystem::read_symlink("/proc/self/exe"),
+                   std::filesystem::absolute(o.config.file),
+                   std::filesystem::absolute(o.options.out),
+                   o.config.overrides,
+                   static_cast<std::uint64_t>(campaign.count),
+                   chunk_of(case_s, o.task_s),
+                   {}};
+    const CampaignFolder folder(campaign, o.options.out, true);
+    plan.tasks = tasks_of(folder.missing({1, plan.count}, false), plan.chunk);
+    if (plan.tasks.empty()) {
+        spdlog::info("no case is missing; --merge puts them together");
+        return 0;
+    }
+    spdlog::info("a case takes {:.2f} s here", case_s);
+    for (const std::string& line : submit_campaign(plan, o.submit)) spdlog::info("{}", line);
+    return 0;
+}
+
 int carry_out(const CampaignArguments& o) {
     const CampaignConfig campaign = load_campaign(o.config.file, o.config.overrides);
+    if (o.slurm) return go_to_slurm(o, campaign);
     CampaignOptions options = o.options;
     if (!o.cases.empty()) options.cases = parsed_cases(o.cases);
     if (o.only > 0) options.cases = CaseRange{o.only, o.only};
@@ -82,6 +125,18 @@ void add_campaign_command(CLI::App& app, Action& action) {
     campaign->add_flag("--merge", o->options.merge, "make no case; put together what there is")
         ->excludes(only)
         ->excludes(cases);
+    CLI::Option* slurm =
+        campaign
+            ->add_flag("--slurm", o->slurm,
+                       "write what is missing as an array job of Slurm, and submit it where there is sbatch")
+            ->excludes(only)
+            ->excludes(cases);
+    campaign->add_flag("!--no-submit", o->submit, "write the job's scripts, and submit nothing")
+        ->needs(slurm);
+    campaign->add_option("--task-s", o->task_s, "seconds that a task of Slurm shall take, about")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str()
+        ->needs(slurm);
     when_named(campaign, action, o, carry_out);
 }
 
