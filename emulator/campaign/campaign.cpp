@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <memory>
 #include <thread>
 
@@ -34,6 +35,12 @@ std::string wall_clock_utc() {
     return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc)};
 }
 
+double processor_s() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 class CampaignMaker {
   public:
     CampaignMaker(const CampaignConfig& campaign, const CampaignFolder& folder, std::size_t workers)
@@ -41,8 +48,7 @@ class CampaignMaker {
         // One thread: children are forked from it, and oneTBB's would not come along.
         if (workers_ > 1)
             threads_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, 1);
-        // A single child loads for itself, on all threads; what it says of a scene that cannot be, it says
-        // for each case.
+        // A single child loads for itself, on all threads.
         if (workers_ > 1 && !campaign_.run) load();
     }
 
@@ -100,6 +106,7 @@ class CampaignMaker {
 
     std::string make(std::uint64_t number, std::size_t slot) {
         const Stopwatch watch;
+        const double before_s = processor_s();
         const std::string begun = wall_clock_utc();
         CaseRecord record;
         try {
@@ -113,6 +120,7 @@ class CampaignMaker {
         record.begun_utc = begun;
         record.host = host_name();
         record.all_s = watch.seconds();
+        record.cpu_s = processor_s() - before_s;
         if (!keep(record)) return record.reason.empty() ? "its record cannot be written" : record.reason;
         return record.reason;
     }

@@ -43,7 +43,7 @@ class IndexWriter {
         rows_.push_back(std::move(row));
         times_ += record.plan.name + ',' + record.begun_utc + ',' + csv_field(record.host);
         for (const double seconds :
-             {record.all_s, record.draw_s, record.render_s, record.sensor_s, record.files_s})
+             {record.all_s, record.cpu_s, record.draw_s, record.render_s, record.sensor_s, record.files_s})
             times_ += ',' + exact_number(seconds);
         times_ += '\n';
     }
@@ -61,7 +61,7 @@ class IndexWriter {
         }
         write_durably(folder / "index.csv", text);
         write_durably(folder / "times.csv",
-                      "case,begun_utc,host,all_s,draw_s,render_s,sensor_s,files_s\n" + times_);
+                      "case,begun_utc,host,all_s,cpu_s,draw_s,render_s,sensor_s,files_s\n" + times_);
     }
 
   private:

@@ -28,6 +28,7 @@ OrderedJson json_of_record(const CaseRecord& r) {
              {{"begun_utc", r.begun_utc},
               {"host", r.host},
               {"all_s", r.all_s},
+              {"cpu_s", r.cpu_s},
               {"draw_s", r.draw_s},
               {"render_s", r.render_s},
               {"sensor_s", r.sensor_s},
@@ -68,7 +69,7 @@ std::optional<CaseRecord> read_record(const std::filesystem::path& folder, std::
         const OrderedJson& took = json.at("took");
         r.begun_utc = took.at("begun_utc"), r.host = took.at("host");
         r.all_s = took.at("all_s"), r.draw_s = took.at("draw_s"), r.render_s = took.at("render_s");
-        r.sensor_s = took.at("sensor_s"), r.files_s = took.at("files_s");
+        r.sensor_s = took.at("sensor_s"), r.files_s = took.at("files_s"), r.cpu_s = took.at("cpu_s");
         if (r.plan.number != number) throw InputError("is of case " + std::to_string(r.plan.number));
         return r;
     } catch (const std::exception& problem) {

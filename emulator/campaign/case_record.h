@@ -20,6 +20,7 @@ struct CaseRecord {
     nlohmann::ordered_json figures = nlohmann::ordered_json::object();  // numbers by name, for the index
     // The times of its making, the one part that another making of the case has otherwise.
     double draw_s = 0, render_s = 0, sensor_s = 0, files_s = 0, all_s = 0;
+    double cpu_s = 0;  // processor time of its process, all threads
     std::string begun_utc, host;
 };
 

@@ -31,7 +31,8 @@ OrderedJson mm_of(const OrderedJson& metres) {
             1e3 * metres.at(2).get<double>()};
 }
 OrderedJson box_of(const OrderedJson& box) {
-    return box.is_null() ? OrderedJson{-1, -1, -1, -1} : box;  // the toolkit's calc_gt_info.py has the same for nothing
+    return box.is_null() ? OrderedJson{-1, -1, -1, -1}
+                         : box;  // the toolkit's calc_gt_info.py has the same for nothing
 }
 
 class BopLabels : public LabelWriter {

@@ -12,9 +12,9 @@
 namespace hilcam {
 
 struct SlurmPlan {
-    std::string name;                                 // of the campaign
+    std::string name;                                 // name of the campaign
     std::filesystem::path program, campaign, folder;  // absolute
-    std::vector<std::string> overrides;               // of the campaign's file
+    std::vector<std::string> overrides;               // values that replace those of its file
     std::uint64_t count = 1, chunk = 1;               // cases in all, and in a task
     std::vector<std::uint64_t> tasks;                 // that have something to make, from 0
 };

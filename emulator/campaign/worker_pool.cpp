@@ -72,9 +72,10 @@ void WorkerPool::be_child(std::size_t slot, int line, pid_t parent) {
     } catch (const std::exception& problem) {
         reason = problem.what();
     }
-    if (write(line, " ", 1) < 0) _exit(1);
+    const std::string greeting = reason.empty() ? " " : "!" + reason.substr(0, kLongestProblem);
+    if (write(line, greeting.data(), greeting.size()) < 0 || !reason.empty()) _exit(1);
     for (std::uint64_t number = 0; read(line, &number, sizeof number) == sizeof number && number != 0;) {
-        std::string problem = reason.empty() ? work(number) : reason;
+        std::string problem = work(number);
         problem.resize(std::min(problem.size(), kLongestProblem));
         problem.insert(problem.begin(), ' ');  // a packet of nothing would be the end
         if (write(line, problem.data(), problem.size()) < 0) break;
@@ -103,6 +104,8 @@ void WorkerPool::hear(std::size_t slot, const Done& done) {
     const ssize_t size = recv(worker.line.get(), text.data(), text.size(), 0);
     if (size < 0 && errno == EINTR) return;
     if (size > 0 && !worker.is_ready) {
+        if (text[0] == '!')
+            throw InputError(std::string(text.data() + 1, static_cast<std::size_t>(size) - 1));
         worker.is_ready = true;
         worker.begun_s = now_s();
         return;

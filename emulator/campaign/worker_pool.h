@@ -30,7 +30,8 @@ class WorkerPool {
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    // Has all pieces done, in about this order. DeviceError when no child can be made. Owner thread.
+    // Has all pieces done, in about this order. DeviceError when no child can be made, InputError with what
+    // begin threw in a child. Owner thread.
     void run(const std::vector<std::uint64_t>& numbers, const Done& done);
 
   private:

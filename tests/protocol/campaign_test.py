@@ -303,6 +303,18 @@ class Made(unittest.TestCase):
             self.assertEqual(json.loads(sample["json"])["name"], key)
 
 
+    def test_the_page_compares_with_an_older_campaign(self):
+        older = self.top / "older"
+        shutil.copytree(self.folder, older)
+        index = (older / "index.csv").read_text().split("\n")
+        index[2] = index[2].replace(",done,,", ",failed,too dark,")
+        (older / "index.csv").write_text("\n".join(index))
+        subprocess.run([HILCAM.parent / "hilcam-plot-campaign", older, self.folder], check=True)
+        page = (older / "index.html").read_text()
+        self.assertIn("8 cases are in both; 1 have another outcome", page)
+        self.assertIn("<td>000002</td><td>done</td><td>failed</td><td>too dark</td>", page)
+
+
 class Flow(unittest.TestCase):
     def test_flow_is_where_the_points_go(self):
         """Every pixel of the target, by its place in camera axes: turned and carried by the two poses, and projected."""
@@ -393,6 +405,20 @@ class Failing(unittest.TestCase):
         text = CAMPAIGN.replace("lit_share: 0.05, tries: 50", "lit_share: 1, tries: 3").replace("uniform: [0, 110]", "value: 179")
         result = campaign(text.replace("count: 8", "count: 2"), self.folder, expect=1)
         self.assertIn("000001: none of 3 tries is what is asked for: require.lit_share was not met by 3 (at best", result.stderr)
+
+    def test_the_documented_campaign_is_one(self):
+        page = (SOURCE / "docs/campaigns.md").read_text()
+        text = page.split("```yaml poses.yaml\n")[1].split("```")[0]
+        campaign(text.replace("300000", "20000"), self.folder, "--set", "count=1", "--set", "set=[objects.0.generate.triangles=20000, "
+                 "objects.0.pose.attitude=quaternion, quality.path_model=direct, camera.width_px=256, camera.height_px=256]")
+        self.assertEqual([row["outcome"] for row in rows(self.folder)], ["done"])
+        runs = page.split("```yaml runs.yaml\n")[1].split("```")[0]
+        (self.top / "scenario.yaml").write_text(SCENARIO.read_text().replace("../../configs/", f"{SOURCE}/configs/"))
+        (self.top / "controller").write_text("#!/bin/sh\necho '{\"arguments\": '$#'}' > $6\n")
+        (self.top / "controller").chmod(0o755)
+        runs = runs.replace("./controller", str(self.top / "controller")).replace(', "outputs.gige.interface=127.0.0.{slot}"', "")
+        campaign(runs, self.top / "runs", "--set", "count=1", "--set", "set=[commands.udp.port=5010]")
+        self.assertEqual(rows(self.top / "runs")[0]["result.arguments"], "6")
 
     def test_another_campaign_is_never_overwritten(self):
         campaign(f"name: a\nscenario: {SCENARIO}\n", self.folder)

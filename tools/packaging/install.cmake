@@ -31,6 +31,7 @@ install(FILES tools/client/hilcam_client.py DESTINATION ${data}/client COMPONENT
 install(FILES README.md CONTRIBUTING.md NOTICE CITATION.cff SECURITY.md DESTINATION ${doc} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${doc} COMPONENT program)
 install(FILES tools/client/README.md DESTINATION ${doc}/tools/client COMPONENT program)
+install(DIRECTORY tools/python DESTINATION ${doc}/tools COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY tools/ground_systems DESTINATION ${doc}/tools COMPONENT program)
 # Debian has a licence file and a changelog of its own kind in their place (debian.cmake).
 install(FILES CHANGELOG.md LICENSE DESTINATION ${doc} COMPONENT texts)

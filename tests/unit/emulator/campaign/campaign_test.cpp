@@ -210,5 +210,15 @@ TEST(WorkerPool, APieceThatCrashesOrHangsIsLostAloneAndNamed) {
     EXPECT_EQ(problems[9], "");
 }
 
+TEST(WorkerPool, AChildThatCannotBeginEndsAll) {
+    WorkerPool pool(2, 10, [](std::size_t) -> WorkerPool::Work { throw InputError("no mesh"); });
+    try {
+        pool.run({1, 2, 3}, [](std::uint64_t, const std::string&, bool) { ADD_FAILURE(); });
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "no mesh");
+    }
+}
+
 }  // namespace
 }  // namespace hilcam
