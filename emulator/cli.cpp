@@ -28,6 +28,7 @@ void add_subcommands(CLI::App& app, Action& action) {
     add_mesh_command(app, action);
     add_bench_command(app, action);
     add_tradeoff_command(app, action);
+    add_campaign_command(app, action);
     add_characterise_command(app, action);
     add_doctor_command(app, action);
     add_manual_command(app, action);

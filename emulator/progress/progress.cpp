@@ -34,6 +34,7 @@ class ProgressLine {
         return line;
     }
     bool shown() const { return shown_; }
+    void keep_silent() { shown_ = false; }
 
     void begin(const std::shared_ptr<Progress::Work>& work) {
         const std::lock_guard lock(mutex_);
@@ -107,6 +108,8 @@ Progress::Progress(std::string what, double steps, std::function<double()> look)
     work_->what = std::move(what), work_->steps = steps, work_->look = std::move(look);
     ProgressLine::the().begin(work_);
 }
+
+void Progress::keep_silent() { ProgressLine::the().keep_silent(); }
 
 Progress::~Progress() {
     if (work_) ProgressLine::the().end(work_);

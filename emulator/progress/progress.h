@@ -22,6 +22,10 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    // From now on nothing is told: for a child process, whose parent has the line. It takes no lock, which the
+    // fork may have left behind.
+    static void keep_silent();
+
     // Says that so many steps are done in all. Any thread.
     void done(double steps);
     // Says what comes now; nothing else changes. Any thread.

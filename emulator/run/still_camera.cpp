@@ -25,26 +25,50 @@ Exposure first_exposure(const CameraModel& camera) {
 StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
     : scenario_(scenario),
       grid_(scenario.spectrum_edges_um),
-      renderer_(load_renderer(scenario, grid_, image_geometry(scenario), &objects_)),
-      time_(parse_utc(scenario.time_utc) + static_cast<std::int64_t>(time_offset_s * 1e9)),
-      snapshot_(snapshot_at(scenario, parse_utc(scenario.time_utc), time_)),
-      world_(initial_motions(scenario, parse_utc(scenario.time_utc)), scenario.origin, joints_of(scenario),
-             scenario.mount, load_motion_sources(scenario), lamp_mounts(scenario)),
-      exposures_(*renderer_, exposure_config_of(scenario), scenario.camera, grid_, world_.placed_objects()),
-      radiance_(exposures_.make_image()),
-      exposure_(first_exposure(scenario.camera)) {
+      renderer_(load_renderer(scenario, grid_, image_geometry(scenario), &objects_)) {
+    take(scenario, time_offset_s);
+    radiance_ = exposures_->make_image();
+    points_.reserve(exposures_->max_points());
+}
+
+void StillCamera::take(const ScenarioConfig& scenario, double time_offset_s) {
+    scenario_ = scenario;
+    const TimeTai start = parse_utc(scenario.time_utc);
+    time_ = start + static_cast<std::int64_t>(time_offset_s * 1e9);
+    snapshot_ = snapshot_at(scenario, start, time_);
+    world_.emplace(initial_motions(scenario, start), scenario.origin, joints_of(scenario), scenario.mount,
+                   load_motion_sources(scenario), lamp_mounts(scenario));
+    exposures_.emplace(*renderer_, exposure_config_of(scenario), scenario.camera, grid_,
+                       world_->placed_objects());
+    exposure_ = first_exposure(scenario.camera);
     renderer_->require_air(snapshot_);
-    points_.reserve(exposures_.max_points());
+}
+
+void StillCamera::tell(FrameTruth& truth) {
+    renderer_->place_for_truth(snapshot_);
+    renderer_->report_truth(truth);
+}
+
+// Central differences: what they leave out is of the third order.
+Vec3d StillCamera::velocity_m_s(std::size_t object) {
+    constexpr std::int64_t kStep_ns = 50'000'000;
+    ShownCommand shown;
+    WorldSnapshot before = snapshot_, after = snapshot_;
+    world_->sample(time_, before, shown);
+    world_->sample_again(time_ + -kStep_ns, false, before);
+    world_->sample_again(time_ + kStep_ns, false, after);
+    return (after.objects[object].position_world_m - before.objects[object].position_world_m) /
+           (2e-9 * static_cast<double>(kStep_ns));
 }
 
 void StillCamera::look_from(const Pose& body) {
     const auto stand = [&](Vec3d velocity_world_m_s) {
-        world_.set(0, {time_, body, velocity_world_m_s, {}}, {1, monotonic_ns()}, true);
+        world_->set(0, {time_, body, velocity_world_m_s, {}}, {1, monotonic_ns()}, true);
         ShownCommand shown;
-        world_.sample(time_, snapshot_, shown);
+        world_->sample(time_, snapshot_, shown);
     };
     stand({});
-    stand(world_.nearest_velocity_m_s(snapshot_));
+    stand(world_->nearest_velocity_m_s(snapshot_));
     renderer_->require_air(snapshot_);
 }
 
@@ -61,8 +85,8 @@ SensorChain& StillCamera::chain() {
 }
 
 const RadianceImage& StillCamera::render(RandomKey key, FrameTruth* truth) {
-    exposures_.render(world_, time_, key, radiance_, points_, exposure_, truth);
-    exposures_.look_beside(beside_);
+    exposures_->render(*world_, time_, key, radiance_, points_, exposure_, truth);
+    exposures_->look_beside(beside_);
     return radiance_;
 }
 
@@ -79,7 +103,7 @@ const DnImage& StillCamera::digitise(RandomKey key) {
 ElectronImage StillCamera::dark() {
     const auto [width, height] = array_size(scenario_.camera);
     ElectronImage out(width, height);
-    const RadianceImage nothing = exposures_.make_image();
+    const RadianceImage nothing = exposures_->make_image();
     chain().expose(nothing, {}, {exposure_.exposure_s, exposure_.gain_db}, out);
     return out;
 }

@@ -22,6 +22,16 @@ class StillCamera {
     // seen from there.
     void look_from(const Pose& body);
 
+    // Goes over to another scenario that has the same scene and the same camera, but for its settings: other
+    // poses, motions, exposure, gain and seed, and another time where nothing that was loaded depends on it.
+    // Its pictures are those of a camera that is made for it. Throws InputError.
+    void take(const ScenarioConfig& scenario, double time_offset_s = 0);
+    // Tells what the frame would show, pointing jitter apart, without a picture. truth: made for this renderer,
+    // its raster set.
+    void tell(FrameTruth& truth);
+    // Returns the velocity of an object in the world, from 0.
+    Vec3d velocity_m_s(std::size_t object);
+
     // These functions are called in this order; each gives what it fills, valid until the next call. The key
     // chooses the light paths, and the noise.
     const RadianceImage& render(RandomKey key, FrameTruth* truth = nullptr);
@@ -34,7 +44,7 @@ class StillCamera {
     const Exposure& exposure() const { return exposure_; }
     TimeTai time() const { return time_; }
     // Returns where the camera was in the last rendering, pointing jitter in it.
-    const Pose& shown_camera() const { return exposures_.middle_world().camera; }
+    const Pose& shown_camera() const { return exposures_->middle_world().camera; }
     // Returns where everything is at mid-exposure, pointing jitter apart.
     const WorldSnapshot& world() const { return snapshot_; }
     Renderer& renderer() { return *renderer_; }
@@ -51,8 +61,8 @@ class StillCamera {
     std::unique_ptr<Renderer> renderer_;
     TimeTai time_;
     WorldSnapshot snapshot_;
-    WorldState world_;
-    ExposureRenderer exposures_;
+    std::optional<WorldState> world_;
+    std::optional<ExposureRenderer> exposures_;
     RadianceImage radiance_;
     std::vector<PointSource> points_;
     std::vector<SideLight> beside_;

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "emulator/campaign/campaign_config.h"
 #include "emulator/recording/program_version.h"
 #include "emulator/scenario/app_config.h"
 #include "emulator/subcommands/arguments.h"
@@ -18,15 +19,16 @@ namespace {
 
 struct ManualArguments {
     std::string prefix;
-    bool json = false, schema = false;
+    bool json = false, schema = false, campaign = false;
 };
 
 int carry_out(const ManualArguments& o) {
     ScenarioConfig scenario;
-    const SectionField root = section_of(scenario);
+    CampaignConfig campaign;
+    const SectionField root = o.campaign ? section_of(campaign) : section_of(scenario);
+    const std::string whole = o.campaign ? "campaign" : "scenario";
     if (o.schema)
-        fmt::print("{}",
-                   config_schema(root, o.prefix, "hilcam " + (o.prefix.empty() ? "scenario" : o.prefix)));
+        fmt::print("{}", config_schema(root, o.prefix, "hilcam " + (o.prefix.empty() ? whole : o.prefix)));
     else
         fmt::print("{}", o.json ? config_manual_json(root, o.prefix) : config_manual(root, o.prefix));
     return 0;
@@ -56,6 +58,7 @@ void add_manual_command(CLI::App& app, Action& action) {
     CLI::App* manual = app.add_subcommand("manual", "print the keys of a scenario file as a Markdown table");
     manual->add_option("prefix", o->prefix,
                        "only this key and those below it, as camera.shutter or objects.N.pose");
+    manual->add_flag("--campaign", o->campaign, "the keys of a campaign file (docs/campaigns.md)");
     CLI::Option* json = manual->add_flag("--json", o->json, "machine-readable");
     manual
         ->add_flag("--schema", o->schema,

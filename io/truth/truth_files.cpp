@@ -91,6 +91,26 @@ void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
     }
 }
 
+void write_flow_exr(const std::filesystem::path& file, int width_px, int height_px,
+                    std::span<const float> to_right, std::span<const float> down) {
+    try {
+        Imf::Header header(width_px, height_px);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        Imf::FrameBuffer buffer;
+        Layers layers(header, buffer);
+        layers.say("flow.unit", "px of the frame, to the right and down");
+        layers.add("flow.X", Imf::FLOAT, to_right.data(), width_px);
+        layers.add("flow.Y", Imf::FLOAT, down.data(), width_px);
+        Imf::OutputFile out(file.c_str(), header);
+        out.setFrameBuffer(buffer);
+        out.writePixels(height_px);
+    } catch (const std::exception& error) {
+        std::error_code ignored;
+        std::filesystem::remove(file, ignored);
+        throw DeviceError(file.string() + ": cannot be written: " + error.what());
+    }
+}
+
 std::uint16_t mask_number(std::uint32_t id) {
     constexpr std::uint32_t kFirstBody = 60'000;
     if (id < kFirstBody) return static_cast<std::uint16_t>(id);

@@ -21,6 +21,10 @@ namespace hilcam {
 void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
                      std::span<const std::string> legend);
 
+// Two planes of the frame's size as the channels flow.X and flow.Y [px]. DeviceError as above.
+void write_flow_exr(const std::filesystem::path& file, int width_px, int height_px,
+                    std::span<const float> to_right, std::span<const float> down);
+
 // The object layer as a mask: objects have their numbers, bodies 60000 and their NAIF number (60399 is the
 // Earth), the sky 0; the PNG's text "object.names" has them: "1 target; 60399 earth". An object beyond 59999
 // is 65535.

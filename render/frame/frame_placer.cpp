@@ -150,6 +150,11 @@ PixelBox FramePlacer::box_of(std::size_t i) const {
 }
 
 void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
+    place_shapes(world, key);
+    if (frame_.kept) kept_->place(frame_, world_);
+}
+
+void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
     HILCAM_CHECK(world.objects.size() + (terrain_ ? 1 : 0) == objects_.size());
     world_ = world;
     if (terrain_) {
@@ -172,7 +177,6 @@ void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     place_background();
     frame_.visibility = nullptr;
     any_placed_ = true;
-    if (frame_.kept) kept_->place(frame_, world_);
 }
 
 // Rows with poses of their own meet objects anywhere: no mask, no boxes; here and below.

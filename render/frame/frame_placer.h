@@ -45,6 +45,9 @@ class FramePlacer {
     // See Renderer.
     void give_tables(std::span<const std::shared_ptr<const TransferTable>> tables);
     bool take_light();
+    void stop_looking_ahead() {
+        if (kept_) kept_->stop_looking_ahead();
+    }
     // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
     // buffer. Loop.
     void place_visibility();
@@ -52,6 +55,8 @@ class FramePlacer {
     void set_paths(const PathModel& paths);
     // Loop; nothing is allocated after the first call.
     void place(const WorldSnapshot& world, RandomKey key);
+    // Does so without the light that is kept: for what asks where things are, and no more. Loop.
+    void place_shapes(const WorldSnapshot& world, RandomKey key);
 
     // --- the frame that was placed last
 

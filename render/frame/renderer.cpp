@@ -70,6 +70,8 @@ void Renderer::give_tables(std::span<const std::shared_ptr<const TransferTable>>
     implementation_->placer.give_tables(tables);
 }
 bool Renderer::take_light() { return implementation_->placer.take_light(); }
+
+void Renderer::stop_looking_ahead() { implementation_->placer.stop_looking_ahead(); }
 const RenderQuality& Renderer::quality() const { return implementation_->tracer.quality(); }
 void Renderer::set_pixel_noise(const PixelNoise& noise) { implementation_->tracer.set_pixel_noise(noise); }
 
@@ -128,6 +130,10 @@ void Renderer::set_drifts(const WorldSnapshot& before, const WorldSnapshot& afte
 }
 
 bool Renderer::last_shows_body() const { return implementation_->placer.shows_body(); }
+
+void Renderer::place_for_truth(const WorldSnapshot& world) {
+    implementation_->placer.place_shapes(world, {});
+}
 
 FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int height_px) const {
     return hilcam::make_truth(implementation_->placer, wishes, width_px, height_px);

@@ -60,6 +60,9 @@ class Renderer {
     // Lets the next frames have kept light if it has come. False: it has not, and their quality asks for it:
     // they are made with random paths. Loop, between two frames: no lock, nothing is allocated.
     bool take_light();
+    // Ends the thread that solves kept light before frames ask for it: they are the same without. For who
+    // makes single pictures, or is about to fork. Owner thread.
+    void stop_looking_ahead();
     // Sets the sensor's noise, against which the noise budget is weighed in the next frames; until then,
     // pixels are sampled once. Loop.
     void set_pixel_noise(const PixelNoise& noise);
@@ -80,9 +83,12 @@ class Renderer {
     // A body's disk or terrain on one may be in the last picture: how it moves depends on the bodies.
     bool last_shows_body() const;
 
+    // Places a world for report_truth() alone, without its light, which may take longer than all else. Loop.
+    void place_for_truth(const WorldSnapshot& world);
+
     // A record with room for what frames show, up to a size of them. Owner thread.
     FrameTruth make_truth(const TruthWishes& wishes, int width_px, int height_px) const;
-    // Fills `truth` with what the world shows that was placed last, by render() or motion(); truth.raster is
+    // Fills `truth` with what the world shows that was placed last, by render(), motion() or place_for_truth(); its raster is
     // set. Loop, as render().
     void report_truth(FrameTruth& truth) const;
 

@@ -38,6 +38,8 @@ class KeptScene {
     // it meanwhile. True: that is done, and place() has no more to solve than what has moved since the first
     // call. Before the first place(); loop, nothing is allocated and nobody waited for.
     bool prepare(const FrameView& frame, const WorldSnapshot& world);
+    // From now on nothing is made before a frame asks for it, and no thread is left that would. Owner thread.
+    void stop_looking_ahead() { updates_->stop_looking_ahead(); }
 
     bool keeps(std::size_t object) const { return object < objects_.size() && objects_[object].light; }
     const KeptLight& light(std::size_t object) const { return *objects_[object].light; }

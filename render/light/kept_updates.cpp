@@ -29,7 +29,9 @@ KeptUpdates::KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& 
     if (!order_.empty()) thread_ = std::thread([this] { work(); });
 }
 
-KeptUpdates::~KeptUpdates() {
+KeptUpdates::~KeptUpdates() { stop_looking_ahead(); }
+
+void KeptUpdates::stop_looking_ahead() {
     if (!thread_.joinable()) return;
     wait();
     state_.store(State::kStop), state_.notify_one();

@@ -27,6 +27,8 @@ class KeptUpdates {
     void bring_to(const KeptTarget& target);
     // Asks the thread for what will be needed; does nothing while it is at work. Loop.
     void look_ahead(const KeptTarget& target);
+    // Ends the thread: from then on it counts as busy, and nothing is made ahead. Owner thread.
+    void stop_looking_ahead();
     // Returns an object's share of the memory of what is made and not taken yet, and of the work.
     std::size_t bytes(std::size_t object) const;
     bool is_busy() const { return state_.load(std::memory_order_acquire) != State::kIdle; }

@@ -39,6 +39,8 @@ class Installed(unittest.TestCase):
 
     def test_files_lie_where_gnu_programs_have_them(self):
         for name in ("bin/hilcam", "libexec/hilcam/hilcam-make-spacecraft", "libexec/hilcam/hilcam-plot-tradeoff",
+                     "libexec/hilcam/hilcam-plot-campaign", "share/hilcam/schema/campaign.schema.json",
+                     "share/doc/hilcam/tools/python/hilcam/client.py",
                      "share/hilcam/scenarios/small.yaml", "share/hilcam/stars/hipparcos.csv", "share/hilcam/maps/earth_albedo.png",
                      "share/hilcam/schema/scenario.schema.json", "share/hilcam/client/hilcam_client.py",
                      "share/doc/hilcam/tools/client/hilcam_client.py", "share/doc/hilcam/tools/client/hilcam_client.h",

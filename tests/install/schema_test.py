@@ -25,6 +25,7 @@ CONFIGS = SOURCE / "configs"
 # A file's schema, and the section of `hilcam manual` that such a file holds.
 SECTIONS = {
     "scenario": "",
+    "campaign": "--campaign",
     "camera": "camera",
     "quality": "quality",
     "materials": "objects.N.materials",

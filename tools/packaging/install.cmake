@@ -16,7 +16,7 @@ add_custom_target(pages ALL DEPENDS ${pages}/hilcam.bash)
 
 # --- the program ---
 install(TARGETS hilcam RUNTIME COMPONENT program)
-install(PROGRAMS tools/hilcam-plot-characterise tools/hilcam-plot-soak tools/hilcam-plot-tradeoff
+install(PROGRAMS tools/hilcam-plot-campaign tools/hilcam-plot-characterise tools/hilcam-plot-soak tools/hilcam-plot-tradeoff
     DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT program)
 install(DIRECTORY configs/cameras configs/maps configs/materials configs/quality configs/schema configs/stars
     DESTINATION ${data} COMPONENT program)
@@ -31,6 +31,7 @@ install(FILES tools/client/hilcam_client.py DESTINATION ${data}/client COMPONENT
 install(FILES README.md CONTRIBUTING.md NOTICE CITATION.cff SECURITY.md DESTINATION ${doc} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${doc} COMPONENT program)
 install(FILES tools/client/README.md DESTINATION ${doc}/tools/client COMPONENT program)
+install(DIRECTORY tools/python DESTINATION ${doc}/tools COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY tools/ground_systems DESTINATION ${doc}/tools COMPONENT program)
 # Debian has a licence file and a changelog of its own kind in their place (debian.cmake).
 install(FILES CHANGELOG.md LICENSE DESTINATION ${doc} COMPONENT texts)

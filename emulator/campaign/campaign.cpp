@@ -1,0 +1,158 @@
+#include "emulator/campaign/campaign.h"
+
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <memory>
+#include <thread>
+
+#include "emulator/campaign/campaign_results.h"
+#include "emulator/campaign/case_record.h"
+#include "emulator/campaign/picture_case.h"
+#include "emulator/campaign/program_case.h"
+#include "emulator/campaign/worker_pool.h"
+#include "emulator/progress/progress.h"
+#include "io/system/durable_file.h"
+#include "render/vocabulary/stopwatch.h"
+#include "render/vocabulary/time.h"
+
+namespace hilcam {
+namespace {
+
+std::string host_name() {
+    std::array<char, 65> name{};
+    return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+std::string wall_clock_utc() {
+    std::array<char, 32> text{};
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc)};
+}
+
+double processor_s() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+class CampaignMaker {
+  public:
+    CampaignMaker(const CampaignConfig& campaign, const CampaignFolder& folder, std::size_t workers)
+        : campaign_(campaign), folder_(folder), workers_(workers), draw_(campaign) {
+        // One thread: children are forked from it, and oneTBB's would not come along.
+        if (workers_ > 1)
+            threads_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, 1);
+        // A single child loads for itself, on all threads.
+        if (workers_ > 1 && !campaign_.run) load();
+    }
+
+    void run(const std::vector<std::uint64_t>& numbers, CampaignOutcome& outcome) {
+        WorkerPool pool(workers_, campaign_.time_limit_s, [this](std::size_t slot) { return begin(slot); });
+        Progress progress("campaign " + campaign_.name, static_cast<double>(numbers.size()));
+        std::uint64_t told = 0;
+        pool.run(numbers, [&](std::uint64_t number, const std::string& problem, bool lost) {
+            progress.done(static_cast<double>(++told));
+            ++outcome.made;
+            // The child had no time to say so itself.
+            if (lost) keep(failed_record(number, problem));
+        });
+    }
+
+  private:
+    const CampaignConfig& campaign_;
+    const CampaignFolder& folder_;
+    std::size_t workers_;
+    CaseDraw draw_;
+    std::unique_ptr<tbb::global_control> threads_;
+    std::unique_ptr<PictureCases> pictures_;
+
+    void load() { pictures_ = std::make_unique<PictureCases>(campaign_); }
+
+    // In the child. Cores that have no child of their own are shared out.
+    WorkerPool::Work begin(std::size_t slot) {
+        const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+        const std::size_t threads = std::max<std::size_t>(1, cores / workers_);
+        threads_.reset();
+        threads_ =
+            std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+        if (!campaign_.run && !pictures_) load();
+        return [this, slot](std::uint64_t number) { return make(number, slot); };
+    }
+
+    CaseRecord failed_record(std::uint64_t number, const std::string& reason) const {
+        CaseRecord record;
+        record.plan = draw_.plan(number, 0);
+        record.reason = reason;
+        record.host = host_name();
+        record.begun_utc = wall_clock_utc();
+        return record;
+    }
+
+    // A disk that is full holds no record either: the case is made again next time.
+    bool keep(const CaseRecord& record) const {
+        try {
+            write_record(folder_.path(), record);
+            return true;
+        } catch (const std::exception&) {
+            return false;
+        }
+    }
+
+    std::string make(std::uint64_t number, std::size_t slot) {
+        const Stopwatch watch;
+        const double before_s = processor_s();
+        const std::string begun = wall_clock_utc();
+        CaseRecord record;
+        try {
+            record = campaign_.run ? make_program_case(campaign_, draw_.plan(number, 0), folder_.path(), slot)
+                                   : pictures_->make(number, folder_.path());
+        } catch (const std::bad_alloc&) {
+            record = failed_record(number, "not enough memory");
+        } catch (const std::exception& problem) {
+            record = failed_record(number, problem.what());
+        }
+        record.begun_utc = begun;
+        record.host = host_name();
+        record.all_s = watch.seconds();
+        record.cpu_s = processor_s() - before_s;
+        if (!keep(record)) return record.reason.empty() ? "its record cannot be written" : record.reason;
+        return record.reason;
+    }
+};
+
+}  // namespace
+
+CampaignOutcome run_campaign(const CampaignConfig& campaign, const CampaignOptions& options) {
+    const CaseRange all{1, static_cast<std::uint64_t>(campaign.count)};
+    const CaseRange range = options.cases.value_or(all);
+    if (range.first < 1 || range.last < range.first || range.last > all.last)
+        throw InputError("--cases: found " + std::to_string(range.first) + "-" + std::to_string(range.last) +
+                         "; accepted: numbers from 1 to " + std::to_string(all.last) + " (count)");
+    // What cannot be is told before a folder is made.
+    const CaseDraw draw(campaign);
+    load_keypoints(campaign.keypoints);
+    const CampaignFolder folder(campaign, options.out, options.cases.has_value());
+    CampaignOutcome outcome;
+    const std::vector<std::uint64_t> missing =
+        options.merge ? std::vector<std::uint64_t>() : folder.missing(range, options.retry);
+    if (!missing.empty()) {
+        const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+        const std::size_t workers = std::min(options.jobs > 0 ? options.jobs : cores, missing.size());
+        const Stopwatch loading;
+        CampaignMaker maker(campaign, folder, workers);
+        outcome.load_s = loading.seconds();
+        const Stopwatch working;
+        maker.run(missing, outcome);
+        outcome.seconds = working.seconds();
+    }
+    write_results(campaign, folder.path(), range, !options.cases, outcome);
+    return outcome;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,99 @@
+#include "emulator/campaign/case_camera.h"
+
+#include <algorithm>
+#include <array>
+
+#include "render/vocabulary/check.h"
+
+namespace hilcam {
+namespace {
+
+std::string key_of(const std::string& override) { return override.substr(0, override.find('=')); }
+
+// "objects.12.pose.up" -> "pose.up"; empty: not of an element of that list.
+std::string below_element(const std::string& key, const std::string& list) {
+    if (!key.starts_with(list + ".")) return {};
+    const std::size_t dot = key.find('.', list.size() + 1);
+    return dot == std::string::npos ? std::string() : key.substr(dot + 1);
+}
+
+// Stars stand where they are at the time of loading; terrain and bodies of the scenario's own lie then.
+bool depends_on_time(const ScenarioConfig& s) {
+    return (s.stars && !s.stars->catalogue.empty()) || s.terrain || !s.own_bodies.empty() || s.leap_seconds;
+}
+
+}  // namespace
+
+bool is_taken_over(const std::string& key, bool time_is_free) {
+    if (key == "seed" || key == "camera.exposure_ms" || key == "camera.gain_db") return true;
+    if (key == "time_utc") return time_is_free;
+    const auto is_at = [&](const std::string& section) {
+        return key == section || key.starts_with(section + ".");
+    };
+    if (is_at("camera_pose") || is_at("camera_motion")) return true;
+    const std::string of_object = below_element(key, "objects");
+    // How fast an object turns decides what is prepared of it.
+    if (of_object.starts_with("pose.")) return of_object != "pose.rate_deg_s";
+    if (of_object == "motion" || of_object.starts_with("motion.")) return true;
+    return below_element(of_object, "joints") == "angle_deg";
+}
+
+CaseCamera::CaseCamera(const CampaignConfig& campaign)
+    : file_(campaign.scenario),
+      number_(static_cast<std::size_t>(campaign.camera)),
+      target_(static_cast<std::size_t>(campaign.target) - 1) {
+    const ScenarioConfig scenario = read(campaign.set);
+    if (campaign.view && target_ >= scenario.objects.size())
+        throw InputError("target: found " + std::to_string(campaign.target) + "; the scenario has " +
+                         std::to_string(scenario.objects.size()) + " objects");
+    time_is_free_ = !depends_on_time(scenario);
+    load(scenario, scene_of(campaign.set));
+}
+
+ScenarioConfig CaseCamera::read(const std::vector<std::string>& overrides) const {
+    const ScenarioConfig bench = load_scenario(file_, overrides);
+    if (number_ > 1 + bench.more_cameras.size())
+        throw InputError("camera: found " + std::to_string(number_) + "; the scenario has " +
+                         std::to_string(1 + bench.more_cameras.size()));
+    ScenarioConfig scenario = scenario_of_camera(bench, number_ - 1);
+    scenario.has_seed = true;
+    return scenario;
+}
+
+std::string CaseCamera::scene_of(const std::vector<std::string>& overrides) const {
+    std::string scene;
+    for (const std::string& override : overrides)
+        if (!is_taken_over(key_of(override), time_is_free_)) scene += override + '\n';
+    return scene;
+}
+
+void CaseCamera::load(const ScenarioConfig& scenario, std::string scene) {
+    camera_.reset();  // two scenes may not fit
+    scene_ = "\n";    // no case's, should loading fail
+    sheet_.reset();
+    camera_ = std::make_unique<StillCamera>(scenario);
+    camera_->renderer().stop_looking_ahead();
+    scenario_ = scenario;
+    scene_ = std::move(scene);
+    ++loads_;
+}
+
+void CaseCamera::take(const std::vector<std::string>& overrides) {
+    const ScenarioConfig scenario = read(overrides);
+    std::string scene = scene_of(overrides);
+    if (scene != scene_) return load(scenario, std::move(scene));
+    camera_->take(scenario);
+    scenario_ = scenario;
+}
+
+const CameraSheet& CaseCamera::sheet() {
+    if (!sheet_ || sheet_gain_db_ != scenario_.camera.gain_db) {
+        sheet_ = camera_sheet(scenario_.camera);
+        sheet_gain_db_ = scenario_.camera.gain_db;
+    }
+    return *sheet_;
+}
+
+void CaseCamera::take_time(double time_offset_s) { camera_->take(scenario_, time_offset_s); }
+
+}  // namespace hilcam

@@ -1,0 +1,59 @@
+#pragma once
+// The camera that takes a campaign's pictures: loaded once, and again only for a case whose scene is another.
+//
+// Keys that only place and set what was loaded (poses, motions, joints, exposure, gain, seed, and the time
+// where nothing that was loaded depends on it) are taken over without loading anything. Whatever else a case
+// has of its own is loaded for it.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/campaign/campaign_config.h"
+#include "emulator/check/camera_sheet.h"
+#include "emulator/run/still_camera.h"
+
+namespace hilcam {
+
+class CaseCamera {
+  public:
+    // Reads the campaign's scenario, and loads what it names. Throws InputError, DeviceError.
+    explicit CaseCamera(const CampaignConfig& campaign);
+
+    // Becomes the camera of a scenario of these overrides. Throws InputError, DeviceError; the next case finds
+    // it ready all the same.
+    void take(const std::vector<std::string>& overrides);
+    // The same scenario so many seconds later.
+    void take_time(double time_offset_s);
+
+    StillCamera& camera() { return *camera_; }
+    const StillCamera& camera() const { return *camera_; }
+    const ScenarioConfig& scenario() const { return scenario_; }
+    std::size_t number() const { return number_; }
+    std::size_t target() const { return target_; }
+    // Returns the data sheet at the gain of the case, whatever its exposure: a sheet takes long to make.
+    const CameraSheet& sheet();
+    // Returns how often a scene was loaded.
+    int loads() const { return loads_; }
+
+  private:
+    std::filesystem::path file_;
+    std::size_t number_, target_;
+    bool time_is_free_ = false;
+    ScenarioConfig scenario_;
+    std::string scene_;  // the overrides that what is loaded depends on
+    std::unique_ptr<StillCamera> camera_;
+    int loads_ = 0;
+    std::optional<CameraSheet> sheet_;
+    double sheet_gain_db_ = 0;
+
+    ScenarioConfig read(const std::vector<std::string>& overrides) const;
+    std::string scene_of(const std::vector<std::string>& overrides) const;
+    void load(const ScenarioConfig& scenario, std::string scene);
+};
+
+// True for a key that a loaded camera takes over. time_is_free: nothing that was loaded depends on the time.
+bool is_taken_over(const std::string& key, bool time_is_free);
+
+}  // namespace hilcam

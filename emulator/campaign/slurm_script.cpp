@@ -1,0 +1,127 @@
+#include "emulator/campaign/slurm_script.h"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "io/system/durable_file.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+// A word as a shell takes it.
+std::string shell_word(const std::string& text) {
+    std::string out = "'";
+    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+// "0-3,7": what --array takes.
+std::string array_text(const std::vector<std::uint64_t>& tasks) {
+    std::string out;
+    for (std::size_t i = 0; i < tasks.size();) {
+        std::size_t last = i;
+        while (last + 1 < tasks.size() && tasks[last + 1] == tasks[last] + 1) ++last;
+        out += (out.empty() ? "" : ",") + std::to_string(tasks[i]);
+        if (last > i) out += "-" + std::to_string(tasks[last]);
+        i = last + 1;
+    }
+    return out;
+}
+
+std::string job_name(const SlurmPlan& plan) {
+    std::string name = "hilcam-" + plan.name;
+    for (char& c : name)
+        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '-';
+    return name;
+}
+
+std::string command_of(const SlurmPlan& plan) {
+    std::string out = shell_word(plan.program.string()) + " campaign " + shell_word(plan.campaign.string()) +
+                      " --out " + shell_word(plan.folder.string());
+    for (const std::string& override : plan.overrides) out += " --set " + shell_word(override);
+    return out;
+}
+
+std::string heading(const SlurmPlan& plan, const std::string& name, const std::string& log) {
+    return "#!/bin/sh\n#SBATCH --job-name=" + name +
+           "\n#SBATCH --output=" + (plan.folder / "slurm" / log).string() + "\n";
+}
+
+// Runs a command without a shell's help for its words; gives what it prints.
+std::string output_of(const std::string& command) {
+    FILE* const pipe = popen((command + " 2>&1").c_str(), "re");
+    if (!pipe) throw DeviceError("sbatch cannot be started");
+    std::string out;
+    std::array<char, 4096> piece{};
+    for (std::size_t size; (size = fread(piece.data(), 1, piece.size(), pipe)) > 0;)
+        out.append(piece.data(), size);
+    const int status = pclose(pipe);
+    while (!out.empty() && out.back() == '\n') out.pop_back();
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw DeviceError("sbatch: " + shortened(out));
+    return out;
+}
+
+bool has_sbatch() { return std::system("command -v sbatch >/dev/null 2>&1") == 0; }
+
+}  // namespace
+
+std::uint64_t chunk_of(double case_s, double task_s) {
+    return static_cast<std::uint64_t>(std::clamp(std::floor(task_s / std::max(case_s, 1e-3)), 1.0, 1e6));
+}
+
+std::vector<std::uint64_t> tasks_of(const std::vector<std::uint64_t>& missing, std::uint64_t chunk) {
+    std::vector<std::uint64_t> out;
+    for (const std::uint64_t number : missing)
+        if (const std::uint64_t task = (number - 1) / chunk; out.empty() || out.back() != task)
+            out.push_back(task);
+    return out;
+}
+
+std::string array_script(const SlurmPlan& plan) {
+    const std::string chunk = std::to_string(plan.chunk), count = std::to_string(plan.count);
+    return heading(plan, job_name(plan), "task-%a.log") + "#SBATCH --array=" + array_text(plan.tasks) +
+           "\n"
+           // What a node that dies has made is kept; the task begins again where it was.
+           "#SBATCH --requeue\n#SBATCH --open-mode=append\n"
+           "first=$((SLURM_ARRAY_TASK_ID * " +
+           chunk +
+           " + 1))\n"
+           "last=$((first + " +
+           chunk +
+           " - 1))\n"
+           "[ $last -gt " +
+           count + " ] && last=" + count +
+           "\n"
+           "exec " +
+           command_of(plan) + " --cases $first-$last --jobs ${SLURM_CPUS_PER_TASK:-1}\n";
+}
+
+std::string merge_script(const SlurmPlan& plan) {
+    return heading(plan, job_name(plan) + "-merge", "merge.log") + "exec " + command_of(plan) + " --merge\n";
+}
+
+std::vector<std::string> submit_campaign(const SlurmPlan& plan, bool submit) {
+    const std::filesystem::path array = plan.folder / "slurm" / "array.sh",
+                                merge = plan.folder / "slurm" / "merge.sh";
+    write_durably(array, array_script(plan));
+    write_durably(merge, merge_script(plan));
+    std::vector<std::string> out = {std::to_string(plan.tasks.size()) + " tasks of " +
+                                    std::to_string(plan.chunk) + " cases: " + array.string()};
+    if (!submit || !has_sbatch()) {
+        out.push_back("not submitted: sbatch " + array.string() + ", and " + merge.string() + " after it");
+        return out;
+    }
+    const std::string job = output_of("sbatch --parsable " + shell_word(array.string()));
+    // Tasks that fail have failed cases; what there is is put together all the same.
+    const std::string last = output_of("sbatch --parsable --dependency=afterany:" + shell_word(job) + " " +
+                                       shell_word(merge.string()));
+    out.push_back("submitted: job " + job + ", and " + last + " to put its results together");
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,35 @@
+#pragma once
+// A campaign as an array job of Slurm: each task makes a chunk of the cases on the file system that all nodes
+// share, and a last job puts them together (slurm.schedmd.com, sbatch(1), "Job Array Support").
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "emulator/campaign/campaign_config.h"
+
+namespace hilcam {
+
+struct SlurmPlan {
+    std::string name;                                 // name of the campaign
+    std::filesystem::path program, campaign, folder;  // absolute
+    std::vector<std::string> overrides;               // values that replace those of its file
+    std::uint64_t count = 1, chunk = 1;               // cases in all, and in a task
+    std::vector<std::uint64_t> tasks;                 // that have something to make, from 0
+};
+
+// Returns the chunk of cases that a task makes in about so many seconds on one core.
+std::uint64_t chunk_of(double case_s, double task_s);
+// Returns which tasks have one of the missing cases.
+std::vector<std::uint64_t> tasks_of(const std::vector<std::uint64_t>& missing, std::uint64_t chunk);
+
+// Return the scripts: of the array, whose tasks are begun again when their node dies, and of the last job.
+std::string array_script(const SlurmPlan& plan);
+std::string merge_script(const SlurmPlan& plan);
+
+// Writes slurm/array.sh and slurm/merge.sh into the campaign's folder and hands them to sbatch, where there is
+// one. Returns what it did, a line each. DeviceError when a file cannot be written, or sbatch refuses.
+std::vector<std::string> submit_campaign(const SlurmPlan& plan, bool submit);
+
+}  // namespace hilcam

@@ -1,0 +1,503 @@
+#!/usr/bin/python3
+"""`hilcam campaign` on a small scenario: the same bits however it is made, labels read by independent readers, kills, failures.
+
+    campaign_test.py HILCAM SOURCE_DIR [CLASS...]
+"""
+import csv
+import json
+import math
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tarfile
+import tempfile
+import time
+import unittest
+
+import numpy
+import yaml
+from PIL import Image
+
+HILCAM, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+SCENARIO = SOURCE / "tests/protocol/minimal_scenario.yaml"
+CAMPAIGN = f"""
+name: test
+scenario: {SCENARIO}
+set: [objects.0.pose.attitude=quaternion, "camera.distortion=[-0.05, 0, 0.001]"]
+count: 8
+seed: 7
+sequence: r_sequence
+vary: [{{key: objects.0.pose.attitude_wxyz, attitude: true}}]
+view:
+  size_px: {{log_uniform: [60, 170]}}
+  phase_deg: {{uniform: [0, 110]}}
+  offset_share: {{uniform: [-0.4, 0.4]}}
+  signal_dn: {{log_uniform: [400, 3000]}}
+require: {{in_field: center, lit_share: 0.05, tries: 50}}
+splits: [{{name: train, share: 0.6}}, {{name: val, share: 0.4}}]
+labels: [coco, bop, yolo, speed]
+keypoints: [{{file: points.csv, tolerance_m: 0.5}}]
+shard_samples: 3
+"""
+POINTS = {"origin": (0, 0, 0), "ahead": (1.5, 0, 0), "beside": (0, 6.0, 0.25), "far": (0, -300, 0)}
+
+
+def campaign(text, folder, *options, expect=0, prefix=(), timeout=120):
+    folder = pathlib.Path(folder)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    file = folder.parent / "campaign.yaml"
+    file.write_text(text)
+    (folder.parent / "points.csv").write_text("name,x_m,y_m,z_m\n" + "".join(f"{n},{x},{y},{z}\n" for n, (x, y, z) in POINTS.items()))
+    result = subprocess.run([*prefix, HILCAM, "campaign", file, "--out", folder, *map(str, options)], capture_output=True, text=True, timeout=timeout)
+    if expect is not None and result.returncode != expect:
+        raise AssertionError(f"status {result.returncode}: {result.stderr}")
+    return result
+
+
+def rows(folder, name="index.csv"):
+    with open(folder / name, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def record(folder, number):
+    return json.loads((folder / f"cases/{number:06d}.json").read_text())
+
+
+def contents(folder):
+    """All files and their bytes, but for what tells of this making: times, and who holds the lock."""
+    out = {}
+    for path in sorted(folder.rglob("*")):
+        name = str(path.relative_to(folder))
+        if not path.is_file() or name in ("times.csv", "index.html", "campaign.lock"):
+            continue
+        out[name] = path.read_bytes()
+        if name.startswith("cases/"):
+            case = json.loads(out[name])
+            del case["took"]
+            out[name] = json.dumps(case)
+    return out
+
+
+def rotation(q):
+    """p' = R(q) p, scalar first."""
+    w, x, y, z = q
+    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def projected(points, matrix, distortion):
+    """As OpenCV has it: places in camera axes to pixels."""
+    k1, k2, p1, p2, k3 = distortion
+    x, y = points[..., 0] / points[..., 2], points[..., 1] / points[..., 2]
+    r2 = x * x + y * y
+    radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3))
+    xd = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)
+    yd = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y
+    return numpy.stack([matrix[0][0] * xd + matrix[0][2], matrix[1][1] * yd + matrix[1][2]], -1)
+
+
+def unpacked(segmentation):
+    """COCO's compressed run lengths, by the description in its maskApi.h and the text coding of maskApi.c."""
+    height, width = segmentation["size"]
+    text, counts, at = segmentation["counts"], [], 0
+    while at < len(text):
+        value = shift = 0
+        while True:
+            bits = ord(text[at]) - 48
+            at += 1
+            value |= (bits & 31) << shift
+            shift += 5
+            if not bits & 32:
+                break
+        if bits & 16:
+            value -= 1 << shift
+        counts.append(value + (counts[-2] if len(counts) > 2 else 0))
+    assert sum(counts) == height * width
+    return numpy.repeat(numpy.arange(len(counts)) % 2 == 1, counts).reshape(width, height).T
+
+
+def box_of(mask):
+    y, x = numpy.nonzero(mask)
+    return [int(x.min()), int(y.min()), int(x.max() - x.min() + 1), int(y.max() - y.min() + 1)]
+
+
+class Made(unittest.TestCase):
+    """One campaign that all of these look at."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.top = pathlib.Path(cls.temporary.name)
+        cls.folder = cls.top / "first"
+        campaign(CAMPAIGN, cls.folder, "--jobs", 2)
+        cls.rows = rows(cls.folder)
+        cls.names = {row["case"]: row for row in cls.rows}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_every_case_has_its_row(self):
+        self.assertEqual([row["case"] for row in self.rows], [f"{n:06d}" for n in range(1, 9)])
+        self.assertEqual({row["outcome"] for row in self.rows}, {"done"})
+        self.assertEqual(len({row["seed"] for row in self.rows}), 8)
+        for row in self.rows:
+            self.assertGreaterEqual(float(row["lit_share"]), 0.05)
+            self.assertGreater(float(row["snr"]), 1)
+        self.assertEqual([t["case"] for t in rows(self.folder, "times.csv")], [row["case"] for row in self.rows])
+
+    def test_the_same_bits_whatever_makes_them(self):
+        first = contents(self.folder)
+        one = self.top / "one/out"
+        campaign(CAMPAIGN, one, "--jobs", 1)
+        self.assertEqual(contents(one), first)
+        parts = self.top / "parts/out"
+        for part in ("5-8", "1-2", "3-4"):
+            campaign(CAMPAIGN, parts, "--cases", part)
+        self.assertFalse((parts / "index.csv").exists())
+        campaign(CAMPAIGN, parts, "--merge")
+        self.assertEqual(contents(parts), first)
+
+    def test_a_case_comes_again_alone_and_as_a_picture(self):
+        alone = self.top / "alone/out"
+        campaign(CAMPAIGN, alone, "--case", 5)
+        for name in ("images/000005.png", "views/000005.png", "depth/000005.png"):
+            self.assertEqual((alone / name).read_bytes(), (self.folder / name).read_bytes())
+        sets = [word for value in record(self.folder, 5)["set"] for word in ("--set", value)]
+        picture = self.top / "picture.png"
+        subprocess.run([HILCAM, "render", SCENARIO, *sets, "--out", picture], check=True, capture_output=True)
+        self.assertEqual(picture.read_bytes(), (self.folder / "images/000005.png").read_bytes())
+
+    def test_the_manual_is_the_documented_one(self):
+        table = subprocess.run([HILCAM, "manual", "--campaign"], capture_output=True, text=True, check=True).stdout
+        self.assertIn(table, (SOURCE / "docs/campaigns.md").read_text())
+
+    def test_the_page_shows_what_there_is(self):
+        page = (self.folder / "index.html").read_text()
+        for words in ("8 cases: 8 done, 0 failed", "No case has failed", "Phase angle", "Signal over noise", 'src="views/000003.png"'):
+            self.assertIn(words, page)
+
+    def test_coco(self):
+        seen = 0
+        for split in ("train", "val"):
+            coco = json.loads((self.folder / f"coco/{split}.json").read_text())
+            images = {image["id"]: image for image in coco["images"]}
+            self.assertEqual(coco["categories"][0]["keypoints"], list(POINTS))
+            for label in coco["annotations"]:
+                image = images[label["image_id"]]
+                name = pathlib.Path(image["file_name"]).stem
+                self.assertEqual(self.names[name]["split"], split)
+                with Image.open(self.folder / image["file_name"]) as picture:
+                    self.assertEqual(picture.size, (image["width"], image["height"]))
+                mask = unpacked(label["segmentation"])
+                self.assertEqual(mask.shape, (image["height"], image["width"]))
+                self.assertEqual((int(mask.sum()), box_of(mask)), (label["area"], label["bbox"]))
+                self.assertEqual(label["area"], int(self.names[name]["visible_px"]))
+                self.check_keypoints(label, record(self.folder, int(name)))
+                seen += 1
+        self.assertEqual(seen, 8)
+
+    def check_keypoints(self, label, case):
+        truth = case["frames"][0]["truth"]
+        image, target = truth["image"], truth["objects"][0]
+        fx, fy = image["focal_length_px"]
+        cx, cy = image["principal_point_px"]
+        places = numpy.array(list(POINTS.values()), float) @ rotation(target["camera_from_body_wxyz"]).T + target["position_camera_m"]
+        expected = projected(places, [[fx, 0, cx], [0, fy, cy], [0, 0, 1]], image["distortion"])
+        found = numpy.array(label["keypoints"]).reshape(-1, 3)
+        self.assertEqual(label["num_keypoints"], int((found[:, 2] > 0).sum()))
+        for place, (x, y, visibility) in zip(expected, found):
+            if visibility:
+                self.assertLess(math.hypot(place[0] - x, place[1] - y), 1e-5)
+            else:
+                self.assertEqual((x, y), (0, 0))
+        self.assertEqual(found[-1, 2], 0)  # 300 m beside the target
+
+    def test_bop(self):
+        for split in ("train", "val"):
+            scene = self.folder / f"bop/{split}/000000"
+            cameras, poses, infos = (json.loads((scene / f"scene_{n}.json").read_text()) for n in ("camera", "gt", "gt_info"))
+            self.assertEqual(set(cameras), set(poses))
+            for key, camera in cameras.items():
+                case = record(self.folder, int(key) + 1)
+                truth = case["frames"][0]["truth"]
+                target = truth["objects"][0]
+                stem = f"{int(key):06d}"
+                self.assertEqual((scene / f"gray/{stem}.png").read_bytes(), (self.folder / f"views/{case['name']}.png").read_bytes())
+                mask = numpy.array(Image.open(scene / f"mask_visib/{stem}_000000.png")) > 0
+                info, pose = infos[key][0], poses[key][0]
+                self.assertEqual((int(mask.sum()), box_of(mask)), (info["px_count_visib"], info["bbox_visib"]))
+                self.assertAlmostEqual(info["visib_fract"], target["visible_fraction"])
+                if not target["silhouette_cut"] and info["visib_fract"] == 1:
+                    self.assertEqual(info["bbox_obj"], info["bbox_visib"])
+                # The model's origin, by cam_K and the pose, is truth's centre without distortion, from the first pixel's middle.
+                k = numpy.array(camera["cam_K"]).reshape(3, 3)
+                place = k @ numpy.array(pose["cam_t_m2c"])
+                x, y = place[:2] / place[2] + 0.5
+                fx, fy = truth["image"]["focal_length_px"]
+                cx, cy = truth["image"]["principal_point_px"]
+                p = target["position_camera_m"]
+                self.assertAlmostEqual(x, cx + fx * p[0] / p[2], 5)
+                self.assertAlmostEqual(y, cy + fy * p[1] / p[2], 5)
+                # World to camera to model: the target's place and attitude in the world.
+                w2c, m2c = (numpy.array(v).reshape(3, 3) for v in (camera["cam_R_w2c"], pose["cam_R_m2c"]))
+                world = w2c.T @ (numpy.array(pose["cam_t_m2c"]) - camera["cam_t_w2c"]) / 1000
+                self.assertLess(numpy.abs(world - target["position_m"]).max(), 1e-6)
+                self.assertLess(numpy.abs(w2c.T @ m2c - rotation(target["attitude_wxyz"])).max(), 1e-9)
+                # Depth is near the origin's wherever the target is.
+                depth = numpy.array(Image.open(scene / f"depth/{stem}.png")) * camera["depth_scale"] / 1000
+                self.assertEqual((depth > 0).sum(), mask.sum())
+                self.assertLess(numpy.abs(depth[mask] - p[2]).max(), target["radius_m"] + camera["depth_scale"] / 1000)
+
+    def test_yolo(self):
+        data = yaml.safe_load((self.folder / "yolo/data.yaml").read_text())
+        self.assertEqual((data["nc"], data["names"][0], data["kpt_shape"]), (1, "target", [4, 3]))
+        for split in ("train", "val"):
+            for text in (self.folder / f"yolo/labels/{split}").glob("*.txt"):
+                self.assertTrue((self.folder / "yolo" / data[split] / f"{text.stem}.png").is_file())
+                kind, x, y, w, h, *points = map(float, text.read_text().split())
+                truth = record(self.folder, int(text.stem))["frames"][0]["truth"]
+                width, height = truth["image"]["width_px"], truth["image"]["height_px"]
+                left, top, across, down = truth["objects"][0]["visible_box_px"]
+                for found, told in ((x * width, left + across / 2), (y * height, top + down / 2), (w * width, across), (h * height, down)):
+                    self.assertAlmostEqual(found, told, 6)
+                self.assertEqual(kind, 0)
+                self.assertEqual(len(points), 12)
+
+    def test_speed(self):
+        """As the data set's own tools project: K (R(q) p + r)."""
+        camera = json.loads((self.folder / "speed/camera.json").read_text())
+        self.assertAlmostEqual(camera["fx"] / camera["ppx"], camera["cameraMatrix"][0][0], 6)
+        count = 0
+        for split in ("train", "val"):
+            for label in json.loads((self.folder / f"speed/{split}.json").read_text()):
+                self.assertTrue((self.folder / "speed/images" / label["filename"]).is_file())
+                r = numpy.array(label["r_Vo2To_vbs_true"])
+                places = rotation(label["q_vbs2tango_true"]) @ numpy.zeros(3) + r
+                found = projected(places, camera["cameraMatrix"], camera["distCoeffs"])
+                center = record(self.folder, int(pathlib.Path(label["filename"]).stem))["frames"][0]["truth"]["objects"][0]["center_px"]
+                self.assertLess(numpy.abs(found - center).max(), 1e-4)
+                count += 1
+        self.assertEqual(count, 8)
+
+    def test_shards(self):
+        samples = {}
+        for shard in sorted((self.folder / "shards").glob("*.tar")):
+            with tarfile.open(shard) as tar:
+                keys = []
+                for member in tar:
+                    key, _, kind = member.name.partition(".")
+                    if key not in keys:
+                        keys.append(key)
+                    self.assertEqual(keys[-1], key)  # a sample's files lie together
+                    samples.setdefault(key, {})[kind] = tar.extractfile(member).read()
+                self.assertLessEqual(len(keys), 3)
+        self.assertEqual(sorted(samples), sorted(self.names))
+        for key, sample in samples.items():
+            self.assertEqual(sample["png"], (self.folder / f"images/{key}.png").read_bytes())
+            self.assertEqual(json.loads(sample["json"])["name"], key)
+
+
+    def test_the_page_compares_with_an_older_campaign(self):
+        older = self.top / "older"
+        shutil.copytree(self.folder, older)
+        index = (older / "index.csv").read_text().split("\n")
+        index[2] = index[2].replace(",done,,", ",failed,too dark,")
+        (older / "index.csv").write_text("\n".join(index))
+        subprocess.run([HILCAM.parent / "hilcam-plot-campaign", older, self.folder], check=True)
+        page = (older / "index.html").read_text()
+        self.assertIn("8 cases are in both; 1 have another outcome", page)
+        self.assertIn("<td>000002</td><td>done</td><td>failed</td><td>too dark</td>", page)
+
+
+class Flow(unittest.TestCase):
+    def test_flow_is_where_the_points_go(self):
+        """Every pixel of the target, by its place in camera axes: turned and carried by the two poses, and projected."""
+        try:
+            import OpenImageIO as oiio
+        except ImportError:
+            self.skipTest("python3-openimageio is missing")
+        with tempfile.TemporaryDirectory() as top:
+            folder = pathlib.Path(top) / "out"
+            text = CAMPAIGN.replace("count: 8", "count: 2").replace("labels: [coco, bop, yolo, speed]", "labels: []")
+            text = text.replace("set: [", "set: ['objects.0.pose.rate_deg_s=[3, 20, -8]', ")
+            text += "pictures: {count: 2, interval_s: 0.4, flow: true, layers: [object, position]}\n"
+            campaign(text, folder, "--jobs", 1)
+
+            def layer(name, *channels):
+                image = oiio.ImageBuf(str(folder / name))
+                all_names = list(image.spec().channelnames)
+                pixels = image.get_pixels(oiio.FLOAT)
+                return numpy.stack([pixels[..., all_names.index(c)] for c in channels], -1).astype(float)
+
+            for number in (1, 2):
+                before, after = (f["truth"] for f in record(folder, number)["frames"])
+                place = layer(f"layers/{number:06d}_01.exr", "position.X", "position.Y", "position.Z")
+                mask = numpy.isfinite(place[..., 2]) & (place[..., 2] < 1e6)
+                self.assertGreater(mask.sum(), 100)
+                a, b = before["objects"][0], after["objects"][0]
+                body = (place[mask] - a["position_camera_m"]) @ rotation(a["camera_from_body_wxyz"])
+                moved = body @ rotation(b["camera_from_body_wxyz"]).T + b["position_camera_m"]
+                fx, fy = after["image"]["focal_length_px"]
+                cx, cy = after["image"]["principal_point_px"]
+                there = projected(moved, [[fx, 0, cx], [0, fy, cy], [0, 0, 1]], after["image"]["distortion"])
+                y, x = numpy.nonzero(mask)
+                expected = there - numpy.stack([x + 0.5, y + 0.5], -1)
+                found = layer(f"flow/{number:06d}_01.exr", "flow.X", "flow.Y")[mask]
+                self.assertLess(numpy.abs(found - expected).max(), 0.1)
+                self.assertGreater(numpy.abs(found).max(), 1)
+
+
+class Killed(unittest.TestCase):
+    def test_ten_kills_leave_no_trace(self):
+        with tempfile.TemporaryDirectory() as top:
+            top = pathlib.Path(top)
+            text = CAMPAIGN.replace("count: 8", "count: 60")
+            whole, broken = top / "whole/out", top / "broken/out"
+            started = time.monotonic()
+            campaign(text, whole)
+            took = time.monotonic() - started
+            draw = random.Random(3)
+            (broken.parent).mkdir()
+            shutil.copy(whole.parent / "campaign.yaml", broken.parent)
+            shutil.copy(whole.parent / "points.csv", broken.parent)
+            done = []
+            for _ in range(10):
+                process = subprocess.Popen([HILCAM, "campaign", broken.parent / "campaign.yaml", "--out", broken],
+                                           stderr=subprocess.DEVNULL, start_new_session=True)
+                # Loading comes first, each time.
+                time.sleep(draw.uniform(0.25, 0.55) * min(took, 4))
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+                done.append(len(list((broken / "cases").glob("0*.json"))))
+            self.assertEqual(done, sorted(done))
+            self.assertGreater(len(set(done)), 2, done)
+            campaign(text, broken)
+            self.assertEqual(contents(broken), contents(whole))
+            self.assertEqual([p for p in broken.rglob(".unfinished*")], [])
+
+
+class Failing(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.top = pathlib.Path(self.temporary.name)
+        self.folder = self.top / "out"
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def test_a_value_that_the_scenario_refuses_fails_its_case_alone(self):
+        result = campaign(f"name: bad\nscenario: {SCENARIO}\ncount: 3\ntable: t.csv\n", self.folder, expect=2)
+        self.assertIn("t.csv", result.stderr)
+        (self.top / "t.csv").write_text("camera.exposure_ms\n0.1\n-1\n0.2\n")
+        result = campaign(f"name: bad\nscenario: {SCENARIO}\ncount: 3\ntable: t.csv\n", self.folder, expect=1)
+        self.assertRegex(result.stderr, r"000002: .*camera.exposure_ms: found '-1'; accepted: a number")
+        self.assertEqual([row["outcome"] for row in rows(self.folder)], ["done", "failed", "done"])
+        page = (self.folder / "index.html").read_text()
+        self.assertLess(page.index("found &#x27;-1&#x27;"), page.index("What was covered"))
+
+    def test_impossible_constraints_say_what_was_tried(self):
+        text = CAMPAIGN.replace("lit_share: 0.05, tries: 50", "lit_share: 1, tries: 3").replace("uniform: [0, 110]", "value: 179")
+        result = campaign(text.replace("count: 8", "count: 2"), self.folder, expect=1)
+        self.assertIn("000001: none of 3 tries is what is asked for: require.lit_share was not met by 3 (at best", result.stderr)
+
+    def test_the_documented_campaign_is_one(self):
+        page = (SOURCE / "docs/campaigns.md").read_text()
+        text = page.split("```yaml poses.yaml\n")[1].split("```")[0]
+        campaign(text.replace("300000", "20000"), self.folder, "--set", "count=1", "--set", "set=[objects.0.generate.triangles=20000, "
+                 "objects.0.pose.attitude=quaternion, quality.path_model=direct, camera.width_px=256, camera.height_px=256]")
+        self.assertEqual([row["outcome"] for row in rows(self.folder)], ["done"])
+        runs = page.split("```yaml runs.yaml\n")[1].split("```")[0]
+        (self.top / "scenario.yaml").write_text(SCENARIO.read_text().replace("../../configs/", f"{SOURCE}/configs/"))
+        (self.top / "controller").write_text("#!/bin/sh\necho '{\"arguments\": '$#'}' > $6\n")
+        (self.top / "controller").chmod(0o755)
+        runs = runs.replace("./controller", str(self.top / "controller")).replace(', "outputs.gige.interface=127.0.0.{slot}"', "")
+        campaign(runs, self.top / "runs", "--set", "count=1", "--set", "set=[commands.udp.port=5010]")
+        self.assertEqual(rows(self.top / "runs")[0]["result.arguments"], "6")
+
+    def test_another_campaign_is_never_overwritten(self):
+        campaign(f"name: a\nscenario: {SCENARIO}\n", self.folder)
+        before = contents(self.folder)
+        result = campaign(f"name: a\nscenario: {SCENARIO}\nseed: 2\n", self.folder, expect=2)
+        self.assertIn("holds another campaign (seed: '1' there, '2' here); accepted: another folder", result.stderr)
+        self.assertEqual(contents(self.folder), before)
+
+    def test_a_full_disk_fails_what_does_not_fit_and_the_rest_comes_later(self):
+        """On a file system of 400 KB in a name space of its own."""
+        disk = self.top / "disk"
+        disk.mkdir()
+        if subprocess.run(["unshare", "-rm", "mount", "-t", "tmpfs", "tmpfs", disk], capture_output=True).returncode:
+            self.skipTest("no name space for a file system of its own")
+        text = CAMPAIGN.replace("count: 8", "count: 6").replace("labels: [coco, bop, yolo, speed]", "labels: [bop]").replace("shard_samples: 3", "")
+        (self.top / "campaign.yaml").write_text(text)
+        (self.top / "points.csv").write_text("name,x_m,y_m,z_m\na,0,0,0\n")
+        script = (f"mount -t tmpfs -o size=400k tmpfs {disk} && {HILCAM} campaign {self.top}/campaign.yaml --out {disk}/out; echo first $? >&2;"
+                  f"ls {disk}/out/cases | wc -l >&2; mount -o remount,size=20m {disk} && {HILCAM} campaign {self.top}/campaign.yaml --out {disk}/out --retry;"
+                  f"echo second $? >&2; cp -r {disk}/out {self.top}/copy")
+        result = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True, text=True, timeout=120)
+        self.assertIn("first 1", result.stderr, result.stderr)
+        self.assertIn("No space left on device", result.stderr)
+        self.assertIn("second 0", result.stderr, result.stderr)
+        self.assertEqual([row["outcome"] for row in rows(self.top / "copy")], ["done"] * 6)
+
+
+class Programs(unittest.TestCase):
+    """Runs of the bench with a program beside each."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name) / "out"
+        program = pathlib.Path(cls.temporary.name) / "program.py"
+        program.write_text(f"""
+import json, os, sys, time
+sys.path.insert(0, {str(SOURCE / 'tools/client')!r})
+from hilcam_client import Client, Expose
+case = int(sys.argv[1])
+if case == 2: sys.exit("controller diverged")
+if case == 3: time.sleep(600)
+if case == 4: os.kill(os.getpid(), 11)
+with Client("tcp:127.0.0.1:" + os.environ["HILCAM_TCP_PORT"], timeout_s=30) as camera:
+    for n in range(1, 4):
+        camera.send(Expose(time_tai_ns=(1774015200 + 37 + n) * 10**9))
+json.dump({{"error_m": case / 10}}, open(os.path.join(sys.argv[2], "result.json"), "w"))
+""")
+        cls.result = campaign(f"""
+name: runs
+scenario: {SCENARIO}
+set: [mode=lockstep, commands.tcp.port=5010]
+count: 5
+vary: [{{key: camera.exposure_ms, uniform: [0.1, 0.2]}}]
+run:
+  program: [/usr/bin/python3, {program}, "{{case}}", "{{case_folder}}"]
+  set: ["outputs.files.folder={{case_folder}}/frames"]
+time_limit_s: 6
+""", cls.folder, "--jobs", 3, expect=1)
+        cls.rows = rows(cls.folder)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_a_program_that_goes_wrong_is_one_failed_case(self):
+        self.assertEqual([row["outcome"] for row in self.rows], ["done", "failed", "failed", "failed", "done"], self.result.stderr)
+        self.assertEqual(self.rows[1]["reason"], "the program ended with status 1: controller diverged")
+        self.assertEqual(self.rows[2]["reason"], "the program took longer than 6 s (time_limit_s)")
+        self.assertRegex(self.rows[3]["reason"], r"the program was ended by signal 11 \(Segmentation fault\)")
+
+    def test_results_logs_and_frames_are_kept(self):
+        self.assertEqual([row["result.error_m"] for row in self.rows], ["0.1", "", "", "", "0.5"])
+        for n in (1, 5):
+            run = self.folder / f"runs/{n:06d}"
+            self.assertEqual(json.loads((run / "report.json").read_text())["frames"], 3)
+            self.assertEqual(len(list((run / "frames").glob("frame_*.png"))), 3)
+            self.assertIn("running;", (run / "hilcam.log").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

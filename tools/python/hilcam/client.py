@@ -1,0 +1,1 @@
+../../client/hilcam_client.py
