@@ -11,7 +11,9 @@ namespace {
 class SpiceAttitude final : public AttitudeLaw {
   public:
     SpiceAttitude(std::shared_ptr<SpiceKernels> kernels, const std::string& frame, Quat frame_from_body)
-        : kernels_(std::move(kernels)), frame_from_body_(frame_from_body), name_("spice: frame " + in_quotes(frame)) {
+        : kernels_(std::move(kernels)),
+          frame_from_body_(frame_from_body),
+          name_("spice: frame " + in_quotes(frame)) {
         frame_ = kernels_->frames.require(frame, "attitude.spice.frame");
         // Frames that stand still in J2000 are known at all times.
         std::vector<double> at = {-1e10, 1e10};
@@ -22,7 +24,8 @@ class SpiceAttitude final : public AttitudeLaw {
         });
         if (spans.empty()) {
             const auto& why = kernels_->frames.left_out();
-            throw InputError(name_ + ": the kernels never know it" + (why.empty() ? "" : " (" + why.front() + ")"));
+            throw InputError(name_ + ": the kernels never know it" +
+                             (why.empty() ? "" : " (" + why.front() + ")"));
         }
         coverage_ = SpiceCoverage(spans, kernels_->set.time);
     }
@@ -46,8 +49,8 @@ class SpiceAttitude final : public AttitudeLaw {
 
 }  // namespace
 
-std::unique_ptr<AttitudeLaw> make_spice_attitude(std::shared_ptr<SpiceKernels> kernels, const std::string& frame,
-                                                 Quat frame_from_body) {
+std::unique_ptr<AttitudeLaw> make_spice_attitude(std::shared_ptr<SpiceKernels> kernels,
+                                                 const std::string& frame, Quat frame_from_body) {
     return std::make_unique<SpiceAttitude>(std::move(kernels), frame, frame_from_body);
 }
 

@@ -22,14 +22,16 @@ std::optional<std::string> frame_of(const KernelSet& set, int code) {
     const std::string key = "OBJECT_" + std::to_string(code) + "_FRAME";
     if (const KernelVariable* named = set.pool.find(key))
         return named->texts.empty() ? std::to_string(set.pool.integer(key).value()) : named->texts.front();
-    if (code == kEarthCode) return has_binary_earth(set) ? std::optional<std::string>("ITRF93") : std::nullopt;
+    if (code == kEarthCode)
+        return has_binary_earth(set) ? std::optional<std::string>("ITRF93") : std::nullopt;
     if (set.pool.find("BODY" + std::to_string(code) + "_POLE_RA")) return "IAU_" + std::to_string(code);
     return {};
 }
 
 class SpiceSky final : public BodySource {
   public:
-    SpiceSky(std::shared_ptr<SpiceKernels> kernels, const std::optional<int>& origin, bool with_bodies, TimeTai start)
+    SpiceSky(std::shared_ptr<SpiceKernels> kernels, const std::optional<int>& origin, bool with_bodies,
+             TimeTai start)
         : kernels_(std::move(kernels)) {
         const double et_s = kernels_->set.time.et_s(start);
         if (with_bodies) add_bodies(et_s);
@@ -44,7 +46,8 @@ class SpiceSky final : public BodySource {
     }
     std::optional<StateVector> sun_from_barycenter(TimeTai time) const override {
         StateVector s;
-        if (!has_sun_ || !kernels_->bodies.state(kSun, kBarycentre, kernels_->set.time.et_s(time), s)) return {};
+        if (!has_sun_ || !kernels_->bodies.state(kSun, kBarycentre, kernels_->set.time.et_s(time), s))
+            return {};
         return s;
     }
     std::optional<Mat3d> fixed_from_icrf(BodyId id, TimeTai time) const override {
@@ -99,8 +102,9 @@ class SpiceSky final : public BodySource {
         origin_coverage_ = SpiceCoverage(kernels_->bodies.coverage(code, kSun), kernels_->set.time);
         const MotionValidity validity = origin_coverage_.validity(start);
         if (origin_coverage_.empty())
-            throw InputError(key + ": the kernels never say where " + std::to_string(code) +
-                             " is about the Sun; accepted: with an ephemeris of the planets (DE), which has the Sun");
+            throw InputError(
+                key + ": the kernels never say where " + std::to_string(code) +
+                " is about the Sun; accepted: with an ephemeris of the planets (DE), which has the Sun");
         if (validity.status != MotionStatus::kOk)
             throw InputError(key + ": the kernels do not know where " + std::to_string(code) +
                              " is at the scenario's start; the nearest instant they know is " +
@@ -118,8 +122,9 @@ int naif_code_in(const SpiceKernels& kernels, const std::optional<BodyId>& body)
     return one_body && !kernels.bodies.has(code) ? code / 100 : code;
 }
 
-std::shared_ptr<const BodySource> make_spice_sky(std::shared_ptr<SpiceKernels> kernels, const std::optional<int>& origin,
-                                                 bool with_bodies, TimeTai start) {
+std::shared_ptr<const BodySource> make_spice_sky(std::shared_ptr<SpiceKernels> kernels,
+                                                 const std::optional<int>& origin, bool with_bodies,
+                                                 TimeTai start) {
     return std::make_shared<SpiceSky>(std::move(kernels), origin, with_bodies, start);
 }
 

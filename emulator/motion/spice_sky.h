@@ -19,7 +19,8 @@ int naif_code_in(const SpiceKernels& kernels, const std::optional<BodyId>& body)
 // IAU_<body> (the Earth: by a binary kernel alone, as the text one leaves nutation out). Outside their spans the program's
 // own series count. origin: thing that an origin of kind spice belongs to, or none. Throws InputError for that when it is not
 // known at `start`.
-std::shared_ptr<const BodySource> make_spice_sky(std::shared_ptr<SpiceKernels> kernels, const std::optional<int>& origin,
-                                                 bool with_bodies, TimeTai start);
+std::shared_ptr<const BodySource> make_spice_sky(std::shared_ptr<SpiceKernels> kernels,
+                                                 const std::optional<int>& origin, bool with_bodies,
+                                                 TimeTai start);
 
 }  // namespace hilcam

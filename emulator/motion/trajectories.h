@@ -25,7 +25,7 @@ std::unique_ptr<Trajectory> make_kepler(const OrbitCenter& center, const KeplerE
 std::unique_ptr<Trajectory> make_tle(const Tle& tle, double valid_s, const std::string& name);
 // A thing of the scenario's kernels about a body's centre, or about the origin where that is a thing of the kernels.
 struct SpicePlace {
-    int object = 0;              // NAIF's codes
+    int object = 0;  // NAIF's codes
     int about = 0;
     std::optional<OrbitCenter> center;  // where `about` stands in the world; none: at its origin
 };

@@ -16,9 +16,10 @@ class SpiceTrajectory final : public Trajectory {
         if (kernels_->bodies.has(place.about)) kernels_->bodies.require(place.about, name_);
         coverage_ = SpiceCoverage(kernels_->bodies.coverage(place.object, place.about), kernels_->set.time);
         if (coverage_.empty())
-            throw InputError(name_ + ": the kernels never say where " + std::to_string(place.object) +
-                             " is about " + std::to_string(place.about) +
-                             "; accepted: kernels that lead from both to one centre, as a planet's ephemeris (DE) does");
+            throw InputError(
+                name_ + ": the kernels never say where " + std::to_string(place.object) + " is about " +
+                std::to_string(place.about) +
+                "; accepted: kernels that lead from both to one centre, as a planet's ephemeris (DE) does");
     }
 
     MotionValidity validity(TimeTai time) const override { return coverage_.validity(time); }

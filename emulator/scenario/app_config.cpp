@@ -66,7 +66,9 @@ Fields fields(ScenarioConfig& s) {
         section("camera_motion", s.camera_motion,
                 "motion of the camera's body until commands say otherwise; replaces camera_pose"),
         section("leap_seconds", s.leap_seconds, "table of leap seconds; replaces the built-in one"),
-        section("spice", s.spice, "kernels of NAIF's SPICE, which say where things are and how they are turned (docs/spice.md)"),
+        section(
+            "spice", s.spice,
+            "kernels of NAIF's SPICE, which say where things are and how they are turned (docs/spice.md)"),
         section("earth_orientation", s.origin.earth,
                 "orientation of the Earth as the IERS measures it (Bulletin A); without it UT1 is UTC and "
                 "the pole stands still"),
@@ -264,7 +266,9 @@ namespace {
 void take_kernels(ScenarioConfig& s) {
     if (s.spice) load_spice(*s.spice);
     if (!s.spice && s.origin.kind == OriginConfig::Kind::kSpice)
-        throw InputError("origin.kind: found 'spice', and the scenario has no kernels; accepted: with 'spice: {kernels: [...]}'");
+        throw InputError(
+            "origin.kind: found 'spice', and the scenario has no kernels; accepted: with 'spice: {kernels: "
+            "[...]}'");
 }
 
 void use_kernels(ScenarioConfig& s) {

@@ -146,7 +146,8 @@ class Builder {
 
     std::shared_ptr<SpiceKernels> kernels(const char* key) const {
         if (scenario_.spice) return scenario_.spice->loaded;
-        throw InputError(std::string(key) + ": the scenario has no kernels; accepted: with 'spice: {kernels: [...]}'");
+        throw InputError(std::string(key) +
+                         ": the scenario has no kernels; accepted: with 'spice: {kernels: [...]}'");
     }
 
     std::unique_ptr<Trajectory> spice_place_of(const MotionConfig& m) const {

@@ -70,8 +70,10 @@ std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, Time
 }
 
 // The same by the kernels; with them come its axes, unless the scenario says how it turns.
-void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernels>& kernels, TimeTai start, OwnBody& body) {
-    if (!kernels) throw InputError("spice: the scenario has no kernels; accepted: with 'spice: {kernels: [...]}'");
+void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernels>& kernels, TimeTai start,
+                       OwnBody& body) {
+    if (!kernels)
+        throw InputError("spice: the scenario has no kernels; accepted: with 'spice: {kernels: [...]}'");
     const int code = require_kernel_code(kernels->set.pool, c.spice.value().object, "spice.object");
     const int about = naif_code_in(*kernels, body.center);
     kernels->bodies.require(code, "spice.object");
@@ -79,8 +81,9 @@ void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernel
     const SpiceCoverage coverage(kernels->bodies.coverage(code, about), kernels->set.time);
     const MotionValidity validity = coverage.validity(start);
     if (coverage.empty() || validity.status != MotionStatus::kOk)
-        throw InputError("spice.object: the kernels do not know where it is about its center at the scenario's start" +
-                         (coverage.empty() ? "" : "; the nearest instant they know is " + format_utc(validity.nearest)));
+        throw InputError(
+            "spice.object: the kernels do not know where it is about its center at the scenario's start" +
+            (coverage.empty() ? "" : "; the nearest instant they know is " + format_utc(validity.nearest)));
     body.orbit = [kernels, coverage, code, about](TimeTai time) {
         StateVector s;
         kernels->bodies.state(code, about, coverage.et_s(coverage.validity(time).nearest), s);
@@ -114,7 +117,8 @@ Fields fields(OwnBodyConfig& c) {
         choice("center", c.center, names_of_centers(), "body that it goes around"),
         section("kepler", c.kepler, "elements of its orbit about the centre, unperturbed"),
         section("oem", c.oem, "orbit ephemeris message about the centre; replaces kepler"),
-        section("spice", c.spice, "thing of the scenario's kernels; replaces kepler, and gives its axes where they do"),
+        section("spice", c.spice,
+                "thing of the scenario's kernels; replaces kepler, and gives its axes where they do"),
         optional(flag("synchronous", c.synchronous,
                       "true: its x axis points to the centre and z along the orbit's normal; default: unless "
                       "pole_deg "
@@ -133,8 +137,9 @@ Fields fields(OwnBodyConfig& c) {
 void validate(const OwnBodyConfig& c) {
     const int given = int{c.kepler.has_value()} + int{c.oem.has_value()} + int{c.spice.has_value()};
     if (given != 1)
-        throw KeyError(given > 0 ? "oem" : "kepler", std::string("found ") + (given == 0 ? "none" : "more than one") +
-                                                         " of 'kepler', 'oem' and 'spice'; accepted: one of them");
+        throw KeyError(given > 0 ? "oem" : "kepler",
+                       std::string("found ") + (given == 0 ? "none" : "more than one") +
+                           " of 'kepler', 'oem' and 'spice'; accepted: one of them");
     if (c.polar_radius_m > 0 &&
         (c.polar_radius_m < 0.3 * c.equatorial_radius_m || c.polar_radius_m > 3 * c.equatorial_radius_m))
         throw KeyError("polar_radius_km", "accepted: a third to three times equatorial_radius_km");

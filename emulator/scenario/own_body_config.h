@@ -30,7 +30,8 @@ Fields fields(OwnBodyConfig& body);
 void validate(const OwnBodyConfig& body);
 
 // Reads their ephemerides. kernels: the scenario's, or none. Throws InputError. Null: there are none.
-std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig>& bodies, const std::string& start_utc,
+std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig>& bodies,
+                                                 const std::string& start_utc,
                                                  const std::shared_ptr<SpiceKernels>& kernels = nullptr);
 
 }  // namespace hilcam

@@ -12,20 +12,25 @@
 namespace hilcam {
 
 Fields fields(KernelFileConfig& k) {
-    return {required(path("file", k.file, "kernel (SPK, CK, PCK, FK, IK, SCLK, LSK), or a meta-kernel that names others"))};
+    return {required(path("file", k.file,
+                          "kernel (SPK, CK, PCK, FK, IK, SCLK, LSK), or a meta-kernel that names others"))};
 }
 
 Fields fields(SpiceConfig& s) {
     return {
-        required(sections("kernels", s.kernels, "kernels in the order of their loading: later ones go before earlier ones")),
+        required(sections("kernels", s.kernels,
+                          "kernels in the order of their loading: later ones go before earlier ones")),
         choice("bodies", s.bodies, {"kernels", "own"},
-               "source of the places and turns of the Sun, the Moon and the planets. kernels: the kernels, where they "
+               "source of the places and turns of the Sun, the Moon and the planets. kernels: the kernels, "
+               "where they "
                "know them at the start; own: the program's own series"),
         text("camera", s.camera,
-             "instrument whose kernel (IK) gives focal length, pixel pitch and number of pixels in place of the "
+             "instrument whose kernel (IK) gives focal length, pixel pitch and number of pixels in place of "
+             "the "
              "camera's sheet: a name or NAIF's code"),
         number("tolerance_s", s.tolerance_s, 1, {0, 1e6},
-               "time from an attitude's nearest instant for which it still stands, as in C-kernels of instants (type 1)"),
+               "time from an attitude's nearest instant for which it still stands, as in C-kernels of "
+               "instants (type 1)"),
     };
 }
 
@@ -42,9 +47,11 @@ Fields fields(SpiceFrameConfig& f) {
         text("frame", f.frame, "frame of the kernels; left out: the instrument's"),
         text("instrument", f.instrument, "instrument whose kernel (IK) gives frame and boresight"),
         optional(vector3("boresight", f.boresight, 1, {-1e6, 1e6},
-                         "axis of the frame along which the camera looks; left out: the instrument's, or the frame's z"),
+                         "axis of the frame along which the camera looks; left out: the instrument's, or the "
+                         "frame's z"),
                  f.has_boresight),
-        vector3("right", f.right, 1, {-1e6, 1e6}, "axis of the frame that points to the right in the picture"),
+        vector3("right", f.right, 1, {-1e6, 1e6},
+                "axis of the frame that points to the right in the picture"),
     };
 }
 
@@ -71,31 +78,36 @@ std::string apply_instrument(const SpiceConfig& s, CameraModel& camera) {
     if (s.camera.empty()) return "";
     const InstrumentKernel k = instrument_kernel(s.loaded->set.pool, s.camera, "spice.camera");
     if (!k.focal_length_m || !k.pitch_m)
-        throw InputError("spice.camera: the kernel of " + in_quotes(s.camera) + " has no INS" + std::to_string(k.code) +
+        throw InputError("spice.camera: the kernel of " + in_quotes(s.camera) + " has no INS" +
+                         std::to_string(k.code) +
                          (k.focal_length_m ? "_PIXEL_PITCH or _PIXEL_SIZE" : "_FOCAL_LENGTH") +
                          "; accepted: a kernel with both, or a camera's sheet alone");
     camera.focal_length_m = *k.focal_length_m, camera.pitch_m = *k.pitch_m;
     if (k.samples) camera.width_px = *k.samples;
     if (k.lines) camera.height_px = *k.lines;
     if (!k.half_field_rad || !k.samples || !k.lines) return "";
-    const double half_m = 0.5 * camera.pitch_m *
-                          std::hypot(static_cast<double>(camera.width_px), static_cast<double>(camera.height_px));
+    const double half_m =
+        0.5 * camera.pitch_m *
+        std::hypot(static_cast<double>(camera.width_px), static_cast<double>(camera.height_px));
     const double half_rad = std::atan2(half_m, camera.focal_length_m);
     if (std::abs(half_rad - *k.half_field_rad) < 0.02 * half_rad) return "";
-    return "spice.camera: the instrument kernel's field of view is " + plain(2 * *k.half_field_rad / kDegree_rad) +
-           " deg over its corners; its focal length and pixels make " + plain(2 * half_rad / kDegree_rad) + " deg";
+    return "spice.camera: the instrument kernel's field of view is " +
+           plain(2 * *k.half_field_rad / kDegree_rad) +
+           " deg over its corners; its focal length and pixels make " + plain(2 * half_rad / kDegree_rad) +
+           " deg";
 }
 
 SpiceMounting mounting_of(const SpiceFrameConfig& f, const SpiceKernels& kernels) {
     std::string frame = f.frame;
     Vec3d boresight = f.boresight;
     if (!f.instrument.empty()) {
-        const InstrumentKernel k = instrument_kernel(kernels.set.pool, f.instrument, "attitude.spice.instrument");
+        const InstrumentKernel k =
+            instrument_kernel(kernels.set.pool, f.instrument, "attitude.spice.instrument");
         if (frame.empty()) frame = k.frame;
         if (!f.has_boresight && k.boresight) boresight = *k.boresight;
         if (frame.empty())
-            throw InputError("attitude.spice.instrument: the kernel of " + in_quotes(f.instrument) + " has no INS" +
-                             std::to_string(k.code) + "_FOV_FRAME; accepted: with a 'frame'");
+            throw InputError("attitude.spice.instrument: the kernel of " + in_quotes(f.instrument) +
+                             " has no INS" + std::to_string(k.code) + "_FOV_FRAME; accepted: with a 'frame'");
     }
     const Vec3d z = normalized(boresight), across = f.right - dot(f.right, z) * z;
     if (!(length(across) > 1e-9 * length(f.right)))

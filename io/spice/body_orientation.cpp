@@ -54,28 +54,33 @@ class TextOrientation final : public BodyOrientation {
         if (!read("_POLE_DEC", dec_deg_) || !read("_PM", meridian_deg_))
             throw InputError(pool.find(id + "_POLE_RA")->where + ": " + id +
                              "_POLE_RA stands without _POLE_DEC or _PM; accepted: all three");
-        read("_NUT_PREC_RA", ra_terms_), read("_NUT_PREC_DEC", dec_terms_), read("_NUT_PREC_PM", meridian_terms_);
+        read("_NUT_PREC_RA", ra_terms_), read("_NUT_PREC_DEC", dec_terms_),
+            read("_NUT_PREC_PM", meridian_terms_);
         frame = pool.integer(id + "_CONSTANTS_REF_FRAME").value_or(1);
-        epoch_et_s_ = (pool.number(id + "_CONSTANTS_JED_EPOCH").value_or(kJ2000_jd) - kJ2000_jd) * kJulianDay_s;
+        epoch_et_s_ =
+            (pool.number(id + "_CONSTANTS_JED_EPOCH").value_or(kJ2000_jd) - kJ2000_jd) * kJulianDay_s;
         read_angles(pool, body);
     }
 
     FrameTurn at(double et_s) const override {
         const double t = (et_s - epoch_et_s_) / kCentury_s, d = (et_s - epoch_et_s_) / kJulianDay_s;
-        ValueRate ra = polynomial(ra_deg_, t), dec = polynomial(dec_deg_, t), w = polynomial(meridian_deg_, d);
+        ValueRate ra = polynomial(ra_deg_, t), dec = polynomial(dec_deg_, t),
+                  w = polynomial(meridian_deg_, d);
         ra.rate /= kCentury_s, dec.rate /= kCentury_s, w.rate /= kJulianDay_s;
         const std::size_t most = std::max({ra_terms_.size(), dec_terms_.size(), meridian_terms_.size()});
         for (std::size_t i = 0; i < most; ++i) {
-            const ValueRate angle = polynomial(std::span(angles_deg_).subspan(i * coefficients_, coefficients_), t);
+            const ValueRate angle =
+                polynomial(std::span(angles_deg_).subspan(i * coefficients_, coefficients_), t);
             const double a = std::fmod(angle.value, 360.0) * kDegree_rad;
             const double rate = angle.rate * kDegree_rad / kCentury_s, s = std::sin(a), c = std::cos(a);
             if (i < ra_terms_.size()) ra.value += ra_terms_[i] * s, ra.rate += ra_terms_[i] * c * rate;
             if (i < dec_terms_.size()) dec.value += dec_terms_[i] * c, dec.rate -= dec_terms_[i] * s * rate;
-            if (i < meridian_terms_.size()) w.value += meridian_terms_[i] * s, w.rate += meridian_terms_[i] * c * rate;
+            if (i < meridian_terms_.size())
+                w.value += meridian_terms_[i] * s, w.rate += meridian_terms_[i] * c * rate;
         }
         return turn_of({(90 + ra.value) * kDegree_rad, (90 - dec.value) * kDegree_rad,
-                        std::fmod(w.value, 360.0) * kDegree_rad, ra.rate * kDegree_rad, -dec.rate * kDegree_rad,
-                        w.rate * kDegree_rad});
+                        std::fmod(w.value, 360.0) * kDegree_rad, ra.rate * kDegree_rad,
+                        -dec.rate * kDegree_rad, w.rate * kDegree_rad});
     }
 
   private:
@@ -94,8 +99,8 @@ class TextOrientation final : public BodyOrientation {
         const int degree = pool.integer(id + "_MAX_PHASE_DEGREE").value_or(1);
         const auto found = pool.numbers(key);
         if (!found)
-            throw InputError("no kernel has " + key + ", which the orientation of body " + std::to_string(body) +
-                             " needs; accepted: a PCK with it");
+            throw InputError("no kernel has " + key + ", which the orientation of body " +
+                             std::to_string(body) + " needs; accepted: a PCK with it");
         const std::string where = pool.find(key)->where + ": " + key;
         if (degree < 1 || degree > 3)
             throw InputError(where + ": found the degree " + std::to_string(degree) + "; accepted: 1 to 3");
@@ -136,8 +141,8 @@ std::unique_ptr<BodyOrientation> text_orientation(const KernelPool& pool, int bo
 }
 
 std::unique_ptr<BodyOrientation> load_binary_orientation(const DafFile& file, const DafArray& array) {
-    const std::string where = file.name() + ": segment " + std::to_string(&array - file.arrays().data() + 1) + " (" +
-                              in_quotes(array.name) + ")";
+    const std::string where = file.name() + ": segment " + std::to_string(&array - file.arrays().data() + 1) +
+                              " (" + in_quotes(array.name) + ")";
     const int type = array.integers[2];
     if (type != 2 && type != 3)
         throw InputError(where + ": found type " + std::to_string(type) + " of a binary PCK; accepted: 2, 3");

@@ -1,5 +1,5 @@
 #pragma once
-// How a body is turned, by a planetary constants kernel (NAIF, "PCK Required Reading"): in text the pole, prime meridian
+// The turn of a body, by a planetary constants kernel (NAIF, "PCK Required Reading"): in text the pole, prime meridian
 // and periodic terms that the IAU's working group publishes, in binary form Chebyshev polynomials of Euler's angles.
 
 #include <memory>

@@ -37,8 +37,8 @@ inline double chebyshev_integral(std::span<const double> c, double s) {
         if (n == 1)
             sum += c[1] * s * s / 2;
         else
-            sum += c[n] / 2 *
-                   ((next - at_zero(n + 1)) / (order + 1) - (before - at_zero(n - 1)) / (order - 1));
+            sum +=
+                c[n] / 2 * ((next - at_zero(n + 1)) / (order + 1) - (before - at_zero(n - 1)) / (order - 1));
         before = now, now = next;
     }
     return sum;

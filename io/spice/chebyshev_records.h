@@ -22,14 +22,15 @@ class ChebyshevRecords {
         count_ = words_.count_from_end(1, "records", 1, kMostRecords);
         begin_s_ = words_.from_end(4), length_s_ = words_.from_end(3);
         if ((record_ - 2) % sets_ != 0)
-            words_.fail("words of a record: found " + std::to_string(record_) + "; accepted: 2 and a multiple of " +
-                        std::to_string(sets_));
-        if (!(length_s_ > 0)) words_.fail("length of a record: found " + plain(length_s_) + "; accepted: above 0");
+            words_.fail("words of a record: found " + std::to_string(record_) +
+                        "; accepted: 2 and a multiple of " + std::to_string(sets_));
+        if (!(length_s_ > 0))
+            words_.fail("length of a record: found " + plain(length_s_) + "; accepted: above 0");
         words_.require_size(count_ * record_ + 4);
         for (std::size_t i = 0; i < count_; ++i)
             if (!(words_[i * record_ + 1] > 0))
-                words_.fail("record " + std::to_string(i + 1) + ": its radius is " + plain(words_[i * record_ + 1]) +
-                            "; accepted: above 0");
+                words_.fail("record " + std::to_string(i + 1) + ": its radius is " +
+                            plain(words_[i * record_ + 1]) + "; accepted: above 0");
     }
 
     // Returns the functions, and their slopes by second. Loop.

@@ -11,7 +11,14 @@ namespace {
 
 // A generic segment of NAIF's (SPICELIB, include file sgparam.inc): parts in any order, and at the end where they are. The
 // last word is how many such words there are.
-enum FromEnd : std::size_t { kPacketBase = 7, kPackets = 6, kDirectoryBase = 10, kDirectoryWords = 9, kReferenceBase = 12, kReferences = 11 };
+enum FromEnd : std::size_t {
+    kPacketBase = 7,
+    kPackets = 6,
+    kDirectoryBase = 10,
+    kDirectoryWords = 9,
+    kReferenceBase = 12,
+    kReferences = 11
+};
 
 // The counts of coefficients of the seven polynomials are digits to the base 128 of one number, the first the lowest.
 constexpr double kCountBase = 128;
@@ -29,7 +36,8 @@ class Chebyshev final : public CkSegment {
         const auto place = [&](std::size_t back, const char* what) {
             return words_.count_from_end(back, what, 0, static_cast<double>(words_.size()));
         };
-        const std::size_t count = place(kPackets, "packets"), base = place(kPacketBase, "place of the packets");
+        const std::size_t count = place(kPackets, "packets"),
+                          base = place(kPacketBase, "place of the packets");
         const std::size_t directory = place(kDirectoryBase, "place of the packets' directory");
         const std::size_t references = place(kReferenceBase, "place of the starts");
         if (count == 0) words_.fail("has no packets");

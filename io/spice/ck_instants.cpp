@@ -51,7 +51,8 @@ class Instants final : public CkSegment {
         const double size = length(sine);
         const Vec3d turn = (size > 1e-12 ? 2 * std::atan2(size, step.w) / size : 2.0) * sine;
         const double span = times()[from + 1] - times()[from], u = (ticks - times()[from]) / span;
-        return CkPointing{normalized(from_rotation_vector(u * turn) * start), turn / (span * seconds_per_tick)};
+        return CkPointing{normalized(from_rotation_vector(u * turn) * start),
+                          turn / (span * seconds_per_tick)};
     }
 
   private:

@@ -29,7 +29,8 @@ class Interpolated final : public CkSegment {
         if (!(seconds_per_tick_ > 0))
             words_.fail("seconds of a tick: found " + plain(seconds_per_tick_) + "; accepted: above 0");
         for (std::size_t i = 0; i < count_; ++i)
-            if (!(norm(quaternion(i)) > 0)) words_.fail("packet " + std::to_string(i + 1) + ": its quaternion is 0");
+            if (!(norm(quaternion(i)) > 0))
+                words_.fail("packet " + std::to_string(i + 1) + ": its quaternion is 0");
     }
 
     std::vector<TickSpan> spans() const override { return intervals_.spans(times()); }
@@ -52,7 +53,8 @@ class Interpolated final : public CkSegment {
             Node<4>& node = nodes[i];
             Quat q = quaternion(w.first + i);
             // Neighbours have the same sign, so that what lies between them is the short way.
-            const double sign = q.w * before.w + q.x * before.x + q.y * before.y + q.z * before.z < 0 ? -1 : 1;
+            const double sign =
+                q.w * before.w + q.x * before.x + q.y * before.y + q.z * before.z < 0 ? -1 : 1;
             q = {sign * q.w, sign * q.x, sign * q.y, sign * q.z};
             before = q;
             node.t = (times()[w.first + i] - middle) / half;

@@ -35,7 +35,8 @@ std::unique_ptr<CkSegment> load_ck_segment(const DafFile& file, const DafArray& 
     }
 }
 
-CkIntervals::CkIntervals(const SegmentWords& words, std::span<const double> times, std::span<const double> starts) {
+CkIntervals::CkIntervals(const SegmentWords& words, std::span<const double> times,
+                         std::span<const double> starts) {
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const auto at = std::lower_bound(times.begin(), times.end(), starts[i]);
         const auto first = static_cast<std::size_t>(at - times.begin());
@@ -49,7 +50,8 @@ CkIntervals::CkIntervals(const SegmentWords& words, std::span<const double> time
 
 std::vector<TickSpan> CkIntervals::spans(std::span<const double> times) const {
     std::vector<TickSpan> out;
-    for (std::size_t i = 0; i + 1 < firsts_.size(); ++i) out.push_back({times[firsts_[i]], times[firsts_[i + 1] - 1]});
+    for (std::size_t i = 0; i + 1 < firsts_.size(); ++i)
+        out.push_back({times[firsts_[i]], times[firsts_[i + 1] - 1]});
     return out;
 }
 

@@ -24,7 +24,7 @@ struct CkSummary {
 };
 CkSummary ck_summary(const DafFile& file, const DafArray& array);
 
-// How a structure is turned. The rate is that of the attitude given, as it changes with time; at instants (type 1) the
+// The attitude of a structure. The rate is that of the attitude given, as it changes with time; at instants (type 1) the
 // one that the kernel has, or 0.
 struct CkPointing {
     Quat reference_from_structure;

@@ -19,7 +19,9 @@ std::unique_ptr<CkSegment> make_ck_interpolated(const CkSummary& about, std::vec
 
 // NAIF's quaternion of four words, normalised, as a rotation from the structure to the reference. One of length 0 is
 // refused when a segment is made.
-inline Quat from_naif(std::span<const double> q) { return conjugate(normalized(Quat{q[0], q[1], q[2], q[3]})); }
+inline Quat from_naif(std::span<const double> q) {
+    return conjugate(normalized(Quat{q[0], q[1], q[2], q[3]}));
+}
 
 // Samples in order of time, parted into intervals inside of which they may be interpolated (types 3 and 5).
 class CkIntervals {

@@ -69,7 +69,8 @@ std::int32_t DafFile::integer_at(const char* bytes) const {
 void DafFile::open() {
     std::array<char, kRecordBytes> record{};
     if (size_ < kRecordBytes)
-        fail("has " + std::to_string(size_) + " bytes; accepted: a DAF kernel, whose file record alone has 1024");
+        fail("has " + std::to_string(size_) +
+             " bytes; accepted: a DAF kernel, whose file record alone has 1024");
     read(0, record.data(), record.size());
     const std::string_view text(record.data(), record.size());
     const std::string word = without_tail(text.substr(0, 8));
@@ -91,8 +92,10 @@ void DafFile::open() {
     const std::size_t begin = text.find(kFtpBegin), end = text.find(kFtpEnd);
     if (begin != std::string_view::npos &&
         (end == std::string_view::npos || text.substr(begin, end + kFtpEnd.size() - begin) != kFtpMiddle))
-        fail("was damaged when it was transferred as text (its FTP string is changed); accepted: one transferred as "
-             "binary");
+        fail(
+            "was damaged when it was transferred as text (its FTP string is changed); accepted: one "
+            "transferred as "
+            "binary");
     const std::int32_t doubles = integer_at(record.data() + 8), integers = integer_at(record.data() + 12);
     const std::int32_t expected = kind_ == "PCK" ? 5 : 6;
     if (kind_ != "SPK" && kind_ != "CK" && kind_ != "PCK")
@@ -108,7 +111,8 @@ void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
     std::array<char, kRecordBytes> summaries{}, names{};
     std::uint64_t seen = 0;
     for (std::int64_t record = first_record; record > 0;) {
-        if (++seen > size_ / kRecordBytes) fail("its summary records go in a circle; accepted: a chain that ends");
+        if (++seen > size_ / kRecordBytes)
+            fail("its summary records go in a circle; accepted: a chain that ends");
         const auto from = static_cast<std::uint64_t>(record - 1) * kRecordBytes;
         read(from, summaries.data(), kRecordBytes);
         const double next = double_at(summaries.data()), count = double_at(summaries.data() + 16);
@@ -133,7 +137,8 @@ DafArray DafFile::array_of(const char* summary, const char* name, std::size_t in
         out.integers.push_back(integer_at(summary + 2 * kWordBytes + 4 * i));
     const std::int32_t last = out.integers.back(), first = out.integers[integers - 2];
     out.integers.resize(integers - 2);
-    const std::string which = "array " + std::to_string(arrays_.size() + 1) + " (" + in_quotes(out.name) + ")";
+    const std::string which =
+        "array " + std::to_string(arrays_.size() + 1) + " (" + in_quotes(out.name) + ")";
     if (!std::isfinite(out.doubles[0]) || !std::isfinite(out.doubles[1]))
         fail(which + ": its span is no number");
     if (first < 1 || last < first)

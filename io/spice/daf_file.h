@@ -20,8 +20,8 @@ namespace hilcam {
 
 // An array's summary.
 struct DafArray {
-    std::string name;                   // without blanks at its end
-    std::array<double, 2> doubles{};    // start and stop in all kernels
+    std::string name;                    // without blanks at its end
+    std::array<double, 2> doubles{};     // start and stop in all kernels
     std::vector<std::int32_t> integers;  // without the two words' addresses, which are the next two
     std::uint64_t first = 0, last = 0;
     std::uint64_t size() const { return last - first + 1; }

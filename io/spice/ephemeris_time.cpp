@@ -22,7 +22,8 @@ double periodic_s(const EphemerisTime& c, double seconds) {
 double EphemerisTime::et_s(TimeTai time) const {
     // Seconds and nanoseconds apart keep the digits of both.
     const std::int64_t ns = time - kNoonTai;
-    const double tai_s = static_cast<double>(ns / kSecond_ns) + static_cast<double>(ns % kSecond_ns) * kSecondsPerNs;
+    const double tai_s =
+        static_cast<double>(ns / kSecond_ns) + static_cast<double>(ns % kSecond_ns) * kSecondsPerNs;
     const double tt_s = tai_s + delta_t_a_s;
     return tt_s + periodic_s(*this, tt_s);
 }
@@ -50,9 +51,10 @@ EphemerisTime ephemeris_time(const KernelPool& pool) {
         out.m0_rad = m[0], out.m1_rad_s = m[1];
     }
     // TDB is TT but for 2 ms, and TT - TAI is 32.184 s by definition.
-    if (!(std::abs(out.delta_t_a_s - 32.184) < 1e-6) || !(std::abs(out.k_s) < 0.01) || !(std::abs(out.eb) < 0.1) ||
-        !(std::abs(out.m0_rad) < 100) || !(std::abs(out.m1_rad_s) < 1e-3))
-        throw InputError("the leap-second kernel's DELTET constants are not those of TDB; accepted: as in naif0012.tls");
+    if (!(std::abs(out.delta_t_a_s - 32.184) < 1e-6) || !(std::abs(out.k_s) < 0.01) ||
+        !(std::abs(out.eb) < 0.1) || !(std::abs(out.m0_rad) < 100) || !(std::abs(out.m1_rad_s) < 1e-3))
+        throw InputError(
+            "the leap-second kernel's DELTET constants are not those of TDB; accepted: as in naif0012.tls");
     return out;
 }
 
@@ -68,10 +70,12 @@ std::vector<LeapSecond> leap_seconds_of(const KernelPool& pool) {
         // Noon to midnight, counted from 2000-01-01.
         const double day = date_s / kJulianDay_s + 0.5;
         const auto fail = [&] {
-            throw InputError(where + ": pair " + std::to_string(i / 2 + 1) + ": found " + plain(offset_s) + " and " +
-                             plain(date_s) + " s; accepted: TAI - UTC and the first of a month, dates that rise");
+            throw InputError(where + ": pair " + std::to_string(i / 2 + 1) + ": found " + plain(offset_s) +
+                             " and " + plain(date_s) +
+                             " s; accepted: TAI - UTC and the first of a month, dates that rise");
         };
-        if (!(date_s > before_s) || !(std::abs(offset_s) < 1000) || day != std::floor(day) || !(std::abs(day) < 60000))
+        if (!(date_s > before_s) || !(std::abs(offset_s) < 1000) || day != std::floor(day) ||
+            !(std::abs(day) < 60000))
             fail();
         before_s = date_s;
         LeapSecond leap{0, 0, offset_s};

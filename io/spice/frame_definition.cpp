@@ -21,7 +21,8 @@ constexpr int kIauBase = 1'200'000'000;
 // Bodies of the frames 10010 to 10080: the Sun, the planets, the Moon, then moons in the order of their codes.
 std::optional<int> iau_body(int frame) {
     constexpr std::array kFirst = {10, 199, 299, 399, 499, 599, 699, 799, 899, 999, 301};
-    constexpr std::array<std::pair<int, int>, 6> kMoons = {{{401, 2}, {501, 16}, {601, 18}, {701, 15}, {801, 8}, {901, 1}}};
+    constexpr std::array<std::pair<int, int>, 6> kMoons = {
+        {{401, 2}, {501, 16}, {601, 18}, {701, 15}, {801, 8}, {901, 1}}};
     int at = frame - 10010;
     if (at < 0) return {};
     if (at < static_cast<int>(kFirst.size())) return kFirst[static_cast<std::size_t>(at)];
@@ -56,23 +57,27 @@ struct OldFrame {
     Mat3d frame_from_j2000;
 };
 constexpr std::array kOldFrames = {
-    OldFrame{"DE-140", 19,
+    OldFrame{"DE-140",
+             19,
              {{0.9999256765384668, 0.0111817701197967, 0.0048589521583895},
               {-0.0111817701797229, 0.9999374816848701, -0.0000271545195858},
               {-0.0048589520204830, -0.0000271791849815, 0.9999881948535965}}},
-    OldFrame{"DE-142", 20,
+    OldFrame{"DE-142",
+             20,
              {{0.9999256765402605, 0.0111817697320531, 0.0048589526815484},
               {-0.0111817697907755, 0.9999374816892126, -0.0000271547693170},
               {-0.0048589525464121, -0.0000271789392288, 0.9999881948510477}}},
-    OldFrame{"DE-143", 21,
+    OldFrame{"DE-143",
+             21,
              {{0.9999256765435852, 0.0111817743077255, 0.0048589414674762},
               {-0.0111817743300355, 0.9999374816382505, -0.0000271622115251},
               {-0.0048589414161348, -0.0000271713942366, 0.9999881949053349}}}};
 
 std::optional<FrameDefinition> inertial(std::string_view name, int code) {
     const auto made = [](int number, const char* text, const Mat3d& frame_from_j2000) {
-        return FrameDefinition{number, text, FrameClass::kInertial, number, transposed(frame_from_j2000), kJ2000Frame,
-                               "built in"};
+        return FrameDefinition{
+            number,      text,      FrameClass::kInertial, number, transposed(frame_from_j2000),
+            kJ2000Frame, "built in"};
     };
     const auto is = [&](const char* text, int number) { return name == text || code == number; };
     if (is("J2000", kJ2000Frame) || name == "ICRF") return made(kJ2000Frame, "J2000", {});
@@ -82,7 +87,8 @@ std::optional<FrameDefinition> inertial(std::string_view name, int code) {
     // The obliquity of the ecliptic at J2000, Lieske 1979.
     if (is("ECLIPJ2000", 17)) return made(17, "ECLIPJ2000", about(1, 84381.448 * kArcsecond_rad));
     // The frames before J2000, as "Frames Required Reading" has them in its appendix.
-    const Mat3d b1950 = about(3, 1152.84248596724 * kArcsecond_rad) * about(2, -1002.26108439117 * kArcsecond_rad) *
+    const Mat3d b1950 = about(3, 1152.84248596724 * kArcsecond_rad) *
+                        about(2, -1002.26108439117 * kArcsecond_rad) *
                         about(3, 1153.04066200330 * kArcsecond_rad);
     const Mat3d fk4 = about(3, 0.525 * kArcsecond_rad) * b1950;
     if (is("B1950", 2)) return made(2, "B1950", b1950);
@@ -90,12 +96,14 @@ std::optional<FrameDefinition> inertial(std::string_view name, int code) {
     if (is("DE-118", 4)) return made(4, "DE-118", about(3, 0.53155 * kArcsecond_rad) * b1950);
     // Mars's mean equator of J2000 and its node on the Earth's (pole: Davies et al., Celest. Mech. 46, 1989, 187).
     if (is("MARSIAU", 16))
-        return made(16, "MARSIAU", about(1, (90 - 52.886) * kDegree_rad) * about(3, (90 + 317.681) * kDegree_rad));
+        return made(16, "MARSIAU",
+                    about(1, (90 - 52.886) * kDegree_rad) * about(3, (90 + 317.681) * kDegree_rad));
     for (const OldFrame& old : kOldFrames)
         if (is(old.name, old.code)) return made(old.code, old.name, old.frame_from_j2000);
     if (is("GALACTIC", 13))
         return made(13, "GALACTIC",
-                    about(3, 327 * kDegree_rad) * about(1, 62.6 * kDegree_rad) * about(3, 282.25 * kDegree_rad) * fk4);
+                    about(3, 327 * kDegree_rad) * about(1, 62.6 * kDegree_rad) *
+                        about(3, 282.25 * kDegree_rad) * fk4);
     return {};
 }
 
@@ -129,8 +137,8 @@ class FrameReader {
         out.where = pool_.find("FRAME_" + id_ + "_CLASS")->where;
         out.class_code = pool_.integer("FRAME_" + id_ + "_CLASS_ID").value_or(code_);
         if (*kind < 2 || *kind > 4)
-            throw InputError(out.where + ": frame " + in_quotes(out.name) + ": found class " + std::to_string(*kind) +
-                             "; accepted: 2 (PCK), 3 (CK), 4 (fixed offset)");
+            throw InputError(out.where + ": frame " + in_quotes(out.name) + ": found class " +
+                             std::to_string(*kind) + "; accepted: 2 (PCK), 3 (CK), 4 (fixed offset)");
         out.kind = static_cast<FrameClass>(*kind);
         if (out.kind == FrameClass::kFixedOffset) read_offset(out);
         return out;
@@ -145,13 +153,15 @@ class FrameReader {
     std::string key(const FrameDefinition& frame, const char* item) const {
         for (const std::string& owner : {id_, frame.name})
             if (const std::string name = "TKFRAME_" + owner + "_" + item; pool_.find(name)) return name;
-        throw InputError(frame.where + ": frame " + in_quotes(frame.name) + ": no kernel has TKFRAME_" + id_ + "_" + item +
-                         ", which its offset needs");
+        throw InputError(frame.where + ": frame " + in_quotes(frame.name) + ": no kernel has TKFRAME_" + id_ +
+                         "_" + item + ", which its offset needs");
     }
     void read_offset(FrameDefinition& out) const {
         const std::string relative = key(out, "RELATIVE"), spec_key = key(out, "SPEC");
         const std::string spec = upper(pool_.text(spec_key).value());
-        out.relative = frame_named(pool_, pool_.text(relative).value(), pool_.find(relative)->where + ": " + relative).code;
+        out.relative =
+            frame_named(pool_, pool_.text(relative).value(), pool_.find(relative)->where + ": " + relative)
+                .code;
         if (spec == "ANGLES") {
             out.relative_from_frame = from_angles(out);
         } else if (spec == "MATRIX") {
@@ -190,8 +200,8 @@ class FrameReader {
     // Kernels have rotations with few digits: they are made exact, within reason.
     static void check(FrameDefinition& f) {
         const Mat3d& m = f.relative_from_frame;
-        const double error = std::max({std::abs(dot(m.x, m.x) - 1), std::abs(dot(m.y, m.y) - 1), std::abs(dot(m.x, m.y)),
-                                       std::abs(dot(cross(m.x, m.y), m.z) - 1)});
+        const double error = std::max({std::abs(dot(m.x, m.x) - 1), std::abs(dot(m.y, m.y) - 1),
+                                       std::abs(dot(m.x, m.y)), std::abs(dot(cross(m.x, m.y), m.z) - 1)});
         if (!(error < 1e-3))
             throw InputError(f.where + ": frame " + in_quotes(f.name) + ": its matrix is no rotation");
         const Vec3d x = normalized(m.x), z = normalized(cross(x, m.y));
@@ -215,8 +225,8 @@ FrameDefinition frame_named(const KernelPool& pool, std::string_view name, const
     if (auto found = inertial(wanted, 0)) return *found;
     if (const auto code = pool.integer("FRAME_" + wanted)) {
         if (auto found = FrameReader(pool, *code).read()) return *found;
-        throw InputError(pool.find("FRAME_" + wanted)->where + ": frame " + in_quotes(wanted) + ": no kernel has FRAME_" +
-                         std::to_string(*code) + "_CLASS");
+        throw InputError(pool.find("FRAME_" + wanted)->where + ": frame " + in_quotes(wanted) +
+                         ": no kernel has FRAME_" + std::to_string(*code) + "_CLASS");
     }
     if (auto found = body_frame(pool, wanted, 0)) return *found;
     throw InputError(key + ": found the frame " + in_quotes(name) +

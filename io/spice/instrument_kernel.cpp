@@ -25,8 +25,8 @@ class Reader {
     std::optional<double> number(const char* item, double least, double most) const {
         const auto found = pool_.number(key(item));
         if (found && !(*found >= least && *found <= most))
-            throw InputError(pool_.find(key(item))->where + ": " + key(item) + ": found " + plain(*found) + "; accepted: " +
-                             plain(least) + " to " + plain(most));
+            throw InputError(pool_.find(key(item))->where + ": " + key(item) + ": found " + plain(*found) +
+                             "; accepted: " + plain(least) + " to " + plain(most));
         return found;
     }
     std::optional<Vec3d> direction(const char* item) const {
@@ -41,7 +41,8 @@ class Reader {
     std::string word(const char* item) const {
         const auto found = pool_.text(key(item));
         std::string out;
-        for (const char c : found.value_or("")) out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        for (const char c : found.value_or(""))
+            out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
         return out;
     }
     std::span<const double> corners() const {
@@ -70,7 +71,8 @@ std::optional<double> half_field_of(const Reader& r, const std::optional<Vec3d>&
         const auto one = r.number("FOV_REF_ANGLE", 0, 180), other = r.number("FOV_CROSS_ANGLE", 0, 180);
         if (!one) return {};
         // The corner of a rectangle of these half angles.
-        const double a = std::tan(std::min(*one * unit_rad, 1.5)), b = other ? std::tan(std::min(*other * unit_rad, 1.5)) : 0;
+        const double a = std::tan(std::min(*one * unit_rad, 1.5)),
+                     b = other ? std::tan(std::min(*other * unit_rad, 1.5)) : 0;
         return std::atan(r.word("FOV_SHAPE") == "RECTANGLE" ? std::hypot(a, b) : std::max(a, b));
     }
     const auto corners = r.corners();
@@ -91,7 +93,8 @@ InstrumentKernel instrument_kernel(const KernelPool& pool, std::string_view name
     out.code = require_kernel_code(pool, name, key);
     const Reader r(pool, out.code);
     if (!r.any())
-        throw InputError(key + ": found " + in_quotes(name) + ", and no kernel has INS" + std::to_string(out.code) +
+        throw InputError(key + ": found " + in_quotes(name) + ", and no kernel has INS" +
+                         std::to_string(out.code) +
                          "_...; accepted: an instrument of an instrument kernel (IK)");
     out.frame = pool.text(r.key("FOV_FRAME")).value_or("");
     out.boresight = r.direction("BORESIGHT");

@@ -12,7 +12,7 @@ namespace hilcam {
 
 struct InstrumentKernel {
     int code = 0;
-    std::string frame;  // empty: the kernel does not say
+    std::string frame;               // empty: the kernel does not say
     std::optional<Vec3d> boresight;  // in the frame; unit
     // INS<code>_FOCAL_LENGTH, in mm; _PIXEL_PITCH in mm, else _PIXEL_SIZE in m, mm or um, whichever is a pixel's size (1 to
     // 100 um); _PIXEL_SAMPLES and _PIXEL_LINES.

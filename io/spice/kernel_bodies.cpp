@@ -32,10 +32,12 @@ void KernelBodies::require(int body, const std::string& key) {
         const DafFile& file = *kernels_->binaries[k];
         if (file.kind() != "SPK") continue;
         for (std::size_t i = file.arrays().size(); i-- > 0;)
-            if (file.arrays()[i].integers[0] == body) list.push_back(load_spk_segment(file, file.arrays()[i]));
+            if (file.arrays()[i].integers[0] == body)
+                list.push_back(load_spk_segment(file, file.arrays()[i]));
     }
     if (list.empty())
-        throw InputError(key + ": no SPK has the body " + std::to_string(body) + "; accepted: with a kernel that has it");
+        throw InputError(key + ": no SPK has the body " + std::to_string(body) +
+                         "; accepted: with a kernel that has it");
     for (const auto& segment : list) {
         frames_->require(segment->about().frame, segment->about().where);
         // A centre without segments is where a chain may end: two bodies about it can still be compared.
@@ -81,7 +83,8 @@ bool KernelBodies::state(int body, int center, double et_s, StateVector& out) co
     for (std::size_t i = 0; i < kDeepest; ++i) {
         for (std::size_t k = 0; k < count; ++k)
             if (way[k].body == at) {
-                out = {s.position_m - way[k].from_center.position_m, s.velocity_m_s - way[k].from_center.velocity_m_s};
+                out = {s.position_m - way[k].from_center.position_m,
+                       s.velocity_m_s - way[k].from_center.velocity_m_s};
                 return true;
             }
         if (!step(at, et_s, s)) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the bodies and spacecraft of a set of kernels are at any time.
+// The places of the bodies and spacecraft of a set of kernels at any time.
 //
 // A body's segments say where it is about a centre, which has segments of its own; two bodies are compared at the first
 // centre that they share. What is asked for in the loop is named beforehand by require(), which reads its kernels.
@@ -43,6 +43,7 @@ class KernelBodies {
 };
 
 // Returns the spans between boundaries in whose middle `known` holds, joined where they meet.
-std::vector<EtSpan> known_spans(std::vector<double> boundaries_et_s, const std::function<bool(double)>& known);
+std::vector<EtSpan> known_spans(std::vector<double> boundaries_et_s,
+                                const std::function<bool(double)>& known);
 
 }  // namespace hilcam

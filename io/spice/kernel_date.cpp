@@ -22,14 +22,15 @@ long days_from_2000(long year, long month, long day) {
 struct Part {
     std::string_view text;
     std::optional<double> number;
-    int month = 0;  // of a name; 0: it is none
+    int month = 0;  // month of that name; 0: it is none
 };
 
 int month_of(std::string_view text) {
     std::string upper;
     for (const char c : text) upper += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    constexpr std::array<std::string_view, 12> kNames = {"JANUARY", "FEBRUARY", "MARCH",     "APRIL",   "MAY",      "JUNE",
-                                                         "JULY",    "AUGUST",   "SEPTEMBER", "OCTOBER", "NOVEMBER", "DECEMBER"};
+    constexpr std::array<std::string_view, 12> kNames = {"JANUARY",   "FEBRUARY", "MARCH",    "APRIL",
+                                                         "MAY",       "JUNE",     "JULY",     "AUGUST",
+                                                         "SEPTEMBER", "OCTOBER",  "NOVEMBER", "DECEMBER"};
     for (std::size_t i = 0; i < kMonths.size(); ++i)
         if (upper.starts_with(kMonths[i]) && kNames[i].starts_with(upper)) return static_cast<int>(i) + 1;
     return 0;
@@ -51,7 +52,8 @@ std::optional<double> kernel_date_s(std::string_view text) {
         }
         std::size_t end = i;
         const bool number = digit(text[i]);
-        while (end < text.size() && !is_separator(text[end]) && (number ? digit(text[end]) || text[end] == '.' : true))
+        while (end < text.size() && !is_separator(text[end]) &&
+               (number ? digit(text[end]) || text[end] == '.' : true))
             ++end;
         if (count == parts.size() || end == i) return {};
         Part& part = parts[count++];
@@ -64,7 +66,8 @@ std::optional<double> kernel_date_s(std::string_view text) {
     if (count < 2) return {};
     // Which of the first parts are year, month and day.
     const auto whole = [&](std::size_t i) {
-        return i < count && parts[i].number && *parts[i].number == std::floor(*parts[i].number) && *parts[i].number < 1e5
+        return i < count && parts[i].number && *parts[i].number == std::floor(*parts[i].number) &&
+                       *parts[i].number < 1e5
                    ? static_cast<long>(*parts[i].number)
                    : -1;
     };
@@ -85,7 +88,8 @@ std::optional<double> kernel_date_s(std::string_view text) {
     } else {
         month = whole(0), day = whole(1), year = whole(2);
     }
-    if (year < 0 || year > 9999 || month < 1 || month > 12 || day < 1 || day > (used == 2 ? 366 : 31)) return {};
+    if (year < 1000 || year > 9999 || month < 1 || month > 12 || day < 1 || day > (used == 2 ? 366 : 31))
+        return {};
     double seconds = 0;
     constexpr std::array<double, 3> kUnits_s = {3600, 60, 1};
     for (std::size_t i = used; i < count; ++i) {

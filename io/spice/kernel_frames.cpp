@@ -61,8 +61,10 @@ void KernelFrames::require_body(const FrameDefinition& frame, const std::string&
     if (auto text = text_orientation(kernels_->pool, frame.class_code)) list.push_back(std::move(text));
     if (list.empty())
         throw InputError(key + ": frame " + in_quotes(frame.name) + ": no kernel says how body " +
-                         std::to_string(frame.class_code) + " is turned; accepted: with a planetary constants kernel (PCK) "
-                         "that has BODY" + std::to_string(frame.class_code) + "_POLE_RA, or a binary one");
+                         std::to_string(frame.class_code) +
+                         " is turned; accepted: with a planetary constants kernel (PCK) "
+                         "that has BODY" +
+                         std::to_string(frame.class_code) + "_POLE_RA, or a binary one");
     for (std::size_t i = 0; i < list.size(); ++i) require(list[i]->frame, "frame " + in_quotes(frame.name));
 }
 
@@ -82,7 +84,8 @@ void KernelFrames::require_structure(const FrameDefinition& frame, const std::st
     // Some kernels have the clock as a text, which NAIF's readers take for none.
     const std::string clock_key = "CK_" + std::to_string(frame.class_code) + "_SCLK";
     const KernelVariable* named = kernels_->pool.find(clock_key);
-    const int clock = named && named->texts.empty() ? kernels_->pool.integer(clock_key).value() : frame.class_code / 1000;
+    const int clock =
+        named && named->texts.empty() ? kernels_->pool.integer(clock_key).value() : frame.class_code / 1000;
     s.clock = std::make_unique<SpacecraftClock>(kernels_->pool, clock, kernels_->time);
     for (const auto& segment : s.segments)
         for (const TickSpan& span : segment->spans()) s.spans.push_back({span, segment.get()});
@@ -101,7 +104,8 @@ bool KernelFrames::turn(int code, double et_s, FrameTurn& out) const {
     return turn(code, et_s, out, 0) && is_finite(out);
 }
 
-bool KernelFrames::turn_in(int reference, double et_s, const FrameTurn& inner, FrameTurn& out, int depth) const {
+bool KernelFrames::turn_in(int reference, double et_s, const FrameTurn& inner, FrameTurn& out,
+                           int depth) const {
     FrameTurn outer;
     if (!turn(reference, et_s, outer, depth + 1)) return false;
     out = composed(outer, inner);
@@ -132,8 +136,8 @@ bool KernelFrames::turn(int code, double et_s, FrameTurn& out, int depth) const 
 bool KernelFrames::structure_turn(const Structure& s, double et_s, FrameTurn& out, int depth) const {
     const double ticks = s.clock->ticks(et_s), seconds_per_tick = s.clock->seconds_per_tick(et_s);
     const auto from = [&](const CkSegment& segment, const CkPointing& p) {
-        return turn_in(segment.about().frame, et_s, {to_matrix(p.reference_from_structure), p.rate_reference_rad_s}, out,
-                       depth);
+        return turn_in(segment.about().frame, et_s,
+                       {to_matrix(p.reference_from_structure), p.rate_reference_rad_s}, out, depth);
     };
     for (const auto& segment : s.segments) {
         if (ticks < segment->about().start_ticks || ticks > segment->about().stop_ticks) continue;
@@ -142,8 +146,9 @@ bool KernelFrames::structure_turn(const Structure& s, double et_s, FrameTurn& ou
     if (!(tolerance_s_ > 0)) return false;
     // The nearest end of a span, where the structure then stands.
     const double tolerance = tolerance_s_ / seconds_per_tick;
-    const auto after = std::upper_bound(s.spans.begin(), s.spans.end(), ticks,
-                                        [](double t, const Structure::Span& span) { return t < span.ticks.start; });
+    const auto after =
+        std::upper_bound(s.spans.begin(), s.spans.end(), ticks,
+                         [](double t, const Structure::Span& span) { return t < span.ticks.start; });
     const Structure::Span* best = nullptr;
     double nearest = tolerance, where = 0;
     const auto look = [&](const Structure::Span& span) {

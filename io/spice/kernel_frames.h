@@ -1,5 +1,5 @@
 #pragma once
-// How the frames of a set of kernels are turned at any time: fixed offsets, bodies, structures with attitudes.
+// The turns of the frames of a set of kernels at any time: fixed offsets, bodies, structures with attitudes.
 //
 // What is asked for in the loop is named beforehand by require(), which reads its kernels. Dynamic frames are not built.
 
@@ -50,7 +50,8 @@ class KernelFrames {
     const KernelSet* kernels_;
     double tolerance_s_;
     std::map<int, FrameDefinition> frames_;
-    std::map<int, std::vector<std::unique_ptr<BodyOrientation>>> bodies_;  // by class code; the first that covers counts
+    std::map<int, std::vector<std::unique_ptr<BodyOrientation>>>
+        bodies_;  // by class code; the first that covers counts
     std::map<int, Structure> structures_;
     std::vector<std::string> left_out_;
 

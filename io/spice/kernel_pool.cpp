@@ -15,8 +15,9 @@ void KernelPool::assign(const std::string& name, KernelVariable value, bool appe
         return;
     }
     if (kept.texts.empty() != value.texts.empty())
-        throw InputError(value.where + ": adds " + (value.texts.empty() ? "numbers" : "texts") + " to " + name +
-                         ", which has " + (kept.texts.empty() ? "numbers" : "texts") + " (" + kept.where + ")");
+        throw InputError(value.where + ": adds " + (value.texts.empty() ? "numbers" : "texts") + " to " +
+                         name + ", which has " + (kept.texts.empty() ? "numbers" : "texts") + " (" +
+                         kept.where + ")");
     kept.numbers.insert(kept.numbers.end(), value.numbers.begin(), value.numbers.end());
     kept.texts.insert(kept.texts.end(), value.texts.begin(), value.texts.end());
     kept.where = std::move(value.where);
@@ -30,14 +31,16 @@ const KernelVariable* KernelPool::find(std::string_view name) const {
 std::optional<std::span<const double>> KernelPool::numbers(std::string_view name) const {
     const KernelVariable* v = find(name);
     if (!v) return {};
-    if (!v->texts.empty()) throw InputError(v->where + ": " + std::string(name) + ": found a text; accepted: numbers");
+    if (!v->texts.empty())
+        throw InputError(v->where + ": " + std::string(name) + ": found a text; accepted: numbers");
     return std::span<const double>(v->numbers);
 }
 
 std::optional<std::span<const std::string>> KernelPool::texts(std::string_view name) const {
     const KernelVariable* v = find(name);
     if (!v) return {};
-    if (v->texts.empty()) throw InputError(v->where + ": " + std::string(name) + ": found a number; accepted: texts");
+    if (v->texts.empty())
+        throw InputError(v->where + ": " + std::string(name) + ": found a number; accepted: texts");
     return std::span<const std::string>(v->texts);
 }
 
@@ -45,10 +48,11 @@ std::span<const double> KernelPool::require_numbers(std::string_view name, std::
                                                     const std::string& what) const {
     const auto found = numbers(name);
     if (!found)
-        throw InputError("no kernel has " + std::string(name) + ", which " + what + " needs; accepted: a kernel with it");
+        throw InputError("no kernel has " + std::string(name) + ", which " + what +
+                         " needs; accepted: a kernel with it");
     if (found->size() != count)
-        throw InputError(find(name)->where + ": " + std::string(name) + ": found " + std::to_string(found->size()) +
-                         " numbers; accepted: " + std::to_string(count));
+        throw InputError(find(name)->where + ": " + std::string(name) + ": found " +
+                         std::to_string(found->size()) + " numbers; accepted: " + std::to_string(count));
     return *found;
 }
 

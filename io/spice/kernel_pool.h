@@ -28,7 +28,8 @@ class KernelPool {
     std::optional<std::span<const std::string>> texts(std::string_view name) const;
     // Returns so many numbers. Throws InputError when the variable is missing or has another count; `what` says what it
     // is for.
-    std::span<const double> require_numbers(std::string_view name, std::size_t count, const std::string& what) const;
+    std::span<const double> require_numbers(std::string_view name, std::size_t count,
+                                            const std::string& what) const;
     std::optional<double> number(std::string_view name) const;
     std::optional<int> integer(std::string_view name) const;
     std::optional<std::string> text(std::string_view name) const;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uintmax_t kMaxTextBytes = 256u << 20;
 constexpr int kDeepestMetaKernel = 8;
 
-// What the first bytes of a file say that it is.
+// The first bytes of a file say what it is.
 enum class Kind { kBinary, kShape, kTransfer, kText };
 Kind kind_of(const std::filesystem::path& file) {
     const InputFile in = open_input_file(file, {std::uintmax_t{1} << 34, "a SPICE kernel"});
@@ -28,8 +28,8 @@ Kind kind_of(const std::filesystem::path& file) {
 }
 
 // Puts the path that a meta-kernel has for a symbol in its place.
-std::string with_paths(std::string name, std::span<const std::string> symbols, std::span<const std::string> values,
-                       const std::string& where) {
+std::string with_paths(std::string name, std::span<const std::string> symbols,
+                       std::span<const std::string> values, const std::string& where) {
     // The longest symbol first: one may begin as another.
     std::vector<std::size_t> order(symbols.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -50,17 +50,20 @@ class Loader {
   public:
     void load(const std::filesystem::path& file, int depth) {
         if (depth > kDeepestMetaKernel)
-            throw InputError(file.string() + ": meta-kernels name each other more than 8 deep; accepted: no circle");
+            throw InputError(file.string() +
+                             ": meta-kernels name each other more than 8 deep; accepted: no circle");
         set_.files.push_back(file.string());
         switch (kind_of(file)) {
             case Kind::kBinary:
                 set_.binaries.push_back(std::make_unique<DafFile>(file));
                 return;
             case Kind::kShape:
-                throw InputError(file.string() + ": is a shape kernel (DSK); accepted here: SPK, CK, PCK and text "
+                throw InputError(file.string() +
+                                 ": is a shape kernel (DSK); accepted here: SPK, CK, PCK and text "
                                  "kernels (a shape is an object's mesh)");
             case Kind::kTransfer:
-                throw InputError(file.string() + ": is a kernel in transfer format; accepted: the binary kernel that "
+                throw InputError(file.string() +
+                                 ": is a kernel in transfer format; accepted: the binary kernel that "
                                  "NAIF's tobin makes of it");
             case Kind::kText:
                 load_text(file, depth);
@@ -92,7 +95,8 @@ class Loader {
         const std::string where = own.find("KERNELS_TO_LOAD")->where;
         if (symbols.size() != values.size())
             throw InputError(where + ": has " + std::to_string(symbols.size()) + " PATH_SYMBOLS and " +
-                             std::to_string(values.size()) + " PATH_VALUES; accepted: one value for each symbol");
+                             std::to_string(values.size()) +
+                             " PATH_VALUES; accepted: one value for each symbol");
         // A name that ends with + goes on in the next one.
         std::string name;
         for (const std::string& part : names) {

@@ -15,7 +15,7 @@ struct SampleWindow {
 // inwards or, truncated, loses what lies outside.
 inline SampleWindow sample_window(std::size_t after, bool next_is_nearer, std::size_t size, std::size_t count,
                                   bool truncated) {
-    // At the last sample the time belongs to the interval before it.
+    // The time of the last sample belongs to the interval before it.
     after = std::clamp<std::size_t>(after, 1, count > 1 ? count - 1 : 1);
     const auto middle = static_cast<std::ptrdiff_t>(after);
     const auto half = static_cast<std::ptrdiff_t>(size / 2), all = static_cast<std::ptrdiff_t>(count);
@@ -25,7 +25,8 @@ inline SampleWindow sample_window(std::size_t after, bool next_is_nearer, std::s
     if (truncated) {
         first = std::max<std::ptrdiff_t>(first, 0), end = std::min(end, all);
     } else {
-        first = std::clamp<std::ptrdiff_t>(first, 0, std::max<std::ptrdiff_t>(all - static_cast<std::ptrdiff_t>(size), 0));
+        first = std::clamp<std::ptrdiff_t>(
+            first, 0, std::max<std::ptrdiff_t>(all - static_cast<std::ptrdiff_t>(size), 0));
         end = std::min(first + static_cast<std::ptrdiff_t>(size), all);
     }
     return {static_cast<std::size_t>(first), static_cast<std::size_t>(end - first)};

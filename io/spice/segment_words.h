@@ -17,7 +17,8 @@ inline constexpr std::size_t kDirectoryStep = 100;
 
 class SegmentWords {
   public:
-    SegmentWords(std::vector<double> words, std::string where) : words_(std::move(words)), where_(std::move(where)) {}
+    SegmentWords(std::vector<double> words, std::string where)
+        : words_(std::move(words)), where_(std::move(where)) {}
 
     std::size_t size() const { return words_.size(); }
     double operator[](std::size_t i) const { return words_[i]; }
@@ -30,21 +31,23 @@ class SegmentWords {
 
     // The word so far from the end, 1 for the last. InputError when there is none.
     double from_end(std::size_t back) const {
-        if (back > words_.size()) fail("has " + std::to_string(words_.size()) + " words; accepted: a whole segment");
+        if (back > words_.size())
+            fail("has " + std::to_string(words_.size()) + " words; accepted: a whole segment");
         return words_[words_.size() - back];
     }
     // The same as a whole number in a range.
     std::size_t count_from_end(std::size_t back, const char* what, double least, double most) const {
         const double value = from_end(back);
         if (!(value >= least && value <= most) || value != std::floor(value))
-            fail(std::string(what) + ": found " + plain(value) + "; accepted: a whole number, " + plain(least) + " to " +
-                 plain(most));
+            fail(std::string(what) + ": found " + plain(value) + "; accepted: a whole number, " +
+                 plain(least) + " to " + plain(most));
         return static_cast<std::size_t>(value);
     }
     // Refuses a segment that has fewer words than its counts ask for. More than so many are no fault.
     void require_size(std::size_t words) const {
         if (words_.size() < words)
-            fail("has " + std::to_string(words_.size()) + " words; its counts ask for " + std::to_string(words));
+            fail("has " + std::to_string(words_.size()) + " words; its counts ask for " +
+                 std::to_string(words));
     }
     void require_rising(std::size_t from, std::size_t count, const char* what) const {
         for (std::size_t i = 1; i < count; ++i)

@@ -25,16 +25,19 @@ SpacecraftClock::SpacecraftClock(const KernelPool& pool, int clock, const Epheme
     for (std::size_t i = 1; i < moduli->size(); ++i) ticks_per_count *= (*moduli)[i];
     const std::string where = pool.find(key)->where + ": " + key;
     if (!(ticks_per_count >= 1 && ticks_per_count < 1e15))
-        throw InputError(pool.find(moduli_key)->where + ": " + moduli_key + ": accepted: counts of 1 and more");
+        throw InputError(pool.find(moduli_key)->where + ": " + moduli_key +
+                         ": accepted: counts of 1 and more");
     if (triples->size() % 3 != 0)
-        throw InputError(where + ": found " + std::to_string(triples->size()) + " numbers; accepted: triples");
+        throw InputError(where + ": found " + std::to_string(triples->size()) +
+                         " numbers; accepted: triples");
     for (std::size_t i = 0; i < triples->size(); i += 3) {
         const Piece piece{(*triples)[i], (*triples)[i + 1], (*triples)[i + 2] / ticks_per_count};
         const bool rises = pieces_.empty() || (piece.ticks > pieces_.back().ticks &&
                                                piece.parallel_s > pieces_.back().parallel_s);
         if (!rises || !(piece.seconds_per_tick > 0))
-            throw InputError(where + ": triple " + std::to_string(i / 3 + 1) + ": found " + plain(piece.ticks) + ", " +
-                             plain(piece.parallel_s) + ", " + plain((*triples)[i + 2]) +
+            throw InputError(where + ": triple " + std::to_string(i / 3 + 1) + ": found " +
+                             plain(piece.ticks) + ", " + plain(piece.parallel_s) + ", " +
+                             plain((*triples)[i + 2]) +
                              "; accepted: ticks and times that rise, a rate above 0");
         pieces_.push_back(piece);
     }
@@ -52,7 +55,9 @@ double SpacecraftClock::ticks(double et_s) const {
     return p.ticks + (parallel - p.parallel_s) / p.seconds_per_tick;
 }
 
-double SpacecraftClock::seconds_per_tick(double et_s) const { return piece_at(parallel_s(et_s)).seconds_per_tick; }
+double SpacecraftClock::seconds_per_tick(double et_s) const {
+    return piece_at(parallel_s(et_s)).seconds_per_tick;
+}
 
 double SpacecraftClock::et_s(double ticks) const {
     const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), ticks,

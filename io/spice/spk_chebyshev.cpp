@@ -7,12 +7,13 @@
 namespace hilcam {
 namespace {
 
-
 // Types 2 and 3: x, y, z [km] and, in type 3, their rates [km/s]; type 2's velocity is the derivative.
 class ChebyshevStates final : public SpkSegment {
   public:
     ChebyshevStates(const SpkSummary& about, std::vector<double> words)
-        : SpkSegment(about), records_(std::move(words), about.where, about.type == 2 ? 3 : 6), own_rates_(about.type == 3) {}
+        : SpkSegment(about),
+          records_(std::move(words), about.where, about.type == 2 ? 3 : 6),
+          own_rates_(about.type == 3) {}
 
     StateVector at(double et_s) const override {
         const auto v = records_.at(et_s);
@@ -40,7 +41,8 @@ class ChebyshevVelocities final : public SpkSegment {
         begin_et_s_ = ((words_.from_end(5) - kJ2000_jd) + words_.from_end(4)) * kJulianDay_s;
         unit_m_ = words_.from_end(7) * kKilometre_m, unit_m_s_ = unit_m_ / words_.from_end(6);
         if (record_ % 3 != 0)
-            words_.fail("words of a record: found " + std::to_string(record_) + "; accepted: a multiple of 3");
+            words_.fail("words of a record: found " + std::to_string(record_) +
+                        "; accepted: a multiple of 3");
         if (!(length_s_ > 0) || !std::isfinite(begin_et_s_ + length_s_) || !std::isfinite(unit_m_s_))
             words_.fail("its length of a record, begin or units are no positive numbers");
         words_.require_size(count_ * record_ + 7);

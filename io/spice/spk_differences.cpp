@@ -93,7 +93,8 @@ class Differences final : public SpkSegment {
     std::size_t order(std::span<const double> r, std::size_t axis) const {
         return static_cast<std::size_t>(r[7 + 4 * terms_ + 1 + axis]);
     }
-    std::array<double, 3> acceleration(std::span<const double> r, std::span<const double> g, double tau_s) const {
+    std::array<double, 3> acceleration(std::span<const double> r, std::span<const double> g,
+                                       double tau_s) const {
         std::array<double, 3> out{};
         double factor = 1;
         const std::size_t most = std::max({order(r, 0), order(r, 1), order(r, 2)});
@@ -115,7 +116,8 @@ class Differences final : public SpkSegment {
         }
         const std::size_t most = std::max({order(r, 0), order(r, 1), order(r, 2)});
         for (std::size_t j = 1; j < most; ++j)
-            if (r[j] == 0) words_.fail(record + "span " + std::to_string(j) + " back is 0; accepted: another number");
+            if (r[j] == 0)
+                words_.fail(record + "span " + std::to_string(j) + " back is 0; accepted: another number");
     }
 };
 

@@ -37,14 +37,16 @@ class Discrete final : public SpkSegment {
             first_et_s_ = words_.from_end(4), step_s_ = words_.from_end(3);
             if (!(step_s_ > 0)) words_.fail("step: found " + plain(step_s_) + "; accepted: above 0");
         } else {
-            words_.require_size((packet_ + 1) * count_ + (count_ - 1) / kDirectoryStep + (truncated_ ? 3 : 2));
+            words_.require_size((packet_ + 1) * count_ + (count_ - 1) / kDirectoryStep +
+                                (truncated_ ? 3 : 2));
             words_.require_rising(packet_ * count_, count_, "time");
         }
     }
 
     StateVector at(double et_s) const override {
         const SampleWindow w = window(et_s);
-        if (w.count == 1) return {kKilometre_m * three(w.first, 0), kKilometre_m * three(w.first, apart_ ? 6 : 3)};
+        if (w.count == 1)
+            return {kKilometre_m * three(w.first, 0), kKilometre_m * three(w.first, apart_ ? 6 : 3)};
         const double middle_s = 0.5 * (time(w.first) + time(w.first + w.count - 1));
         const double half_s = 0.5 * (time(w.first + w.count - 1) - time(w.first));
         std::array<Node<6>, kMaxNodes> nodes;

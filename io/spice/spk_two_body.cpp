@@ -15,7 +15,8 @@ class TwoBody final : public SpkSegment {
         : SpkSegment(about), words_(std::move(words), about.where) {
         count_ = words_.count_from_end(1, "states", 1, kMostRecords);
         gravity_km3_s2_ = words_.from_end(2);
-        if (!(gravity_km3_s2_ > 0)) words_.fail("gravity: found " + plain(gravity_km3_s2_) + "; accepted: above 0");
+        if (!(gravity_km3_s2_ > 0))
+            words_.fail("gravity: found " + plain(gravity_km3_s2_) + "; accepted: above 0");
         words_.require_size(7 * count_ + count_ / kDirectoryStep + 2);
         words_.require_rising(6 * count_, count_, "time");
         for (std::size_t i = 0; i < count_; ++i)

@@ -13,17 +13,19 @@ constexpr std::size_t kMostValues = 10'000'000;
 // The numbers of kernels may have Fortran's exponents.
 std::optional<double> kernel_number(std::string_view text) {
     std::string plain_text(text);
-    std::replace_if(plain_text.begin(), plain_text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'E');
+    std::replace_if(
+        plain_text.begin(), plain_text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'E');
     return number_of(plain_text);
 }
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool ends_word(char c) { return is_blank(c) || c == ',' || c == '(' || c == ')' || c == '='; }
 
-// What stands in data blocks, one after another.
+// The reader of what stands in data blocks, one after another.
 class Assignments {
   public:
-    Assignments(std::string_view text, const std::string& name, KernelPool& pool) : lines_(text, name), pool_(pool) {}
+    Assignments(std::string_view text, const std::string& name, KernelPool& pool)
+        : lines_(text, name), pool_(pool) {}
 
     void read() {
         bool data = false;
@@ -75,7 +77,8 @@ class Assignments {
             }
             case Expect::kOperator:
                 append_ = c == '+';
-                if (append_ && (i + 1 == line.size() || line[i + 1] != '=')) lines_.refuse(line.substr(i), "= or +=");
+                if (append_ && (i + 1 == line.size() || line[i + 1] != '='))
+                    lines_.refuse(line.substr(i), "= or +=");
                 if (!append_ && c != '=') lines_.refuse(line.substr(i), "= or += after " + in_quotes(name_));
                 value_ = {};
                 expect_ = Expect::kValue;
@@ -108,7 +111,8 @@ class Assignments {
         const std::string_view word = line.substr(i, end - i);
         const auto number = word.starts_with('@') ? kernel_date_s(word.substr(1)) : kernel_number(word);
         if (!number)
-            lines_.refuse(end == i ? line.substr(i, 1) : word, "a number, a text between single quotes, or @ and a date");
+            lines_.refuse(end == i ? line.substr(i, 1) : word,
+                          "a number, a text between single quotes, or @ and a date");
         if (!value_.texts.empty()) lines_.refuse(word, "texts, as before in " + in_quotes(name_));
         value_.numbers.push_back(*number);
         return end;
@@ -139,7 +143,8 @@ class Assignments {
     }
     void finish() const {
         if (expect_ != Expect::kName)
-            lines_.fail(in_quotes(name_) + " has no end; accepted: a value, and ) after a list", line_of_name_);
+            lines_.fail(in_quotes(name_) + " has no end; accepted: a value, and ) after a list",
+                        line_of_name_);
     }
 };
 

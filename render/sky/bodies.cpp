@@ -170,7 +170,8 @@ Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const EarthOrientation& meas
 namespace {
 
 // earth: its state by the series.
-StateVector known_heliocentric(BodyId id, TimeTai time, const OriginConfig& origin, const StateVector& earth) {
+StateVector known_heliocentric(BodyId id, TimeTai time, const OriginConfig& origin,
+                               const StateVector& earth) {
     if (origin.source)
         if (const auto known = origin.source->from_sun(id, time)) return *known;
     return heliocentric(id, time, earth);
@@ -215,12 +216,15 @@ Mat3d body_fixed_from_local(const Geodetic& place) {
 Fields fields(OriginConfig& c) {
     std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
     return {
-        choice("kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed", "free", "spice"},
-               "kind of origin: the centre of a body, a place that turns with it, free space, or a thing of the "
-               "kernels. In free space the origin is at rest relative to the Sun, which stands where sun.direction "
-               "says, and only bodies whose 'visible' is true are shown"),
-        optional(text("object", c.object, "thing of the kernels that kind spice refers to: a name or NAIF's code"),
-                 c.has_object),
+        choice(
+            "kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed", "free", "spice"},
+            "kind of origin: the centre of a body, a place that turns with it, free space, or a thing of the "
+            "kernels. In free space the origin is at rest relative to the Sun, which stands where "
+            "sun.direction "
+            "says, and only bodies whose 'visible' is true are shown"),
+        optional(
+            text("object", c.object, "thing of the kernels that kind spice refers to: a name or NAIF's code"),
+            c.has_object),
         optional(choice("body", c.body, names, "body that body_center and body_fixed refer to"), c.has_body),
         optional(number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
                         "longitude of a fixed origin, east positive"),
@@ -236,7 +240,8 @@ Fields fields(OriginConfig& c) {
 
 void validate(const OriginConfig& c) {
     using Kind = OriginConfig::Kind;
-    constexpr std::array kWords = {"earth_center", "earth_fixed", "body_center", "body_fixed", "free", "spice"};
+    constexpr std::array kWords = {"earth_center", "earth_fixed", "body_center",
+                                   "body_fixed",   "free",        "spice"};
     const auto forbid = [&](bool given, const char* key, bool is_read, const char* readers) {
         if (given && !is_read)
             throw KeyError(key, std::string("has no effect with kind: ") +
@@ -263,9 +268,7 @@ StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
     constexpr std::int64_t kStep_ns = 30'000'000'000;
     const BodyId center = *origin.center();
     const Vec3d fixed_m = body_fixed_position_m(center, origin.place);
-    const auto at = [&](TimeTai t) {
-        return transposed(body_fixed_from_icrf(center, t, origin)) * fixed_m;
-    };
+    const auto at = [&](TimeTai t) { return transposed(body_fixed_from_icrf(center, t, origin)) * fixed_m; };
     return {at(time), (at(time + kStep_ns) - at(time + -kStep_ns)) / (2 * kStep_ns * kSecondsPerNs)};
 }
 
@@ -303,8 +306,7 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         const auto id = static_cast<BodyId>(i);
         if (id == center) {
-            out.body[i] = {-place.position_m, body_fixed_from_icrf(id, time, origin),
-                           -place.velocity_m_s};
+            out.body[i] = {-place.position_m, body_fixed_from_icrf(id, time, origin), -place.velocity_m_s};
             continue;
         }
         // One step of light time: the planet moves less than 1e-4 of the way meanwhile. Its velocity is that

@@ -97,16 +97,24 @@ Mat3d body_fixed_from_local(const Geodetic& place);
 struct OwnBodies;
 class BodySource;
 struct OriginConfig {
-    enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed, kFree, kSpice } kind = Kind::kEarthCenter;
+    enum class Kind {
+        kEarthCenter,
+        kEarthFixed,
+        kBodyCenter,
+        kBodyFixed,
+        kFree,
+        kSpice
+    } kind = Kind::kEarthCenter;
     BodyId body = BodyId::kEarth;
     // Place of the fixed kinds of origin: a geostationary longitude with height 35 786 km, say.
     Geodetic place;
     EarthOrientation earth;  // no key of this section either: `earth_orientation` of the scenario
     Vec3d sun_m;  // position of the Sun with kFree; no key of this section (emulator/scenario/free_space.h)
-    std::shared_ptr<const OwnBodies> own;  // `bodies` of the scenario; null: none
+    std::shared_ptr<const OwnBodies> own;      // `bodies` of the scenario; null: none
     std::string object;                        // thing of the kernels, of kind kSpice
     std::shared_ptr<const BodySource> source;  // the scenario's kernels; null: the program's own series
-    bool has_object = false, has_body = false, has_longitude = false, has_latitude = false, has_height = false;
+    bool has_object = false, has_body = false, has_longitude = false, has_latitude = false,
+         has_height = false;
 
     // The body that the origin belongs to; none: free space, or a thing of the kernels.
     std::optional<BodyId> center() const {
