@@ -4,6 +4,7 @@
 #include "emulator/motion/keyframes.h"
 #include "emulator/motion/placed_frame.h"
 #include "io/files/aem_file.h"
+#include "io/spice/spice_kernels.h"
 
 namespace hilcam {
 
@@ -38,6 +39,10 @@ struct Pointing {
 std::unique_ptr<AttitudeLaw> make_pointing(const Pointing& pointing);
 
 std::unique_ptr<AttitudeLaw> make_keyframed_attitude(const PlacedFrame& frame, Keyframes keyframes);
+// The axes of a frame of the scenario's kernels, and how the body's axes stand in them. Throws InputError for a frame that
+// the kernels do not have.
+std::unique_ptr<AttitudeLaw> make_spice_attitude(std::shared_ptr<SpiceKernels> kernels,
+                                                 const std::string& frame, Quat frame_from_body);
 // An ephemeris of attitudes. LVLH and RTN are those of the thing's own orbit about `center`.
 std::unique_ptr<AttitudeLaw> make_aem(std::vector<AemSegment> segments, const OrbitCenter& center,
                                       const std::string& name);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/motion/node_polynomial.h"
+#include "render/vocabulary/node_polynomial.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

@@ -6,6 +6,7 @@
 #include "emulator/motion/placed_frame.h"
 #include "io/files/oem_file.h"
 #include "io/files/tle_file.h"
+#include "io/spice/spice_kernels.h"
 
 namespace hilcam {
 
@@ -22,6 +23,15 @@ std::unique_ptr<Trajectory> make_kepler(const OrbitCenter& center, const KeplerE
 // SGP4 about the Earth, for `valid_s` before and after epoch, or until the theory breaks down or the
 // satellite decays. Throws InputError for elements that are no orbit.
 std::unique_ptr<Trajectory> make_tle(const Tle& tle, double valid_s, const std::string& name);
+// A thing of the scenario's kernels about a body's centre, or about the origin where that is a thing of the kernels.
+struct SpicePlace {
+    int object = 0;  // NAIF's codes
+    int about = 0;
+    std::optional<OrbitCenter> center;  // where `about` stands in the world; none: at its origin
+};
+// Throws InputError for a thing that the kernels do not have.
+std::unique_ptr<Trajectory> make_spice_place(std::shared_ptr<SpiceKernels> kernels, const SpicePlace& place,
+                                             const std::string& name);
 // An ephemeris. Throws InputError for a centre that is none of the program's.
 std::unique_ptr<Trajectory> make_oem(std::vector<OemSegment> segments, const std::string& name);
 

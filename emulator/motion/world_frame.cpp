@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "render/sky/body_source.h"
 #include "render/sky/earth_frames.h"
 #include "render/vocabulary/units.h"
 
@@ -21,7 +22,8 @@ double gravity_m3_s2(const OrbitCenter& center) {
 }
 
 TurningAxes WorldFrame::body_fixed(BodyId body) const {
-    if (body == BodyId::kEarth) {
+    const bool by_kernels = origin_.source && origin_.source->fixed_from_icrf(body, time_);
+    if (body == BodyId::kEarth && !by_kernels) {
         if (!earth_)
             earth_ = {transposed(earth_fixed_from_icrf(time_, origin_.earth)),
                       earth_rate_rad_s(time_, origin_.earth)};
@@ -30,8 +32,8 @@ TurningAxes WorldFrame::body_fixed(BodyId body) const {
     // Other bodies turn about a pole that is at rest for days: by difference over a minute, good to 1e-9 of
     // the rate.
     constexpr std::int64_t kStep_ns = 30'000'000'000;
-    const Mat3d before = body_fixed_from_icrf(body, time_ + -kStep_ns, origin_.earth),
-                after = body_fixed_from_icrf(body, time_ + kStep_ns, origin_.earth);
+    const Mat3d before = body_fixed_from_icrf(body, time_ + -kStep_ns, origin_),
+                after = body_fixed_from_icrf(body, time_ + kStep_ns, origin_);
     const Mat3d turn = transposed(after) * before;
     const Quat q = to_quat(turn);
     const Vec3d sine{q.x, q.y, q.z};
@@ -39,7 +41,7 @@ TurningAxes WorldFrame::body_fixed(BodyId body) const {
     const double angle = 2 * std::atan2(size, q.w);
     const double per_s = 1 / (2 * kStep_ns * kSecondsPerNs);
     const Vec3d rate = size > 0 ? (angle / size * per_s) * sine : Vec3d{};
-    return {transposed(body_fixed_from_icrf(body, time_, origin_.earth)), rate};
+    return {transposed(body_fixed_from_icrf(body, time_, origin_)), rate};
 }
 
 Mat3d WorldFrame::icrf_from_teme() const { return hilcam::icrf_from_teme(time_, origin_.earth); }
@@ -56,9 +58,9 @@ StateVector WorldFrame::center(const OrbitCenter& center) const {
     }
     StateVector out{-origin_state_->position_m, -origin_state_->velocity_m_s};
     if (center.body && center.body == home) return out;
-    const StateVector from = home ? heliocentric(*home, time_) : StateVector{-origin_.sun_m, {}};
+    const StateVector from = origin_from_sun(time_, origin_);
     StateVector to;
-    if (center.body) to = heliocentric(*center.body, time_);
+    if (center.body) to = heliocentric(*center.body, time_, origin_);
     out.position_m = out.position_m + (to.position_m - from.position_m);
     out.velocity_m_s = out.velocity_m_s + (to.velocity_m_s - from.velocity_m_s);
     return out;

@@ -5,11 +5,13 @@
 #include <set>
 
 #include "emulator/events/event_sequence.h"
+#include "emulator/motion/spice_sky.h"
 #include "emulator/scenario/free_space.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/listening_ports.h"
 #include "emulator/scenario/site.h"
 #include "io/config/config_yaml.h"
+#include "io/spice/kernel_names.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
@@ -64,6 +66,9 @@ Fields fields(ScenarioConfig& s) {
         section("camera_motion", s.camera_motion,
                 "motion of the camera's body until commands say otherwise; replaces camera_pose"),
         section("leap_seconds", s.leap_seconds, "table of leap seconds; replaces the built-in one"),
+        section(
+            "spice", s.spice,
+            "kernels of NAIF's SPICE, which say where things are and how they are turned (docs/spice.md)"),
         section("earth_orientation", s.origin.earth,
                 "orientation of the Earth as the IERS measures it (Bulletin A); without it UT1 is UTC and "
                 "the pole stands still"),
@@ -255,6 +260,34 @@ void settle_nadir(ScenarioConfig& s) {
 
 }  // namespace
 
+namespace {
+
+// The kernels' leap seconds come before those of `leap_seconds`, and both before any time that is worked out.
+void take_kernels(ScenarioConfig& s) {
+    if (s.spice) load_spice(*s.spice);
+    if (!s.spice && s.origin.kind == OriginConfig::Kind::kSpice)
+        throw InputError(
+            "origin.kind: found 'spice', and the scenario has no kernels; accepted: with 'spice: {kernels: "
+            "[...]}'");
+}
+
+void use_kernels(ScenarioConfig& s) {
+    std::shared_ptr<SpiceKernels> kernels;
+    if (s.spice) {
+        kernels = s.spice->loaded;
+        std::optional<int> origin;
+        if (s.origin.kind == OriginConfig::Kind::kSpice)
+            origin = require_kernel_code(kernels->set.pool, s.origin.object, "origin.object");
+        const bool with_bodies = s.spice->bodies == SpiceConfig::Bodies::kKernels;
+        s.origin.source = make_spice_sky(kernels, origin, with_bodies, parse_utc(s.time_utc));
+        if (const std::string warning = apply_instrument(*s.spice, s.camera); !warning.empty())
+            s.warnings.push_back(warning);
+    }
+    s.origin.own = load_own_bodies(s.own_bodies, s.time_utc, kernels);
+}
+
+}  // namespace
+
 ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const std::string> overrides) {
     if (has_top_level_key(file, "pitch_um"))
         throw InputError(file.string() +
@@ -269,11 +302,12 @@ ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const 
         validate(scenario);
     };
     read_config(file, root, overrides);
-    scenario.origin.own = load_own_bodies(scenario.own_bodies, scenario.time_utc);
+    take_kernels(scenario);
     if (scenario.leap_seconds) {
         const std::string warning = apply_leap_seconds(*scenario.leap_seconds, scenario.time_utc);
         if (!warning.empty()) scenario.warnings.push_back(warning);
     }
+    use_kernels(scenario);
     return scenario;
 }
 

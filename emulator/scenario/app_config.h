@@ -20,6 +20,7 @@
 #include "emulator/scenario/own_body_config.h"
 #include "emulator/scenario/quality_config.h"
 #include "emulator/scenario/quality_ladder.h"
+#include "emulator/scenario/spice_config.h"
 #include "emulator/world/clock.h"
 #include "emulator/world/world_state.h"
 #include "io/commands/telemetry.h"
@@ -65,6 +66,7 @@ struct ScenarioConfig {
     bool has_camera_pose = false;
     std::optional<MotionConfig> camera_motion;
     std::optional<LeapSecondsConfig> leap_seconds;
+    std::optional<SpiceConfig> spice;
     std::vector<ObjectConfig> objects;
     std::optional<TerrainConfig> terrain;
     std::vector<LampConfig> lamps;

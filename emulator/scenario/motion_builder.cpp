@@ -5,9 +5,11 @@
 #include "emulator/motion/attitude_laws.h"
 #include "emulator/motion/ephemeris.h"
 #include "emulator/motion/relative_motion.h"
+#include "emulator/motion/spice_sky.h"
 #include "emulator/motion/trajectories.h"
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/site.h"
+#include "io/spice/kernel_names.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 
@@ -128,6 +130,8 @@ class Builder {
                 if (m.outside == MotionConfig::Outside::kRefuse) require_no_gap(segments, oem.file.string());
                 return make_oem(std::move(segments), oem.file.string());
             }
+            case MotionConfig::Kind::kSpice:
+                return spice_place_of(m);
             case MotionConfig::Kind::kCw: {
                 PlacedFrame lvlh{PlacedFrame::Kind::kLvlh, thing_named(m.of), center_of(m)};
                 const StateVector chief = orbit_of(lvlh.thing, lvlh.center);
@@ -138,6 +142,26 @@ class Builder {
                 break;
         }
         return make_fixed(frame_of(m.frame, m.of, m, thing), at_start, start_);
+    }
+
+    std::shared_ptr<SpiceKernels> kernels(const char* key) const {
+        if (scenario_.spice) return scenario_.spice->loaded;
+        throw InputError(std::string(key) +
+                         ": the scenario has no kernels; accepted: with 'spice: {kernels: [...]}'");
+    }
+
+    std::unique_ptr<Trajectory> spice_place_of(const MotionConfig& m) const {
+        const std::shared_ptr<SpiceKernels> set = kernels("kind: spice");
+        const std::string& name = m.spice.value().object;
+        const int object = require_kernel_code(set->set.pool, name, "spice.object");
+        if (scenario_.origin.kind == OriginConfig::Kind::kSpice) {
+            const int home = require_kernel_code(set->set.pool, scenario_.origin.object, "origin.object");
+            // The origin's own thing stands there.
+            if (home == object) return make_fixed({}, {}, start_);
+            return make_spice_place(set, {object, home, {}}, name);
+        }
+        const OrbitCenter center = center_of(m);
+        return make_spice_place(set, {object, naif_code_in(*set, center.body), center}, name);
     }
 
     std::unique_ptr<Trajectory> kepler_of(const MotionConfig& m) const {
@@ -190,6 +214,11 @@ class Builder {
             std::vector<AemSegment> segments = load_aem(aem.file, aem.object);
             if (m.outside == MotionConfig::Outside::kRefuse) require_no_gap(segments, aem.file.string());
             return make_aem(std::move(segments), center_of(m), aem.file.string());
+        }
+        if (a.law == Law::kSpice) {
+            const std::shared_ptr<SpiceKernels> set = kernels("attitude.law: spice");
+            const SpiceMounting mounting = mounting_of(a.spice.value(), *set);
+            return make_spice_attitude(set, mounting.frame, mounting.frame_from_camera);
         }
         return make_pointing(pointing_of(m));
     }

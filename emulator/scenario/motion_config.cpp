@@ -94,10 +94,10 @@ Fields fields(EphemerisFileConfig& f) {
 
 Fields fields(AttitudeConfig& a) {
     Fields list = {
-        choice("law", a.law, {"held", "nadir", "object", "sun", "velocity", "keyframes", "aem"},
+        choice("law", a.law, {"held", "nadir", "object", "sun", "velocity", "keyframes", "aem", "spice"},
                "law of the attitude. held: the attitude given here, turned by rate_deg_s, relative to frame "
                "(inertial, spin, lvlh, ...); nadir, object, sun, velocity: axis points there; keyframes, "
-               "aem: attitudes are taken from there"),
+               "aem, spice: attitudes are taken from there"),
         choice("frame", a.frame, frame_names(),
                "axes that the law held refers to; keyframes use the motion's"),
         text("of", a.of, std::string(kOf) + "; with the law object, what it looks at"),
@@ -115,6 +115,7 @@ Fields fields(AttitudeConfig& a) {
         choice("second", a.second, {"north", "velocity", "orbit_normal", "nadir", "sun"},
                "direction that second_axis is turned to; north: the world's +z"),
         section("aem", a.aem, "attitude ephemeris message, CCSDS 504.0-B"),
+        section("spice", a.spice, "frame of the scenario's kernels"),
         section("jitter", a.jitter, "unsteadiness about the body's axes"),
     };
     for (Field& field : rest) list.push_back(std::move(field));
@@ -135,7 +136,7 @@ void validate(const AttitudeConfig& a) {
 
 Fields fields(MotionConfig& m) {
     return {
-        required(choice("kind", m.kind, {"fixed", "keyframes", "kepler", "tle", "oem", "cw"},
+        required(choice("kind", m.kind, {"fixed", "keyframes", "kepler", "tle", "oem", "cw", "spice"},
                         "source of the positions; cw: drift near a thing on a circular orbit")),
         choice("frame", m.frame, frame_names(),
                "axes of the motions fixed and keyframes; local: east, north, up at the site"),
@@ -148,6 +149,7 @@ Fields fields(MotionConfig& m) {
         section("kepler", m.kepler, "elements of an unperturbed orbit"),
         section("tle", m.tle, "two-line element set, propagated by SGP4"),
         section("oem", m.oem, "orbit ephemeris message, CCSDS 502.0-B"),
+        section("spice", m.spice, "thing of the scenario's kernels, about center"),
         section("attitude", m.attitude, "attitude along the motion"),
         choice("outside", m.outside, {"refuse", "hold"},
                "treatment of times outside those that a file covers. refuse: gaps and a start outside are "
@@ -169,10 +171,12 @@ void validate(const MotionConfig& m) {
     forbid(m.kepler && m.kind != Kind::kKepler, "kepler");
     forbid(m.tle && m.kind != Kind::kTle, "tle");
     forbid(m.oem && m.kind != Kind::kOem, "oem");
+    forbid(m.spice && m.kind != Kind::kSpice, "spice");
     if (m.kind == Kind::kKeyframes) need(!m.keyframes.empty(), "keyframes", "keyframes");
     if (m.kind == Kind::kKepler) need(m.kepler.has_value(), "kepler", "kepler");
     if (m.kind == Kind::kTle) need(m.tle.has_value(), "tle", "tle");
     if (m.kind == Kind::kOem) need(m.oem.has_value(), "oem", "oem");
+    if (m.kind == Kind::kSpice) need(m.spice.has_value(), "spice", "spice");
     if (m.kind == Kind::kCw) need(!m.of.empty(), "of", "cw");
     if (m.frame == MotionFrame::kLvlh || m.frame == MotionFrame::kThing)
         need(!m.of.empty(), "of", "with frames lvlh and object");
@@ -182,6 +186,8 @@ void validate(const MotionConfig& m) {
     const AttitudeConfig& a = m.attitude;
     if (a.law == AttitudeConfig::Law::kAem && !a.aem)
         throw InputError("attitude has no 'aem'; law aem needs it");
+    if (a.law == AttitudeConfig::Law::kSpice && !a.spice)
+        throw InputError("attitude has no 'spice'; law spice needs it");
     if (a.law == AttitudeConfig::Law::kKeyframes && m.kind != Kind::kKeyframes)
         throw InputError("attitude: law keyframes needs kind keyframes");
     const bool any_given = std::any_of(m.keyframes.begin(), m.keyframes.end(),

@@ -8,6 +8,7 @@
 
 #include "emulator/motion/attitude_jitter.h"
 #include "emulator/scenario/attitude_keys.h"
+#include "emulator/scenario/spice_config.h"
 #include "io/files/tle_file.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/earth_orientation.h"
@@ -50,7 +51,7 @@ Fields fields(EphemerisFileConfig& file);
 enum class MotionFrame { kWorld, kBodyFixed, kLvlh, kThing, kLocal };
 
 struct AttitudeConfig {
-    enum class Law { kHeld, kNadir, kThing, kSun, kVelocity, kKeyframes, kAem } law = Law::kHeld;
+    enum class Law { kHeld, kNadir, kThing, kSun, kVelocity, kKeyframes, kAem, kSpice } law = Law::kHeld;
     MotionFrame frame = MotionFrame::kWorld;
     std::string of;
     AttitudeForms attitude;
@@ -59,6 +60,7 @@ struct AttitudeConfig {
     Vec3d axis{0, 0, 1}, second_axis{0, -1, 0};
     enum class Second { kNorth, kVelocity, kOrbitNormal, kNadir, kSun } second = Second::kNorth;
     std::optional<EphemerisFileConfig> aem;
+    std::optional<SpiceFrameConfig> spice;
     std::optional<JitterBand> jitter;
     bool has_nadir_of = false;
 };
@@ -66,7 +68,7 @@ Fields fields(AttitudeConfig& attitude);
 void validate(const AttitudeConfig& attitude);
 
 struct MotionConfig {
-    enum class Kind { kFixed, kKeyframes, kKepler, kTle, kOem, kCw } kind = Kind::kFixed;
+    enum class Kind { kFixed, kKeyframes, kKepler, kTle, kOem, kCw, kSpice } kind = Kind::kFixed;
     MotionFrame frame = MotionFrame::kWorld;
     std::string of;          // the thing that lvlh and thing are about: an object's name, or "camera"
     std::size_t center = 2;  // a BodyId's index, or kBodyCount for the Sun: the Earth
@@ -75,6 +77,7 @@ struct MotionConfig {
     std::optional<KeplerConfig> kepler;
     std::optional<TleConfig> tle;
     std::optional<EphemerisFileConfig> oem;
+    std::optional<SpiceObjectConfig> spice;
     AttitudeConfig attitude;
     enum class Outside { kRefuse, kHold } outside = Outside::kRefuse;
 };

@@ -4,8 +4,11 @@
 
 #include "emulator/motion/ephemeris.h"
 #include "emulator/motion/kepler_orbit.h"
+#include "emulator/motion/spice_coverage.h"
+#include "emulator/motion/spice_sky.h"
 #include "emulator/motion/world_frame.h"
 #include "io/files/oem_file.h"
+#include "io/spice/kernel_names.h"
 #include "render/sky/earth_frames.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -66,6 +69,36 @@ std::function<StateVector(TimeTai)> ephemeris_orbit(const OwnBodyConfig& c, Time
     };
 }
 
+// The same by the kernels; with them come its axes, unless the scenario says how it turns.
+void take_from_kernels(const OwnBodyConfig& c, const std::shared_ptr<SpiceKernels>& kernels, TimeTai start,
+                       OwnBody& body) {
+    if (!kernels)
+        throw InputError("spice: the scenario has no kernels; accepted: with 'spice: {kernels: [...]}'");
+    const int code = require_kernel_code(kernels->set.pool, c.spice.value().object, "spice.object");
+    const int about = naif_code_in(*kernels, body.center);
+    kernels->bodies.require(code, "spice.object");
+    if (kernels->bodies.has(about)) kernels->bodies.require(about, "center");
+    const SpiceCoverage coverage(kernels->bodies.coverage(code, about), kernels->set.time);
+    const MotionValidity validity = coverage.validity(start);
+    if (coverage.empty() || validity.status != MotionStatus::kOk)
+        throw InputError(
+            "spice.object: the kernels do not know where it is about its center at the scenario's start" +
+            (coverage.empty() ? "" : "; the nearest instant they know is " + format_utc(validity.nearest)));
+    body.orbit = [kernels, coverage, code, about](TimeTai time) {
+        StateVector s;
+        kernels->bodies.state(code, about, coverage.et_s(coverage.validity(time).nearest), s);
+        return s;
+    };
+    const std::string id = std::to_string(code);
+    if (c.has_pole || c.has_synchronous || !kernels->set.pool.find("BODY" + id + "_POLE_RA")) return;
+    const int frame = kernels->frames.require("IAU_" + id, "spice.object");
+    body.turn = [kernels, frame](TimeTai time) {
+        FrameTurn turn;
+        kernels->frames.turn(frame, kernels->set.time.et_s(time), turn);
+        return transposed(turn.reference_from_frame);
+    };
+}
+
 }  // namespace
 
 // A grey one, by the law of dark powder.
@@ -84,6 +117,8 @@ Fields fields(OwnBodyConfig& c) {
         choice("center", c.center, names_of_centers(), "body that it goes around"),
         section("kepler", c.kepler, "elements of its orbit about the centre, unperturbed"),
         section("oem", c.oem, "orbit ephemeris message about the centre; replaces kepler"),
+        section("spice", c.spice,
+                "thing of the scenario's kernels; replaces kepler, and gives its axes where they do"),
         optional(flag("synchronous", c.synchronous,
                       "true: its x axis points to the centre and z along the orbit's normal; default: unless "
                       "pole_deg "
@@ -100,9 +135,11 @@ Fields fields(OwnBodyConfig& c) {
 }
 
 void validate(const OwnBodyConfig& c) {
-    if (c.kepler.has_value() == c.oem.has_value())
-        throw KeyError(c.kepler ? "oem" : "kepler", std::string("found ") + (c.kepler ? "both" : "neither") +
-                                                        " of 'kepler' and 'oem'; accepted: one of them");
+    const int given = int{c.kepler.has_value()} + int{c.oem.has_value()} + int{c.spice.has_value()};
+    if (given != 1)
+        throw KeyError(given > 0 ? "oem" : "kepler",
+                       std::string("found ") + (given == 0 ? "none" : "more than one") +
+                           " of 'kepler', 'oem' and 'spice'; accepted: one of them");
     if (c.polar_radius_m > 0 &&
         (c.polar_radius_m < 0.3 * c.equatorial_radius_m || c.polar_radius_m > 3 * c.equatorial_radius_m))
         throw KeyError("polar_radius_km", "accepted: a third to three times equatorial_radius_km");
@@ -117,7 +154,8 @@ void validate(const OwnBodyConfig& c) {
 }
 
 std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig>& bodies,
-                                                 const std::string& start_utc) {
+                                                 const std::string& start_utc,
+                                                 const std::shared_ptr<SpiceKernels>& kernels) {
     if (bodies.empty()) return nullptr;
     if (bodies.size() > kMaxOwnBodies)
         throw InputError("bodies: found " + std::to_string(bodies.size()) +
@@ -134,7 +172,10 @@ std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig
                        c.polar_radius_m > 0 ? c.polar_radius_m : c.equatorial_radius_m};
         body.center = center_id(c);
         try {
-            body.orbit = c.kepler ? kepler_orbit(c, start) : ephemeris_orbit(c, start);
+            if (c.spice)
+                take_from_kernels(c, kernels, start, body);
+            else
+                body.orbit = c.kepler ? kepler_orbit(c, start) : ephemeris_orbit(c, start);
         } catch (const InputError& error) {
             throw InputError("body " + in_quotes(c.name) + ": " + error.what());
         }

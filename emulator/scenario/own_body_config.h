@@ -19,7 +19,8 @@ struct OwnBodyConfig {
     double equatorial_radius_m = 0, polar_radius_m = 0;  // polar 0: round
     std::size_t center = 5;                              // numbered as MotionConfig::center: Jupiter
     std::optional<KeplerConfig> kepler;
-    std::optional<EphemerisFileConfig> oem;  // one of these two
+    std::optional<EphemerisFileConfig> oem;
+    std::optional<SpiceObjectConfig> spice;  // one of these three
     bool synchronous = true, has_synchronous = false, has_pole = false;
     std::vector<double> pole_rad;  // right ascension, declination
     double meridian_rad = 0, rate_rad_s = 0;
@@ -28,8 +29,9 @@ struct OwnBodyConfig {
 Fields fields(OwnBodyConfig& body);
 void validate(const OwnBodyConfig& body);
 
-// Reads their ephemerides. Throws InputError. Null: there are none.
+// Reads their ephemerides. kernels: the scenario's, or none. Throws InputError. Null: there are none.
 std::shared_ptr<const OwnBodies> load_own_bodies(const std::vector<OwnBodyConfig>& bodies,
-                                                 const std::string& start_utc);
+                                                 const std::string& start_utc,
+                                                 const std::shared_ptr<SpiceKernels>& kernels = nullptr);
 
 }  // namespace hilcam

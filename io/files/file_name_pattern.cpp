@@ -151,7 +151,7 @@ bool FileNamePattern::may_have_named(std::string_view file_name) const {
                 pattern += "-?[0-9]+";
                 break;
         }
-    pattern += R"((\.view)?\.(png|tiff|raw|fits))";
+    pattern += R"((\.view)?\.(png|tiff|raw|fits|xml))";
     return std::regex_match(file_name.begin(), file_name.end(), std::regex(pattern));
 }
 

@@ -31,7 +31,7 @@ class FileNamePattern {
     // Returns the name without the ending.
     std::string stem(const FrameRecord& record, const Camera& camera) const;
     const std::string& ending() const { return ending_; }
-    // True for a file's name that a run with this pattern may have written, in any format, and for its view.
+    // True for a file's name that a run with this pattern may have written, in any format, and for its view and label.
     bool may_have_named(std::string_view file_name) const;
 
   private:

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "io/files/mesh_import.h"
+#include "io/files/shape_table.h"
 #include "io/system/confined.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -115,16 +116,22 @@ std::vector<MeshNode> read_nodes(ConfinedResult& in) {
     return nodes;
 }
 
+MeshContents shape_contents(const std::filesystem::path& file) {
+    return {read_shape_table(read_input_file(file, mesh_kind()), file.string()), {}, 0};
+}
+
 // Has `work` read the file in a child process; it gets the file's kind.
 template <class Work>
 ConfinedResult read_confined(const std::filesystem::path& file, const Work& work) {
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::array<std::string, 5> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply"};
+    const std::array<std::string, 8> kinds = {".glb", ".gltf", ".obj", ".stl",
+                                              ".ply", ".tab",  ".plt", ".icq"};
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": no such mesh file");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-        throw refused(file.string(), "a file of kind " + in_quotes(kind), ".glb .gltf .obj .stl .ply");
+        throw refused(file.string(), "a file of kind " + in_quotes(kind),
+                      ".glb .gltf .obj .stl .ply .tab .plt .icq");
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
     const ConfinedLimits limits{kMinMemory_bytes + kMeshMemoryPerByte * bytes,
                                 kMinCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
@@ -135,7 +142,8 @@ ConfinedResult read_confined(const std::filesystem::path& file, const Work& work
 
 MeshContents load_mesh_contents(const std::filesystem::path& file) {
     ConfinedResult result = read_confined(file, [&](const std::string& kind, ConfinedOutput& out) {
-        const MeshContents contents = import_mesh_contents(file, kind);
+        const MeshContents contents =
+            is_shape_table(kind) ? shape_contents(file) : import_mesh_contents(file, kind);
         write_mesh(contents.mesh, out);
         write_nodes(contents.nodes, out);
         out.value(contents.collapsed_triangles);
@@ -151,6 +159,12 @@ Mesh load_mesh(const std::filesystem::path& file) { return std::move(load_mesh_p
 
 std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes) {
     ConfinedResult result = read_confined(file, [&](const std::string& kind, ConfinedOutput& out) {
+        if (is_shape_table(kind)) {
+            if (!nodes.empty())
+                throw refused(file.string(), "the node " + in_quotes(nodes[0]), "none: it has no nodes");
+            write_mesh(shape_contents(file).mesh, out);
+            return;
+        }
         for (const Mesh& mesh : import_mesh_parts(file, kind, nodes)) write_mesh(mesh, out);
     });
     std::vector<Mesh> meshes;

@@ -1,5 +1,5 @@
 #pragma once
-// Mesh files: glTF and GLB, OBJ, STL, PLY. They are read in a child process with limits (confined.h), so that
+// Mesh files: glTF and GLB, OBJ, STL, PLY, and shapes of small bodies (shape_table.h). They are read in a child process with limits (confined.h), so that
 // a file can cost no more than it may be worth, and cannot end the program.
 //
 // The node tree is flattened with its transforms; polygons become triangles; points and lines are left out;

@@ -24,6 +24,8 @@ Fields fields(FilesConfig& c) {
              "name of each file: %08d or {frame:8} is the frame's number; {camera}, {camera_name}, "
              "{time_tai_ns}"),
         flag("view", c.view, "true: beside each frame stands NAME.view.png, 8 bits, to look at"),
+        flag("label", c.label,
+             "true: beside each FITS file stands NAME.xml, which describes it as PDS4 has it"),
         integer("every_nth", c.every_nth, {1, 1e9}, "n: only every n-th frame is written"),
         flag("overwrite", c.overwrite,
              "treatment of a folder that holds another run's frames. false: it is refused; true: they are "
@@ -39,7 +41,11 @@ RunFolder run_folder(const FilesConfig& c) {
             .overwrite = c.overwrite};
 }
 
-void validate(const FilesConfig& c) { FileNamePattern(c.name, ending_of(c.format)); }
+void validate(const FilesConfig& c) {
+    FileNamePattern(c.name, ending_of(c.format));
+    if (c.label && c.format != FilesConfig::Format::kFits)
+        throw KeyError("label", "describes FITS files; accepted: with format: fits, or no 'label'");
+}
 
 std::string dark_picture_warning(const FilesConfig& c, int bits) {
     if (c.view) return {};
@@ -82,6 +88,8 @@ void FilesSink::run() {
 void FilesSink::write(const FrameMailbox::Item& item) {
     const std::string stem = names_.stem(item.record, camera_);
     writer_.write_frame(config_.folder / (stem + names_.ending()), item.frame, item.record);
+    if (config_.label)
+        writer_.write_label(config_.folder / (stem + names_.ending()), item.frame, item.record);
     if (config_.view) writer_.write_view(config_.folder / (stem + ".view.png"), item.frame, item.record);
 }
 

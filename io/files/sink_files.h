@@ -1,6 +1,7 @@
 #pragma once
 // Frames as files in a folder, "frame_00000001.png", each with what it says of itself (image_file.h), and
-// beside it, where that is asked for, a picture to look at, "frame_00000001.view.png". A frame that cannot be
+// beside it, where that is asked for, a picture to look at, "frame_00000001.view.png", or a PDS4 label,
+// "frame_00000001.xml". A frame that cannot be
 // written leaves no file; the next is tried all the same, as a disk may be emptied.
 
 #include <cstdint>
@@ -26,6 +27,7 @@ struct FilesConfig {
     std::filesystem::path folder = "frames";
     std::string name = "frame_%08d";  // file_name_pattern.h
     bool view = false;
+    bool label = false;
     std::int64_t every_nth = 1;
     bool overwrite = false;
 };

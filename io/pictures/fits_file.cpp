@@ -194,6 +194,14 @@ std::string encode_fits(const DnImage& frame, const FitsHeader& header) {
     return out;
 }
 
+std::size_t fits_header_bytes(std::string_view file) {
+    // END is a card of its own; nothing else begins one.
+    std::size_t card = 0;
+    while (card + kCardBytes <= file.size() && !file.substr(card, kCardBytes).starts_with("END "))
+        card += kCardBytes;
+    return (card + kCardBytes + kBlockBytes - 1) / kBlockBytes * kBlockBytes;
+}
+
 std::string encode_fits(const ElectronImage& electrons, const FitsHeader& header) {
     std::string out = header_of({-32, electrons.width(), electrons.height()}, header);
     out.reserve(out.size() + 4 * electrons.pixels() + kBlockBytes);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "io/pictures/picture_notes.h"
 #include "io/pictures/sky_map.h"
@@ -22,5 +23,7 @@ struct FitsHeader {
 // The whole file. Any thread.
 std::string encode_fits(const DnImage& frame, const FitsHeader& header);
 std::string encode_fits(const ElectronImage& electrons, const FitsHeader& header);
+// The bytes of such a file's header, after which its numbers stand.
+std::size_t fits_header_bytes(std::string_view file);
 
 }  // namespace hilcam

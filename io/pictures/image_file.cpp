@@ -9,6 +9,7 @@
 
 #include "io/pictures/exr_file.h"
 #include "io/pictures/fits_file.h"
+#include "io/pictures/pds4_label.h"
 #include "io/pictures/picture_codecs.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -109,6 +110,18 @@ void PictureWriter::write_frame(const std::filesystem::path& file, const DnImage
     } else {
         write_numbers(file, frame, notes_of(run_, record, layout, "DN"));
     }
+}
+
+void PictureWriter::write_label(const std::filesystem::path& file, const DnImage& frame,
+                                const FrameRecord& record) const {
+    if (!is_fits(file)) refuse_ending(file, "for a labelled frame: .fits");
+    const PictureLayout layout = layout_of(record);
+    const FitsHeader header{notes_of(run_, record, layout, "DN"), "adu", sky_of(run_, record, layout)};
+    const std::string bytes = encode_fits(frame, header);
+    std::filesystem::path label = file;
+    write_encoded(label.replace_extension(".xml"),
+                  pds4_label(header.notes, {file.filename().string(), frame.width(), frame.height(),
+                                            fits_header_bytes(bytes), bytes.size()}));
 }
 
 void PictureWriter::write_view(const std::filesystem::path& file, const DnImage& frame,

@@ -27,6 +27,9 @@ class PictureWriter {
     // header. Owner thread, as all here.
     void write_frame(const std::filesystem::path& file, const DnImage& frame,
                      const FrameRecord& record) const;
+    // A PDS4 label, FILE.xml, of the frame that write_frame() wrote as FILE.fits (pds4_label.h).
+    void write_label(const std::filesystem::path& file, const DnImage& frame,
+                     const FrameRecord& record) const;
     // .png: the frame as it is to be looked at.
     void write_view(const std::filesystem::path& file, const DnImage& frame, const FrameRecord& record);
     // .exr, .fits, .fit; not binned.

@@ -29,20 +29,6 @@ std::string size_text(std::uintmax_t bytes) {
     return bytes < 1u << 20 ? std::to_string(bytes) + " bytes" : std::to_string(bytes >> 20) + " MiB";
 }
 
-// Reads bytes [from, from + size), all of them.
-void read_piece(const InputFile& in, const std::filesystem::path& file, std::uintmax_t from, char* to,
-                std::size_t size) {
-    while (size > 0) {
-        const ssize_t got = pread(in.fd.get(), to, size, static_cast<off_t>(from));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) throw InputError(file.string() + ": cannot be read: " + std::strerror(errno));
-        if (got == 0)
-            throw InputError(file.string() + ": ends at byte " + std::to_string(from) + " of " +
-                             std::to_string(in.bytes) + ": it became shorter while it was read");
-        to += got, from += static_cast<std::uintmax_t>(got), size -= static_cast<std::size_t>(got);
-    }
-}
-
 }  // namespace
 
 InputFile open_input_file(const std::filesystem::path& file, const InputKind& kind) {
@@ -64,10 +50,23 @@ InputFile open_input_file(const std::filesystem::path& file, const InputKind& ki
     return out;
 }
 
+void read_input_piece(const InputFile& in, const std::filesystem::path& file, std::uintmax_t from, char* to,
+                      std::size_t size) {
+    while (size > 0) {
+        const ssize_t got = pread(in.fd.get(), to, size, static_cast<off_t>(from));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw InputError(file.string() + ": cannot be read: " + std::strerror(errno));
+        if (got == 0)
+            throw InputError(file.string() + ": ends at byte " + std::to_string(from) + " of " +
+                             std::to_string(in.bytes) + ": it became shorter while it was read");
+        to += got, from += static_cast<std::uintmax_t>(got), size -= static_cast<std::size_t>(got);
+    }
+}
+
 std::string read_input_file(const std::filesystem::path& file, const InputKind& kind) {
     const InputFile in = open_input_file(file, kind);
     std::string text(in.bytes, '\0');
-    read_piece(in, file, 0, text.data(), text.size());
+    read_input_piece(in, file, 0, text.data(), text.size());
     return text;
 }
 
@@ -87,7 +86,7 @@ class InputStream::Buffer final : public std::streambuf {
         const auto size =
             static_cast<std::size_t>(std::min<std::uintmax_t>(piece_.size(), in_.bytes - read_));
         if (size == 0) return traits_type::eof();
-        read_piece(in_, file_, read_, piece_.data(), size);
+        read_input_piece(in_, file_, read_, piece_.data(), size);
         read_ += size;
         setg(piece_.data(), piece_.data(), piece_.data() + size);
         return traits_type::to_int_type(piece_.front());

@@ -31,6 +31,11 @@ InputFile open_input_file(const std::filesystem::path& file, const InputKind& ki
 // The whole file. InputError as above, and when it became shorter meanwhile.
 std::string read_input_file(const std::filesystem::path& file, const InputKind& kind);
 
+// Reads bytes [from, from + size) of a file that was opened, all of them; `file` names it in messages. Throws InputError
+// when the file became shorter meanwhile.
+void read_input_piece(const InputFile& in, const std::filesystem::path& file, std::uintmax_t from, char* to,
+                      std::size_t size);
+
 // The same piece by piece, for files that are not worth holding in memory whole. A read throws InputError
 // when the file became shorter meanwhile.
 class InputStream final : public std::istream {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "render/sky/body_source.h"
 #include "render/sky/own_bodies.h"
 #include "render/sky/planet_series.h"
 #include "render/vocabulary/check.h"
@@ -166,6 +167,34 @@ Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const EarthOrientation& meas
     return about_z(w) * (about_x * about_z(node));
 }
 
+namespace {
+
+// earth: its state by the series.
+StateVector known_heliocentric(BodyId id, TimeTai time, const OriginConfig& origin,
+                               const StateVector& earth) {
+    if (origin.source)
+        if (const auto known = origin.source->from_sun(id, time)) return *known;
+    return heliocentric(id, time, earth);
+}
+
+}  // namespace
+
+StateVector heliocentric(BodyId id, TimeTai time, const OriginConfig& origin) {
+    return known_heliocentric(id, time, origin, earth_and_sun(time).earth_from_sun);
+}
+
+Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const OriginConfig& origin) {
+    if (origin.source)
+        if (const auto known = origin.source->fixed_from_icrf(id, time)) return *known;
+    return body_fixed_from_icrf(id, time, origin.earth);
+}
+
+StateVector origin_from_sun(TimeTai time, const OriginConfig& origin) {
+    if (const std::optional<BodyId> center = origin.center()) return heliocentric(*center, time, origin);
+    if (origin.kind == OriginConfig::Kind::kSpice) return origin.source->origin_from_sun(time);
+    return {-origin.sun_m, {}};
+}
+
 Vec3d earth_fixed_position_m(const Geodetic& place) { return body_fixed_position_m(BodyId::kEarth, place); }
 
 Vec3d body_fixed_position_m(BodyId id, const Geodetic& place) {
@@ -187,10 +216,15 @@ Mat3d body_fixed_from_local(const Geodetic& place) {
 Fields fields(OriginConfig& c) {
     std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
     return {
-        choice("kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed", "free"},
-               "kind of origin: the centre of a body, a place that turns with it, or free space. In free "
-               "space the origin is at rest relative to the Sun, which stands where sun.direction says, and "
-               "only bodies whose 'visible' is true are shown"),
+        choice(
+            "kind", c.kind, {"earth_center", "earth_fixed", "body_center", "body_fixed", "free", "spice"},
+            "kind of origin: the centre of a body, a place that turns with it, free space, or a thing of the "
+            "kernels. In free space the origin is at rest relative to the Sun, which stands where "
+            "sun.direction "
+            "says, and only bodies whose 'visible' is true are shown"),
+        optional(
+            text("object", c.object, "thing of the kernels that kind spice refers to: a name or NAIF's code"),
+            c.has_object),
         optional(choice("body", c.body, names, "body that body_center and body_fixed refer to"), c.has_body),
         optional(number("longitude_deg", c.place.longitude_rad, kDegree_rad, {-360, 360},
                         "longitude of a fixed origin, east positive"),
@@ -206,7 +240,8 @@ Fields fields(OriginConfig& c) {
 
 void validate(const OriginConfig& c) {
     using Kind = OriginConfig::Kind;
-    constexpr std::array kWords = {"earth_center", "earth_fixed", "body_center", "body_fixed", "free"};
+    constexpr std::array kWords = {"earth_center", "earth_fixed", "body_center",
+                                   "body_fixed",   "free",        "spice"};
     const auto forbid = [&](bool given, const char* key, bool is_read, const char* readers) {
         if (given && !is_read)
             throw KeyError(key, std::string("has no effect with kind: ") +
@@ -215,6 +250,9 @@ void validate(const OriginConfig& c) {
     };
     const bool names_body = c.kind == Kind::kBodyCenter || c.kind == Kind::kBodyFixed;
     forbid(c.has_body, "body", names_body, "body_center or body_fixed");
+    forbid(c.has_object, "object", c.kind == Kind::kSpice, "spice");
+    if (c.kind == Kind::kSpice && c.object.empty())
+        throw KeyError("object", "is not given; kind: spice needs it; accepted: a name or NAIF's code");
     for (const auto& [given, key] : {std::pair{c.has_longitude, "longitude_deg"},
                                      {c.has_latitude, "latitude_deg"},
                                      {c.has_height, "height_km"}})
@@ -230,9 +268,7 @@ StateVector place_from_center(TimeTai time, const OriginConfig& origin) {
     constexpr std::int64_t kStep_ns = 30'000'000'000;
     const BodyId center = *origin.center();
     const Vec3d fixed_m = body_fixed_position_m(center, origin.place);
-    const auto at = [&](TimeTai t) {
-        return transposed(body_fixed_from_icrf(center, t, origin.earth)) * fixed_m;
-    };
+    const auto at = [&](TimeTai t) { return transposed(body_fixed_from_icrf(center, t, origin)) * fixed_m; };
     return {at(time), (at(time + kStep_ns) - at(time + -kStep_ns)) / (2 * kStep_ns * kSecondsPerNs)};
 }
 
@@ -251,9 +287,12 @@ Vec3d aberrated(Vec3d dir, Vec3d velocity_m_s) {
 
 Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
     const std::optional<BodyId> center = origin.center();
-    HILCAM_CHECK(center || length(origin.sun_m) > 0);
-    const auto [earth, sun] = earth_and_sun(time);
-    const StateVector home = center ? heliocentric(*center, time, earth) : StateVector{-origin.sun_m, {}};
+    const bool free = origin.kind == OriginConfig::Kind::kFree;
+    HILCAM_CHECK(!free || length(origin.sun_m) > 0);
+    auto [earth, sun] = earth_and_sun(time);
+    if (origin.source) sun = origin.source->sun_from_barycenter(time).value_or(sun);
+    const StateVector home =
+        center ? known_heliocentric(*center, time, origin, earth) : origin_from_sun(time, origin);
     const StateVector place = place_from_center(time, origin);
     Bodies out;
     out.origin_from_barycenter = sun + home + place;
@@ -263,22 +302,21 @@ Bodies bodies_at(TimeTai time, const OriginConfig& origin) {
         return seen_in_motion(from_home_m, 0, out.origin_from_barycenter.velocity_m_s) - place.position_m;
     };
     const double sun_light_s = length(home.position_m) / kSpeedOfLight_m_s;
-    out.sun_world_m = center ? apparent(-home.position_m - sun_light_s * sun.velocity_m_s) : origin.sun_m;
+    out.sun_world_m = free ? origin.sun_m : apparent(-home.position_m - sun_light_s * sun.velocity_m_s);
     for (std::size_t i = 0; i < kBodyCount; ++i) {
         const auto id = static_cast<BodyId>(i);
         if (id == center) {
-            out.body[i] = {-place.position_m, body_fixed_from_icrf(id, time, origin.earth),
-                           -place.velocity_m_s};
+            out.body[i] = {-place.position_m, body_fixed_from_icrf(id, time, origin), -place.velocity_m_s};
             continue;
         }
         // One step of light time: the planet moves less than 1e-4 of the way meanwhile. Its velocity is that
         // about the barycentre, as the observer's is.
-        StateVector there = heliocentric(id, time, earth);
+        StateVector there = known_heliocentric(id, time, origin, earth);
         const double light_s = length(there.position_m - home.position_m) / kSpeedOfLight_m_s;
         there.position_m = there.position_m - light_s * (there.velocity_m_s + sun.velocity_m_s);
         const TimeTai then = time + -static_cast<std::int64_t>(light_s * 1e9);
         out.body[i] = {
-            apparent(there.position_m - home.position_m), body_fixed_from_icrf(id, then, origin.earth), {}};
+            apparent(there.position_m - home.position_m), body_fixed_from_icrf(id, then, origin), {}};
     }
     if (origin.own) place_own_bodies(time, *origin.own, center, out);
     return out;

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "render/vocabulary/config_field.h"
@@ -91,22 +92,33 @@ Vec3d body_fixed_position_m(BodyId id, const Geodetic& place);
 // The local axes of a place - x east, y north, z up along the ellipsoid's normal - into its body's own.
 Mat3d body_fixed_from_local(const Geodetic& place);
 
-// The scenario's world origin: a body's centre, a place that rides with a rotating body, or a place in free
-// space that is at rest against the Sun.
+// The scenario's world origin: a body's centre, a place that rides with a rotating body, a place in free space that is at
+// rest against the Sun, or a thing of the kernels.
 struct OwnBodies;
+class BodySource;
 struct OriginConfig {
-    enum class Kind { kEarthCenter, kEarthFixed, kBodyCenter, kBodyFixed, kFree } kind = Kind::kEarthCenter;
+    enum class Kind {
+        kEarthCenter,
+        kEarthFixed,
+        kBodyCenter,
+        kBodyFixed,
+        kFree,
+        kSpice
+    } kind = Kind::kEarthCenter;
     BodyId body = BodyId::kEarth;
     // Place of the fixed kinds of origin: a geostationary longitude with height 35 786 km, say.
     Geodetic place;
     EarthOrientation earth;  // no key of this section either: `earth_orientation` of the scenario
     Vec3d sun_m;  // position of the Sun with kFree; no key of this section (emulator/scenario/free_space.h)
-    std::shared_ptr<const OwnBodies> own;  // `bodies` of the scenario; null: none
-    bool has_body = false, has_longitude = false, has_latitude = false, has_height = false;
+    std::shared_ptr<const OwnBodies> own;      // `bodies` of the scenario; null: none
+    std::string object;                        // thing of the kernels, of kind kSpice
+    std::shared_ptr<const BodySource> source;  // the scenario's kernels; null: the program's own series
+    bool has_object = false, has_body = false, has_longitude = false, has_latitude = false,
+         has_height = false;
 
-    // The body that the origin belongs to; none: free space.
+    // The body that the origin belongs to; none: free space, or a thing of the kernels.
     std::optional<BodyId> center() const {
-        if (kind == Kind::kFree) return std::nullopt;
+        if (kind == Kind::kFree || kind == Kind::kSpice) return std::nullopt;
         return kind == Kind::kBodyCenter || kind == Kind::kBodyFixed ? body : BodyId::kEarth;
     }
     bool turns() const { return kind == Kind::kEarthFixed || kind == Kind::kBodyFixed; }
@@ -114,6 +126,12 @@ struct OriginConfig {
 Fields fields(OriginConfig& config);
 // Throws KeyError for a key that the kind does not read.
 void validate(const OriginConfig& config);
+
+// The same as above, by the origin's source where that knows. Loop.
+StateVector heliocentric(BodyId id, TimeTai time, const OriginConfig& origin);
+Mat3d body_fixed_from_icrf(BodyId id, TimeTai time, const OriginConfig& origin);
+// The state of what the origin belongs to: its body's centre, the place in free space, the thing of the kernels.
+StateVector origin_from_sun(TimeTai time, const OriginConfig& origin);
 
 // The state of a body in the world at an instant.
 struct BodyState {

@@ -8,6 +8,7 @@
 namespace hilcam {
 
 Mat3d fixed_from_icrf(const OwnBody& body, const StateVector& s, TimeTai time) {
+    if (body.turn) return body.turn(time);
     if (body.synchronous) {
         const Vec3d x = -normalized(s.position_m);
         const Vec3d z = normalized(cross(s.position_m, s.velocity_m_s));

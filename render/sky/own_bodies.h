@@ -25,6 +25,8 @@ struct OwnBody {
     bool synchronous = true;
     double pole_right_ascension_rad = 0, pole_declination_rad = 0.5 * kPi;
     double meridian_rad = 0, rate_rad_s = 0;
+    // Its axes by the kernels, in place of those. Loop, any thread.
+    std::function<Mat3d(TimeTai)> turn;
 };
 struct OwnBodies {
     std::vector<OwnBody> list;  // kMaxOwnBodies at most

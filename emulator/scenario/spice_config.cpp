@@ -1,0 +1,119 @@
+#include "emulator/scenario/spice_config.h"
+
+#include <cmath>
+
+#include "io/spice/ephemeris_time.h"
+#include "io/spice/instrument_kernel.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
+#include "render/vocabulary/quoted.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+
+Fields fields(KernelFileConfig& k) {
+    return {required(path("file", k.file,
+                          "kernel (SPK, CK, PCK, FK, IK, SCLK, LSK), or a meta-kernel that names others"))};
+}
+
+Fields fields(SpiceConfig& s) {
+    return {
+        required(sections("kernels", s.kernels,
+                          "kernels in the order of their loading: later ones go before earlier ones")),
+        choice("bodies", s.bodies, {"kernels", "own"},
+               "source of the places and turns of the Sun, the Moon and the planets. kernels: the kernels, "
+               "where they "
+               "know them at the start; own: the program's own series"),
+        text("camera", s.camera,
+             "instrument whose kernel (IK) gives focal length, pixel pitch and number of pixels in place of "
+             "the "
+             "camera's sheet: a name or NAIF's code"),
+        number("tolerance_s", s.tolerance_s, 1, {0, 1e6},
+               "time from an attitude's nearest instant for which it still stands, as in C-kernels of "
+               "instants (type 1)"),
+    };
+}
+
+void validate(const SpiceConfig& s) {
+    if (s.kernels.empty()) throw KeyError("kernels", "has none; accepted: one or more");
+}
+
+Fields fields(SpiceObjectConfig& o) {
+    return {required(text("object", o.object, "thing of the kernels: a name or NAIF's code"))};
+}
+
+Fields fields(SpiceFrameConfig& f) {
+    return {
+        text("frame", f.frame, "frame of the kernels; left out: the instrument's"),
+        text("instrument", f.instrument, "instrument whose kernel (IK) gives frame and boresight"),
+        optional(vector3("boresight", f.boresight, 1, {-1e6, 1e6},
+                         "axis of the frame along which the camera looks; left out: the instrument's, or the "
+                         "frame's z"),
+                 f.has_boresight),
+        vector3("right", f.right, 1, {-1e6, 1e6},
+                "axis of the frame that points to the right in the picture"),
+    };
+}
+
+void validate(const SpiceFrameConfig& f) {
+    if (f.frame.empty() && f.instrument.empty())
+        throw KeyError("frame", "is not given, and no 'instrument'; accepted: one of them");
+    const double across = length(cross(f.boresight, f.right));
+    if (f.has_boresight && !(across > 1e-9 * length(f.boresight) * length(f.right)))
+        throw KeyError("right", "is parallel to 'boresight'; accepted: another direction");
+}
+
+void load_spice(SpiceConfig& s) {
+    std::vector<std::filesystem::path> files;
+    for (const KernelFileConfig& k : s.kernels) files.push_back(k.file);
+    try {
+        s.loaded = std::make_shared<SpiceKernels>(files, s.tolerance_s);
+        use_leap_seconds(leap_seconds_of(s.loaded->set.pool));
+    } catch (const InputError& error) {
+        throw InputError(std::string("spice: ") + error.what());
+    }
+}
+
+std::string apply_instrument(const SpiceConfig& s, CameraModel& camera) {
+    if (s.camera.empty()) return "";
+    const InstrumentKernel k = instrument_kernel(s.loaded->set.pool, s.camera, "spice.camera");
+    if (!k.focal_length_m || !k.pitch_m)
+        throw InputError("spice.camera: the kernel of " + in_quotes(s.camera) + " has no INS" +
+                         std::to_string(k.code) +
+                         (k.focal_length_m ? "_PIXEL_PITCH or _PIXEL_SIZE" : "_FOCAL_LENGTH") +
+                         "; accepted: a kernel with both, or a camera's sheet alone");
+    camera.focal_length_m = *k.focal_length_m, camera.pitch_m = *k.pitch_m;
+    if (k.samples) camera.width_px = *k.samples;
+    if (k.lines) camera.height_px = *k.lines;
+    if (!k.half_field_rad || !k.samples || !k.lines) return "";
+    const double half_m =
+        0.5 * camera.pitch_m *
+        std::hypot(static_cast<double>(camera.width_px), static_cast<double>(camera.height_px));
+    const double half_rad = std::atan2(half_m, camera.focal_length_m);
+    if (std::abs(half_rad - *k.half_field_rad) < 0.02 * half_rad) return "";
+    return "spice.camera: the instrument kernel's field of view is " +
+           plain(2 * *k.half_field_rad / kDegree_rad) +
+           " deg over its corners; its focal length and pixels make " + plain(2 * half_rad / kDegree_rad) +
+           " deg";
+}
+
+SpiceMounting mounting_of(const SpiceFrameConfig& f, const SpiceKernels& kernels) {
+    std::string frame = f.frame;
+    Vec3d boresight = f.boresight;
+    if (!f.instrument.empty()) {
+        const InstrumentKernel k =
+            instrument_kernel(kernels.set.pool, f.instrument, "attitude.spice.instrument");
+        if (frame.empty()) frame = k.frame;
+        if (!f.has_boresight && k.boresight) boresight = *k.boresight;
+        if (frame.empty())
+            throw InputError("attitude.spice.instrument: the kernel of " + in_quotes(f.instrument) +
+                             " has no INS" + std::to_string(k.code) + "_FOV_FRAME; accepted: with a 'frame'");
+    }
+    const Vec3d z = normalized(boresight), across = f.right - dot(f.right, z) * z;
+    if (!(length(across) > 1e-9 * length(f.right)))
+        throw InputError("attitude.spice.right: is parallel to the boresight; accepted: another direction");
+    const Vec3d x = normalized(across);
+    return {frame, to_quat(transposed(Mat3d{x, cross(z, x), z}))};
+}
+
+}  // namespace hilcam

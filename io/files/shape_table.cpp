@@ -1,0 +1,186 @@
+#include "io/files/shape_table.h"
+
+#include <cmath>
+#include <map>
+
+#include "io/files/mesh_guard.h"
+#include "io/files/text_lines.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kMostColumns = 5;
+
+// A line's words, at most kMostColumns + 1.
+struct Words {
+    std::array<std::string_view, kMostColumns + 1> word;
+    std::size_t count = 0;
+
+    explicit Words(std::string_view line) {
+        const auto blank = [](char c) { return c == ' ' || c == '\t' || c == ','; };
+        for (std::size_t i = 0; i < line.size() && count < word.size();) {
+            if (blank(line[i])) {
+                ++i;
+                continue;
+            }
+            std::size_t end = i;
+            while (end < line.size() && !blank(line[end])) ++end;
+            word[count++] = line.substr(i, end - i);
+            i = end;
+        }
+    }
+};
+
+class ShapeReader {
+  public:
+    ShapeReader(std::string_view text, const std::string& name) : lines_(text, name) {
+        mesh_.surfaces.push_back({.name = "shape"});
+    }
+
+    Mesh read() {
+        const Words first = next("a line of numbers");
+        if (first.count == 4 && (first.word[0] == "v" || first.word[0] == "V"))
+            read_letters(first);
+        else if (first.count == 1 || first.count == 2)
+            read_counted(first);
+        else
+            lines_.refuse(lines_text(first), "v x y z, or how many vertices (.plt), or Q (.icq)");
+        if (mesh_.triangles.empty()) lines_.fail("has no facet; accepted: one or more");
+        turn_outwards();
+        mesh_.surface_of_triangle.assign(mesh_.triangles.size(), 0);
+        return std::move(mesh_);
+    }
+
+  private:
+    TextLines lines_;
+    Mesh mesh_;
+
+    static std::string lines_text(const Words& words) {
+        std::string out;
+        for (std::size_t i = 0; i < words.count; ++i) out += (i ? " " : "") + std::string(words.word[i]);
+        return out;
+    }
+    bool more(Words& words) {
+        for (std::string_view line; lines_.next(line);) {
+            words = Words(trimmed(line));
+            if (words.count > 0 && !words.word[0].starts_with('#')) return true;
+        }
+        return false;
+    }
+    Words next(const char* accepted) {
+        Words words("");
+        if (!more(words)) lines_.fail(std::string("the file ends; accepted: ") + accepted);
+        return words;
+    }
+    double number(std::string_view text) const {
+        const auto value = number_of(text);
+        if (!value || std::abs(*value) > 1e9) lines_.refuse(text, "a number below 1e9");
+        return *value;
+    }
+    std::size_t count(std::string_view text, double most) const {
+        const double value = number(text);
+        if (!(value >= 1 && value <= most) || value != std::floor(value))
+            lines_.refuse(text, "a whole number, 1 to " + std::to_string(static_cast<std::uint64_t>(most)));
+        return static_cast<std::size_t>(value);
+    }
+    Vec3f vertex(const Words& words, std::size_t from) {
+        if (words.count < from + 3) lines_.refuse(lines_text(words), "three coordinates");
+        return to_float(
+            {number(words.word[from]), number(words.word[from + 1]), number(words.word[from + 2])});
+    }
+    void add_vertex(Vec3f v) {
+        if (mesh_.vertices_m.size() == kMaxTriangles) lines_.fail("has more than 100000000 vertices");
+        mesh_.vertices_m.push_back(v);
+    }
+    void add_facet(std::size_t a, std::size_t b, std::size_t c) {
+        if (a == b || b == c || c == a) return;
+        if (mesh_.triangles.size() == kMaxTriangles) lines_.fail("has more than 100000000 facets");
+        mesh_.triangles.push_back(
+            {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+    }
+    // Corners are counted from 1; four make two facets.
+    void add_corners(const Words& words, std::size_t from) {
+        const auto most = static_cast<double>(mesh_.vertices_m.size());
+        if (words.count != from + 3 && words.count != from + 4)
+            lines_.refuse(lines_text(words), "three corners, or four");
+        std::array<std::size_t, 4> at{};
+        for (std::size_t i = from; i < words.count; ++i) at[i - from] = count(words.word[i], most) - 1;
+        add_facet(at[0], at[1], at[2]);
+        if (words.count == from + 4) add_facet(at[0], at[2], at[3]);
+    }
+
+    void read_letters(Words words) {
+        do {
+            if (words.word[0] == "v" || words.word[0] == "V")
+                add_vertex(vertex(words, 1));
+            else if (words.word[0] == "f" || words.word[0] == "F")
+                add_corners(words, 1);
+            else
+                lines_.refuse(lines_text(words), "v x y z, or f i j k");
+        } while (more(words));
+    }
+
+    // Plates number their lines, quadrilaterals do not.
+    void read_counted(const Words& head) {
+        const std::size_t first = count(head.word[0], static_cast<double>(kMaxTriangles));
+        const Words line = next("a vertex");
+        if (line.count >= 4)
+            read_plates(first, head, line);
+        else
+            read_quadrilaterals(first, line);
+    }
+    void read_plates(std::size_t vertices, const Words& head, Words line) {
+        for (std::size_t i = 0; i < vertices; ++i) {
+            if (i > 0) line = next("a vertex");
+            if (count(line.word[0], static_cast<double>(vertices)) != i + 1)
+                lines_.refuse(line.word[0], "the vertex's number, " + std::to_string(i + 1));
+            add_vertex(vertex(line, 1));
+        }
+        const std::size_t plates =
+            head.count == 2 ? count(head.word[1], static_cast<double>(kMaxTriangles))
+                            : count(next("how many plates").word[0], static_cast<double>(kMaxTriangles));
+        for (std::size_t i = 0; i < plates; ++i) add_corners(next("a plate"), 1);
+    }
+    void read_quadrilaterals(std::size_t q, Words line) {
+        if (q > 4096) lines_.refuse(std::to_string(q), "Q of 1 to 4096");
+        // Vertices on the edges of the cube stand in the file more than once.
+        std::map<std::array<float, 3>, std::uint32_t> known;
+        std::vector<std::uint32_t> index;
+        const std::size_t side = q + 1;
+        for (std::size_t i = 0; i < 6 * side * side; ++i) {
+            if (i > 0) line = next("a vertex");
+            const Vec3f v = vertex(line, 0);
+            const auto [at, is_new] =
+                known.try_emplace({v.x, v.y, v.z}, static_cast<std::uint32_t>(mesh_.vertices_m.size()));
+            if (is_new) add_vertex(v);
+            index.push_back(at->second);
+        }
+        for (std::size_t face = 0; face < 6; ++face)
+            for (std::size_t j = 0; j < q; ++j)
+                for (std::size_t i = 0; i < q; ++i) {
+                    const std::size_t a = (face * side + j) * side + i, b = a + side;
+                    add_facet(index[a], index[b], index[b + 1]);
+                    add_facet(index[a], index[b + 1], index[a + 1]);
+                }
+    }
+
+    // Six times the volume that the facets enclose is the sum of their corners' triple products.
+    void turn_outwards() {
+        double volume = 0;
+        for (const auto& t : mesh_.triangles)
+            volume += dot(to_double(mesh_.vertices_m[t[0]]),
+                          cross(to_double(mesh_.vertices_m[t[1]]), to_double(mesh_.vertices_m[t[2]])));
+        if (volume < 0)
+            for (auto& t : mesh_.triangles) std::swap(t[1], t[2]);
+    }
+};
+
+}  // namespace
+
+bool is_shape_table(std::string_view kind) { return kind == ".tab" || kind == ".plt" || kind == ".icq"; }
+
+Mesh read_shape_table(std::string_view text, const std::string& name) {
+    return ShapeReader(text, name).read();
+}
+
+}  // namespace hilcam

@@ -1,0 +1,58 @@
+#pragma once
+// A segment of a CK: how a structure (a spacecraft, an instrument) is turned against a reference frame over a span of its
+// clock's ticks, by one of the data types of NAIF, "C-kernel Required Reading".
+//
+// Types: 1 (instants), 2 (constant rates), 3 (turns at a constant rate between instants), 4 (Chebyshev polynomials), 5
+// (interpolated). NAIF's quaternions take vectors from the reference to the structure.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/spice/daf_file.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+// A segment's summary. Codes are NAIF's; ticks count at both ends.
+struct CkSummary {
+    int structure = 0, frame = 0, type = 0;
+    bool has_rates = false;
+    double start_ticks = 0, stop_ticks = 0;
+    std::string where;
+};
+CkSummary ck_summary(const DafFile& file, const DafArray& array);
+
+// The attitude of a structure. The rate is that of the attitude given, as it changes with time; at instants (type 1) the
+// one that the kernel has, or 0.
+struct CkPointing {
+    Quat reference_from_structure;
+    Vec3d rate_reference_rad_s;
+};
+
+// A span of ticks; both ends count.
+struct TickSpan {
+    double start = 0, stop = 0;
+};
+
+class CkSegment {
+  public:
+    explicit CkSegment(CkSummary about) : about_(std::move(about)) {}
+    virtual ~CkSegment() = default;
+
+    const CkSummary& about() const { return about_; }
+    // Returns the spans over which it knows the attitude, in order; instants are spans without length.
+    virtual std::vector<TickSpan> spans() const = 0;
+    // Returns the attitude; none: outside those spans. seconds_per_tick: of the clock then. Loop: no allocation.
+    virtual std::optional<CkPointing> at(double ticks, double seconds_per_tick) const = 0;
+
+  private:
+    CkSummary about_;
+};
+
+// Reads a segment. Throws InputError that names it when its type is none of those above or its numbers do not fit each
+// other.
+std::unique_ptr<CkSegment> load_ck_segment(const DafFile& file, const DafArray& array);
+
+}  // namespace hilcam

@@ -1,0 +1,167 @@
+#include "io/spice/daf_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/quoted.h"
+
+namespace hilcam {
+namespace {
+
+constexpr std::size_t kRecordBytes = 1024, kWordBytes = 8;
+constexpr std::uint64_t kWordsInRecord = kRecordBytes / kWordBytes;
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 34;
+constexpr std::size_t kMaxArrays = 1'000'000;
+// All characters that transfers as text change stand between these.
+constexpr std::string_view kFtpBegin = "FTPSTR", kFtpEnd = "ENDFTP";
+constexpr std::string_view kFtpMiddle("FTPSTR:\r:\n:\r\n:\r\0:\x81:\x10\xce:ENDFTP", 28);
+
+std::uint64_t whole(const char* bytes, std::size_t count, bool big_endian) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = big_endian ? i : count - 1 - i;
+        value = value << 8 | static_cast<unsigned char>(bytes[at]);
+    }
+    return value;
+}
+
+std::string without_tail(std::string_view text) {
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.remove_suffix(1);
+    return std::string(text);
+}
+
+}  // namespace
+
+DafFile::DafFile(const std::filesystem::path& file)
+    : name_(file.string()), file_(open_input_file(file, {kMaxBytes, "a SPICE kernel"})) {
+    size_ = file_->bytes;
+    open();
+}
+
+DafFile::DafFile(std::string bytes, std::string name)
+    : name_(std::move(name)), bytes_(std::move(bytes)), size_(bytes_.size()) {
+    open();
+}
+
+void DafFile::fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+
+void DafFile::read(std::uint64_t from, char* to, std::size_t size) const {
+    if (from > size_ || size > size_ - from)
+        fail("is cut short: bytes " + std::to_string(from) + " to " + std::to_string(from + size) + " of " +
+             std::to_string(size_) + " are asked for; accepted: a whole kernel");
+    if (file_)
+        read_input_piece(*file_, name_, from, to, size);
+    else
+        std::copy_n(bytes_.data() + from, size, to);
+}
+
+double DafFile::double_at(const char* bytes) const {
+    return std::bit_cast<double>(whole(bytes, kWordBytes, big_endian_));
+}
+
+std::int32_t DafFile::integer_at(const char* bytes) const {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(whole(bytes, 4, big_endian_)));
+}
+
+void DafFile::open() {
+    std::array<char, kRecordBytes> record{};
+    if (size_ < kRecordBytes)
+        fail("has " + std::to_string(size_) +
+             " bytes; accepted: a DAF kernel, whose file record alone has 1024");
+    read(0, record.data(), record.size());
+    const std::string_view text(record.data(), record.size());
+    const std::string word = without_tail(text.substr(0, 8));
+    // NAIF/DAF is the word of files from before 1996, SPK or CK.
+    if (!word.starts_with("DAF/") && word != "NAIF/DAF")
+        fail("found the identification " + in_quotes(word) + "; accepted: DAF/SPK, DAF/CK or DAF/PCK");
+    kind_ = word == "NAIF/DAF" ? "SPK" : word.substr(4);
+    const std::string format = without_tail(text.substr(88, 8));
+    if (format == "BIG-IEEE")
+        big_endian_ = true;
+    else if (format == "LTL-IEEE")
+        big_endian_ = false;
+    else if (format.empty() || format.find_first_not_of('\0') == std::string::npos)
+        // Older files do not say: the number of doubles in a summary is 2 in one order and 2^25 in the other.
+        big_endian_ = whole(record.data() + 8, 4, true) == 2;
+    else
+        fail("found the binary format " + in_quotes(format) + "; accepted: LTL-IEEE, BIG-IEEE");
+    // The string is longer in later files, but begins as this.
+    const std::size_t begin = text.find(kFtpBegin), end = text.find(kFtpEnd);
+    if (begin != std::string_view::npos &&
+        (end == std::string_view::npos || text.substr(begin, end + kFtpEnd.size() - begin) != kFtpMiddle))
+        fail(
+            "was damaged when it was transferred as text (its FTP string is changed); accepted: one "
+            "transferred as "
+            "binary");
+    const std::int32_t doubles = integer_at(record.data() + 8), integers = integer_at(record.data() + 12);
+    const std::int32_t expected = kind_ == "PCK" ? 5 : 6;
+    if (kind_ != "SPK" && kind_ != "CK" && kind_ != "PCK")
+        fail("found the kind " + in_quotes(kind_) + " of kernel; accepted: SPK, CK, PCK");
+    if (doubles != 2 || integers != expected)
+        fail("its summaries have " + std::to_string(doubles) + " doubles and " + std::to_string(integers) +
+             " integers; accepted: 2 and " + std::to_string(expected));
+    read_summaries(integer_at(record.data() + 76), static_cast<std::size_t>(expected));
+}
+
+void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
+    const std::size_t summary_bytes = kWordBytes * (2 + (integers + 1) / 2);
+    std::array<char, kRecordBytes> summaries{}, names{};
+    std::uint64_t seen = 0;
+    for (std::int64_t record = first_record; record > 0;) {
+        if (++seen > size_ / kRecordBytes)
+            fail("its summary records go in a circle; accepted: a chain that ends");
+        const auto from = static_cast<std::uint64_t>(record - 1) * kRecordBytes;
+        read(from, summaries.data(), kRecordBytes);
+        const double next = double_at(summaries.data()), count = double_at(summaries.data() + 16);
+        const auto most = static_cast<double>((kRecordBytes - 24) / summary_bytes);
+        if (!(next >= 0 && next < 2147483648.0) || !(count >= 0 && count <= most))
+            fail("its summary record " + std::to_string(record) + " is damaged");
+        if (count > 0) read(from + kRecordBytes, names.data(), kRecordBytes);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+            if (arrays_.size() == kMaxArrays) fail("has more than 1000000 arrays");
+            arrays_.push_back(array_of(summaries.data() + 24 + i * summary_bytes,
+                                       names.data() + i * summary_bytes, integers));
+        }
+        record = static_cast<std::int64_t>(next);
+    }
+}
+
+DafArray DafFile::array_of(const char* summary, const char* name, std::size_t integers) const {
+    DafArray out;
+    out.name = harmless(without_tail({name, kWordBytes * (2 + (integers + 1) / 2)}));
+    for (std::size_t i = 0; i < 2; ++i) out.doubles[i] = double_at(summary + kWordBytes * i);
+    for (std::size_t i = 0; i < integers; ++i)
+        out.integers.push_back(integer_at(summary + 2 * kWordBytes + 4 * i));
+    const std::int32_t last = out.integers.back(), first = out.integers[integers - 2];
+    out.integers.resize(integers - 2);
+    const std::string which =
+        "array " + std::to_string(arrays_.size() + 1) + " (" + in_quotes(out.name) + ")";
+    if (!std::isfinite(out.doubles[0]) || !std::isfinite(out.doubles[1]))
+        fail(which + ": its span is no number");
+    if (first < 1 || last < first)
+        fail(which + ": found words " + std::to_string(first) + " to " + std::to_string(last) +
+             "; accepted: addresses that rise");
+    out.first = static_cast<std::uint64_t>(first), out.last = static_cast<std::uint64_t>(last);
+    if (out.last > size_ / kWordBytes)
+        fail(which + ": ends at word " + std::to_string(last) + ", and the file has " +
+             std::to_string(size_ / kWordBytes) + ": it is cut short; accepted: a whole kernel");
+    return out;
+}
+
+std::vector<double> DafFile::words(const DafArray& array) const {
+    std::vector<char> bytes(array.size() * kWordBytes);
+    read((array.first - 1) * kWordBytes, bytes.data(), bytes.size());
+    std::vector<double> out(array.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = double_at(bytes.data() + i * kWordBytes);
+        if (!std::isfinite(out[i]))
+            fail("array " + in_quotes(array.name) + ": word " + std::to_string(i + 1) +
+                 " is no number; accepted: finite ones");
+    }
+    return out;
+}
+
+}  // namespace hilcam

@@ -1,0 +1,62 @@
+#pragma once
+// DAF, the container of SPICE's binary kernels (SPK, CK, binary PCK): arrays of doubles, each with a summary and a name.
+//
+// NAIF, "Double Precision Array Files (DAF) Required Reading": records of 1024 bytes; the first is the file record, then
+// come reserved records with comments, which are passed over, then doubly linked summary records with a record of names
+// after each, and the arrays. Words count from 1. Both byte orders are read; a file that was transferred as text, and so
+// is damaged, is known by the file record's FTP string.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/system/input_file.h"
+
+namespace hilcam {
+
+// An array's summary.
+struct DafArray {
+    std::string name;                    // without blanks at its end
+    std::array<double, 2> doubles{};     // start and stop in all kernels
+    std::vector<std::int32_t> integers;  // without the two words' addresses, which are the next two
+    std::uint64_t first = 0, last = 0;
+    std::uint64_t size() const { return last - first + 1; }
+};
+
+class DafFile {
+  public:
+    // Opens a file and reads its summaries. Throws InputError, one line that names the file, for what is no DAF or is
+    // cut short. Owner thread.
+    explicit DafFile(const std::filesystem::path& file);
+    // The same from memory; `name` stands for the file in messages.
+    DafFile(std::string bytes, std::string name);
+
+    // SPK, CK or PCK.
+    const std::string& kind() const { return kind_; }
+    const std::string& name() const { return name_; }
+    const std::vector<DafArray>& arrays() const { return arrays_; }
+    // Reads an array. Throws InputError for numbers that are not finite.
+    std::vector<double> words(const DafArray& array) const;
+
+  private:
+    std::string name_, kind_;
+    std::optional<InputFile> file_;  // none: bytes_
+    std::string bytes_;
+    std::uint64_t size_ = 0;
+    bool big_endian_ = false;
+    std::vector<DafArray> arrays_;
+
+    void open();
+    void read(std::uint64_t from, char* to, std::size_t size) const;
+    double double_at(const char* bytes) const;
+    std::int32_t integer_at(const char* bytes) const;
+    void read_summaries(std::int32_t first_record, std::size_t integers);
+    DafArray array_of(const char* summary, const char* name, std::size_t integers) const;
+    [[noreturn]] void fail(const std::string& what) const;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,34 @@
+#pragma once
+// Reference frames by name and code: those built into SPICE and those of frames kernels (NAIF, "Frames Required Reading").
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/spice/kernel_pool.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+enum class FrameClass { kInertial = 1, kPck = 2, kCk = 3, kFixedOffset = 4 };
+
+struct FrameDefinition {
+    int code = 0;
+    std::string name;
+    FrameClass kind = FrameClass::kInertial;
+    int class_code = 0;  // kPck: the body or binary kernel's code; kCk: the structure's
+    // kInertial: into J2000's axes; kFixedOffset: into the axes of the frame `relative`.
+    Mat3d relative_from_frame;
+    int relative = 1;
+    std::string where;  // place of the definition, for messages
+};
+
+inline constexpr int kJ2000Frame = 1;
+
+// Returns a frame by its name (upper and lower case are the same) or code. Built in: J2000, ECLIPJ2000, DE-200, DE-202,
+// B1950, FK4, DE-118, -140, -142, -143, GALACTIC and MARSIAU of the inertial ones, ITRF93, and IAU_ with any body's name or code. Throws InputError for one that no
+// kernel has, or of a class that is none of those above (dynamic and switch frames).
+FrameDefinition frame_named(const KernelPool& pool, std::string_view name, const std::string& key);
+FrameDefinition frame_coded(const KernelPool& pool, int code, const std::string& key);
+
+}  // namespace hilcam

@@ -1,0 +1,28 @@
+#pragma once
+// A camera as an instrument kernel (IK) describes it: NAIF's keywords of the field of view ("IK Required Reading", GETFOV)
+// and those that most missions' kernels have for focal length and pixels.
+
+#include <optional>
+#include <string>
+
+#include "io/spice/kernel_pool.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+struct InstrumentKernel {
+    int code = 0;
+    std::string frame;               // empty: the kernel does not say
+    std::optional<Vec3d> boresight;  // in the frame; unit
+    // INS<code>_FOCAL_LENGTH, in mm; _PIXEL_PITCH in mm, else _PIXEL_SIZE in m, mm or um, whichever is a pixel's size (1 to
+    // 100 um); _PIXEL_SAMPLES and _PIXEL_LINES.
+    std::optional<double> focal_length_m, pitch_m;
+    std::optional<std::int64_t> samples, lines;
+    // Half the field of view, from the boresight to the farthest corner or edge.
+    std::optional<double> half_field_rad;
+};
+
+// Throws InputError for a name or code that the kernels have no instrument of, and numbers that are none.
+InstrumentKernel instrument_kernel(const KernelPool& pool, std::string_view name, const std::string& key);
+
+}  // namespace hilcam

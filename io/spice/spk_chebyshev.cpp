@@ -1,0 +1,81 @@
+// SPK types 2, 3 and 20: Chebyshev polynomials over spans of equal length.
+
+#include "io/spice/chebyshev_records.h"
+#include "io/spice/spk_types.h"
+#include "io/spice/text_kernel.h"
+
+namespace hilcam {
+namespace {
+
+// Types 2 and 3: x, y, z [km] and, in type 3, their rates [km/s]; type 2's velocity is the derivative.
+class ChebyshevStates final : public SpkSegment {
+  public:
+    ChebyshevStates(const SpkSummary& about, std::vector<double> words)
+        : SpkSegment(about),
+          records_(std::move(words), about.where, about.type == 2 ? 3 : 6),
+          own_rates_(about.type == 3) {}
+
+    StateVector at(double et_s) const override {
+        const auto v = records_.at(et_s);
+        const Vec3d position_km{v[0].value, v[1].value, v[2].value};
+        const Vec3d velocity_km_s = own_rates_ ? Vec3d{v[3].value, v[4].value, v[5].value}
+                                               : Vec3d{v[0].slope, v[1].slope, v[2].slope};
+        return {kKilometre_m * position_km, kKilometre_m * velocity_km_s};
+    }
+
+  private:
+    ChebyshevRecords records_;
+    bool own_rates_;
+};
+
+// Type 20: a record is, for each of x, y, z, the coefficients of the velocity and the position at the span's middle.
+// After the records: units of length [km] and time [s], the first one's begin as a Julian date in two parts, the length
+// of each in days, the words of each, how many.
+class ChebyshevVelocities final : public SpkSegment {
+  public:
+    ChebyshevVelocities(const SpkSummary& about, std::vector<double> words)
+        : SpkSegment(about), words_(std::move(words), about.where) {
+        record_ = words_.count_from_end(2, "words of a record", 6, 1e6);
+        count_ = words_.count_from_end(1, "records", 1, kMostRecords);
+        length_s_ = words_.from_end(3) * kJulianDay_s;
+        begin_et_s_ = ((words_.from_end(5) - kJ2000_jd) + words_.from_end(4)) * kJulianDay_s;
+        unit_m_ = words_.from_end(7) * kKilometre_m, unit_m_s_ = unit_m_ / words_.from_end(6);
+        if (record_ % 3 != 0)
+            words_.fail("words of a record: found " + std::to_string(record_) +
+                        "; accepted: a multiple of 3");
+        if (!(length_s_ > 0) || !std::isfinite(begin_et_s_ + length_s_) || !std::isfinite(unit_m_s_))
+            words_.fail("its length of a record, begin or units are no positive numbers");
+        words_.require_size(count_ * record_ + 7);
+    }
+
+    StateVector at(double et_s) const override {
+        const double index = std::floor((et_s - begin_et_s_) / length_s_);
+        const auto i = static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(count_ - 1)));
+        const std::size_t terms = record_ / 3 - 1;
+        const double radius_s = length_s_ / 2;
+        const double middle_s = begin_et_s_ + (static_cast<double>(i) + 0.5) * length_s_;
+        const double s = std::clamp((et_s - middle_s) / radius_s, -1.0, 1.0);
+        std::array<double, 3> position{}, velocity{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t from = i * record_ + k * (terms + 1);
+            const auto c = words_.piece(from, terms);
+            velocity[k] = unit_m_s_ * chebyshev_at(c, s).value;
+            position[k] = unit_m_ * words_[from + terms] + radius_s * unit_m_s_ * chebyshev_integral(c, s);
+        }
+        return {{position[0], position[1], position[2]}, {velocity[0], velocity[1], velocity[2]}};
+    }
+
+  private:
+    SegmentWords words_;
+    std::size_t record_ = 0, count_ = 0;
+    double begin_et_s_ = 0, length_s_ = 0, unit_m_ = 0, unit_m_s_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<SpkSegment> make_spk_chebyshev(const SpkSummary& about, std::vector<double> words) {
+    if (about.type == 20) return std::make_unique<ChebyshevVelocities>(about, std::move(words));
+    return std::make_unique<ChebyshevStates>(about, std::move(words));
+}
+
+}  // namespace hilcam
