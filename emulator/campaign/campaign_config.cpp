@@ -174,6 +174,8 @@ Fields fields(PicturesConfig& p) {
         integer("count", p.count, {1, 1000}, "number of pictures of a case, one after the other"),
         number("interval_s", p.interval_s, 1, {1e-6, 1e7}, "simulated time from one to the next [s]"),
         flag("flow", p.flow, "optical flow from each picture to the next, as OpenEXR"),
+        flag("variance", p.variance,
+             "variance of each pixel's number by the sensor's noise [DN^2], as OpenEXR"),
     };
 }
 void validate(const PicturesConfig& p) {
@@ -239,6 +241,9 @@ void validate(const CampaignConfig& c) {
     if (!c.splits.empty() && std::abs(sum - 1) > 1e-9)
         throw refused_key("splits", "shares of " + exact_number(sum) + " in all", "shares of 1 in all");
     check_keys(c);
+    if (c.view && c.camera != 1)
+        throw refused_key("camera", std::to_string(c.camera),
+                          "1 with 'view', which places the body that all cameras ride on by the first");
     if (c.run && c.view)
         throw KeyError("view",
                        "has no effect with 'run', whose program moves the camera; accepted: one of them");

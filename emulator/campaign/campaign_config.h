@@ -81,7 +81,7 @@ struct PicturesConfig {
     std::vector<std::string> layers;  // words of outputs.truth.layers
     std::int64_t count = 1;           // pictures of a case, one after the other
     double interval_s = 0.1;
-    bool flow = false;
+    bool flow = false, variance = false;
 };
 Fields fields(PicturesConfig& pictures);
 void validate(const PicturesConfig& pictures);

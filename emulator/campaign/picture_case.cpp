@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "emulator/campaign/case_search.h"
+#include "emulator/campaign/noise_variance.h"
 #include "emulator/campaign/optical_flow.h"
 #include "emulator/campaign/run_lengths.h"
 #include "emulator/campaign/view_draw.h"
@@ -172,6 +173,7 @@ class PictureMaker {
     PictureWriter writer_;
     TruthDocument document_;
     FrameTruth truth_, before_;  // records of this picture, and of the one before it
+    VarianceImage variance_;
     DurableFiles files_;
 
     void make_picture(std::int64_t index) {
@@ -186,6 +188,7 @@ class PictureMaker {
         const ElectronImage& electrons = camera.expose();
         const FrameRecord record = record_of_picture(s, camera, id);
         describe(index, record, electrons);
+        if (campaign_.pictures.variance) variance_ = noise_variance(s.camera, electrons, camera.exposure());
         const DnImage& frame = camera.digitise(key);
         record_.sensor_s += 1e-3 * watch.ms();
         watch = {};
@@ -229,11 +232,18 @@ class PictureMaker {
         if (wants(campaign_.labels, "bop"))
             write_depth(place(names.depth), truth_, record_.frames.back()["depth_step_mm"]);
         if (!campaign_.pictures.layers.empty()) write_layers(place(names.layers));
+        if (campaign_.pictures.variance) {
+            const NamedChannel channels[] = {{"variance.DN2", variance_.plane(0)}};
+            write_channels_exr(place(names.variance), variance_.width(), variance_.height(), "DN^2",
+                               channels);
+        }
         if (!campaign_.pictures.flow) return;
         if (index > 0) {
             const FlowImage flow = optical_flow(before_, truth_);
-            write_flow_exr(place(picture_names(campaign_, record_.plan.number, index - 1).flow), flow.width(),
-                           flow.height(), flow.plane(0), flow.plane(1));
+            const NamedChannel channels[] = {{"flow.X", flow.plane(0)}, {"flow.Y", flow.plane(1)}};
+            write_channels_exr(place(picture_names(campaign_, record_.plan.number, index - 1).flow),
+                               flow.width(), flow.height(), "px of the frame, to the right and down",
+                               channels);
         }
         std::swap(before_, truth_);
     }
@@ -265,7 +275,8 @@ PictureNames picture_names(const CampaignConfig& campaign, std::uint64_t number,
             std::filesystem::path("views") / (stem + ".png"),
             std::filesystem::path("layers") / (stem + ".exr"),
             std::filesystem::path("depth") / (stem + ".png"),
-            std::filesystem::path("flow") / (stem + ".exr")};
+            std::filesystem::path("flow") / (stem + ".exr"),
+            std::filesystem::path("variance") / (stem + ".exr")};
 }
 
 PictureCases::PictureCases(const CampaignConfig& campaign)

@@ -31,7 +31,7 @@ class PictureCases {
 // Names of a picture's files in the campaign's folder; index: from 0.
 struct PictureNames {
     std::string stem;  // "000001", of several pictures a case "000001_02"
-    std::filesystem::path frame, view, layers, depth, flow;
+    std::filesystem::path frame, view, layers, depth, flow, variance;
 };
 PictureNames picture_names(const CampaignConfig& campaign, std::uint64_t number, std::int64_t index);
 

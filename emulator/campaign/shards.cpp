@@ -120,6 +120,7 @@ class Shards : public LabelWriter {
         add_file(names.layers, ".layers.exr");
         add_file(names.depth, ".depth.png");
         add_file(names.flow, ".flow.exr");
+        add_file(names.variance, ".variance.exr");
     }
 };
 

@@ -73,7 +73,10 @@ void WorkerPool::be_child(std::size_t slot, int line, pid_t parent) {
         reason = problem.what();
     }
     const std::string greeting = reason.empty() ? " " : "!" + reason.substr(0, kLongestProblem);
-    if (write(line, greeting.data(), greeting.size()) < 0 || !reason.empty()) _exit(1);
+    if (write(line, greeting.data(), greeting.size()) < 0) _exit(1);
+    // What was given meanwhile must be taken: an end that has unread packets takes its own words with it.
+    for (std::uint64_t ignored = 0; !reason.empty();)
+        if (read(line, &ignored, sizeof ignored) <= 0) _exit(1);
     for (std::uint64_t number = 0; read(line, &number, sizeof number) == sizeof number && number != 0;) {
         std::string problem = work(number);
         problem.resize(std::min(problem.size(), kLongestProblem));

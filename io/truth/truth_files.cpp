@@ -91,16 +91,16 @@ void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
     }
 }
 
-void write_flow_exr(const std::filesystem::path& file, int width_px, int height_px,
-                    std::span<const float> to_right, std::span<const float> down) {
+void write_channels_exr(const std::filesystem::path& file, int width_px, int height_px,
+                        const std::string& unit, std::span<const NamedChannel> channels) {
     try {
         Imf::Header header(width_px, height_px);
         header.compression() = Imf::ZIP_COMPRESSION;
         Imf::FrameBuffer buffer;
         Layers layers(header, buffer);
-        layers.say("flow.unit", "px of the frame, to the right and down");
-        layers.add("flow.X", Imf::FLOAT, to_right.data(), width_px);
-        layers.add("flow.Y", Imf::FLOAT, down.data(), width_px);
+        layers.say("unit", unit);
+        for (const NamedChannel& channel : channels)
+            layers.add(channel.name, Imf::FLOAT, channel.values.data(), width_px);
         Imf::OutputFile out(file.c_str(), header);
         out.setFrameBuffer(buffer);
         out.writePixels(height_px);

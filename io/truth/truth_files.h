@@ -21,9 +21,13 @@ namespace hilcam {
 void write_truth_exr(const std::filesystem::path& file, const FrameTruth& truth,
                      std::span<const std::string> legend);
 
-// Two planes of the frame's size as the channels flow.X and flow.Y [px]. DeviceError as above.
-void write_flow_exr(const std::filesystem::path& file, int width_px, int height_px,
-                    std::span<const float> to_right, std::span<const float> down);
+// Numbers of a frame of that size, a channel each, and the unit of all of them. DeviceError as above.
+struct NamedChannel {
+    const char* name;
+    std::span<const float> values;
+};
+void write_channels_exr(const std::filesystem::path& file, int width_px, int height_px,
+                        const std::string& unit, std::span<const NamedChannel> channels);
 
 // The object layer as a mask: objects have their numbers, bodies 60000 and their NAIF number (60399 is the
 // Earth), the sky 0; the PNG's text "object.names" has them: "1 target; 60399 earth". An object beyond 59999

@@ -111,7 +111,7 @@ class Campaigns(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         top = pathlib.Path(cls.temporary.name)
         (top / "t.csv").write_text("camera.exposure_ms\n0.1\n-1\n0.3\n")
-        (top / "c.yaml").write_text(f"name: c\nscenario: {SCENARIO}\ncount: 3\ntable: t.csv\npictures: {{count: 2, flow: true, layers: [object, position]}}\n")
+        (top / "c.yaml").write_text(f"name: c\nscenario: {SCENARIO}\ncount: 3\ntable: t.csv\npictures: {{count: 2, flow: true, variance: true, layers: [object, position]}}\n")
         cls.campaign = hilcam.Campaign.make(top / "c.yaml", top / "out", program=str(HILCAM))
 
     @classmethod
@@ -142,6 +142,8 @@ class Campaigns(unittest.TestCase):
         self.assertLess(numpy.abs(layers["position.Z"][mask] - truth[0].objects[0].position_camera_m[2]).max(), truth[0].objects[0].radius_m)
         self.assertEqual(c.flow(1).shape, size + (2,))
         self.assertGreater(c.image(1)[mask].mean(), c.image(1)[~mask].mean())
+        self.assertEqual(c.variance(1).shape, size)
+        self.assertGreater(c.variance(1)[mask].mean(), c.variance(1)[~mask].mean())
         self.assertRaises(FileNotFoundError, c.flow, 1, 1)
 
 

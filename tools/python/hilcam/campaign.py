@@ -116,6 +116,10 @@ class Campaign:
         channels = read_exr(self._file("flow", number, picture, [".exr"]))
         return numpy.stack([channels["flow.X"], channels["flow.Y"]], -1)
 
+    def variance(self, number: int, picture: int = 0) -> numpy.ndarray:
+        """Variance of each pixel's number by the sensor's noise [DN^2]; 0: the pixel is full."""
+        return read_exr(self._file("variance", number, picture, [".exr"]))["variance.DN2"]
+
     def image(self, number: int, picture: int = 0) -> numpy.ndarray:
         """The frame's digital numbers, of PNG or TIFF files. Needs Pillow."""
         from PIL import Image

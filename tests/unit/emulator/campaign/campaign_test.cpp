@@ -12,6 +12,7 @@
 
 #include "emulator/campaign/campaign_config.h"
 #include "emulator/campaign/case_search.h"
+#include "emulator/campaign/noise_variance.h"
 #include "emulator/campaign/view_draw.h"
 #include "emulator/campaign/worker_pool.h"
 #include "render/vocabulary/units.h"
@@ -54,6 +55,7 @@ TEST_F(CampaignTest, AMistakeHasOneMessageThatSaysWhereAndWhatIsAccepted) {
         {"splits: [{name: a, share: 0.5}]\n",
          "splits: found shares of 0.5 in all; accepted: shares of 1 in all"},
         {"splits: [{name: a/b, share: 1}]\n", "splits.0.name: found 'a/b'; accepted: letters"},
+        {"camera: 2\nview: {range_m: {value: 3}}\n", "camera: found 2; accepted: 1 with 'view'"},
         {"run: {}\n", "a run without a program needs an end"},
         {"run: {frames: 3}\nlabels: [coco]\n", "runs have no labels"},
     };
@@ -163,6 +165,40 @@ TEST_F(CampaignTest, ACaseIsTheSameAfterOthersAsAlone) {
     }
     EXPECT_EQ(different.size(), 6u);
     EXPECT_GT(all.loads(), 1);
+}
+
+// Variances of 100 takings over those that are told, mean over the plate and over the dark: its standard error
+// is sqrt(2 / 99 / pixels) of 1, and 5 of these are granted. A variance without the read noise of 5 e- would be a
+// third of itself in the dark.
+TEST_F(CampaignTest, NoiseVariesAsItsVarianceSays) {
+    const ScenarioConfig s = load_scenario(scenario(), {});
+    StillCamera camera(s);
+    camera.render({1, 1});
+    const ElectronImage& mean_e = camera.expose();
+    const VarianceImage variance = noise_variance(s.camera, mean_e, camera.exposure());
+    const std::size_t pixels = variance.pixels();
+    std::vector<double> sum(pixels), squares(pixels);
+    constexpr int kTakings = 100;
+    for (std::uint64_t n = 1; n <= kTakings; ++n) {
+        const DnImage& frame = camera.digitise({7 * n, 1});
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const double dn = frame.data()[i];
+            sum[i] += dn, squares[i] += dn * dn;
+        }
+    }
+    struct Kind {
+        double ratios = 0, count = 0;
+    } bright, dark;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (!(variance.data()[i] > 0)) continue;
+        const double measured = (squares[i] - sum[i] * sum[i] / kTakings) / (kTakings - 1);
+        Kind& kind = mean_e.data()[i] > 500 ? bright : dark;
+        kind.ratios += measured / static_cast<double>(variance.data()[i]), ++kind.count;
+    }
+    for (const Kind& kind : {bright, dark}) {
+        ASSERT_GT(kind.count, 100);
+        EXPECT_NEAR(kind.ratios / kind.count, 1, 5 * std::sqrt(2.0 / 99 / kind.count));
+    }
 }
 
 TEST_F(CampaignTest, TwoCampaignsDoNotShareAFolder) {
