@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/vocabulary/node_polynomial.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/node_polynomial.h"
 
 namespace hilcam {
 namespace {

@@ -129,7 +129,8 @@ void validate(const JointConfig& j) {
 Fields fields(ObjectConfig& o) {
     return {
         required(text("name", o.name, "name of the object in messages")),
-        optional(path("mesh", o.mesh, o.mesh_where, "mesh file in metres: GLB, glTF, OBJ, STL, PLY, or a shape (.tab, .plt, .icq)"),
+        optional(path("mesh", o.mesh, o.mesh_where,
+                      "mesh file in metres: GLB, glTF, OBJ, STL, PLY, or a shape (.tab, .plt, .icq)"),
                  o.has_mesh),
         section("generate", o.generate, "mesh made by a program at first use and cached; replaces a file"),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),

@@ -54,6 +54,7 @@ class ShapeReader {
   private:
     TextLines lines_;
     Mesh mesh_;
+    bool from_zero_ = false, last_used_ = false;
 
     static std::string lines_text(const Words& words) {
         std::string out;
@@ -98,15 +99,33 @@ class ShapeReader {
         mesh_.triangles.push_back(
             {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
     }
-    // Corners are counted from 1; four make two facets.
+    // Corners are counted from 1, or from 0 where one is 0 (settle_corners); four make two facets.
     void add_corners(const Words& words, std::size_t from) {
         const auto most = static_cast<double>(mesh_.vertices_m.size());
         if (words.count != from + 3 && words.count != from + 4)
             lines_.refuse(lines_text(words), "three corners, or four");
         std::array<std::size_t, 4> at{};
-        for (std::size_t i = from; i < words.count; ++i) at[i - from] = count(words.word[i], most) - 1;
+        for (std::size_t i = from; i < words.count; ++i) {
+            const double corner = number(words.word[i]);
+            if (!(corner >= 0 && corner <= most) || corner != std::floor(corner))
+                lines_.refuse(words.word[i], "the number of a vertex, of which there are " +
+                                                 std::to_string(mesh_.vertices_m.size()));
+            at[i - from] = static_cast<std::size_t>(corner);
+            from_zero_ |= corner == 0;
+            last_used_ |= corner == most;
+        }
         add_facet(at[0], at[1], at[2]);
         if (words.count == from + 4) add_facet(at[0], at[2], at[3]);
+    }
+
+    void settle_corners() {
+        if (from_zero_ && last_used_)
+            lines_.fail("corners are counted from 0 and reach the number of vertices, " +
+                        std::to_string(mesh_.vertices_m.size()) +
+                        "; accepted: from 0 to one less, or from 1");
+        if (from_zero_) return;
+        for (auto& t : mesh_.triangles)
+            for (std::uint32_t& corner : t) --corner;
     }
 
     void read_letters(Words words) {
@@ -118,6 +137,7 @@ class ShapeReader {
             else
                 lines_.refuse(lines_text(words), "v x y z, or f i j k");
         } while (more(words));
+        settle_corners();
     }
 
     // Plates number their lines, quadrilaterals do not.
@@ -140,6 +160,7 @@ class ShapeReader {
             head.count == 2 ? count(head.word[1], static_cast<double>(kMaxTriangles))
                             : count(next("how many plates").word[0], static_cast<double>(kMaxTriangles));
         for (std::size_t i = 0; i < plates; ++i) add_corners(next("a plate"), 1);
+        settle_corners();
     }
     void read_quadrilaterals(std::size_t q, Words line) {
         if (q > 4096) lines_.refuse(std::to_string(q), "Q of 1 to 4096");

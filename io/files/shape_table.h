@@ -1,7 +1,7 @@
 #pragma once
 // Shapes of small bodies as planetary archives have them: tables of numbers in text.
 //
-//   .tab   PDS: lines "v x y z" and "f i j k", corners counted from 1 (as Eros of NEAR, Thomas et al. 2002)
+//   .tab   PDS: lines "v x y z" and "f i j k", corners counted from 1, or from 0 (as Eros of NEAR has them)
 //   .plt   plates: how many vertices, a line "number x y z" for each, how many plates, a line "number i j k" for each
 //   .icq   implicitly connected quadrilaterals: Q, then (Q + 1)^2 vertices of each face of a cube (Gaskell, "The Implicitly
 //          Connected Quadrilateral Format", with the Itokawa shape in PDS)

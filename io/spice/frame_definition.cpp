@@ -156,12 +156,21 @@ class FrameReader {
         throw InputError(frame.where + ": frame " + in_quotes(frame.name) + ": no kernel has TKFRAME_" + id_ +
                          "_" + item + ", which its offset needs");
     }
+    // The code alone: frames may stand on each other in a circle, which whoever follows them finds.
+    int relative_code(const std::string& name, const std::string& where) const {
+        const std::string wanted = upper(name);
+        if (const auto code = parsed_as<int>(name)) return *code;
+        if (const auto found = inertial(wanted, 0)) return found->code;
+        if (const auto code = pool_.integer("FRAME_" + wanted)) return *code;
+        if (const auto found = body_frame(pool_, wanted, 0)) return found->code;
+        throw InputError(where + ": found the frame " + in_quotes(name) +
+                         "; accepted: J2000, ECLIPJ2000, a frame of a frames kernel (FK), IAU_<body>");
+    }
     void read_offset(FrameDefinition& out) const {
         const std::string relative = key(out, "RELATIVE"), spec_key = key(out, "SPEC");
         const std::string spec = upper(pool_.text(spec_key).value());
         out.relative =
-            frame_named(pool_, pool_.text(relative).value(), pool_.find(relative)->where + ": " + relative)
-                .code;
+            relative_code(pool_.text(relative).value(), pool_.find(relative)->where + ": " + relative);
         if (spec == "ANGLES") {
             out.relative_from_frame = from_angles(out);
         } else if (spec == "MATRIX") {

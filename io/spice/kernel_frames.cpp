@@ -134,6 +134,8 @@ bool KernelFrames::turn(int code, double et_s, FrameTurn& out, int depth) const 
 }
 
 bool KernelFrames::structure_turn(const Structure& s, double et_s, FrameTurn& out, int depth) const {
+    // A structure whose kernels were refused has none.
+    if (!s.clock) return false;
     const double ticks = s.clock->ticks(et_s), seconds_per_tick = s.clock->seconds_per_tick(et_s);
     const auto from = [&](const CkSegment& segment, const CkPointing& p) {
         return turn_in(segment.about().frame, et_s,

@@ -4,10 +4,10 @@
 
 #include "emulator/motion/ephemeris.h"
 #include "emulator/motion/kepler_orbit.h"
-#include "render/vocabulary/node_polynomial.h"
 #include "emulator/motion/relative_motion.h"
 #include "emulator/motion/world_frame.h"
 #include "render/vocabulary/check.h"
+#include "render/vocabulary/node_polynomial.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {

@@ -42,6 +42,9 @@ std::string cube() {
 
 TEST(ShapeTable, EveryFormEnclosesItsVolume) {
     EXPECT_NEAR(volume(read_shape_table(kLetters, "t")), 1.0 / 6, 1e-7);
+    const Mesh from_zero =
+        read_shape_table("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 0 1 2\nf 0 3 1\nf 0 2 3\nf 1 3 2\n", "t");
+    EXPECT_NEAR(volume(from_zero), 1.0 / 6, 1e-7);
     EXPECT_NEAR(volume(read_shape_table(kPlates, "t")), 1.0 / 6, 1e-7);
     const Mesh m = read_shape_table(cube(), "t");
     EXPECT_EQ(m.vertices_m.size(), 26u);  // 6 Q^2 + 2
@@ -60,7 +63,10 @@ TEST(ShapeTable, MistakesAreNamedWithTheirLine) {
         return std::string("nothing");
     };
     EXPECT_THAT(why(""), HasSubstr("the file ends"));
-    EXPECT_THAT(why("v 0 0 0\nf 1 2 3\n"), HasSubstr("s.tab:2: found '2'; accepted: a whole number, 1 to 1"));
+    EXPECT_THAT(why("v 0 0 0\nf 1 2 3\n"),
+                HasSubstr("s.tab:2: found '2'; accepted: the number of a vertex, of which there are 1"));
+    EXPECT_THAT(why("v 0 0 0\nv 1 0 0\nf 0 1 2\n"),
+                HasSubstr("corners are counted from 0 and reach the number of vertices, 2"));
     EXPECT_THAT(why("v 0 0 x\n"), HasSubstr("s.tab:1: found 'x'; accepted: a number below 1e9"));
     EXPECT_THAT(why("v 0 0 0\nq 1\n"), HasSubstr("s.tab:2: found 'q 1'; accepted: v x y z, or f i j k"));
     EXPECT_THAT(why("v 0 0 0\n"), HasSubstr("has no facet"));
@@ -76,7 +82,8 @@ TEST_F(ShapeFiles, AreMeshesAsOthers) {
     EXPECT_EQ(load_mesh(write("a.tab", kLetters)).triangles.size(), 4u);
     EXPECT_EQ(load_mesh_contents(write("b.plt", kPlates)).mesh.triangles.size(), 4u);
     EXPECT_EQ(load_mesh(write("c.icq", cube())).triangles.size(), 48u);
-    EXPECT_THAT(error_of([&] { load_mesh(write("d.icq", "v 1\n")); }), HasSubstr("d.icq:1: found 'v 1'"));
+    EXPECT_THAT(error_of([&] { load_mesh(write("d.icq", "v 1\n")); }),
+                HasSubstr("d.icq:1: found 'v'; accepted: a number"));
     const std::vector<std::string> wing = {"wing"};
     EXPECT_THAT(error_of([&] { load_mesh_parts(folder_ / "a.tab", wing); }), HasSubstr("has no nodes"));
 }

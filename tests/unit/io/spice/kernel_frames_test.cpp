@@ -185,6 +185,35 @@ TEST(KernelFrames, FramesStandOnEachOther) {
     }
 }
 
+TEST(KernelFrames, ACircleOfFramesIsNeverKnown) {
+    const auto offset = [](const std::string& name, const std::string& code, const std::string& relative) {
+        return "FRAME_" + name + " = " + code + "\nFRAME_" + code + "_NAME = '" + name + "'\nFRAME_" + code +
+               "_CLASS = 4\nTKFRAME_" + code + "_RELATIVE = '" + relative + "'\nTKFRAME_" + code +
+               "_SPEC = 'QUATERNION'\nTKFRAME_" + code + "_Q = ( 1 0 0 0 )\n";
+    };
+    const std::string text = "\\begindata\n" + offset("A", "-1", "B") + offset("B", "-2", "A");
+    const auto set = set_with(segment(1, false, {1, 0, 0, 0, 0, 1}), "CK", text.c_str());
+    KernelFrames frames(*set);
+    FrameTurn turn;
+    EXPECT_FALSE(frames.turn(frames.require("A", "test"), 0, turn));
+}
+
+TEST(KernelFrames, AnAttitudeAgainstADynamicFrameIsNotKnownAndSaysSo) {
+    std::vector<double> words;
+    append_quaternion(words, 0);
+    append_quaternion(words, 100);
+    words.insert(words.end(), {0, 1000, 0, 1, 2});
+    WrittenArray array = segment(3, false, words);
+    array.integers[1] = 5000;
+    const auto set = set_with(
+        array, "CK", (std::string(kFrames) + "FRAME_5000_CLASS = 5\nFRAME_5000_NAME = 'OF_DATE'\n").c_str());
+    KernelFrames frames(*set);
+    FrameTurn turn;
+    EXPECT_FALSE(frames.turn(frames.require("SHIP", "test"), 50, turn));
+    ASSERT_EQ(frames.left_out().size(), 1u);
+    EXPECT_THAT(frames.left_out().front(), HasSubstr("frame 'OF_DATE': found class 5"));
+}
+
 TEST(KernelFrames, AMeasuredPoleIsThatOfTheProgramsOwnFormulas) {
     // Archinal et al. 2018 for Mars and Neptune, as the program has them (render/sky/bodies.cpp); Neptune by terms.
     const char* text =
