@@ -22,7 +22,7 @@ constexpr double kSpacing_px = 0.7, kWidth_px = 0.6;
 constexpr double kSunStep_rad = 2e-3, kCameraStep_rad = 1e-3, kDistanceStep = 4e-3;
 // The disk's radius in pixels, and the camera's distance from the middle in radii.
 constexpr double kSmallest_px = 6, kLargest_px = 640, kNearest = 4;
-constexpr int kRings = 16;  // of a band, without the one that the next one shares
+constexpr int kRings = 16;  // rings of a band, without the one that the next band shares
 // The limb's rings begin so far inside [px]; rings of theirs to one of the others; rays for each across its width, of a pixel's
 // width.
 constexpr double kLimb_px = 1.5;
@@ -77,10 +77,10 @@ std::uint16_t coded(float value) {
     return static_cast<std::uint16_t>(std::min((bits - kLowest) >> kDropped, 0xFFFFu));
 }
 
-// What sixteen looks need of the picture: places in its rows, and weights.
+// Sixteen looks: where they begin in the picture's rows, and their weights.
 struct Looks {
     static constexpr std::size_t kCount = EarthPicture::kCount;
-    std::array<const std::uint16_t*, kCount> light;  // of the row before and the column before
+    std::array<const std::uint16_t*, kCount> light;  // place in the row before and the column before
     std::array<std::size_t, kCount> stride;          // to the next row, in values of a place
     EarthPicture::Floats in_row, in_column;          // from there, 0..1
     std::array<bool, kCount> at_limb;
@@ -137,12 +137,12 @@ EarthPicture::EarthPicture(double pixel_rad, double top_m) : pixel_rad_(pixel_ra
     bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kRings + 4);
 }
 
-// Into the picture's axes.
+// Turns a vector into the picture's axes.
 Vec3d EarthPicture::to_place(Vec3d v) const { return {dot(v, right_), dot(v, down_), dot(v, ahead_)}; }
 
 void EarthPicture::place_bands() {
     bands_.clear();
-    const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // of a radius
+    const double pixel = pixel_rad_ * distance_m_ / kEarthRadius_m;  // a pixel's part of the radius
     const double step = kSpacing_px * pixel, fine = step / kFiner;
     pixel_ = static_cast<float>(pixel);
     inner_per_b_ = static_cast<float>(1 / step);

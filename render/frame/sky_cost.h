@@ -1,5 +1,5 @@
 #pragma once
-// How long the camera's rays to bodies take, as `hilcam check` tells it.
+// Measures how long the camera's rays to bodies take, as `hilcam check` tells it.
 
 #include <vector>
 

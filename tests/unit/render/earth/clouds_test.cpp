@@ -64,14 +64,15 @@ TEST(Clouds, ReflectionIsTheSameBothWays) {
         for (const auto& mode : layer.reflection) EXPECT_NEAR(mode[1], mode[2], 1e-9);
 }
 
-// g of water clouds of 10 um is 0.86 in the visible (Slingo, J. Atmos. Sci. 46, 1419, 1989: 0.862 at 0.55 um by his fit,
-// within 0.01). The bow of large droplets lies at 138 to 143 degrees, the glory's first ring within 3 degrees of
+// g of water clouds of 10 um is 0.829 + 0.002482 r_e [um] = 0.854 from 0.25 to 0.69 um by the fit of Slingo, J. Atmos. Sci. 46, 1419, 1989
+// (his coefficients as NCAR's climate model has them), over sizes that he took from measured clouds; ours are one distribution at one
+// wavelength, so the second digit is what is asked. The bow of large droplets lies at 138 to 143 degrees, the glory's first ring within 3 degrees of
 // 180.
 TEST(Clouds, DropletsHaveABowAndAGlory) {
     const PhaseFunction phase = PhaseFunction::droplets(0.55, water_index(0.55), 10, 0.1);
     const std::vector<double> moments = phase.moments(2);
     EXPECT_NEAR(moments[0], 1, 1e-9);
-    EXPECT_NEAR(moments[1], 0.862, 0.01);
+    EXPECT_NEAR(moments[1], 0.854, 0.015);
     const auto at = [&](double degrees) { return phase.at(static_cast<float>(degrees * kDegree_rad)); };
     EXPECT_GT(at(141), 2 * at(125));
     EXPECT_GT(at(141), 1.5f * at(155));

@@ -1,0 +1,68 @@
+// Kept pictures of the Earth: a frame's depends on its own place and Sun alone, and far cameras alone have one.
+
+#include "render/earth/kept_earth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/sky/sun.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr double kKeptPixel_rad = 1.2e-2;  // the disk from geostationary height is 25 pixels wide
+
+Vec3d on_equator(double distance_m, double longitude_rad) {
+    return {distance_m * std::cos(longitude_rad), distance_m * std::sin(longitude_rad), 0};
+}
+
+struct KeptEarthTest : testing::Test {
+    SpectralGrid grid{std::vector<double>{0.4, 0.55, 0.7}};
+    EarthModel earth{EarthConfig{}, seeded_clouds(3, 64), EarthMap(), nullptr, grid};
+    Spectrum sun = solar_irradiance_1au_w_m2_um(grid);
+
+    // A row of looks across the disk.
+    std::array<Spectrum, 16> looks(const KeptEarth& kept, Vec3d camera_m) const {
+        const Vec3d ahead = -normalized(camera_m), right = normalized(cross(ahead, Vec3d{0, 0, 1})),
+                    down = cross(ahead, right);
+        std::array<Vec3d, 9> dirs;
+        for (int i = 0; i < 9; ++i)
+            dirs[static_cast<std::size_t>(i)] =
+                ahead + (i % 3 - 1) * 0.18 * right + (i / 3 - 1) * 0.18 * down;
+        EarthPicture::Floats x, y;
+        for (std::size_t i = 0; i < 16; ++i) x[i] = static_cast<float>(i) / 15, y[i] = 0.45f;
+        std::array<Spectrum, 16> out;
+        kept.picture().look(kept.picture().tile(camera_m, dirs), x, y, 16, 1, out);
+        return out;
+    }
+};
+
+TEST_F(KeptEarthTest, WhatAFrameHasDoesNotDependOnThoseBefore) {
+    const Vec3d here = on_equator(42164e3, 0.5), sun_dir = on_equator(1, 1.1);
+    KeptEarth fresh(earth, sun, kKeptPixel_rad, EarthModel::kHighest_m);
+    ASSERT_TRUE(fresh.place(here, sun_dir));
+    const std::array<Spectrum, 16> wanted = looks(fresh, here);
+    EXPECT_GT(wanted[8][0], 10);
+    EXPECT_EQ(wanted[0][0], 0);
+    KeptEarth moved(earth, sun, kKeptPixel_rad, EarthModel::kHighest_m);
+    // The Sun goes on by less than a step a frame, so that pictures are made ahead as well as at once; then both jump back.
+    for (int i = 0; i < 80; ++i)
+        ASSERT_TRUE(moved.place(on_equator(42164e3, 0.45 + 1e-5 * i), on_equator(1, 0.9 + 3e-4 * i)));
+    ASSERT_TRUE(moved.place(here, sun_dir));
+    const std::array<Spectrum, 16> seen = looks(moved, here);
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(seen[i].bin, wanted[i].bin) << i;
+}
+
+TEST_F(KeptEarthTest, FarCamerasAloneHaveOne) {
+    KeptEarth kept(earth, sun, kKeptPixel_rad, EarthModel::kHighest_m);
+    const Vec3d sun_dir = on_equator(1, 0);
+    EXPECT_FALSE(kept.place(on_equator(3.9 * kEarthEquatorialRadius_m, 0), sun_dir));
+    EXPECT_TRUE(kept.place(on_equator(4.1 * kEarthEquatorialRadius_m, 0), sun_dir));
+    // A disk of a few pixels.
+    EXPECT_FALSE(kept.place(on_equator(40 * kEarthEquatorialRadius_m, 0), sun_dir));
+}
+
+}  // namespace
+}  // namespace hilcam
