@@ -1,8 +1,5 @@
 #include "render/earth/kept_earth.h"
 
-#include <sys/resource.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,13 +8,7 @@ namespace hilcam {
 KeptEarth::KeptEarth(const EarthModel& earth, const Spectrum& sun_irradiance, double pixel_rad, double top_m)
     : earth_(earth), sun_irradiance_1au_(sun_irradiance), pixel_rad_(pixel_rad) {
     for (Kept& kept : pictures_) kept.picture = std::make_unique<EarthPicture>(pixel_rad, top_m);
-    thread_ = std::thread([this] { work(); });
-}
-
-KeptEarth::~KeptEarth() {
-    wait();
-    state_.store(State::kStop), state_.notify_one();
-    thread_.join();
+    ahead_.start([this] { make(asked_); });
 }
 
 std::size_t KeptEarth::bytes() const {
@@ -31,8 +22,8 @@ bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir) {
     if (!EarthPicture::is_for(camera_m, pixel_rad_)) return false;
     const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir);
     std::size_t at = find(key);
-    const bool is_being_made = at == asked_ && state_.load(std::memory_order_acquire) == State::kAsked;
-    if (at == pictures_.size() || is_being_made) wait();
+    const bool is_being_made = at == asked_ && ahead_.is_at_work();
+    if (at == pictures_.size() || is_being_made) ahead_.wait();
     if (at == pictures_.size()) {
         at = room_for(key);
         make(at);
@@ -65,7 +56,7 @@ void KeptEarth::make(std::size_t at) {
 // Has the first picture made that the next frames will ask for, if everything moves on as it did.
 void KeptEarth::look_ahead(const Place& now) {
     if (frames_ % kStride == 1) long_before_ = before_, before_ = now;
-    if (frames_ <= 2 * kStride || state_.load(std::memory_order_acquire) != State::kIdle) return;
+    if (frames_ <= 2 * kStride || ahead_.is_busy()) return;
     const auto past = static_cast<double>(kStride + (frames_ - 1) % kStride);  // frames since long_before_
     const auto on = [&](Vec3d before, Vec3d here, double ahead) {
         return here + (ahead / past) * (here - before);
@@ -78,25 +69,8 @@ void KeptEarth::look_ahead(const Place& now) {
         if (key == pictures_[shown_].key) continue;
         if (find(key) < pictures_.size()) return;
         asked_ = room_for(key);
-        state_.store(State::kAsked, std::memory_order_release), state_.notify_one();
+        ahead_.ask();
         return;
-    }
-}
-
-void KeptEarth::wait() {
-    for (State state; (state = state_.load(std::memory_order_acquire)) == State::kAsked;) state_.wait(state);
-}
-
-void KeptEarth::work() {
-    // Frames come first; and one core of those that they leave is enough.
-    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
-    setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
-    tbb::task_arena alone(1, 1);
-    while (true) {
-        state_.wait(State::kIdle);
-        if (state_.load(std::memory_order_acquire) == State::kStop) return;
-        alone.execute([this] { make(asked_); });
-        state_.store(State::kIdle, std::memory_order_release), state_.notify_one();
     }
 }
 

@@ -2,10 +2,12 @@
 // Has the picture of the Earth (earth_picture.h) that frames ask for: at once where one needs it, and ahead of time, on a
 // thread of its own, where the camera and the Sun move on as they did. What a picture shows is the same either way.
 
-#include <atomic>
-#include <thread>
+#include <array>
+#include <cstdint>
+#include <memory>
 
 #include "render/earth/earth_picture.h"
+#include "render/vocabulary/ahead_thread.h"
 
 namespace hilcam {
 
@@ -14,9 +16,11 @@ class KeptEarth {
     // The Earth outlives this. Owner thread.
     KeptEarth(const EarthModel& earth, const Spectrum& sun_irradiance_1au_w_m2_um, double pixel_rad,
               double top_m);
-    ~KeptEarth();
     KeptEarth(const KeptEarth&) = delete;
     KeptEarth& operator=(const KeptEarth&) = delete;
+
+    // Ends the thread (AheadThread). Owner thread.
+    void stop_looking_ahead() { ahead_.stop(); }
 
     // Has the picture of a frame, the camera and the Sun in the Earth's axes; false: for such a camera none is kept.
     // Loop; makes it, or waits for the thread, where it is not there yet.
@@ -27,7 +31,6 @@ class KeptEarth {
     std::size_t bytes() const;
 
   private:
-    enum class State : int { kIdle, kAsked, kStop };
     struct Kept {
         std::unique_ptr<EarthPicture> picture;
         EarthPicture::Key key;
@@ -47,15 +50,12 @@ class KeptEarth {
     std::uint64_t frames_ = 0;
     static constexpr std::uint64_t kStride = 16;  // frames
     Place before_, long_before_;
-    std::atomic<State> state_{State::kIdle};
-    std::thread thread_;
+    AheadThread ahead_;  // the last: it ends first
 
     void make(std::size_t at);
     std::size_t find(const EarthPicture::Key& key) const;
     std::size_t room_for(const EarthPicture::Key& key);
     void look_ahead(const Place& now);
-    void wait();
-    void work();
 };
 
 }  // namespace hilcam

@@ -47,6 +47,7 @@ class FramePlacer {
     bool take_light();
     void stop_looking_ahead() {
         if (kept_) kept_->stop_looking_ahead();
+        if (kept_earth_) kept_earth_->stop_looking_ahead();
     }
     // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
     // buffer. Loop.

@@ -60,8 +60,8 @@ class Renderer {
     // Lets the next frames have kept light if it has come. False: it has not, and their quality asks for it:
     // they are made with random paths. Loop, between two frames: no lock, nothing is allocated.
     bool take_light();
-    // Ends the thread that solves kept light before frames ask for it: they are the same without. For who
-    // makes single pictures, or is about to fork. Owner thread.
+    // Ends the threads that make kept light and the Earth's picture before frames ask for them: they are the same
+    // without. For who makes single pictures, or is about to fork. Owner thread.
     void stop_looking_ahead();
     // Sets the sensor's noise, against which the noise budget is weighed in the next frames; until then,
     // pixels are sampled once. Loop.

@@ -1,8 +1,5 @@
 #include "render/light/kept_updates.h"
 
-#include <sys/resource.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -26,21 +23,12 @@ KeptUpdates::KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& 
             stage_.solutions[i].push_back(lights_[i]->make_solution(terms_.kind(t)));
     }
     members_.reserve(count);
-    if (!order_.empty()) thread_ = std::thread([this] { work(); });
-}
-
-KeptUpdates::~KeptUpdates() { stop_looking_ahead(); }
-
-void KeptUpdates::stop_looking_ahead() {
-    if (!thread_.joinable()) return;
-    wait();
-    state_.store(State::kStop), state_.notify_one();
-    thread_.join();
+    if (!order_.empty()) ahead_.start([this] { prepare(wanted_); });
 }
 
 void KeptUpdates::bring_to(const KeptTarget& target) {
     if (target == shown_) return;
-    wait();
+    ahead_.wait();
     prepare(target);
     adopt();
 }
@@ -48,24 +36,7 @@ void KeptUpdates::bring_to(const KeptTarget& target) {
 void KeptUpdates::look_ahead(const KeptTarget& target) {
     if (is_busy() || target == shown_ || target == stage_.target) return;
     wanted_ = target;
-    state_.store(State::kAsked, std::memory_order_release), state_.notify_one();
-}
-
-void KeptUpdates::wait() {
-    for (State state; (state = state_.load(std::memory_order_acquire)) == State::kAsked;) state_.wait(state);
-}
-
-void KeptUpdates::work() {
-    // Frames come first; and one core of those that they leave is enough.
-    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
-    setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
-    tbb::task_arena alone(1, 1);
-    while (true) {
-        state_.wait(State::kIdle);
-        if (state_.load(std::memory_order_acquire) == State::kStop) return;
-        alone.execute([this] { prepare(wanted_); });
-        state_.store(State::kIdle, std::memory_order_release), state_.notify_one();
-    }
+    ahead_.ask();
 }
 
 // Fills the stage with what the target has and the lights have not; what it holds already and is asked for

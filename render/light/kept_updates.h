@@ -3,13 +3,12 @@
 // thread of its own, where it can be told what the next frames will need. What is kept for a target is the
 // same either way.
 
-#include <atomic>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "render/light/kept_solver.h"
 #include "render/light/kept_target.h"
+#include "render/vocabulary/ahead_thread.h"
 
 namespace hilcam {
 
@@ -18,7 +17,6 @@ class KeptUpdates {
     // lights: by object, null where none is kept; with the terms in their order. All outlive this. Owner
     // thread.
     KeptUpdates(std::span<KeptLight* const> lights, const EmbreeScene& scene, const KeptTerms& terms);
-    ~KeptUpdates();
     KeptUpdates(const KeptUpdates&) = delete;
     KeptUpdates& operator=(const KeptUpdates&) = delete;
 
@@ -27,11 +25,11 @@ class KeptUpdates {
     void bring_to(const KeptTarget& target);
     // Asks the thread for what will be needed; does nothing while it is at work. Loop.
     void look_ahead(const KeptTarget& target);
-    // Ends the thread: from then on it counts as busy, and nothing is made ahead. Owner thread.
-    void stop_looking_ahead();
+    // Ends the thread (AheadThread). Owner thread.
+    void stop_looking_ahead() { ahead_.stop(); }
     // Returns an object's share of the memory of what is made and not taken yet, and of the work.
     std::size_t bytes(std::size_t object) const;
-    bool is_busy() const { return state_.load(std::memory_order_acquire) != State::kIdle; }
+    bool is_busy() const { return ahead_.is_busy(); }
 
   private:
     // The parts that have been made and not been taken: links by object, solutions by object and term.
@@ -42,7 +40,6 @@ class KeptUpdates {
         std::vector<std::uint8_t> has_links;
         std::vector<std::vector<std::uint8_t>> has_solution;
     };
-    enum class State : int { kIdle, kAsked, kStop };
 
     std::vector<KeptLight*> lights_;
     KeptTerms terms_;
@@ -53,15 +50,12 @@ class KeptUpdates {
     KeptTarget wanted_;
     std::vector<std::size_t> order_;  // objects that keep light, by their groups
     std::vector<KeptSolver::Member> members_;
-    std::atomic<State> state_{State::kIdle};
-    std::thread thread_;
+    AheadThread ahead_;  // the last: it ends first
 
     void prepare(const KeptTarget& target);
     void prepare_links(const KeptTarget& target);
     void prepare_group(const KeptTarget& target, std::size_t term, std::span<const std::size_t> group);
     void adopt();
-    void wait();
-    void work();
 };
 
 }  // namespace hilcam

@@ -1,0 +1,35 @@
+#include "render/vocabulary/ahead_thread.h"
+
+#include <sys/resource.h>
+#include <tbb/task_arena.h>
+
+#include <utility>
+
+namespace hilcam {
+
+void AheadThread::start(std::function<void()> work) {
+    work_ = std::move(work);
+    thread_ = std::thread([this] { run(); });
+}
+
+void AheadThread::stop() {
+    if (!thread_.joinable()) return;
+    wait();
+    state_.store(State::kStop), state_.notify_one();
+    thread_.join();
+}
+
+void AheadThread::run() {
+    // Frames come first; and one core of those that they leave is enough.
+    constexpr int kNicer = 10;  // niceness above that of the program, which may be nice itself
+    setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + kNicer);
+    tbb::task_arena alone(1, 1);
+    while (true) {
+        state_.wait(State::kIdle);
+        if (state_.load(std::memory_order_acquire) == State::kStop) return;
+        alone.execute([this] { work_(); });
+        state_.store(State::kIdle, std::memory_order_release), state_.notify_one();
+    }
+}
+
+}  // namespace hilcam
