@@ -34,6 +34,7 @@ KeypointSet load_set(const KeypointsConfig& config) {
 
 std::vector<KeypointSet> load_keypoints(const std::vector<KeypointsConfig>& configs) {
     std::vector<KeypointSet> out;
+    out.reserve(configs.size());
     for (const KeypointsConfig& config : configs) out.push_back(load_set(config));
     return out;
 }

@@ -106,6 +106,7 @@ class Started {
         dup2(nothing, STDIN_FILENO), dup2(out, STDOUT_FILENO), dup2(out, STDERR_FILENO);
         for (const auto& [word, value] : words) setenv(environment_name(word).c_str(), value.c_str(), 1);
         std::vector<char*> argv;
+        argv.reserve(arguments.size() + 1);
         for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
         argv.push_back(nullptr);
         execvp(argv[0], argv.data());
@@ -239,7 +240,7 @@ class BenchRun {
 
 }  // namespace
 
-CaseRecord make_program_case(const CampaignConfig& campaign, CasePlan plan,
+CaseRecord make_program_case(const CampaignConfig& campaign, const CasePlan& plan,
                              const std::filesystem::path& folder, std::size_t slot) {
     const std::filesystem::path own = std::filesystem::absolute(folder / "runs" / plan.name);
     std::error_code error;

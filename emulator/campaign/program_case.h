@@ -15,7 +15,7 @@
 namespace hilcam {
 
 // Throws InputError, DeviceError: the case has failed, and why.
-CaseRecord make_program_case(const CampaignConfig& campaign, CasePlan plan,
+CaseRecord make_program_case(const CampaignConfig& campaign, const CasePlan& plan,
                              const std::filesystem::path& folder, std::size_t slot);
 
 }  // namespace hilcam
