@@ -42,7 +42,7 @@ RunFolder run_folder(const FilesConfig& c) {
 }
 
 void validate(const FilesConfig& c) {
-    FileNamePattern(c.name, ending_of(c.format));
+    [[maybe_unused]] const FileNamePattern names(c.name, ending_of(c.format));  // refuses a bad one
     if (c.label && c.format != FilesConfig::Format::kFits)
         throw KeyError("label", "describes FITS files; accepted: with format: fits, or no 'label'");
 }
