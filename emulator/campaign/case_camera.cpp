@@ -17,9 +17,11 @@ std::string below_element(const std::string& key, const std::string& list) {
     return dot == std::string::npos ? std::string() : key.substr(dot + 1);
 }
 
-// Stars stand where they are at the time of loading; terrain and bodies of the scenario's own lie then.
+// Stars stand where they are at the time of loading; terrain and bodies of the scenario's own lie then, and the kernels
+// of spice were asked whether they cover it.
 bool depends_on_time(const ScenarioConfig& s) {
-    return (s.stars && !s.stars->catalogue.empty()) || s.terrain || !s.own_bodies.empty() || s.leap_seconds;
+    return (s.stars && !s.stars->catalogue.empty()) || s.terrain || !s.own_bodies.empty() || s.leap_seconds ||
+           s.spice;
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // COCO's labels: cocodataset.org, "Data format", of object detection and key points. Boxes are [x, y, width,
 // height] from the picture's corner, masks compressed run lengths, key points x, y, v.
 
+#include <map>
+
 #include "emulator/campaign/label_writer.h"
 #include "emulator/campaign/picture_case.h"
 #include "io/system/durable_file.h"
 #include "render/vocabulary/check.h"
-
-#include <map>
 
 namespace hilcam {
 namespace {

@@ -230,6 +230,8 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
 bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
     const double distance_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
     if (!(distance_m >= 0)) return false;
+    // Sine of 4.6 degrees: down to there pixels that share an aspect differ by 0.31 % of the mean
+    // (ShippedEarth.PixelsThatShareAnAspectLookLikeThoseOfTheirOwn).
     constexpr double kGrazing = 0.08;
     if (-dot(earth_normal(ray.origin_m + distance_m * ray.dir), ray.dir) < kGrazing) return false;
     aspect = aspect_at(ray, distance_m, 0);

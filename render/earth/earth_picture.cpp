@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "render/sky/bodies.h"
+#include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/units.h"
 
@@ -27,8 +28,6 @@ constexpr int kRings = 16;  // rings of a band, without the one that the next ba
 // width.
 constexpr double kLimb_px = 1.5;
 constexpr int kFiner = 3, kLimbLooks = 4;
-// A look at the limb takes four places of a pixel, 0.75 px apart at most, each between two rings.
-constexpr int kLimbRows = 6;
 
 Vec3d from_steps(double longitude_rad, double latitude_rad) {
     return {std::cos(latitude_rad) * std::cos(longitude_rad),
@@ -84,7 +83,7 @@ struct Looks {
     std::array<std::size_t, kCount> stride;          // to the next row, in values of a place
     EarthPicture::Floats in_row, in_column;          // from there, 0..1
     std::array<bool, kCount> at_limb;
-    std::array<std::array<float, kLimbRows>, kCount> by_row;  // where it is at the limb, instead of in_row
+    std::array<EarthPicture::LimbRows, kCount> by_row;  // where it is at the limb, instead of in_row
 };
 
 using Bins = float __attribute__((vector_size(32), may_alias));
@@ -107,7 +106,7 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
         Bins sum;
         if (looks.at_limb[i]) {
             sum = looks.by_row[i][0] * row(0);
-            for (std::size_t r = 1; r < kLimbRows; ++r) sum += looks.by_row[i][r] * row(r);
+            for (std::size_t r = 1; r < EarthPicture::kLimbRows; ++r) sum += looks.by_row[i][r] * row(r);
         } else {
             const Bins before = row(0);
             sum = before + looks.in_row[i] * (row(1) - before);
@@ -135,6 +134,11 @@ bool EarthPicture::is_for(Vec3d camera_m, double pixel_rad) {
 
 EarthPicture::EarthPicture(double pixel_rad, double top_m) : pixel_rad_(pixel_rad), top_m_(top_m) {
     bands_.reserve(static_cast<std::size_t>(kLargest_px / kSpacing_px) / kRings + 4);
+    // Addresses for the widest disk; its pages are taken as they are written. A step of the grid nearer, and half of one.
+    distance_m_ =
+        (1 - 1.5 * kDistanceStep) * kEarthRadius_m * std::max(kNearest, 1 / (kLargest_px * pixel_rad));
+    place_bands();
+    light_.reserve(used_);
 }
 
 // Turns a vector into the picture's axes.
@@ -164,7 +168,6 @@ void EarthPicture::place_bands() {
         static_cast<int>(std::ceil((top_m_ / kEarthRadius_m + 0.5 * pixel) / fine)) + kLimbRows + 1;
     add(1 - (below - 0.5) * fine, fine, below + above);
     dark_from_ = static_cast<float>(1 + top_m_ / kEarthRadius_m + 0.5 * pixel + fine);
-    if (light_.size() < used_) light_.resize(used_ + used_ / 4);
 }
 
 void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row) {
@@ -204,6 +207,8 @@ void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum&
     right_ = normalized(cross(ahead_, std::abs(ahead_.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}));
     down_ = cross(ahead_, right_);
     place_bands();
+    HILCAM_CHECK(used_ <= light_.capacity());
+    if (light_.size() < used_) light_.resize(used_);
     int rows = 0;
     for (const Band& band : bands_) rows += band.rows;
     tbb::parallel_for(0, rows, [&](int row) {
@@ -268,7 +273,7 @@ void EarthPicture::look(const Tile& tile, const Floats& x, const Floats& y, std:
 }
 
 // A pixel's mean across the limb: four places have its variance, at any angle. Returns the first of the rows.
-std::size_t EarthPicture::weigh_limb(float b, float share, std::array<float, 6>& by_row) const {
+std::size_t EarthPicture::weigh_limb(float b, float share, LimbRows& by_row) const {
     const Band& band = bands_.back();
     const float middle = (b - band.first) * band.per_step, reach = share * pixel_ * band.per_step;
     const int row = std::clamp(static_cast<int>(middle - 0.375f * reach), 0, band.rows - kLimbRows);

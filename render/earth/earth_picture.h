@@ -37,7 +37,7 @@ class EarthPicture {
 
     // pixel_rad: the camera's. top_m: the height up to which there is light.
     EarthPicture(double pixel_rad, double top_m);
-    // Works a picture out on all threads of the arena; takes more memory where the disk has grown by a tenth. sun_irradiance_1au: [W m^-2 um^-1].
+    // Works a picture out on all threads of the arena. Loop; allocates nothing. sun_irradiance_1au: [W m^-2 um^-1].
     void make(const EarthModel& earth, const Key& key, const Spectrum& sun_irradiance_1au_w_m2_um);
     std::size_t bytes() const { return light_.size() * sizeof(Coded); }
 
@@ -51,6 +51,9 @@ class EarthPicture {
 
     static constexpr std::size_t kCount = 16;
     using Floats = std::array<float, kCount>;
+    // A look at the limb takes four places of a pixel, 0.75 px apart at most, each between two rings.
+    static constexpr int kLimbRows = 6;
+    using LimbRows = std::array<float, kLimbRows>;  // their weights
     // Radiance for the Sun at 1 AU [W m^-2 sr^-1 um^-1] at places of a tile, x and y from 0 to 1. share: of a pixel's width that each
     // stands for, 0..1. Loop, any thread.
     void look(const Tile& tile, const Floats& x, const Floats& y, std::size_t count, float share,
@@ -70,14 +73,14 @@ class EarthPicture {
     Vec3d ahead_, right_, down_;  // stretched axes, unit
     std::vector<Band> bands_;     // the last is the limb's
     float limb_from_ = 0, dark_from_ = 0, pixel_ = 0, inner_per_b_ = 0;
-    // Floats without their sign, lowest digits and most of their exponent (encoded()).
+    // Floats without their sign, lowest digits and most of their exponent (coded()).
     using Coded = std::array<std::uint16_t, kMaxBins>;
     std::vector<Coded> light_;
     std::size_t used_ = 0;
 
     void place_bands();
     void fill_row(const EarthModel& earth, const Spectrum& irradiance, const Band& band, int row);
-    std::size_t weigh_limb(float b, float share, std::array<float, 6>& by_row) const;
+    std::size_t weigh_limb(float b, float share, LimbRows& by_row) const;
     Vec3d to_place(Vec3d stretched_m) const;
 };
 

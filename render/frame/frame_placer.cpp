@@ -151,6 +151,7 @@ PixelBox FramePlacer::box_of(std::size_t i) const {
 
 void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     place_shapes(world, key);
+    place_earth_picture();
     if (frame_.kept) kept_->place(frame_, world_);
 }
 
@@ -215,12 +216,14 @@ void FramePlacer::place_background() {
     }
     frame_.sun_box = bounds(background_.sun_camera_dir(), background_.sun_disk_cosine());
     frame_.earth_picture = nullptr;
-    if (kept_earth_ && rays_->is_still() && background_.earth_in_patches()) {
-        const PlacedBody& earth = background_.disks().front();
-        if (kept_earth_->place(earth.camera_m, earth.sun_dir)) frame_.earth_picture = &kept_earth_->picture();
-        const double au = kAstronomicalUnit_m * earth.sun_radius_rad / kSunRadius_m;
-        frame_.earth_picture_factor = static_cast<float>(au * au);
-    }
+}
+
+void FramePlacer::place_earth_picture() {
+    if (!kept_earth_ || !rays_->is_still() || !background_.earth_in_patches()) return;
+    const PlacedBody& earth = background_.disks().front();
+    if (kept_earth_->place(earth.camera_m, earth.sun_dir)) frame_.earth_picture = &kept_earth_->picture();
+    const double au = kAstronomicalUnit_m * earth.sun_radius_rad / kSunRadius_m;
+    frame_.earth_picture_factor = static_cast<float>(au * au);
 }
 
 void FramePlacer::place_visibility() {

@@ -135,6 +135,7 @@ class FramePlacer {
     void choose_levels();
     void place_objects();
     void place_background();
+    void place_earth_picture();
     VisibilityBuffer::Room visibility_room() const;
 };
 

@@ -83,7 +83,6 @@ class Reflection {
 
     void put(const Facet& facet) {
         samples_ += facet.samples;
-        if (!facet.flattened && dot(facet.geometric_normal, dir_) <= 0) return;
         const std::size_t first = lanes_.count;
         if (facet.flattened) {
             const LevelFacets::Leans lean = facet.flattened->leans();
@@ -93,6 +92,7 @@ class Reflection {
                 lanes_.put(facet.normal, side * Vec3f{lean.x[i], lean.y[i], lean.z[i]}, share[i],
                            facet.flattened->alpha());
         } else {
+            if (dot(facet.geometric_normal, dir_) <= 0) return;
             lanes_.put(facet.normal, {}, 1, 0);
         }
         groups_[group_count_++] = {&facet, first, lanes_.count - first};

@@ -84,8 +84,8 @@ double unevenness(const DrawSource& source, std::size_t dimension, std::size_t c
     return most;
 }
 
-// Of random places it is below 1.95 / sqrt(n) but for one in a thousand (Kolmogorov), and sqrt(pi / 2) ln 2 /
-// sqrt(n) on average; half of that or less has one random source in a hundred. A source that were uniform on
+// The unevenness of random places is below 1.95 / sqrt(n) but for one source in a thousand (Kolmogorov), and
+// sqrt(pi / 2) ln 2 / sqrt(n) on average; one random source in a hundred has half of that or less. A source that were uniform on
 // nine tenths of the interval would have 0.1.
 TEST(DrawSource, PlacesAreUniformAndThoseOfSequencesMoreEvenThanChance) {
     constexpr std::size_t kCount = 4000;
@@ -104,7 +104,7 @@ TEST(DrawSource, TooManyDimensionsForHaltonAreRefused) {
     DrawSource(1, DrawSequence::kRSequence, 25);
 }
 
-// Of attitudes even over SO(3) the turn has the density (1 - cos a) / pi, so the mean of its cosine is -1/2 and
+// The turn of attitudes that are even over SO(3) has the density (1 - cos a) / pi, so the mean of its cosine is -1/2 and
 // the mean of any entry of the matrix is 0, with variance 1/3. 4.5 standard errors.
 TEST(CasePlan, AttitudesAreEvenOverAllRotations) {
     const DrawSource source(11, DrawSequence::kRandom, 3);

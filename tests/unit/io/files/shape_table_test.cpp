@@ -91,7 +91,7 @@ TEST_F(ShapeFiles, AreMeshesAsOthers) {
 TEST(ShapeTable, ErosIsWhole) {
     const std::filesystem::path file =
         std::filesystem::path(HILCAM_SOURCE_DIR) / "../shared/data/shapes/eros007790.tab";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs the shared data, " << file;
     const Mesh m = load_mesh(file);
     EXPECT_EQ(m.triangles.size(), 7790u);
     EXPECT_EQ(m.vertices_m.size(), 3897u);

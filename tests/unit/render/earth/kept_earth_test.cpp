@@ -60,6 +60,8 @@ TEST_F(KeptEarthTest, FarCamerasAloneHaveOne) {
     const Vec3d sun_dir = on_equator(1, 0);
     EXPECT_FALSE(kept.place(on_equator(3.9 * kEarthEquatorialRadius_m, 0), sun_dir));
     EXPECT_TRUE(kept.place(on_equator(4.1 * kEarthEquatorialRadius_m, 0), sun_dir));
+    // The nearest, whose disk is the widest that there is room for.
+    EXPECT_TRUE(kept.place(on_equator(4.00001 * kEarthEquatorialRadius_m, 0), sun_dir));
     // A disk of a few pixels.
     EXPECT_FALSE(kept.place(on_equator(40 * kEarthEquatorialRadius_m, 0), sun_dir));
 }
