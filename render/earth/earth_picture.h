@@ -47,6 +47,7 @@ class EarthPicture {
     };
     static constexpr int kNodes = 3;
     // camera_m: the camera's own place, one that the key is of; dirs: rays of any length at x, y = 0, 1/2, 1 of the square, row by row.
+    // They lie within a radian of the Earth's middle: at a right angle to it there is no place, and behind the camera one too many.
     Tile tile(Vec3d camera_m, const std::array<Vec3d, kNodes * kNodes>& dirs) const;
 
     static constexpr std::size_t kCount = 16;

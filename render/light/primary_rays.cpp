@@ -25,9 +25,7 @@ class PrimaryRays {
           bodies_(frame_.may_see_body(tile.box)),
           sun_(tile.box.overlaps(frame_.sun_box)),
           linear_(frame_.rays->linear()),
-          plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)),
-          pictured_(frame_.sees_earth_picture_only(tile.box)),
-          patched_(bodies_ && linear_ && !pictured_ && frame_.background->earth_in_patches()) {
+          plain_(bodies_ && linear_ && frame_.sees_plain_body_only(tile.box)) {
         sample_rad_ = static_cast<float>(1 / frame_.geometry.focal_length_px) /
                       static_cast<float>(tile.samples_per_axis);
         std::fill_n(weight_.bin.begin(), frame_.bins, 1.0f);
@@ -36,7 +34,8 @@ class PrimaryRays {
             // Single precision is enough from the tile's corner on: 32 px of 2^-24 of a pixel's angle.
             corner_ = linear_->corner + tile.box.x0 * linear_->right + tile.box.y0 * linear_->down;
         }
-        if (pictured_) place_picture();
+        if (frame_.sees_earth_picture_only(tile.box)) place_picture();
+        patched_ = bodies_ && linear_ && !pictured_ && frame_.background->earth_in_patches();
     }
 
     // uncovered: samples of each pixel that see no object, of kVisibilitySamples; null: rays find the
@@ -89,9 +88,9 @@ class PrimaryRays {
     float ray_weight_ = 1;
     bool bodies_, sun_;
     const LinearRays* linear_;
-    bool plain_;     // the one body in view is done sixteen rays at a time
-    bool pictured_;  // the Earth alone is in view, and its picture is kept
-    bool patched_;   // the Earth is seen in patches, where that is good enough
+    bool plain_;             // the one body in view is done sixteen rays at a time
+    bool pictured_ = false;  // the Earth alone is in view, and its picture is kept
+    bool patched_;           // the Earth is seen in patches, where that is good enough
     EarthPicture::Tile picture_{};
     std::array<Spectrum, kPacketSize> earth_;  // radiance of the packet's samples by the picture
     std::optional<EarthPatch> patch_;
@@ -135,6 +134,8 @@ class PrimaryRays {
         return out;
     }
 
+    // The box of a body beside the field may be all of the picture: a tile that the Earth is not in has nothing of it.
+    // One that is wide against the sky is no parabola (EarthPicture::Tile), and is left to rays.
     void place_picture() {
         const PixelBox& box = tile_.box;
         std::array<Vec2d, 9> points;
@@ -143,9 +144,19 @@ class PrimaryRays {
                          box.y0 + 0.5 * static_cast<double>(i / 3) * (box.y1 - box.y0)};
         std::array<CameraRay, 9> rays;
         frame_.rays->generate(points, rays);
+        const auto angle_rad = [](Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); };
         const PlacedBody& earth = frame_.background->disks()[0];
+        const Vec3d middle = normalized(rays[4].dir);
         std::array<Vec3d, 9> dirs;
-        for (std::size_t i = 0; i < dirs.size(); ++i) dirs[i] = earth.fixed_from_world * rays[i].dir;
+        double reach_rad = 0;
+        for (std::size_t i = 0; i < dirs.size(); ++i) {
+            reach_rad = std::max(reach_rad, angle_rad(middle, normalized(rays[i].dir)));
+            dirs[i] = earth.fixed_from_world * rays[i].dir;
+        }
+        constexpr double kWidest_rad = 0.2;
+        bodies_ = angle_rad(middle, earth.world_dir) <= std::acos(earth.cone_cosine) + reach_rad;
+        pictured_ = bodies_ && reach_rad <= kWidest_rad;
+        if (!pictured_) return;
         picture_ = frame_.earth_picture->tile(earth.camera_m, dirs);
     }
 

@@ -39,6 +39,7 @@ inline Scene copy_of(const Scene& scene) {
     copy.lamps = scene.lamps;
     copy.stars = scene.stars;
     copy.bodies = scene.bodies;
+    copy.earth = scene.earth;
     copy.sun_irradiance_1au_w_m2_um = scene.sun_irradiance_1au_w_m2_um;
     copy.limb_darkening = scene.limb_darkening;
     copy.light_later = scene.light_later;

@@ -8,6 +8,7 @@
 
 #include "render/sky/sun.h"
 #include "render/vocabulary/units.h"
+#include "tests/support/stage.h"
 
 namespace hilcam {
 namespace {
@@ -64,6 +65,34 @@ TEST_F(KeptEarthTest, FarCamerasAloneHaveOne) {
     EXPECT_TRUE(kept.place(on_equator(4.00001 * kEarthEquatorialRadius_m, 0), sun_dir));
     // A disk of a few pixels.
     EXPECT_FALSE(kept.place(on_equator(40 * kEarthEquatorialRadius_m, 0), sun_dir));
+}
+
+// Mean radiance with the Earth, from geostationary height, so far from the middle of a field of 19 degrees on each side.
+double light_at(double off_rad, bool kept) {
+    Stage s;
+    s.camera(128, 0.35);
+    s.earth(0.3);
+    s.scene.earth =
+        std::make_shared<const EarthModel>(EarthConfig{}, seeded_clouds(3, 64), EarthMap(), nullptr, s.grid);
+    s.quality.kept_earth = kept;
+    s.quality.visibility = kept ? "buffer" : "rays";
+    s.quality.samples_per_axis = kept ? 1 : 12;
+    s.sun({0.3, 0.5, -1});
+    s.world.bodies[BodyId::kEarth].world_m = 42164e3 * Vec3d{std::sin(off_rad), 0, std::cos(off_rad)};
+    s.render();
+    return s.mean();
+}
+
+// The last shows a rim of it, with whatever cloud is there.
+TEST(KeptEarth, IsAsBrightAsByManyRays) {
+    for (const double off_rad : {0.0, 0.2, 0.4})
+        EXPECT_NEAR(light_at(off_rad, true) / light_at(off_rad, false), 1, 0.02) << off_rad;
+}
+
+// Beside the field, across it, and behind the camera. About a right angle it has no projection.
+TEST(KeptEarth, IsNowhereElse) {
+    for (double off_rad = 0.8; off_rad < 3.15; off_rad += 0.05)
+        EXPECT_EQ(light_at(off_rad, true), 0) << off_rad;
 }
 
 }  // namespace
