@@ -226,7 +226,8 @@ Spectrum SkyLight::past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, flo
     const Vec3f seen = outside > -depth ? at(limb_rad - depth) : mirror;
     Spectrum weight, out;
     weight.bin.fill(share);
-    background_->add_bodies({}, to_double(seen), weight, out);
+    // A mirrored ray turns by twice what its facet does: so wide a part of the maps it sees.
+    background_->add_bodies({}, to_double(seen), weight, out, 2 * static_cast<double>(alpha));
     return out;
 }
 
