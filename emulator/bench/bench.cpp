@@ -61,7 +61,7 @@ Run run_once(const ScenarioConfig& scenario, const BenchOptions& options) {
     limits.paced = false;
     limits.outputs = false;
     Emulator emulator(scenario, limits);
-    const std::optional<CircleFlight> flight = flight_around_target(scenario);
+    const std::optional<CircleFlight> flight = flight_of_pilot(scenario);
     {
         const Progress progress("frames", static_cast<double>(limits.frames), [&emulator] {
             return static_cast<double>(emulator.loop().counters().frames.load());

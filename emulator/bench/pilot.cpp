@@ -3,18 +3,24 @@
 #include <cmath>
 
 #include "emulator/scenario/initial_world.h"
+#include "render/vocabulary/check.h"
 
 namespace hilcam {
 
-std::optional<CircleFlight> flight_around_target(const ScenarioConfig& scenario) {
+CircleFlight circle_around_target(const ScenarioConfig& scenario) {
     const std::vector<Motion> motions = initial_motions(scenario, parse_utc(scenario.time_utc));
-    if (motions.size() < 2) return {};
+    HILCAM_CHECK(motions.size() >= 2);
     CircleFlight flight;
     flight.center_m = motions[1].pose.position_world_m;
     flight.start_m = motions[0].pose.position_world_m;
     flight.axis = flight.up = scenario.camera_pose.up;
     flight.period_s = 120;
     return flight;
+}
+
+std::optional<CircleFlight> flight_of_pilot(const ScenarioConfig& scenario) {
+    if (scenario.objects.empty() || scenario.camera_motion) return {};
+    return circle_around_target(scenario);
 }
 
 Pilot::Pilot(Emulator& emulator, const CircleFlight& flight, std::function<double(std::int64_t)> flown_s)

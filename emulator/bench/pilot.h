@@ -12,9 +12,10 @@
 
 namespace hilcam {
 
-// Once around the first object, from the camera's pose on, in two minutes; none where a scene has no object: its camera moves as the
-// scenario says.
-std::optional<CircleFlight> flight_around_target(const ScenarioConfig& scenario);
+// Once around the first object, from the camera's pose on, in two minutes. The scenario has an object.
+CircleFlight circle_around_target(const ScenarioConfig& scenario);
+// Returns that; none where the camera moves as the scenario says: by a motion of its own, or without an object.
+std::optional<CircleFlight> flight_of_pilot(const ScenarioConfig& scenario);
 
 // Sends the first camera's poses while it lives, 100 a second on average, each true when it is sent. They
 // come 5 to 15 ms apart, so that they keep no rhythm with the frames: with one, latency would drift with

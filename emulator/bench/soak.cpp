@@ -136,7 +136,7 @@ Soak soak(const ScenarioConfig& configured, const SoakOptions& options) {
     // The watch ends by itself; a second in case it is late.
     limits.seconds = soak.round_s + options.seconds + 1;
     Emulator emulator(scenario, limits);
-    std::optional<CircleFlight> flight = flight_around_target(scenario);
+    std::optional<CircleFlight> flight = flight_of_pilot(scenario);
     if (flight) flight->period_s = soak.round_s;
     std::optional<SliceWatch> watch;
     {

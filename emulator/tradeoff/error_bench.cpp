@@ -23,7 +23,7 @@ struct View {
 // start.
 std::vector<View> views_of(const ScenarioConfig& scenario, const WorldSnapshot& world, int count) {
     if (scenario.objects.empty()) return {View{}};
-    CircleFlight flight = flight_around_target(scenario).value();
+    CircleFlight flight = circle_around_target(scenario);
     if (scenario.camera_motion) flight.start_m = world.camera.position_world_m;
     if (scenario.objects.front().motion) flight.center_m = world.objects.front().position_world_m;
     std::vector<View> out;

@@ -133,102 +133,106 @@ void SkyLight::place(const Background& background) {
     }
 }
 
-// Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
 void SkyLight::place_disks(const Background& background, std::size_t number, Disks& disks) {
     const BodyLight& lamp = background.body_lights()[number];
     const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
     disks.cosine = std::cos(half_angle), disks.sine = std::sin(half_angle);
     disks.half_angle_rad = half_angle;
-    Disk& whole = disks.of.back();
     const Vec3f axis = to_float(lamp.world_dir);
-    find_limb(background, number, disks);
-    Spectrum each_sr;
-    each_sr.bin.fill(2 * kPiF * lamp.one_minus_cosine / kPatches);
-    const auto patch_rad = static_cast<double>(std::sqrt(each_sr[0]));
-    for (std::size_t i = 0; i < kPatches; ++i) {
-        const Vec3f dir = spiral(axis, lamp.one_minus_cosine, i, kPatches);
-        whole.x[i] = dir.x, whole.y[i] = dir.y, whole.z[i] = dir.z;
-        whole.irradiance[i] = {};
-        Spectrum weight = each_sr;
-        background.add_bodies({}, to_double(dir), weight, whole.irradiance[i], patch_rad);
-    }
+    disks.map.place(background, axis, lamp.one_minus_cosine);
     for (std::size_t k = 0; k < kParts.size(); ++k) {
         // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half
         // of that.
         disks.of[k].min_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
-        if (kParts[k] < kPatches) place_parts(whole, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
+        place_parts(disks.map, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
     }
 }
 
-void SkyLight::find_limb(const Background& background, std::size_t lamp, Disks& disks) {
-    const Frame frame(to_float(background.body_lights()[lamp].world_dir));
-    for (std::size_t i = 0; i < Disks::kPlanes; ++i) {
-        const float phi = 2 * kPiF * static_cast<float>(i) / Disks::kPlanes;
-        const Vec3f way = std::cos(phi) * frame.t + std::sin(phi) * frame.b;
-        disks.limb_rad[i] = static_cast<float>(background.limb_angle_rad(lamp, to_double(way)));
-    }
-}
-
-// way: unit, across the axis.
-float SkyLight::Disks::limb_in(Vec3f axis, Vec3f way) const {
-    const Frame frame(axis);
-    const float turn = std::atan2(dot(way, frame.b), dot(way, frame.t)) / (2 * kPiF);
-    const float x = (turn < 0 ? turn + 1 : turn) * static_cast<float>(kPlanes);
-    const std::size_t i = static_cast<std::size_t>(x) % kPlanes;
-    const float part = std::min(x - std::floor(x), 1.0f);
-    return limb_rad[i] + part * (limb_rad[(i + 1) % kPlanes] - limb_rad[i]);
-}
-
-// Each patch's light goes to the nearest of fewer, which stand in the middle of what they have of it.
-void SkyLight::place_parts(const Disk& whole, Vec3f axis, float one_minus_cosine, std::size_t count,
+// Each part's light goes to the nearest of equal areas on the cone, by a golden-angle spiral (Vogel 1979), which
+// stand in the middle of what they have of it.
+void SkyLight::place_parts(const BodyMap& map, Vec3f axis, float one_minus_cosine, std::size_t count,
                            Disk& out) {
     std::array<Vec3f, kPatches> seed, middle{};
     for (std::size_t k = 0; k < count; ++k)
         seed[k] = spiral(axis, one_minus_cosine, k, count), out.irradiance[k] = {};
-    for (std::size_t i = 0; i < kPatches; ++i) {
-        const Vec3f dir{whole.x[i], whole.y[i], whole.z[i]};
+    map.each_part([&](Vec3f dir, const Spectrum& light) {
+        if (!(largest(light) > 0)) return;
         std::size_t best = 0;
-        for (std::size_t k = 1; k < count; ++k)
-            if (dot(seed[k], dir) > dot(seed[best], dir)) best = k;
-        out.irradiance[best] += whole.irradiance[i];
-        middle[best] = middle[best] + largest(whole.irradiance[i]) * dir;
-    }
+        float nearest = -2;
+        for (std::size_t k = 0; k < count; ++k)
+            if (const float cosine = dot(seed[k], dir); cosine > nearest) nearest = cosine, best = k;
+        out.irradiance[best] += light;
+        middle[best] = middle[best] + largest(light) * dir;
+    });
     for (std::size_t k = 0; k < count; ++k) {
         const Vec3f dir = dot(middle[k], middle[k]) > 0 ? normalized(middle[k]) : seed[k];
         out.x[k] = dir.x, out.y[k] = dir.y, out.z[k] = dir.z;
     }
 }
 
-// Returns the light that a lobe reflects which is narrow against the disk: all that it sees of the disk has
-// one radiance, and the limb cuts off the rest as a straight line does.
-Spectrum SkyLight::past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
-    const Disks& disks = disks_[body];
-    const Vec3f axis = bodies_[body].world_dir, mirror = normalized(reflect(view_dir, normal));
-    const float cosine = std::clamp(dot(mirror, axis), -1.0f, 1.0f);
-    const Vec3f across = mirror - cosine * axis;
-    const float sine = length(across);
-    const Vec3f way = sine > 1e-6f ? across / sine : Frame(axis).t;
-    // Along the great circle from the disk's middle through the mirror's direction.
-    const auto at = [&](float angle) { return std::cos(angle) * axis + std::sin(angle) * way; };
-    const float limb_rad = disks.limb_in(axis, way), outside = std::acos(cosine) - limb_rad;
-    const Vec3f limb = at(limb_rad);
-    if (outside > 0 && (alpha == 0 || dot(limb, normal) <= 0)) return {};
-    // GGX slopes along one axis: density a^2 / (2 (a^2 + s^2)^1.5) (Heitz, JCGT 3(2), 2014, sec. 5,
-    // integrated over the other axis).
-    float share = 1;
-    if (alpha > 0) {
-        const float nh = std::min(dot(normalized(limb + view_dir), normal), 1.0f);
-        const float slope = std::sqrt(std::max(1 / std::max(nh * nh, 1e-6f) - 1, 0.0f));
-        share = 0.5f + std::copysign(0.5f, -outside) * slope / std::sqrt(slope * slope + alpha * alpha);
+namespace {
+
+// Slopes of facets that share the GGX distribution evenly between them: a share u of it leans by no more than
+// alpha sqrt(u / (1 - u)) (Walter et al., EGSR 2007, eq. 35).
+struct FacetSlopes {
+    static constexpr std::size_t kMost = 64;
+    std::size_t count;
+    std::array<float, kMost> x{}, y{}, squared{};  // in units of alpha
+
+    explicit FacetSlopes(std::size_t n) : count(n) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
+            const float phi = 2 * kPiF * kGolden * static_cast<float>(i);
+            squared[i] = u / (1 - u);
+            x[i] = std::sqrt(squared[i]) * std::cos(phi), y[i] = std::sqrt(squared[i]) * std::sin(phi);
+        }
     }
-    // Past the limb the lobe sees it about as deep as it is away; within, not before its own width.
-    const float depth = std::clamp(std::max(outside, alpha), 0.01f * limb_rad, limb_rad);
-    const Vec3f seen = outside > -depth ? at(limb_rad - depth) : mirror;
-    Spectrum weight, out;
-    weight.bin.fill(share);
-    // A mirrored ray turns by twice what its facet does: so wide a part of the maps it sees.
-    background_->add_bodies({}, to_double(seen), weight, out, 2 * static_cast<double>(alpha));
-    return out;
+};
+// The limb is an edge, for which sixteen are too few: 0.04 of the disk's light.
+const FacetSlopes kSlopes(16), kSlopesAtLimb(64);
+
+}  // namespace
+
+// Facets of the lobe, each with what it sees of the map over its share of the directions (Krivanek & Colbert, GPU
+// Gems 3, 2007, ch. 20). Those that the map is too coarse for see it together along the mirror's direction, and each
+// by itself where the disk's limb is near.
+Spectrum SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
+    const Disks& disks = disks_[body];
+    const Frame local(normal);
+    const float no = std::max(dot(normal, view_dir), 1e-2f);
+    const auto look_at = [&](Vec3f dir, float spread_sr) {
+        Spectrum weight, out;
+        weight.bin.fill(1);
+        background_->add_bodies({}, to_double(dir), weight, out, std::sqrt(static_cast<double>(spread_sr)));
+        return out;
+    };
+    constexpr float kLimb = 4;  // reach of four fifths of the facets [alpha]
+    const Vec3f mirror = normalized(reflect(view_dir, normal));
+    const float off = std::acos(std::clamp(dot(mirror, bodies_[body].world_dir), -1.0f, 1.0f));
+    const bool at_limb = std::abs(off - disks.half_angle_rad) < kLimb * alpha;
+    const FacetSlopes& slopes = at_limb ? kSlopesAtLimb : kSlopes;
+    Spectrum sum;
+    float all = 0, together = 0, density = 0;
+    for (std::size_t i = 0; i < slopes.count; ++i) {
+        const float steep = 1 + alpha * alpha * slopes.squared[i], nh = 1 / std::sqrt(steep);
+        const Vec3f facet = nh * local.to_world({alpha * slopes.x[i], alpha * slopes.y[i], 1});
+        const Vec3f dir = reflect(view_dir, facet);
+        const float vh = dot(view_dir, facet), ni = dot(normal, dir);
+        if (!(vh > 0 && ni > 0)) continue;
+        const float weight = 4 * vh / nh * ni * ggx_visibility(alpha, no, ni);
+        const float spread_sr =
+            4 * vh / (nh * ggx_distribution(alpha, nh) * static_cast<float>(slopes.count));
+        all += weight;
+        if (spread_sr >= disks.map.texel_sr())
+            sum += weight * disks.map.about(dir, spread_sr);
+        else if (at_limb)
+            sum += weight * look_at(dir, spread_sr);
+        else
+            together += weight, density += weight / spread_sr;
+    }
+    // They look about as far as an even disk would of the same mean density.
+    if (together > 0) sum += together * look_at(mirror, together * together / density);
+    return all > 0 ? (1 / all) * sum : Spectrum{};
 }
 
 // Middle and size of the even disk whose light has the same mean direction and spread: half angle is the root
@@ -264,7 +268,7 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
     // Two parts' distance past the limb a narrow lobe's tail is even over a part, and the disk is no half of
     // the sky.
     if (alpha < disk.min_alpha && off > std::cos(disks.half_angle_rad + 4 * disk.min_alpha))
-        return past_limb(body, normal, view_dir, alpha);
+        return narrow_lobe(body, normal, view_dir, alpha);
     const float limb =
         off >= disks.cosine ? 1.0f : off * disks.cosine + std::sqrt(1 - off * off) * disks.sine;
     const float no = std::max(dot(normal, view_dir), 1e-2f);

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "render/light/body_map.h"
 #include "render/scene/background.h"
 
 namespace hilcam {
@@ -62,11 +63,7 @@ class SkyLight {
     struct Disks {
         std::array<Disk, kParts.size()> of;              // by kParts
         float cosine = 1, sine = 0, half_angle_rad = 0;  // a cone that holds it
-        // The directions of its limb in the planes through its middle, from the first axis of its frame on: a
-        // body that is flattened fills no cone.
-        static constexpr std::size_t kPlanes = 32;
-        std::array<float, kPlanes> limb_rad{};
-        float limb_in(Vec3f axis, Vec3f way) const;
+        BodyMap map;
     };
 
     const Background* background_ = nullptr;
@@ -75,11 +72,10 @@ class SkyLight {
     std::array<DirectionMap, kMaxBodies> irradiance_;
     std::array<Disks, kMaxBodies> disks_;
 
-    Spectrum past_limb(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
+    Spectrum narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);
     static void place_disks(const Background& background, std::size_t number, Disks& disks);
-    static void find_limb(const Background& background, std::size_t lamp, Disks& disks);
-    static void place_parts(const Disk& whole, Vec3f axis, float one_minus_cosine, std::size_t count,
+    static void place_parts(const BodyMap& map, Vec3f axis, float one_minus_cosine, std::size_t count,
                             Disk& out);
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/brdf/microfacet.h"
+#include "render/earth/earth_model.h"
 #include "tests/support/furnace.h"
 #include "tests/support/stage.h"
 
@@ -199,6 +200,34 @@ TEST(KeptLight, PolishedMetalSeesALimbThatIsFlattened) {
     for (const double tilt_deg : {34.4, 34.6, 34.8, 35.0, 35.2})
         EXPECT_NEAR(light("kept", 2, tilt_deg) / inside, light("path", 16, tilt_deg) / inside, 0.05)
             << tilt_deg;
+}
+
+// Solar panels mirror clouds: what their lobes see of a field of them differs from place to place as its light
+// averaged over the lobe does, not as that of single clouds.
+TEST(KeptLight, PolishedMetalMirrorsClouds) {
+    const auto light = [](const char* model, double roughness, int samples, double tilt_deg) {
+        MetalStage s(model, roughness, samples, 8, 0.005);
+        s.scene.earth = std::make_shared<const EarthModel>(EarthConfig{}, seeded_clouds(3, 256), EarthMap(),
+                                                           nullptr, s.grid);
+        s.world.bodies[BodyId::kEarth].fixed_from_world = {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+        s.add(plate(s.metal, s.grid), {0, 0, 4}, {kPi + tilt_deg * kDegree_rad, 0, 0});
+        s.sun({0, 0.5, 1});
+        s.render();
+        return s.mean();
+    };
+    for (const double roughness : {0.07, 0.2}) {
+        double paths = 0, paths_squared = 0, error_squared = 0;
+        constexpr int kPlaces = 8;
+        for (int i = 0; i < kPlaces; ++i) {
+            const double tilt_deg = 2 + 3 * i, truth = light("path", roughness, 8, tilt_deg);
+            const double error = light("kept", roughness, 2, tilt_deg) - truth;
+            paths += truth, paths_squared += truth * truth, error_squared += error * error;
+        }
+        const double mean = paths / kPlaces, spread = std::sqrt(paths_squared / kPlaces - mean * mean);
+        const double error = std::sqrt(error_squared / kPlaces);
+        EXPECT_GT(spread / mean, 0.1);
+        EXPECT_LT(error / mean, 0.06) << "roughness " << roughness << ", spread " << spread / mean;
+    }
 }
 
 // A white floor under tiles that cover most of it, a hair above: what is seen of it are the gaps, and those

@@ -1,0 +1,66 @@
+#pragma once
+// The radiance of a body's disk as objects see it, as a picture with its halves: for lobes of facets, each of which
+// sees many of its places. Made once a frame.
+//
+// The picture is Lambert's azimuthal projection of the cone that holds the disk (Snyder, Map Projections, USGS
+// Professional Paper 1395, 1987, ch. 24): all of its texels have one solid angle.
+
+#include <array>
+#include <vector>
+
+#include "render/scene/background.h"
+
+namespace hilcam {
+
+class BodyMap {
+  public:
+    // About the narrowest lobe for which a texel is small enough [rad], and the most texels across.
+    static constexpr float kWantedTexel_rad = 0.02f;
+    static constexpr int kLeastSide = 8, kMostSide = 64;
+
+    BodyMap();
+
+    // Looks at the disk that a cone about `axis` holds; world, unit. Loop; no allocation of its own.
+    void place(const Background& background, Vec3f axis, float one_minus_cosine);
+
+    // Calls use(direction, light) for each part of the disk, of 32 across at most. light: radiance times its solid
+    // angle.
+    template <class Use>
+    void each_part(const Use& use) const {
+        const int level = side_ > kMostParts ? 1 : 0;
+        const float part_sr = level == 0 ? texel_sr_ : 4 * texel_sr_;
+        for (int y = 0; y < side_ >> level; ++y)
+            for (int x = 0; x < side_ >> level; ++x)
+                use(place_of(level, x, y).dir, part_sr * *texel(level, x, y));
+    }
+    float texel_sr() const { return texel_sr_; }
+    // Returns the mean radiance about a direction, over `spread_sr` or a texel; nothing beyond the cone. dir: unit,
+    // world. Loop, any thread.
+    Spectrum about(Vec3f dir, float spread_sr) const;
+
+  private:
+    static constexpr int kLevels = 4;  // 64, 32, 16, 8
+    static constexpr int kMostParts = 32;
+    static_assert(kMostSide <= 2 * kMostParts);
+    struct Place {
+        Vec3f dir;
+        bool inside;
+    };
+    Frame frame_{{0, 0, 1}};
+    int side_ = kLeastSide, levels_ = 1;
+    float radius_ = 1;  // radius of the cone in the projection: 2 sin(half angle / 2)
+    float texel_sr_ = 1;
+    // Level after level, each with a border of nothing.
+    std::array<std::vector<Spectrum>, kLevels> texels_;
+
+    Place place_of(int level, int x, int y) const;
+    const Spectrum* texel(int level, int x, int y) const {
+        return &texels_[static_cast<std::size_t>(level)][index(level, x, y)];
+    }
+    std::size_t index(int level, int x, int y) const {
+        return static_cast<std::size_t>((y + 1) * ((side_ >> level) + 2) + x + 1);
+    }
+    void halve(int level);
+};
+
+}  // namespace hilcam
