@@ -24,7 +24,8 @@ from PIL import Image
 TILE = 256
 # Reflectances in the bands blue, green, red and near infrared (0.40-0.49, 0.49-0.58, 0.58-0.70, 0.72-0.95 um) and the linear
 # values that the picture has there. Forest: the canopy of configs/materials/vegetation.yaml (PROSAIL) for the Amazon and the Congo. Sand: about
-# what sensors in orbit see of the calibration site Libya-4 (28.55 N, 23.39 E), to a tenth. Snow: configs/materials/snow.yaml (Grenfell, Warren &
+# what sensors in orbit see of the calibration site Libya-4 (28.55 N, 23.39 E), to a tenth; the site's place was looked up, a table of its reflectances was
+# not found, so these are from memory. Snow: configs/materials/snow.yaml (Grenfell, Warren &
 # Mullen 1994) for Dome C and Greenland. The picture is stretched for the eye: between these it is taken as a power law.
 FOREST_RGB, FOREST = (0.0096, 0.0207, 0.0032), (0.020, 0.045, 0.029)
 SAND_RGB, SAND, SAND_NIR = (0.616, 0.449, 0.248), (0.25, 0.35, 0.46), 0.58
