@@ -60,21 +60,35 @@ class EarthModel {
     // function, from `looks` directions. camera_dir, sun_dir: unit, from the centre.
     Spectrum disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) const;
 
-    // One line each for `hilcam check`.
-    std::vector<std::string> describe() const;
+    // Parts that can be left out, so that `hilcam check` can tell what each costs; and the rest.
+    enum class Part { kSurface, kSea, kClouds, kAir, kLights };
+    struct PartInfo {
+        Part part;
+        std::string text;
+        std::size_t bytes;
+    };
+    // Those that it has, in the order of Part.
+    std::vector<PartInfo> parts() const;
+    // A copy that lacks a part, on the same maps and tables. HILCAM_CHECK: not the surface. Not for the loop.
+    EarthModel without(Part part) const;
 
   private:
-    EarthMap ground_, clouds_;
+    // Shared by copies.
+    std::shared_ptr<const EarthMap> ground_map_, cloud_map_;
     const Atmosphere* air_;
-    std::unique_ptr<const AirColumns> columns_;  // null without air
-    std::unique_ptr<const CloudTable> table_;    // null without clouds
+    std::shared_ptr<const AirColumns> columns_;  // null without air
+    std::shared_ptr<const CloudTable> table_;    // null without clouds
     LandBands land_;
     Sea sea_;
     float cloud_factor_;
     Spectrum city_w_m2_sr_um_;  // radiance of the brightest
     int bins_;
     double wind_m_s_, lights_;
+    bool glints_ = true;
 
+    const EarthMap& ground() const { return *ground_map_; }
+    const EarthMap& clouds() const { return cloud_map_->empty() ? *ground_map_ : *cloud_map_; }
+    bool together() const { return cloud_map_->empty(); }  // ground and clouds are of one map
     struct Place;
     void place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const;
     Atmosphere::Sight air_past(const Ray& ray) const;
