@@ -16,7 +16,7 @@ constexpr Figure kEarth = kFigures[index_of(BodyId::kEarth)];
 constexpr double kRadius_m = 6371008.8;  // mean (Moritz, J. Geodesy 74, 128, 2000)
 constexpr float kPerPi = static_cast<float>(1 / kPi);
 // A ray looks for clouds here first, then at their own height.
-constexpr float kUsualTop_m = 4000;
+constexpr auto kUsualTop_m = static_cast<float>(EarthModel::kCloudLevel_m);
 constexpr float kMinCloud = 2e-3f;
 
 Vec3d stretched(Vec3d v) { return {v.x, v.y, v.z * kEarth.equatorial_radius_m / kEarth.polar_radius_m}; }

@@ -41,7 +41,9 @@ class EarthModel {
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
     // before the sky; else weight is dimmed by what air it met.
     bool add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const;
-    static constexpr double kHighest_m = 16000;  // height of clouds
+    static constexpr double kHighest_m = 16000;    // height of clouds
+    static constexpr double kCloudLevel_m = 4000;  // level on which clouds stand out beyond the limb
+    bool has_clouds() const { return table_ != nullptr; }
     // The same in two steps, for pixels that share an aspect. False where the ground is not met, or grazed.
     bool aspect_of(const Ray& ray, EarthAspect& aspect) const;
     // The longest side of a footprint in texels of the finest map.
