@@ -1,12 +1,16 @@
 #!/usr/bin/python3
 """Makes maps of the Earth for hilcam (docs/earth.md says what each channel holds and where its scale comes from).
 
-    tools/make_earth_map.py FOLDER configs/maps/earth.map [--width 4096]        land, water, clouds and lights, packed
+    tools/make_earth_map.py FOLDER configs/maps/earth.map [--width 4096] [--sea-ice NORTH SOUTH]        land, water, ice, clouds and lights, packed
     tools/make_earth_map.py Earth_ALB_2018_CERES_All_1x1.csv configs/maps/earth_albedo.png      the mean albedo of a year
 
 FOLDER holds equirectangular pictures, left edge 180 W, top 90 N, twice as wide as high: `blue_marble_albedo`, `_water`, `_cloud` and
-`_glow`, each .jpg, .png or .tif (a GeoTIFF through GDAL's Python module where that is installed: other projections and extents are refused).
+`_glow`, each .jpg, .png or .tif (a GeoTIFF of 8 or 16 bits through GDAL's Python module, python3-gdal, where that is installed; it may begin
+at any longitude; other projections and extents are refused).
 Each of them can be given alone by --albedo, --water, --clouds, --lights.
+
+The pictures have no sea ice. With --sea-ice it is put on the water about each pole, as far from it as makes the extents NORTH and SOUTH [million km^2]:
+11.4 10.3 as the mean of August and February, 7.2 17.7 in August, 15.6 2.8 in February. Where ice really ends differs with the longitude.
 
 The CSV: 180 rows from the south pole up, 360 columns from 180 W on, broadband shortwave albedo at the top of the atmosphere, all sky,
 mean of 2018: NASA CERES (Energy Balanced and Filled; Loeb et al., J. Climate 31, 895, 2018), as the Basilisk project distributes it.
@@ -24,7 +28,8 @@ from PIL import Image
 TILE = 256
 # Reflectances in the bands blue, green, red and near infrared (0.40-0.49, 0.49-0.58, 0.58-0.70, 0.72-0.95 um) and the linear
 # values that the picture has there. Forest: the canopy of configs/materials/vegetation.yaml (PROSAIL) for the Amazon and the Congo. Sand: about
-# what sensors in orbit see of the calibration site Libya-4 (28.55 N, 23.39 E), to a tenth. Snow: configs/materials/snow.yaml (Grenfell, Warren &
+# what sensors in orbit see of the calibration site Libya-4 (28.55 N, 23.39 E), to a tenth; the site's place was looked up, a table of its reflectances was
+# not found, so these are from memory. Snow: configs/materials/snow.yaml (Grenfell, Warren &
 # Mullen 1994) for Dome C and Greenland. The picture is stretched for the eye: between these it is taken as a power law.
 FOREST_RGB, FOREST = (0.0096, 0.0207, 0.0032), (0.020, 0.045, 0.029)
 SAND_RGB, SAND, SAND_NIR = (0.616, 0.449, 0.248), (0.25, 0.35, 0.46), 0.58
@@ -33,6 +38,13 @@ FOREST_NIR = 0.40
 # The cloud picture has no unit: white is taken as a cloud that nothing passes, and grey as this power of it, which is set so that the Earth's
 # Bond albedo from 0.4 to 0.7 um comes out as 0.30 (0.297 by earthshine: Goode et al., Geophys. Res. Lett. 28, 1671, 2001).
 CLOUD_POWER = 1.4
+# Sea ice. Extents [million km^2] that --help names: August 7.20 and 17.72 (1981 to 2010: 6.01 are 16.53 % less, 18.66 are 5.30 % more; NOAA NCEI, Global
+# Snow and Ice Report for August 2013); February 15.64 and, the least of the year, 2.78 (1979 to 2000: 14.58 are 1.06 less, 2.87 are 0.0885 more; NSIDC's news of March 2010).
+# What is within the extent is ice by a share, assumed. Ice under snow has the spectrum of snow, whose albedo over the whole spectrum it has, too
+# (first-year ice under more than 3 cm of snow, clear sky, spring: 0.81); the north's is taken as half a year bare (0.54), half a year under snow: Brandt, Warren,
+# Worby & Grenfell, J. Climate 18, 3606, 2005, table 1.
+SEA_ICE_SHARE, NORTH_ICE_OVER_SNOW = 0.8, 0.5 * (0.54 / 0.81 + 1)
+EARTH_RADIUS_KM = 6371.0
 
 
 def stop(message):
@@ -44,25 +56,44 @@ def linear_of_srgb(code):
     return numpy.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4).astype(numpy.float32)[code]
 
 
+def read_geotiff(path):
+    """A GeoTIFF's 8-bit values, from 180 W and 90 N on, through GDAL; none where GDAL's Python module is not installed."""
+    try:
+        from osgeo import gdal, osr
+    except ImportError:
+        print(f"{path}: GDAL's Python module (python3-gdal) is not installed, so its projection is not looked at", file=sys.stderr)
+        return None
+    gdal.UseExceptions()
+    try:
+        source = gdal.Open(str(path))
+    except RuntimeError as error:
+        stop(f"{path}: GDAL cannot read it: {error}")
+    if source.GetProjection() and not osr.SpatialReference(wkt=source.GetProjection()).IsGeographic():
+        stop(f"{path}: its projection is not read; accepted: longitude and latitude (gdalwarp -t_srs EPSG:4326 makes them)")
+    first = source.GetRasterBand(1)
+    if first.GetRasterColorTable():
+        stop(f"{path}: its values are numbers of a palette; accepted: grey or colours (gdal_translate -expand rgb makes them)")
+    kinds = {gdal.GDT_Byte: 1, gdal.GDT_UInt16: 257}
+    if first.DataType not in kinds:
+        stop(f"{path}: its values are {gdal.GetDataTypeName(first.DataType)}; accepted: Byte, UInt16 (gdal_translate -ot Byte -scale makes them)")
+    bands = 3 if source.RasterCount >= 3 else 1
+    values = numpy.stack([source.GetRasterBand(k + 1).ReadAsArray() for k in range(bands)], axis=-1)
+    values = (values // kinds[first.DataType]).astype(numpy.uint8)
+    x0, dx, _, y0, _, dy = source.GetGeoTransform()
+    if source.GetProjection():
+        if abs(dx * source.RasterXSize - 360) > 0.2 or abs(y0 - 90) > 0.1 or abs(dy * source.RasterYSize + 180) > 0.2 or abs(x0) > 180.1:
+            stop(f"{path}: it does not cover the Earth from 90 N to 90 S and all around; accepted: the whole (gdalwarp -te -180 -90 180 90)")
+        # Columns from wherever it begins to 180 W.
+        values = numpy.roll(values, round((x0 + 180) / dx), axis=1)
+    return Image.fromarray(values if bands == 3 else values[..., 0])
+
+
 def read_picture(path, mode):
     """A picture as 8-bit values; GeoTIFFs through GDAL, which knows their projection."""
-    if path.suffix.lower() in (".tif", ".tiff"):
-        try:
-            from osgeo import gdal, osr
-        except ImportError:
-            print(f"{path}: GDAL's Python module is not installed, so its projection is not looked at", file=sys.stderr)
-        else:
-            source = gdal.Open(str(path))
-            if source is None:
-                stop(f"{path}: GDAL cannot read it")
-            if source.GetProjection() and not osr.SpatialReference(wkt=source.GetProjection()).IsGeographic():
-                stop(f"{path}: its projection is not read; accepted: longitude and latitude (gdalwarp -t_srs EPSG:4326 makes them)")
-            x0, dx, _, y0, _, dy = source.GetGeoTransform()
-            if source.GetProjection() and (abs(x0 + 180) > 0.1 or abs(y0 - 90) > 0.1 or abs(dx * source.RasterXSize - 360) > 0.2 or
-                                           abs(dy * source.RasterYSize + 180) > 0.2):
-                stop(f"{path}: it does not cover the Earth from 180 W, 90 N; accepted: the whole (gdalwarp -te -180 -90 180 90)")
     Image.MAX_IMAGE_PIXELS = None
-    picture = Image.open(path)
+    picture = read_geotiff(path) if path.suffix.lower() in (".tif", ".tiff") else None
+    if picture is None:
+        picture = Image.open(path)
     if picture.width != 2 * picture.height:
         stop(f"{path}: {picture.width} x {picture.height} pixels; accepted: twice as wide as high, 180 W to 180 E and 90 N to 90 S")
     return numpy.asarray(picture.convert(mode))
@@ -95,7 +126,50 @@ def reflectances(rgb):
     return numpy.stack([blue, green, red, nir], axis=-1), snow
 
 
-def channels(pictures, width):
+def waves(height, width, cycles, seed):
+    """Smooth noise over the map, rms 1 and whole around it: thirty waves of about so many cycles a turn. The same in every run."""
+    random = numpy.random.RandomState(seed)
+    turn = 2 * numpy.pi * (numpy.arange(width) + 0.5) / width
+    south = numpy.pi * (numpy.arange(height) + 0.5) / height
+    out = numpy.zeros((height, width), numpy.float32)
+    for _ in range(30):
+        across, down = random.randint(1, cycles + 1), random.normal(0, cycles)
+        phase = across * turn[None] + down * south[:, None] + 2 * numpy.pi * random.random_sample()
+        out += numpy.sin(phase).astype(numpy.float32)
+    return out / numpy.sqrt(15)
+
+
+def sea_ice(water, extents_million_km2):
+    """The share of ice in each texel [0..1], and how bright it is against snow: on the water about each pole, as far from it as makes the extent. The
+    edge wanders by two degrees and the cover by a tenth, which is invented: an even cap is seen to be one."""
+    height, width = water.shape
+    latitude_deg = 90 - (numpy.arange(height) + 0.5) / height * 180
+    cell_km2 = 2 * numpy.pi * EARTH_RADIUS_KM**2 * numpy.cos(numpy.radians(latitude_deg)) * (numpy.pi / height) / width
+    polar_deg = abs(latitude_deg)[:, None] + sum(degrees * waves(height, width, cycles, cycles)
+                                               for degrees, cycles in ((1.6, 4), (0.8, 12), (0.5, 40), (0.5, 120), (0.5, 400)))
+    cover = numpy.clip(SEA_ICE_SHARE + 0.06 * waves(height, width, 30, 3) + 0.06 * waves(height, width, 300, 4), 0, 1)
+    share = numpy.zeros((height, width), numpy.float32)
+    for rows, extent in zip((slice(0, height // 2), slice(height // 2, height)), extents_million_km2):
+        # Water by its distance from the pole, nearest first, until the extent is full. Ice thins out over four degrees.
+        order = numpy.argsort(-polar_deg[rows], axis=None)
+        within = numpy.cumsum((water[rows] * cell_km2[rows, None]).ravel()[order], dtype=float)
+        if extent > 0:
+            edge_deg = polar_deg[rows].ravel()[order[min(numpy.searchsorted(within, extent * 1e6), order.size - 1)]]
+            share[rows] = cover[rows] * numpy.clip((polar_deg[rows] - edge_deg) / 4 + 0.5, 0, 1)
+    bright = numpy.where(latitude_deg > 0, NORTH_ICE_OVER_SNOW, 1.0).astype(numpy.float32)
+    return share * water, bright[:, None]
+
+
+def with_sea_ice(land, water, extents_million_km2):
+    """Land with the ice, and the water that is left."""
+    ice, bright = sea_ice(water, extents_million_km2)
+    ground = 1 - water
+    snow = numpy.array([SNOW[2], SNOW[1], SNOW[0], SNOW_NIR], numpy.float32)
+    mixed = (land * ground[..., None] + snow * (ice * bright)[..., None]) / numpy.maximum(ground + ice, 1e-6)[..., None]
+    return numpy.where((ice > 0)[..., None], mixed, land), water - ice
+
+
+def channels(pictures, width, sea_ice_million_km2):
     """Eight values from 0 to 1 a texel, in the light's own scale: four bands, water, cloud, cloud top, lights."""
     land, snow = reflectances(fitted(linear_of_srgb(pictures["albedo"]), width))
     water = fitted(pictures["water"], width) / 255
@@ -107,6 +181,7 @@ def channels(pictures, width):
     # Thick clouds reach higher: 2 to 10 km. The picture knows no heights, so this is an assumption.
     top = numpy.where(cloud > 0.02, (2 + 8 * cloud) / 16, 2 / 16)
     lights = fitted(linear_of_srgb(pictures["lights"]), width) * (1 - water)
+    land, water = with_sea_ice(land, water, sea_ice_million_km2)
     # Bare sea has no colour of its own, which packs better.
     land *= (water < 0.999)[..., None]
     return numpy.concatenate([land, water[..., None], cloud[..., None], top[..., None], lights[..., None]], axis=-1)
@@ -161,6 +236,7 @@ def main():
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--width", type=int, default=4096)
+    parser.add_argument("--sea-ice", type=float, nargs=2, default=(0, 0), metavar=("NORTH", "SOUTH"))
     names = {"albedo": "albedo", "water": "water", "clouds": "cloud", "lights": "glow"}
     for key in names:
         parser.add_argument(f"--{key}", type=pathlib.Path)
@@ -174,7 +250,8 @@ def main():
         if not found:
             stop(f"{options.source}: no blue_marble_{word}.jpg, .png or .tif, and no --{key}")
         pictures[key] = read_picture(found[0], "RGB" if key == "albedo" else "L")
-    options.out.write_bytes(packed(channels(pictures, options.width)))
+    options.out.write_bytes(packed(channels(pictures, options.width, options.sea_ice)))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -177,6 +177,11 @@ CameraReport report_of(const ScenarioConfig& bench, std::size_t index, const Spe
         report.plan.push_back(light);
     if (const std::string outside = outside_line(s, exposures); !outside.empty())
         report.plan.push_back(outside);
+    if (const std::optional<StrayTime> stray = stray_time(*station, world, exposures))
+        report.plan.push_back(
+            fmt::format("stray light of the lens ({}): takes {:.2g} ms of the sensor's time", stray->parts,
+                        std::max(stray->ms, stray->told_ms)) +
+            (stray->ms < stray->told_ms ? " at most" : ""));
     report.plan.push_back(motion_line(s, world, exposures));
     if (const std::string truth = truth_line(s); !truth.empty()) report.plan.push_back(truth);
     idle_rules.clear();

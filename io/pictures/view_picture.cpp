@@ -85,6 +85,25 @@ ViewLevels PictureView::levels_of(const DnImage& frame, const DnScale& scale) co
             std::clamp(white_dn, scale.black_dn + kMinSpan * full_span, scale.black_dn + full_span)};
 }
 
+// By 4096 steps from black to saturation, as balanced colours are no whole numbers; what is above saturation counts as that.
+ViewLevels PictureView::levels_of_colors(const DnScale& scale) const {
+    constexpr std::size_t kSteps = 4096;
+    const double full_span = std::max(1.0, scale.full_dn - scale.black_dn);
+    std::array<std::uint64_t, kSteps + 1> counts{};
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = c; i < colors_.size(); i += 3) {
+            const double share = balance_[c] * (linear_dn(colors_[i], scale) - scale.black_dn) / full_span;
+            if (share > kLit) ++counts[static_cast<std::size_t>(std::min(1.0, share) * kSteps)];
+        }
+    std::uint64_t lit = 0, below = 0;
+    for (const std::uint64_t count : counts) lit += count;
+    const auto rank = static_cast<std::uint64_t>(std::ceil(kWhiteShare * static_cast<double>(lit)));
+    std::size_t step = 0;
+    while (step < kSteps && below < rank) below += counts[step++];
+    const double white = std::clamp(static_cast<double>(step) / kSteps, kMinSpan, 1.0);
+    return {scale.black_dn, scale.black_dn + white * full_span};
+}
+
 PictureSamples PictureView::make(const DnImage& frame, const FrameRecord& record) {
     const Exposure exposure{record.exposure_s,
                             record.gain_db,
@@ -95,11 +114,11 @@ PictureSamples PictureView::make(const DnImage& frame, const FrameRecord& record
                             {},
                             {}};
     const DnScale scale = dn_scale_of(model_, exposure);
-    levels_ = levels_of(frame, scale);
     // Mirrored or binned, a mosaic is none.
     const bool color = !pattern_.empty() && record.binning_x == 1 && record.binning_y == 1 &&
                        !record.reverse_x && !record.reverse_y;
     if (!color) {
+        levels_ = levels_of(frame, scale);
         const CodeTable codes = code_table(scale, levels_, 1);
         samples_.resize(frame.pixels());
         std::transform(frame.plane(0).begin(), frame.plane(0).end(), samples_.begin(),
@@ -109,6 +128,7 @@ PictureSamples PictureView::make(const DnImage& frame, const FrameRecord& record
     colors_.resize(3 * frame.pixels());
     row_.resize(3 * static_cast<std::size_t>(frame.width()) + 8);
     interpolate_colors(frame, pattern_, row_, colors_);
+    levels_ = levels_of_colors(scale);
     samples_.resize(colors_.size());
     for (std::size_t c = 0; c < 3; ++c) {
         const CodeTable codes = code_table(scale, levels_, balance_[c]);

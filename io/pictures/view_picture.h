@@ -8,8 +8,8 @@
 // that a dark frame does not become a picture of its noise, and never above saturation. Space around a small
 // target does not count, and a glint does not darken the rest.
 //
-// A colour filter array is interpolated (bilinear) and balanced so that a white surface in sunlight is white;
-// what saturates is white, too. Numbers that a camera has companded are taken back first.
+// A colour filter array is interpolated (bilinear) and balanced so that a white surface in sunlight is white; its white is
+// the level of the balanced colours. What saturates is white, too. Numbers that a camera has companded are taken back first.
 
 #include <array>
 #include <vector>
@@ -38,6 +38,9 @@ class PictureView {
   private:
     const CameraModel model_;
     std::string pattern_;
+    // The same of the interpolated colours.
+    ViewLevels levels_of_colors(const DnScale& scale) const;
+
     std::array<double, 3> balance_ = {1, 1, 1};  // red, green, blue: the least is 1
     ViewLevels levels_;
     std::vector<std::uint8_t> samples_;

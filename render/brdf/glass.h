@@ -1,6 +1,6 @@
 #pragma once
 // model: glass. A thin clear sheet: exact reflection and straight transmission, light that bounces inside it
-// included (Born & Wolf, Principles of Optics, 7th ed., 7.6.1, intensities added). `refractive_index` is the
+// included (the geometric series of a plate's bounces, Born & Wolf, Principles of Optics, chapter 7.6, with intensities added). `refractive_index` is the
 // sheet's, `transmittance` that inside it at normal incidence; `reflectance` is not used.
 
 #include "render/brdf/brdf_model.h"

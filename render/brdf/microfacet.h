@@ -18,7 +18,7 @@ inline float schlick_weight(float cosine) {
 }
 
 // Unpolarised Fresnel reflectance of a smooth dielectric met from vacuum: Born & Wolf, Principles of Optics,
-// 7th ed., 1.5.2. refractive_index >= 1.
+// chapter 1.5. refractive_index >= 1.
 inline float fresnel_dielectric(float refractive_index, float cosine) {
     const float c = std::clamp(cosine, 0.0f, 1.0f);
     const float n2 = refractive_index * refractive_index;

@@ -28,6 +28,10 @@ class AirColumns {
     // air's top; mu0: there; ahead_dot_sun: cosine of the angle between the ray's way and the Sun.
     Atmosphere::Sight look_past(float height_m, float mu0, float ahead_dot_sun) const;
     float top_m() const { return top_m_; }
+    std::size_t bytes() const {
+        return sizeof(Spectrum) *
+               (passed_.size() + passing_.size() + transmittance_.size() + radiance_.size());
+    }
 
   private:
     // Past the ground: heights by their root, azimuths from the Sun's by theirs.

@@ -33,6 +33,10 @@ class CloudTable {
     float transmitted(float c, float mu) const;
     // The share of an even sky's light that is reflected.
     float spherical_albedo(float c) const;
+    std::size_t bytes() const {
+        return sizeof(float) * (multiple_.size() + transmitted_.size() + spherical_.size()) +
+               sizeof(Spectrum) * phase_.size();
+    }
 
   private:
     static constexpr int kThick = 24, kCosines = 16, kAzimuths = 19;

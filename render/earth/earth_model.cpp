@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/sky/bodies.h"
+#include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/units.h"
 
@@ -15,7 +16,7 @@ constexpr Figure kEarth = kFigures[index_of(BodyId::kEarth)];
 constexpr double kRadius_m = 6371008.8;  // mean (Moritz, J. Geodesy 74, 128, 2000)
 constexpr float kPerPi = static_cast<float>(1 / kPi);
 // A ray looks for clouds here first, then at their own height.
-constexpr float kUsualTop_m = 4000;
+constexpr auto kUsualTop_m = static_cast<float>(EarthModel::kCloudLevel_m);
 constexpr float kMinCloud = 2e-3f;
 
 Vec3d stretched(Vec3d v) { return {v.x, v.y, v.z * kEarth.equatorial_radius_m / kEarth.polar_radius_m}; }
@@ -122,8 +123,8 @@ struct EarthModel::Place {
 
 EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, EarthMap clouds, const Atmosphere* air,
                        const SpectralGrid& grid)
-    : ground_(std::move(ground)),
-      clouds_(std::move(clouds)),
+    : ground_map_(std::make_shared<const EarthMap>(std::move(ground))),
+      cloud_map_(std::make_shared<const EarthMap>(std::move(clouds))),
       air_(air),
       land_(grid),
       sea_(config.wind_m_s, grid),
@@ -131,8 +132,8 @@ EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, EarthMap clou
       bins_(grid.size()),
       wind_m_s_(config.wind_m_s),
       lights_(config.lights) {
-    if (air) columns_ = std::make_unique<AirColumns>(*air, static_cast<double>(EarthAspect::kHigh_m));
-    if (cloud_factor_ > 0) table_ = std::make_unique<CloudTable>(grid);
+    if (air) columns_ = std::make_shared<const AirColumns>(*air, static_cast<double>(EarthAspect::kHigh_m));
+    if (cloud_factor_ > 0) table_ = std::make_shared<const CloudTable>(grid);
     // The brightest places of the map: 100 nW cm^-2 sr^-1 from 0.5 to 0.9 um, what the day/night band of VIIRS sees over the
     // centres of great cities, to a factor of two (Elvidge et al., Int. J. Remote Sens. 38, 5860, 2017, about its maps'
     // values). Their spectrum is assumed: mostly high-pressure sodium, some white light-emitting diodes.
@@ -195,7 +196,7 @@ EarthAspect EarthModel::aspect_at(const Ray& ray, double distance_m, double heig
     EarthAspect out;
     place_air(ray, distance_m, place, out);
     if (table_) table_->place(place.mu0, place.mu, place.cos_phase, out);
-    if (place.mu0 > 0)
+    if (place.mu0 > 0 && glints_)
         out.glint_sr = sea_.glint_sr(place.mu0, place.mu, place.cos_phase) / std::max(0.02f, place.mu0);
     out.mirrored = sea_.sky_mirrored(place.mu);
 
@@ -239,8 +240,7 @@ bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
 }
 
 float EarthModel::texels_across(const MapFootprint& f) const {
-    const auto height =
-        static_cast<float>(std::max(ground_.height(), clouds_.empty() ? 0 : clouds_.height()));
+    const auto height = static_cast<float>(std::max(ground().height(), clouds().height()));
     return height * std::sqrt(std::max(4 * f.u1 * f.u1 + f.v1 * f.v1, 4 * f.u2 * f.u2 + f.v2 * f.v2));
 }
 
@@ -253,17 +253,17 @@ bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
 }
 
 EarthModel::Shade EarthModel::shade(const EarthAspect& a) const {
-    const EarthSample ground = ground_.sample(a.u, a.v, a.footprint);
+    const EarthSample ground = ground_map_->sample(a.u, a.v, a.footprint);
     const Spectrum land = land_.reflectance(ground);
     const float water = ground.water();
     float direct = 1, diffuse = 0, back = 0, cloud = 0, share = 1, passed = 1, high = 0;
     if (table_) {
-        const EarthMap& map = clouds_.empty() ? ground_ : clouds_;
+        const EarthMap& map = clouds();
         // What is nearer than a good part of the footprint is seen by the same look.
         const MapFootprint& f = a.footprint;
         const float seen_as_one = 0.12f * (f.u1 * f.u1 + f.u2 * f.u2 + 0.25f * (f.v1 * f.v1 + f.v2 * f.v2)) /
                                   (kUsualTop_m * kUsualTop_m);
-        const bool together = clouds_.empty();
+        const bool together = this->together();
         const EarthSample over =
             together && a.cloud_u * a.cloud_u + 0.25f * a.cloud_v * a.cloud_v < seen_as_one
                 ? ground
@@ -303,7 +303,7 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a) const {
         mix.from_sky = table_->spherical_albedo(cloud);
     }
     Shade out;
-    const float lights = passed * ground.lights();
+    const float lights = lights_ > 0 ? passed * ground.lights() : 0;
     mix_light(a, mix, land, sea_.diffuse(), sea_.albedo(), out.over_sun_sr);
     if (lights > 0) out.lights_w_m2_sr_um = lights * (city_w_m2_sr_um_ * a.seen_low);
     return out;
@@ -340,8 +340,7 @@ bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const
         table_ ? intersect_ellipsoid(raised(static_cast<double>(kUsualTop_m)), ray.origin_m, ray.dir) : -1;
     if (to_level_m > 0) {
         EarthAspect aspect = aspect_at(ray, to_level_m, static_cast<double>(kUsualTop_m));
-        const float cloud =
-            cloud_of((clouds_.empty() ? ground_ : clouds_).sample(aspect.u, aspect.v, aspect.footprint));
+        const float cloud = cloud_of(clouds().sample(aspect.u, aspect.v, aspect.footprint));
         if (cloud > kMinCloud) {
             // No ground is below it: nothing comes up through it.
             aspect.seen.fill(0);
@@ -384,19 +383,34 @@ Spectrum EarthModel::disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) con
     return static_cast<float>(area) * sum;
 }
 
-std::vector<std::string> EarthModel::describe() const {
+std::vector<EarthModel::PartInfo> EarthModel::parts() const {
     const auto rounded = [](double value) {
         std::string text = std::to_string(value);
         return text.substr(0, text.find('.') + 2);
     };
-    std::vector<std::string> out;
-    out.push_back("map of " + std::to_string(ground_.width()) + " x " + std::to_string(ground_.height()) +
-                  ", " + std::to_string((ground_.bytes() + clouds_.bytes()) >> 20) + " MB with its halves");
-    out.push_back("sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s");
+    std::vector<PartInfo> out;
+    out.push_back({Part::kSurface,
+                   "map of " + std::to_string(ground().width()) + " x " + std::to_string(ground().height()) +
+                       " with its halves",
+                   ground().bytes()});
+    if (glints_) out.push_back({Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0});
     if (table_)
-        out.push_back("clouds: table by doubling, shadows" +
-                      std::string(clouds_.empty() ? "" : ", a map of their own"));
-    if (lights_ > 0) out.push_back("lights of cities");
+        out.push_back(
+            {Part::kClouds,
+             "clouds: table by doubling, shadows" + std::string(together() ? "" : ", a map of their own"),
+             table_->bytes() + cloud_map_->bytes()});
+    if (air_) out.push_back({Part::kAir, "air: above the clouds and below them", columns_->bytes()});
+    if (lights_ > 0) out.push_back({Part::kLights, "lights of cities", 0});
+    return out;
+}
+
+EarthModel EarthModel::without(Part part) const {
+    HILCAM_CHECK(part != Part::kSurface);
+    EarthModel out = *this;
+    if (part == Part::kSea) out.glints_ = false;
+    if (part == Part::kClouds) out.table_.reset();
+    if (part == Part::kAir) out.air_ = nullptr, out.columns_.reset();
+    if (part == Part::kLights) out.lights_ = 0;
     return out;
 }
 

@@ -41,7 +41,9 @@ class EarthModel {
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
     // before the sky; else weight is dimmed by what air it met.
     bool add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const;
-    static constexpr double kHighest_m = 16000;  // height of clouds
+    static constexpr double kHighest_m = 16000;    // height of clouds
+    static constexpr double kCloudLevel_m = 4000;  // level on which clouds stand out beyond the limb
+    bool has_clouds() const { return table_ != nullptr; }
     // The same in two steps, for pixels that share an aspect. False where the ground is not met, or grazed.
     bool aspect_of(const Ray& ray, EarthAspect& aspect) const;
     // The longest side of a footprint in texels of the finest map.
@@ -60,21 +62,35 @@ class EarthModel {
     // function, from `looks` directions. camera_dir, sun_dir: unit, from the centre.
     Spectrum disk_albedo(Vec3d camera_dir, Vec3d sun_dir, int looks) const;
 
-    // One line each for `hilcam check`.
-    std::vector<std::string> describe() const;
+    // Parts that can be left out, so that `hilcam check` can tell what each costs; and the rest.
+    enum class Part { kSurface, kSea, kClouds, kAir, kLights };
+    struct PartInfo {
+        Part part;
+        std::string text;
+        std::size_t bytes;
+    };
+    // Those that it has, in the order of Part.
+    std::vector<PartInfo> parts() const;
+    // A copy that lacks a part, on the same maps and tables. HILCAM_CHECK: not the surface. Not for the loop.
+    EarthModel without(Part part) const;
 
   private:
-    EarthMap ground_, clouds_;
+    // Shared by copies.
+    std::shared_ptr<const EarthMap> ground_map_, cloud_map_;
     const Atmosphere* air_;
-    std::unique_ptr<const AirColumns> columns_;  // null without air
-    std::unique_ptr<const CloudTable> table_;    // null without clouds
+    std::shared_ptr<const AirColumns> columns_;  // null without air
+    std::shared_ptr<const CloudTable> table_;    // null without clouds
     LandBands land_;
     Sea sea_;
     float cloud_factor_;
     Spectrum city_w_m2_sr_um_;  // radiance of the brightest
     int bins_;
     double wind_m_s_, lights_;
+    bool glints_ = true;
 
+    const EarthMap& ground() const { return *ground_map_; }
+    const EarthMap& clouds() const { return cloud_map_->empty() ? *ground_map_ : *cloud_map_; }
+    bool together() const { return cloud_map_->empty(); }  // ground and clouds are of one map
     struct Place;
     void place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const;
     Atmosphere::Sight air_past(const Ray& ray) const;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "render/earth/earth_model.h"
 #include "render/frame/sky_cost.h"
 #include "render/light/kept_scene.h"
 #include "render/light/lamp_light.h"
@@ -101,6 +100,17 @@ std::string lamp_line(const FrameView& f, std::size_t i) {
     return line.str();
 }
 
+std::string part_line(const SkyPart& part) {
+    std::ostringstream line;
+    line << part.body << ": " << part.text;
+    if (part.ms && *part.ms < part.told_ms)
+        line << "; takes less than " << std::round(10 * part.told_ms) / 10 << " ms of a core";
+    else if (part.ms)
+        line << "; takes " << std::round(10 * *part.ms) / 10 << " ms of a core";
+    if (part.bytes > 0) line << "; " << std::round(1e-5 * static_cast<double>(part.bytes)) / 10 << " MB";
+    return line.str();
+}
+
 std::string air_line(const Background& background) {
     if (!background.air()) return "no atmosphere";
     return "atmosphere " + background.air()->describe() +
@@ -149,8 +159,7 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
     for (std::size_t i = 0; i < f.lamps->all().size(); ++i) lines.push_back(lamp_line(f, i));
     if (f.lamps->all().empty()) lines.push_back("no lamps");
     lines.push_back(air_line(*f.background));
-    if (const EarthModel* earth = f.background->earth())
-        for (const std::string& part : earth->describe()) lines.push_back("Earth: " + part);
+    for (const SkyPart& part : sky_parts(f)) lines.push_back(part_line(part));
     add(planned.stars, " stars to look through");
     add(f.has_glass ? "glass: shadow rays go through it" : "no glass: shadow rays end at the first surface");
     add(f.has_emission ? "surfaces emit" : "no emission");

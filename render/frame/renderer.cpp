@@ -1,6 +1,10 @@
 #include "render/frame/renderer.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
 
 #include "render/frame/find_side_light.h"
 #include "render/frame/frame_placer.h"
@@ -55,6 +59,25 @@ struct Renderer::Implementation {
                 sum += probe.add_points(placer.frame(), placer.world(), i, placer.plan(i), placer.radius_m(i),
                                         tracer.first_paths(), field, points);
         return sum;
+    }
+
+    // Says how many stars the placed frame has and what finding them takes, the shortest of three times; empty without a catalogue.
+    std::string stars_line() const {
+        if (placer.stars().empty()) return {};
+        std::vector<PointSource> points;
+        points.reserve(placer.max_stars());
+        double least_ms = std::numeric_limits<double>::infinity();
+        for (int time = 0; time < 3; ++time) {
+            points.clear();
+            const Stopwatch watch;
+            PointField(placer.frame(), placer.world()).add_stars(placer.stars(), points);
+            least_ms = std::min(least_ms, watch.ms());
+        }
+        std::ostringstream line;
+        line << "stars: " << points.size() << " in the picture, found in " << std::round(100 * least_ms) / 100
+             << " ms; " << std::round(1e-5 * static_cast<double>(placer.stars().size() * sizeof(Star))) / 10
+             << " MB";
+        return line.str();
     }
 };
 
@@ -149,7 +172,9 @@ void Renderer::find_side_light(std::vector<SideLight>& lights) const {
 std::vector<std::string> Renderer::explain_plan(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
     my.placer.place(world, {});
-    return my.placer.explain(quality());
+    std::vector<std::string> lines = my.placer.explain(quality());
+    if (const std::string stars = my.stars_line(); !stars.empty()) lines.push_back(stars);
+    return lines;
 }
 
 void Renderer::require_air(const WorldSnapshot& world) {

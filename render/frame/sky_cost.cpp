@@ -2,45 +2,150 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 
+#include "render/earth/earth_model.h"
 #include "render/light/primary_vertices.h"
 #include "render/light/tile.h"
 #include "render/visibility/visibility_raster.h"
 #include "render/vocabulary/stopwatch.h"
 
 namespace hilcam {
+namespace {
+
+constexpr int kTile_px = 32, kTimes = 3;
+
+// The tiles of a frame, of which a stride is taken, and what one takes to fill.
+class TileCost {
+  public:
+    TileCost(const FrameView& frame, int most_tiles)
+        : width_(frame.geometry.padded_width()),
+          height_(frame.geometry.padded_height()),
+          across_((width_ + kTile_px - 1) / kTile_px),
+          count_(across_ * ((height_ + kTile_px - 1) / kTile_px)),
+          stride_(1 + count_ / most_tiles),
+          pixels_(kTile_px * kTile_px),
+          uncovered_(pixels_.size(), static_cast<std::uint8_t>(kVisibilitySamples)) {}
+
+    int stride() const { return stride_; }
+    template <class Use>
+    void each(const PixelBox& within, const Use& use) const {
+        for (int i = 0; i < count_; i += stride_) {
+            const int x = i % across_ * kTile_px, y = i / across_ * kTile_px;
+            const PixelBox box{x, y, std::min(x + kTile_px, width_), std::min(y + kTile_px, height_)};
+            if (box.overlaps(within)) use(box);
+        }
+    }
+    void fill(const FrameView& frame, const PixelBox& box) {
+        TileStats stats;
+        Tile tile{frame, box, kVisibilitySamplesAcross, pixels_, stats, *facets_};
+        add_backdrop(tile, uncovered_.data());
+    }
+
+  private:
+    int width_, height_, across_, count_, stride_;
+    std::vector<Spectrum> pixels_;
+    std::vector<std::uint8_t> uncovered_;
+    std::unique_ptr<FacetList> facets_ = std::make_unique<FacetList>();
+};
+
+// A look without a part, and the name of that part.
+struct Variant {
+    std::string text;
+    std::size_t bytes;
+    std::unique_ptr<const std::array<SceneBody, kMaxBodies>> bodies;  // null: as they are
+    std::unique_ptr<const EarthModel> earth;                          // null: as it is
+};
+
+std::vector<Variant> variants_of(const Background& background, const PlacedBody& body) {
+    std::vector<Variant> out;
+    const SceneBody& scene = background.scene_of(body);
+    const auto add = [&](const std::string& text, std::size_t bytes, const auto& leave_out) {
+        auto bodies = std::make_unique<std::array<SceneBody, kMaxBodies>>(background.bodies());
+        leave_out((*bodies)[index_of(body.id)]);
+        out.push_back({text, bytes, std::move(bodies), nullptr});
+    };
+    if (!scene.relief.empty()) add("relief", scene.relief.bytes(), [](SceneBody& own) { own.relief = {}; });
+    if (body.shine_count > 0)
+        add("light of other bodies", 0, [](SceneBody& own) { own.planetshine = false; });
+    if (body.id == BodyId::kEarth && background.earth())
+        for (const EarthModel::PartInfo& part : background.earth()->parts())
+            if (part.part != EarthModel::Part::kSurface)
+                out.push_back({part.text, part.bytes, nullptr,
+                               std::make_unique<const EarthModel>(background.earth()->without(part.part))});
+    return out;
+}
+
+}  // namespace
 
 std::vector<double> sky_costs_ms(const FrameView& frame) {
     if (!frame.rays->linear()) return {};
-    constexpr int kTile_px = 32, kTimes = 3;
     constexpr double kLong_ms = 200;  // long enough to be measured once
-    constexpr std::size_t kPixels = kTile_px * kTile_px;
-    const auto facets = std::make_unique<FacetList>();
-    std::vector<Spectrum> pixels(kPixels);
-    std::vector<std::uint8_t> uncovered(kPixels, static_cast<std::uint8_t>(kVisibilitySamples));
-    const int width = frame.geometry.padded_width(), height = frame.geometry.padded_height();
-    const int across = (width + kTile_px - 1) / kTile_px,
-              count = across * ((height + kTile_px - 1) / kTile_px);
-    // A thousand tiles tell.
-    const int stride = 1 + count / 1024;
+    TileCost tiles(frame, 1024);
     std::vector<double> out;
     for (std::size_t body = 0; body < frame.body_box_count; ++body) {
         double least_ms = 0;
         for (int time = 0; time < kTimes && least_ms < kLong_ms; ++time) {
             const Stopwatch watch;
-            for (int i = 0; i < count; i += stride) {
-                const int x = i % across * kTile_px, y = i / across * kTile_px;
-                const PixelBox box{x, y, std::min(x + kTile_px, width), std::min(y + kTile_px, height)};
-                if (!box.overlaps(frame.body_boxes[body])) continue;
-                TileStats stats;
-                Tile tile{frame, box, kVisibilitySamplesAcross, pixels, stats, *facets};
-                add_backdrop(tile, uncovered.data());
-            }
-            const double ms = stride * watch.ms();
+            tiles.each(frame.body_boxes[body], [&](const PixelBox& box) { tiles.fill(frame, box); });
+            const double ms = tiles.stride() * watch.ms();
             least_ms = time == 0 ? ms : std::min(least_ms, ms);
         }
         out.push_back(least_ms);
+    }
+    return out;
+}
+
+std::vector<SkyPart> sky_parts(const FrameView& frame) {
+    std::vector<SkyPart> out;
+    for (std::size_t i = 0; i < frame.body_box_count; ++i) {
+        const PlacedBody& body = frame.background->disks()[i];
+        const std::vector<Variant> variants = variants_of(*frame.background, body);
+        const EarthModel* const earth = body.id == BodyId::kEarth ? frame.background->earth() : nullptr;
+        if (variants.empty() && !earth) continue;
+        // A picture that is kept has all parts in it.
+        const bool told =
+            frame.rays->linear() && !frame.body_boxes[i].empty() && !(frame.earth_picture && i == 0);
+        std::vector<double> saved_ms(variants.size());
+        double whole_ms = 0;
+        if (told) {
+            std::vector<Background> backgrounds;
+            backgrounds.reserve(variants.size());
+            std::vector<FrameView> views;
+            for (const Variant& v : variants) {
+                backgrounds.push_back(
+                    frame.background->with(v.bodies ? *v.bodies : frame.background->bodies(),
+                                           v.earth ? v.earth.get() : frame.background->earth()));
+                views.push_back(frame);
+                views.back().background = &backgrounds.back();
+            }
+            TileCost tiles(frame, 256);
+            tiles.each(frame.body_boxes[i], [&](const PixelBox& box) {
+                std::vector<double> least_ms(1 + views.size(), std::numeric_limits<double>::infinity());
+                for (int time = 0; time < kTimes; ++time)
+                    for (std::size_t k = 0; k <= views.size(); ++k) {
+                        const Stopwatch watch;
+                        tiles.fill(k == 0 ? frame : views[k - 1], box);
+                        least_ms[k] = std::min(least_ms[k], watch.ms());
+                    }
+                whole_ms += tiles.stride() * least_ms[0];
+                for (std::size_t k = 0; k < views.size(); ++k)
+                    saved_ms[k] += tiles.stride() * (least_ms[0] - least_ms[k + 1]);
+            });
+        }
+        // Times of tiles scatter by some per cent.
+        const double told_ms = 0.02 * whole_ms;
+        const std::string name = frame.background->name_of(body.id);
+        const auto saved = [&](double ms) { return told ? std::optional(ms) : std::nullopt; };
+        if (earth) {
+            double rest_ms = whole_ms;
+            for (const double ms : saved_ms) rest_ms -= std::max(0.0, ms);
+            const EarthModel::PartInfo surface = earth->parts().front();
+            out.push_back({name, surface.text, saved(rest_ms), told_ms, surface.bytes});
+        }
+        for (std::size_t k = 0; k < variants.size(); ++k)
+            out.push_back({name, variants[k].text, saved(saved_ms[k]), told_ms, variants[k].bytes});
     }
     return out;
 }

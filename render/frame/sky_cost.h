@@ -1,6 +1,8 @@
 #pragma once
-// Measures how long the camera's rays to bodies take, as `hilcam check` tells it.
+// Measures how long the camera's rays to bodies take, and what each part of the sky adds to it, as `hilcam check` tells it.
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "render/light/frame_view.h"
@@ -11,5 +13,18 @@ namespace hilcam {
 // thread, the shortest of three times, by a thousand tiles of a large one; empty where rays are not straight. Tiles of two bodies count for both. Nothing is
 // counted that objects cover, as if there were none. The frame is placed. Not for the loop.
 std::vector<double> sky_costs_ms(const FrameView& frame);
+
+// A part of how a body looks.
+struct SkyPart {
+    std::string body, text;  // "earth", "clouds: ..."
+    std::optional<double>
+        ms;  // time that the body's pixels would save without it, one core; none: not in the picture or not told
+    double told_ms = 0;  // less than this cannot be told from nothing
+    std::size_t bytes = 0;
+};
+// Returns the parts of all bodies that have some, in the order of disks(). Each is measured against the same tiles without it,
+// in turns, the shortest of three times a tile, by 256 tiles; the Earth's surface is what is left without its other
+// parts. The same conditions.
+std::vector<SkyPart> sky_parts(const FrameView& frame);
 
 }  // namespace hilcam

@@ -49,32 +49,17 @@ class PrimaryRays {
             for (int bx = box.x0; bx < box.x1; bx += 4) {
                 const bool objects = !uncovered_ && frame_.object_mask->at(bx, by);
                 if (!objects && !bodies_ && !sun_) continue;
-                rays_.count = 0;
-                for (int y = by; y < std::min(by + 4, box.y1); ++y)
-                    for (int x = bx; x < std::min(bx + 4, box.x1); ++x) {
-                        if (!wants(x, y)) continue;
-                        x_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(x - box.x0);
-                        y_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(y - box.y0);
-                        ++rays_.count;
-                    }
-                if (rays_.count == 0) continue;
-                if (tile_.scattered) choose_sequences();
+                if (!gather(bx, by, [](int, int) { return true; })) continue;
                 const Block block = !uncovered_ ? Block::kUneven
                                     : pictured_ ? Block::kEven
                                                 : block_at(bx, by);
-                if (block == Block::kDark) continue;
-                const bool even = block == Block::kEven;
-                const int n = even ? 1 : tile_.samples_per_axis;
-                ray_weight_ = even ? kVisibilitySamples : 1;
-                const float step = 1.0f / static_cast<float>(n);
-                for (int s = 0; s < n * n; ++s) {
-                    const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
-                    if (tile_.scattered)
-                        scatter(sample);
-                    else
-                        center((static_cast<float>(s % n) + 0.5f) * step,
-                               (static_cast<float>(s / n) + 0.5f) * step);
-                    trace_packet(objects, sample);
+                if (block == Block::kRim) {
+                    if (gather(bx, by, [this](int x, int y) { return !meets_limb(x, y); }))
+                        trace_block(objects, true);
+                    if (gather(bx, by, [this](int x, int y) { return meets_limb(x, y); }))
+                        trace_block(objects, false);
+                } else if (block != Block::kDark) {
+                    trace_block(objects, block == Block::kEven);
                 }
             }
         return count_;
@@ -105,9 +90,41 @@ class PrimaryRays {
     std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
     std::size_t count_ = 0;
 
-    enum class Block { kDark, kEven, kUneven };
+    // Takes the pixels of a block that are asked for. False where there are none.
+    template <class Which>
+    bool gather(int bx, int by, const Which& which) {
+        const PixelBox& box = tile_.box;
+        rays_.count = 0;
+        for (int y = by; y < std::min(by + 4, box.y1); ++y)
+            for (int x = bx; x < std::min(bx + 4, box.x1); ++x) {
+                if (!wants(x, y) || !which(x, y)) continue;
+                x_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(x - box.x0);
+                y_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(y - box.y0);
+                ++rays_.count;
+            }
+        return rays_.count > 0;
+    }
+
+    // Traces the pixels taken, by one ray each where they are even.
+    void trace_block(bool objects, bool even) {
+        if (tile_.scattered) choose_sequences();
+        const int n = even ? 1 : tile_.samples_per_axis;
+        ray_weight_ = even ? kVisibilitySamples : 1;
+        const float step = 1.0f / static_cast<float>(n);
+        for (int s = 0; s < n * n; ++s) {
+            const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
+            if (tile_.scattered)
+                scatter(sample);
+            else
+                center((static_cast<float>(s % n) + 0.5f) * step, (static_cast<float>(s / n) + 0.5f) * step);
+            trace_packet(objects, sample);
+        }
+    }
+
+    enum class Block { kDark, kEven, kRim, kUneven };
     // A block of 4 x 4 pixels is even where nothing of it is near the rim of a body or of its air, or near the Sun: one ray
-    // tells of all of a pixel. It is dark where no body can be met.
+    // tells of all of a pixel. It is a rim where that is so but for the limb of the Earth by its model, which each pixel meets or
+    // not. It is dark where no body can be met.
     Block block_at(int x, int y) const {
         if (frame_.background->camera_in_air()) return Block::kUneven;
         if (frame_.sun_box.overlaps({x, y, x + 4, y + 4})) return Block::kUneven;
@@ -123,13 +140,12 @@ class PrimaryRays {
             const double radius_rad = std::acos(body.cone_cosine);
             const double from_middle_rad = std::acos(std::clamp(dot(dir, body.world_dir), -1.0, 1.0));
             if (from_middle_rad - block_rad >= radius_rad) continue;
-            out = Block::kEven;
+            if (out == Block::kDark) out = Block::kEven;
             // The Earth is flat by a third of a hundredth, and its air a hundredth high.
             constexpr double kWithin = 0.97;
             const bool modelled = frame_.background->earth() && body.id == BodyId::kEarth;
-            if (modelled ? meets_earths_rim(body, from_middle_rad, block_rad)
-                         : from_middle_rad + block_rad > kWithin * radius_rad)
-                return Block::kUneven;
+            if (modelled && meets_earths_rim(body, dir, from_middle_rad, block_rad)) out = Block::kRim;
+            if (!modelled && from_middle_rad + block_rad > kWithin * radius_rad) return Block::kUneven;
         }
         return out;
     }
@@ -171,15 +187,45 @@ class PrimaryRays {
         frame_.earth_picture->look(picture_, x, y, static_cast<std::size_t>(rays_.count), share, earth_);
     }
 
-    // By its model, which filters what a ray stands for, the Earth is uneven only where its ground ends: within three pixels, and what
-    // the flattening moves the limb by, a third of a hundredth of the radius. From afar the air is about as thin as that.
-    bool meets_earths_rim(const PlacedBody& earth, double from_middle_rad, double block_rad) const {
-        const double rim_rad = 3 / frame_.geometry.focal_length_px + block_rad;
+    // By its model, which filters what a ray stands for, the Earth is uneven only within this of the limbs of its ground and of its clouds.
+    static constexpr double kRim_px = 1.0;
+    bool meets_earths_rim(const PlacedBody& earth, Vec3d dir, double from_middle_rad,
+                          double block_rad) const {
+        const double rim_rad = kRim_px / frame_.geometry.focal_length_px + block_rad;
+        // What is farther from any limb than the flattening moves it, a third of a hundredth of the radius, needs no closer look.
         const double disk_rad = std::acos(earth.disk_cosine);
         constexpr double kFlattening = 0.0034;
-        const double flat_rad = kFlattening * std::sqrt(1 - earth.disk_cosine * earth.disk_cosine) /
-                                std::max(0.1, earth.disk_cosine);
-        return from_middle_rad > disk_rad - flat_rad - rim_rad && from_middle_rad < disk_rad + rim_rad;
+        const double per_radius_rad =
+            std::sqrt(1 - earth.disk_cosine * earth.disk_cosine) / std::max(0.1, earth.disk_cosine);
+        const double level = EarthModel::kCloudLevel_m / earth.figure.equatorial_radius_m;
+        return from_middle_rad > disk_rad - kFlattening * per_radius_rad - rim_rad &&
+               from_middle_rad < disk_rad + 2 * level * per_radius_rad + rim_rad &&
+               near_limbs(earth, dir, from_middle_rad, rim_rad);
+    }
+    bool near_limbs(const PlacedBody& earth, Vec3d dir, double from_middle_rad, double rim_rad) const {
+        const Vec3d across = dir - dot(dir, earth.world_dir) * earth.world_dir;
+        if (!(length(across) > 1e-9)) return true;
+        const Vec3d axis = earth.fixed_from_world * earth.world_dir,
+                    way = earth.fixed_from_world * normalized(across);
+        const auto near = [&](double height_m) {
+            const Figure level{earth.figure.equatorial_radius_m + height_m,
+                               earth.figure.polar_radius_m + height_m};
+            return std::abs(from_middle_rad - limb_angle_rad(level, earth.camera_m, axis, way)) < rim_rad;
+        };
+        return near(0) || (frame_.background->earth()->has_clouds() && near(EarthModel::kCloudLevel_m));
+    }
+    // Whether a pixel of a rim has a limb in or about it.
+    bool meets_limb(int x, int y) const {
+        for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
+            const PlacedBody& body = frame_.background->disks()[i];
+            if (body.id != BodyId::kEarth) continue;
+            const Vec3d dir = normalized(linear_ ? corner_ + (x - tile_.box.x0 + 0.5) * linear_->right +
+                                                       (y - tile_.box.y0 + 0.5) * linear_->down
+                                                 : frame_.visibility->direction(x, y, {0.5f, 0.5f}));
+            const double from_middle_rad = std::acos(std::clamp(dot(dir, body.world_dir), -1.0, 1.0));
+            return near_limbs(body, dir, from_middle_rad, kRim_px / frame_.geometry.focal_length_px);
+        }
+        return false;
     }
 
     bool wants(int x, int y) const {

@@ -22,7 +22,7 @@ Vec3f mean_texel(const MipTexture& map) {
 Background::Background(const std::array<SceneBody, kMaxBodies>& bodies, const Atmosphere* air,
                        const EarthModel* earth, const Spectrum& sun_irradiance_1au_w_m2_um,
                        bool limb_darkening, const SpectralGrid& grid)
-    : scene_(bodies),
+    : scene_(&bodies),
       air_(air),
       earth_(earth),
       sun_irradiance_1au_(sun_irradiance_1au_w_m2_um),
@@ -33,15 +33,15 @@ Background::Background(const std::array<SceneBody, kMaxBodies>& bodies, const At
     for (std::size_t i = 0; i < kMaxBodies; ++i) {
         map_factor_[i].bin.fill(1);
         map_mean_[i].bin.fill(1);
-        if (scene_[i].map.empty()) continue;
-        const Spectrum mean = bands_.spectrum(mean_texel(scene_[i].map));
-        if (scene_[i].map_reference > 0) {
-            const auto one = static_cast<float>(1 / scene_[i].map_reference);
+        if ((*scene_)[i].map.empty()) continue;
+        const Spectrum mean = bands_.spectrum(mean_texel((*scene_)[i].map));
+        if ((*scene_)[i].map_reference > 0) {
+            const auto one = static_cast<float>(1 / (*scene_)[i].map_reference);
             map_factor_[i].bin.fill(one);
             map_mean_[i] = one * mean;
             continue;
         }
-        if (scene_[i].look.plain_lambert()) {
+        if ((*scene_)[i].look.plain_lambert()) {
             map_mean_[i] = mean;
             continue;
         }
@@ -68,7 +68,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
     nearest_m_ = kInfinity;
     camera_in_air_ = false;
     for (std::size_t i = 0; i < kMaxBodies; ++i) {
-        if (!scene_[i].visible) continue;
+        if (!(*scene_)[i].visible) continue;
         const PlacedBody body = placed(static_cast<BodyId>(i), world, static_cast<BodyId>(i) == ground);
         const double radius_m = this->figure(i).equatorial_radius_m;
         if (2 * radius_m < pixel_rad * body.distance_m) {
@@ -76,7 +76,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
             continue;
         }
         disks_[disk_count_++] = body;
-        const bool reaches = !scene_[i].relief.empty() || has_rings(body.id);
+        const bool reaches = !(*scene_)[i].relief.empty() || has_rings(body.id);
         const double reach_m = reaches ? outer_radius_m(body.id) : radius_m;
         nearest_m_ = std::min(nearest_m_, std::max(0.0, body.distance_m - reach_m));
         if (has_air(body.id) && body.distance_m < radius_m + air_->top_m()) camera_in_air_ = true;
@@ -85,7 +85,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
               [](const PlacedBody& a, const PlacedBody& b) { return a.distance_m < b.distance_m; });
     for (const PlacedBody& body : disks()) {
         // Lambert's radiance is at most albedo / pi; Lommel-Seeliger's w / 4 pi at the bright limb.
-        Spectrum most = scene_[index_of(body.id)].look.max_sr();
+        Spectrum most = (*scene_)[index_of(body.id)].look.max_sr();
         if (is_modelled(body.id)) most.bin.fill(EarthModel::kMaxOverSun);
         const float sun_share = body.irradiance_w_m2_um[0] / std::max(1e-30f, sun_irradiance_1au_[0]);
         const Vec3d to_body_m = world.bodies[body.id].world_m - objects_world_m;
@@ -105,7 +105,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
     plain_ = nullptr;
     if (disk_count_ > 0 && !air_) {
         const PlacedBody& body = disks_[0];
-        const SceneBody& scene = scene_[index_of(body.id)];
+        const SceneBody& scene = (*scene_)[index_of(body.id)];
         if (scene.look.plain_lambert() && scene.map.empty() && !body.may_be_eclipsed &&
             !is_modelled(body.id)) {
             plain_ = &disks_[0];
@@ -132,7 +132,7 @@ Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) cons
     std::array<std::size_t, kMaxBodies> before{};
     std::size_t count = 0;
     for (std::size_t i = 0; i < kMaxBodies; ++i) {
-        if (!scene_[i].visible || i == index_of(standing_on)) continue;
+        if (!(*scene_)[i].visible || i == index_of(standing_on)) continue;
         const Vec3d to_body = bodies_.body[i].world_m - place_world_m;
         const double body_m = length(to_body);
         const double radius_m =

@@ -138,6 +138,11 @@ class Background {
     // Light and transmittance of the air before an object at a distance; only where camera_in_air().
     Atmosphere::Sight air_before(Vec3d dir, double distance_m) const;
 
+    const SceneBody& scene_of(const PlacedBody& body) const { return (*scene_)[index_of(body.id)]; }
+    // A copy, placed as this one, that shows bodies and an Earth of fewer parts (sky_cost.h), which must outlive it. Not for the loop.
+    Background with(const std::array<SceneBody, kMaxBodies>& bodies, const EarthModel* earth) const;
+    const std::array<SceneBody, kMaxBodies>& bodies() const { return *scene_; }
+
     // Says in words what makes a body's look cost more than its law; empty: nothing does. Not for the loop.
     std::string describe(const PlacedBody& body) const;
 
@@ -162,7 +167,7 @@ class Background {
     Spectrum sun_seen_from(Vec3d place_world_m, BodyId standing_on) const;
 
   private:
-    const std::array<SceneBody, kMaxBodies>& scene_;
+    const std::array<SceneBody, kMaxBodies>* scene_;
     const Atmosphere* air_;
     const EarthModel* earth_;
     Spectrum sun_irradiance_1au_;
@@ -198,7 +203,7 @@ class Background {
     // Radius with air or mountains.
     double outer_radius_m(BodyId id) const;
     double met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const;
-    bool has_rings(BodyId id) const { return id == BodyId::kSaturn && scene_[index_of(id)].rings; }
+    bool has_rings(BodyId id) const { return id == BodyId::kSaturn && (*scene_)[index_of(id)].rings; }
     void add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double until, Spectrum& weight,
                    Spectrum& radiance) const;
     bool has_air(BodyId id) const { return air_ && id == BodyId::kEarth; }

@@ -44,7 +44,7 @@ PlacedBody Background::placed(BodyId id, const WorldSnapshot& world, bool stays)
     out.distance_m = length(from_camera_m);
     out.world_dir = out.distance_m > 0 ? from_camera_m / out.distance_m : Vec3d{0, 0, 1};
     out.disk_cosine = cone_cosine_of(figure.equatorial_radius_m, out.distance_m);
-    out.cone_cosine = top_m(id) > 0 || has_rings(id) || !scene_[index_of(id)].relief.empty()
+    out.cone_cosine = top_m(id) > 0 || has_rings(id) || !(*scene_)[index_of(id)].relief.empty()
                           ? cone_cosine_of(outer_radius_m(id), out.distance_m)
                           : out.disk_cosine;
     const Vec3d to_sun_m = world.bodies.sun_world_m - state.world_m;
@@ -53,9 +53,9 @@ PlacedBody Background::placed(BodyId id, const WorldSnapshot& world, bool stays)
     const double au = kAstronomicalUnit_m / sun_m;
     out.irradiance_w_m2_um = static_cast<float>(au * au) * sun_irradiance_1au_;
     out.sun_radius_rad = kSunRadius_m / sun_m;
-    if (scene_[index_of(id)].planetshine) add_planetshine(world, out);
+    if ((*scene_)[index_of(id)].planetshine) add_planetshine(world, out);
     for (std::size_t i = 0; i < kMaxBodies; ++i) {
-        if (!scene_[i].visible || i == index_of(id)) continue;
+        if (!(*scene_)[i].visible || i == index_of(id)) continue;
         const Vec3d to_other = world.bodies.body[i].world_m - state.world_m;
         const double other_m = length(to_other);
         // The shadow cone grows by the body's own radius over the distance.
@@ -70,7 +70,7 @@ PlacedBody Background::placed(BodyId id, const WorldSnapshot& world, bool stays)
 
 double Background::outer_radius_m(BodyId id) const {
     if (has_rings(id)) return SaturnRings::kOuter_m;
-    const BodyRelief& relief = scene_[index_of(id)].relief;
+    const BodyRelief& relief = (*scene_)[index_of(id)].relief;
     const double mountains_m = relief.empty() ? 0 : std::max(0.0, relief.highest_m());
     return this->figure(index_of(id)).equatorial_radius_m + std::max(top_m(id), mountains_m);
 }
@@ -79,7 +79,7 @@ double Background::outer_radius_m(BodyId id) const {
 void Background::add_planetshine(const WorldSnapshot& world, PlacedBody& out) const {
     const Vec3d here_m = world.bodies[out.id].world_m;
     for (std::size_t i = 0; i < kMaxBodies; ++i) {
-        if (!scene_[i].visible || i == index_of(out.id)) continue;
+        if (!(*scene_)[i].visible || i == index_of(out.id)) continue;
         const Vec3d to_other_m = world.bodies.body[i].world_m - here_m;
         const Vec3d to_sun_m = world.bodies.sun_world_m - world.bodies.body[i].world_m;
         const double other_m = length(to_other_m), sun_m = length(to_sun_m);
@@ -90,7 +90,7 @@ void Background::add_planetshine(const WorldSnapshot& world, PlacedBody& out) co
         const PlacedBody::Shine shine{
             out.fixed_from_world * (to_other_m / other_m),
             static_cast<float>(part * part) *
-                (sun_irradiance_1au_ * scene_[i].look.disk_albedo(phase) * map_mean_[i])};
+                (sun_irradiance_1au_ * (*scene_)[i].look.disk_albedo(phase) * map_mean_[i])};
         // The strongest two.
         std::size_t at = out.shine_count;
         while (at > 0 && largest(out.shine[at - 1].irradiance_w_m2_um) < largest(shine.irradiance_w_m2_um))
@@ -108,7 +108,7 @@ void Background::add_planetshine(const WorldSnapshot& world, PlacedBody& out) co
 }
 
 double Background::met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const {
-    const BodyRelief& relief = scene_[index_of(body.id)].relief;
+    const BodyRelief& relief = (*scene_)[index_of(body.id)].relief;
     if (relief.empty()) return intersect_ellipsoid(this->figure(index_of(body.id)), origin_m, dir);
     const double per_length = length(dir);
     const double distance_m = relief.intersect(origin_m, dir / per_length);
@@ -117,7 +117,7 @@ double Background::met(const PlacedBody& body, Vec3d origin_m, Vec3d dir) const 
 
 Spectrum Background::surface_radiance(const PlacedBody& body, Vec3d point_m, Vec3d to_viewer_dir) const {
     const std::size_t i = index_of(body.id);
-    const SceneBody& scene = scene_[i];
+    const SceneBody& scene = (*scene_)[i];
     const Figure& figure = this->figure(i);
     const Vec3d level = ellipsoid_normal(figure, point_m);
     // A pixel on the ground.
@@ -186,13 +186,13 @@ void Background::add_rings(const PlacedBody& body, Vec3d origin_m, Vec3d dir, do
 }
 
 std::string Background::name_of(BodyId id) const {
-    const std::string& own = scene_[index_of(id)].name;
+    const std::string& own = (*scene_)[index_of(id)].name;
     if (!own.empty()) return own;
     return index_of(id) < kBodyCount ? std::string(kBodyNames[index_of(id)]) : "body";
 }
 
 std::string Background::describe(const PlacedBody& body) const {
-    const SceneBody& scene = scene_[index_of(body.id)];
+    const SceneBody& scene = (*scene_)[index_of(body.id)];
     std::string out;
     const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
     if (scene.look.is_hapke()) add("Hapke's law at each ray");
@@ -204,6 +204,15 @@ std::string Background::describe(const PlacedBody& body) const {
     if (has_rings(body.id)) add("its rings at each ray, with the shadows of each on the other");
     for (std::size_t k = 0; k < body.shine_count; ++k)
         if (largest(body.shine[k].irradiance_w_m2_um) > 0 && k == 0) add("light of other bodies on it");
+    return out;
+}
+
+Background Background::with(const std::array<SceneBody, kMaxBodies>& bodies, const EarthModel* earth) const {
+    Background out = *this;
+    out.scene_ = &bodies, out.earth_ = earth;
+    if (plain_) out.plain_ = out.disks_.data() + (plain_ - disks_.data());
+    for (PlacedBody& body : out.disks_)
+        if (!bodies[index_of(body.id)].planetshine) body.shine_count = 0;
     return out;
 }
 
@@ -222,7 +231,7 @@ Spectrum Background::point_irradiance(const PlacedBody& body) const {
     const double area_ratio =
         a * std::sqrt(a * a * sine * sine + b * b * (1 - sine * sine)) / (body.distance_m * body.distance_m);
     Spectrum out = static_cast<float>(area_ratio) *
-                   (body.irradiance_w_m2_um * scene_[i].look.disk_albedo(phase) * map_mean_[i]);
+                   (body.irradiance_w_m2_um * (*scene_)[i].look.disk_albedo(phase) * map_mean_[i]);
     return out;
 }
 

@@ -14,8 +14,10 @@
 //
 // Or Hapke's law (render/brdf/hapke.h), L = E_s mu_0 f, with no magnitude behind it: the Moon as LROC's Wide Angle Camera
 // measured it, Sato et al., J. Geophys. Res. Planets 119, 1775 (2014), with the medians of their maps at 643 nm
-// between 30 S and 30 N: w 0.3854, b 0.2375, h_s 0.0672, roughness 23.657 deg, no coherent backscatter; c by their
-// eq. 2 and the surge by their eq. 4 from these, 0.3253 and 1.686. Only the colour is not theirs: w at other wavelengths gives a
+// (archived as WAC_HAPKEPARAMMAP) between 30 S and 30 N: w 0.3854, b 0.2375, h_s 0.0672; roughness 23.657 deg and no
+// coherent backscatter everywhere; c by their eq. 2 and the surge by their eq. 4 from these, 0.3253 and 1.686. A porosity
+// factor of 1, as theirs. The reflectance of these medians is some 10 % above the median of reflectances: the map's scale
+// sets that right (tools/make_moon_map.py). Only the colour is not theirs: w at other wavelengths gives a
 // sphere the ratio of reflectance to that at 643 nm which ROLO has at 30 deg of phase (Kieffer & Stone, Astron. J.
 // 129, 2887, 2005, table 4, means of neighbouring bands and of waxing and waning). So the scale at 643 nm and the
 // phase curve in all bands may be held against ROLO; the colour at 30 deg may not.

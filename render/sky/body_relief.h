@@ -26,6 +26,11 @@ class BodyRelief {
     double lowest_m() const { return lowest_m_; }
     // Distance of neighbours of the grid at the equator.
     double spacing_m() const { return spacing_m_; }
+    std::size_t bytes() const {
+        std::size_t values = 0;
+        for (const Level& level : levels_) values += level.height_m.size();
+        return values * sizeof(float);
+    }
 
     // All of them: loop, any thread. dir: unit, from the centre. footprint_m: 0 is the grid as it is.
     double height_m(Vec3d dir, double footprint_m = 0) const;

@@ -1,13 +1,17 @@
 #pragma once
 // Saturn's rings: a sheet of particles in its equator's plane.
 //
-// Radii of the rings and of Cassini's and Encke's divisions, ranges of optical depth and albedo: Saturnian Rings Fact Sheet,
-// NASA GSFC (NSSDC). Depths between the ranges' ends are set by hand as the rings look. A particle scatters as
-// Callisto does, P(alpha) = c (pi - alpha)^n with n = 3.09 (Dones, Cuzzi & Showalter, Icarus 105, 184, 1993), and
-// light once only: with normal optical depth tau and the cosines mu_0, mu to the plane's normal
+// Radii of the rings and of Cassini's and Encke's divisions, ranges of optical depth: Saturnian Rings Fact Sheet, NASA GSFC
+// (NSSDC; C 0.05 to 0.35, B 0.4 to 2.5, Cassini's division 0 to 0.1, A 0.4 to 1.0). Its editions' radii differ by up to 170 km:
+// these are one's, the present one has B from 91 975 to 117 507 and A from 122 340 to 136 780 km. Both were read as others quote
+// them; the albedos below, from the same sheet, could not be looked up again. Depths between the ranges' ends are
+// set by hand as the rings look. A particle scatters as P(alpha) = c (pi - alpha)^n with n = 3.09, which Salo & French (arXiv
+// 1007.0349, 2010) use for the rings' particles as others quote them, after Dones, Cuzzi & Showalter, Icarus 105, 184, 1993. That paper
+// itself was not at hand; a public ring code has 3.30 from it for Callisto, 7 % less at 90 deg of phase. Light is scattered
+// once only: with normal optical depth tau and the cosines mu_0, mu to the plane's normal
 //     lit face    L / E = w P / 4 pi mu_0 / (mu_0 + mu) (1 - exp(-tau / mu_0 - tau / mu))
 //     other face  L / E = w P / 4 pi mu_0 / (mu_0 - mu) (exp(-tau / mu_0) - exp(-tau / mu))
-// (Chandrasekhar, Radiative Transfer, 1960, for a layer in first order). Particles are darker in the blue: w falls by
+// which is the integral of what each depth sends, dimmed on both ways. Particles are darker in the blue: w falls by
 // a third from 0.55 to 0.40 um, assumed. Not modelled: light between particles and from Saturn, spokes, waves, the D and outer
 // rings, and what the rings add to a Saturn of less than a pixel.
 

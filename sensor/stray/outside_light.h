@@ -3,7 +3,7 @@
 //
 // A lens is described by its point source transmittance PST(theta): irradiance on the detector over that of the
 // source on a plane that faces it, theta its angle from the boresight (Fest, Stray Light Analysis and Control,
-// SPIE, 2013, ch. 2). Either as measured, then even over the picture: at the wavelength that the glass passes
+// SPIE, 2013, 2.2.1). Either as measured, then even over the picture: at the wavelength that the glass passes
 // best; at others less, as the glass. Or, without a curve, by what the camera's file says of light in the field
 // already: the halo of `veiling_glare_fraction` and the diffraction wings (far_wings.h) go on beyond it. In a
 // pixel at the direction p light from s makes
@@ -11,7 +11,9 @@
 // D the share of a point's light in a pixel at a distance in px. Differences of direction cosines in place of
 // places in the picture are Harvey's: scatter of a polished face depends on them alone, whatever the angle
 // (Harvey, Light-Scattering Characteristics of Optical Surfaces, PhD thesis, Arizona, 1976); the halo is his law
-// with slope -3, shoulder r / f and total integrated scatter `veiling_glare_fraction`. B is the share of the
+// with slope -3, shoulder r / f and total integrated scatter `veiling_glare_fraction`. That slope is the halo's of light in
+// the field (stray_light.h); polished faces are given -0.5 to -2, super-polished ones less than -2.5 (the manual of FRED, Photon
+// Engineering): a lens of the former glares more far from the source, and is better given as measured. B is the share of the
 // aperture that a round baffle leaves lit: all up to one angle, none from the baffle angle on, between the two
 // the overlap of two disks whose distance grows with tan theta. Light that meets the baffle's wall comes
 // on by `baffle_leak` of it. Nothing comes from behind the aperture's plane.

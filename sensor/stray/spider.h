@@ -3,7 +3,7 @@
 //
 // A strip of width w and length l sends, by Babinet's principle, the light of a slit of its size:
 //     (w l)^2 / (lambda f)^2 sinc^2(w x / (lambda f)) sinc^2(l y / (lambda f)),   x across the vane, y along it
-// (Born & Wolf, Principles of Optics, 8.5.1 and 8.3.3), a long spike across the vane and a short one along it.
+// (a slit's Fraunhofer pattern and Babinet's principle: Born & Wolf, Principles of Optics, chapter 8), a long spike across the vane and a short one along it.
 // All of its light is what the open area loses once more beside what the vane covers (Parseval): vanes of area A_v
 // before an open area A leave A - A_v of light, of which A_v / (A - A_v) goes into spikes. Strips are taken as each
 // for itself: opposite vanes make one pattern on one another, whose fringes are finer than the core. The core's

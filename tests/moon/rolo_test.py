@@ -5,9 +5,13 @@
 
 ROLO: Kieffer & Stone, "The spectral irradiance of the Moon", Astron. J. 129, 2887 (2005), equation 10 with the coefficients of its table 4
 and of equation 10's text; absolute within 5 to 10 %, relative within 1 % over phases of 1.55 to 97 deg. hilcam's Moon is that of Sato et al. 2014
-(render/sky/body_light.h) with LROC's colour and LOLA's relief from configs/maps; its scale at 643 nm and its phase curve know nothing of
-ROLO, its colour is ROLO's at 30 deg. The camera stands where the mean Earth does, in axes that turn with the Moon, and time goes through a month. The Sun
+(render/sky/body_light.h) with LROC's colour and LOLA's relief from configs/maps; its scale at 643 nm (tools/make_moon_map.py) and its phase curve know
+nothing of ROLO, its colour is ROLO's at 30 deg. The camera stands where the mean Earth does, in axes that turn with the Moon, and time goes through a month. The Sun
 of these runs has 1000 W m^-2 um^-1 everywhere, so that neither solar spectrum is in the comparison. TABLE.csv gets what docs/bodies.md shows.
+
+The scale must lie within what ROLO says of itself, 10 %. Newer measurements are told beside it, not asked for: ESA's LIME has 3 to 5 % more light than ROLO
+in the visible and near infrared, uncertain by 2 % (k = 2): Toledano et al., Atmos. Chem. Phys. 24, 3649 (2024); ROLO has 0.87 of the albedo that
+Velikodsky et al. found at 603 nm: Icarus 214, 30 (2011).
 """
 import concurrent.futures
 import datetime
@@ -36,6 +40,7 @@ ROLO = {
 P = (4.06054, 12.8802, -30.5858, 16.7498)  # deg
 # Bands of the comparison [nm]: neighbours of ROLO's are taken together, as single filters are off by some per cent (its section 4.2).
 BANDS = {442: (441.6,), 549: (544.0, 549.1, 553.8), 687: (665.1, 693.1, 703.6), 873: (865.3, 872.6, 882.0)}
+ROLO_SCALE_WITHIN, LIME_OVER_ROLO = 0.10, 1.04
 SUN_W_M2_UM, RADIUS_KM, DISTANCE_KM, PITCH_UM, FOCAL_MM, F_NUMBER, EXPOSURE_S = 1000.0, 1737.4, 384400.0, 5.0, 110.0, 8.0, 1e-3
 SCENARIO = """\
 name: rolo
@@ -146,18 +151,21 @@ def main():
         print(f"{phase:5d} " + " ".join(f"{ratio[band, phase]:7.3f}" for band in BANDS))
     if len(sys.argv) > 3:
         pathlib.Path(sys.argv[3]).write_text("".join(f"{b},{p},{r:.4f}\n" for (b, p), r in ratio.items()))
-    # What ROLO states of itself, 10 % of scale at most and 1 % along the phases, is told of, not asked for: LROC's scale is another.
+    # ROLO's 1 % along the phases is told of, not asked for: the law has 643 nm's lobes at all wavelengths, and the map one contrast at all phases.
+    failed = []
     for band in BANDS:
         values = numpy.array([ratio[band, phase] for phase in PHASES])
         scale = math.exp(numpy.log(values).mean())
         shape = values / scale
-        missed = [what for what, misses in (("ROLO's 10 %", abs(scale - 1) > 0.1), ("its 1 % along the phases", abs(shape - 1).max() > 0.01)) if misses]
-        print(f"{band} nm: scale {scale:.3f}, shape {shape.min():.3f} to {shape.max():.3f}" + (": beyond " + " and ".join(missed) if missed else ""))
+        print(f"{band} nm: scale {scale:.3f}, {scale / LIME_OVER_ROLO:.3f} of LIME's; shape {shape.min():.3f} to {shape.max():.3f}"
+              + (": beyond ROLO's 1 %" if abs(shape - 1).max() > 0.01 else ""))
+        if abs(scale - 1) > ROLO_SCALE_WITHIN:
+            failed.append(f"{band} nm: scale {scale:.3f}; accepted: 1 +- {ROLO_SCALE_WITHIN}")
     # The manual's table is what is found here: its three digits, and half a per cent for what pictures of 256 pixels scatter.
     told = {int(row[0]): [float(cell) for cell in row[1:]] for row in published()}
     assert sorted(told) == sorted(PHASES), sorted(told)
-    failed = [f"{band} nm, {phase} deg: {ratio[band, phase]:.3f}, docs/bodies.md has {value}"
-              for phase, row in told.items() for band, value in zip(BANDS, row) if abs(ratio[band, phase] - value) > 0.0055]
+    failed += [f"{band} nm, {phase} deg: {ratio[band, phase]:.3f}, docs/bodies.md has {value}"
+               for phase, row in told.items() for band, value in zip(BANDS, row) if abs(ratio[band, phase] - value) > 0.0055]
     assert not failed, failed
 
 

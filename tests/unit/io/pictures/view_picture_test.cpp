@@ -51,7 +51,7 @@ TEST(PictureView, BlackIsTheCamerasAndWhiteIsThatOfTheTarget) {
 
 TEST(PictureView, ADarkFrameStaysDark) {
     PictureView view(plain_run());
-    DnImage frame(64, 64);
+    DnImage frame(256, 64);
     for (std::size_t i = 0; i < frame.pixels(); ++i)
         frame.all()[i] = static_cast<std::uint16_t>(97 + i % 7);  // noise of 2 DN
     const PictureSamples out = view.make(frame, plain_record());
@@ -111,6 +111,26 @@ TEST(PictureView, AWhiteSurfaceInSunlightIsGreyAndSaturationIsWhite) {
     FrameRecord mirrored = plain_record();
     mirrored.reverse_x = true;
     EXPECT_EQ(view.make(frame, mirrored).kind, SampleKind::kGray8);
+}
+
+// A scene of one bluish brightness whose blue is balanced up by far: none of it is cut off, as white is what the balanced blue has.
+TEST(PictureView, WhiteIsTheLevelOfTheBalancedColours) {
+    PictureRun run = colour_run();
+    run.model.color_filter.filters[2].transmission = Curve::constant(0.2);
+    DnImage frame(256, 64);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 256; ++x)
+            // Blue falls along the row, by a share that its balance does not bring to saturation.
+            frame.row(y)[static_cast<std::size_t>(x)] =
+                static_cast<std::uint16_t>(y % 2 == 1 && x % 2 == 1 ? 600 - x : 300);
+    PictureView view(run);
+    const PictureSamples out = view.make(frame, plain_record());
+    int cut = 0;
+    for (std::size_t i = 0; i < out.bytes.size(); ++i) cut += out.bytes[i] == 255;
+    EXPECT_GT(cut, 0);
+    EXPECT_LT(cut, 0.01 * static_cast<double>(out.bytes.size()));
+    // Greens are levels of their own below it.
+    EXPECT_LT(out.bytes[3 * (32 * 256 + 128) + 1], 200);
 }
 
 }  // namespace

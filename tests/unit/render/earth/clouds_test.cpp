@@ -36,7 +36,7 @@ TEST(Clouds, ASlabReflectsAndTransmitsWhatVanDeHulstTabulated) {
 }
 
 // Even scattering without loss, very thick: R(1, 1) = H(1)^2 / 8 with H(1) = 2.9078 (Chandrasekhar, Radiative Transfer,
-// 1950, table XI). A layer of thickness t lacks about (H-moment) 4 u^2 / (3 (t + 1.42)) of it, with u = 3^0.5 H / 4.
+// 1960; worked out anew from H's integral equation). A layer of thickness t lacks about (H-moment) 4 u^2 / (3 (t + 1.42)) of it, with u = 3^0.5 H / 4.
 TEST(Clouds, AThickLayerThatScattersEvenlyHasChandrasekharsReflection) {
     const std::vector<double> cosines{1};
     std::vector<double> even(40, 0.0);
@@ -66,7 +66,7 @@ TEST(Clouds, ReflectionIsTheSameBothWays) {
 
 // g of these droplets is 0.8640 by another program, which sums Mie's coefficients without going over angles (Bohren & Huffman, Absorption and
 // Scattering of Light by Small Particles, 1983, appendix A and section 4.5). (Slingo, J. Atmos. Sci. 46, 1419, 1989, has 0.829 + 0.002482 r_e [um] = 0.854 from
-// 0.25 to 0.69 um, over sizes of measured clouds.) The bow of large droplets lies at 138 to 143 degrees, the glory's first ring
+// 0.25 to 0.69 um, over sizes of measured clouds: coefficients as climate models' sources have them.) The bow of large droplets lies at 138 to 143 degrees, the glory's first ring
 // within 3 degrees of 180.
 TEST(Clouds, DropletsHaveABowAndAGlory) {
     const PhaseFunction phase = PhaseFunction::droplets(0.55, water_index(0.55), 10, 0.1);

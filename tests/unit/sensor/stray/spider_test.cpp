@@ -47,7 +47,7 @@ TEST(Spider, EnergyIsKept) {
     EXPECT_GT(share, 0.04);
 }
 
-// Born & Wolf: along the spike sinc^2(w x / (lambda f)).
+// A slit's Fraunhofer pattern: along the spike sinc^2(w x / (lambda f)).
 TEST(Spider, SpikesStandAcrossTheVanesAsTheirSlitsDo) {
     const CameraModel c = spider_camera();
     Bench bench(c, {16, 1, 1});
