@@ -160,7 +160,10 @@ void validate(const SplitConfig& s) {
 
 Fields fields(KeypointsConfig& k) {
     return {integer("object", k.object, {1, 1e6}, "number of the object, from 1"),
-            required(path("file", k.file, "CSV with the columns name, x_m, y_m, z_m, in the object's axes")),
+            required(path("file", k.file,
+                          "CSV with the columns name, x_m, y_m, z_m, in the object's axes, and part, where "
+                          "points turn with the "
+                          "node of a joint")),
             number("tolerance_m", k.tolerance_m, 1, {0, 1e6},
                    "a point counts as hidden when something is nearer than it by more than that")};
 }
@@ -175,7 +178,7 @@ Fields fields(PicturesConfig& p) {
         number("interval_s", p.interval_s, 1, {1e-6, 1e7}, "simulated time from one to the next [s]"),
         flag("flow", p.flow, "optical flow from each picture to the next, as OpenEXR"),
         flag("variance", p.variance,
-             "variance of each pixel's number by the sensor's noise [DN^2], as OpenEXR"),
+             "variance of each pixel's number by noise of sensor and rendering [DN^2], as OpenEXR"),
     };
 }
 void validate(const PicturesConfig& p) {

@@ -24,6 +24,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
+constexpr std::uint64_t kFirstOtherPaths = 1'000'000;  // no camera of a bench has a seed of that number
+
 constexpr std::array kFrameEndings = {".png", ".tiff", ".fits", ".raw"};
 
 bool wants(const std::vector<std::string>& words, const char* word) {
@@ -37,6 +39,7 @@ TruthWishes asked_layers(const CampaignConfig& c) {
     wishes.visibility = wishes.object = wishes.normal = wishes.depth = true;
     wishes.range = wants(c.pictures.layers, "range");
     wishes.position = c.pictures.flow || wants(c.pictures.layers, "position");
+    wishes.part = c.pictures.flow;
     return wishes;
 }
 
@@ -182,18 +185,35 @@ class PictureMaker {
         const auto id = static_cast<std::uint64_t>(index) + 1;
         const RandomKey key{seed_of_camera(s, camera_.number() - 1), id};
         Stopwatch watch;
+        const std::vector<double> rendering_e2 =
+            campaign_.pictures.variance ? rendering_variance_e2(key) : std::vector<double>();
         camera.render(key, &truth_);
         record_.render_s += 1e-3 * watch.ms();
         watch = {};
         const ElectronImage& electrons = camera.expose();
         const FrameRecord record = record_of_picture(s, camera, id);
         describe(index, record, electrons);
-        if (campaign_.pictures.variance) variance_ = noise_variance(s.camera, electrons, camera.exposure());
+        if (campaign_.pictures.variance)
+            variance_ = noise_variance(s.camera, electrons, camera.exposure(), rendering_e2);
         const DnImage& frame = camera.digitise(key);
         record_.sensor_s += 1e-3 * watch.ms();
         watch = {};
         write(index, frame, record);
         record_.files_s += 1e-3 * watch.ms();
+    }
+
+    // Renders with other paths, as often as it takes. Empty where two renderings are the same: nothing is random.
+    std::vector<double> rendering_variance_e2(RandomKey key) {
+        StillCamera& camera = camera_.camera();
+        RenderingNoise noise;
+        for (std::uint64_t n = 1; n <= RenderingNoise::kRenderings; ++n) {
+            camera.render({seed_of_nth(key.seed, kFirstOtherPaths + n), key.frame});
+            noise.add(camera.expose(), camera_.scenario().camera, camera.exposure());
+            if (n != 2) continue;
+            const std::vector<double> both = noise.variance_e2();
+            if (std::all_of(both.begin(), both.end(), [](double v) { return v == 0; })) return {};
+        }
+        return noise.variance_e2();
     }
 
     void describe(std::int64_t index, const FrameRecord& record, const ElectronImage& electrons) {
@@ -284,6 +304,7 @@ PictureCases::PictureCases(const CampaignConfig& campaign)
       draw_(campaign),
       camera_(campaign),
       keypoints_(load_keypoints(campaign.keypoints)) {
+    find_parts(camera_.scenario(), keypoints_);
     // What children share is made before they are.
     camera_.sheet();
     camera_.camera().dark();

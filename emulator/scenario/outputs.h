@@ -13,6 +13,7 @@
 #include "io/files/sink_files.h"
 #include "io/gige/sink_gige.h"
 #include "io/preview/sink_preview.h"
+#include "io/shm/sink_shm.h"
 #include "io/truth/truth_config.h"
 #include "io/uvc/sink_uvc.h"
 #include "io/v4l2/sink_v4l2.h"
@@ -75,7 +76,8 @@ class OutputList {
     std::tuple<Given<Configs>...> all_;
 };
 
-using OutputsConfig = OutputList<GigeConfig, V4l2Config, UvcConfig, FilesConfig, PreviewConfig, TruthConfig>;
+using OutputsConfig =
+    OutputList<GigeConfig, V4l2Config, UvcConfig, FilesConfig, PreviewConfig, TruthConfig, ShmConfig>;
 Fields fields(OutputsConfig& outputs);
 
 // Returns what they listen on, in the order of the list; key: "outputs.gige.interface".

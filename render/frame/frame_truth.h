@@ -33,12 +33,12 @@ struct TruthWishes {
     bool stars = true;
     double faintest_magnitude = 30;
     // Layers, a value for each pixel.
-    bool object = false, range = false, depth = false, normal = false, position = false;
+    bool object = false, range = false, depth = false, normal = false, position = false, part = false;
     // The thing of which each object of the renderer is a part; empty: each object is a thing of its own. The
     // first of a thing's objects gives its pose. Things are numbered in the order of their first objects.
     std::vector<std::uint32_t> thing_of_object;
 
-    bool layers() const { return object || range || depth || normal || position; }
+    bool layers() const { return object || range || depth || normal || position || part; }
     bool rays() const { return visibility || layers(); }
 };
 
@@ -111,6 +111,7 @@ using DirectionImage = Image<float, struct DirectionQuantity>;  // three planes:
 // rows are as sky.
 struct TruthLayers {
     IdImage object;          // is filled for visibility alone, too
+    IdImage part;            // 1 + number of the renderer's object, from 0; 0: none. Not written to files
     LengthImage range_m;     // along the ray, from the camera's place at that row's instant
     LengthImage depth_m;     // along the boresight of mid-exposure: z in camera axes
     LengthImage position_m;  // in camera axes; three planes

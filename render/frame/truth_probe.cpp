@@ -47,6 +47,7 @@ FrameTruth make_truth(const FramePlacer& placer, const TruthWishes& wishes, int 
         truth.star_field.reserve(placer.max_stars());
     }
     if (wishes.rays()) truth.layers.object = IdImage(width_px, height_px);
+    if (wishes.part) truth.layers.part = IdImage(width_px, height_px);
     if (wishes.range) truth.layers.range_m = LengthImage(width_px, height_px);
     if (wishes.depth) truth.layers.depth_m = LengthImage(width_px, height_px);
     if (wishes.position) truth.layers.position_m = LengthImage(width_px, height_px, 3);
@@ -201,6 +202,7 @@ void TruthProbe::report_stars() {
 
 void TruthProbe::size_layers() {
     size_layer(truth_.layers.object, truth_.raster);
+    size_layer(truth_.layers.part, truth_.raster);
     size_layer(truth_.layers.range_m, truth_.raster);
     size_layer(truth_.layers.depth_m, truth_.raster);
     size_layer(truth_.layers.position_m, truth_.raster);
@@ -288,6 +290,9 @@ void TruthProbe::write(int x, int y, const RayMet& met) {
     const bool sky = met.kind == RayMet::Kind::kSky;
     TruthLayers& layers = truth_.layers;
     layers.object.row(y)[at] = id_of(met);
+    if (layers.part.planes() > 0)
+        layers.part.row(y)[at] =
+            met.kind == RayMet::Kind::kObject ? 1 + static_cast<std::uint32_t>(met.index) : 0;
     if (layers.range_m.planes() > 0) layers.range_m.row(y)[at] = static_cast<float>(met.range_m);
     const Vec3d place_m = camera_from_world_ * met.from_camera_m;
     if (layers.depth_m.planes() > 0)

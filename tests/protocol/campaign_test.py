@@ -353,6 +353,64 @@ class Flow(unittest.TestCase):
                 self.assertGreater(numpy.abs(found).max(), 1)
 
 
+    def test_flow_and_points_turn_with_a_part(self):
+        """The wings of a spacecraft turn by joints about the body's y axis, so what lies far along it is a wing's, whatever it is turned by."""
+        try:
+            import OpenImageIO as oiio
+        except ImportError:
+            self.skipTest("python3-openimageio is missing")
+        with tempfile.TemporaryDirectory() as top:
+            folder = pathlib.Path(top) / "out"
+            folder.parent.mkdir(exist_ok=True)
+            (folder.parent / "wing.csv").write_text("name,x_m,y_m,z_m,part\nbody,0.5,0.2,-0.3,\nwing,0.5,5,-0.3,wing_north\n")
+            text = (f"name: wings\nscenario: {SOURCE}/configs/scenarios/small.yaml\n"
+                    "set: [objects.0.generate.triangles=2000, camera.width_px=256, camera.height_px=256, objects.0.joints.0.rate_deg_s=25,\n"
+                    "  objects.0.joints.1.rate_deg_s=-15, quality.path_model=direct, stars=null]\nkeypoints: [{file: wing.csv, tolerance_m: 100}]\n"
+                    "labels: [coco]\npictures: {count: 2, interval_s: 0.4, flow: true, layers: [object, position]}\n")
+            campaign(text, folder, "--jobs", 1)
+
+            def layer(name, *channels):
+                image = oiio.ImageBuf(str(folder / name))
+                all_names = list(image.spec().channelnames)
+                pixels = image.get_pixels(oiio.FLOAT)
+                return numpy.stack([pixels[..., all_names.index(c)] for c in channels], -1).astype(float)
+
+            frames = record(folder, 1)["frames"]
+            before, after = (f["truth"] for f in frames)
+            place = layer("layers/000001_01.exr", "position.X", "position.Y", "position.Z")
+            flow = layer("flow/000001_01.exr", "flow.X", "flow.Y")
+            fx, fy = after["image"]["focal_length_px"]
+            cx, cy = after["image"]["principal_point_px"]
+            parts = [{p["name"].split("/")[1]: p for p in truth["parts"]} for truth in (before, after)]
+            seen = numpy.isfinite(place[..., 2]) & (place[..., 2] < 1e6)
+            body = before["objects"][0]
+            along = numpy.where(seen, ((place - body["position_camera_m"]) @ rotation(body["camera_from_body_wxyz"]))[..., 1], 0)
+
+            def gone(mask, a, b, key):
+                own = (place[mask] - a["position_camera_m"]) @ rotation(a[key])
+                moved = own @ rotation(b[key]).T + b["position_camera_m"]
+                y, x = numpy.nonzero(mask)
+                return projected(moved, [[fx, 0, cx], [0, fy, cy], [0, 0, 1]], [0] * 5) - numpy.stack([x + 0.5, y + 0.5], -1)
+
+            whole = "camera_from_body_wxyz"
+            for name, mask in (("wing_north", seen & (along > 4)), ("wing_south", seen & (along < -4))):
+                self.assertGreater(mask.sum(), 100, name)
+                self.assertLess(numpy.abs(flow[mask] - gone(mask, parts[0][name], parts[1][name], "camera_from_part_wxyz")).max(), 0.1)
+                self.assertGreater(numpy.abs(flow[mask] - gone(mask, body, after["objects"][0], whole)).max(), 1)
+            mask = seen & (numpy.abs(along) < 0.8)
+            self.assertLess(numpy.abs(flow[mask] - gone(mask, body, after["objects"][0], whole)).max(), 0.1)
+            # A point of the wing is where the wing's pose has it, one of the body where the body's has it.
+            for frame, now in zip(frames, parts):
+                thing, point = frame["truth"]["objects"][0], numpy.array([0.5, 5, -0.3])
+                for (name, x, y, _), where in zip(frame["keypoints"]["1"], (
+                        rotation(thing[whole]) @ numpy.array([0.5, 0.2, -0.3]) + thing["position_camera_m"],
+                        rotation(now["wing_north"]["camera_from_part_wxyz"]) @ point + now["wing_north"]["position_camera_m"])):
+                    expected = projected(where, [[fx, 0, cx], [0, fy, cy], [0, 0, 1]], [0] * 5)
+                    self.assertLess(numpy.abs(expected - (x, y)).max(), 1e-4, name)
+            ends = [frame["keypoints"]["1"][1][1:3] for frame in frames]
+            self.assertGreater(math.dist(*ends), 1)
+
+
 class Killed(unittest.TestCase):
     def test_ten_kills_leave_no_trace(self):
         with tempfile.TemporaryDirectory() as top:

@@ -15,6 +15,7 @@ import tempfile
 import unittest
 
 import numpy
+from PIL import Image
 
 HILCAM, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 sys.path.insert(0, str(SOURCE / "tools/python"))
@@ -102,6 +103,91 @@ class Benches(unittest.TestCase):
     def test_a_bench_that_cannot_be_says_why(self):
         with self.assertRaisesRegex(hilcam.BenchFailed, "camera.exposure_ms: found '-1'"):
             with hilcam.Bench(SCENARIO, {"camera.exposure_ms": -1}, program=HILCAM):
+                pass
+
+
+class Shared(unittest.TestCase):
+    NAME = f"hilcam_python_test_{os.getpid()}"
+    PLACES = [(22, 15, 7), (40, 0, 0), (30, 20, 5)]
+
+    def tearDown(self):
+        pathlib.Path("/dev/shm", self.NAME).unlink(missing_ok=True)
+
+    def exposed(self, camera, bench, number):
+        place, now = self.PLACES[number], bench.start_tai_ns + number * 10**9
+        camera.send(hilcam.Pose(time_tai_ns=now, position_m=place, attitude_wxyz=hilcam.look_at(place, (0, 0, 0))))
+        camera.send(hilcam.Expose(time_tai_ns=now))
+
+    def test_frames_lie_in_shared_memory_with_their_reports(self):
+        with tempfile.TemporaryDirectory() as folder:
+            values = {"mode": "lockstep", "outputs.shm.name": self.NAME, "outputs.files.folder": folder}
+            with hilcam.Bench(SCENARIO, values, frames=3, program=HILCAM) as bench, hilcam.SharedFrames(self.NAME) as frames, \
+                    hilcam.Client(bench.tcp, timeout_s=30) as camera:
+                self.assertEqual((frames.newest, frames.has_ended, frames.slots), (0, False, 8))
+                self.assertRaises(TimeoutError, frames.wait, 0, 0.05)
+                seen = []
+                for number, place in enumerate(self.PLACES):
+                    self.exposed(camera, bench, number)
+                    frame = next(frames.follow(number, timeout_s=60))
+                    self.assertEqual((frame.number, frame.report.id), (number + 1, number + 1))
+                    self.assertEqual(frame.report.exposure_mid_tai_ns, bench.start_tai_ns + number * 10**9)
+                    self.assertLess(numpy.abs(numpy.array(frame.report.position_m) - place).max(), 1e-9)
+                    self.assertLess(numpy.abs(numpy.array(frame.report.attitude_wxyz) - hilcam.look_at(place, (0, 0, 0))).max(), 1e-9)
+                    self.assertFalse(frame.pixels.flags.writeable or frame.pixels.flags.owndata)
+                    self.assertRaises(ValueError, frame.pixels.setflags, write=True)
+                    seen.append(frame)
+                bench.wait(60)
+                self.assertTrue(frames.has_ended and all(frame.is_whole() for frame in seen))
+                self.assertEqual(list(frames.follow(3)), [])
+                for frame in seen:
+                    written = numpy.asarray(Image.open(pathlib.Path(folder) / f"frame_{frame.number:08d}.png")).astype(int)
+                    # Numbers fill a PNG's 16 bits from the top (docs/pictures.md).
+                    self.assertTrue(numpy.array_equal(written >> (16 - frame.report.bits), frame.copy()))
+
+    def test_a_frame_that_was_overtaken_is_told(self):
+        values = {"mode": "free_run", "outputs.shm.name": self.NAME, "outputs.shm.slots": 2}
+        with hilcam.Bench(SCENARIO, values, frames=8, program=HILCAM) as bench, hilcam.SharedFrames(self.NAME, wait_s=10) as frames:
+            first = next(frames.follow(timeout_s=60))
+            bench.wait(120)
+            self.assertEqual(frames.newest, 8)
+            self.assertFalse(first.is_whole())
+            self.assertRaises(hilcam.Overtaken, first.copy)
+            self.assertIsNone(frames.get(first.number))
+            self.assertIsNotNone(frames.get(8))
+
+    def test_what_a_killed_one_left_is_replaced(self):
+        values = {"mode": "lockstep", "outputs.shm.name": self.NAME}
+        with hilcam.Bench(SCENARIO, values, program=HILCAM) as killed:
+            old = hilcam.SharedFrames(self.NAME)
+            with self.assertRaisesRegex(hilcam.BenchFailed, f"which process {killed.process.pid} writes; accepted: a name of its own"):
+                with hilcam.Bench(SCENARIO, values, program=HILCAM):
+                    pass
+            killed.process.kill()
+            killed.process.wait()
+            self.assertFalse(old.has_ended)
+            with hilcam.Bench(SCENARIO, values, frames=1, program=HILCAM) as bench, hilcam.Client(bench.tcp, timeout_s=30) as camera:
+                self.assertTrue(old.has_ended)
+                with hilcam.SharedFrames(self.NAME) as frames:
+                    self.assertEqual(frames.writer_pid, bench.process.pid)
+                    self.exposed(camera, bench, 0)
+                    self.assertTrue(frames.wait(0, 60))
+            self.assertFalse(pathlib.Path("/dev/shm", self.NAME).exists())
+
+    def test_what_is_none_of_ours_is_refused(self):
+        path = pathlib.Path("/dev/shm", self.NAME)
+        self.assertRaisesRegex(hilcam.SharedMemoryError, "no such shared memory: does hilcam run", hilcam.SharedFrames, self.NAME)
+        for content, message in ((b"x" * 4096, "not a shared memory of hilcam's"), (bytes(4096), "not ready yet"),
+                                 (b"HLCSHM 1" + (2).to_bytes(4, sys.byteorder) + bytes(4084), "version 2 of hilcam's shared memory; accepted: 1"),
+                                 (b"HLCSHM 1" + (1).to_bytes(4, sys.byteorder) + bytes(4084), "figures do not fit its size")):
+            path.write_bytes(content)
+            self.assertRaisesRegex(hilcam.SharedMemoryError, message, hilcam.SharedFrames, self.NAME)
+        with self.assertRaisesRegex(hilcam.BenchFailed, "a shared memory of another user|that hilcam has not made|outputs.shm.name"):
+            path.write_bytes(b"x" * 4096)
+            with hilcam.Bench(SCENARIO, {"outputs.shm.name": self.NAME}, program=HILCAM):
+                pass
+        self.assertEqual(path.read_bytes(), b"x" * 4096)
+        with self.assertRaisesRegex(hilcam.BenchFailed, "outputs.shm.name: found 'a/b'; accepted: 1 to 200"):
+            with hilcam.Bench(SCENARIO, {"outputs.shm.name": "a/b"}, program=HILCAM):
                 pass
 
 

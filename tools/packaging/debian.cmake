@@ -1,4 +1,4 @@
-# Debian packages by CPack: `hilcam` and `hilcam-examples`. tools/package makes them.
+# Debian packages by CPack: `hilcam`, `hilcam-examples` and `python3-hilcam`. tools/package makes them.
 file(STRINGS /etc/os-release release REGEX "^(ID|VERSION_ID)=")
 foreach(line ${release})
     if(line MATCHES "^ID=\"?([a-z]+)")
@@ -25,7 +25,7 @@ if(GIT AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
         OUTPUT_STRIP_TRAILING_WHITESPACE)
 endif()
 set(debian ${CMAKE_BINARY_DIR}/debian)
-foreach(package hilcam hilcam-examples)
+foreach(package hilcam hilcam-examples python3-hilcam)
     set(changelog "${package} (${PROJECT_VERSION}-${release_tag}) unstable; urgency=medium\n\n  * Version ${PROJECT_VERSION}; see changelog.gz of hilcam.\n\n -- ${HILCAM_MAINTAINER}  ${now}\n")
     file(WRITE ${debian}/${package}/changelog.Debian "${changelog}")
     configure_file(CHANGELOG.md ${debian}/${package}/changelog COPYONLY)
@@ -45,7 +45,7 @@ set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/out/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL program examples)
+set(CPACK_COMPONENTS_ALL program examples python)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE ${release_tag})
@@ -71,4 +71,16 @@ set(CPACK_COMPONENT_EXAMPLES_DESCRIPTION "scenarios and example programs for hil
 Scenarios to start hilcam with, the generator of the spacecraft in them, a
 flight program that keeps its target in the middle of the picture (source), and
 a client that takes frames through Aravis.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-hilcam)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3:any, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "hilcam, python3-pil")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/tools/packaging/debian/postinst
+    ${CMAKE_SOURCE_DIR}/tools/packaging/debian/prerm)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "hilcam from Python: benches, commands, frames, campaigns
+Starts benches of hilcam, a spacecraft's camera for the test bench, sends it
+commands, reads its frames from shared memory without a copy, its truth as
+dataclasses, layers as numpy arrays and campaigns as tables.")
 include(CPack)

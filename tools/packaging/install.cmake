@@ -25,7 +25,7 @@ install(FILES ${pages}/hilcam.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-com
     COMPONENT program)
 install(FILES tools/packaging/systemd/hilcam@.service DESTINATION lib/systemd/system COMPONENT program)
 # What clients in C and plug-ins include: -I PREFIX/include/hilcam.
-install(FILES tools/client/hilcam_client.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program)
+install(FILES tools/client/hilcam_client.h tools/client/hilcam_shm.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program)
 install(DIRECTORY render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hilcam COMPONENT program FILES_MATCHING PATTERN "*.h")
 install(FILES tools/client/hilcam_client.py DESTINATION ${data}/client COMPONENT program)
 install(FILES README.md CONTRIBUTING.md NOTICE CITATION.cff SECURITY.md DESTINATION ${doc} COMPONENT program)
@@ -49,9 +49,17 @@ function(install_name NAME INSTALLED COMPONENT)
 endfunction()
 install_name(configs ${data} program)
 install_name(tools/client/hilcam_client.h ${CMAKE_INSTALL_INCLUDEDIR}/hilcam/hilcam_client.h program)
+install_name(tools/client/hilcam_shm.h ${CMAKE_INSTALL_INCLUDEDIR}/hilcam/hilcam_shm.h program)
 install_name(tools/client/hilcam_client.py ${data}/client/hilcam_client.py program)
 install_name(tools/flight_software_example ${doc}-examples/examples/flight_software_example examples)
 install_name(tools/flight_software_glue ${doc}-examples/examples/flight_software_glue examples)
+
+# --- the Python package, as Debian has such: pip installs it elsewhere ---
+set(python_package lib/python3/dist-packages/hilcam)
+install(DIRECTORY tools/python/hilcam/ DESTINATION ${python_package} COMPONENT python EXCLUDE_FROM_ALL
+    FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN client.py EXCLUDE PATTERN __pycache__ EXCLUDE)
+# In the source tree this is a link.
+install(FILES tools/client/hilcam_client.py DESTINATION ${python_package} RENAME client.py COMPONENT python EXCLUDE_FROM_ALL)
 
 # --- the examples ---
 install(TARGETS hilcam-make-spacecraft RUNTIME DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT examples)

@@ -19,9 +19,11 @@ from .client import (Acknowledgement, Client, Expose, Fault, FrameReport, Housek
 from .conventions import (attitude_from_dcm, attitude_from_mrp, dcm_of, mrp_of, rotate, tai_ns_of_utc, utc_of_tai_ns)
 from .exr import read_exr
 from .masks import mask_of_run_lengths
+from .shm import Overtaken, SharedFrame, SharedFrameReport, SharedFrames, SharedMemoryError
 from .truth import FrameTruth, read_truth
 
 __all__ = ["Acknowledgement", "Bench", "BenchFailed", "Campaign", "Case", "Client", "Expose", "Fault", "FrameReport", "FrameTruth",
-           "Housekeeping", "Joint", "Lamp", "NoAnswer", "Ping", "Pose", "Refused", "Settings", "Start", "Stop", "Subscribe",
+           "Housekeeping", "Joint", "Lamp", "NoAnswer", "Overtaken", "Ping", "Pose", "Refused", "Settings",
+           "SharedFrame", "SharedFrameReport", "SharedFrames", "SharedMemoryError", "Start", "Stop", "Subscribe",
            "attitude_from_dcm", "attitude_from_mrp", "dcm_of", "look_at", "mask_of_run_lengths", "mrp_of", "read_exr", "read_truth", "rotate",
            "tai_ns_of_utc", "utc_of_tai_ns"]

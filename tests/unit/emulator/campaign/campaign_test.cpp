@@ -201,6 +201,66 @@ TEST_F(CampaignTest, NoiseVariesAsItsVarianceSays) {
     }
 }
 
+// Two plates at a right angle light each other by random paths. Sums of variances over all bright pixels, of
+// 120 takings with other paths and other noise, and as told by 16 renderings: the latter's own error is
+// sqrt(2 / 15) of each pixel's rendering noise, that of the former sqrt(2 / 119) of all; the lens spreads a
+// pixel's paths over its neighbours, so a ninth of the pixels are taken for independent. 5 standard errors.
+TEST_F(CampaignTest, NoiseOfRandomPathsIsInItsVariance) {
+    const std::filesystem::path file = scenario();
+    write("plate.obj",
+          "v -0.05 -0.05 -0.05\nv 0 -0.05 0\nv 0 0.05 0\nv -0.05 0.05 -0.05\nv 0.05 -0.05 -0.05\n"
+          "v 0.05 0.05 -0.05\nf 1 3 2\nf 1 4 3\nf 2 6 5\nf 2 3 6\n");
+    const ScenarioConfig s = load_scenario(file, {"quality.path_model=path"});
+    StillCamera camera(s);
+    RenderingNoise noise;
+    for (std::uint64_t n = 1; n <= RenderingNoise::kRenderings; ++n) {
+        camera.render({1000 + n, 1});
+        noise.add(camera.expose(), s.camera, camera.exposure());
+    }
+    camera.render({1, 1});
+    const ElectronImage mean_e = camera.expose();
+    const VarianceImage told = noise_variance(s.camera, mean_e, camera.exposure(), noise.variance_e2());
+    const VarianceImage sensor = noise_variance(s.camera, mean_e, camera.exposure());
+    const std::size_t pixels = told.pixels();
+    std::vector<double> sum(pixels), squares(pixels);
+    constexpr int kTakings = 120;
+    for (std::uint64_t n = 1; n <= kTakings; ++n) {
+        camera.render({7 * n, 1});
+        camera.expose();
+        const DnImage& frame = camera.digitise({7 * n, 1});
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const double dn = frame.data()[i];
+            sum[i] += dn, squares[i] += dn * dn;
+        }
+    }
+    double measured_dn2 = 0, told_dn2 = 0, sensor_dn2 = 0, count = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (!(mean_e.data()[i] > 500) || !(told.data()[i] > 0)) continue;
+        measured_dn2 += (squares[i] - sum[i] * sum[i] / kTakings) / (kTakings - 1);
+        told_dn2 += static_cast<double>(told.data()[i]), sensor_dn2 += static_cast<double>(sensor.data()[i]);
+        ++count;
+    }
+    ASSERT_GT(count, 100);
+    const double rendering_share = 1 - sensor_dn2 / told_dn2;
+    const double error = std::sqrt((2.0 / 119 + 2.0 / 15 * rendering_share * rendering_share) / (count / 9));
+    RecordProperty("rendering_share", std::to_string(rendering_share));
+    EXPECT_NEAR(measured_dn2 / told_dn2, 1, 5 * error);
+    EXPECT_GT(measured_dn2 / sensor_dn2, 1 + 5 * error) << "the sensor's noise alone is too little";
+}
+
+// Where no path is drawn, two renderings are the same.
+TEST_F(CampaignTest, RenderingWithoutRandomPathsHasNoVariance) {
+    const ScenarioConfig s = load_scenario(scenario(), {"quality.path_model=direct"});
+    StillCamera camera(s);
+    RenderingNoise noise;
+    EXPECT_TRUE(noise.variance_e2().empty());
+    for (std::uint64_t n = 1; n <= 2; ++n) {
+        camera.render({1000 + n, 1});
+        noise.add(camera.expose(), s.camera, camera.exposure());
+    }
+    for (const double v : noise.variance_e2()) ASSERT_EQ(v, 0);
+}
+
 TEST_F(CampaignTest, TwoCampaignsDoNotShareAFolder) {
     const CampaignConfig c = campaign("seed: 1\n");
     const std::filesystem::path out = folder_ / "out";

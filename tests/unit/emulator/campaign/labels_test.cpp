@@ -71,6 +71,35 @@ TEST(Keypoints, AreWhereTheLensShowsThemAndHiddenByWhatIsNearer) {
     EXPECT_EQ(seen_keypoints(set, truth)[0].visibility, 1);
 }
 
+// The part's origin is the object's while it is not turned: a point of the wing stands where the part's pose puts it.
+TEST(Keypoints, OfAPartTurnWithIt) {
+    FrameTruth truth = seen_at({0, 0, 10}, {});
+    truth.parts.push_back({1, 4, {0, 0.1, 10}, kQuarterTurn});
+    KeypointSet set{1, 0.01, {"body", "wing"}, {{0.5, 0, 0}, {0.5, 0, 0}}, {"", "wing"}, {0, 4}};
+    const std::vector<SeenKeypoint> seen = seen_keypoints(set, truth);
+    EXPECT_NEAR(seen[0].place_px.x, 25, 1e-9);
+    EXPECT_NEAR(seen[0].place_px.y, 10, 1e-9);
+    EXPECT_NEAR(seen[1].place_px.x, 20, 1e-9);
+    EXPECT_NEAR(seen[1].place_px.y, 16, 1e-9);
+
+    ScenarioConfig scenario;
+    scenario.objects.resize(2);
+    scenario.objects[0].joints.resize(2);
+    scenario.objects[0].joints[1].node = "wing";
+    scenario.objects[1].joints.resize(1);
+    std::vector<KeypointSet> sets = {set};
+    find_parts(scenario, sets);
+    EXPECT_EQ(sets[0].parts, (std::vector<std::uint32_t>{0, 3}));
+    sets[0].nodes[1] = "leg";
+    try {
+        find_parts(scenario, sets);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("part: found 'leg'; accepted: a node with a joint of object 1"));
+    }
+}
+
 TEST(OpticalFlow, CarriesEachPixelWithItsThingAndTheSkyWithTheCamera) {
     FrameTruth from = seen_at({0, 0, 10}, {});
     FrameTruth to = seen_at({0.2, 0, 8}, kQuarterTurn);
@@ -86,6 +115,13 @@ TEST(OpticalFlow, CarriesEachPixelWithItsThingAndTheSkyWithTheCamera) {
     // middle.
     EXPECT_NEAR(flow.row(9, 0)[20], 20 + 3.125 - 20.5, 1e-4);
     EXPECT_NEAR(flow.row(9, 1)[20], 10 + 0.625 - 9.5, 1e-4);
+    // A part of the object that stays at its place and does not turn: the object's motion is not its own.
+    from.layers.part = IdImage(40, 20);
+    from.layers.part.row(9)[20] = 6;
+    from.parts.push_back({1, 5, {0, 0, 10}, {}});
+    to.parts.push_back({1, 5, {0.1, 0, 10}, {}});
+    EXPECT_NEAR(optical_flow(from, to).row(9, 0)[20], 100 * 0.1 / 10, 1e-4);
+    EXPECT_NEAR(optical_flow(from, to).row(9, 1)[20], 0, 1e-4);
     const double x = -19.5 / 100, turned = std::tan(std::atan(x) - 0.01);
     EXPECT_NEAR(flow.row(10, 0)[0], 20 + 100 * turned - 0.5, 1e-4);
 }
