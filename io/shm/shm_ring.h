@@ -31,9 +31,9 @@ struct ShmHeader {
     std::uint32_t writer_pid;
     std::uint64_t reserved_before_names;
     std::array<char, 64> camera;  // its name; ends with a 0
-    std::array<char, 16> colors;  // of the filters: "RGGB", ...; empty: none
+    std::array<char, 16> colors;  // the filters' colours: "RGGB", ...; empty: none
     std::array<std::uint64_t, 6> reserved;
-    // What changes has a cache line of its own.
+    // These change, on a cache line of their own.
     std::atomic<std::uint64_t> published;  // number of the newest frame that is whole; 0: none yet
     std::atomic<std::uint32_t> news;       // its lower 32 bits, the word that a futex waits on
     std::atomic<std::uint32_t> ended;      // 1: no more frames come

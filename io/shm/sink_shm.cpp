@@ -142,7 +142,7 @@ void ShmSink::stop() noexcept {
     if (!segment_.data()) return;
     ShmHeader& header = segment_.header();
     header.ended.store(1, std::memory_order_release);
-    header.news.fetch_add(1, std::memory_order_release);  // who is about to wait does not
+    header.news.fetch_add(1, std::memory_order_release);  // a reader that is about to wait goes on
     wake_readers(header);
     segment_.remove();
 }

@@ -14,9 +14,9 @@
 
 #include "render/light/kept_updates.h"
 #include "render/light/mirrored_suns.h"
-#include "render/light/sky_light.h"
 #include "render/light/tile.h"
 #include "render/scene/shown_object.h"
+#include "render/skylight/sky_light.h"
 
 namespace hilcam {
 

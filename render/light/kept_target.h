@@ -8,7 +8,7 @@
 
 #include "render/light/kept_links.h"
 #include "render/light/lamp_light.h"
-#include "render/light/sky_light.h"
+#include "render/skylight/sky_light.h"
 
 namespace hilcam {
 

@@ -25,7 +25,7 @@ std::vector<float> strip(std::vector<std::string> quality) {
 }
 
 // In the noise of inspector_1k (13 e-, full well 13500 e-) when the brightest hundredth has half of its full well, against the mean of 64
-// rays a pixel. Without the rims it is 0.33, by the many rays about them of before 0.15.
+// rays a pixel. Without the rims it is 0.33.
 TEST(EarthLimb, IsAsGoodAsTheMeanOfManyRays) {
     const std::vector<float> seen = strip({}),
                              mean = strip({"quality.visibility=rays", "quality.samples_per_axis=8"});

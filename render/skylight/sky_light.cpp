@@ -1,4 +1,4 @@
-#include "render/light/sky_light.h"
+#include "render/skylight/sky_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "render/light/body_map.h"
 #include "render/scene/background.h"
+#include "render/skylight/body_map.h"
 
 namespace hilcam {
 

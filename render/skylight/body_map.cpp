@@ -1,4 +1,4 @@
-#include "render/light/body_map.h"
+#include "render/skylight/body_map.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
