@@ -15,6 +15,7 @@
 #include "emulator/campaign/noise_variance.h"
 #include "emulator/campaign/view_draw.h"
 #include "emulator/campaign/worker_pool.h"
+#include "emulator/tradeoff/image_error.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/plate.h"
 
@@ -210,7 +211,7 @@ TEST_F(CampaignTest, NoiseOfRandomPathsIsInItsVariance) {
     write("plate.obj",
           "v -0.05 -0.05 -0.05\nv 0 -0.05 0\nv 0 0.05 0\nv -0.05 0.05 -0.05\nv 0.05 -0.05 -0.05\n"
           "v 0.05 0.05 -0.05\nf 1 3 2\nf 1 4 3\nf 2 6 5\nf 2 3 6\n");
-    const ScenarioConfig s = load_scenario(file, {"quality.path_model=path"});
+    const ScenarioConfig s = load_scenario(file, std::vector<std::string>{"quality.path_model=path"});
     StillCamera camera(s);
     RenderingNoise noise;
     for (std::uint64_t n = 1; n <= RenderingNoise::kRenderings; ++n) {
@@ -218,7 +219,7 @@ TEST_F(CampaignTest, NoiseOfRandomPathsIsInItsVariance) {
         noise.add(camera.expose(), s.camera, camera.exposure());
     }
     camera.render({1, 1});
-    const ElectronImage mean_e = camera.expose();
+    const ElectronImage mean_e = clone(camera.expose());
     const VarianceImage told = noise_variance(s.camera, mean_e, camera.exposure(), noise.variance_e2());
     const VarianceImage sensor = noise_variance(s.camera, mean_e, camera.exposure());
     const std::size_t pixels = told.pixels();
@@ -250,7 +251,7 @@ TEST_F(CampaignTest, NoiseOfRandomPathsIsInItsVariance) {
 
 // Where no path is drawn, two renderings are the same.
 TEST_F(CampaignTest, RenderingWithoutRandomPathsHasNoVariance) {
-    const ScenarioConfig s = load_scenario(scenario(), {"quality.path_model=direct"});
+    const ScenarioConfig s = load_scenario(scenario(), std::vector<std::string>{"quality.path_model=direct"});
     StillCamera camera(s);
     RenderingNoise noise;
     EXPECT_TRUE(noise.variance_e2().empty());
