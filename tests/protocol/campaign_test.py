@@ -352,7 +352,6 @@ class Flow(unittest.TestCase):
                 self.assertLess(numpy.abs(found - expected).max(), 0.1)
                 self.assertGreater(numpy.abs(found).max(), 1)
 
-
     def test_flow_and_points_turn_with_a_part(self):
         """The wings of a spacecraft turn by joints about the body's y axis, so what lies far along it is a wing's, whatever it is turned by."""
         try:
@@ -364,7 +363,7 @@ class Flow(unittest.TestCase):
             folder.parent.mkdir(exist_ok=True)
             (folder.parent / "wing.csv").write_text("name,x_m,y_m,z_m,part\nbody,0.5,0.2,-0.3,\nwing,0.5,5,-0.3,wing_north\n")
             text = (f"name: wings\nscenario: {SOURCE}/configs/scenarios/small.yaml\n"
-                    "set: [objects.0.generate.triangles=2000, camera.width_px=256, camera.height_px=256, objects.0.joints.0.rate_deg_s=25,\n"
+                    "set: [objects.0.generate.triangles=5000, camera.width_px=256, camera.height_px=256, camera.focal_length_mm=2.25, objects.0.joints.0.rate_deg_s=25,\n"
                     "  objects.0.joints.1.rate_deg_s=-15, quality.path_model=direct, stars=null]\nkeypoints: [{file: wing.csv, tolerance_m: 100}]\n"
                     "labels: [coco]\npictures: {count: 2, interval_s: 0.4, flow: true, layers: [object, position]}\n")
             campaign(text, folder, "--jobs", 1)
