@@ -372,6 +372,11 @@ TEST_F(Allocation, NorWhileSomebodyLooksAtPicturesWithTheirTruth) {
         0);
 }
 
+TEST_F(Allocation, NorWhileFramesGoToASharedMemory) {
+    EXPECT_EQ(allocations({"outputs.shm.name=hilcam_allocation_" + std::to_string(getpid())}, Loop::kTold),
+              0);
+}
+
 TEST_F(Allocation, NorWithAScanningLine) {
     EXPECT_EQ(
         allocations({"camera.shutter={kind: line_scan, line_time_us: 50}",
