@@ -162,8 +162,7 @@ Fields fields(KeypointsConfig& k) {
     return {integer("object", k.object, {1, 1e6}, "number of the object, from 1"),
             required(path("file", k.file,
                           "CSV with the columns name, x_m, y_m, z_m, in the object's axes, and part, where "
-                          "points turn with the "
-                          "node of a joint")),
+                          "points turn with the node of a joint")),
             number("tolerance_m", k.tolerance_m, 1, {0, 1e6},
                    "a point counts as hidden when something is nearer than it by more than that")};
 }

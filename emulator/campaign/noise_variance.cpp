@@ -17,26 +17,43 @@ CameraModel without_patterns(const CameraModel& camera) {
     return out;
 }
 
+// The charge that becomes one number: that of the pixels which are binned [e-].
+struct BinnedCharge {
+    double sum_e = 0, greatest_e = 0;
+};
+BinnedCharge charge_of(const ElectronImage& mean_e, int x, int y, int binning_x, int binning_y) {
+    BinnedCharge out;
+    for (int v = 0; v < binning_y; ++v)
+        for (int u = 0; u < binning_x; ++u) {
+            const auto column = static_cast<std::size_t>(x * binning_x + u);
+            const auto one_e = static_cast<double>(mean_e.row(y * binning_y + v)[column]);
+            out.sum_e += one_e;
+            out.greatest_e = std::max(out.greatest_e, one_e);
+        }
+    return out;
+}
+
 }  // namespace
 
 void RenderingNoise::add(const ElectronImage& mean_e, const CameraModel& camera, const Exposure& exposure) {
     const auto [binning_x, binning_y] = binning_of(camera, exposure);
     const auto [width, height] = frame_size(camera, binning_x, binning_y);
-    const auto across = static_cast<std::size_t>(width), down = static_cast<std::size_t>(height);
-    mean_.resize(across * down), squares_.resize(across * down);
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    mean_.resize(pixels), squares_.resize(pixels);
     ++count_;
-    for (std::size_t y = 0, i = 0; y < down; ++y)
-        for (std::size_t x = 0; x < across; ++x, ++i) {
-            double sum_e = 0;
-            for (std::size_t v = 0; v < static_cast<std::size_t>(binning_y); ++v)
-                for (std::size_t u = 0; u < static_cast<std::size_t>(binning_x); ++u)
-                    sum_e += static_cast<double>(
-                        mean_e.row(static_cast<int>(y * static_cast<std::size_t>(binning_y) +
-                                                    v))[x * static_cast<std::size_t>(binning_x) + u]);
-            const double step = sum_e - mean_[i];
-            mean_[i] += step / count_;
-            squares_[i] += step * (sum_e - mean_[i]);
+    for (int y = 0, i = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x, ++i) {
+            const double sum_e =
+                charge_of(mean_e, x, y, static_cast<int>(binning_x), static_cast<int>(binning_y)).sum_e;
+            double& mean = mean_[static_cast<std::size_t>(i)];
+            const double step = sum_e - mean;
+            mean += step / count_;
+            squares_[static_cast<std::size_t>(i)] += step * (sum_e - mean);
         }
+}
+
+bool RenderingNoise::is_random() const {
+    return std::any_of(squares_.begin(), squares_.end(), [](double square) { return square > 0; });
 }
 
 std::vector<double> RenderingNoise::variance_e2() const {
@@ -64,26 +81,15 @@ VarianceImage noise_variance(const CameraModel& camera, const ElectronImage& mea
     VarianceImage out(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            double sum_e = 0;
-            bool is_full = false;
-            for (int v = 0; v < static_cast<int>(binning_y); ++v)
-                for (int u = 0; u < static_cast<int>(binning_x); ++u) {
-                    const auto column = static_cast<std::size_t>(x * static_cast<int>(binning_x) + u);
-                    const auto one_e =
-                        static_cast<double>(mean_e.row(y * static_cast<int>(binning_y) + v)[column]);
-                    sum_e += one_e;
-                    is_full = is_full || one_e >= camera.full_well_e;
-                }
+            const BinnedCharge charge =
+                charge_of(mean_e, x, y, static_cast<int>(binning_x), static_cast<int>(binning_y));
+            const bool is_full = charge.greatest_e >= camera.full_well_e || charge.sum_e >= most_e;
+            const auto i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            const double all_e2 =
+                noise.variance_e2(charge.sum_e, 0) + (rendering_e2.empty() ? 0 : rendering_e2[i]);
             out.row(y)[static_cast<std::size_t>(x)] =
-                is_full || sum_e >= most_e
-                    ? 0
-                    : static_cast<float>(
-                          gain_dn_e * gain_dn_e *
-                          (noise.variance_e2(sum_e, 0) +
-                           (rendering_e2.empty()
-                                ? 0
-                                : rendering_e2[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                               static_cast<std::size_t>(x)])));
+                is_full ? 0 : static_cast<float>(gain_dn_e * gain_dn_e * all_e2);
         }
     return out;
 }

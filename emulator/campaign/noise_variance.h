@@ -29,6 +29,8 @@ class RenderingNoise {
 
     // Adds a rendering's mean electrons; all are of one size.
     void add(const ElectronImage& mean_e, const CameraModel& camera, const Exposure& exposure);
+    // True when two of them differ.
+    bool is_random() const;
     // Empty while fewer than two were added.
     std::vector<double> variance_e2() const;
 

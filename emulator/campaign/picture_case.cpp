@@ -185,9 +185,7 @@ class PictureMaker {
         const auto id = static_cast<std::uint64_t>(index) + 1;
         const RandomKey key{seed_of_camera(s, camera_.number() - 1), id};
         Stopwatch watch;
-        const std::vector<double> rendering_e2 =
-            campaign_.pictures.variance ? rendering_variance_e2(key) : std::vector<double>();
-        camera.render(key, &truth_);
+        const std::vector<double> rendering_e2 = render(key);
         record_.render_s += 1e-3 * watch.ms();
         watch = {};
         const ElectronImage& electrons = camera.expose();
@@ -202,17 +200,23 @@ class PictureMaker {
         record_.files_s += 1e-3 * watch.ms();
     }
 
-    // Renders with other paths, as often as it takes. Empty where two renderings are the same: nothing is random.
-    std::vector<double> rendering_variance_e2(RandomKey key) {
+    // Renders the picture; where its variance is wanted, with other paths, too, as often as it takes. Returns the variance of
+    // its mean electrons [e-^2]; nothing where it is not wanted, or a second rendering is the same: nothing is random.
+    std::vector<double> render(RandomKey key) {
         StillCamera& camera = camera_.camera();
         RenderingNoise noise;
-        for (std::uint64_t n = 1; n <= RenderingNoise::kRenderings; ++n) {
+        const auto add = [&] { noise.add(camera.expose(), camera_.scenario().camera, camera.exposure()); };
+        const auto add_other = [&](std::uint64_t n) {
             camera.render({seed_of_nth(key.seed, kFirstOtherPaths + n), key.frame});
-            noise.add(camera.expose(), camera_.scenario().camera, camera.exposure());
-            if (n != 2) continue;
-            const std::vector<double> both = noise.variance_e2();
-            if (std::all_of(both.begin(), both.end(), [](double v) { return v == 0; })) return {};
-        }
+            add();
+        };
+        if (campaign_.pictures.variance) add_other(1);
+        camera.render(key, &truth_);
+        if (!campaign_.pictures.variance) return {};
+        add();
+        if (!noise.is_random()) return {};
+        for (std::uint64_t n = 2; n < RenderingNoise::kRenderings; ++n) add_other(n);
+        camera.render(key, &truth_);  // the camera holds the picture again
         return noise.variance_e2();
     }
 

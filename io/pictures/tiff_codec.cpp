@@ -139,7 +139,7 @@ float number_at(const std::uint8_t* from) {
     return static_cast<float>(value);
 }
 
-float number_of(const NumberLayout& l, const std::uint8_t* from) {
+float sample_of(const NumberLayout& l, const std::uint8_t* from) {
     if (l.format == SAMPLEFORMAT_IEEEFP)
         return l.bits == 32 ? number_at<float>(from) : number_at<double>(from);
     const bool has_sign = l.format == SAMPLEFORMAT_INT;
@@ -154,7 +154,7 @@ void read_rows(TIFF* tiff, const TiffPort& port, const NumberLayout& l, PixelMap
     for (std::uint32_t y = 0; y < l.height; ++y) {
         if (TIFFReadScanline(tiff, row.data(), y, 0) != 1) throw undecodable(port.complaint);
         for (std::size_t x = 0; x < l.width; ++x)
-            map.row(static_cast<int>(y))[x] = number_of(l, row.data() + x * l.bytes_px());
+            map.row(static_cast<int>(y))[x] = sample_of(l, row.data() + x * l.bytes_px());
     }
 }
 
@@ -172,7 +172,7 @@ void read_tiles(TIFF* tiff, const TiffPort& port, const NumberLayout& l, PixelMa
             for (std::uint64_t y = top; y < std::min<std::uint64_t>(top + down, l.height); ++y)
                 for (std::uint64_t x = left; x < std::min<std::uint64_t>(left + across, l.width); ++x)
                     map.row(static_cast<int>(y))[x] =
-                        number_of(l, tile.data() + ((y - top) * across + (x - left)) * l.bytes_px());
+                        sample_of(l, tile.data() + ((y - top) * across + (x - left)) * l.bytes_px());
         }
 }
 

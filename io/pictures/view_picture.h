@@ -36,11 +36,11 @@ class PictureView {
     std::string png(const DnImage& frame, const FrameRecord& record, PictureNotes notes);
 
   private:
-    const CameraModel model_;
-    std::string pattern_;
-    // The same of the interpolated colours.
+    // Those of the interpolated colours, balanced.
     ViewLevels levels_of_colors(const DnScale& scale) const;
 
+    const CameraModel model_;
+    std::string pattern_;
     std::array<double, 3> balance_ = {1, 1, 1};  // red, green, blue: the least is 1
     ViewLevels levels_;
     std::vector<std::uint8_t> samples_;

@@ -17,8 +17,8 @@ std::vector<double> sky_costs_ms(const FrameView& frame);
 // A part of how a body looks.
 struct SkyPart {
     std::string body, text;  // "earth", "clouds: ..."
-    std::optional<double>
-        ms;  // time that the body's pixels would save without it, one core; none: not in the picture or not told
+    // Time that the body's pixels would save without it, of one core; none: not in the picture, or not told.
+    std::optional<double> ms;
     double told_ms = 0;  // less than this cannot be told from nothing
     std::size_t bytes = 0;
 };

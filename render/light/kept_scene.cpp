@@ -31,11 +31,20 @@ float step_of(const ShownObject& object, float min_rad) {
     return std::max(min_rad, std::min(kMax_rad, kSolve_s * static_cast<float>(object.turn_rate_rad_s)));
 }
 
+// The narrowest facet lobe of all materials; 1: there are no facets.
+float narrowest_alpha(std::span<const ShownObject> objects) {
+    float least = 1;
+    for (const ShownObject& object : objects)
+        for (const Material& material : object.materials())
+            if (material.has_facets()) least = std::min(least, material.ggx_alpha);
+    return least;
+}
+
 }  // namespace
 
 KeptScene::KeptScene(std::span<const ShownObject> objects, const EmbreeScene& scene, const ColorBands& bands,
                      const Settings& settings)
-    : terms_{settings.lamps, settings.emission}, objects_(objects.size()) {
+    : terms_{settings.lamps, settings.emission}, objects_(objects.size()), sky_(narrowest_alpha(objects)) {
     std::vector<KeptLight*> lights(objects.size());
     std::map<const ObjectSurfaces*, std::shared_ptr<const KeptAlbedos>> albedos;  // by make
     for (std::size_t i = 0; i < objects.size(); ++i) {

@@ -7,6 +7,7 @@
 
 #include "render/earth/earth_patch.h"
 #include "render/earth/earth_picture.h"
+#include "render/light/earth_limbs.h"
 #include "render/visibility/visibility_buffer.h"
 #include "render/vocabulary/place_sequence.h"
 
@@ -49,15 +50,14 @@ class PrimaryRays {
             for (int bx = box.x0; bx < box.x1; bx += 4) {
                 const bool objects = !uncovered_ && frame_.object_mask->at(bx, by);
                 if (!objects && !bodies_ && !sun_) continue;
-                if (!gather(bx, by, [](int, int) { return true; })) continue;
+                if (!gather(bx, by, kAllPixels)) continue;
                 const Block block = !uncovered_ ? Block::kUneven
                                     : pictured_ ? Block::kEven
                                                 : block_at(bx, by);
                 if (block == Block::kRim) {
-                    if (gather(bx, by, [this](int x, int y) { return !meets_limb(x, y); }))
-                        trace_block(objects, true);
-                    if (gather(bx, by, [this](int x, int y) { return meets_limb(x, y); }))
-                        trace_block(objects, false);
+                    const std::uint32_t limb = limb_pixels(bx, by);
+                    if (gather(bx, by, kAllPixels & ~limb)) trace_block(objects, true);
+                    if (gather(bx, by, limb)) trace_block(objects, false);
                 } else if (block != Block::kDark) {
                     trace_block(objects, block == Block::kEven);
                 }
@@ -90,14 +90,14 @@ class PrimaryRays {
     std::array<CameraRay, kPacketSize> exact_;  // where they are not linear, or objects are far away
     std::size_t count_ = 0;
 
-    // Takes the pixels of a block that are asked for. False where there are none.
-    template <class Which>
-    bool gather(int bx, int by, const Which& which) {
+    static constexpr std::uint32_t kAllPixels = 0xFFFF;  // a bit for each of a block's 4 x 4, row by row
+    // Takes those pixels of a block that are asked for. False where there are none.
+    bool gather(int bx, int by, std::uint32_t pixels) {
         const PixelBox& box = tile_.box;
         rays_.count = 0;
         for (int y = by; y < std::min(by + 4, box.y1); ++y)
             for (int x = bx; x < std::min(bx + 4, box.x1); ++x) {
-                if (!wants(x, y) || !which(x, y)) continue;
+                if (!(pixels >> (4 * (y - by) + x - bx) & 1u) || !wants(x, y)) continue;
                 x_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(x - box.x0);
                 y_of_[static_cast<std::size_t>(rays_.count)] = static_cast<float>(y - box.y0);
                 ++rays_.count;
@@ -144,7 +144,7 @@ class PrimaryRays {
             // The Earth is flat by a third of a hundredth, and its air a hundredth high.
             constexpr double kWithin = 0.97;
             const bool modelled = frame_.background->earth() && body.id == BodyId::kEarth;
-            if (modelled && meets_earths_rim(body, dir, from_middle_rad, block_rad)) out = Block::kRim;
+            if (modelled && limbs_of(body).near(dir, rim_rad() + block_rad)) out = Block::kRim;
             if (!modelled && from_middle_rad + block_rad > kWithin * radius_rad) return Block::kUneven;
         }
         return out;
@@ -187,34 +187,19 @@ class PrimaryRays {
         frame_.earth_picture->look(picture_, x, y, static_cast<std::size_t>(rays_.count), share, earth_);
     }
 
-    // By its model, which filters what a ray stands for, the Earth is uneven only within this of the limbs of its ground and of its clouds.
+    // By its model, which filters what a ray stands for, the Earth is uneven only within this of its limbs.
     static constexpr double kRim_px = 1.0;
-    bool meets_earths_rim(const PlacedBody& earth, Vec3d dir, double from_middle_rad,
-                          double block_rad) const {
-        const double rim_rad = kRim_px / frame_.geometry.focal_length_px + block_rad;
-        // What is farther from any limb than the flattening moves it, a third of a hundredth of the radius, needs no closer look.
-        const double disk_rad = std::acos(earth.disk_cosine);
-        constexpr double kFlattening = 0.0034;
-        const double per_radius_rad =
-            std::sqrt(1 - earth.disk_cosine * earth.disk_cosine) / std::max(0.1, earth.disk_cosine);
-        const double level = EarthModel::kCloudLevel_m / earth.figure.equatorial_radius_m;
-        return from_middle_rad > disk_rad - kFlattening * per_radius_rad - rim_rad &&
-               from_middle_rad < disk_rad + 2 * level * per_radius_rad + rim_rad &&
-               near_limbs(earth, dir, from_middle_rad, rim_rad);
+    double rim_rad() const { return kRim_px / frame_.geometry.focal_length_px; }
+    EarthLimbs limbs_of(const PlacedBody& earth) const {
+        return {earth, frame_.background->earth()->has_clouds()};
     }
-    bool near_limbs(const PlacedBody& earth, Vec3d dir, double from_middle_rad, double rim_rad) const {
-        const Vec3d across = dir - dot(dir, earth.world_dir) * earth.world_dir;
-        if (!(length(across) > 1e-9)) return true;
-        const Vec3d axis = earth.fixed_from_world * earth.world_dir,
-                    way = earth.fixed_from_world * normalized(across);
-        const auto near = [&](double height_m) {
-            const Figure level{earth.figure.equatorial_radius_m + height_m,
-                               earth.figure.polar_radius_m + height_m};
-            return std::abs(from_middle_rad - limb_angle_rad(level, earth.camera_m, axis, way)) < rim_rad;
-        };
-        return near(0) || (frame_.background->earth()->has_clouds() && near(EarthModel::kCloudLevel_m));
+    // The pixels of a rim that have a limb in or about them.
+    std::uint32_t limb_pixels(int bx, int by) const {
+        std::uint32_t out = 0;
+        for (int i = 0; i < 16; ++i)
+            if (meets_limb(bx + i % 4, by + i / 4)) out |= 1u << i;
+        return out;
     }
-    // Whether a pixel of a rim has a limb in or about it.
     bool meets_limb(int x, int y) const {
         for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
             const PlacedBody& body = frame_.background->disks()[i];
@@ -222,8 +207,7 @@ class PrimaryRays {
             const Vec3d dir = normalized(linear_ ? corner_ + (x - tile_.box.x0 + 0.5) * linear_->right +
                                                        (y - tile_.box.y0 + 0.5) * linear_->down
                                                  : frame_.visibility->direction(x, y, {0.5f, 0.5f}));
-            const double from_middle_rad = std::acos(std::clamp(dot(dir, body.world_dir), -1.0, 1.0));
-            return near_limbs(body, dir, from_middle_rad, kRim_px / frame_.geometry.focal_length_px);
+            return limbs_of(body).near(dir, rim_rad());
         }
         return false;
     }

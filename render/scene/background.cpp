@@ -114,14 +114,6 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
     }
 }
 
-double Background::limb_angle_rad(std::size_t lamp, Vec3d way) const {
-    const PlacedBody& body = disks_[lamp];  // place() makes a lamp of each disk, in order
-    const Mat3d& fixed = body.fixed_from_world;
-    return hilcam::limb_angle_rad(this->figure(index_of(body.id)),
-                                  body.camera_m + fixed * objects_from_camera_m_,
-                                  fixed * body_lights_[lamp].world_dir, fixed * way);
-}
-
 Spectrum Background::sun_seen_from(Vec3d place_world_m, BodyId standing_on) const {
     Spectrum whole;
     whole.bin.fill(1);

@@ -76,9 +76,6 @@ class Background {
     std::span<const PlacedBody> disks() const { return {disks_.data(), disk_count_}; }
     std::span<const PlacedBody> points() const { return {points_.data(), point_count_}; }
     std::span<const BodyLight> body_lights() const { return {body_lights_.data(), body_light_count_}; }
-    // Returns the angle from the middle of a lamp's disk to the limb of its ground [rad], as seen from the
-    // objects, in the plane of a direction across (unit, world).
-    double limb_angle_rad(std::size_t lamp, Vec3d way) const;
     // Irradiance of a point body at the camera [W m^-2 um^-1].
     Spectrum point_irradiance(const PlacedBody& body) const;
     const Atmosphere* air() const { return air_; }

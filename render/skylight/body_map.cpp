@@ -15,8 +15,8 @@ BodyMap::BodyMap() {
     }
 }
 
-BodyMap::Place BodyMap::place_of(int level, int x, int y) const {
-    const float scale = 2 * radius_ / static_cast<float>(side_ >> level);
+BodyMap::Place BodyMap::place_of(int x, int y) const {
+    const float scale = 2 * radius_ / static_cast<float>(side_);
     const float px = (static_cast<float>(x) + 0.5f) * scale - radius_;
     const float py = (static_cast<float>(y) + 0.5f) * scale - radius_;
     const float squared = px * px + py * py;
@@ -25,12 +25,12 @@ BodyMap::Place BodyMap::place_of(int level, int x, int y) const {
     return {frame_.to_world({px * across, py * across, 1 - 0.5f * squared}), squared <= radius_ * radius_};
 }
 
-void BodyMap::place(const Background& background, Vec3f axis, float one_minus_cosine) {
+void BodyMap::place(const Background& background, Vec3f axis, float one_minus_cosine, float narrowest_alpha) {
     frame_ = Frame(axis);
     radius_ = std::sqrt(2 * one_minus_cosine);
     side_ = kLeastSide, levels_ = 1;
-    while (side_ < kMostSide && 2 * radius_ > kWantedTexel_rad * static_cast<float>(side_))
-        side_ *= 2, ++levels_;
+    const float wanted_rad = std::max(0.5f * narrowest_alpha, kNarrowest_rad);
+    while (side_ < kMostSide && 2 * radius_ > wanted_rad * static_cast<float>(side_)) side_ *= 2, ++levels_;
     const float texel_rad = 2 * radius_ / static_cast<float>(side_);
     texel_sr_ = texel_rad * texel_rad;
     for (int level = 0; level < levels_; ++level)
@@ -39,7 +39,7 @@ void BodyMap::place(const Background& background, Vec3f axis, float one_minus_co
     tbb::parallel_for(tbb::blocked_range<int>(0, side_), [&](const tbb::blocked_range<int>& rows) {
         for (int y = rows.begin(); y < rows.end(); ++y)
             for (int x = 0; x < side_; ++x) {
-                const Place place = place_of(0, x, y);
+                const Place place = place_of(x, y);
                 if (!place.inside) continue;
                 Spectrum weight;
                 weight.bin.fill(1);

@@ -14,34 +14,24 @@ namespace hilcam {
 
 class BodyMap {
   public:
-    // About the narrowest lobe for which a texel is small enough [rad], and the most texels across.
-    static constexpr float kWantedTexel_rad = 0.02f;
+    // A texel is half as wide as the alpha of the narrowest lobe, but no narrower than this [rad]: about the part of a solar
+    // cell's lobe that one of sixteen facets sees.
+    static constexpr float kNarrowest_rad = 0.02f;
     static constexpr int kLeastSide = 8, kMostSide = 64;
 
     BodyMap();
 
     // Looks at the disk that a cone about `axis` holds; world, unit. Loop; no allocation of its own.
-    void place(const Background& background, Vec3f axis, float one_minus_cosine);
+    // narrowest_alpha: of the lobes that will ask (GGX).
+    void place(const Background& background, Vec3f axis, float one_minus_cosine, float narrowest_alpha);
 
-    // Calls use(direction, light) for each part of the disk, of 32 across at most. light: radiance times its solid
-    // angle.
-    template <class Use>
-    void each_part(const Use& use) const {
-        const int level = side_ > kMostParts ? 1 : 0;
-        const float part_sr = level == 0 ? texel_sr_ : 4 * texel_sr_;
-        for (int y = 0; y < side_ >> level; ++y)
-            for (int x = 0; x < side_ >> level; ++x)
-                use(place_of(level, x, y).dir, part_sr * *texel(level, x, y));
-    }
     float texel_sr() const { return texel_sr_; }
     // Returns the mean radiance about a direction, over `spread_sr` or a texel; nothing beyond the cone. dir: unit,
     // world. Loop, any thread.
     Spectrum about(Vec3f dir, float spread_sr) const;
 
   private:
-    static constexpr int kLevels = 4;  // 64, 32, 16, 8
-    static constexpr int kMostParts = 32;
-    static_assert(kMostSide <= 2 * kMostParts);
+    static constexpr int kLevels = 4;  // sides of 64, 32, 16, 8
     struct Place {
         Vec3f dir;
         bool inside;
@@ -53,7 +43,7 @@ class BodyMap {
     // Level after level, each with a border of nothing.
     std::array<std::vector<Spectrum>, kLevels> texels_;
 
-    Place place_of(int level, int x, int y) const;
+    Place place_of(int x, int y) const;
     const Spectrum* texel(int level, int x, int y) const {
         return &texels_[static_cast<std::size_t>(level)][index(level, x, y)];
     }

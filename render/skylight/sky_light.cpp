@@ -82,7 +82,9 @@ Spectrum interpolated(const std::vector<Spectrum>& value, int steps, float x, fl
 
 }  // namespace
 
-SkyLight::SkyLight() { whole_lobe(0, 1); }  // the table is made here, so that no frame makes it
+SkyLight::SkyLight(float narrowest_alpha) : narrowest_alpha_(narrowest_alpha) {
+    whole_lobe(0, 1);  // the table is made here, so that no frame makes it
+}
 
 Vec3f SkyLight::DirectionMap::direction(int index) {
     const float x = 2 * static_cast<float>(index % (kSteps + 1)) / kSteps - 1;
@@ -133,37 +135,46 @@ void SkyLight::place(const Background& background) {
     }
 }
 
-void SkyLight::place_disks(const Background& background, std::size_t number, Disks& disks) {
+// Equal areas on the cone by a golden-angle spiral (Vogel 1979), four for each patch.
+void SkyLight::place_disks(const Background& background, std::size_t number, Disks& disks) const {
     const BodyLight& lamp = background.body_lights()[number];
     const float half_angle = 2 * std::asin(std::sqrt(0.5f * lamp.one_minus_cosine));
     disks.cosine = std::cos(half_angle), disks.sine = std::sin(half_angle);
     disks.half_angle_rad = half_angle;
     const Vec3f axis = to_float(lamp.world_dir);
-    disks.map.place(background, axis, lamp.one_minus_cosine);
+    Spectrum each_sr;
+    each_sr.bin.fill(2 * kPiF * lamp.one_minus_cosine / kLooks);
+    const auto look_rad = static_cast<double>(std::sqrt(each_sr[0]));
+    std::array<Look, kLooks> looks;
+    for (std::size_t i = 0; i < kLooks; ++i) {
+        looks[i] = {spiral(axis, lamp.one_minus_cosine, i, kLooks), {}};
+        Spectrum weight = each_sr;
+        background.add_bodies({}, to_double(looks[i].dir), weight, looks[i].irradiance, look_rad);
+    }
     for (std::size_t k = 0; k < kParts.size(); ++k) {
         // Patches stand twice the cone's half angle over the root of their number apart; facets turn by half
         // of that.
         disks.of[k].min_alpha = half_angle / std::sqrt(static_cast<float>(kParts[k]));
-        place_parts(disks.map, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
+        place_parts(looks, axis, lamp.one_minus_cosine, kParts[k], disks.of[k]);
     }
+    if (narrowest_alpha_ < disks.of.back().min_alpha)
+        disks.map.place(background, axis, lamp.one_minus_cosine, narrowest_alpha_);
 }
 
-// Each part's light goes to the nearest of equal areas on the cone, by a golden-angle spiral (Vogel 1979), which
-// stand in the middle of what they have of it.
-void SkyLight::place_parts(const BodyMap& map, Vec3f axis, float one_minus_cosine, std::size_t count,
+// Each look's light goes to the nearest of fewer parts, which stand in the middle of what they have of it.
+void SkyLight::place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine, std::size_t count,
                            Disk& out) {
     std::array<Vec3f, kPatches> seed, middle{};
     for (std::size_t k = 0; k < count; ++k)
         seed[k] = spiral(axis, one_minus_cosine, k, count), out.irradiance[k] = {};
-    map.each_part([&](Vec3f dir, const Spectrum& light) {
-        if (!(largest(light) > 0)) return;
+    for (const Look& look : looks) {
         std::size_t best = 0;
         float nearest = -2;
         for (std::size_t k = 0; k < count; ++k)
-            if (const float cosine = dot(seed[k], dir); cosine > nearest) nearest = cosine, best = k;
-        out.irradiance[best] += light;
-        middle[best] = middle[best] + largest(light) * dir;
-    });
+            if (const float cosine = dot(seed[k], look.dir); cosine > nearest) nearest = cosine, best = k;
+        out.irradiance[best] += look.irradiance;
+        middle[best] = middle[best] + largest(look.irradiance) * look.dir;
+    }
     for (std::size_t k = 0; k < count; ++k) {
         const Vec3f dir = dot(middle[k], middle[k]) > 0 ? normalized(middle[k]) : seed[k];
         out.x[k] = dir.x, out.y[k] = dir.y, out.z[k] = dir.z;
@@ -219,6 +230,8 @@ Spectrum SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, f
         const Vec3f dir = reflect(view_dir, facet);
         const float vh = dot(view_dir, facet), ni = dot(normal, dir);
         if (!(vh > 0 && ni > 0)) continue;
+        // The density of the facet's mirrored direction is D nh / (4 vh) (Walter et al., eq. 38): what the lobe sends over
+        // that, and the share of the directions that it stands for.
         const float weight = 4 * vh / nh * ni * ggx_visibility(alpha, no, ni);
         const float spread_sr =
             4 * vh / (nh * ggx_distribution(alpha, nh) * static_cast<float>(slopes.count));

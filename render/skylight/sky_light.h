@@ -17,7 +17,8 @@ class SkyLight {
     // Bodies that cannot give this share of what white paint sends in the Sun are left out.
     static constexpr float kMinOverSun = 1e-5f;
 
-    SkyLight();
+    // narrowest_alpha: of the facets of all that it lights (GGX); 1: there are none.
+    explicit SkyLight(float narrowest_alpha);
 
     // Prepares a frame; the background is placed. Loop.
     void place(const Background& background);
@@ -55,6 +56,11 @@ class SkyLight {
     // A body's disk in parts of equal solid angle; and in fewer, for lobes that are wide against them.
     static constexpr std::size_t kPatches = 64;
     static constexpr std::array<std::size_t, 3> kParts = {4, 16, kPatches};
+    static constexpr std::size_t kLooks = 4 * kPatches;
+    struct Look {
+        Vec3f dir;
+        Spectrum irradiance;  // on a surface across the way
+    };
     struct Disk {
         alignas(64) std::array<float, kPatches> x{}, y{}, z{};
         std::array<Spectrum, kPatches> irradiance{};  // irradiance by each, on a surface that faces it
@@ -63,9 +69,10 @@ class SkyLight {
     struct Disks {
         std::array<Disk, kParts.size()> of;              // by kParts
         float cosine = 1, sine = 0, half_angle_rad = 0;  // a cone that holds it
-        BodyMap map;
+        BodyMap map;  // for lobes too narrow for the parts, where there are any
     };
 
+    float narrowest_alpha_;
     const Background* background_ = nullptr;
     std::size_t count_ = 0;
     std::array<Body, kMaxBodies> bodies_;
@@ -74,9 +81,9 @@ class SkyLight {
 
     Spectrum narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);
-    static void place_disks(const Background& background, std::size_t number, Disks& disks);
-    static void place_parts(const BodyMap& map, Vec3f axis, float one_minus_cosine, std::size_t count,
-                            Disk& out);
+    void place_disks(const Background& background, std::size_t number, Disks& disks) const;
+    static void place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine,
+                            std::size_t count, Disk& out);
 };
 
 }  // namespace hilcam

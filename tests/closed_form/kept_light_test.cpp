@@ -165,6 +165,24 @@ TEST(KeptLight, RoughMetalSendsAllOfTheEarthsLight) {
     }
 }
 
+// White paint under the Earth, from low orbit to twice the geostationary height: all of its disk's light, in however many parts
+// that is taken.
+TEST(KeptLight, PaintHasAllOfTheEarthsLightAtAnyHeight) {
+    const auto light = [](const char* model, double distance_m, int samples) {
+        MetalStage s(model, 1, samples, 24, 0.05);
+        s.add(plate(lambert(0.8), s.grid), {0, 0, 4});
+        s.world.bodies[BodyId::kEarth].world_m = {0, 0, -distance_m};
+        s.sun({0, 0.3, 1});
+        s.render();
+        return s.mean();
+    };
+    for (const double distance_m : {6.8e6, 9e6, 1.5e7, 4.2e7, 8.4e7}) {
+        const double paths = light("path", distance_m, 16);
+        EXPECT_GT(paths, 0);
+        EXPECT_NEAR(light("kept", distance_m, 1) / paths, 1, 0.01) << distance_m;
+    }
+}
+
 // Polished metal beside the Earth's limb: the tails of its lobe, narrow against the disk, reach over it.
 TEST(KeptLight, PolishedMetalSeesTheEarthPastItsLimb) {
     const auto light = [](const char* model, int samples, double tilt_rad) {

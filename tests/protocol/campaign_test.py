@@ -316,12 +316,21 @@ class Made(unittest.TestCase):
 
 
 class Flow(unittest.TestCase):
-    def test_flow_is_where_the_points_go(self):
-        """Every pixel of the target, by its place in camera axes: turned and carried by the two poses, and projected."""
+    def setUp(self):
         try:
             import OpenImageIO as oiio
         except ImportError:
             self.skipTest("python3-openimageio is missing")
+        self.oiio = oiio
+
+    def layer(self, file, *channels):
+        image = self.oiio.ImageBuf(str(file))
+        all_names = list(image.spec().channelnames)
+        pixels = image.get_pixels(self.oiio.FLOAT)
+        return numpy.stack([pixels[..., all_names.index(c)] for c in channels], -1).astype(float)
+
+    def test_flow_is_where_the_points_go(self):
+        """Every pixel of the target, by its place in camera axes: turned and carried by the two poses, and projected."""
         with tempfile.TemporaryDirectory() as top:
             folder = pathlib.Path(top) / "out"
             text = CAMPAIGN.replace("count: 8", "count: 2").replace("labels: [coco, bop, yolo, speed]", "labels: []")
@@ -329,15 +338,9 @@ class Flow(unittest.TestCase):
             text += "pictures: {count: 2, interval_s: 0.4, flow: true, layers: [object, position]}\n"
             campaign(text, folder, "--jobs", 1)
 
-            def layer(name, *channels):
-                image = oiio.ImageBuf(str(folder / name))
-                all_names = list(image.spec().channelnames)
-                pixels = image.get_pixels(oiio.FLOAT)
-                return numpy.stack([pixels[..., all_names.index(c)] for c in channels], -1).astype(float)
-
             for number in (1, 2):
                 before, after = (f["truth"] for f in record(folder, number)["frames"])
-                place = layer(f"layers/{number:06d}_01.exr", "position.X", "position.Y", "position.Z")
+                place = self.layer(folder / f"layers/{number:06d}_01.exr", "position.X", "position.Y", "position.Z")
                 mask = numpy.isfinite(place[..., 2]) & (place[..., 2] < 1e6)
                 self.assertGreater(mask.sum(), 100)
                 a, b = before["objects"][0], after["objects"][0]
@@ -348,19 +351,14 @@ class Flow(unittest.TestCase):
                 there = projected(moved, [[fx, 0, cx], [0, fy, cy], [0, 0, 1]], after["image"]["distortion"])
                 y, x = numpy.nonzero(mask)
                 expected = there - numpy.stack([x + 0.5, y + 0.5], -1)
-                found = layer(f"flow/{number:06d}_01.exr", "flow.X", "flow.Y")[mask]
+                found = self.layer(folder / f"flow/{number:06d}_01.exr", "flow.X", "flow.Y")[mask]
                 self.assertLess(numpy.abs(found - expected).max(), 0.1)
                 self.assertGreater(numpy.abs(found).max(), 1)
 
     def test_flow_and_points_turn_with_a_part(self):
         """The wings of a spacecraft turn by joints about the body's y axis, so what lies far along it is a wing's, whatever it is turned by."""
-        try:
-            import OpenImageIO as oiio
-        except ImportError:
-            self.skipTest("python3-openimageio is missing")
         with tempfile.TemporaryDirectory() as top:
             folder = pathlib.Path(top) / "out"
-            folder.parent.mkdir(exist_ok=True)
             (folder.parent / "wing.csv").write_text("name,x_m,y_m,z_m,part\nbody,0.5,0.2,-0.3,\nwing,0.5,5,-0.3,wing_north\n")
             text = (f"name: wings\nscenario: {SOURCE}/configs/scenarios/small.yaml\n"
                     "set: [objects.0.generate.triangles=5000, camera.width_px=256, camera.height_px=256, camera.focal_length_mm=2.25, objects.0.joints.0.rate_deg_s=25,\n"
@@ -368,16 +366,10 @@ class Flow(unittest.TestCase):
                     "labels: [coco]\npictures: {count: 2, interval_s: 0.4, flow: true, layers: [object, position]}\n")
             campaign(text, folder, "--jobs", 1)
 
-            def layer(name, *channels):
-                image = oiio.ImageBuf(str(folder / name))
-                all_names = list(image.spec().channelnames)
-                pixels = image.get_pixels(oiio.FLOAT)
-                return numpy.stack([pixels[..., all_names.index(c)] for c in channels], -1).astype(float)
-
             frames = record(folder, 1)["frames"]
             before, after = (f["truth"] for f in frames)
-            place = layer("layers/000001_01.exr", "position.X", "position.Y", "position.Z")
-            flow = layer("flow/000001_01.exr", "flow.X", "flow.Y")
+            place = self.layer(folder / "layers/000001_01.exr", "position.X", "position.Y", "position.Z")
+            flow = self.layer(folder / "flow/000001_01.exr", "flow.X", "flow.Y")
             fx, fy = after["image"]["focal_length_px"]
             cx, cy = after["image"]["principal_point_px"]
             parts = [{p["name"].split("/")[1]: p for p in truth["parts"]} for truth in (before, after)]

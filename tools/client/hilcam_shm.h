@@ -17,7 +17,8 @@
 // The writer never waits: a frame that was read too slowly is told by hilcam_shm_is_whole(), and frames that
 // were missed by their numbers. Threads: any number of readers, each with a hilcam_shm of its own or a common one.
 
-// With -std=c99 glibc hides syscall() and clock_gettime(): include this file first there, or use -std=gnu99.
+// glibc declares syscall() and clock_gettime() under -std=c99 only with this. A program that is compiled so includes this
+// file before any other.
 #ifndef _DEFAULT_SOURCE
 #define _DEFAULT_SOURCE 1
 #endif
