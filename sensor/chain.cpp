@@ -244,7 +244,7 @@ void SensorChain::expose(const RadianceImage& radiance, std::span<const PointSou
     times_.collapse_ms = collapse.ms();
 
     const Stopwatch convolve;
-    my.focal_plane.convolve(exposure);
+    my.focal_plane.convolve(radiance, exposure);
     times_.convolve_ms = convolve.ms();
 
     const Stopwatch gather;

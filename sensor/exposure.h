@@ -12,6 +12,8 @@ namespace hilcam {
 // The renderer's rays in a pixel: n for a regular n x n grid, or all over its area, at random.
 using RayGrid = int;
 inline constexpr RayGrid kScatteredRays = 0;
+// The visibility buffer's grid, of which it is known in which half of a pixel light falls (half_light.h).
+inline constexpr RayGrid kHalvedRays = -1;
 
 // The sampling says how the radiance image was made.
 struct SensorSampling {

@@ -10,6 +10,7 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
+#include "sensor/half_light_adder.h"
 #include "sensor/mtf.h"
 #include "sensor/point_light.h"
 #include "sensor/stray/far_wings.h"
@@ -68,6 +69,7 @@ struct FocalPlane::Implementation {
     std::vector<std::vector<float>> zone_weights;  // over the FFT's image, by zone; empty with one zone
     std::vector<double> cell_sums;                 // sums of a ghost's cells
     std::vector<float> row_peaks;                  // brightest pixel of each row of a channel
+    HalfLightAdder half_adder{illumination, zone_weights};
     std::vector<BrightPixel> bright;
     bool dark = false;  // nothing in the radiance image
 
@@ -199,6 +201,7 @@ struct FocalPlane::Implementation {
         const std::size_t before = bright.size();
         const auto number = static_cast<int>(&channel - channels.data());
         while (!take_out_over(channel, limit, number, before)) limit *= 10;
+        channel.most_e = limit;
         if (before == bright.size()) return;
         for (std::size_t i = before; i < bright.size(); ++i) {
             const Vec2d at = bright[i].position_px;
@@ -359,7 +362,7 @@ void FocalPlane::collapse(const RadianceImage& radiance, const Exposure& exposur
     }
 }
 
-void FocalPlane::convolve(const Exposure& exposure) {
+void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposure) {
     Implementation& my = *implementation_;
     if (my.dark) return;
     FrameBlur blur;
@@ -371,12 +374,16 @@ void FocalPlane::convolve(const Exposure& exposure) {
     const RayGrid usual = my.view.sampling.samples_per_axis, rays = exposure.ray_grid.value_or(usual);
     if (rays != usual)
         blur.axis = [usual, rays](double f) { return ray_grid_mtf(f, usual) / ray_grid_mtf(f, rays); };
-    for (LightChannel& channel : my.channels) {
+    for (std::size_t c = 0; c < my.channels.size(); ++c) {
+        LightChannel& channel = my.channels[c];
         CompactKernel* kernel = still ? channel.kernel_of(rays) : nullptr;
         if (kernel)
             kernel->run(*channel.convolver);
         else
             channel.convolver->run(blur);
+        if (rays == kHalvedRays)
+            my.half_adder.add(*radiance.halves(), static_cast<int>(c), blur, exposure.exposure_s, channel.most_e,
+                              channel);
     }
 }
 

@@ -3,14 +3,14 @@
 // were alike.
 //
 // Radiance is weighted by S (optics.h), convolved by MTF_sys (system_mtf.h) and sampled at the pixels'
-// centres; points get their PSF (convolution/psf.h). A colour filter array makes a channel of each filter: an
+// centres; where light falls in its pixel moves it (half_light_adder.h); points get their PSF (convolution/psf.h). A colour filter array makes a channel of each filter: an
 // image of its own, of which only that filter's pixels are read. Ringing of a band-limited edge can dip below
 // zero and overflow could leave infinities; charge is neither, so results are cut off at 0 and 1e9 e-.
 
 #include <memory>
 #include <span>
 
-#include "render/vocabulary/image.h"
+#include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/point_source.h"
 #include "render/vocabulary/side_light.h"
 #include "sensor/camera_model.h"
@@ -26,7 +26,7 @@ class FocalPlane {
 
     // These functions are called in this order each frame. Loop, one thread at a time.
     void collapse(const RadianceImage& radiance, const Exposure& exposure);
-    void convolve(const Exposure& exposure);
+    void convolve(const RadianceImage& radiance, const Exposure& exposure);
     // Writes into the light-sensitive part of the read-out array; black pixels get 0. beside: light from beside
     // the picture.
     void gather(std::span<const PointSource> points, std::span<const SideLight> beside,

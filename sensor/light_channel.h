@@ -7,6 +7,7 @@
 
 #include "sensor/convolution/compact_kernel.h"
 #include "sensor/convolution/convolve.h"
+#include "sensor/convolution/half_kernels.h"
 #include "sensor/convolution/psf.h"
 #include "sensor/exposure.h"
 #include "sensor/mosaic.h"
@@ -48,6 +49,8 @@ struct LightChannel {
         CompactKernel kernel;
     };
     std::vector<GridKernel> kernels;
+    std::vector<HalfKernels> halves;  // by zone; none where no frame has halves
+    float most_e = 0;                 // what brighter pixels were cut to in the present frame
     std::optional<Ghost> ghost;
 
     // Null: there is none.

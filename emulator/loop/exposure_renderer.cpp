@@ -8,6 +8,7 @@
 
 #include "emulator/scenario/quality_ladder.h"
 #include "render/vocabulary/random.h"
+#include "sensor/optics.h"
 
 namespace hilcam {
 namespace {
@@ -57,6 +58,15 @@ void slow_down(double moving, WorldSnapshot& world) {
     world.camera_rate_rad_s = moving * world.camera_rate_rad_s;
 }
 
+// How the detector's channels answer to radiance: all of it, or one for each colour filter.
+std::vector<Spectrum> responses_of(const CameraModel& camera, const SpectralGrid& grid) {
+    if (camera.color_filter.pattern.empty()) return {electrons_per_s_per_radiance(camera, grid)};
+    std::vector<Spectrum> out;
+    for (const ColorFilterConfig& filter : camera.color_filter.filters)
+        out.push_back(electrons_per_s_per_radiance(camera, grid, &filter.transmission));
+    return out;
+}
+
 // About the camera's axes, from one attitude to another.
 Vec3d mean_rate(Quat from, Quat to, double seconds) {
     const Quat turn = conjugate(from) * to;
@@ -84,17 +94,26 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
       oversampling_(static_cast<double>(config.sampling.oversampling)),
       jitter_(camera.jitter, config.seed, config.start),
       noise_(camera, grid, config.sampling),
+      halves_(config.sampling.samples_per_axis == kHalvedRays ? responses_of(camera, grid)
+                                                              : std::vector<Spectrum>{}),
       bins_(static_cast<std::size_t>(grid.size())) {
     if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
         motion_ = MotionQuality::kFast;
     for (WorldSnapshot* world : {&middle_, &before_, &after_, &part_world_})
         world->objects.resize(placed_objects);
     if (motion_ != MotionQuality::kExact) return;
-    part_ = make_image();
+    part_ = make_part();
     part_points_.reserve(renderer.max_points());
 }
 
 RadianceImage ExposureRenderer::make_image() const {
+    RadianceImage image = make_part();
+    if (!halves_.empty()) image.keep_halves(halves_);
+    return image;
+}
+
+// The sum of parts has no halves: its blur is wider than a pixel.
+RadianceImage ExposureRenderer::make_part() const {
     const ImageGeometry& g = renderer_.geometry();
     return {g.padded_width(), g.padded_height(), static_cast<int>(bins_)};
 }
@@ -159,6 +178,7 @@ void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSourc
     });
     for (int y = 0; y < radiance.height(); y += RadianceImage::kBlock_px)
         for (int x = 0; x < radiance.width(); x += RadianceImage::kBlock_px) radiance.mark_dark(x, y, true);
+    if (radiance.halves()) radiance.halves()->set_known(false);
     points.clear();
     exposure.image_rate_px_s = {};
     exposure.camera_rate_rad_s = {};
@@ -200,6 +220,7 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     }
     report_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
+    if (radiance.halves() && radiance.halves()->known()) exposure.ray_grid = kHalvedRays;
     if (truth && motion_ != MotionQuality::kExact) report_truth(*truth);
     if (motion_ == MotionQuality::kOff) return result;
     if (motion_ == MotionQuality::kFast) {
@@ -250,6 +271,7 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
         accumulate(stats, share, result.stats);
     }
     scale(share, radiance);
+    if (radiance.halves()) radiance.halves()->set_known(false);
 }
 
 // Returns the motion of the picture along its columns that the sensor does not expect. The line time goes

@@ -96,6 +96,7 @@ class ExposureRenderer {
     double focal_length_px_, oversampling_;
     PointingJitter jitter_;
     ExpectedNoise noise_;
+    std::vector<Spectrum> halves_;  // responses of the detector's channels; none: pictures have no halves
     WorldSnapshot middle_, before_, after_, part_world_;
     double told_moving_ = 1;  // speed of the world in the camera's time
     RadianceImage part_;      // a part of exact motion
@@ -116,6 +117,7 @@ class ExposureRenderer {
                       WorldSnapshot& out) const;
     void sample_ends(const WorldState& world, const Span& span, bool with_bodies);
     void report_noise(const Exposure& exposure, int parts);
+    RadianceImage make_part() const;
     void render_parts(const WorldState& world, const Span& span, RandomKey key, RadianceImage& radiance,
                       std::vector<PointSource>& points, Result& result);
     double unexpected_px_s(double rate_px_s) const;

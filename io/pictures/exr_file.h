@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "io/pictures/picture_notes.h"
-#include "render/vocabulary/image.h"
+#include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/spectrum.h"
 
 namespace hilcam {

@@ -15,7 +15,7 @@
 
 #include "io/pictures/picture_notes.h"
 #include "io/pictures/view_picture.h"
-#include "render/vocabulary/image.h"
+#include "render/vocabulary/radiance_image.h"
 
 namespace hilcam {
 

@@ -28,6 +28,22 @@ void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, i
         }
 }
 
+// Writes a part of a block. False: nothing, as it is even, and may be left.
+bool write(std::span<const float> differences, float share, bool may_leave, const PixelBox& box,
+           HalfLight& halves) {
+    if (may_leave && std::all_of(differences.begin(), differences.end(), [](float v) { return v == 0; }))
+        return false;
+    const auto width = static_cast<std::size_t>(box.x1 - box.x0);
+    const float* in = differences.data();
+    for (int channel = 0; channel < static_cast<int>(halves.responses().size()); ++channel)
+        for (int difference = 0; difference < HalfLight::kDifferences; ++difference)
+            for (int y = box.y0; y < box.y1; ++y, in += width) {
+                float* out = halves.row(y, difference, channel).data() + box.x0;
+                for (std::size_t x = 0; x < width; ++x) out[x] = share * in[x];
+            }
+    return true;
+}
+
 std::size_t slots() { return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); }
 
 }  // namespace
@@ -52,7 +68,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     }
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
     tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
-    if (buffer) seen_.resize(slots()), edges_.resize(slots());
+    if (buffer) seen_.resize(slots()), edges_.resize(slots()), tile_halves_.resize(slots());
     facets_.resize(slots());
     for (std::size_t i = 0; budget && i < slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
@@ -93,6 +109,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
     // Tiles smaller than the image's blocks share a mark: it stays off.
     const bool marks = levels_[level_].tile_px == RadianceImage::kBlock_px;
     if (!marks) radiance.clear_marks();
+    find_halves(placer, marks, radiance);
     const int all = levels_[level_].tiles_across * levels_[level_].tiles_down;
     tiles_done_.store(0, std::memory_order_relaxed);
     tiles_all_.store(all, std::memory_order_relaxed);
@@ -102,6 +119,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
         const bool was_dark = radiance.dark(tile.x0, tile.y0);
         if (marks) radiance.mark_dark(tile.x0, tile.y0, !anything);
         stats = {};
+        if (halves_) halves_->mark_even(tile.x0, tile.y0, true);
         if (anything)
             trace_tile(placer, tile, slot, stats, radiance);
         else if (!was_dark)
@@ -111,6 +129,16 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
     TileStats sum;
     for (std::size_t i = 0; i < static_cast<std::size_t>(all); ++i) sum += tile_stats_[i];
     return sum;
+}
+
+// Where in their pixels light falls is known of frames that the visibility buffer makes.
+void FrameTracer::find_halves(const FramePlacer& placer, bool marks, RadianceImage& radiance) {
+    HalfLight* const halves = radiance.halves();
+    halves_ = halves && marks && quality().uses_buffer() && placer.frame().visibility ? halves : nullptr;
+    if (halves) halves->set_known(halves_ != nullptr);
+    if (!halves_) return;
+    const std::size_t floats = PathModel::kMaxSamples * HalfLight::kDifferences * halves->responses().size();
+    for (std::vector<float>& of_tile : tile_halves_) of_tile.resize(floats);
 }
 
 void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot,
@@ -141,8 +169,18 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     Tile tile{frame, box, n, pixels, stats, facets_[slot]};
     tile.seen = seen;
     if (seen) tile.edges = &edges_[slot];
+    if (halves_) {
+        tile.half_responses = halves_->responses();
+        tile.halves = std::span(tile_halves_[slot])
+                          .first(count * HalfLight::kDifferences * tile.half_responses.size());
+        std::fill(tile.halves.begin(), tile.halves.end(), 0.0f);
+    }
     paths()[slot]->trace(tile);
-    write(pixels, 1 / static_cast<float>(n * n), box, frame.bins, radiance);
+    const float share = 1 / static_cast<float>(n * n);
+    write(pixels, share, box, frame.bins, radiance);
+    // A block of several tiles has one mark.
+    const bool alone = box.x1 - box.x0 == RadianceImage::kBlock_px;
+    if (halves_ && write(tile.halves, share, alone, box, *halves_)) halves_->mark_even(box.x0, box.y0, false);
 }
 
 void FrameTracer::trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,

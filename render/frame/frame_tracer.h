@@ -20,7 +20,7 @@
 #include "render/frame/frame_placer.h"
 #include "render/frame/render_quality.h"
 #include "render/light/sun_edges.h"
-#include "render/vocabulary/image.h"
+#include "render/vocabulary/radiance_image.h"
 
 namespace hilcam {
 
@@ -74,8 +74,10 @@ class FrameTracer {
     std::size_t level_ = 0;
     std::vector<PathSet> path_sets_;
     PixelNoise noise_;
+    HalfLight* halves_ = nullptr;  // the present frame's; null: it is made without
     // The pixels of the tile in work, one list per slot.
     std::vector<std::vector<Spectrum>> tile_pixels_;
+    std::vector<std::vector<float>> tile_halves_;  // likewise; none where rays see
     std::vector<FacetList> facets_;
     std::vector<VisibilityTile> seen_;                        // none where rays see
     std::vector<SunEdges> edges_;                             // likewise
@@ -86,6 +88,7 @@ class FrameTracer {
     const Paths& paths() const { return path_sets_[levels_[level_].paths].models; }
     std::size_t path_set(const Modules& modules, const std::string& name);
     PixelBox tile(int index) const;
+    void find_halves(const FramePlacer& placer, bool marks, RadianceImage& radiance);
     void trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot, TileStats& stats,
                     RadianceImage& radiance);
     void trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,

@@ -18,7 +18,7 @@
 #include "render/frame/render_quality.h"
 #include "render/light/modules.h"
 #include "render/scene/scene.h"
-#include "render/vocabulary/image.h"
+#include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_noise.h"
 #include "render/vocabulary/point_source.h"

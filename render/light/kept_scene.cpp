@@ -205,9 +205,9 @@ void KeptScene::add_reflected(Tile& tile, std::span<Vertex> vertices) const {
         for (const Use& use : std::span(uses.data(), used)) {
             use.at->mirrors_near = use.place->at->mirrors_near;
             if (!is_lit(*use.place)) continue;
-            Spectrum& pixel = tile.pixels[use.at->pixel];
-            pixel += use.at->weight * use.place->diffuse;
-            if (use.at->surface.material->has_facets()) pixel += use.at->weight * use.place->lobe;
+            Spectrum reflected = use.place->diffuse;
+            if (use.at->surface.material->has_facets()) reflected += use.place->lobe;
+            tile.add(*use.at, use.at->weight * reflected);
         }
     }
 }

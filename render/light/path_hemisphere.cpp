@@ -171,7 +171,7 @@ class HemispherePaths final : public PathModel {
                 if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, 0,
                                  {at.footprint_m, ray.exact ? 0.0f : kSpread_rad}, vertex))
                     continue;
-                vertex.pixel = at.pixel, vertex.sample = at.sample;
+                vertex.pixel = at.pixel, vertex.sample = at.sample, vertex.halves = at.halves;
                 vertex.depth = static_cast<std::uint16_t>(at.depth + 1);
                 vertex.weight = ray.weight;
                 vertex.weight_samples = at.weight_samples;
@@ -187,8 +187,10 @@ class HemispherePaths final : public PathModel {
         Spectrum weight = ray.weight;
         if (!ray.exact && !(background.camera_in_air() && body_light_density(tile.frame, at, ray.dir) == 0))
             return;
-        if (background.add_bodies(ray.origin_m, to_double(ray.dir), weight, tile.pixels[at.pixel])) return;
-        if (ray.sees_sun) background.add_sun_disk(to_double(ray.dir), weight, tile.pixels[at.pixel]);
+        Spectrum light;
+        if (!background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light) && ray.sees_sun)
+            background.add_sun_disk(to_double(ray.dir), weight, light);
+        tile.add(at, light);
     }
 };
 

@@ -207,6 +207,7 @@ class TracedPaths final : public PathModel {
                 if (!make_vertex(frame, hits, i, ray.origin_m, ray.dir, ray.alpha_least, ray.width(), vertex))
                     continue;
                 vertex.pixel = ray.from->pixel, vertex.sample = ray.from->sample;
+                vertex.halves = ray.from->halves;
                 vertex.depth = static_cast<std::uint16_t>(ray.from->depth + 1);
                 vertex.weight = ray.weight;
                 vertex.weight_samples = ray.from->weight_samples;
@@ -217,31 +218,34 @@ class TracedPaths final : public PathModel {
         return found;
     }
 
-    // The share of the light that next-event estimation has not counted.
     static void add_background(Tile& tile, const NextRay& ray) {
-        const FrameView& frame = tile.frame;
+        Spectrum light;
+        add_background_seen(tile.frame, ray, light);
+        tile.add(*ray.from, light);
+    }
+    // The share of the light that next-event estimation has not counted.
+    static void add_background_seen(const FrameView& frame, const NextRay& ray, Spectrum& light) {
         const Background& background = *frame.background;
-        Spectrum& pixel = tile.pixels[ray.from->pixel];
         if (ray.whole_lobe) {
-            frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.weight, pixel);
-            if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), ray.weight, pixel);
+            frame.kept->add_bodies_in_lobe(frame, *ray.from, ray.dir, ray.weight, light);
+            if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), ray.weight, light);
             return;
         }
         const bool exact = ray.density == 0;
         const float lamps = exact ? 0 : body_light_density(frame, *ray.from, ray.dir);
         Spectrum weight = exact ? ray.weight : (ray.density / (ray.density + lamps)) * ray.weight;
         if (background.may_meet_body(ray.dir) &&
-            background.add_bodies(ray.origin_m, to_double(ray.dir), weight, pixel))
+            background.add_bodies(ray.origin_m, to_double(ray.dir), weight, light))
             return;
         // As a point the Sun is only seen where no lobe has counted it.
         if (exact) {
-            if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), weight, pixel);
+            if (ray.meets_sun) background.add_sun_disk(to_double(ray.dir), weight, light);
             return;
         }
         const float sun = sun_density(frame, ray.dir);
         if (sun > 0) {
             weight = (ray.density / (ray.density + sun)) * ray.weight;
-            background.add_sun_disk(to_double(ray.dir), weight, pixel);
+            background.add_sun_disk(to_double(ray.dir), weight, light);
         }
     }
 };

@@ -4,6 +4,7 @@
 #include "render/light/frame_view.h"
 #include "render/scene/brdf.h"
 #include "render/scene/embree_scene.h"
+#include "render/vocabulary/half_light.h"
 #include "render/vocabulary/spectrum.h"
 #include "render/vocabulary/vec.h"
 
@@ -35,6 +36,7 @@ struct Vertex {
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     bool mirrors_near;             // where that, something may stand in the mirror's direction
     float weight_samples;          // samples of the pixel that see it, where it is not one ray's
+    HalfShares halves;             // where in the pixel they are
     float facet_alpha;             // alpha of the lobes of its facets
     const Facet* facets;           // the vertex's own among them; null: it is one
     Spectrum weight;

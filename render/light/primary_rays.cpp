@@ -1,6 +1,7 @@
 #include "render/light/primary_vertices.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -39,9 +40,9 @@ class PrimaryRays {
         patched_ = bodies_ && linear_ && !pictured_ && frame_.background->earth_in_patches();
     }
 
-    // uncovered: samples of each pixel that see no object, of kVisibilitySamples; null: rays find the
+    // uncovered: a bit for each of a pixel's kVisibilitySamples that sees no object; null: rays find the
     // objects.
-    std::size_t trace(const std::uint8_t* uncovered) {
+    std::size_t trace(const std::uint16_t* uncovered) {
         uncovered_ = uncovered;
         // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
         static_assert(ScreenMask::kBlock_px == 4);
@@ -69,8 +70,8 @@ class PrimaryRays {
     Tile& tile_;
     const FrameView& frame_;
     std::span<Vertex> vertices_;
-    const std::uint8_t* uncovered_ = nullptr;
-    float ray_weight_ = 1;
+    const std::uint16_t* uncovered_ = nullptr;
+    bool even_ = false;  // one ray a pixel
     bool bodies_, sun_;
     const LinearRays* linear_;
     bool plain_;             // the one body in view is done sixteen rays at a time
@@ -109,7 +110,7 @@ class PrimaryRays {
     void trace_block(bool objects, bool even) {
         if (tile_.scattered) choose_sequences();
         const int n = even ? 1 : tile_.samples_per_axis;
-        ray_weight_ = even ? kVisibilitySamples : 1;
+        even_ = even;
         const float step = 1.0f / static_cast<float>(n);
         for (int s = 0; s < n * n; ++s) {
             const auto sample = static_cast<std::uint16_t>(tile_.first_sample + s);
@@ -335,10 +336,24 @@ class PrimaryRays {
                     tile_.stats.covered_px += 1.0 / (tile_.samples_per_axis * tile_.samples_per_axis);
                 add_vertex(i, pixel, sample);
             } else if (bodies_ || sun_) {
-                const float share = uncovered_ ? uncovered_[pixel] * (1.0f / kVisibilitySamples) : 1.0f;
-                add_backdrop(k, sun_cosine[k], (share * ray_weight_) * weight_, tile_.pixels[pixel]);
+                add_backdrop_to(pixel, k, sample, sun_cosine[k]);
             }
         }
+    }
+
+    // Of a pixel that is even, one ray tells for all samples that see no object; else each tells for itself.
+    void add_backdrop_to(std::uint32_t pixel, std::size_t k, std::uint16_t sample, float sun_cosine) {
+        float samples = 1;
+        HalfShares halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
+        if (uncovered_) {
+            const std::uint32_t seen = even_ ? uncovered_[pixel] : uncovered_[pixel] & 1u << sample;
+            if (seen == 0) return;
+            samples = static_cast<float>(std::popcount(seen));
+            if (even_) halves = half_shares_of(seen);
+        }
+        Spectrum light;
+        add_backdrop(k, sun_cosine, samples * weight_, light);
+        tile_.add(pixel, halves, light);
     }
 
     void add_vertex(int lane, std::uint32_t pixel, std::uint16_t sample) {
@@ -356,6 +371,7 @@ class PrimaryRays {
         vertex.sample = sample;
         vertex.depth = 1;
         vertex.weight = weight_;
+        vertex.halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         tile_.facets.add(frame_, {vertex.geometric_normal, vertex.normal, vertex.start(), 1},
                          hits_.triangle[k], true, vertex);
         ++count_;
@@ -370,7 +386,7 @@ void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex) {
     if (!frame.background->camera_in_air()) return;
     const double distance_m = length(to_double(vertex.point_m) - frame.camera_m);
     const Atmosphere::Sight sight = frame.background->air_before(dir, distance_m);
-    tile.pixels[vertex.pixel] += vertex.weight * sight.radiance_sr;
+    tile.add(vertex, vertex.weight * sight.radiance_sr);
     vertex.weight = vertex.weight * sight.transmittance;
 }
 
@@ -379,6 +395,6 @@ std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {
     return PrimaryRays(tile, vertices).trace(nullptr);
 }
 
-void add_backdrop(Tile& tile, const std::uint8_t* uncovered) { PrimaryRays(tile, {}).trace(uncovered); }
+void add_backdrop(Tile& tile, const std::uint16_t* uncovered) { PrimaryRays(tile, {}).trace(uncovered); }
 
 }  // namespace hilcam

@@ -44,7 +44,7 @@ const std::vector<std::uint8_t> kNearestToMiddle = [] {
 }();
 // Returns the samples' middle, from the pixel's corner.
 Vec2f middle_of(std::uint16_t samples) {
-    if (samples == 0xFFFFu) return {0.5f, 0.5f};
+    if (samples == kAllSamples) return {0.5f, 0.5f};
     const int i = kNearestToMiddle[samples];
     return {sample_x(i), sample_y(i)};
 }
@@ -69,6 +69,15 @@ std::uint32_t equal_ids(const std::uint32_t* ids, std::uint32_t id) {
 
 }  // namespace
 
+HalfShares half_shares_of(std::uint32_t samples) {
+    constexpr std::uint32_t kRight = 0xCCCC, kLower = 0xFF00, kMain = 0xCC33;  // kMain: both or neither
+    const int all = std::popcount(samples);
+    const auto share = [&](std::uint32_t half) {
+        return static_cast<float>(2 * std::popcount(samples & half) - all) / static_cast<float>(all);
+    };
+    return {share(kRight), share(kLower), share(kMain)};
+}
+
 std::size_t PrimaryVertices::next(std::span<Vertex> vertices) {
     if (tile_.seen) return next_fragments(vertices);
     if (std::exchange(begun_, true)) return 0;
@@ -80,7 +89,7 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
     if (!std::exchange(begun_, true)) {
         HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMaxSamples &&
                      tile_.samples_per_axis == kVisibilitySamplesAcross);
-        uncovered_.fill(kVisibilitySamples);
+        uncovered_.fill(kAllSamples);
         part_ = {box.x0 - kVisibilityTile_px, box.y0, box.x0, box.y0};
     }
     std::size_t count = 0;
@@ -123,9 +132,9 @@ void PrimaryVertices::take_next_pixel() {
 void PrimaryVertices::take_pixel(int x, int y) {
     const std::uint32_t* ids = tile_.seen->ids(x - part_.x0, y - part_.y0);
     const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
-    std::uint32_t rest = 0xFFFFu & ~equal_ids(ids, VisibilityTile::kNothing);
+    std::uint32_t rest = kAllSamples & ~equal_ids(ids, VisibilityTile::kNothing);
     const int covered = std::popcount(rest);
-    uncovered_[static_cast<std::size_t>(pixel)] = static_cast<std::uint8_t>(kVisibilitySamples - covered);
+    uncovered_[static_cast<std::size_t>(pixel)] = static_cast<std::uint16_t>(kAllSamples & ~rest);
     tile_.stats.covered_px += covered * (1.0 / kVisibilitySamples);
     const std::size_t first = fragment_count_;
     while (rest != 0) {
@@ -148,8 +157,8 @@ bool PrimaryVertices::leave_to_body(std::size_t k) {
     const FrameView& frame = tile_.frame;
     const Vec3d point = to_double(origins_[k]) + static_cast<double>(hits_.distance[k]) * dirs_[k];
     if (!frame.background->hides_seen(normalized(dirs_[k]), length(point - frame.camera_m))) return false;
-    std::uint8_t& uncovered = uncovered_[fragments_[k].pixel];
-    uncovered = static_cast<std::uint8_t>(uncovered + std::popcount(std::uint32_t{fragments_[k].samples}));
+    std::uint16_t& uncovered = uncovered_[fragments_[k].pixel];
+    uncovered = static_cast<std::uint16_t>(uncovered | fragments_[k].samples);
     return true;
 }
 
@@ -229,8 +238,11 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
             tile_.facets.add(frame, {lie.geometric_normal, lie.normal, start_m, samples}, hits_.triangle[k],
                              false, *joined);
             // Alike in all bins, but for the air before it.
-            joined->weight = ((joined->weight_samples + samples) / joined->weight_samples) * joined->weight;
-            joined->weight_samples += samples;
+            const float all = joined->weight_samples + samples;
+            joined->weight = (all / joined->weight_samples) * joined->weight;
+            joined->halves = (joined->weight_samples / all) * joined->halves;
+            joined->halves += (samples / all) * half_shares_of(fragment.samples);
+            joined->weight_samples = all;
             continue;
         }
         Vertex& vertex = vertices[count++];
@@ -243,6 +255,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         vertex.weight = {};
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
+        vertex.halves = half_shares_of(fragment.samples);
         add_air_before(tile_, dirs_[k], vertex);
         tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
                          hits_.triangle[k], true, vertex);

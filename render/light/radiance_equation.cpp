@@ -58,7 +58,7 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
     const bool finds_edges = primary && tile.edges && !frame.sun_is_disk && !frame.has_glass;
 
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
-        tile.pixels[by.at->pixel] += glass ? by.weight * *glass : by.weight;
+        tile.add(*by.at, glass ? by.weight * *glass : by.weight);
     };
     TileStats& stats = tile.stats;
     std::uint64_t& counter = primary ? stats.shadow_rays : stats.bounce_shadow_rays;
@@ -102,7 +102,9 @@ void add_body_light(Tile& tile, std::span<const Vertex> vertices, BodySampling h
     const Background& background = *frame.background;
     const auto lit = [&](const LitBy& by, const Spectrum* glass) {
         Spectrum weight = glass ? by.weight * *glass : by.weight;
-        background.add_bodies(by.at->start(), to_double(by.dir), weight, tile.pixels[by.at->pixel]);
+        Spectrum light;
+        background.add_bodies(by.at->start(), to_double(by.dir), weight, light);
+        tile.add(*by.at, light);
     };
     ShadowRays<LitBy, decltype(lit)> shadow(frame, tile.stats.lamp_rays, lit);
     // Equal areas on the cone by a golden-angle spiral (Vogel 1979): 64 directions, 1 % of a half-lit disk.
@@ -144,8 +146,7 @@ class RadianceEquation final : public RadianceModel {
 
     void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const override {
         if (tile.frame.has_emission)
-            for (const Vertex& at : vertices)
-                tile.pixels[at.pixel] += at.weight * at.surface.material->emission;
+            for (const Vertex& at : vertices) tile.add(at, at.weight * at.surface.material->emission);
         add_sunlight(tile, vertices);
         add_lamps_reflected(tile, vertices);
         if (lamps != BodySampling::kNone) add_body_light(tile, vertices, lamps);

@@ -29,7 +29,8 @@ void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
     ask_once(tile, sun.middle());
     ask_again(tile, sun);
     for (const Asked& a : std::span(asked_).first(count_))
-        if (a.lit > 0) tile.pixels[a.at->pixel] += (a.lit / a.of) * a.light;
+        if (a.lit > 0)
+            tile.add(a.at->pixel, a.by_sample ? (1 / a.lit) * a.halves : a.at->halves, (a.lit / a.of) * a.light);
     count_ = 0;
 }
 
@@ -49,24 +50,32 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
     struct Use {
         Asked* asked;
         float share;
+        int sample;  // from which it asks
     };
-    const auto gets_through = [](const Use& use, const Spectrum*) { use.asked->lit += use.share; };
+    const auto gets_through = [](const Use& use, const Spectrum*) {
+        use.asked->lit += use.share;
+        use.asked->halves += use.share * half_shares_at(sample_x(use.sample), sample_y(use.sample));
+    };
     ShadowRays<Use, decltype(gets_through)> shadow(tile.frame, tile.stats.shadow_rays, gets_through);
     for (Asked& a : std::span(asked_).first(count_)) {
         const std::uint32_t x = a.at->pixel % width, y = a.at->pixel / width;
         if (!((a.lit > 0 ? near_dark : near_lit)[y] >> x & 1u)) continue;
         a.lit = a.of = 0;
+        a.by_sample = !a.at->facets && a.at->samples != 0;
         std::uint32_t rest = a.at->samples;
         for (std::uint32_t i = 0; i < kAgain; ++i) {
             // Facets each ask for themselves; what is flat asks from where its samples are.
             const std::size_t facet = a.starts.share[i] > 0 ? i : 0;
             Vec3f start_m = a.starts.at_m[facet];
-            if (!a.at->facets && a.at->samples != 0)
-                start_m = start_m + way_to_sample(tile, *a.at, next_sample(rest, a.at->samples));
+            int sample = 0;
+            if (a.by_sample) {
+                sample = next_sample(rest, a.at->samples);
+                start_m = start_m + way_to_sample(tile, *a.at, sample);
+            }
             const float share = a.starts.share[facet];
             a.of += share;
             // The four pixels of a square ask for other places of the disk.
-            shadow.add(start_m, sun.on_disk(kAgain * i + x % 2 + 2 * (y % 2), 4 * kAgain), {&a, share});
+            shadow.add(start_m, sun.on_disk(kAgain * i + x % 2 + 2 * (y % 2), 4 * kAgain), {&a, share, sample});
         }
     }
 }

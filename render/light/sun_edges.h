@@ -27,7 +27,7 @@ class SunEdges {
     // light: what the vertex sends to the viewer, to its pixel, if all of it is in the Sun. At most
     // PathModel::kMaxSamples. Loop, any thread.
     void add(const Vertex& at, const Spectrum& light, const Starts& starts) {
-        asked_[count_++] = {&at, light, starts, 0, 1};
+        asked_[count_++] = {&at, light, starts, 0, 1, {}, false};
     }
     // Adds the light of all of them to their pixels, as far as the Sun reaches them, and forgets them. Loop, any
     // thread.
@@ -40,7 +40,9 @@ class SunEdges {
         const Vertex* at;
         Spectrum light;
         Starts starts;
-        float lit, of;  // shares that have got through, and that were asked for
+        float lit, of;      // shares that have got through, and that were asked for
+        HalfShares halves;  // sums of those that have got through, one by one
+        bool by_sample;     // they asked from samples of the pixel
     };
     using Rows = std::array<std::uint32_t, kMaxRows>;  // a bit for each pixel
     std::array<Asked, PathModel::kMaxSamples> asked_;

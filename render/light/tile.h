@@ -10,6 +10,7 @@
 #include "render/light/frame_view.h"
 #include "render/light/path_vertex.h"
 #include "render/visibility/visibility_raster.h"
+#include "render/vocabulary/half_light.h"
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/ray_counts.h"
 
@@ -44,6 +45,17 @@ struct Tile {
     VisibilityTile* seen = nullptr;        // for what the visibility buffer finds; null: rays do
     SunEdges* edges = nullptr;             // where that is so, to find shadows' edges; null: they are hard
 
+    // Charge rates by channel, difference and pixel (half_light.h), and what makes them of radiance; empty: nobody
+    // asks where in its pixel light falls.
+    std::span<float> halves{};
+    std::span<const Spectrum> half_responses{};
+
+    // Adds light that a vertex sends to its pixel: radiance, times the samples for which it stands.
+    void add(const Vertex& at, const Spectrum& light) { add(at.pixel, at.halves, light); }
+    void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
+        pixels[pixel] += light;
+        if (!halves.empty()) add_halves(pixel, shares, light);
+    }
     bool wants(int x, int y) const {
         return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];
     }
@@ -57,6 +69,19 @@ struct Tile {
         const int py = box.y0 + static_cast<int>(at.pixel) / width;
         return random_words(frame.key, RandomPurpose::kPathSample, frame_pixel(px, py),
                             (std::uint32_t{at.sample} * 64 + at.depth) * 16 + use);
+    }
+
+  private:
+    void add_halves(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
+        float* at = halves.data() + pixel;
+        for (const Spectrum& response : half_responses) {
+            float rate_e_s = 0;
+            for (int b = 0; b < kMaxBins; ++b) rate_e_s += response[b] * light[b];
+            for (const float share : {shares.across, shares.down, shares.crossed}) {
+                *at += share * rate_e_s;
+                at += pixels.size();
+            }
+        }
     }
 };
 

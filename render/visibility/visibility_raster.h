@@ -17,6 +17,7 @@ namespace hilcam {
 inline constexpr int kVisibilityTile_px = 16;       // edge
 inline constexpr int kVisibilitySamplesAcross = 4;  // a pixel, and down it
 inline constexpr int kVisibilitySamples = kVisibilitySamplesAcross * kVisibilitySamplesAcross;
+inline constexpr std::uint32_t kAllSamples = 0xFFFF;  // a bit each
 inline constexpr std::size_t kTrianglesAtOnce = 16;
 
 // Returns where samples lie in their pixel: sample i is at ((i % 4 + 0.5) / 4, (i / 4 + 0.5) / 4).

@@ -2,7 +2,6 @@
 // Images, one type per physical quantity, so that a stage cannot be fed the wrong one.
 // Rows run downwards (+y), columns to the right (+x); the centre of pixel (0, 0) is at (0.5, 0.5).
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -73,33 +72,6 @@ class Image {
     std::unique_ptr<T[], Release> data_;
 };
 
-// Band-averaged spectral radiance at the aperture [W m^-2 sr^-1 um^-1], a plane per spectral bin. Most of a
-// picture of space is nothing: who writes an image may mark blocks in which every plane is zero, and who
-// reads it may skip them. A new image has no marks.
-class RadianceImage : public Image<float, struct RadianceQuantity> {
-  public:
-    static constexpr int kBlock_px = 32;
-
-    RadianceImage() = default;
-    RadianceImage(int width, int height, int planes = 1)
-        : Image(width, height, planes),
-          blocks_across_((width + kBlock_px - 1) / kBlock_px),
-          dark_(static_cast<std::size_t>(blocks_across_) *
-                    static_cast<std::size_t>((height + kBlock_px - 1) / kBlock_px),
-                0) {}
-
-    // Returns the flag of the block that holds pixel (x, y).
-    bool dark(int x, int y) const { return dark_[block(x, y)] != 0; }
-    void mark_dark(int x, int y, bool dark) { dark_[block(x, y)] = dark ? 1 : 0; }
-    void clear_marks() { std::fill(dark_.begin(), dark_.end(), std::uint8_t{0}); }
-
-  private:
-    std::size_t block(int x, int y) const {
-        return static_cast<std::size_t>(y / kBlock_px * blocks_across_ + x / kBlock_px);
-    }
-    int blocks_across_ = 0;
-    std::vector<std::uint8_t> dark_;
-};
 // Charge collected in one exposure [e-].
 using ElectronImage = Image<float, struct ElectronQuantity>;
 // Digital numbers, right-aligned (a 12-bit camera uses 0..4095).

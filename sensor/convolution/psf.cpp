@@ -7,16 +7,11 @@
 #include <numeric>
 
 #include "render/vocabulary/clones.h"
+#include "sensor/convolution/cubic_weights.h"
 #include "sensor/convolution/fourier.h"
 
 namespace hilcam {
 namespace {
-
-// Keys' cubic convolution weights (a = -1/2) for samples at -1, 0, 1, 2 and position u in [0, 1).
-std::array<double, 4> cubic_weights(double u) {
-    return {((-0.5 * u + 1.0) * u - 0.5) * u, (1.5 * u - 2.5) * u * u + 1.0, ((-1.5 * u + 2.0) * u + 0.5) * u,
-            (0.5 * u - 0.5) * u * u};
-}
 
 std::array<double, 4> linear_weights(double u) { return {0, 1 - u, u, 0}; }
 

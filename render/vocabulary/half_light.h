@@ -1,0 +1,84 @@
+#pragma once
+// Where in its pixel light falls, as far as halves tell: three differences of light for each pixel, beside the
+// sum that a radiance image has. A lens that blurs by less than a pixel shows an edge elsewhere for light from
+// a pixel's left than for light from its right; the sum alone says "from all of it".
+//
+// The differences are weighed by the response of each of the detector's channels, so they are charge rates on
+// the axis [e- s^-1]. Blocks that are even have none in any of their pixels; their memory holds anything.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "render/vocabulary/image.h"
+#include "render/vocabulary/spectrum.h"
+
+namespace hilcam {
+
+// Which parts of a pixel have more of some light, from -1 to 1 each: the right half less the left, the lower
+// less the upper, and the quarters at the upper left and the lower right less the other two.
+struct HalfShares {
+    float across = 0, down = 0, crossed = 0;
+
+    HalfShares& operator+=(const HalfShares& other) {
+        across += other.across, down += other.down, crossed += other.crossed;
+        return *this;
+    }
+};
+inline HalfShares operator*(float factor, const HalfShares& of) {
+    return {factor * of.across, factor * of.down, factor * of.crossed};
+}
+// Returns those of light at a place in its pixel, from the pixel's corner [px].
+constexpr HalfShares half_shares_at(float x_px, float y_px) {
+    const auto half = [](float at) { return at > 0.5f ? 1.0f : (at < 0.5f ? -1.0f : 0.0f); };
+    const float across = half(x_px), down = half(y_px);
+    return {across, down, across * down};
+}
+
+class HalfLight {
+  public:
+    static constexpr int kDifferences = 3;  // in the order of HalfShares
+
+    // responses: charge rate of each channel by radiance [e- s^-1 per W m^-2 sr^-1 um^-1], at least one. Blocks
+    // are squares of block_px.
+    HalfLight(int width, int height, int block_px, std::vector<Spectrum> responses)
+        : responses_(std::move(responses)),
+          differences_(width, height, kDifferences * static_cast<int>(responses_.size())),
+          block_px_(block_px),
+          blocks_across_((width + block_px - 1) / block_px),
+          even_(static_cast<std::size_t>(blocks_across_ * ((height + block_px - 1) / block_px)), 1) {}
+
+    int width() const { return differences_.width(); }
+    int height() const { return differences_.height(); }
+    std::span<const Spectrum> responses() const { return responses_; }
+    // True when the frame that is in it was made with differences. Who makes a frame says so.
+    bool known() const { return known_; }
+    void set_known(bool known) { known_ = known; }
+
+    std::span<float> row(int y, int difference, int channel) {
+        return differences_.row(y, kDifferences * channel + difference);
+    }
+    std::span<const float> row(int y, int difference, int channel) const {
+        return differences_.row(y, kDifferences * channel + difference);
+    }
+    // Returns the flag of the block that holds pixel (x, y).
+    bool even(int x, int y) const { return even_[block(x, y)] != 0; }
+    void mark_even(int x, int y, bool even) { even_[block(x, y)] = even ? 1 : 0; }
+    void mark_all(bool even) { std::fill(even_.begin(), even_.end(), even ? 1 : 0); }
+
+  private:
+    std::size_t block(int x, int y) const {
+        return static_cast<std::size_t>(y / block_px_ * blocks_across_ + x / block_px_);
+    }
+    std::vector<Spectrum> responses_;
+    Image<float, struct HalfQuantity> differences_;
+    int block_px_, blocks_across_;
+    bool known_ = false;
+    std::vector<std::uint8_t> even_;
+};
+
+}  // namespace hilcam

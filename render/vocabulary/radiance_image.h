@@ -1,0 +1,53 @@
+#pragma once
+// The picture before the lens: what rays have found.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "render/vocabulary/half_light.h"
+#include "render/vocabulary/image.h"
+
+namespace hilcam {
+
+// Band-averaged spectral radiance at the aperture [W m^-2 sr^-1 um^-1], a plane per spectral bin. Most of a
+// picture of space is nothing: who writes an image may mark blocks in which every plane is zero, and who
+// reads it may skip them. A new image has no marks.
+class RadianceImage : public Image<float, struct RadianceQuantity> {
+  public:
+    static constexpr int kBlock_px = 32;
+
+    RadianceImage() = default;
+    RadianceImage(int width, int height, int planes = 1)
+        : Image(width, height, planes),
+          blocks_across_((width + kBlock_px - 1) / kBlock_px),
+          dark_(static_cast<std::size_t>(blocks_across_) *
+                    static_cast<std::size_t>((height + kBlock_px - 1) / kBlock_px),
+                0) {}
+
+    // Returns the flag of the block that holds pixel (x, y).
+    bool dark(int x, int y) const { return dark_[block(x, y)] != 0; }
+    void mark_dark(int x, int y, bool dark) { dark_[block(x, y)] = dark ? 1 : 0; }
+    void clear_marks() { std::fill(dark_.begin(), dark_.end(), std::uint8_t{0}); }
+
+    // Gives the image room for where in its pixels light falls, for channels of these responses (half_light.h).
+    void keep_halves(std::vector<Spectrum> responses) {
+        halves_.emplace(width(), height(), kBlock_px, std::move(responses));
+    }
+    // Null: there is no room.
+    HalfLight* halves() { return halves_ ? &*halves_ : nullptr; }
+    const HalfLight* halves() const { return halves_ ? &*halves_ : nullptr; }
+
+  private:
+    std::size_t block(int x, int y) const {
+        return static_cast<std::size_t>(y / kBlock_px * blocks_across_ + x / kBlock_px);
+    }
+    int blocks_across_ = 0;
+    std::vector<std::uint8_t> dark_;
+    std::optional<HalfLight> halves_;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,201 @@
+#include "sensor/convolution/half_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "render/vocabulary/clones.h"
+#include "render/vocabulary/units.h"
+#include "sensor/convolution/cubic_weights.h"
+#include "sensor/convolution/fourier.h"
+
+namespace hilcam {
+namespace {
+
+constexpr double kQuarter_px = 0.25;
+
+// Nodes and weights on -1/2 .. 1/2 (Gauss and Legendre; Abramowitz & Stegun 1964, table 25.4). A smear of so
+// many pixels is a mean over them, good to 2e-3 of the modulation at half a cycle per pixel.
+struct Node {
+    double at, weight;
+};
+constexpr Node kOne[] = {{0, 1}};
+constexpr Node kTwo[] = {{-0.2886751346, 0.5}, {0.2886751346, 0.5}};
+constexpr Node kThree[] = {{-0.3872983346, 5.0 / 18}, {0, 8.0 / 18}, {0.3872983346, 5.0 / 18}};
+constexpr Node kFive[] = {{-0.4530899230, 0.1184634425},
+                          {-0.2692346551, 0.2393143352},
+                          {0, 0.2844444444},
+                          {0.2692346551, 0.2393143352},
+                          {0.4530899230, 0.1184634425}};
+constexpr double kMostSmear_px = 4;
+std::span<const Node> nodes_of(double smear_px) {
+    if (smear_px <= 0.02) return kOne;
+    if (smear_px <= 0.5) return kTwo;
+    if (smear_px <= 1.5) return kThree;
+    return kFive;
+}
+// The same of a Gaussian of standard deviation 1 (Gauss and Hermite, table 25.10).
+constexpr Node kGaussian[] = {{-1.7320508076, 1.0 / 6}, {0, 2.0 / 3}, {1.7320508076, 1.0 / 6}};
+constexpr double kMostSigma_px = 0.7;
+std::span<const Node> gaussian_nodes(double sigma_px) {
+    return sigma_px > 0 ? std::span<const Node>(kGaussian) : std::span<const Node>(kOne);
+}
+
+bool same(const FrameBlur& a, const FrameBlur& b) {
+    return a.smear_px.x == b.smear_px.x && a.smear_px.y == b.smear_px.y && a.sigma_px.x == b.sigma_px.x &&
+           a.sigma_px.y == b.sigma_px.y;
+}
+
+// A vector of the widest kind; narrower processors take it in parts.
+using Lanes = float __attribute__((vector_size(64)));
+constexpr int kLanes = 16;
+static_assert(HalfKernels::kBlock_px == 2 * kLanes);
+
+// One row of a block: adds what rows of differences from `first` on give, of which those that are all zero are
+// left out.
+HILCAM_CLONES void add_row(const float* in, std::size_t side, const std::uint8_t* lit, const float* weights,
+                           std::size_t across, int taps, float* out) {
+    Lanes left{}, right{};
+    for (int j = 0; j < taps; ++j, in += side, weights -= across) {
+        if (!lit[j]) continue;
+        for (int i = 0; i < taps; ++i) {
+            Lanes a, b;
+            std::memcpy(&a, in + i, sizeof a);
+            std::memcpy(&b, in + i + kLanes, sizeof b);
+            left += weights[-i] * a, right += weights[-i] * b;
+        }
+    }
+    for (int x = 0; x < kLanes; ++x) out[x] += left[x], out[x + kLanes] += right[x];
+}
+
+}  // namespace
+
+std::complex<double> halved_transfer(const Transfer& fine, double u, double v) {
+    std::complex<double> sum = 0;
+    for (const double by_u : {-1.0, 0.0, 1.0})
+        for (const double by_v : {-1.0, 0.0, 1.0}) {
+            const double fu = u + by_u, fv = v + by_v;
+            if (std::abs(fu) > 1 || std::abs(fv) > 1) continue;
+            sum += fine(fu, fv) * std::cos(2 * kPi * kQuarter_px * fu) * std::cos(2 * kPi * kQuarter_px * fv);
+        }
+    return sum;
+}
+
+HalfKernels::HalfKernels(const Transfer& fine) : point_(std::size_t{kFine} * kFine) {
+    constexpr int half = kFine / 2 + 1;
+    std::vector<std::complex<float>> spectrum(std::size_t{kFine} * half);
+    for (int y = 0; y < kFine; ++y)
+        for (int x = 0; x < half; ++x) {
+            const double u = static_cast<double>(x) / kField_px;
+            const double v = static_cast<double>(y < kFine / 2 ? y : y - kFine) / kField_px;
+            if (u > 1 || std::abs(v) > 1) continue;
+            spectrum[static_cast<std::size_t>(y * half + x)] =
+                std::complex<float>(fine(u, v) / (1.0 * kField_px * kField_px));
+        }
+    real_from_half_spectrum(spectrum, kFine, point_);
+    reach_px_ = kMaxReach_px;
+    make_weights({});
+    still_reach_px_ = 1;
+    while (still_reach_px_ < kMaxReach_px && rest_beyond(still_reach_px_) > kMaxRest) ++still_reach_px_;
+    reach_px_ = still_reach_px_;
+    make_weights({});
+}
+
+bool HalfKernels::prepare(const FrameBlur& blur) {
+    const double smear_px = std::hypot(blur.smear_px.x, blur.smear_px.y);
+    const int more_px = static_cast<int>(std::ceil(smear_px / 2 - 0.1));
+    if (smear_px > kMostSmear_px || std::max(blur.sigma_px.x, blur.sigma_px.y) > kMostSigma_px) return false;
+    if (same(blur, prepared_)) return true;
+    reach_px_ = std::min(still_reach_px_ + more_px, kMaxReach_px);
+    make_weights(blur);
+    return true;
+}
+
+float HalfKernels::point_at(double x_px, double y_px) const {
+    const double x = x_px * kFinePerPx, y = y_px * kFinePerPx;
+    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+    const std::array<double, 4> wx = cubic_weights(x - x0), wy = cubic_weights(y - y0);
+    const auto wrapped = [](int at) { return static_cast<std::size_t>((at + kFine) % kFine); };
+    double sum = 0;
+    for (int j = 0; j < 4; ++j) {
+        const float* row = &point_[wrapped(y0 - 1 + j) * kFine];
+        double along = 0;
+        for (int i = 0; i < 4; ++i)
+            along += wx[static_cast<std::size_t>(i)] * static_cast<double>(row[wrapped(x0 - 1 + i)]);
+        sum += wy[static_cast<std::size_t>(j)] * along;
+    }
+    return static_cast<float>(sum);
+}
+
+void HalfKernels::make_weights(const FrameBlur& blur) {
+    prepared_.smear_px = blur.smear_px, prepared_.sigma_px = blur.sigma_px;
+    const auto blurred = [&](double x, double y) {
+        double sum = 0;
+        for (const Node& smear : nodes_of(std::hypot(blur.smear_px.x, blur.smear_px.y)))
+            for (const Node& gx : gaussian_nodes(blur.sigma_px.x))
+                for (const Node& gy : gaussian_nodes(blur.sigma_px.y))
+                    sum += smear.weight * gx.weight * gy.weight *
+                           static_cast<double>(
+                               point_at(x - smear.at * blur.smear_px.x - gx.at * blur.sigma_px.x,
+                                        y - smear.at * blur.smear_px.y - gy.at * blur.sigma_px.y));
+        return sum;
+    };
+    std::array<double, 3> sums{};
+    for (int y = -reach_px_; y <= reach_px_; ++y)
+        for (int x = -reach_px_; x <= reach_px_; ++x) {
+            const double upper_left = blurred(x + kQuarter_px, y + kQuarter_px),
+                         upper_right = blurred(x - kQuarter_px, y + kQuarter_px),
+                         lower_left = blurred(x + kQuarter_px, y - kQuarter_px),
+                         lower_right = blurred(x - kQuarter_px, y - kQuarter_px);
+            const std::array<double, 3> of{(upper_right + lower_right - upper_left - lower_left) / 4,
+                                           (lower_left + lower_right - upper_left - upper_right) / 4,
+                                           (upper_left + lower_right - upper_right - lower_left) / 4};
+            const auto at = static_cast<std::size_t>((y + kMaxReach_px) * kAcross + x + kMaxReach_px);
+            for (std::size_t d = 0; d < 3; ++d) weights_[d][at] = static_cast<float>(of[d]), sums[d] += of[d];
+        }
+    // Light that moves is neither more nor less.
+    const auto middle = static_cast<std::size_t>(kMaxReach_px * kAcross + kMaxReach_px);
+    for (std::size_t d = 0; d < 3; ++d) weights_[d][middle] -= static_cast<float>(sums[d]);
+}
+
+float HalfKernels::weight(int difference, int x, int y) const {
+    return weights_[static_cast<std::size_t>(difference)]
+                   [static_cast<std::size_t>((y + kMaxReach_px) * kAcross + x + kMaxReach_px)];
+}
+
+// Returns the sum of the moduli of what the first two kernels lose that end there, the greater of them.
+double HalfKernels::rest_beyond(int reach_px) const {
+    double most = 0;
+    for (const int difference : {0, 1}) {
+        double sum = 0;
+        for (int y = -kMaxReach_px; y <= kMaxReach_px; ++y)
+            for (int x = -kMaxReach_px; x <= kMaxReach_px; ++x)
+                if (std::max(std::abs(x), std::abs(y)) > reach_px)
+                    sum += std::abs(static_cast<double>(weight(difference, x, y)));
+        most = std::max(most, sum);
+    }
+    return most;
+}
+
+void HalfKernels::add(const Differences& differences, int columns, int rows, float* out, std::size_t stride) const {
+    const int taps = 2 * reach_px_ + 1, skipped = kMaxReach_px - reach_px_;
+    std::array<std::uint8_t, kSide_px> lit;
+    std::array<float, kBlock_px> row;
+    for (std::size_t d = 0; d < 3; ++d) {
+        const float* const all = differences[d].data();
+        for (std::size_t j = 0; j < kSide_px; ++j)
+            lit[j] = std::any_of(all + j * kSide_px, all + (j + 1) * kSide_px, [](float v) { return v != 0; });
+        // A pixel gets light of what is at (i, j) from it by the weight at (-i, -j).
+        const float* const last =
+            &weights_[d][static_cast<std::size_t>((kMaxReach_px + reach_px_) * kAcross + kMaxReach_px + reach_px_)];
+        for (int y = 0; y < rows; ++y) {
+            const int first = y + skipped;
+            row.fill(0);
+            add_row(all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps, row.data());
+            float* const to = out + static_cast<std::size_t>(y) * stride;
+            for (int x = 0; x < columns; ++x) to[x] += row[static_cast<std::size_t>(x)];
+        }
+    }
+}
+
+}  // namespace hilcam
