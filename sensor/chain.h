@@ -8,8 +8,8 @@
 #include <memory>
 #include <span>
 
-#include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/point_source.h"
+#include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/random.h"
 #include "render/vocabulary/side_light.h"
 #include "sensor/camera_model.h"

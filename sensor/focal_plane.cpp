@@ -128,16 +128,21 @@ struct FocalPlane::Implementation {
         bright.reserve(kMaxBright * channels.size());
     }
 
+    RayGrid rays_of(const Exposure& exposure) const {
+        return exposure.ray_grid.value_or(view.sampling.samples_per_axis);
+    }
+
     // --- radiance to electrons
 
-    void collapse(LightChannel& channel, const RadianceImage& radiance, double exposure_s) {
+    void collapse(LightChannel& channel, const RadianceImage& radiance, const Exposure& exposure) {
+        const double exposure_s = exposure.exposure_s;
         Spectrum factor = channel.per_radiance;
         for (float& value : factor.bin) value *= static_cast<float>(exposure_s);
         tbb::parallel_for(rows_of(radiance.height()), [&](const tbb::blocked_range<int>& range) {
             for (int y = range.begin(); y < range.end(); ++y) collapse_row(channel, radiance, factor, y);
         });
         if (channel.ghost) collect_ghost(channel);
-        take_out_bright(channel);
+        take_out_bright(channel, rays_of(exposure) == kHalvedRays ? radiance.halves() : nullptr, exposure_s);
         close_border(channel);
         if (zone_weights.empty()) return;
         tbb::parallel_for(rows_of(channel.convolver->height()), [&](const tbb::blocked_range<int>& range) {
@@ -196,7 +201,8 @@ struct FocalPlane::Implementation {
 
     // Turns what is over the limit into points and leaves the limit in the picture. Where more than
     // kMaxBright pixels are over it, ten times the limit.
-    void take_out_bright(LightChannel& channel) {
+    // halves: where in them light falls, of frames that know.
+    void take_out_bright(LightChannel& channel, const HalfLight* halves, double exposure_s) {
         auto limit = kBrightWells * static_cast<float>(view.camera.full_well_e);
         const std::size_t before = bright.size();
         const auto number = static_cast<int>(&channel - channels.data());
@@ -209,8 +215,27 @@ struct FocalPlane::Implementation {
             float& pixel = channel.convolver->row(image_row(at.y))[static_cast<std::size_t>(image_row(at.x))];
             pixel -= excess;
             bright[i].electrons /= view.sampling.oversampling * view.sampling.oversampling;
+            if (halves) bright[i].position_px = bright_place(bright[i], excess + limit, *halves, exposure_s);
             wings[static_cast<std::size_t>(number)].collect(at.x, at.y, bright[i].electrons);
         }
+    }
+    // The place of the middle of a pixel's light, as its halves tell [px of the detector's frame].
+    Vec2d bright_place(const BrightPixel& pixel, float charge_e, const HalfLight& halves,
+                       double exposure_s) const {
+        const int x = image_row(pixel.position_px.x), y = image_row(pixel.position_px.y);
+        if (halves.even(x, y)) return pixel.position_px;
+        const auto at = static_cast<std::size_t>(x);
+        const double per_rate =
+            exposure_s / static_cast<double>(charge_e) *
+            static_cast<double>(
+                illumination[static_cast<std::size_t>(y) * static_cast<std::size_t>(halves.width()) + at]);
+        constexpr double kMiddle_px = 0.25;  // of a half, from that of the pixel
+        const auto way_px = [&](int difference) {
+            return kMiddle_px *
+                   std::clamp(per_rate * static_cast<double>(halves.row(y, difference, pixel.channel)[at]),
+                              -1.0, 1.0);
+        };
+        return {pixel.position_px.x + way_px(0), pixel.position_px.y + way_px(1)};
     }
     int image_row(double detector_px) const {
         return static_cast<int>((detector_px + view.sampling.guard_px) * view.sampling.oversampling);
@@ -358,7 +383,7 @@ void FocalPlane::collapse(const RadianceImage& radiance, const Exposure& exposur
         for (int x = 0; x < radiance.width(); x += kBlock_px) my.dark = my.dark && radiance.dark(x, y);
     for (LightChannel& channel : my.channels) {
         if (channel.ghost) channel.ghost->clear();
-        if (!my.dark) my.collapse(channel, radiance, exposure.exposure_s);
+        if (!my.dark) my.collapse(channel, radiance, exposure);
     }
 }
 
@@ -371,7 +396,7 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
     blur.sigma_px = {my.points.jitter_px() * m, my.points.jitter_px() * m};
     const bool still = blur.none();
     // The transfer functions are those of pictures of the usual grid.
-    const RayGrid usual = my.view.sampling.samples_per_axis, rays = exposure.ray_grid.value_or(usual);
+    const RayGrid usual = my.view.sampling.samples_per_axis, rays = my.rays_of(exposure);
     if (rays != usual)
         blur.axis = [usual, rays](double f) { return ray_grid_mtf(f, usual) / ray_grid_mtf(f, rays); };
     for (std::size_t c = 0; c < my.channels.size(); ++c) {
@@ -382,8 +407,8 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
         else
             channel.convolver->run(blur);
         if (rays == kHalvedRays)
-            my.half_adder.add(*radiance.halves(), static_cast<int>(c), blur, exposure.exposure_s, channel.most_e,
-                              channel);
+            my.half_adder.add(*radiance.halves(), static_cast<int>(c), blur, exposure.exposure_s,
+                              channel.most_e, channel);
     }
 }
 

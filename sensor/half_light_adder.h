@@ -13,7 +13,8 @@ class HalfLightAdder {
   public:
     // illumination: the lens' factors over the radiance image, row by row; zone_weights: shares of the field's
     // zones over the convolver's image, none with one zone. Both outlive it. Owner thread.
-    HalfLightAdder(const std::vector<float>& illumination, const std::vector<std::vector<float>>& zone_weights)
+    HalfLightAdder(const std::vector<float>& illumination,
+                   const std::vector<std::vector<float>>& zone_weights)
         : illumination_(illumination), zone_weights_(zone_weights) {}
 
     // most_e: the greatest charge of a pixel in the channel before it was convolved; no half has more. number: of

@@ -52,8 +52,7 @@ double crosstalk_mtf(double u, double v, double fraction) {
 double half_rays_mtf(double frequency_cy_px) { return sinc(frequency_cy_px / 2) / sinc(frequency_cy_px / 4); }
 
 double ray_grid_mtf(double frequency_cy_px, RayGrid n) {
-    if (n == kHalvedRays)
-        return half_rays_mtf(frequency_cy_px) / std::cos(kPi / 2 * frequency_cy_px);
+    if (n == kHalvedRays) return half_rays_mtf(frequency_cy_px) / std::cos(kPi / 2 * frequency_cy_px);
     return n == kScatteredRays ? sinc(frequency_cy_px) : sinc(frequency_cy_px) / sinc(frequency_cy_px / n);
 }
 

@@ -7,8 +7,8 @@
 
 #include "emulator/loop/frame_script.h"
 #include "io/contract/frame_sink.h"
-#include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/point_source.h"
+#include "render/vocabulary/radiance_image.h"
 #include "render/vocabulary/side_light.h"
 #include "sensor/chain.h"
 

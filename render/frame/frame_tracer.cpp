@@ -171,8 +171,8 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     if (seen) tile.edges = &edges_[slot];
     if (halves_) {
         tile.half_responses = halves_->responses();
-        tile.halves = std::span(tile_halves_[slot])
-                          .first(count * HalfLight::kDifferences * tile.half_responses.size());
+        tile.halves =
+            std::span(tile_halves_[slot]).first(count * HalfLight::kDifferences * tile.half_responses.size());
         std::fill(tile.halves.begin(), tile.halves.end(), 0.0f);
     }
     paths()[slot]->trace(tile);

@@ -32,7 +32,7 @@ class PrimaryVertices {
     bool begun_ = false, ended_ = false;
     PixelBox part_{};  // the part of the tile that the buffer has
     static constexpr int kPartPixels = kVisibilityTile_px * kVisibilityTile_px;
-    int next_pixel_ = kPartPixels;  // there
+    int next_pixel_ = kPartPixels;                                 // there
     std::array<std::uint16_t, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
     std::array<Fragment, 2 * kPacketSize> fragments_;
     std::size_t fragment_count_ = 0;

@@ -30,7 +30,8 @@ void SunEdges::add_light(Tile& tile, const SunSampler& sun) {
     ask_again(tile, sun);
     for (const Asked& a : std::span(asked_).first(count_))
         if (a.lit > 0)
-            tile.add(a.at->pixel, a.by_sample ? (1 / a.lit) * a.halves : a.at->halves, (a.lit / a.of) * a.light);
+            tile.add(a.at->pixel, a.by_sample ? (1 / a.lit) * a.halves : a.at->halves,
+                     (a.lit / a.of) * a.light);
     count_ = 0;
 }
 
@@ -75,7 +76,8 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
             const float share = a.starts.share[facet];
             a.of += share;
             // The four pixels of a square ask for other places of the disk.
-            shadow.add(start_m, sun.on_disk(kAgain * i + x % 2 + 2 * (y % 2), 4 * kAgain), {&a, share, sample});
+            shadow.add(start_m, sun.on_disk(kAgain * i + x % 2 + 2 * (y % 2), 4 * kAgain),
+                       {&a, share, sample});
         }
     }
 }

@@ -177,21 +177,24 @@ double HalfKernels::rest_beyond(int reach_px) const {
     return most;
 }
 
-void HalfKernels::add(const Differences& differences, int columns, int rows, float* out, std::size_t stride) const {
+void HalfKernels::add(const Differences& differences, int columns, int rows, float* out,
+                      std::size_t stride) const {
     const int taps = 2 * reach_px_ + 1, skipped = kMaxReach_px - reach_px_;
     std::array<std::uint8_t, kSide_px> lit;
     std::array<float, kBlock_px> row;
     for (std::size_t d = 0; d < 3; ++d) {
         const float* const all = differences[d].data();
         for (std::size_t j = 0; j < kSide_px; ++j)
-            lit[j] = std::any_of(all + j * kSide_px, all + (j + 1) * kSide_px, [](float v) { return v != 0; });
+            lit[j] =
+                std::any_of(all + j * kSide_px, all + (j + 1) * kSide_px, [](float v) { return v != 0; });
         // A pixel gets light of what is at (i, j) from it by the weight at (-i, -j).
-        const float* const last =
-            &weights_[d][static_cast<std::size_t>((kMaxReach_px + reach_px_) * kAcross + kMaxReach_px + reach_px_)];
+        const float* const last = &weights_[d][static_cast<std::size_t>((kMaxReach_px + reach_px_) * kAcross +
+                                                                        kMaxReach_px + reach_px_)];
         for (int y = 0; y < rows; ++y) {
             const int first = y + skipped;
             row.fill(0);
-            add_row(all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps, row.data());
+            add_row(all + first * kSide_px + skipped, kSide_px, lit.data() + first, last, kAcross, taps,
+                    row.data());
             float* const to = out + static_cast<std::size_t>(y) * stride;
             for (int x = 0; x < columns; ++x) to[x] += row[static_cast<std::size_t>(x)];
         }

@@ -49,7 +49,8 @@ class HalfKernels {
     static constexpr int kFinePerPx = 8, kField_px = 32, kFine = kField_px * kFinePerPx;
     static constexpr int kAcross = 2 * kMaxReach_px + 1;
 
-    std::vector<float> point_;  // the image of a point, kFinePerPx values a pixel; what lies before it is at the end
+    std::vector<float>
+        point_;  // the image of a point, kFinePerPx values a pixel; what lies before it is at the end
     int still_reach_px_ = 0, reach_px_ = 0;
     FrameBlur prepared_;
     std::array<std::array<float, kAcross * kAcross>, 3> weights_{};

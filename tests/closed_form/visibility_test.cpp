@@ -102,6 +102,56 @@ TEST(Visibility, TheEarthBehindACubeIsWhatRaysSee) {
     EXPECT_LT(d.greatest, 0.02);
 }
 
+// The same scene by rays, in a picture of twice as many pixels through the same places: which half has how much.
+TEST(Visibility, HalvesAreWhatRaysSeeInPicturesOfTwiceThePixels) {
+    const auto stage = [] {
+        Stage s;
+        s.quality.path_model = "direct";
+        s.quality.rays_across = 0;
+        s.earth(0.3);
+        s.world.bodies[BodyId::kEarth].world_m = {9e6, 0, 3e7};
+        s.sun({0.3, 0.5, -1});
+        s.add(cube(lambert(0.5), s.grid), {0.2, -0.1, 3}, {0.4, 0.7, -0.2});
+        return s;
+    };
+    Stage fine = stage();
+    fine.geometry = {64, 64, 8, 64, {}};
+    fine.radiance = RadianceImage(80, 80, 2);
+    fine.quality.samples_per_axis = 2;
+    fine.quality.visibility = "rays";
+    fine.render();
+    Stage s = stage();
+    s.quality.visibility = "buffer";
+    s.radiance.keep_halves({Spectrum{{1}}, Spectrum{{0, 2}}});
+    s.render();
+    const HalfLight& halves = *s.radiance.halves();
+    ASSERT_TRUE(halves.known());
+    double brightest = 0, uneven = 0;
+    for (const float value : fine.radiance.plane(0))
+        brightest = std::max(brightest, static_cast<double>(value));
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 40; ++x)
+            for (const int channel : {0, 1}) {
+                const auto part = [&](int right, int down) {
+                    return (channel + 1) / 4.0 *
+                           static_cast<double>(fine.radiance.row(
+                               2 * y + down, channel)[static_cast<std::size_t>(2 * x + right)]);
+                };
+                const double a = part(0, 0), b = part(1, 0), c = part(0, 1), d = part(1, 1);
+                const double expected[] = {b + d - a - c, c + d - a - b, a + d - b - c};
+                for (const int i : {0, 1, 2}) {
+                    const double found =
+                        halves.even(x, y)
+                            ? 0
+                            : static_cast<double>(halves.row(y, i, channel)[static_cast<std::size_t>(x)]);
+                    // One sample may see the other of two, and within the disk a pixel has one ray.
+                    ASSERT_NEAR(found, expected[i], 0.02 * brightest) << x << ' ' << y << ' ' << i;
+                    uneven = std::max(uneven, std::abs(found));
+                }
+            }
+    EXPECT_GT(uneven, 0.5 * brightest);
+}
+
 // With kept light four pixels share what changes slowly.
 TEST(Visibility, KeptLightIsWhatRaysSee) {
     Stage s;

@@ -83,6 +83,83 @@ TEST(FocalPlane, AnEdgeIsItsClosedFormWhereverItFallsInAPixel) {
         }
 }
 
+// The same edge by four samples across a pixel, without and with which half of it they are in.
+TEST(FocalPlane, AnEdgeIsItsClosedFormByHalvesOfPixels) {
+    constexpr double kSigma_px = 0.5;
+    const auto worst_error = [](double edge_px, bool halves) {
+        Bench bench(gaussian_camera(kSigma_px), {16, halves ? kHalvedRays : RayGrid{4}, 1});
+        bench.radiance.keep_halves({electrons_per_s_per_radiance(bench.camera, bench.grid)});
+        HalfLight& light = *bench.radiance.halves();
+        light.set_known(halves);
+        const double one = per_radiance(bench.camera, bench.grid);
+        for (int y = 0; y < bench.radiance.height(); ++y)
+            for (int x = 0; x < bench.radiance.width(); ++x) {
+                std::array<double, 2> half{};  // mean of 2 + 8 in each
+                for (int i = 0; i < 4; ++i)
+                    half[static_cast<std::size_t>(i / 2)] += x - 16 + (i + 0.5) / 4 > edge_px ? 5 : 1;
+                bench.radiance.row(y)[static_cast<std::size_t>(x)] =
+                    static_cast<float>((half[0] + half[1]) / 2);
+                light.row(y, 0, 0)[static_cast<std::size_t>(x)] =
+                    static_cast<float>(one * (half[1] - half[0]) / 2);
+                light.mark_even(x, y, false);
+            }
+        const ElectronImage& e = bench.expose({.exposure_s = 1});
+        const auto integral = [&](double x) {
+            const double t = x / kSigma_px;
+            return kSigma_px * (t * normal_cdf(t) + std::exp(-t * t / 2) / std::sqrt(2 * kPi));
+        };
+        double worst = 0, total = 0, expected_total = 0;
+        for (int x = 20; x < 44; ++x) {
+            const double expected = 2 + 8 * (integral(x + 1 - edge_px) - integral(x - edge_px));
+            worst = std::max(worst, std::abs(at(e, x, 32) / one - expected));
+            total += at(e, x, 32) / one, expected_total += expected;
+        }
+        EXPECT_NEAR(total / expected_total, 1, 1e-4) << edge_px;
+        return worst / 8;
+    };
+    double without = 0, with = 0;
+    for (const double edge_px : {32.0, 32.25, 32.5, 32.75}) {
+        without = std::max(without, worst_error(edge_px, false));
+        with = std::max(with, worst_error(edge_px, true));
+    }
+    EXPECT_GT(without, 0.04);
+    EXPECT_LT(with, 0.015);
+}
+
+// Light in a pixel's lower right quarter is seen a quarter of a pixel further down and to the right, and none is
+// lost; so is light that is far too bright, which becomes a point.
+TEST(FocalPlane, LightInAQuarterOfAPixelIsSeenThere) {
+    for (const float electrons : {1e5f, 1e8f})
+        for (const Vec2d smear_px : {Vec2d{0, 0}, Vec2d{0.8, -0.4}}) {
+            Bench bench(gaussian_camera(0.7), {16, kHalvedRays, 1});
+            bench.radiance.keep_halves({electrons_per_s_per_radiance(bench.camera, bench.grid)});
+            HalfLight& light = *bench.radiance.halves();
+            light.set_known(true);
+            // Next to a block's corner: its image lies in four of them.
+            const int x = 31 + 32, y = 32;
+            const auto one = static_cast<float>(per_radiance(bench.camera, bench.grid));
+            constexpr double kAbout_e = 1e4;  // nowhere does the lens' ringing go below zero
+            bench.fill(static_cast<float>(kAbout_e) / one);
+            ElectronImage about(64, 64);
+            bench.chain.expose(bench.radiance, {}, {.exposure_s = 1}, about);
+            bench.radiance.row(y)[x] += electrons / one;
+            for (int d = 0; d < HalfLight::kDifferences; ++d) light.row(y, d, 0)[x] = electrons;
+            light.mark_even(x, y, false);
+            const ElectronImage& e = bench.expose({.exposure_s = 1, .image_rate_px_s = smear_px});
+            Vec2d middle_px{};
+            double sum_e = 0;
+            for (int j = 0; j < 64; ++j)
+                for (int i = 0; i < 64; ++i) {
+                    const double more_e = at(e, i, j) - at(about, i, j);
+                    middle_px.x += more_e * (i + 0.5), middle_px.y += more_e * (j + 0.5);
+                    sum_e += more_e;
+                }
+            EXPECT_NEAR(middle_px.x / sum_e, x - 16 + 0.75, 0.01) << electrons << ' ' << smear_px.x;
+            EXPECT_NEAR(middle_px.y / sum_e, y - 16 + 0.75, 0.01) << electrons << ' ' << smear_px.x;
+            EXPECT_NEAR(sum_e / static_cast<double>(electrons), 1, 0.002) << electrons << ' ' << smear_px.x;
+        }
+}
+
 // A point on a detector with gaps: each pixel has the integral of the Gaussian over its light-sensitive
 // square.
 TEST(FocalPlane, APointIsItsClosedFormWhereverItFallsInAPixel) {
