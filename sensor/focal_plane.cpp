@@ -28,13 +28,18 @@ constexpr float kMaxBefore_e = 1e12f;  // greatest charge of a radiance pixel
 constexpr float kBrightWells = 10;
 constexpr std::size_t kMaxBright = 4096;
 
-HILCAM_CLONES void weigh(const RadianceImage& radiance, const Spectrum& factor, int bins, int y,
-                         std::size_t begin, std::size_t end, const float* illumination, float* out) {
-    const float* first = radiance.row(y, 0).data();
-    for (std::size_t x = begin; x < end; ++x) out[x] = factor[0] * first[x];
-    for (int b = 1; b < bins; ++b) {
-        const float* in = radiance.row(y, b).data();
-        const float f = factor[b];
+// Factors on planes of the image, from one of them on.
+struct Weights {
+    Spectrum factor;
+    int first, count;
+};
+HILCAM_CLONES void weigh(const RadianceImage& radiance, const Weights& weights, int y, std::size_t begin,
+                         std::size_t end, const float* illumination, float* out) {
+    const float* first = radiance.row(y, weights.first).data();
+    for (std::size_t x = begin; x < end; ++x) out[x] = weights.factor[0] * first[x];
+    for (int b = 1; b < weights.count; ++b) {
+        const float* in = radiance.row(y, weights.first + b).data();
+        const float f = weights.factor[b];
         for (std::size_t x = begin; x < end; ++x) out[x] += f * in[x];
     }
     for (std::size_t x = begin; x < end; ++x) {
@@ -136,10 +141,14 @@ struct FocalPlane::Implementation {
 
     void collapse(LightChannel& channel, const RadianceImage& radiance, const Exposure& exposure) {
         const double exposure_s = exposure.exposure_s;
-        Spectrum factor = channel.per_radiance;
+        const bool weighed = !radiance.responses().empty();
+        const int first = weighed ? static_cast<int>(&channel - channels.data()) : 0,
+                  planes = weighed ? 1 : bins;
+        Spectrum factor = weighed ? Spectrum{{1}} : channel.per_radiance;
         for (float& value : factor.bin) value *= static_cast<float>(exposure_s);
         tbb::parallel_for(rows_of(radiance.height()), [&](const tbb::blocked_range<int>& range) {
-            for (int y = range.begin(); y < range.end(); ++y) collapse_row(channel, radiance, factor, y);
+            for (int y = range.begin(); y < range.end(); ++y)
+                collapse_row(channel, radiance, {factor, first, planes}, y);
         });
         if (channel.ghost) collect_ghost(channel);
         take_out_bright(channel, rays_of(exposure) == kHalvedRays ? radiance.halves() : nullptr, exposure_s);
@@ -149,7 +158,7 @@ struct FocalPlane::Implementation {
             for (int y = range.begin(); y < range.end(); ++y) split_by_zone(channel, y);
         });
     }
-    void collapse_row(LightChannel& channel, const RadianceImage& radiance, const Spectrum& factor, int y) {
+    void collapse_row(LightChannel& channel, const RadianceImage& radiance, const Weights& weights, int y) {
         const int width = view.image.padded_width();
         const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
         float* out = channel.convolver->row(y).data();
@@ -160,7 +169,7 @@ struct FocalPlane::Implementation {
                 std::fill(out + x, out + end, 0.0f);
                 continue;
             }
-            weigh(radiance, factor, bins, y, static_cast<std::size_t>(x), static_cast<std::size_t>(end),
+            weigh(radiance, weights, y, static_cast<std::size_t>(x), static_cast<std::size_t>(end),
                   illumination.data() + row, out);
             most = std::max(most, greatest(out + x, static_cast<std::size_t>(end - x)));
         }
@@ -373,7 +382,9 @@ FocalPlane::~FocalPlane() = default;
 void FocalPlane::collapse(const RadianceImage& radiance, const Exposure& exposure) {
     Implementation& my = *implementation_;
     HILCAM_CHECK(radiance.width() == my.view.image.padded_width() &&
-                 radiance.height() == my.view.image.padded_height() && radiance.planes() == my.bins);
+                 radiance.height() == my.view.image.padded_height() &&
+                 static_cast<std::size_t>(radiance.planes()) ==
+                     (radiance.responses().empty() ? static_cast<std::size_t>(my.bins) : my.channels.size()));
     my.points.begin(exposure);
     my.bright.clear();
     for (FarWings& wings : my.wings) wings.clear();
@@ -406,7 +417,7 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
             kernel->run(*channel.convolver);
         else
             channel.convolver->run(blur);
-        if (rays == kHalvedRays)
+        if (rays == kHalvedRays && radiance.halves())
             my.half_adder.add(*radiance.halves(), static_cast<int>(c), blur, exposure.exposure_s,
                               channel.most_e, channel);
     }

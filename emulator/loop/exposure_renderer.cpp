@@ -94,8 +94,9 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
       oversampling_(static_cast<double>(config.sampling.oversampling)),
       jitter_(camera.jitter, config.seed, config.start),
       noise_(camera, grid, config.sampling),
-      halves_(config.sampling.samples_per_axis == kHalvedRays ? responses_of(camera, grid)
-                                                              : std::vector<Spectrum>{}),
+      responses_(responses_of(camera, grid)),
+      for_detector_(config.for_detector),
+      has_halves_(config.sampling.samples_per_axis == kHalvedRays),
       bins_(static_cast<std::size_t>(grid.size())) {
     if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
         motion_ = MotionQuality::kFast;
@@ -108,13 +109,14 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
 
 RadianceImage ExposureRenderer::make_image() const {
     RadianceImage image = make_part();
-    if (!halves_.empty()) image.keep_halves(halves_);
+    if (has_halves_) image.keep_halves(responses_);
     return image;
 }
 
 // The sum of parts has no halves: its blur is wider than a pixel.
 RadianceImage ExposureRenderer::make_part() const {
     const ImageGeometry& g = renderer_.geometry();
+    if (for_detector_) return {g.padded_width(), g.padded_height(), responses_};
     return {g.padded_width(), g.padded_height(), static_cast<int>(bins_)};
 }
 

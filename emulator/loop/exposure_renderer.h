@@ -96,7 +96,8 @@ class ExposureRenderer {
     double focal_length_px_, oversampling_;
     PointingJitter jitter_;
     ExpectedNoise noise_;
-    std::vector<Spectrum> halves_;  // responses of the detector's channels; none: pictures have no halves
+    std::vector<Spectrum> responses_;  // those of the detector's channels
+    bool for_detector_, has_halves_;
     WorldSnapshot middle_, before_, after_, part_world_;
     double told_moving_ = 1;  // speed of the world in the camera's time
     RadianceImage part_;      // a part of exact motion

@@ -86,8 +86,10 @@ void CameraStation::load(const SpectralGrid& grid) {
                                           joints_of(scenario_), scenario_.mount,
                                           load_motion_sources(scenario_), lamp_mounts(scenario_));
     renderer_->require_air(snapshot_at(scenario_, start, start));
-    exposures_ = std::make_unique<ExposureRenderer>(*renderer_, exposure_config_of(scenario_),
-                                                    scenario_.camera, grid, world_->placed_objects());
+    ExposureConfig exposures = exposure_config_of(scenario_);
+    exposures.for_detector = true;
+    exposures_ = std::make_unique<ExposureRenderer>(*renderer_, exposures, scenario_.camera, grid,
+                                                    world_->placed_objects());
     if (limits_.outputs && (scenario_.outputs.find<TruthConfig>() || truth_listener_)) {
         auto truth = make_truth_sink(scenario_, grid, number_, *renderer_, limits_.run_id, truth_listener_);
         truth_ = truth.get();

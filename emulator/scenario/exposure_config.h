@@ -15,9 +15,10 @@ struct ScenarioConfig;
 struct ExposureConfig {
     MotionQuality motion = MotionQuality::kFast;
     double motion_error_px = 0.25;
-    SensorSampling sampling;   // grid of the radiance images of all levels of quality
-    bool has_terrain = false;  // rows that are lit one after the other pass the ground, not an object
-    std::uint64_t seed = 1;    // a figure of the pointing jitter, as is the next
+    SensorSampling sampling;    // grid of the radiance images of all levels of quality
+    bool for_detector = false;  // pictures are charge rates of the detector's channels, not radiance
+    bool has_terrain = false;   // rows that are lit one after the other pass the ground, not an object
+    std::uint64_t seed = 1;     // a figure of the pointing jitter, as is the next
     TimeTai start;
 };
 ExposureConfig exposure_config_of(const ScenarioConfig& scenario);

@@ -17,13 +17,18 @@ void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, i
     // Some pixels at a time: a tile's, bin by bin, would pass through the nearest cache once a bin.
     constexpr int kTogether = 16;
     const int width = box.x1 - box.x0;
+    const std::span<const Spectrum> responses = radiance.responses();
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = 0; x < width; x += kTogether) {
             const Spectrum* in = pixels.data() + (y - box.y0) * width + x;
             const int count = std::min(kTogether, width - x);
-            for (int b = 0; b < bins; ++b) {
+            for (int b = 0; b < bins && responses.empty(); ++b) {
                 float* out = radiance.row(y, b).data() + box.x0 + x;
                 for (int i = 0; i < count; ++i) out[i] = share * in[i][b];
+            }
+            for (std::size_t c = 0; c < responses.size(); ++c) {
+                float* out = radiance.row(y, static_cast<int>(c)).data() + box.x0 + x;
+                for (int i = 0; i < count; ++i) out[i] = share * sum_of_products(responses[c], in[i]);
             }
         }
 }

@@ -75,8 +75,7 @@ struct Tile {
     void add_halves(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
         float* at = halves.data() + pixel;
         for (const Spectrum& response : half_responses) {
-            float rate_e_s = 0;
-            for (int b = 0; b < kMaxBins; ++b) rate_e_s += response[b] * light[b];
+            const float rate_e_s = sum_of_products(response, light);
             for (const float share : {shares.across, shares.down, shares.crossed}) {
                 *at += share * rate_e_s;
                 at += pixels.size();

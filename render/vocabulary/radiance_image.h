@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,8 @@
 
 namespace hilcam {
 
-// Band-averaged spectral radiance at the aperture [W m^-2 sr^-1 um^-1], a plane per spectral bin. Most of a
+// Band-averaged spectral radiance at the aperture [W m^-2 sr^-1 um^-1], a plane per spectral bin; or, for a
+// detector alone, what its channels make of it on the axis [e- s^-1], a plane per channel. Most of a
 // picture of space is nothing: who writes an image may mark blocks in which every plane is zero, and who
 // reads it may skip them. A new image has no marks.
 class RadianceImage : public Image<float, struct RadianceQuantity> {
@@ -27,6 +29,14 @@ class RadianceImage : public Image<float, struct RadianceQuantity> {
           dark_(static_cast<std::size_t>(blocks_across_) *
                     static_cast<std::size_t>((height + kBlock_px - 1) / kBlock_px),
                 0) {}
+
+    // An image of charge rates. responses: of the channels [e- s^-1 per W m^-2 sr^-1 um^-1], at least one.
+    RadianceImage(int width, int height, std::vector<Spectrum> responses)
+        : RadianceImage(width, height, static_cast<int>(responses.size())) {
+        responses_ = std::move(responses);
+    }
+    // Empty: the image holds radiance.
+    std::span<const Spectrum> responses() const { return responses_; }
 
     // Returns the flag of the block that holds pixel (x, y).
     bool dark(int x, int y) const { return dark_[block(x, y)] != 0; }
@@ -47,6 +57,7 @@ class RadianceImage : public Image<float, struct RadianceQuantity> {
     }
     int blocks_across_ = 0;
     std::vector<std::uint8_t> dark_;
+    std::vector<Spectrum> responses_;
     std::optional<HalfLight> halves_;
 };
 

@@ -36,6 +36,11 @@ inline Spectrum& operator+=(Spectrum& a, const Spectrum& b) {
     return a;
 }
 inline Spectrum operator+(Spectrum a, const Spectrum& b) { return a += b; }
+inline float sum_of_products(const Spectrum& a, const Spectrum& b) {
+    float sum = 0;
+    for (int i = 0; i < kMaxBins; ++i) sum += a[i] * b[i];
+    return sum;
+}
 inline float largest(const Spectrum& s) {
     float most = s[0];
     for (int i = 1; i < kMaxBins; ++i) most = s[i] > most ? s[i] : most;
