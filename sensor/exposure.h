@@ -9,11 +9,13 @@
 
 namespace hilcam {
 
-// The renderer's rays in a pixel: n for a regular n x n grid, or all over its area, at random.
+// The renderer's rays in a pixel: n for a regular n x n grid, halved(n) for one with halves, or all over its area, at
+// random.
 using RayGrid = int;
 inline constexpr RayGrid kScatteredRays = 0;
-// The visibility buffer's grid, of which it is known in which half of a pixel light falls (half_light.h).
-inline constexpr RayGrid kHalvedRays = -1;
+// A grid of n x n, n even, of which it is known in which half of a pixel light falls (half_light.h).
+constexpr RayGrid halved(int n) { return -n; }
+constexpr bool is_halved(RayGrid rays) { return rays < 0; }
 
 // The sampling says how the radiance image was made.
 struct SensorSampling {

@@ -151,7 +151,7 @@ struct FocalPlane::Implementation {
                 collapse_row(channel, radiance, {factor, first, planes}, y);
         });
         if (channel.ghost) collect_ghost(channel);
-        take_out_bright(channel, rays_of(exposure) == kHalvedRays ? radiance.halves() : nullptr, exposure_s);
+        take_out_bright(channel, is_halved(rays_of(exposure)) ? radiance.halves() : nullptr, exposure_s);
         close_border(channel);
         if (zone_weights.empty()) return;
         tbb::parallel_for(rows_of(channel.convolver->height()), [&](const tbb::blocked_range<int>& range) {
@@ -417,7 +417,7 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
             kernel->run(*channel.convolver);
         else
             channel.convolver->run(blur);
-        if (rays == kHalvedRays && radiance.halves())
+        if (is_halved(rays) && radiance.halves())
             my.half_adder.add(*radiance.halves(), static_cast<int>(c), blur, exposure.exposure_s,
                               channel.most_e, channel);
     }

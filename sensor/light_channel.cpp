@@ -20,15 +20,17 @@ std::vector<LensState> lens_states(const CameraModel& c) {
 double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
 // MTF_sys for light in halves of pixels, to 1 cycle per pixel. Its rays have averaged over halves already.
-Transfer transfer_of_halves(const SystemMtf& mtf) {
-    return [&mtf](double u, double v) { return mtf.at(u, v) / (half_rays_mtf(u) * half_rays_mtf(v)); };
+Transfer transfer_of_halves(const SystemMtf& mtf, RayGrid rays) {
+    return [&mtf, rays](double u, double v) {
+        return mtf.at(u, v) / (half_rays_mtf(u, rays) * half_rays_mtf(v, rays));
+    };
 }
 
 // MTF_sys at the radiance image's frequencies. Its rays have averaged over its pixels already. With an even
 // number of them to a detector pixel, that pixel's centre lies on their corner: half a pixel back.
 std::complex<double> image_transfer(const SystemMtf& mtf, int oversampling, RayGrid rays, double u,
                                     double v) {
-    if (rays == kHalvedRays) return halved_transfer(transfer_of_halves(mtf), u, v);
+    if (is_halved(rays)) return halved_transfer(transfer_of_halves(mtf, rays), u, v);
     const int m = oversampling;
     const std::complex<double> shift = m % 2 ? 1.0 : std::polar(1.0, -kPi * (u + v));
     return mtf.at(u * m, v * m) * shift / (ray_grid_mtf(u, rays) * ray_grid_mtf(v, rays));
@@ -72,8 +74,9 @@ LightChannel::LightChannel(const DetectorView& view, const SpectralGrid& grid, c
             if (auto kernel = CompactKernel::find(transfer_of(mtfs.front(), rays), width, height))
                 kernels.push_back({rays, std::move(*kernel)});
     }
-    if (sampling.samples_per_axis == kHalvedRays)
-        for (const SystemMtf& mtf : mtfs) halves.emplace_back(transfer_of_halves(mtf));
+    if (is_halved(sampling.samples_per_axis))
+        for (const SystemMtf& mtf : mtfs)
+            halves.emplace_back(transfer_of_halves(mtf, sampling.samples_per_axis));
     if (view.camera.stray_light.ghost_fraction > 0) ghost.emplace(view.camera.stray_light, view.detector);
 }
 

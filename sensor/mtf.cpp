@@ -49,10 +49,12 @@ double crosstalk_mtf(double u, double v, double fraction) {
     return 1 - 2 * fraction * (2 - std::cos(2 * kPi * u) - std::cos(2 * kPi * v));
 }
 
-double half_rays_mtf(double frequency_cy_px) { return sinc(frequency_cy_px / 2) / sinc(frequency_cy_px / 4); }
+double half_rays_mtf(double frequency_cy_px, RayGrid rays) {
+    return sinc(frequency_cy_px / 2) / sinc(frequency_cy_px / -rays);
+}
 
 double ray_grid_mtf(double frequency_cy_px, RayGrid n) {
-    if (n == kHalvedRays) return half_rays_mtf(frequency_cy_px) / std::cos(kPi / 2 * frequency_cy_px);
+    if (is_halved(n)) return half_rays_mtf(frequency_cy_px, n) / std::cos(kPi / 2 * frequency_cy_px);
     return n == kScatteredRays ? sinc(frequency_cy_px) : sinc(frequency_cy_px) / sinc(frequency_cy_px / n);
 }
 

@@ -96,7 +96,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
       noise_(camera, grid, config.sampling),
       responses_(responses_of(camera, grid)),
       for_detector_(config.for_detector),
-      has_halves_(config.sampling.samples_per_axis == kHalvedRays),
+      has_halves_(is_halved(config.sampling.samples_per_axis)),
       bins_(static_cast<std::size_t>(grid.size())) {
     if (motion_ == MotionQuality::kExact && shutter_.kind == ShutterKind::kLineScan)
         motion_ = MotionQuality::kFast;
@@ -222,7 +222,7 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     }
     report_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
-    if (radiance.halves() && radiance.halves()->known()) exposure.ray_grid = kHalvedRays;
+    if (radiance.halves() && radiance.halves()->known()) exposure.ray_grid = halved(ray_grid_of(renderer_.quality()));
     if (truth && motion_ != MotionQuality::kExact) report_truth(*truth);
     if (motion_ == MotionQuality::kOff) return result;
     if (motion_ == MotionQuality::kFast) {

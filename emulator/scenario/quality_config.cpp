@@ -31,7 +31,7 @@ SensorSampling sampling_of(const QualityConfig& q) {
                             static_cast<int>(q.oversampling)};
     if (q.render.uses_buffer() && q.oversampling == 1) {
         sampling.other_grids.push_back(sampling.samples_per_axis);  // of frames that are the sum of several
-        sampling.samples_per_axis = kHalvedRays;
+        sampling.samples_per_axis = halved(sampling.samples_per_axis);
     }
     sampling.always_fft = q.psf == PsfMethod::kFft;
     return sampling;
@@ -39,6 +39,8 @@ SensorSampling sampling_of(const QualityConfig& q) {
 
 void validate(const QualityConfig& q) {
     const std::int64_t n = q.render.kept_directions;
+    const std::int64_t samples = q.render.buffer_samples;
+    if (samples != 16 && samples != 64) throw refused("buffer_samples", std::to_string(samples), "16, 64");
     if (n != 16 && n != 60 && n != 256) throw refused("kept_directions", std::to_string(n), "16, 60, 256");
 }
 

@@ -105,6 +105,7 @@ struct Limits {
 RenderQuality limited(const RenderQuality& from, const RenderQuality& configured, const Limits& to) {
     RenderQuality q = from;
     q.samples_per_axis = std::min(q.samples_per_axis, to.samples_per_axis);
+    q.buffer_samples = 16;
     q.max_depth = std::min(q.max_depth, to.max_depth);
     q.contribution_threshold = std::max(q.contribution_threshold, to.contribution_threshold);
     q.lod_error_px = std::max(q.lod_error_px, to.lod_error_px);
@@ -134,7 +135,8 @@ std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
 
 RayGrid ray_grid_of(const RenderQuality& q) {
     if (q.noise_budget > 0) return kScatteredRays;
-    return static_cast<RayGrid>(q.uses_buffer() ? kVisibilitySamplesAcross : q.samples_per_axis);
+    if (q.uses_buffer()) return q.pixel_samples().buffer_px() * kVisibilitySamplesAcross;
+    return static_cast<RayGrid>(q.samples_per_axis);
 }
 
 }  // namespace hilcam

@@ -20,8 +20,8 @@ bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
 }  // namespace
 
 FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-                         const RenderQuality& quality, const RenderModels& models, const Modules& modules)
-    : embree_(ordered_meshes(with_terrain_object(scene)), quality.watertight),
+                         std::span<const RenderQuality> levels, const RenderModels& models, const Modules& modules)
+    : embree_(ordered_meshes(with_terrain_object(scene)), levels.front().watertight),
       lamps_(std::move(scene.lamps)),
       stars_(std::move(scene.stars), scene.stars_time),
       bodies_(std::move(scene.bodies)),
@@ -34,9 +34,10 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
       full_mask_(geometry),
       rays_(modules.rays.make(models.rays.model, models.rays)),
       radiance_model_(modules.radiance.make(models.radiance)),
-      lod_error_px_(quality.lod_error_px),
-      samples_per_axis_(static_cast<int>(quality.samples_per_axis)),
-      rays_across_(static_cast<int>(quality.rays_across)) {
+      lod_error_px_(levels.front().lod_error_px),
+      samples_per_axis_(static_cast<int>(levels.front().samples_per_axis)),
+      rays_across_(static_cast<int>(levels.front().rays_across)) {
+    const RenderQuality& quality = levels.front();
     objects_ = shown_objects(scene);
     if (scene.terrain)
         terrain_ = std::make_unique<ShownTerrain>(embree_, std::move(scene.terrain), objects_.size() - 1);
@@ -63,10 +64,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
                                    : stars_.size();
 
-    if (quality.uses_buffer() && !terrain_ && VisibilityBuffer::takes(geometry)) {
-        seen_.reserve(objects_.size());
-        visibility_ = std::make_unique<VisibilityBuffer>(geometry, visibility_room());
-    }
+    for (const RenderQuality& level : levels) make_visibility(geometry, level);
     frame_.scene = &embree_;
     frame_.objects = &shown_;
     frame_.world_from_body.resize(objects_.size());
@@ -81,6 +79,15 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     frame_.alpha_behind_diffuse = static_cast<float>(quality.facets_behind_diffuse);
     frame_.has_glass = any_material(objects_, [](const Material& m) { return m.transmits(); });
     frame_.has_emission = emission;
+}
+
+void FramePlacer::make_visibility(const ImageGeometry& geometry, const RenderQuality& level) {
+    if (!level.uses_buffer() || terrain_ || !VisibilityBuffer::takes(geometry)) return;
+    const PixelSamples samples = level.pixel_samples();
+    std::unique_ptr<VisibilityBuffer>& buffer = samples.quarters() == 1 ? visibility_ : fine_visibility_;
+    if (buffer) return;
+    seen_.reserve(objects_.size());
+    buffer = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), visibility_room());
 }
 
 // Objects shown in more triangles than this are left to rays, which hardly cost more for more.
@@ -125,6 +132,7 @@ void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& pat
     frame_.contribution_threshold = static_cast<float>(quality.contribution_threshold);
     frame_.sun_is_disk = quality.sun_disk;
     uses_visibility_ = quality.uses_buffer();
+    frame_.samples = quality.pixel_samples();
     set_paths(paths);
 }
 
@@ -227,13 +235,15 @@ void FramePlacer::place_earth_picture() {
 }
 
 void FramePlacer::place_visibility() {
-    if (!visibility_ || !uses_visibility_ || !rays_->is_still()) return;
+    VisibilityBuffer* const buffer =
+        (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();
+    if (!buffer || !uses_visibility_ || !rays_->is_still()) return;
     seen_.clear();
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh)
             seen_.push_back(
                 {static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i], embree_.mesh(i, levels_[i])});
-    if (visibility_->place(world_.camera, seen_)) frame_.visibility = visibility_.get();
+    if (buffer->place(world_.camera, seen_)) frame_.visibility = buffer;
 }
 
 MovingFrame FramePlacer::moving() const {

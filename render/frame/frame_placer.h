@@ -33,9 +33,9 @@ namespace hilcam {
 
 class FramePlacer {
   public:
-    // Takes the scene over; builds the acceleration structures. Throws InputError. Owner thread.
+    // levels: of quality; the first is in use until set_quality(). Takes the scene over; builds the acceleration structures. Throws InputError. Owner thread.
     FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-                const RenderQuality& quality, const RenderModels& models, const Modules& modules);
+                std::span<const RenderQuality> levels, const RenderModels& models, const Modules& modules);
     FramePlacer(const FramePlacer&) = delete;  // the view points into it
     FramePlacer& operator=(const FramePlacer&) = delete;
 
@@ -119,7 +119,8 @@ class FramePlacer {
     KeptHandover handover_;
     bool uses_kept_light_ = false, any_placed_ = false;
     ScreenMask object_mask_, full_mask_;
-    std::unique_ptr<VisibilityBuffer> visibility_;  // null: rays
+    // Buffers of 4 x 4 and of 8 x 8 samples a pixel, as levels of quality use them; null: rays.
+    std::unique_ptr<VisibilityBuffer> visibility_, fine_visibility_;
     std::vector<VisibilityBuffer::Shown> seen_;
     bool uses_visibility_ = false;
     std::unique_ptr<RayGenerator> rays_;
@@ -136,6 +137,7 @@ class FramePlacer {
     void place_objects();
     void place_background();
     void place_earth_picture();
+    void make_visibility(const ImageGeometry& geometry, const RenderQuality& level);
     VisibilityBuffer::Room visibility_room() const;
 };
 

@@ -130,8 +130,7 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
     };
     const RenderQuality& q = planned.quality;
     if (q.uses_buffer())
-        add(f.bins, " spectral bins; ", kVisibilitySamplesAcross, " x ", kVisibilitySamplesAcross,
-            " samples per pixel by the visibility buffer");
+        add(f.bins, " spectral bins; ", q.buffer_samples, " samples per pixel by the visibility buffer");
     else
         add(f.bins, " spectral bins; ", q.samples_per_axis, " x ", q.samples_per_axis, " rays per pixel");
     if (q.noise_budget > 0)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/light/modules.h"
+#include "render/visibility/pixel_samples.h"
 #include "render/vocabulary/config_field.h"
 #include "render/vocabulary/units.h"
 
@@ -14,7 +15,8 @@ namespace hilcam {
 // fields().
 struct RenderQuality {
     std::int64_t samples_per_axis = 1;  // n: a regular n x n grid of rays in each pixel
-    std::string visibility = "rays";    // or "buffer": sixteen samples a pixel where it can
+    std::string visibility = "rays";    // or "buffer": buffer_samples a pixel where it can
+    std::int64_t buffer_samples = 16;   // or 64
     std::string path_model = "path";
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // see path_model.h
@@ -34,6 +36,7 @@ struct RenderQuality {
 
     // A noise budget is for rays.
     bool uses_buffer() const { return visibility == "buffer" && noise_budget == 0; }
+    PixelSamples pixel_samples() const { return PixelSamples(buffer_samples == 64 ? 8 : 4); }
 };
 Fields fields(RenderQuality& quality);
 

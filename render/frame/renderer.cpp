@@ -35,7 +35,7 @@ struct Renderer::Implementation {
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const std::vector<RenderQuality>& levels, const RenderModels& models,
                    const Modules& modules)
-        : placer(std::move(scene), grid, geometry, levels.front(), models, modules),
+        : placer(std::move(scene), grid, geometry, levels, models, modules),
           tracer(geometry, modules, levels),
           probe(placer.frame(), static_cast<int>(levels.front().point_samples)) {
         use_level(0);

@@ -26,7 +26,7 @@ class TileCost {
           count_(across_ * ((height_ + kTile_px - 1) / kTile_px)),
           stride_(1 + count_ / most_tiles),
           pixels_(kTile_px * kTile_px),
-          uncovered_(pixels_.size(), static_cast<std::uint16_t>(kAllSamples)) {}
+          uncovered_(pixels_.size(), ~SampleMask{0}) {}
 
     int stride() const { return stride_; }
     template <class Use>
@@ -46,7 +46,7 @@ class TileCost {
   private:
     int width_, height_, across_, count_, stride_;
     std::vector<Spectrum> pixels_;
-    std::vector<std::uint16_t> uncovered_;
+    std::vector<SampleMask> uncovered_;
     std::unique_ptr<FacetList> facets_ = std::make_unique<FacetList>();
 };
 

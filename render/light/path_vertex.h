@@ -14,7 +14,7 @@ namespace hilcam {
 struct Facet {
     Vec3f geometric_normal, normal;          // the two normals of a vertex
     Vec3f start_m;                           // where rays that leave it begin, ray space
-    float samples = 0;                       // number of the pixel's samples that see it
+    float samples = 0;                       // samples of sixteen a pixel that see it
     const LevelFacets* flattened = nullptr;  // the facets of the mesh for which it stands; null: itself
     const Facet* next = nullptr;
 };
@@ -23,7 +23,7 @@ struct Vertex {
     std::uint32_t pixel;     // in the tile
     std::uint16_t sample;    // in the pixel
     std::uint16_t depth;     // 1: seen by the camera
-    std::uint16_t samples;   // a bit for each of the pixel's sixteen that sees its triangle; 0: one of a ray
+    SampleMask samples;      // those of the pixel that see its triangle; 0: one of a ray
     Vec3f point_m;           // ray space
     float offset_m;          // distance above the surface at which a ray must start
     Vec3f geometric_normal;  // towards the viewer's side, unit
@@ -35,7 +35,7 @@ struct Vertex {
     bool back;                     // the side that its triangle's own normal points away from
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
     bool mirrors_near;             // where that, something may stand in the mirror's direction
-    float weight_samples;          // samples of the pixel that see it, where it is not one ray's
+    float weight_samples;          // samples of sixteen a pixel that see it, where it is not one ray's
     HalfShares halves;             // where in the pixel they are
     float facet_alpha;             // alpha of the lobes of its facets
     const Facet* facets;           // the vertex's own among them; null: it is one

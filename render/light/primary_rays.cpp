@@ -1,7 +1,6 @@
 #include "render/light/primary_vertices.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -40,9 +39,9 @@ class PrimaryRays {
         patched_ = bodies_ && linear_ && !pictured_ && frame_.background->earth_in_patches();
     }
 
-    // uncovered: a bit for each of a pixel's kVisibilitySamples that sees no object; null: rays find the
+    // uncovered: samples of each pixel that see no object; null: rays find the
     // objects.
-    std::size_t trace(const std::uint16_t* uncovered) {
+    std::size_t trace(const SampleMask* uncovered) {
         uncovered_ = uncovered;
         // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
         static_assert(ScreenMask::kBlock_px == 4);
@@ -70,7 +69,7 @@ class PrimaryRays {
     Tile& tile_;
     const FrameView& frame_;
     std::span<Vertex> vertices_;
-    const std::uint16_t* uncovered_ = nullptr;
+    const SampleMask* uncovered_ = nullptr;
     bool even_ = false;  // one ray a pixel
     bool bodies_, sun_;
     const LinearRays* linear_;
@@ -133,7 +132,7 @@ class PrimaryRays {
                     at_y = static_cast<float>(y - tile_.box.y0) + 2;
         const Vec3d dir = normalized(linear_ ? corner_ + static_cast<double>(at_x) * linear_->right +
                                                    static_cast<double>(at_y) * linear_->down
-                                             : frame_.visibility->direction(x + 2, y + 2, {}));
+                                             : direction_seen(frame_, x + 2, y + 2, {}));
         const double block_rad = 3 / frame_.geometry.focal_length_px;  // its middle to its corners
         Block out = Block::kDark;
         for (std::size_t i = 0; i < frame_.body_box_count; ++i) {
@@ -207,7 +206,7 @@ class PrimaryRays {
             if (body.id != BodyId::kEarth) continue;
             const Vec3d dir = normalized(linear_ ? corner_ + (x - tile_.box.x0 + 0.5) * linear_->right +
                                                        (y - tile_.box.y0 + 0.5) * linear_->down
-                                                 : frame_.visibility->direction(x, y, {0.5f, 0.5f}));
+                                                 : direction_seen(frame_, x, y, {0.5f, 0.5f}));
             return limbs_of(body).near(dir, rim_rad());
         }
         return false;
@@ -346,10 +345,11 @@ class PrimaryRays {
         float samples = 1;
         HalfShares halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         if (uncovered_) {
-            const std::uint32_t seen = even_ ? uncovered_[pixel] : uncovered_[pixel] & 1u << sample;
+            const PixelSamples& grid = frame_.samples;
+            const SampleMask seen = uncovered_[pixel] & (even_ ? grid.all() : grid.about(sample));
             if (seen == 0) return;
-            samples = static_cast<float>(std::popcount(seen));
-            if (even_) halves = half_shares_of(seen);
+            samples = grid.weight(seen);
+            if (even_ || grid.quarters() > 1) halves = grid.halves(seen);
         }
         Spectrum light;
         add_backdrop(k, sun_cosine, samples * weight_, light);
@@ -395,6 +395,6 @@ std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices) {
     return PrimaryRays(tile, vertices).trace(nullptr);
 }
 
-void add_backdrop(Tile& tile, const std::uint16_t* uncovered) { PrimaryRays(tile, {}).trace(uncovered); }
+void add_backdrop(Tile& tile, const SampleMask* uncovered) { PrimaryRays(tile, {}).trace(uncovered); }
 
 }  // namespace hilcam

@@ -17,38 +17,6 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Returns where to look for what some samples see: the sample next to their middle. The middle itself may see
-// something else.
-std::uint8_t nearest_to_middle(std::uint32_t samples) {
-    float x = 0, y = 0;
-    for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
-        const int i = std::countr_zero(rest);
-        x += sample_x(i), y += sample_y(i);
-    }
-    const float share = 1 / static_cast<float>(std::popcount(samples));
-    x *= share, y *= share;
-    float least = 2;
-    int nearest = 0;
-    for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
-        const int i = std::countr_zero(rest);
-        const float dx = sample_x(i) - x, dy = sample_y(i) - y;
-        if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = i;
-    }
-    return static_cast<std::uint8_t>(nearest);
-}
-const std::vector<std::uint8_t> kNearestToMiddle = [] {
-    std::vector<std::uint8_t> out(0x10000u);
-    for (std::uint32_t samples = 1; samples < out.size(); ++samples)
-        out[samples] = nearest_to_middle(samples);
-    return out;
-}();
-// Returns the samples' middle, from the pixel's corner.
-Vec2f middle_of(std::uint16_t samples) {
-    if (samples == kAllSamples) return {0.5f, 0.5f};
-    const int i = kNearestToMiddle[samples];
-    return {sample_x(i), sample_y(i)};
-}
-
 // The greatest lean of two facets against each other that make one vertex: its kept light and its mirrored
 // rays are those of one of them.
 constexpr float kLeansAlike = 0.94f;          // cosine
@@ -69,15 +37,6 @@ std::uint32_t equal_ids(const std::uint32_t* ids, std::uint32_t id) {
 
 }  // namespace
 
-HalfShares half_shares_of(std::uint32_t samples) {
-    constexpr std::uint32_t kRight = 0xCCCC, kLower = 0xFF00, kMain = 0xCC33;  // kMain: both or neither
-    const int all = std::popcount(samples);
-    const auto share = [&](std::uint32_t half) {
-        return static_cast<float>(2 * std::popcount(samples & half) - all) / static_cast<float>(all);
-    };
-    return {share(kRight), share(kLower), share(kMain)};
-}
-
 std::size_t PrimaryVertices::next(std::span<Vertex> vertices) {
     if (tile_.seen) return next_fragments(vertices);
     if (std::exchange(begun_, true)) return 0;
@@ -89,13 +48,14 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
     if (!std::exchange(begun_, true)) {
         HILCAM_CHECK((box.x1 - box.x0) * (box.y1 - box.y0) <= PathModel::kMaxSamples &&
                      tile_.samples_per_axis == kVisibilitySamplesAcross);
-        uncovered_.fill(kAllSamples);
-        part_ = {box.x0 - kVisibilityTile_px, box.y0, box.x0, box.y0};
+        uncovered_.fill(tile_.frame.samples.all());
+        part_px_ = kVisibilityTile_px / tile_.frame.samples.buffer_px();
+        part_ = {box.x0 - part_px_, box.y0, box.x0, box.y0};
     }
     std::size_t count = 0;
     tile_.facets.clear();
     while (count + kPacketSize <= vertices.size() && tile_.facets.room() >= 2 * kPacketSize) {
-        while (fragment_count_ < kPacketSize && (next_pixel_ < kPartPixels || open_next_part()))
+        while (fragment_count_ < kPacketSize && (next_pixel_ < pixels_ || open_next_part()))
             take_next_pixel();
         if (fragment_count_ == 0) {
             // Whatever comes last, the background comes once.
@@ -110,37 +70,49 @@ std::size_t PrimaryVertices::next_fragments(std::span<Vertex> vertices) {
 // The next part of the tile in which anything is seen.
 bool PrimaryVertices::open_next_part() {
     const PixelBox& box = tile_.box;
-    int x = part_.x0 + kVisibilityTile_px, y = part_.y0;
-    for (;; x += kVisibilityTile_px) {
-        if (x >= box.x1) x = box.x0, y += kVisibilityTile_px;
-        part_ = {x, y, std::min(x + kVisibilityTile_px, box.x1), std::min(y + kVisibilityTile_px, box.y1)};
+    const int buffer_px = tile_.frame.samples.buffer_px();
+    int x = part_.x0 + part_px_, y = part_.y0;
+    for (;; x += part_px_) {
+        if (x >= box.x1) x = box.x0, y += part_px_;
+        part_ = {x, y, std::min(x + part_px_, box.x1), std::min(y + part_px_, box.y1)};
         if (y >= box.y1) return false;
-        if (!tile_.frame.visibility->fill(x, y, *tile_.seen)) continue;
-        next_pixel_ = 0;
+        if (!tile_.frame.visibility->fill(buffer_px * x, buffer_px * y, *tile_.seen)) continue;
+        next_pixel_ = 0, pixels_ = part_px_ * part_px_;
         return true;
     }
 }
 
 // Four neighbours after each other: they may share what changes slowly (KeptScene::add_reflected()).
 void PrimaryVertices::take_next_pixel() {
-    constexpr int kPairs = kVisibilityTile_px / 2;
+    const int pairs = part_px_ / 2;
     const int i = next_pixel_++, pair = i / 4;
-    const int x = part_.x0 + 2 * (pair % kPairs) + i % 2, y = part_.y0 + 2 * (pair / kPairs) + i / 2 % 2;
+    const int x = part_.x0 + 2 * (pair % pairs) + i % 2, y = part_.y0 + 2 * (pair / pairs) + i / 2 % 2;
     if (x < part_.x1 && y < part_.y1) take_pixel(x, y);
 }
 
 void PrimaryVertices::take_pixel(int x, int y) {
-    const std::uint32_t* ids = tile_.seen->ids(x - part_.x0, y - part_.y0);
+    const PixelSamples& grid = tile_.frame.samples;
+    std::array<const std::uint32_t*, 4> ids{};  // by quarter
+    SampleMask rest = 0;
+    for (int q = 0; q < grid.quarters(); ++q) {
+        const std::uint32_t* of = tile_.seen->ids(grid.buffer_px() * (x - part_.x0) + q % 2,
+                                                  grid.buffer_px() * (y - part_.y0) + q / 2);
+        ids[static_cast<std::size_t>(q)] = of;
+        rest |= SampleMask{kAllSamples & ~equal_ids(of, VisibilityTile::kNothing)} << (kVisibilitySamples * q);
+    }
     const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
-    std::uint32_t rest = kAllSamples & ~equal_ids(ids, VisibilityTile::kNothing);
-    const int covered = std::popcount(rest);
-    uncovered_[static_cast<std::size_t>(pixel)] = static_cast<std::uint16_t>(kAllSamples & ~rest);
-    tile_.stats.covered_px += covered * (1.0 / kVisibilitySamples);
+    uncovered_[static_cast<std::size_t>(pixel)] = grid.all() & ~rest;
+    tile_.stats.covered_px += static_cast<double>(grid.weight(rest)) * (1.0 / kVisibilitySamples);
     const std::size_t first = fragment_count_;
     while (rest != 0) {
-        const std::uint32_t same = equal_ids(ids, ids[std::countr_zero(rest)]);
-        fragments_[fragment_count_++] = {ids[std::countr_zero(rest)], static_cast<std::uint16_t>(same),
-                                         static_cast<std::uint16_t>(pixel)};
+        const int sample = std::countr_zero(rest);
+        const std::uint32_t id =
+            ids[static_cast<std::size_t>(sample / kVisibilitySamples)][sample % kVisibilitySamples];
+        SampleMask same = 0;
+        for (int q = sample / kVisibilitySamples; q < grid.quarters(); ++q)
+            if (rest >> (kVisibilitySamples * q) & kAllSamples)
+                same |= SampleMask{equal_ids(ids[static_cast<std::size_t>(q)], id)} << (kVisibilitySamples * q);
+        fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), same};
         rest &= ~same;
     }
     if (fragment_count_ - first < 2) return;
@@ -157,8 +129,7 @@ bool PrimaryVertices::leave_to_body(std::size_t k) {
     const FrameView& frame = tile_.frame;
     const Vec3d point = to_double(origins_[k]) + static_cast<double>(hits_.distance[k]) * dirs_[k];
     if (!frame.background->hides_seen(normalized(dirs_[k]), length(point - frame.camera_m))) return false;
-    std::uint16_t& uncovered = uncovered_[fragments_[k].pixel];
-    uncovered = static_cast<std::uint16_t>(uncovered | fragments_[k].samples);
+    uncovered_[fragments_[k].pixel] |= fragments_[k].samples;
     return true;
 }
 
@@ -189,11 +160,11 @@ std::size_t PrimaryVertices::look_at_fragments() {
         const Fragment& fragment = fragments_[n];
         const VisibilityBuffer::Seen seen = frame.visibility->seen(fragment.id);
         if (seen.shown != &shown) break;
-        const Vec2f at = middle_of(fragment.samples);
+        const Vec2f at = frame.samples.middle(fragment.samples);
         const int x = fragment.pixel % width, y = fragment.pixel / width;
         dirs_[n] = rays ? corner + static_cast<double>(static_cast<float>(x) + at.x) * rays->right +
                               static_cast<double>(static_cast<float>(y) + at.y) * rays->down
-                        : frame.visibility->direction(tile_.box.x0 + x, tile_.box.y0 + y, at);
+                        : direction_seen(frame, tile_.box.x0 + x, tile_.box.y0 + y, at);
         origins_[n] =
             frame.start_before_m > 0 ? frame.start_of(normalized(dirs_[n])) : to_float(frame.camera_m);
         packet_.triangle[n] = seen.triangle;
@@ -224,7 +195,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
     for (std::size_t k = 0; k < n; ++k) {
         if (frame.bodies_may_hide && leave_to_body(k)) continue;
         const Fragment& fragment = fragments_[k];
-        const auto samples = static_cast<float>(std::popcount(std::uint32_t{fragment.samples}));
+        const float samples = frame.samples.weight(fragment.samples);
         const Vec3f dir = packet_.dir.at(k);
         Lie lie{packet_.geometric.at(k), packet_.normal.at(k), packet_.view_dir.at(k), packet_.back[k] != 0};
         // Too small for its square: by itself.
@@ -241,7 +212,7 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
             const float all = joined->weight_samples + samples;
             joined->weight = (all / joined->weight_samples) * joined->weight;
             joined->halves = (joined->weight_samples / all) * joined->halves;
-            joined->halves += (samples / all) * half_shares_of(fragment.samples);
+            joined->halves += (samples / all) * frame.samples.halves(fragment.samples);
             joined->weight_samples = all;
             continue;
         }
@@ -249,13 +220,13 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
         make_vertex(frame, hits_, static_cast<int>(k), lie, origins_[k], dir, 0,
                     {pixel_rad * from_m, pixel_rad}, vertex);
         vertex.pixel = fragment.pixel;
-        vertex.sample = static_cast<std::uint16_t>(std::countr_zero(std::uint32_t{fragment.samples}));
+        vertex.sample = static_cast<std::uint16_t>(std::countr_zero(fragment.samples));
         vertex.depth = 1;
         vertex.samples = fragment.samples;
         vertex.weight = {};
         std::fill_n(vertex.weight.bin.begin(), frame.bins, samples);
         vertex.weight_samples = samples;
-        vertex.halves = half_shares_of(fragment.samples);
+        vertex.halves = frame.samples.halves(fragment.samples);
         add_air_before(tile_, dirs_[k], vertex);
         tile_.facets.add(frame, {lie.geometric_normal, lie.normal, vertex.start(), samples},
                          hits_.triangle[k], true, vertex);
@@ -266,18 +237,28 @@ std::size_t PrimaryVertices::make_vertices(std::span<Vertex> vertices, std::size
     return count;
 }
 
+Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px) {
+    const int n = frame.samples.buffer_px();
+    const auto scale = static_cast<float>(n);
+    const Vec2f at{scale * within_px.x, scale * within_px.y};
+    const int right = at.x >= 1 ? 1 : 0, down = at.y >= 1 ? 1 : 0;
+    if (n == 1) return frame.visibility->direction(x_px, y_px, at);
+    return frame.visibility->direction(n * x_px + right, n * y_px + down,
+                                       {at.x - static_cast<float>(right), at.y - static_cast<float>(down)});
+}
+
 Vec3f way_to_sample(const Tile& tile, const Vertex& at, int sample) {
     const FrameView& frame = tile.frame;
     const float facing = dot(at.geometric_normal, at.view_dir);
     if (facing < 0.02f) return {};
     const int width = tile.box.x1 - tile.box.x0, pixel = static_cast<int>(at.pixel);
     const int x = tile.box.x0 + pixel % width, y = tile.box.y0 + pixel / width;
-    const Vec2f from = middle_of(at.samples), to{sample_x(sample), sample_y(sample)};
+    const Vec2f from = frame.samples.middle(at.samples), to = frame.samples.place(sample);
     const LinearRays* rays = frame.rays->linear();
     const auto dir = [&](Vec2f p) {
         return rays ? rays->corner + (x + static_cast<double>(p.x)) * rays->right +
                           (y + static_cast<double>(p.y)) * rays->down
-                    : frame.visibility->direction(x, y, p);
+                    : direction_seen(frame, x, y, p);
     };
     const Vec3d dir_from = dir(from);
     const double distance_m = static_cast<double>(at.footprint_m) * frame.geometry.focal_length_px;

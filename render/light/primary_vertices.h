@@ -9,7 +9,6 @@
 
 #include "render/light/path_model.h"
 #include "render/visibility/fragment_packet.h"
-#include "render/vocabulary/half_light.h"
 
 namespace hilcam {
 
@@ -25,16 +24,17 @@ class PrimaryVertices {
     // A triangle in a pixel.
     struct Fragment {
         std::uint32_t id;
-        std::uint16_t samples;  // a bit each
-        std::uint16_t pixel;    // in the tile
+        std::uint16_t pixel;  // in the tile
+        SampleMask samples;
     };
     Tile& tile_;
     bool begun_ = false, ended_ = false;
     PixelBox part_{};  // the part of the tile that the buffer has
-    static constexpr int kPartPixels = kVisibilityTile_px * kVisibilityTile_px;
-    int next_pixel_ = kPartPixels;                                 // there
-    std::array<std::uint16_t, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
-    std::array<Fragment, 2 * kPacketSize> fragments_;
+    int part_px_ = 0;                  // its edge
+    int next_pixel_ = 0, pixels_ = 0;  // there
+    std::array<SampleMask, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
+    static constexpr std::size_t kMostSamples = 64;
+    std::array<Fragment, kPacketSize + kMostSamples> fragments_;
     std::size_t fragment_count_ = 0;
     // The packet of fragments that is looked at: what find_lies() takes and gives, and its rays.
     FragmentPacket packet_;
@@ -57,14 +57,13 @@ class PrimaryVertices {
 // (PathModel::kMaxSamples are enough) and adds the background to the tile's pixels. Returns how many. Loop, any
 // thread.
 std::size_t trace_primary_rays(Tile& tile, std::span<Vertex> vertices);
-// Adds the background alone. uncovered: a bit for each of a pixel's kVisibilitySamples that sees no object, by
-// pixel, row by row. Loop, any thread.
-void add_backdrop(Tile& tile, const std::uint16_t* uncovered);
+// Adds the background alone. uncovered: the samples that see no object, by pixel, row by row. Loop, any thread.
+void add_backdrop(Tile& tile, const SampleMask* uncovered);
 // Adds the air between the camera and a vertex that it sees along dir, and dims the vertex by it.
 void add_air_before(Tile& tile, Vec3d dir, Vertex& vertex);
 
-// Returns where in their pixel samples of the visibility buffer are; at least one.
-HalfShares half_shares_of(std::uint32_t samples);
+// Returns the direction through a place in a pixel, as the frame's visibility buffer has it; world axes, of any length.
+Vec3d direction_seen(const FrameView& frame, int x_px, int y_px, Vec2f within_px);
 
 // Returns the way from a vertex that samples see to where one of them meets its plane [m, ray space]; nothing
 // where the plane is seen from its edge. sample: one of Vertex::samples. Loop, any thread.

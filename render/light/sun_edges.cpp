@@ -10,15 +10,16 @@
 namespace hilcam {
 namespace {
 
-// Takes one of the samples that are left, far from those before; all of them once more after the last.
-int next_sample(std::uint32_t& rest, std::uint32_t all) {
+// Takes one of the samples that are left, far from those before, and leaves out those beside it; all of them once more
+// after the last.
+int next_sample(const PixelSamples& grid, SampleMask& rest, SampleMask all) {
     constexpr std::array<std::uint8_t, kVisibilitySamples> kOrder{0, 10, 2, 8, 5, 15, 7, 13,
                                                                   1, 11, 3, 9, 4, 14, 6, 12};
     if (rest == 0) rest = all;
-    for (const std::uint8_t sample : kOrder)
-        if (rest >> sample & 1u) {
-            rest &= ~(1u << sample);
-            return sample;
+    for (const std::uint8_t place : kOrder)
+        if (const SampleMask here = rest & grid.about(place)) {
+            rest &= ~here;
+            return std::countr_zero(here);
         }
     return 0;
 }
@@ -51,11 +52,11 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
     struct Use {
         Asked* asked;
         float share;
-        int sample;  // from which it asks
+        Vec2f at_px;  // the sample's place in its pixel from which it asks
     };
     const auto gets_through = [](const Use& use, const Spectrum*) {
         use.asked->lit += use.share;
-        use.asked->halves += use.share * half_shares_at(sample_x(use.sample), sample_y(use.sample));
+        use.asked->halves += use.share * half_shares_at(use.at_px.x, use.at_px.y);
     };
     ShadowRays<Use, decltype(gets_through)> shadow(tile.frame, tile.stats.shadow_rays, gets_through);
     for (Asked& a : std::span(asked_).first(count_)) {
@@ -63,21 +64,22 @@ void SunEdges::ask_again(Tile& tile, const SunSampler& sun) {
         if (!((a.lit > 0 ? near_dark : near_lit)[y] >> x & 1u)) continue;
         a.lit = a.of = 0;
         a.by_sample = !a.at->facets && a.at->samples != 0;
-        std::uint32_t rest = a.at->samples;
+        SampleMask rest = a.at->samples;
         for (std::uint32_t i = 0; i < kAgain; ++i) {
             // Facets each ask for themselves; what is flat asks from where its samples are.
             const std::size_t facet = a.starts.share[i] > 0 ? i : 0;
             Vec3f start_m = a.starts.at_m[facet];
-            int sample = 0;
+            Vec2f at_px{};
             if (a.by_sample) {
-                sample = next_sample(rest, a.at->samples);
+                const int sample = next_sample(tile.frame.samples, rest, a.at->samples);
+                at_px = tile.frame.samples.place(sample);
                 start_m = start_m + way_to_sample(tile, *a.at, sample);
             }
             const float share = a.starts.share[facet];
             a.of += share;
             // The four pixels of a square ask for other places of the disk.
             shadow.add(start_m, sun.on_disk(kAgain * i + x % 2 + 2 * (y % 2), 4 * kAgain),
-                       {&a, share, sample});
+                       {&a, share, at_px});
         }
     }
 }

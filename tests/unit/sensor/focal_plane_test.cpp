@@ -87,7 +87,7 @@ TEST(FocalPlane, AnEdgeIsItsClosedFormWhereverItFallsInAPixel) {
 TEST(FocalPlane, AnEdgeIsItsClosedFormByHalvesOfPixels) {
     constexpr double kSigma_px = 0.5;
     const auto worst_error = [](double edge_px, bool halves) {
-        Bench bench(gaussian_camera(kSigma_px), {16, halves ? kHalvedRays : RayGrid{4}, 1});
+        Bench bench(gaussian_camera(kSigma_px), {16, halves ? halved(4) : RayGrid{4}, 1});
         bench.radiance.keep_halves({electrons_per_s_per_radiance(bench.camera, bench.grid)});
         HalfLight& light = *bench.radiance.halves();
         light.set_known(halves);
@@ -131,7 +131,7 @@ TEST(FocalPlane, AnEdgeIsItsClosedFormByHalvesOfPixels) {
 TEST(FocalPlane, LightInAQuarterOfAPixelIsSeenThere) {
     for (const float electrons : {1e5f, 1e8f})
         for (const Vec2d smear_px : {Vec2d{0, 0}, Vec2d{0.8, -0.4}}) {
-            Bench bench(gaussian_camera(0.7), {16, kHalvedRays, 1});
+            Bench bench(gaussian_camera(0.7), {16, halved(4), 1});
             bench.radiance.keep_halves({electrons_per_s_per_radiance(bench.camera, bench.grid)});
             HalfLight& light = *bench.radiance.halves();
             light.set_known(true);

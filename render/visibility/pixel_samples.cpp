@@ -1,0 +1,83 @@
+#include "render/visibility/pixel_samples.h"
+
+#include <vector>
+
+namespace hilcam {
+namespace {
+
+// Returns the sample of some of sixteen that is nearest to a place.
+int nearest_to(std::uint32_t samples, Vec2f place) {
+    float least = 4;
+    int nearest = 0;
+    for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
+        const int i = std::countr_zero(rest);
+        const float dx = sample_x(i) - place.x, dy = sample_y(i) - place.y;
+        if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, nearest = i;
+    }
+    return nearest;
+}
+
+// For each set of sixteen samples the sum of their places, and the one next to their middle.
+struct Sixteen {
+    Vec2f sum;
+    std::uint8_t nearest;
+};
+const std::vector<Sixteen> kSixteen = [] {
+    std::vector<Sixteen> out(0x10000u);
+    for (std::uint32_t samples = 1; samples < out.size(); ++samples) {
+        Vec2f sum{};
+        for (std::uint32_t rest = samples; rest; rest &= rest - 1) {
+            const int i = std::countr_zero(rest);
+            sum.x += sample_x(i), sum.y += sample_y(i);
+        }
+        const float share = 1 / static_cast<float>(std::popcount(samples));
+        out[samples] = {sum, static_cast<std::uint8_t>(nearest_to(samples, {share * sum.x, share * sum.y}))};
+    }
+    return out;
+}();
+
+std::uint32_t of_quarter(SampleMask samples, int quarter) {
+    return static_cast<std::uint32_t>(samples >> (kVisibilitySamples * quarter)) & kAllSamples;
+}
+
+}  // namespace
+
+Vec2f PixelSamples::middle(SampleMask samples) const {
+    if (samples == all()) return {0.5f, 0.5f};
+    if (quarters_ == 1) return place(kSixteen[samples].nearest);
+    Vec2f sum{};
+    for (int q = 0; q < 4; ++q) {
+        const std::uint32_t part = of_quarter(samples, q);
+        const auto count = static_cast<float>(std::popcount(part));
+        sum.x += (count * static_cast<float>(q % 2) + kSixteen[part].sum.x) / 2;
+        sum.y += (count * static_cast<float>(q / 2) + kSixteen[part].sum.y) / 2;
+    }
+    const float share = 1 / static_cast<float>(std::popcount(samples));
+    const Vec2f middle{share * sum.x, share * sum.y};
+    float least = 4;
+    Vec2f out{};
+    for (int q = 0; q < 4; ++q) {
+        const std::uint32_t part = of_quarter(samples, q);
+        if (part == 0) continue;
+        const Vec2f within{2 * middle.x - static_cast<float>(q % 2), 2 * middle.y - static_cast<float>(q / 2)};
+        const Vec2f at = place(kVisibilitySamples * q + nearest_to(part, within));
+        const float dx = at.x - middle.x, dy = at.y - middle.y;
+        if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, out = at;
+    }
+    return out;
+}
+
+HalfShares PixelSamples::halves(SampleMask samples) const {
+    // The crossed difference has the upper left and the lower right.
+    constexpr SampleMask kRight = 0xCCCC, kLower = 0xFF00, kCrossed = 0xCC33;
+    constexpr SampleMask kRightFine = 0xFFFF0000FFFF0000, kLowerFine = 0xFFFFFFFF00000000,
+                         kCrossedFine = 0xFFFF00000000FFFF;
+    const int count = std::popcount(samples);
+    const auto share = [&](SampleMask half) {
+        return static_cast<float>(2 * std::popcount(samples & half) - count) / static_cast<float>(count);
+    };
+    if (quarters_ == 1) return {share(kRight), share(kLower), share(kCrossed)};
+    return {share(kRightFine), share(kLowerFine), share(kCrossedFine)};
+}
+
+}  // namespace hilcam
