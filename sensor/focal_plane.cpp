@@ -232,8 +232,8 @@ struct FocalPlane::Implementation {
     Vec2d bright_place(const BrightPixel& pixel, float charge_e, const HalfLight& halves,
                        double exposure_s) const {
         const int x = image_row(pixel.position_px.x), y = image_row(pixel.position_px.y);
-        if (halves.even(x, y)) return pixel.position_px;
         const auto at = static_cast<std::size_t>(x);
+        if (halves.unknown(x, y) || halves.kinds(y)[at] == HalfKind::kSmooth) return pixel.position_px;
         const double per_rate =
             exposure_s / static_cast<double>(charge_e) *
             static_cast<double>(
@@ -417,9 +417,8 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
             kernel->run(*channel.convolver);
         else
             channel.convolver->run(blur);
-        if (is_halved(rays) && radiance.halves())
-            my.half_adder.add(*radiance.halves(), static_cast<int>(c), blur, exposure.exposure_s,
-                              channel.most_e, channel);
+        if (is_halved(rays) && radiance.halves() && radiance.halves()->used())
+            my.half_adder.add(radiance, static_cast<int>(c), blur, exposure.exposure_s, channel);
     }
 }
 

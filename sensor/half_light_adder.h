@@ -1,7 +1,10 @@
 #pragma once
 // Adds to a convolved channel what it changes that its light lies in halves of pixels (half_light.h), block by
-// block, where there is any such light.
+// block, where there is any such light. Next to objects, light that is known by one sample a pixel is taken to be even:
+// from what lies beyond an edge nothing follows.
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "render/vocabulary/radiance_image.h"
@@ -17,9 +20,8 @@ class HalfLightAdder {
                    const std::vector<std::vector<float>>& zone_weights)
         : illumination_(illumination), zone_weights_(zone_weights) {}
 
-    // most_e: the greatest charge of a pixel in the channel before it was convolved; no half has more. number: of
-    // the channel. Loop: no allocation, no lock.
-    void add(const HalfLight& light, int number, const FrameBlur& blur, double exposure_s, float most_e,
+    // radiance: what the channel was made of, with halves. number: of the channel. Loop: no allocation, no lock.
+    void add(const RadianceImage& radiance, int number, const FrameBlur& blur, double exposure_s,
              LightChannel& channel) const;
 
   private:
@@ -27,15 +29,32 @@ class HalfLightAdder {
     const std::vector<std::vector<float>>& zone_weights_;
 
     struct Source {
+        const RadianceImage& radiance;
         const HalfLight& light;
         int number;
-        float exposure_s, most_e;
-        const float* zone;       // null: the whole field is one
-        std::size_t zone_width;  // floats in a row of it
+        const Spectrum* response;  // what makes charge of radiance; null: the image has charge rates
+        float exposure_s, most_e;  // most_e: the greatest charge of a pixel; no half has more
+        const float* zone;         // null: the whole field is one
+        std::size_t zone_width;    // floats in a row of it
+
+        float rate_e_s(int x, int y) const;
     };
-    bool gather(const Source& source, int x_px, int y_px, HalfKernels::Differences& out) const;
-    void copy_block(const Source& source, int from_x, int from_y, int x_px, int y_px,
-                    HalfKernels::Differences& out) const;
+    // A block and what lies about it, as far as kernels reach and differences are taken from.
+    static constexpr int kRim_px = HalfKernels::kMaxReach_px + 2,
+                         kArea_px = HalfKernels::kBlock_px + 2 * kRim_px;
+    using Area = std::array<std::array<float, kArea_px>, kArea_px>;
+    struct Scratch {
+        Area charge_e;  // light of pixels
+        Area down_e;    // smooth differences down them
+        std::array<std::array<HalfKind, kArea_px>, kArea_px> kinds;
+        std::array<std::array<std::uint8_t, kArea_px>, kArea_px>
+            near;  // an object is seen here or up to two pixels beside
+        HalfKernels::Parts parts;
+    };
+    bool gather(const Source& source, int x_px, int y_px, Scratch& scratch) const;
+    void copy_block(const Source& source, int from_x, int from_y, int x_px, int y_px, Scratch& scratch) const;
+    static void find_near(Scratch& scratch);
+    static bool take_smooth(Scratch& scratch);
 };
 
 }  // namespace hilcam

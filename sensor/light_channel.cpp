@@ -30,7 +30,7 @@ Transfer transfer_of_halves(const SystemMtf& mtf, RayGrid rays) {
 // number of them to a detector pixel, that pixel's centre lies on their corner: half a pixel back.
 std::complex<double> image_transfer(const SystemMtf& mtf, int oversampling, RayGrid rays, double u,
                                     double v) {
-    if (is_halved(rays)) return halved_transfer(transfer_of_halves(mtf, rays), u, v);
+    if (is_halved(rays)) return smooth_transfer(transfer_of_halves(mtf, rays), u, v);
     const int m = oversampling;
     const std::complex<double> shift = m % 2 ? 1.0 : std::polar(1.0, -kPi * (u + v));
     return mtf.at(u * m, v * m) * shift / (ray_grid_mtf(u, rays) * ray_grid_mtf(v, rays));

@@ -54,7 +54,7 @@ double half_rays_mtf(double frequency_cy_px, RayGrid rays) {
 }
 
 double ray_grid_mtf(double frequency_cy_px, RayGrid n) {
-    if (is_halved(n)) return half_rays_mtf(frequency_cy_px, n) / std::cos(kPi / 2 * frequency_cy_px);
+    if (is_halved(n)) return ray_grid_mtf(frequency_cy_px, -n);
     return n == kScatteredRays ? sinc(frequency_cy_px) : sinc(frequency_cy_px) / sinc(frequency_cy_px / n);
 }
 

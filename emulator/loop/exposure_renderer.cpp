@@ -180,7 +180,7 @@ void ExposureRenderer::keep_dark(RadianceImage& radiance, std::vector<PointSourc
     });
     for (int y = 0; y < radiance.height(); y += RadianceImage::kBlock_px)
         for (int x = 0; x < radiance.width(); x += RadianceImage::kBlock_px) radiance.mark_dark(x, y, true);
-    if (radiance.halves()) radiance.halves()->set_known(false);
+    if (radiance.halves()) radiance.halves()->set_used(false);
     points.clear();
     exposure.image_rate_px_s = {};
     exposure.camera_rate_rad_s = {};
@@ -222,7 +222,8 @@ ExposureRenderer::Result ExposureRenderer::render(WorldState& world, const Shown
     }
     report_noise(exposure, 1);
     renderer_.render(middle_, key, radiance, points, result.stats);
-    if (radiance.halves() && radiance.halves()->known()) exposure.ray_grid = halved(ray_grid_of(renderer_.quality()));
+    if (radiance.halves() && radiance.halves()->used())
+        exposure.ray_grid = halved(ray_grid_of(renderer_.quality()));
     if (truth && motion_ != MotionQuality::kExact) report_truth(*truth);
     if (motion_ == MotionQuality::kOff) return result;
     if (motion_ == MotionQuality::kFast) {
@@ -273,7 +274,7 @@ void ExposureRenderer::render_parts(const WorldState& world, const Span& span, R
         accumulate(stats, share, result.stats);
     }
     scale(share, radiance);
-    if (radiance.halves()) radiance.halves()->set_known(false);
+    if (radiance.halves()) radiance.halves()->set_used(false);
 }
 
 // Returns the motion of the picture along its columns that the sensor does not expect. The line time goes

@@ -20,7 +20,8 @@ bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
 }  // namespace
 
 FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
-                         std::span<const RenderQuality> levels, const RenderModels& models, const Modules& modules)
+                         std::span<const RenderQuality> levels, const RenderModels& models,
+                         const Modules& modules)
     : embree_(ordered_meshes(with_terrain_object(scene)), levels.front().watertight),
       lamps_(std::move(scene.lamps)),
       stars_(std::move(scene.stars), scene.stars_time),
@@ -235,8 +236,7 @@ void FramePlacer::place_earth_picture() {
 }
 
 void FramePlacer::place_visibility() {
-    VisibilityBuffer* const buffer =
-        (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();
+    VisibilityBuffer* const buffer = (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();
     if (!buffer || !uses_visibility_ || !rays_->is_still()) return;
     seen_.clear();
     for (std::size_t i = 0; i < objects_.size(); ++i)

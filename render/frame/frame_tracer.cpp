@@ -33,19 +33,23 @@ void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, i
         }
 }
 
-// Writes a part of a block. False: nothing, as it is even, and may be left.
-bool write(std::span<const float> differences, float share, bool may_leave, const PixelBox& box,
-           HalfLight& halves) {
-    if (may_leave && std::all_of(differences.begin(), differences.end(), [](float v) { return v == 0; }))
+// Writes a part of a block. False: nothing, as no pixel's differences are known, and it may be left.
+bool write(const Tile& tile, float share, bool may_leave, HalfLight& halves) {
+    if (may_leave && std::all_of(tile.kinds.begin(), tile.kinds.end(),
+                                 [](HalfKind kind) { return kind == HalfKind::kSmooth; }))
         return false;
+    const PixelBox& box = tile.box;
     const auto width = static_cast<std::size_t>(box.x1 - box.x0);
-    const float* in = differences.data();
-    for (int channel = 0; channel < static_cast<int>(halves.responses().size()); ++channel)
+    const float* in = tile.halves.data();
+    for (int channel = 0; channel < static_cast<int>(tile.half_responses.size()); ++channel)
         for (int difference = 0; difference < HalfLight::kDifferences; ++difference)
             for (int y = box.y0; y < box.y1; ++y, in += width) {
                 float* out = halves.row(y, difference, channel).data() + box.x0;
                 for (std::size_t x = 0; x < width; ++x) out[x] = share * in[x];
             }
+    for (int y = box.y0; y < box.y1; ++y)
+        std::copy_n(tile.kinds.begin() + (y - box.y0) * static_cast<std::ptrdiff_t>(width), width,
+                    halves.kinds(y).begin() + box.x0);
     return true;
 }
 
@@ -73,7 +77,9 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     }
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
     tile_pixels_.resize(slots(), std::vector<Spectrum>(PathModel::kMaxSamples));
-    if (buffer) seen_.resize(slots()), edges_.resize(slots()), tile_halves_.resize(slots());
+    if (buffer)
+        seen_.resize(slots()), edges_.resize(slots()), tile_halves_.resize(slots()),
+            tile_kinds_.resize(slots());
     facets_.resize(slots());
     for (std::size_t i = 0; budget && i < slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
@@ -124,7 +130,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
         const bool was_dark = radiance.dark(tile.x0, tile.y0);
         if (marks) radiance.mark_dark(tile.x0, tile.y0, !anything);
         stats = {};
-        if (halves_) halves_->mark_even(tile.x0, tile.y0, true);
+        if (halves_) halves_->mark_unknown(tile.x0, tile.y0, true);
         if (anything)
             trace_tile(placer, tile, slot, stats, radiance);
         else if (!was_dark)
@@ -140,10 +146,11 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
 void FrameTracer::find_halves(const FramePlacer& placer, bool marks, RadianceImage& radiance) {
     HalfLight* const halves = radiance.halves();
     halves_ = halves && marks && quality().uses_buffer() && placer.frame().visibility ? halves : nullptr;
-    if (halves) halves->set_known(halves_ != nullptr);
+    if (halves) halves->set_used(halves_ != nullptr);
     if (!halves_) return;
     const std::size_t floats = PathModel::kMaxSamples * HalfLight::kDifferences * halves->responses().size();
     for (std::vector<float>& of_tile : tile_halves_) of_tile.resize(floats);
+    for (std::vector<HalfKind>& of_tile : tile_kinds_) of_tile.resize(PathModel::kMaxSamples);
 }
 
 void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot,
@@ -179,13 +186,15 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
         tile.halves =
             std::span(tile_halves_[slot]).first(count * HalfLight::kDifferences * tile.half_responses.size());
         std::fill(tile.halves.begin(), tile.halves.end(), 0.0f);
+        tile.kinds = std::span(tile_kinds_[slot]).first(count);
+        std::fill(tile.kinds.begin(), tile.kinds.end(), HalfKind::kSmooth);
     }
     paths()[slot]->trace(tile);
     const float share = 1 / static_cast<float>(n * n);
     write(pixels, share, box, frame.bins, radiance);
     // A block of several tiles has one mark.
     const bool alone = box.x1 - box.x0 == RadianceImage::kBlock_px;
-    if (halves_ && write(tile.halves, share, alone, box, *halves_)) halves_->mark_even(box.x0, box.y0, false);
+    if (halves_ && write(tile, share, alone, *halves_)) halves_->mark_unknown(box.x0, box.y0, false);
 }
 
 void FrameTracer::trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,

@@ -77,7 +77,8 @@ class FrameTracer {
     HalfLight* halves_ = nullptr;  // the present frame's; null: it is made without
     // The pixels of the tile in work, one list per slot.
     std::vector<std::vector<Spectrum>> tile_pixels_;
-    std::vector<std::vector<float>> tile_halves_;  // likewise; none where rays see
+    std::vector<std::vector<HalfKind>> tile_kinds_;  // likewise
+    std::vector<std::vector<float>> tile_halves_;    // likewise; none where rays see
     std::vector<FacetList> facets_;
     std::vector<VisibilityTile> seen_;                        // none where rays see
     std::vector<SunEdges> edges_;                             // likewise

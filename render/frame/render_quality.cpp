@@ -6,11 +6,11 @@ Fields fields(RenderQuality& q) {
     return {
         per_frame(integer("samples_per_axis", q.samples_per_axis, {1, 16},
                           "n of the n x n grid of rays in each pixel")),
-        per_frame(text(
-            "visibility", q.visibility,
-            "rays; or buffer: what the camera sees is found by many samples a pixel at once. That needs "
-            "one instant for all rows, no terrain, and a lens that bends lines little within 16 pixels; "
-            "elsewhere rays are used")),
+        per_frame(
+            text("visibility", q.visibility,
+                 "rays; or buffer: what the camera sees is found by many samples a pixel at once. That needs "
+                 "one instant for all rows, no terrain, and a lens that bends lines little within 16 pixels; "
+                 "elsewhere rays are used")),
         per_frame(integer("buffer_samples", q.buffer_samples, {16, 64},
                           "number of the visibility buffer's samples in a pixel: 16 or 64")),
         per_frame(text("path_model", q.path_model,

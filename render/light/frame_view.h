@@ -13,8 +13,8 @@
 #include "render/scene/color_bands.h"
 #include "render/scene/embree_scene.h"
 #include "render/scene/surface.h"
-#include "render/visibility/screen_mask.h"
 #include "render/visibility/pixel_samples.h"
+#include "render/visibility/screen_mask.h"
 #include "render/vocabulary/image_geometry.h"
 #include "render/vocabulary/pixel_box.h"
 #include "render/vocabulary/random.h"
@@ -35,7 +35,7 @@ struct FrameView {
     std::vector<std::uint8_t> is_point;       // per object: drawn as a point, the camera's rays pass it
     const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
     const VisibilityBuffer* visibility =
-        nullptr;  // visibility_buffer.h; null: rays find what the camera sees
+        nullptr;           // visibility_buffer.h; null: rays find what the camera sees
     PixelSamples samples;  // those of the visibility buffer, or that it would have
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;

@@ -342,6 +342,7 @@ class PrimaryRays {
 
     // Of a pixel that is even, one ray tells for all samples that see no object; else each tells for itself.
     void add_backdrop_to(std::uint32_t pixel, std::size_t k, std::uint16_t sample, float sun_cosine) {
+        if (!even_) tile_.set_kind(pixel, HalfKind::kBackground);
         float samples = 1;
         HalfShares halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         if (uncovered_) {
@@ -372,6 +373,7 @@ class PrimaryRays {
         vertex.depth = 1;
         vertex.weight = weight_;
         vertex.halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
+        tile_.set_kind(pixel, HalfKind::kObject);
         tile_.facets.add(frame_, {vertex.geometric_normal, vertex.normal, vertex.start(), 1},
                          hits_.triangle[k], true, vertex);
         ++count_;

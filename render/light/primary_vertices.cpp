@@ -98,10 +98,12 @@ void PrimaryVertices::take_pixel(int x, int y) {
         const std::uint32_t* of = tile_.seen->ids(grid.buffer_px() * (x - part_.x0) + q % 2,
                                                   grid.buffer_px() * (y - part_.y0) + q / 2);
         ids[static_cast<std::size_t>(q)] = of;
-        rest |= SampleMask{kAllSamples & ~equal_ids(of, VisibilityTile::kNothing)} << (kVisibilitySamples * q);
+        rest |= SampleMask{kAllSamples & ~equal_ids(of, VisibilityTile::kNothing)}
+                << (kVisibilitySamples * q);
     }
     const int pixel = (y - tile_.box.y0) * (tile_.box.x1 - tile_.box.x0) + x - tile_.box.x0;
     uncovered_[static_cast<std::size_t>(pixel)] = grid.all() & ~rest;
+    if (rest != 0) tile_.set_kind(static_cast<std::uint32_t>(pixel), HalfKind::kObject);
     tile_.stats.covered_px += static_cast<double>(grid.weight(rest)) * (1.0 / kVisibilitySamples);
     const std::size_t first = fragment_count_;
     while (rest != 0) {
@@ -111,7 +113,8 @@ void PrimaryVertices::take_pixel(int x, int y) {
         SampleMask same = 0;
         for (int q = sample / kVisibilitySamples; q < grid.quarters(); ++q)
             if (rest >> (kVisibilitySamples * q) & kAllSamples)
-                same |= SampleMask{equal_ids(ids[static_cast<std::size_t>(q)], id)} << (kVisibilitySamples * q);
+                same |= SampleMask{equal_ids(ids[static_cast<std::size_t>(q)], id)}
+                        << (kVisibilitySamples * q);
         fragments_[fragment_count_++] = {id, static_cast<std::uint16_t>(pixel), same};
         rest &= ~same;
     }

@@ -29,9 +29,9 @@ class PrimaryVertices {
     };
     Tile& tile_;
     bool begun_ = false, ended_ = false;
-    PixelBox part_{};  // the part of the tile that the buffer has
-    int part_px_ = 0;                  // its edge
-    int next_pixel_ = 0, pixels_ = 0;  // there
+    PixelBox part_{};                                           // the part of the tile that the buffer has
+    int part_px_ = 0;                                           // its edge
+    int next_pixel_ = 0, pixels_ = 0;                           // there
     std::array<SampleMask, PathModel::kMaxSamples> uncovered_;  // samples that see no object, by pixel
     static constexpr std::size_t kMostSamples = 64;
     std::array<Fragment, kPacketSize + kMostSamples> fragments_;

@@ -49,12 +49,16 @@ struct Tile {
     // asks where in its pixel light falls.
     std::span<float> halves{};
     std::span<const Spectrum> half_responses{};
+    std::span<HalfKind> kinds{};  // by pixel; likewise
 
     // Adds light that a vertex sends to its pixel: radiance, times the samples for which it stands.
     void add(const Vertex& at, const Spectrum& light) { add(at.pixel, at.halves, light); }
     void add(std::uint32_t pixel, const HalfShares& shares, const Spectrum& light) {
         pixels[pixel] += light;
         if (!halves.empty()) add_halves(pixel, shares, light);
+    }
+    void set_kind(std::uint32_t pixel, HalfKind kind) {
+        if (!kinds.empty() && kinds[pixel] != HalfKind::kObject) kinds[pixel] = kind;
     }
     bool wants(int x, int y) const {
         return !wanted || wanted[(y - box.y0) * (box.x1 - box.x0) + x - box.x0];

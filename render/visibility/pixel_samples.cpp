@@ -59,7 +59,8 @@ Vec2f PixelSamples::middle(SampleMask samples) const {
     for (int q = 0; q < 4; ++q) {
         const std::uint32_t part = of_quarter(samples, q);
         if (part == 0) continue;
-        const Vec2f within{2 * middle.x - static_cast<float>(q % 2), 2 * middle.y - static_cast<float>(q / 2)};
+        const Vec2f within{2 * middle.x - static_cast<float>(q % 2),
+                           2 * middle.y - static_cast<float>(q / 2)};
         const Vec2f at = place(kVisibilitySamples * q + nearest_to(part, within));
         const float dx = at.x - middle.x, dy = at.y - middle.y;
         if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, out = at;

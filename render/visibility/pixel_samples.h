@@ -32,7 +32,8 @@ class PixelSamples {
     constexpr Vec2f place(int sample) const {
         const int i = sample % kVisibilitySamples, quarter = sample / kVisibilitySamples;
         if (quarters_ == 1) return {sample_x(i), sample_y(i)};
-        return {(static_cast<float>(quarter % 2) + sample_x(i)) / 2, (static_cast<float>(quarter / 2) + sample_y(i)) / 2};
+        return {(static_cast<float>(quarter % 2) + sample_x(i)) / 2,
+                (static_cast<float>(quarter / 2) + sample_y(i)) / 2};
     }
     // Returns the samples nearest to place i of a grid of 4 x 4: one, or four.
     constexpr SampleMask about(int i) const {

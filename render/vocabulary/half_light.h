@@ -4,9 +4,10 @@
 // a pixel's left than for light from its right; the sum alone says "from all of it".
 //
 // The differences are weighed by the response of each of the detector's channels, so they are charge rates on
-// the axis [e- s^-1]. Blocks that are even have none in any of their pixels; their memory holds anything.
+// the axis [e- s^-1]. They are known where many samples have told what a pixel sees; elsewhere one sample has told of
+// light that changes smoothly from pixel to pixel. Blocks may be marked in which they are known of no pixel; their memory
+// holds anything.
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,9 @@ constexpr HalfShares half_shares_at(float x_px, float y_px) {
     return {across, down, across * down};
 }
 
+// How a pixel's differences are known.
+enum class HalfKind : std::uint8_t { kSmooth, kBackground, kObject };  // not; it sees no object; it sees one
+
 class HalfLight {
   public:
     static constexpr int kDifferences = 3;  // in the order of HalfShares
@@ -48,16 +52,17 @@ class HalfLight {
     HalfLight(int width, int height, int block_px, std::vector<Spectrum> responses)
         : responses_(std::move(responses)),
           differences_(width, height, kDifferences * static_cast<int>(responses_.size())),
+          kinds_(width, height),
           block_px_(block_px),
           blocks_across_((width + block_px - 1) / block_px),
-          even_(static_cast<std::size_t>(blocks_across_ * ((height + block_px - 1) / block_px)), 1) {}
+          unknown_(static_cast<std::size_t>(blocks_across_ * ((height + block_px - 1) / block_px)), 1) {}
 
     int width() const { return differences_.width(); }
     int height() const { return differences_.height(); }
     std::span<const Spectrum> responses() const { return responses_; }
     // True when the frame that is in it was made with differences. Who makes a frame says so.
-    bool known() const { return known_; }
-    void set_known(bool known) { known_ = known; }
+    bool used() const { return used_; }
+    void set_used(bool used) { used_ = used; }
 
     std::span<float> row(int y, int difference, int channel) {
         return differences_.row(y, kDifferences * channel + difference);
@@ -65,10 +70,11 @@ class HalfLight {
     std::span<const float> row(int y, int difference, int channel) const {
         return differences_.row(y, kDifferences * channel + difference);
     }
-    // Returns the flag of the block that holds pixel (x, y).
-    bool even(int x, int y) const { return even_[block(x, y)] != 0; }
-    void mark_even(int x, int y, bool even) { even_[block(x, y)] = even ? 1 : 0; }
-    void mark_all(bool even) { std::fill(even_.begin(), even_.end(), even ? 1 : 0); }
+    std::span<HalfKind> kinds(int y) { return kinds_.row(y); }
+    std::span<const HalfKind> kinds(int y) const { return kinds_.row(y); }
+    // Returns the mark of the block that holds pixel (x, y).
+    bool unknown(int x, int y) const { return unknown_[block(x, y)] != 0; }
+    void mark_unknown(int x, int y, bool unknown) { unknown_[block(x, y)] = unknown ? 1 : 0; }
 
   private:
     std::size_t block(int x, int y) const {
@@ -76,9 +82,10 @@ class HalfLight {
     }
     std::vector<Spectrum> responses_;
     Image<float, struct HalfQuantity> differences_;
+    Image<HalfKind, struct KindQuantity> kinds_;
     int block_px_, blocks_across_;
-    bool known_ = false;
-    std::vector<std::uint8_t> even_;
+    bool used_ = false;
+    std::vector<std::uint8_t> unknown_;
 };
 
 }  // namespace hilcam

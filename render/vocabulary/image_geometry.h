@@ -129,7 +129,8 @@ struct ImageGeometry {
 inline ImageGeometry scaled(const ImageGeometry& geometry, int times) {
     ImageGeometry out = geometry;
     out.width_px *= times, out.height_px *= times, out.guard_px *= times, out.focal_length_px *= times;
-    out.principal_offset_px = {times * geometry.principal_offset_px.x, times * geometry.principal_offset_px.y};
+    out.principal_offset_px = {times * geometry.principal_offset_px.x,
+                               times * geometry.principal_offset_px.y};
     return out;
 }
 

@@ -46,6 +46,40 @@ bool same(const FrameBlur& a, const FrameBlur& b) {
            a.sigma_px.y == b.sigma_px.y;
 }
 
+constexpr int kFinePerPx = 8, kField_px = 32, kFine = kField_px * kFinePerPx;
+
+std::vector<float> image_of_point(const Transfer& transfer) {
+    constexpr int half = kFine / 2 + 1;
+    std::vector<std::complex<float>> spectrum(std::size_t{kFine} * half);
+    for (int y = 0; y < kFine; ++y)
+        for (int x = 0; x < half; ++x) {
+            const double u = static_cast<double>(x) / kField_px;
+            const double v = static_cast<double>(y < kFine / 2 ? y : y - kFine) / kField_px;
+            if (u > 1 || std::abs(v) > 1) continue;
+            spectrum[static_cast<std::size_t>(y * half + x)] =
+                std::complex<float>(transfer(u, v) / (1.0 * kField_px * kField_px));
+        }
+    std::vector<float> image(std::size_t{kFine} * kFine);
+    real_from_half_spectrum(spectrum, kFine, image);
+    return image;
+}
+
+double value_at(const std::vector<float>& image, double x_px, double y_px) {
+    const double x = x_px * kFinePerPx, y = y_px * kFinePerPx;
+    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+    const std::array<double, 4> wx = cubic_weights(x - x0), wy = cubic_weights(y - y0);
+    const auto wrapped = [](int at) { return static_cast<std::size_t>((at + kFine) % kFine); };
+    double sum = 0;
+    for (int j = 0; j < 4; ++j) {
+        const float* row = &image[wrapped(y0 - 1 + j) * kFine];
+        double along = 0;
+        for (int i = 0; i < 4; ++i)
+            along += wx[static_cast<std::size_t>(i)] * static_cast<double>(row[wrapped(x0 - 1 + i)]);
+        sum += wy[static_cast<std::size_t>(j)] * along;
+    }
+    return sum;
+}
+
 // A vector of the widest kind; narrower processors take it in parts.
 using Lanes = float __attribute__((vector_size(64)));
 constexpr int kLanes = 16;
@@ -70,29 +104,24 @@ HILCAM_CLONES void add_row(const float* in, std::size_t side, const std::uint8_t
 
 }  // namespace
 
-std::complex<double> halved_transfer(const Transfer& fine, double u, double v) {
+std::complex<double> smooth_transfer(const Transfer& fine, double u, double v) {
+    // What a quarter of a pixel to either side of the middle, and the smooth difference of the two, make of a frequency that
+    // folds back to another.
+    const auto along = [](double folded, double f) {
+        const double slope = 2 * (static_cast<double>(kNextWeight) * std::sin(2 * kPi * folded) +
+                                  static_cast<double>(kSecondWeight) * std::sin(4 * kPi * folded));
+        return std::cos(2 * kPi * kQuarter_px * f) + slope * std::sin(2 * kPi * kQuarter_px * f);
+    };
     std::complex<double> sum = 0;
     for (const double by_u : {-1.0, 0.0, 1.0})
         for (const double by_v : {-1.0, 0.0, 1.0}) {
             const double fu = u + by_u, fv = v + by_v;
-            if (std::abs(fu) > 1 || std::abs(fv) > 1) continue;
-            sum += fine(fu, fv) * std::cos(2 * kPi * kQuarter_px * fu) * std::cos(2 * kPi * kQuarter_px * fv);
+            if (std::abs(fu) <= 1 && std::abs(fv) <= 1) sum += fine(fu, fv) * along(u, fu) * along(v, fv);
         }
     return sum;
 }
 
-HalfKernels::HalfKernels(const Transfer& fine) : point_(std::size_t{kFine} * kFine) {
-    constexpr int half = kFine / 2 + 1;
-    std::vector<std::complex<float>> spectrum(std::size_t{kFine} * half);
-    for (int y = 0; y < kFine; ++y)
-        for (int x = 0; x < half; ++x) {
-            const double u = static_cast<double>(x) / kField_px;
-            const double v = static_cast<double>(y < kFine / 2 ? y : y - kFine) / kField_px;
-            if (u > 1 || std::abs(v) > 1) continue;
-            spectrum[static_cast<std::size_t>(y * half + x)] =
-                std::complex<float>(fine(u, v) / (1.0 * kField_px * kField_px));
-        }
-    real_from_half_spectrum(spectrum, kFine, point_);
+HalfKernels::HalfKernels(const Transfer& fine) : point_(image_of_point(fine)) {
     reach_px_ = kMaxReach_px;
     make_weights({});
     still_reach_px_ = 1;
@@ -111,85 +140,65 @@ bool HalfKernels::prepare(const FrameBlur& blur) {
     return true;
 }
 
-float HalfKernels::point_at(double x_px, double y_px) const {
-    const double x = x_px * kFinePerPx, y = y_px * kFinePerPx;
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    const std::array<double, 4> wx = cubic_weights(x - x0), wy = cubic_weights(y - y0);
-    const auto wrapped = [](int at) { return static_cast<std::size_t>((at + kFine) % kFine); };
-    double sum = 0;
-    for (int j = 0; j < 4; ++j) {
-        const float* row = &point_[wrapped(y0 - 1 + j) * kFine];
-        double along = 0;
-        for (int i = 0; i < 4; ++i)
-            along += wx[static_cast<std::size_t>(i)] * static_cast<double>(row[wrapped(x0 - 1 + i)]);
-        sum += wy[static_cast<std::size_t>(j)] * along;
-    }
-    return static_cast<float>(sum);
-}
-
 void HalfKernels::make_weights(const FrameBlur& blur) {
     prepared_.smear_px = blur.smear_px, prepared_.sigma_px = blur.sigma_px;
-    const auto blurred = [&](double x, double y) {
+    const auto blurred = [&](const std::vector<float>& image, double x, double y) {
         double sum = 0;
         for (const Node& smear : nodes_of(std::hypot(blur.smear_px.x, blur.smear_px.y)))
             for (const Node& gx : gaussian_nodes(blur.sigma_px.x))
                 for (const Node& gy : gaussian_nodes(blur.sigma_px.y))
                     sum += smear.weight * gx.weight * gy.weight *
-                           static_cast<double>(
-                               point_at(x - smear.at * blur.smear_px.x - gx.at * blur.sigma_px.x,
-                                        y - smear.at * blur.smear_px.y - gy.at * blur.sigma_px.y));
+                           value_at(image, x - smear.at * blur.smear_px.x - gx.at * blur.sigma_px.x,
+                                    y - smear.at * blur.smear_px.y - gy.at * blur.sigma_px.y);
         return sum;
     };
-    std::array<double, 3> sums{};
+    std::array<double, kParts> sums{};
     for (int y = -reach_px_; y <= reach_px_; ++y)
         for (int x = -reach_px_; x <= reach_px_; ++x) {
-            const double upper_left = blurred(x + kQuarter_px, y + kQuarter_px),
-                         upper_right = blurred(x - kQuarter_px, y + kQuarter_px),
-                         lower_left = blurred(x + kQuarter_px, y - kQuarter_px),
-                         lower_right = blurred(x - kQuarter_px, y - kQuarter_px);
-            const std::array<double, 3> of{(upper_right + lower_right - upper_left - lower_left) / 4,
-                                           (lower_left + lower_right - upper_left - upper_right) / 4,
-                                           (upper_left + lower_right - upper_right - lower_left) / 4};
-            const auto at = static_cast<std::size_t>((y + kMaxReach_px) * kAcross + x + kMaxReach_px);
-            for (std::size_t d = 0; d < 3; ++d) weights_[d][at] = static_cast<float>(of[d]), sums[d] += of[d];
+            const double upper_left = blurred(point_, x + kQuarter_px, y + kQuarter_px),
+                         upper_right = blurred(point_, x - kQuarter_px, y + kQuarter_px),
+                         lower_left = blurred(point_, x + kQuarter_px, y - kQuarter_px),
+                         lower_right = blurred(point_, x - kQuarter_px, y - kQuarter_px);
+            const std::array<double, kParts> of{(upper_right + lower_right - upper_left - lower_left) / 4,
+                                                (lower_left + lower_right - upper_left - upper_right) / 4,
+                                                (upper_left + lower_right - upper_right - lower_left) / 4};
+            for (std::size_t part = 0; part < kParts; ++part) {
+                weights_[part][index_of(x, y)] = static_cast<float>(of[part]);
+                sums[part] += of[part];
+            }
         }
     // Light that moves is neither more nor less.
-    const auto middle = static_cast<std::size_t>(kMaxReach_px * kAcross + kMaxReach_px);
-    for (std::size_t d = 0; d < 3; ++d) weights_[d][middle] -= static_cast<float>(sums[d]);
+    for (std::size_t part = 0; part < kParts; ++part)
+        weights_[part][index_of(0, 0)] -= static_cast<float>(sums[part]);
 }
 
-float HalfKernels::weight(int difference, int x, int y) const {
-    return weights_[static_cast<std::size_t>(difference)]
-                   [static_cast<std::size_t>((y + kMaxReach_px) * kAcross + x + kMaxReach_px)];
-}
+float HalfKernels::weight(std::size_t part, int x, int y) const { return weights_[part][index_of(x, y)]; }
 
-// Returns the sum of the moduli of what the first two kernels lose that end there, the greater of them.
+// Returns the sum of the moduli of what the kernels lose that end there, the greatest of them.
 double HalfKernels::rest_beyond(int reach_px) const {
     double most = 0;
-    for (const int difference : {0, 1}) {
+    for (std::size_t part = 0; part < kParts; ++part) {
         double sum = 0;
         for (int y = -kMaxReach_px; y <= kMaxReach_px; ++y)
             for (int x = -kMaxReach_px; x <= kMaxReach_px; ++x)
                 if (std::max(std::abs(x), std::abs(y)) > reach_px)
-                    sum += std::abs(static_cast<double>(weight(difference, x, y)));
+                    sum += std::abs(static_cast<double>(weight(part, x, y)));
         most = std::max(most, sum);
     }
     return most;
 }
 
-void HalfKernels::add(const Differences& differences, int columns, int rows, float* out,
-                      std::size_t stride) const {
+void HalfKernels::add(const Parts& parts, int columns, int rows, float* out, std::size_t stride) const {
     const int taps = 2 * reach_px_ + 1, skipped = kMaxReach_px - reach_px_;
     std::array<std::uint8_t, kSide_px> lit;
     std::array<float, kBlock_px> row;
-    for (std::size_t d = 0; d < 3; ++d) {
-        const float* const all = differences[d].data();
+    for (std::size_t part = 0; part < kParts; ++part) {
+        const float* const all = parts[part].data();
         for (std::size_t j = 0; j < kSide_px; ++j)
             lit[j] =
                 std::any_of(all + j * kSide_px, all + (j + 1) * kSide_px, [](float v) { return v != 0; });
         // A pixel gets light of what is at (i, j) from it by the weight at (-i, -j).
-        const float* const last = &weights_[d][static_cast<std::size_t>((kMaxReach_px + reach_px_) * kAcross +
-                                                                        kMaxReach_px + reach_px_)];
+        const float* const last = &weights_[part][index_of(reach_px_, reach_px_)];
         for (int y = 0; y < rows; ++y) {
             const int first = y + skipped;
             row.fill(0);

@@ -125,7 +125,7 @@ TEST(Visibility, HalvesAreWhatRaysSeeInPicturesOfTwiceThePixels) {
     s.radiance.keep_halves({Spectrum{{1}}, Spectrum{{0, 2}}});
     s.render();
     const HalfLight& halves = *s.radiance.halves();
-    ASSERT_TRUE(halves.known());
+    ASSERT_TRUE(halves.used());
     double brightest = 0, uneven = 0;
     for (const float value : fine.radiance.plane(0))
         brightest = std::max(brightest, static_cast<double>(value));
@@ -141,7 +141,8 @@ TEST(Visibility, HalvesAreWhatRaysSeeInPicturesOfTwiceThePixels) {
                 const double expected[] = {b + d - a - c, c + d - a - b, a + d - b - c};
                 for (const int i : {0, 1, 2}) {
                     const double found =
-                        halves.even(x, y)
+                        halves.unknown(x, y) ||
+                                halves.kinds(y)[static_cast<std::size_t>(x)] == HalfKind::kSmooth
                             ? 0
                             : static_cast<double>(halves.row(y, i, channel)[static_cast<std::size_t>(x)]);
                     // One sample may see the other of two, and within the disk a pixel has one ray.

@@ -90,7 +90,7 @@ TEST(FocalPlane, AnEdgeIsItsClosedFormByHalvesOfPixels) {
         Bench bench(gaussian_camera(kSigma_px), {16, halves ? halved(4) : RayGrid{4}, 1});
         bench.radiance.keep_halves({electrons_per_s_per_radiance(bench.camera, bench.grid)});
         HalfLight& light = *bench.radiance.halves();
-        light.set_known(halves);
+        light.set_used(halves);
         const double one = per_radiance(bench.camera, bench.grid);
         for (int y = 0; y < bench.radiance.height(); ++y)
             for (int x = 0; x < bench.radiance.width(); ++x) {
@@ -101,7 +101,8 @@ TEST(FocalPlane, AnEdgeIsItsClosedFormByHalvesOfPixels) {
                     static_cast<float>((half[0] + half[1]) / 2);
                 light.row(y, 0, 0)[static_cast<std::size_t>(x)] =
                     static_cast<float>(one * (half[1] - half[0]) / 2);
-                light.mark_even(x, y, false);
+                light.mark_unknown(x, y, false);
+                light.kinds(y)[static_cast<std::size_t>(x)] = HalfKind::kObject;
             }
         const ElectronImage& e = bench.expose({.exposure_s = 1});
         const auto integral = [&](double x) {
@@ -134,7 +135,7 @@ TEST(FocalPlane, LightInAQuarterOfAPixelIsSeenThere) {
             Bench bench(gaussian_camera(0.7), {16, halved(4), 1});
             bench.radiance.keep_halves({electrons_per_s_per_radiance(bench.camera, bench.grid)});
             HalfLight& light = *bench.radiance.halves();
-            light.set_known(true);
+            light.set_used(true);
             // Next to a block's corner: its image lies in four of them.
             const int x = 31 + 32, y = 32;
             const auto one = static_cast<float>(per_radiance(bench.camera, bench.grid));
@@ -144,7 +145,8 @@ TEST(FocalPlane, LightInAQuarterOfAPixelIsSeenThere) {
             bench.chain.expose(bench.radiance, {}, {.exposure_s = 1}, about);
             bench.radiance.row(y)[x] += electrons / one;
             for (int d = 0; d < HalfLight::kDifferences; ++d) light.row(y, d, 0)[x] = electrons;
-            light.mark_even(x, y, false);
+            light.mark_unknown(x, y, false);
+            light.kinds(y)[static_cast<std::size_t>(x)] = HalfKind::kObject;
             const ElectronImage& e = bench.expose({.exposure_s = 1, .image_rate_px_s = smear_px});
             Vec2d middle_px{};
             double sum_e = 0;

@@ -14,8 +14,8 @@ namespace {
 
 // Returns the mean charges of a strip about the limb of earth_day [e-].
 std::vector<float> strip(std::vector<std::string> quality) {
-    quality.insert(quality.end(), {"camera.width_px=256", "camera.height_px=64",
-                                   "camera.principal_point_px=[512, 16]", "quality.guard_px=0"});
+    quality.insert(quality.end(),
+                   {"camera.width_px=256", "camera.height_px=64", "camera.principal_point_px=[512, 16]"});
     const ScenarioConfig scenario =
         load_scenario(HILCAM_SOURCE_DIR "/configs/scenarios/earth_day.yaml", quality);
     StillCamera camera(scenario);
@@ -24,11 +24,12 @@ std::vector<float> strip(std::vector<std::string> quality) {
     return {electrons.all().begin(), electrons.all().end()};
 }
 
-// In the noise of inspector_1k (13 e-, full well 13500 e-) when the brightest hundredth has half of its full well, against the mean of 64
-// rays a pixel. Without the rims it is 0.33.
+// In the noise of inspector_1k (13 e-, full well 13500 e-) when the brightest hundredth has half of its full well, against a
+// picture of four times as many pixels each way with four rays in each. Without the rims it is 0.39.
 TEST(EarthLimb, IsAsGoodAsTheMeanOfManyRays) {
     const std::vector<float> seen = strip({}),
-                             mean = strip({"quality.visibility=rays", "quality.samples_per_axis=8"});
+                             mean = strip({"quality.visibility=rays", "quality.samples_per_axis=2",
+                                           "quality.oversampling=4"});
     std::vector<float> bright = mean;
     std::nth_element(bright.begin(), bright.begin() + static_cast<std::ptrdiff_t>(bright.size() * 99 / 100),
                      bright.end());
@@ -40,7 +41,7 @@ TEST(EarthLimb, IsAsGoodAsTheMeanOfManyRays) {
     }
     const double rms = std::sqrt(squares / static_cast<double>(mean.size()));
     std::cout << "rms " << rms << " of the noise\n";
-    EXPECT_LT(rms, 0.2);
+    EXPECT_LT(rms, 0.33);
 }
 
 }  // namespace

@@ -23,31 +23,57 @@ double share_at(double x, double y) {
     };
     return along(x) * along(y);
 }
-// What a pixel gets of light that comes alike from the four quarters of another.
-double alike_at(int x, int y) {
+// What a pixel gets of light in the next but so many as the picture as a whole is convolved.
+double smooth_at(int x, int y) {
     constexpr int kSteps = 64;
     std::complex<double> sum = 0;
     for (int j = -kSteps / 2; j < kSteps / 2; ++j)
         for (int i = -kSteps / 2; i < kSteps / 2; ++i) {
             const double u = i / 1.0 / kSteps, v = j / 1.0 / kSteps;
-            sum += halved_transfer(transfer, u, v) *
+            sum += smooth_transfer(transfer, u, v) *
                    std::polar(1.0 / (kSteps * kSteps), 2 * kPi * (u * x + v * y));
         }
     return sum.real();
 }
+// The smooth difference that light of 1 at 0 makes in the pixel at x.
+double slope_at(int x) {
+    const auto light = [&](int at) { return at == 0 ? 1.0f : 0.0f; };
+    return static_cast<double>(smooth_difference(light(x - 2), light(x - 1), light(x + 1), light(x + 2)));
+}
 
+// Light in one quarter of a pixel, among nothing: the smooth differences of it and of its neighbours are taken away.
 TEST(HalfKernels, PutLightWhereItComesFrom) {
     const HalfKernels kernels(transfer);
     for (const double right : {-1.0, 1.0})
         for (const double down : {-1.0, 1.0})
             for (int y = -3; y <= 3; ++y)
                 for (int x = -3; x <= 3; ++x) {
-                    const double sum = alike_at(x, y) + right * kernels.weight(0, x, y) +
-                                       down * kernels.weight(1, x, y) +
-                                       right * down * kernels.weight(2, x, y);
+                    double sum = smooth_at(x, y) + right * kernels.weight(0, x, y) +
+                                 down * kernels.weight(1, x, y) + right * down * kernels.weight(2, x, y);
+                    for (int j = -2; j <= 2; ++j)
+                        for (int i = -2; i <= 2; ++i) {
+                            const auto weight = [&](std::size_t part) {
+                                return static_cast<double>(kernels.weight(part, x - i, y - j));
+                            };
+                            sum -= (j == 0 ? slope_at(i) * weight(0) : 0) +
+                                   (i == 0 ? slope_at(j) * weight(1) : 0) +
+                                   slope_at(i) * slope_at(j) * weight(2);
+                        }
                     EXPECT_NEAR(sum, share_at(x - 0.25 * right, y - 0.25 * down), 5e-4)
                         << right << ' ' << down << ' ' << x << ' ' << y;
                 }
+}
+
+// Slow changes are convolved as the transfer function says: a picture by halves is no softer.
+TEST(HalfKernels, LeaveSmoothLightAsItIs) {
+    // Of means over pixels, which halves have not got: their own means are between.
+    const auto by_pixels = [](double u, double v) {
+        return transfer(u, v) * (sinc(u / 2) * sinc(v / 2) / (sinc(u) * sinc(v)));
+    };
+    for (const double u : {0.0, 0.1, 0.2, 0.3})
+        for (const double v : {0.0, 0.15, 0.3})
+            EXPECT_NEAR(std::abs(smooth_transfer(transfer, u, v)) / std::abs(by_pixels(u, v)), 1, 0.06)
+                << u << ' ' << v;
 }
 
 // Of light that moves there is neither more nor less.
@@ -55,7 +81,7 @@ TEST(HalfKernels, SumToNothing) {
     HalfKernels kernels(transfer);
     for (const Vec2d smear_px : {Vec2d{0, 0}, Vec2d{1.3, 0.4}}) {
         ASSERT_TRUE(kernels.prepare({.smear_px = smear_px}));
-        for (const int d : {0, 1, 2}) {
+        for (const std::size_t d : {0u, 1u, 2u}) {
             double sum = 0;
             for (int y = -kernels.reach_px(); y <= kernels.reach_px(); ++y)
                 for (int x = -kernels.reach_px(); x <= kernels.reach_px(); ++x)
@@ -99,7 +125,7 @@ TEST(HalfKernels, BlurAsTheirFrameDoes) {
 // Blocks are convolved as their definition says, whatever lies about them.
 TEST(HalfKernels, ConvolveABlock) {
     const HalfKernels kernels(transfer);
-    HalfKernels::Differences differences{};
+    HalfKernels::Parts parts{};
     const auto value = [](int d, int x, int y) {
         return (x * 7 + y * 13 + d * 5) % 11 == 0 ? static_cast<float>((x + 2 * y) % 17 - 8) : 0.0f;
     };
@@ -107,18 +133,17 @@ TEST(HalfKernels, ConvolveABlock) {
     for (int d = 0; d < 3; ++d)
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x)
-                differences[static_cast<std::size_t>(d)][static_cast<std::size_t>(y * kSide + x)] =
-                    value(d, x, y);
+                parts[static_cast<std::size_t>(d)][static_cast<std::size_t>(y * kSide + x)] = value(d, x, y);
     constexpr int kColumns = 29, kRows = 30;
     std::vector<float> out(40 * kRows, 1.0f);
-    kernels.add(differences, kColumns, kRows, out.data(), 40);
+    kernels.add(parts, kColumns, kRows, out.data(), 40);
     for (int y = 0; y < kRows; ++y)
         for (int x = 0; x < 40; ++x) {
             double expected = 1;
             for (int d = 0; d < 3 && x < kColumns; ++d)
                 for (int j = -kernels.reach_px(); j <= kernels.reach_px(); ++j)
                     for (int i = -kernels.reach_px(); i <= kernels.reach_px(); ++i)
-                        expected += static_cast<double>(kernels.weight(d, i, j)) *
+                        expected += static_cast<double>(kernels.weight(static_cast<std::size_t>(d), i, j)) *
                                     static_cast<double>(value(d, x + kReach - i, y + kReach - j));
             EXPECT_NEAR(out[static_cast<std::size_t>(40 * y + x)], expected, 1e-4) << x << ' ' << y;
         }
