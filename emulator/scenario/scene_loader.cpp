@@ -30,9 +30,8 @@
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
-namespace {
 
-std::filesystem::path mesh_path(const ObjectConfig& object) {
+std::filesystem::path mesh_file_of(const ObjectConfig& object) {
     if (object.has_mesh) return object.mesh;
     const GeneratedMeshConfig& g = object.generate.value();
     std::string angle = std::to_string(g.wing_angle_deg);
@@ -40,8 +39,6 @@ std::filesystem::path mesh_path(const ObjectConfig& object) {
     return generated_mesh(g.program, {"--triangles", std::to_string(g.triangles), "--seed",
                                       std::to_string(g.seed), "--wing-angle-deg=" + angle});
 }
-
-}  // namespace
 
 namespace {
 
@@ -182,7 +179,7 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
     for (std::size_t i = 0; i < scenario.objects.size(); ++i) {
         const ObjectConfig& config = scenario.objects[i];
         progress.done(static_cast<double>(i));
-        const std::filesystem::path file = mesh_path(config);
+        const std::filesystem::path file = mesh_file_of(config);
         const auto [make, is_new] = loaded.try_emplace(make_of(config, file), Loaded{i, objects.size()});
         std::vector<std::string> nodes;
         for (const JointConfig& joint : config.joints) nodes.push_back(joint.node);
@@ -271,6 +268,12 @@ std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const At
 }
 
 }  // namespace
+
+Mesh load_whole_mesh(const ObjectConfig& config) {
+    Mesh mesh = std::move(load_meshes(config, mesh_file_of(config), {}).front());
+    for (Vec3f& vertex : mesh.vertices_m) vertex = static_cast<float>(config.scale) * vertex;
+    return mesh;
+}
 
 double LoadedObject::mean_reflectance() const {
     double area_m2 = 0, sum_m2 = 0;
