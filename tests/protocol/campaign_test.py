@@ -194,6 +194,15 @@ class Made(unittest.TestCase):
         self.assertFalse((parts / "index.csv").exists())
         campaign(CAMPAIGN, parts, "--merge")
         self.assertEqual(contents(parts), first)
+        # Two clusters that share nothing, with a case that both have made: their folders copied together are one campaign.
+        clusters = [self.top / f"cluster_{n}/out" for n in (1, 2)]
+        for cluster, part in zip(clusters, ("1-5", "5-8")):
+            campaign(CAMPAIGN, cluster, "--cases", part)
+        together = self.top / "together/out"
+        for cluster in clusters:
+            shutil.copytree(cluster, together, dirs_exist_ok=True)
+        campaign(CAMPAIGN, together, "--merge")
+        self.assertEqual(contents(together), first)
 
     def test_a_case_comes_again_alone_and_as_a_picture(self):
         alone = self.top / "alone/out"
@@ -440,7 +449,7 @@ class Hidden(unittest.TestCase):
             self.assertLess(numpy.abs(corners.max(0) - [left + across, top + down]).max(), 1)
             # How far a pixel's middle lies outside of the hull, by the support function across every two corners: the hull's edges are among them.
             outside = numpy.full((height, width), -numpy.inf)
-            for a, b in itertools.permutations(corners, 2):
+            for a, b in itertools.permutations(numpy.unique(corners, axis=0), 2):
                 c, s = numpy.array([a[1] - b[1], b[0] - a[0]]) / numpy.hypot(*(a - b))
                 numpy.maximum(outside, x * c + y * s - (corners @ [c, s]).max(), out=outside)
             mask = self.mask("mask", i)
