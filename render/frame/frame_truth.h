@@ -87,8 +87,8 @@ struct SeenThing {
     double visible_fraction = kUnknown;  // visible area over the silhouette's
 };
 
-// What a whole object covers by the rays through pixels' middles alone, large or small, in the frame and as far
-// beside it as SeenThing has it; for labels. Beside the frame a ray may stand for a square of several pixels.
+// The pixels that a whole object covers by the rays through their middles alone, large or small, in the frame and
+// as far beside it as SeenThing has it; for labels. Beside the frame a ray may stand for a square of several.
 struct PixelSilhouette {
     std::uint32_t thing = kSkyId;  // id of the object
     std::uint64_t px = 0;          // pixels that it would cover if it were alone
@@ -152,7 +152,7 @@ struct FrameTruth {
     std::vector<SeenStar> stars;       // that are drawn in the frame, in the catalogue's order
     std::uint64_t stars_left_out = 0;  // for which there was no room
     TruthLayers layers;
-    std::vector<PixelSilhouette> silhouettes;  // of objects in their order, without terrain
+    std::vector<PixelSilhouette> silhouettes;  // those of the objects, without terrain
     double took_ms = 0;
 
     // Scratch: where objects that are drawn as points can be met, and the stars of the field.
