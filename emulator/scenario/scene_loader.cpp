@@ -12,6 +12,7 @@
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/scenario_listing.h"
 #include "io/config/config_advice.h"
+#include "io/files/albedo_file.h"
 #include "io/files/atmosphere_file.h"
 #include "io/files/brdf_file.h"
 #include "io/files/catalogue_file.h"
@@ -130,24 +131,54 @@ bool wants_levels_of_detail(const ScenarioConfig& scenario) {
            std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
 }
 
+// Puts the object's table of albedos onto the mesh. Returns what its materials are to be multiplied with.
+double paint(Mesh& mesh, const ObjectConfig& config) {
+    if (!config.has_albedo_file) return 1;
+    const Progress progress("albedos of " + config.name);
+    const auto reference =
+        config.has_albedo_reference ? std::optional(config.albedo_reference) : std::nullopt;
+    return paint_albedos(mesh, read_albedos(config.albedo_file), reference, config.albedo_file.string());
+}
+
+void brighten(SceneObject& object, double factor, const ObjectConfig& config, const SpectralGrid& grid) {
+    for (std::size_t s = 0; s < object.materials.size(); ++s) {
+        Material& material = object.materials[s];
+        const auto scale = static_cast<float>(factor);
+        material.base = scale * material.base;
+        if (material.is_bare()) material.highlight = scale * material.highlight;
+        const Spectrum& scaled = material.is_bare() ? material.highlight : material.base;
+        for (int b = 0; b < grid.size(); ++b)
+            if (scaled[b] > 1)
+                throw InputError(fmt::format(
+                    "{}: its greatest albedo is {:.4g} times the reference, with which the material of surface {} "
+                    "would send back {:.4g} times the light it gets; accepted: a darker material, or another "
+                    "albedo_reference",
+                    config.albedo_where, factor, in_quotes(object.mesh.surfaces[s].name), scaled[b]));
+    }
+}
+
 SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
                         const SpectralGrid& grid, LoadedObject& found) {
     SceneObject object;
     object.mesh = std::move(mesh);
     const auto scale = static_cast<float>(config.scale);
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
-    if (wants_levels_of_detail(scenario)) {
+    const double brightest = paint(object.mesh, config);
+    // A level's vertices would each have the albedo of one of many facets, not their mean.
+    if (wants_levels_of_detail(scenario) && !config.has_albedo_file) {
         const Progress progress("levels of detail of " + config.name);
         object.levels = cached_levels(object.mesh, cache_folder());
     }
     object.materials = load_materials(object.mesh, config.materials, grid);
     tell(object.mesh, object.materials, config, grid, found);
+    if (config.has_albedo_file) brighten(object, brightest, config, grid);
     return object;
 }
 
 // Objects of one make have the same meshes and the same looks, wherever they are and however they turn.
 std::string make_of(const ObjectConfig& config, const std::filesystem::path& mesh) {
-    std::string make = fmt::format("{}\n{}\n", mesh.string(), config.scale);
+    std::string make = fmt::format("{}\n{}\n{}\n{}\n{}\n", mesh.string(), config.scale, config.mesh_surface,
+                                   config.albedo_file.string(), config.albedo_reference);
     for (const JointConfig& joint : config.joints) make += joint.node + "\n";
     MaterialSet materials = config.materials;
     return make + section_listing(section_of(materials));
@@ -158,7 +189,9 @@ std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem:
                               const std::vector<std::string>& nodes) {
     const Progress progress("mesh " + file.filename().string());
     try {
-        return load_mesh_parts(file, nodes);
+        return load_mesh_parts(file, nodes,
+                               config.has_mesh_surface ? std::optional(static_cast<int>(config.mesh_surface))
+                                                       : std::nullopt);
     } catch (const InputError& error) {
         if (config.mesh_where.empty()) throw;
         throw InputError(config.mesh_where + ": " + error.what());
