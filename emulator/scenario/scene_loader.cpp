@@ -150,7 +150,8 @@ void brighten(SceneObject& object, double factor, const ObjectConfig& config, co
         for (int b = 0; b < grid.size(); ++b)
             if (scaled[b] > 1)
                 throw InputError(fmt::format(
-                    "{}: its greatest albedo is {:.4g} times the reference, with which the material of surface {} "
+                    "{}: its greatest albedo is {:.4g} times the reference, with which the material of "
+                    "surface {} "
                     "would send back {:.4g} times the light it gets; accepted: a darker material, or another "
                     "albedo_reference",
                     config.albedo_where, factor, in_quotes(object.mesh.surfaces[s].name), scaled[b]));
@@ -189,9 +190,9 @@ std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem:
                               const std::vector<std::string>& nodes) {
     const Progress progress("mesh " + file.filename().string());
     try {
-        return load_mesh_parts(file, nodes,
-                               config.has_mesh_surface ? std::optional(static_cast<int>(config.mesh_surface))
-                                                       : std::nullopt);
+        return load_mesh_parts(
+            file, nodes,
+            config.has_mesh_surface ? std::optional(static_cast<int>(config.mesh_surface)) : std::nullopt);
     } catch (const InputError& error) {
         if (config.mesh_where.empty()) throw;
         throw InputError(config.mesh_where + ": " + error.what());

@@ -26,7 +26,8 @@ void add_mesh_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<MeshArguments>();
     CLI::App* mesh =
         app.add_subcommand("mesh", "say how large a mesh file is, what it is made of, what is wrong with it");
-    mesh->add_option("file", o->file, "GLB, glTF, OBJ, STL or PLY file, or a shape (.tab, .plt, .icq, .bds)")->required();
+    mesh->add_option("file", o->file, "GLB, glTF, OBJ, STL or PLY file, or a shape (.tab, .plt, .icq, .bds)")
+        ->required();
     mesh->add_option("--surface", o->surface, "code of the surface, of a shape kernel (.bds) with several");
     mesh->add_flag("--json", o->json, "machine-readable");
     when_named(mesh, action, o, carry_out);

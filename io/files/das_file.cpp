@@ -15,7 +15,8 @@ constexpr std::array<std::int64_t, 3> kNumberBytes = {1, 8, 4};
 // A directory is 256 integers: the directory before and the next, least and greatest address of each kind, the kind
 // of the first cluster, and its number of records; then those of the others, negative where the kind is the one
 // before in the circle characters, doubles, integers, positive where it is the next.
-constexpr std::size_t kNextDirectory = 1, kAddressRanges = 2, kFirstKind = 8, kClusterCounts = 9, kDirectoryIntegers = 256;
+constexpr std::size_t kNextDirectory = 1, kAddressRanges = 2, kFirstKind = 8, kClusterCounts = 9,
+                      kDirectoryIntegers = 256;
 
 }  // namespace
 
@@ -32,7 +33,8 @@ DasFile::DasFile(std::string_view bytes, std::string name) : bytes_(bytes), name
     numbers_.big_endian = format == "BIG-IEEE";
     if (!arrived_as_binary(record))
         fail(
-            "was damaged when it was transferred as text (its FTP string is changed); accepted: one transferred "
+            "was damaged when it was transferred as text (its FTP string is changed); accepted: one "
+            "transferred "
             "as binary");
     const std::int64_t reserved = numbers_.integer_at(record.data() + 68);
     const std::int64_t comments = numbers_.integer_at(record.data() + 76);

@@ -45,13 +45,13 @@ class DskReader {
         if (first + segment.about.vertices > kMaxTriangles ||
             mesh.triangles.size() + segment.about.plates > kMaxTriangles)
             file_.fail("has more than 100000000 vertices or plates");
-        const std::vector<double> places_km =
-            file_.doubles(segment.doubles + 1 + kFirstVertex, 3 * vertices);
+        const std::vector<double> places_km = file_.doubles(segment.doubles + 1 + kFirstVertex, 3 * vertices);
         for (std::size_t i = 0; i < places_km.size(); i += 3)
             mesh.vertices_m.push_back(vertex_m(segment, &places_km[i], i / 3));
         const std::vector<std::int32_t> corners =
             file_.integers(segment.integers + 1 + kFirstPlate, 3 * plates);
-        for (std::size_t i = 0; i < corners.size(); i += 3) add_plate(segment, &corners[i], i / 3, first, mesh);
+        for (std::size_t i = 0; i < corners.size(); i += 3)
+            add_plate(segment, &corners[i], i / 3, first, mesh);
     }
 
   private:
@@ -61,8 +61,8 @@ class DskReader {
     void read_chain() {
         const std::vector<std::int32_t> head = file_.integers(1, 3);
         if (head[0] != kDlaVersion)
-            file_.fail("found the version " + std::to_string(head[0]) + " of linked arrays; accepted: " +
-                       std::to_string(kDlaVersion));
+            file_.fail("found the version " + std::to_string(head[0]) +
+                       " of linked arrays; accepted: " + std::to_string(kDlaVersion));
         for (std::int64_t at = head[1]; at != kNoSegment;) {
             if (static_cast<std::int64_t>(segments_.size()) > file_.integer_count() / kDescriptorIntegers)
                 file_.fail("its segments go in a circle; accepted: a chain that ends");
@@ -177,7 +177,8 @@ Mesh read_dsk_shape(std::string_view bytes, const std::string& name, std::option
     Mesh mesh;
     mesh.surfaces.push_back({.name = "shape"});
     for (const Segment* segment : chosen) reader.add(*segment, mesh);
-    if (mesh.triangles.empty()) throw InputError(name + ": has no plate with three corners; accepted: one or more");
+    if (mesh.triangles.empty())
+        throw InputError(name + ": has no plate with three corners; accepted: one or more");
     mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
     return mesh;
 }

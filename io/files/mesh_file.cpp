@@ -139,7 +139,8 @@ MeshContents shape_contents(const std::filesystem::path& file, const std::string
 
 // Has `work` read the file in a child process; it gets the file's kind.
 template <class Work>
-ConfinedResult read_confined(const std::filesystem::path& file, std::optional<int> surface, const Work& work) {
+ConfinedResult read_confined(const std::filesystem::path& file, std::optional<int> surface,
+                             const Work& work) {
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::array<std::string, 9> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply",

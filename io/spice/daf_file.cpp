@@ -65,7 +65,8 @@ void DafFile::open() {
             "was damaged when it was transferred as text (its FTP string is changed); accepted: one "
             "transferred as "
             "binary");
-    const std::int32_t doubles = numbers_.integer_at(record.data() + 8), integers = numbers_.integer_at(record.data() + 12);
+    const std::int32_t doubles = numbers_.integer_at(record.data() + 8),
+                       integers = numbers_.integer_at(record.data() + 12);
     const std::int32_t expected = kind_ == "PCK" ? 5 : 6;
     if (kind_ != "SPK" && kind_ != "CK" && kind_ != "PCK")
         fail("found the kind " + in_quotes(kind_) + " of kernel; accepted: SPK, CK, PCK");
@@ -84,7 +85,8 @@ void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
             fail("its summary records go in a circle; accepted: a chain that ends");
         const auto from = static_cast<std::uint64_t>(record - 1) * kRecordBytes;
         read(from, summaries.data(), kRecordBytes);
-        const double next = numbers_.double_at(summaries.data()), count = numbers_.double_at(summaries.data() + 16);
+        const double next = numbers_.double_at(summaries.data()),
+                     count = numbers_.double_at(summaries.data() + 16);
         const auto most = static_cast<double>((kRecordBytes - 24) / summary_bytes);
         if (!(next >= 0 && next < 2147483648.0) || !(count >= 0 && count <= most))
             fail("its summary record " + std::to_string(record) + " is damaged");

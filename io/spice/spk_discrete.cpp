@@ -122,17 +122,20 @@ class Piecewise final : public SpkSegment {
                                           static_cast<double>(spans + 1));
             };
             const std::size_t first = place(i) - 1, end = place(i + 1) - 1;
-            if (end < first) all.fail("begin of series " + std::to_string(i + 2) + ": is before the one before");
+            if (end < first)
+                all.fail("begin of series " + std::to_string(i + 2) + ": is before the one before");
             const auto piece = all.piece(first, end - first);
             SpkSummary own = about;
             own.where += ": series " + std::to_string(i + 1);
-            series_.push_back(std::make_unique<Discrete>(own, std::vector<double>(piece.begin(), piece.end())));
+            series_.push_back(
+                std::make_unique<Discrete>(own, std::vector<double>(piece.begin(), piece.end())));
         }
     }
 
     StateVector at(double et_s) const override {
         const auto begin = spans_et_s_.begin(), last = spans_et_s_.end() - 1;
-        const auto next = later_ ? std::upper_bound(begin + 1, last, et_s) : std::lower_bound(begin + 1, last, et_s);
+        const auto next =
+            later_ ? std::upper_bound(begin + 1, last, et_s) : std::lower_bound(begin + 1, last, et_s);
         return series_[static_cast<std::size_t>(next - begin) - 1]->at(et_s);
     }
 

@@ -43,16 +43,16 @@ class DskWriter {
             const std::vector<double> words = doubles_of(s);
             const auto base = static_cast<std::int32_t>(integers.size() + 8);
             for (const std::int32_t n :
-                 {before, -1, base, static_cast<std::int32_t>(own.size()), static_cast<std::int32_t>(doubles.size()),
-                  static_cast<std::int32_t>(words.size()), 0, 0})
+                 {before, -1, base, static_cast<std::int32_t>(own.size()),
+                  static_cast<std::int32_t>(doubles.size()), static_cast<std::int32_t>(words.size()), 0, 0})
                 integers.push_back(n);
             before = at;
             integers.insert(integers.end(), own.begin(), own.end());
             doubles.insert(doubles.end(), words.begin(), words.end());
         }
-        return head() + std::string(1024, 'c') + body(records_of(doubles), records_of(integers),
-                                                       static_cast<std::int32_t>(doubles.size()),
-                                                       static_cast<std::int32_t>(integers.size()));
+        return head() + std::string(1024, 'c') +
+               body(records_of(doubles), records_of(integers), static_cast<std::int32_t>(doubles.size()),
+                    static_cast<std::int32_t>(integers.size()));
     }
 
   private:
@@ -63,7 +63,15 @@ class DskWriter {
     static std::vector<std::int32_t> integers_of(const WrittenShape& s) {
         // Vertices, plates, voxels, their extents, coarse scale, and the sizes of three lists.
         std::vector<std::int32_t> out = {static_cast<std::int32_t>(s.vertices_km.size()),
-                                         static_cast<std::int32_t>(s.plates.size()), 8, 2, 2, 2, 1, 8, 5, 7};
+                                         static_cast<std::int32_t>(s.plates.size()),
+                                         8,
+                                         2,
+                                         2,
+                                         2,
+                                         1,
+                                         8,
+                                         5,
+                                         7};
         for (const auto& p : s.plates) out.insert(out.end(), p.begin(), p.end());
         out.insert(out.end(), 21, -7);
         return out;
@@ -97,7 +105,8 @@ class DskWriter {
     std::string head() const {
         std::string out = "DAS/DSK ";
         out += std::string(60, ' ') + ordered(std::int32_t{0}) + ordered(std::int32_t{0}) +
-               ordered(std::int32_t{1}) + ordered(std::int32_t{900}) + (big_endian_ ? "BIG-IEEE" : "LTL-IEEE");
+               ordered(std::int32_t{1}) + ordered(std::int32_t{900}) +
+               (big_endian_ ? "BIG-IEEE" : "LTL-IEEE");
         out.resize(699, '\0');
         out += std::string("FTPSTR:\r:\n:\r\n:\r\0:\x81:\x10\xce:ENDFTP", 28);
         out.resize(1024, '\0');
@@ -109,11 +118,13 @@ class DskWriter {
         std::size_t first, count;
     };
     std::vector<Cluster> clusters_of(std::size_t doubles, std::size_t integers) const {
+        if (in_turn_ == 0 && doubles == 0) return {{3, 0, integers}};
         if (in_turn_ == 0) return {{2, 0, doubles}, {3, 0, integers}};
         std::vector<Cluster> out;
         // Integers first: then the kinds go backwards in the circle, and forwards again.
         for (std::size_t d = 0, i = 0; d < doubles || i < integers;) {
-            const std::size_t more_i = std::min(in_turn_, integers - i), more_d = std::min(in_turn_, doubles - d);
+            const std::size_t more_i = std::min(in_turn_, integers - i),
+                              more_d = std::min(in_turn_, doubles - d);
             if (more_i > 0) out.push_back({3, i, more_i});
             if (more_d > 0) out.push_back({2, d, more_d});
             i += more_i, d += more_d;

@@ -32,9 +32,7 @@ float factor_at(const Mesh& mesh, std::size_t triangle, float u, float v) {
     const auto along = [&](auto part) {
         return (1 - u - v) * part(mesh.uvs[t[0]]) + u * part(mesh.uvs[t[1]]) + v * part(mesh.uvs[t[2]]);
     };
-    return texture
-        .sample(along([](Vec2f p) { return p.x; }), along([](Vec2f p) { return p.y; }), 0)
-        .y;
+    return texture.sample(along([](Vec2f p) { return p.x; }), along([](Vec2f p) { return p.y; }), 0).y;
 }
 
 class AlbedoFile : public FilesTest {};
@@ -83,8 +81,9 @@ TEST_F(AlbedoFile, WhatDoesNotFitIsNamed) {
     const auto refusal = [this](Mesh mesh, const std::vector<float>& albedos) {
         return error_of([&] { paint_albedos(mesh, albedos, {}, "a.txt"); });
     };
-    EXPECT_THAT(refusal(two_facets(), {1, 1, 1}),
-                HasSubstr("a.txt: found 3 albedos; accepted: 2, one for each facet, or 4, one for each vertex"));
+    EXPECT_THAT(
+        refusal(two_facets(), {1, 1, 1}),
+        HasSubstr("a.txt: found 3 albedos; accepted: 2, one for each facet, or 4, one for each vertex"));
     EXPECT_THAT(refusal(two_facets(), {0, 0}), HasSubstr("all albedos are 0"));
     Mesh textured = two_facets();
     textured.textures.resize(1);

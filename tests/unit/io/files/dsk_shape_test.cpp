@@ -36,7 +36,9 @@ WrittenShape globe(int rows, int columns) {
                                      0.25 * std::sin(polar) * std::sin(around), 0.25 * std::cos(polar)});
         }
     s.vertices_km.push_back({0, 0, -0.25});
-    const auto at = [&](int i, int j) { return i <= 0 ? 1 : i >= rows ? 2 + (rows - 1) * columns : 2 + (i - 1) * columns + j % columns; };
+    const auto at = [&](int i, int j) {
+        return i <= 0 ? 1 : i >= rows ? 2 + (rows - 1) * columns : 2 + (i - 1) * columns + j % columns;
+    };
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < columns; ++j) {
             if (i < rows - 1) s.plates.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
@@ -82,7 +84,8 @@ TEST_F(DskShape, IsTheSameHoweverItsRecordsLie) {
     for (const std::size_t in_turn : {1u, 3u})
         for (const std::size_t clusters : {1u, 5u, 200u})
             for (const bool big_endian : {false, true}) {
-                const Mesh m = read_dsk_shape(DskWriter(big_endian, in_turn, clusters).add(shape).bytes(), "a.bds");
+                const Mesh m =
+                    read_dsk_shape(DskWriter(big_endian, in_turn, clusters).add(shape).bytes(), "a.bds");
                 EXPECT_EQ(m.triangles, whole.triangles);
                 ASSERT_EQ(m.vertices_m.size(), whole.vertices_m.size());
                 for (std::size_t i = 0; i < m.vertices_m.size(); ++i)
@@ -130,14 +133,16 @@ TEST_F(DskShape, BadOnesAreNamed) {
         return std::string(good).replace(at, bytes.size(), bytes);
     };
     EXPECT_THAT(refusal("DAS/DSK"), HasSubstr("a.bds: has 7 bytes; accepted: a shape kernel"));
-    EXPECT_THAT(refusal(with(0, "DAF/SPK ")), HasSubstr("found the identification 'DAF/SPK'; accepted: DAS/DSK"));
+    EXPECT_THAT(refusal(with(0, "DAF/SPK ")),
+                HasSubstr("found the identification 'DAF/SPK'; accepted: DAS/DSK"));
     EXPECT_THAT(refusal(with(84, "VAX-GFLT")), HasSubstr("found the binary format 'VAX-GFLT'"));
     EXPECT_THAT(refusal(with(706, "\n")), HasSubstr("was damaged when it was transferred as text"));
     for (const std::size_t records : {2u, 3u, 4u})
         EXPECT_THAT(refusal(good.substr(0, 1024 * records)), HasSubstr("is cut short or damaged")) << records;
     WrittenShape shape = tetrahedron();
     shape.type = 4;
-    EXPECT_THAT(refusal(DskWriter().add(shape).bytes()), HasSubstr("segment 1: found data type 4; accepted: 2"));
+    EXPECT_THAT(refusal(DskWriter().add(shape).bytes()),
+                HasSubstr("segment 1: found data type 4; accepted: 2"));
     shape = tetrahedron();
     shape.plates[2][1] = 5;
     EXPECT_THAT(refusal(DskWriter().add(shape).bytes()),
