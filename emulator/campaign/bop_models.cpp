@@ -111,7 +111,8 @@ bool has_other_shapes(const std::vector<std::string>& keys, std::size_t object) 
         if (key == "objects" || key == prefix) return true;
         if (!key.starts_with(prefix + ".")) return false;
         const std::string below = key.substr(prefix.size() + 1);
-        return below == "mesh" || below == "scale" || below.starts_with("generate");
+        return below == "mesh" || below == "mesh_surface" || below == "scale" ||
+               below.starts_with("generate");
     });
 }
 
@@ -129,7 +130,8 @@ void write_bop_models(const std::filesystem::path& folder, const CampaignConfig&
         const auto file_of = [&](std::size_t object) {
             return folder / ("obj_" + case_name(object + 1) + ".ply");
         };
-        const std::string make = fmt::format("{} {}", mesh_file_of(objects[i]).string(), objects[i].scale);
+        const std::string make = fmt::format("{} {} {}", mesh_file_of(objects[i]).string(),
+                                             objects[i].mesh_surface, objects[i].scale);
         const auto [first, is_new] = first_of_make.try_emplace(make, i);
         if (is_new) {
             const Model model = model_of(load_whole_mesh(objects[i]));

@@ -369,7 +369,7 @@ TEST(SpkSegment, DamagedSegmentsAreRefusedInOneLine) {
     EXPECT_THAT(refusal(segment(19, 0, 701, words)),
                 HasSubstr("its series go from 0 to 700 s; accepted: over all of its span"));
     words[words.size() - 4] = 1e6;
-    EXPECT_THAT(refusal(segment(19, 0, 700, words)), HasSubstr("begin of a series: found 1e+06; accepted"));
+    EXPECT_THAT(refusal(segment(19, 0, 700, words)), HasSubstr("begin of a series: found 1000000; accepted"));
     EXPECT_THAT(refusal(segment(9, 0, 1, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 5, 5, 1, 2})),
                 HasSubstr("time 2: found 5 after 5"));
     EXPECT_THAT(refusal(segment(8, 0, 1, {0, 0, 0, 0, 0, 0, 0, 1, 3, 1})),
