@@ -140,21 +140,36 @@ double paint(Mesh& mesh, const ObjectConfig& config) {
     return paint_albedos(mesh, read_albedos(config.albedo_file), reference, config.albedo_file.string());
 }
 
+// Refuses a factor with which a surface would send back more light than it gets: by its material's own rule, else by
+// what it reflects.
+void require_darkness(const MeshSurface& surface, const Material& material, double factor,
+                      const ObjectConfig& config, const SpectralGrid& grid) {
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(
+            fmt::format("{}: its greatest albedo is {:.4g} times the reference, which is too bright "
+                        "for the material of the surface {}: {}; accepted: a darker material, or "
+                        "another albedo_reference",
+                        config.albedo_where, factor, in_quotes(surface.name), why));
+    };
+    if (factor * reflectance_of(material, grid) > 1) refuse("it would create light");
+    const SurfaceConfig* const rule = find_surface(config.materials.surfaces, surface.name);
+    if (!rule) return;
+    MaterialConfig scaled = rule->material;
+    for (double& value : scaled.reflectance.value) value *= factor;
+    try {
+        validate(scaled);
+    } catch (const InputError& problem) {
+        refuse(problem.what());
+    }
+}
+
 void brighten(SceneObject& object, double factor, const ObjectConfig& config, const SpectralGrid& grid) {
     for (std::size_t s = 0; s < object.materials.size(); ++s) {
         Material& material = object.materials[s];
+        require_darkness(object.mesh.surfaces[s], material, factor, config, grid);
         const auto scale = static_cast<float>(factor);
         material.base = scale * material.base;
         if (material.is_bare()) material.highlight = scale * material.highlight;
-        const Spectrum& scaled = material.is_bare() ? material.highlight : material.base;
-        for (int b = 0; b < grid.size(); ++b)
-            if (scaled[b] > 1)
-                throw InputError(fmt::format(
-                    "{}: its greatest albedo is {:.4g} times the reference, with which the material of "
-                    "surface {} "
-                    "would send back {:.4g} times the light it gets; accepted: a darker material, or another "
-                    "albedo_reference",
-                    config.albedo_where, factor, in_quotes(object.mesh.surfaces[s].name), scaled[b]));
     }
 }
 
