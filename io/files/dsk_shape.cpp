@@ -4,8 +4,8 @@
 #include <limits>
 #include <set>
 
-#include "io/files/das_file.h"
 #include "io/files/mesh_guard.h"
+#include "io/naif/das_file.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "io/spice/daf_file.h"
+#include "io/naif/daf_file.h"
 #include "render/sky/bodies.h"
 
 namespace hilcam {

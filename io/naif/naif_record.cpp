@@ -1,4 +1,4 @@
-#include "io/files/naif_record.h"
+#include "io/naif/naif_record.h"
 
 namespace hilcam {
 namespace {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/files/naif_record.h"
+#include "io/naif/naif_record.h"
 
 namespace hilcam {
 

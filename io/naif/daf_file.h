@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "io/files/naif_record.h"
+#include "io/naif/naif_record.h"
 #include "io/system/input_file.h"
 
 namespace hilcam {

@@ -1,4 +1,4 @@
-#include "io/files/das_file.h"
+#include "io/naif/das_file.h"
 
 #include <algorithm>
 #include <cstdlib>
