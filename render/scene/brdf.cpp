@@ -204,8 +204,7 @@ double hemispherical_reflectance(const Scatterer& at, const SpectralGrid& grid) 
 
 }  // namespace
 
-// What brdf_albedo() has for a path's sake is far above
-// what these models reflect.
+// The albedo that brdf_albedo() has for a path's sake is far above what these models reflect.
 double reflectance_of(const Material& material, const SpectralGrid& grid) {
     const Scatterer at{&material, material.ggx_alpha, material.base, material.highlight};
     constexpr float kCosine = 0.7f;
