@@ -86,11 +86,12 @@ class IndexWriter {
 };
 
 LabelContext context_of(const CampaignConfig& campaign, const std::filesystem::path& folder) {
-    LabelContext context{campaign, folder, {}, load_keypoints(campaign.keypoints), false, 0};
+    LabelContext context{campaign, folder, {}, {}, load_keypoints(campaign.keypoints), false, 0};
     const ScenarioConfig scenario = scenario_of_camera(load_scenario(campaign.scenario, campaign.set),
                                                        static_cast<std::size_t>(campaign.camera) - 1);
     for (const ObjectConfig& object : scenario.objects) context.objects.push_back(object.name);
     if (scenario.terrain) context.objects.push_back(scenario.terrain->name);
+    context.shapes = scenario.objects;
     context.has_colors = campaign.pictures.view && !scenario.camera.color_filter.pattern.empty();
     context.pitch_m = scenario.camera.pitch_m * static_cast<double>(scenario.camera.binning_x);
     return context;

@@ -8,6 +8,7 @@
 
 #include "emulator/campaign/case_record.h"
 #include "emulator/campaign/keypoints.h"
+#include "emulator/scenario/object_config.h"
 
 namespace hilcam {
 
@@ -15,7 +16,8 @@ namespace hilcam {
 struct LabelContext {
     const CampaignConfig& campaign;
     std::filesystem::path folder;
-    std::vector<std::string> objects;  // names of the scenario's objects, by number from 1
+    std::vector<std::string> objects;  // names of the scenario's objects, by number from 1, and its terrain's
+    std::vector<ObjectConfig> shapes;  // the scenario's objects without its terrain
     std::vector<KeypointSet> keypoints;
     bool has_colors = false;  // pictures to look at have three channels
     double pitch_m = 0;       // side of a pixel of the frame
@@ -32,7 +34,8 @@ class LabelWriter {
 
 // coco/SPLIT.json: boxes, run lengths, key points; pictures are named from the campaign's folder.
 std::unique_ptr<LabelWriter> make_coco_labels(const LabelContext& context);
-// bop/SPLIT/000000/: scene_camera.json, scene_gt.json, scene_gt_info.json, gray or rgb, depth, mask_visib.
+// bop/SPLIT/000000/: scene_camera.json, scene_gt.json, scene_gt_info.json, gray or rgb, depth, mask, mask_visib;
+// bop/models (bop_models.h).
 std::unique_ptr<LabelWriter> make_bop_labels(const LabelContext& context);
 // yolo/data.yaml, images/SPLIT, labels/SPLIT.
 std::unique_ptr<LabelWriter> make_yolo_labels(const LabelContext& context);

@@ -1,16 +1,21 @@
 // Labels of the Benchmark for 6D Object Pose Estimation: thodan/bop_toolkit, docs/bop_datasets_format.md.
 // Lengths are in mm; places count from the middle of the first pixel, as OpenCV's, half a pixel less than
-// hilcam's; a scene has the pictures of a thousand cases. Silhouettes beyond what is visible have no mask, and
-// models are not written.
+// hilcam's; a scene has the pictures of a thousand cases. The numbers of scene_gt_info.json are counted as
+// scripts/calc_gt_info.py there counts them: px_count_all and bbox_obj over three times the picture's width and
+// height, the picture in the middle, and no boxes for what is not visible. Boxes have all columns and rows of
+// their pixels, where that script's are one less. Ground is no object here: it has no model.
 
 #include <algorithm>
 #include <map>
 
+#include "emulator/campaign/bop_models.h"
 #include "emulator/campaign/label_writer.h"
 #include "emulator/campaign/picture_case.h"
 #include "emulator/campaign/run_lengths.h"
 #include "io/pictures/image_file.h"
 #include "io/system/durable_file.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/pixel_box.h"
 
 namespace hilcam {
 namespace {
@@ -30,9 +35,36 @@ OrderedJson mm_of(const OrderedJson& metres) {
     return {1e3 * metres.at(0).get<double>(), 1e3 * metres.at(1).get<double>(),
             1e3 * metres.at(2).get<double>()};
 }
-OrderedJson box_of(const OrderedJson& box) {
-    return box.is_null() ? OrderedJson{-1, -1, -1, -1}
-                         : box;  // the toolkit's calc_gt_info.py has the same for nothing
+// The silhouette of an object that a record has, or nothing: ground.
+const OrderedJson* silhouette_of(const CaseRecord& record, const OrderedJson& frame, const std::string& id) {
+    const auto all = frame.find("silhouettes");
+    if (all == frame.end())
+        throw InputError(case_name(record.plan.number) +
+                         ".json: has no silhouettes, which 'labels: [bop]' is made of: it is an older "
+                         "program's; remove it, and the case is made again");
+    const auto found = all->find(id);
+    return found == all->end() ? nullptr : &*found;
+}
+
+// A mask as its file has it, with what is counted of it.
+struct Mask {
+    DnImage picture;
+    std::uint64_t px = 0;
+    PixelBox box_px;
+};
+Mask mask_from(const std::string& runs, int width, int height) {
+    Mask mask{DnImage(width, height), 0, {width, height, 0, 0}};
+    const auto pixels = mask_of(parse_run_lengths(runs), width, height);
+    std::copy(pixels.begin(), pixels.end(), mask.picture.data());
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            if (mask.picture.row(y)[static_cast<std::size_t>(x)] == 0) continue;
+            ++mask.px;
+            PixelBox& box = mask.box_px;
+            box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
+                   std::max(box.y1, y + 1)};
+        }
+    return mask;
 }
 
 class BopLabels : public LabelWriter {
@@ -52,6 +84,7 @@ class BopLabels : public LabelWriter {
         finish_scene({});
         if (!camera_.is_null())
             write_durably(context_.folder / "bop" / "camera.json", camera_.dump(2) + "\n");
+        write_bop_models(context_.folder / "bop" / "models", context_.campaign, context_.shapes);
     }
 
   private:
@@ -106,20 +139,16 @@ class BopLabels : public LabelWriter {
                        {"cy", cy},
                        {"depth_scale", step_mm}};
         OrderedJson poses = OrderedJson::array(), infos = OrderedJson::array();
-        for (const OrderedJson& object : truth.at("objects")) {
-            poses.push_back({{"cam_R_m2c", rows_of(to_matrix(quat_of(object.at("camera_from_body_wxyz"))))},
-                             {"cam_t_m2c", mm_of(object.at("position_camera_m"))},
-                             {"obj_id", object.at("id")}});
-            infos.push_back(
-                {{"bbox_obj", box_of(object.at("silhouette_box_px"))},
-                 {"bbox_visib", box_of(object.at("visible_box_px"))},
-                 {"px_count_all", object.at("silhouette_px")},
-                 {"px_count_valid", object.at("visible_px")},
-                 {"px_count_visib", object.at("visible_px")},
-                 {"visib_fract",
-                  object.at("visible_fraction").is_null() ? OrderedJson(0) : object.at("visible_fraction")}});
-            write_mask(frame, image, object, id, poses.size() - 1);
-        }
+        for (const OrderedJson& object : truth.at("objects"))
+            if (const auto* silhouette =
+                    silhouette_of(record, frame, std::to_string(object.at("id").get<std::uint64_t>()))) {
+                poses.push_back(
+                    {{"cam_R_m2c", rows_of(to_matrix(quat_of(object.at("camera_from_body_wxyz"))))},
+                     {"cam_t_m2c", mm_of(object.at("position_camera_m"))},
+                     {"obj_id", object.at("id")}});
+                infos.push_back(add_masks(frame, image, object, *silhouette,
+                                          six_digits(id) + "_" + six_digits(infos.size()) + ".png"));
+            }
         scene_->poses[key] = poses, scene_->infos[key] = infos;
         const auto picture = static_cast<std::int64_t>(index);
         const std::filesystem::path shown = shown_picture(context_.campaign, record.plan.number, picture);
@@ -129,21 +158,30 @@ class BopLabels : public LabelWriter {
                      scene_folder_ / "depth" / (six_digits(id) + ".png"));
     }
 
-    void write_mask(const OrderedJson& frame, const OrderedJson& image, const OrderedJson& object,
-                    std::uint64_t id, std::size_t instance) const {
+    // Writes both masks of an object, and returns what scene_gt_info.json has of it.
+    OrderedJson add_masks(const OrderedJson& frame, const OrderedJson& image, const OrderedJson& object,
+                          const OrderedJson& silhouette, const std::string& name) const {
         const int width = image.at("width_px"), height = image.at("height_px");
-        DnImage mask(width, height);
         const OrderedJson& masks = frame.at("masks");
-        if (const auto runs = masks.find(std::to_string(object.at("id").get<std::uint64_t>()));
-            runs != masks.end()) {
-            const auto pixels = mask_of(parse_run_lengths(runs->get<std::string>()), width, height);
-            std::copy(pixels.begin(), pixels.end(), mask.data());
-        }
+        const auto runs = masks.find(std::to_string(object.at("id").get<std::uint64_t>()));
+        const Mask whole = mask_from(silhouette.at("mask").get<std::string>(), width, height);
+        const Mask visible = runs == masks.end() ? Mask{DnImage(width, height), 0, {}}
+                                                 : mask_from(runs->get<std::string>(), width, height);
         DurableFiles files;
-        write_numbers(files.begin(scene_folder_ / "mask_visib" /
-                                  (six_digits(id) + "_" + six_digits(instance) + ".png")),
-                      mask);
+        write_numbers(files.begin(scene_folder_ / "mask" / name), whole.picture);
+        write_numbers(files.begin(scene_folder_ / "mask_visib" / name), visible.picture);
         files.commit();
+        const auto all_px = silhouette.at("px").get<std::uint64_t>();
+        const PixelBox& box = visible.box_px;
+        const OrderedJson nothing{-1, -1, -1, -1};
+        return {{"bbox_obj", visible.px > 0 ? silhouette.at("box_px") : nothing},
+                {"bbox_visib",
+                 visible.px > 0 ? OrderedJson{box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0} : nothing},
+                {"px_count_all", all_px},
+                {"px_count_valid", silhouette.at("valid_px")},
+                {"px_count_visib", visible.px},
+                {"visib_fract",
+                 all_px > 0 ? static_cast<double>(visible.px) / static_cast<double>(all_px) : 0.0}};
     }
 };
 

@@ -40,6 +40,7 @@ TruthWishes asked_layers(const CampaignConfig& c) {
     wishes.range = wants(c.pictures.layers, "range");
     wishes.position = c.pictures.flow || wants(c.pictures.layers, "position");
     wishes.part = c.pictures.flow;
+    wishes.silhouettes = wants(c.labels, "bop");
     return wishes;
 }
 
@@ -129,7 +130,7 @@ double depth_step_mm(const FrameTruth& truth) {
 }
 
 // BOP's: 16 bits, 0 where nothing is near.
-void write_depth(const std::filesystem::path& file, const FrameTruth& truth, double step_mm) {
+DnImage depth_picture(const FrameTruth& truth, double step_mm) {
     DnImage picture(truth.raster.width_px, truth.raster.height_px);
     for (int y = 0; y < truth.raster.height_px; ++y) {
         const auto depth = truth.layers.depth_m.row(y);
@@ -139,7 +140,38 @@ void write_depth(const std::filesystem::path& file, const FrameTruth& truth, dou
                 steps >= 0 && steps <= 65535 ? static_cast<std::uint16_t>(std::lround(steps)) : 0;
         }
     }
-    write_numbers(file, picture);
+    return picture;
+}
+
+// Tells each object's silhouette: its mask in the frame, its pixels in the frame and beside it, and how many of
+// the mask have a depth.
+OrderedJson silhouettes_of(const FrameTruth& truth, const DnImage& depth) {
+    OrderedJson out = OrderedJson::object();
+    const auto width = static_cast<std::size_t>(truth.raster.width_px);
+    IdImage ids(truth.raster.width_px, truth.raster.height_px);
+    for (int y = 0; y < truth.raster.height_px; ++y) {
+        const auto row = truth.layers.object.row(y);
+        std::copy(row.begin(), row.end(), ids.row(y).begin());
+    }
+    for (const PixelSilhouette& silhouette : truth.silhouettes) {
+        for (const std::size_t px : silhouette.hidden_px)
+            ids.row(static_cast<int>(px / width))[px % width] = silhouette.thing;
+        std::uint64_t valid_px = 0;
+        for (int y = 0; y < truth.raster.height_px; ++y)
+            for (std::size_t x = 0; x < width; ++x)
+                valid_px += ids.row(y)[x] == silhouette.thing && depth.row(y)[x] != 0;
+        const PixelBox& box = silhouette.box_px;
+        out[std::to_string(silhouette.thing)] = {
+            {"px", silhouette.px},
+            {"box_px", {box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0}},
+            {"valid_px", valid_px},
+            {"mask", run_length_text(run_lengths_of(ids, truth.raster, silhouette.thing))}};
+        for (const std::size_t px : silhouette.hidden_px) {
+            const auto y = static_cast<int>(px / width);
+            ids.row(y)[px % width] = truth.layers.object.row(y)[px % width];
+        }
+    }
+    return out;
 }
 
 class PictureMaker {
@@ -177,6 +209,7 @@ class PictureMaker {
     TruthDocument document_;
     FrameTruth truth_, before_;  // records of this picture, and of the one before it
     VarianceImage variance_;
+    DnImage depth_;  // BOP's
     DurableFiles files_;
 
     void make_picture(std::int64_t index) {
@@ -226,7 +259,12 @@ class PictureMaker {
                            {"truth", OrderedJson::parse(document_.line(truth_, record))}};
         out["masks"] = masks_of(truth_);
         if (!keypoints_.empty()) out["keypoints"] = keypoints_of(keypoints_, truth_);
-        if (wants(campaign_.labels, "bop")) out["depth_step_mm"] = depth_step_mm(truth_);
+        if (wants(campaign_.labels, "bop")) {
+            const double step_mm = depth_step_mm(truth_);
+            depth_ = depth_picture(truth_, step_mm);
+            out["depth_step_mm"] = step_mm;
+            out["silhouettes"] = silhouettes_of(truth_, depth_);
+        }
         record_.frames.push_back(std::move(out));
         if (index > 0) return;
         if (camera_.target() >= truth_.things.size() || truth_.things[camera_.target()].is_body) return;
@@ -253,8 +291,7 @@ class PictureMaker {
         const PictureNames names = picture_names(campaign_, record_.plan.number, index);
         writer_.write_frame(place(names.frame), frame, record);
         if (campaign_.pictures.view) writer_.write_view(place(names.view), frame, record);
-        if (wants(campaign_.labels, "bop"))
-            write_depth(place(names.depth), truth_, record_.frames.back()["depth_step_mm"]);
+        if (wants(campaign_.labels, "bop")) write_numbers(place(names.depth), depth_);
         if (!campaign_.pictures.layers.empty()) write_layers(place(names.layers));
         if (campaign_.pictures.variance) {
             const NamedChannel channels[] = {{"variance.DN2", variance_.plane(0)}};

@@ -191,6 +191,7 @@ FrameTruth truth_record(const CaseCamera& camera, const TruthWishes& wishes) {
     all.stars = wishes.stars;
     all.object = wishes.object, all.range = wishes.range, all.depth = wishes.depth;
     all.normal = wishes.normal, all.position = wishes.position, all.part = wishes.part;
+    all.silhouettes = wishes.silhouettes;
     FrameTruth truth = make_truth(s, camera.camera().renderer(), all);
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling),
                              {s.camera.binning_x, s.camera.binning_y});

@@ -55,18 +55,21 @@ MotionStatus MotionSource::turn(const MotionContext& context, Motion& out) const
     return how.status;
 }
 
-void MotionSource::require(TimeTai time) const {
-    const auto check = [&](const auto& part) {
+std::string MotionSource::gap_at(TimeTai time) const {
+    const auto gap_of = [&](const auto& part) -> std::string {
         const MotionValidity v = part.validity(time);
-        if (v.status == MotionStatus::kOk) return;
+        if (v.status == MotionStatus::kOk) return {};
         const char* why = v.status == MotionStatus::kBefore  ? "begins at "
                           : v.status == MotionStatus::kAfter ? "ends at "
                                                              : "has a gap there; the nearest it knows is ";
-        throw InputError(part.name() + ": found the instant " + format_utc(time) + "; it " + why +
-                         format_utc(v.nearest) + " (or outside: hold)");
+        return part.name() + ": found the instant " + format_utc(time) + "; it " + why + format_utc(v.nearest);
     };
-    check(*trajectory_);
-    check(*attitude_);
+    const std::string gap = gap_of(*trajectory_);
+    return gap.empty() ? gap_of(*attitude_) : gap;
+}
+
+void MotionSource::require(TimeTai time) const {
+    if (const std::string gap = gap_at(time); !gap.empty()) throw InputError(gap + " (or outside: hold)");
 }
 
 MotionSources::MotionSources(std::vector<std::unique_ptr<MotionSource>> sources,
@@ -97,6 +100,14 @@ MotionSources::MotionSources(std::vector<std::unique_ptr<MotionSource>> sources,
             throw InputError(
                 "motion of " + in_quotes(names[i]) +
                 ": follows a thing that follows it; accepted: things that do not go round in a circle");
+}
+
+std::string MotionSources::gap_at(TimeTai time) const {
+    for (const auto& source : sources_) {
+        if (!source) continue;
+        if (std::string gap = source->gap_at(time); !gap.empty()) return gap;
+    }
+    return {};
 }
 
 std::uint64_t MotionSources::evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,

@@ -97,6 +97,8 @@ class MotionSource {
     MotionStatus turn(const MotionContext& context, Motion& out) const;
     std::vector<MotionNeed> place_needs() const { return trajectory_->needs(); }
     std::vector<MotionNeed> turn_needs() const { return attitude_->needs(); }
+    // Says which part does not know the instant, and the nearest that it knows; empty: all know it. Not for the loop.
+    std::string gap_at(TimeTai time) const;
     // Throws InputError when a part does not know the instant: what, where, accepted.
     void require(TimeTai time) const;
 
@@ -121,6 +123,9 @@ class MotionSources {
     // are right. standing: room for a flag of each thing. Gives how many parts stood still. Loop.
     std::uint64_t evaluate(const WorldFrame& frame, std::span<const std::uint8_t> live,
                            std::span<Motion> motions, std::span<std::uint8_t> standing) const;
+
+    // Says what the first source that does not know the instant lacks; empty: all know it. Any thread but the loop's.
+    std::string gap_at(TimeTai time) const;
 
   private:
     std::vector<std::unique_ptr<MotionSource>> sources_;

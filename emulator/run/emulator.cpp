@@ -315,8 +315,8 @@ void Emulator::print_held_motion() {
     if (told_held_motion_ || first().world().held() == 0) return;
     told_held_motion_ = true;
     spdlog::warn(
-        "a source of motion does not know the simulated time any more, {}: what it moves stands still",
-        format_utc(clock_.now()));
+        "a source of motion does not know the simulated time any more: {}; what it moves stands still there",
+        first().world().first_gap());
 }
 
 // Once, when all cameras have the light that was made beside the run.

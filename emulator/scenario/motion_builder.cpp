@@ -1,6 +1,7 @@
 #include "emulator/scenario/motion_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "emulator/motion/attitude_laws.h"
 #include "emulator/motion/ephemeris.h"
@@ -10,8 +11,10 @@
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/site.h"
 #include "io/spice/kernel_names.h"
+#include "render/sky/own_bodies.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
@@ -207,6 +210,9 @@ class Builder {
         if (a.law == Law::kHeld)
             return make_turning(frame_of(a.frame, a.of, m, thing),
                                 {frame_from_body(a.attitude), a.rate_body_rad_s}, start_);
+        // World axes are ICRF's.
+        if (a.law == Law::kPole)
+            return make_turning(frame_of(MotionFrame::kWorld, {}, m, thing), pole_attitude(a), start_);
         if (a.law == Law::kKeyframes)
             return make_keyframed_attitude(frame_of(m.frame, m.of, m, thing), keyframes_of(m));
         if (a.law == Law::kAem) {
@@ -221,6 +227,16 @@ class Builder {
             return make_spice_attitude(set, mounting.frame, mounting.frame_from_camera);
         }
         return make_pointing(pointing_of(m));
+    }
+
+    // By the IAU's angles (Archinal et al. 2018, figure 1): about z to the node, about the node to the pole, about the
+    // pole to the prime meridian.
+    AttitudeState pole_attitude(const AttitudeConfig& a) const {
+        const double w =
+            std::fmod(a.meridian_rad + a.pole_rate_rad_s * seconds_since_j2000(start_), kTurn_rad);
+        const Quat node = from_rotation_vector({0, 0, a.pole_rad[0] + 0.5 * kPi});
+        const Quat pole = from_rotation_vector({0.5 * kPi - a.pole_rad[1], 0, 0});
+        return {normalized(node * pole * from_rotation_vector({0, 0, w})), {0, 0, a.pole_rate_rad_s}};
     }
 
     Pointing pointing_of(const MotionConfig& m) const {

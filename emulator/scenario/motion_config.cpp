@@ -94,10 +94,13 @@ Fields fields(EphemerisFileConfig& f) {
 
 Fields fields(AttitudeConfig& a) {
     Fields list = {
-        choice("law", a.law, {"held", "nadir", "object", "sun", "velocity", "keyframes", "aem", "spice"},
+        choice("law", a.law,
+               {"held", "nadir", "object", "sun", "velocity", "keyframes", "aem", "spice", "pole"},
                "law of the attitude. held: the attitude given here, turned by rate_deg_s, relative to frame "
                "(inertial, spin, lvlh, ...); nadir, object, sun, velocity: axis points there; keyframes, "
-               "aem, spice: attitudes are taken from there"),
+               "aem, spice: attitudes are taken from there; pole: by pole_deg, meridian_deg and "
+               "rate_deg_day, as the IAU "
+               "has planets, moons and asteroids"),
         choice("frame", a.frame, frame_names(),
                "axes that the law held refers to; keyframes use the motion's"),
         text("of", a.of, std::string(kOf) + "; with the law object, what it looks at"),
@@ -114,6 +117,13 @@ Fields fields(AttitudeConfig& a) {
         vector3("second_axis", a.second_axis, 1, {-1e6, 1e6}, "axis of the body that points near 'second'"),
         choice("second", a.second, {"north", "velocity", "orbit_normal", "nadir", "sun"},
                "direction that second_axis is turned to; north: the world's +z"),
+        optional(numbers("pole_deg", a.pole_rad, kDegree_rad, {-360, 360}, {2, 2},
+                         "right ascension and declination (ICRF) of the body's +z, for the law pole"),
+                 a.has_pole),
+        number("meridian_deg", a.meridian_rad, kDegree_rad, {-1e7, 1e7},
+               "angle of the body's +x from the node on ICRF's equator at J2000, for the law pole"),
+        number("rate_deg_day", a.pole_rate_rad_s, kDegree_rad / 86400, {-1e7, 1e7},
+               "rate at which it turns about its pole, for the law pole"),
         section("aem", a.aem, "attitude ephemeris message, CCSDS 504.0-B"),
         section("spice", a.spice, "frame of the scenario's kernels"),
         section("jitter", a.jitter, "unsteadiness about the body's axes"),
@@ -130,6 +140,12 @@ void validate(const AttitudeConfig& a) {
                                                   std::string(given_key(a.attitude)) + "'");
     if (a.attitude.has_radec && a.frame != MotionFrame::kWorld)
         throw KeyError("attitude_radec_deg", kRadecIsWorlds);
+    if (a.law == Law::kPole && !a.has_pole) throw KeyError("law", "found pole; it needs 'pole_deg'");
+    if (a.law != Law::kPole && (a.has_pole || a.meridian_rad != 0 || a.pole_rate_rad_s != 0))
+        throw KeyError(a.has_pole            ? "pole_deg"
+                       : a.meridian_rad != 0 ? "meridian_deg"
+                                             : "rate_deg_day",
+                       "has no effect with this law; accepted: law: pole");
     if (a.has_nadir_of && a.law != Law::kNadir)
         throw KeyError("nadir_of", "has no effect with this law; accepted: law: nadir, or no 'nadir_of'");
 }

@@ -51,7 +51,17 @@ Fields fields(EphemerisFileConfig& file);
 enum class MotionFrame { kWorld, kBodyFixed, kLvlh, kThing, kLocal };
 
 struct AttitudeConfig {
-    enum class Law { kHeld, kNadir, kThing, kSun, kVelocity, kKeyframes, kAem, kSpice } law = Law::kHeld;
+    enum class Law {
+        kHeld,
+        kNadir,
+        kThing,
+        kSun,
+        kVelocity,
+        kKeyframes,
+        kAem,
+        kSpice,
+        kPole
+    } law = Law::kHeld;
     MotionFrame frame = MotionFrame::kWorld;
     std::string of;
     AttitudeForms attitude;
@@ -62,7 +72,9 @@ struct AttitudeConfig {
     std::optional<EphemerisFileConfig> aem;
     std::optional<SpiceFrameConfig> spice;
     std::optional<JitterBand> jitter;
-    bool has_nadir_of = false;
+    std::vector<double> pole_rad;  // right ascension, declination
+    double meridian_rad = 0, pole_rate_rad_s = 0;
+    bool has_nadir_of = false, has_pole = false;
 };
 Fields fields(AttitudeConfig& attitude);
 void validate(const AttitudeConfig& attitude);

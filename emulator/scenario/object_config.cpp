@@ -130,8 +130,20 @@ Fields fields(ObjectConfig& o) {
     return {
         required(text("name", o.name, "name of the object in messages")),
         optional(path("mesh", o.mesh, o.mesh_where,
-                      "mesh file in metres: GLB, glTF, OBJ, STL, PLY, or a shape (.tab, .plt, .icq)"),
+                      "mesh file in metres: GLB, glTF, OBJ, STL, PLY, or a shape (.tab, .plt, .icq, .bds)"),
                  o.has_mesh),
+        optional(integer("mesh_surface", o.mesh_surface, {-2147483647, 2147483647},
+                         "code of the surface, of a shape kernel (.bds) that has several"),
+                 o.has_mesh_surface),
+        optional(
+            path("albedo_file", o.albedo_file, o.albedo_where,
+                 "table of albedos, a number for each facet or for each vertex of the mesh; they scale its "
+                 "materials (docs/bodies.md)"),
+            o.has_albedo_file),
+        optional(
+            number("albedo_reference", o.albedo_reference, 1, {1e-6, 1e6},
+                   "albedo in the table that the materials have as they are; left out: the mean by area"),
+            o.has_albedo_reference),
         section("generate", o.generate, "mesh made by a program at first use and cached; replaces a file"),
         number("scale", o.scale, 1, {1e-6, 1e6}, "factor on the mesh's coordinates"),
         optional(section("pose", o.pose, "place and attitude of the object until commands say otherwise"),
@@ -146,6 +158,12 @@ void validate(const ObjectConfig& o) {
     if (o.has_mesh == o.generate.has_value())
         throw InputError("an object has either 'mesh' or 'generate'; found " +
                          std::string(o.has_mesh ? "both" : "neither"));
+    if (o.has_mesh_surface && !o.has_mesh) throw KeyError("mesh_surface", "has no effect without 'mesh'");
+    if (o.has_albedo_reference && !o.has_albedo_file)
+        throw KeyError("albedo_reference", "has no effect without 'albedo_file'");
+    if (o.has_albedo_file && !o.joints.empty())
+        throw KeyError("albedo_file",
+                       "has no effect on a mesh of several parts; accepted: an object without joints");
     if (o.has_pose && o.motion)
         throw KeyError("motion", "an object has either 'pose' or 'motion'; found both");
 }

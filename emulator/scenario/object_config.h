@@ -66,13 +66,18 @@ struct ObjectConfig {
     std::string name;
     std::filesystem::path mesh;
     std::string mesh_where;  // the key's place in the scenario
+    std::int64_t mesh_surface = 0;
+    std::filesystem::path albedo_file;
+    std::string albedo_where;  // the key's place in the scenario
+    double albedo_reference = 0;
     std::optional<GeneratedMeshConfig> generate;
     double scale = 1;
     PoseConfig pose;
     std::optional<MotionConfig> motion;
     MaterialSet materials;
     std::vector<JointConfig> joints;
-    bool has_mesh = false;
+    bool has_mesh = false, has_mesh_surface = false;
+    bool has_albedo_file = false, has_albedo_reference = false;
     bool has_pose = false;
 };
 Fields fields(ObjectConfig& object);

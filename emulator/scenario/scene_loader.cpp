@@ -12,6 +12,7 @@
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/scenario_listing.h"
 #include "io/config/config_advice.h"
+#include "io/files/albedo_file.h"
 #include "io/files/atmosphere_file.h"
 #include "io/files/brdf_file.h"
 #include "io/files/catalogue_file.h"
@@ -30,9 +31,8 @@
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
-namespace {
 
-std::filesystem::path mesh_path(const ObjectConfig& object) {
+std::filesystem::path mesh_file_of(const ObjectConfig& object) {
     if (object.has_mesh) return object.mesh;
     const GeneratedMeshConfig& g = object.generate.value();
     std::string angle = std::to_string(g.wing_angle_deg);
@@ -40,8 +40,6 @@ std::filesystem::path mesh_path(const ObjectConfig& object) {
     return generated_mesh(g.program, {"--triangles", std::to_string(g.triangles), "--seed",
                                       std::to_string(g.seed), "--wing-angle-deg=" + angle});
 }
-
-}  // namespace
 
 namespace {
 
@@ -62,33 +60,6 @@ std::vector<Material> load_materials(const Mesh& mesh, const MaterialSet& set, c
         materials.back().texture = surface.base_color_texture;
     }
     return materials;
-}
-
-// The share of sunlight from 45 degrees that comes back in all directions: the midpoint rule over the
-// hemisphere, for models without narrow lobes.
-double hemispherical_reflectance(const Scatterer& at, const SpectralGrid& grid) {
-    constexpr int kCosines = 32, kAzimuths = 64;
-    constexpr float in = 0.70710678f;
-    double sum = 0;
-    for (int i = 0; i < kCosines; ++i)
-        for (int j = 0; j < kAzimuths; ++j) {
-            const float out = (static_cast<float>(i) + 0.5f) / kCosines;
-            const float azimuth_rad = 2 * kPiF * (static_cast<float>(j) + 0.5f) / kAzimuths;
-            const float between =
-                in * out + std::sqrt((1 - in * in) * (1 - out * out)) * std::cos(azimuth_rad);
-            sum += static_cast<double>(mean(brdf_value(at, {in, out, between}), grid.size()) * out);
-        }
-    return sum * 2 * kPi / (kCosines * kAzimuths);
-}
-
-// Returns the reflectance without textures' colours. What brdf_albedo() has for a path's sake is far above
-// what these models reflect.
-double reflectance_of(const Material& material, const SpectralGrid& grid) {
-    const Scatterer at{&material, material.ggx_alpha, material.base, material.highlight};
-    constexpr float kCosine = 0.7f;
-    return std::min(1.0, material.traits().albedo_is_bound
-                             ? hemispherical_reflectance(at, grid)
-                             : static_cast<double>(brdf_albedo(at, kCosine, grid.size())));
 }
 
 template <class F>
@@ -133,24 +104,70 @@ bool wants_levels_of_detail(const ScenarioConfig& scenario) {
            std::any_of(lower.begin(), lower.end(), [](const RenderQuality& q) { return q.lod_error_px > 0; });
 }
 
+// Puts the object's table of albedos onto the mesh. Returns what its materials are to be multiplied with.
+double paint(Mesh& mesh, const ObjectConfig& config) {
+    if (!config.has_albedo_file) return 1;
+    const Progress progress("albedos of " + config.name);
+    const auto reference =
+        config.has_albedo_reference ? std::optional(config.albedo_reference) : std::nullopt;
+    return paint_albedos(mesh, read_albedos(config.albedo_file), reference, config.albedo_file.string());
+}
+
+// Refuses a factor with which a surface would send back more light than it gets: by its material's own rule, else by
+// what it reflects.
+void require_darkness(const MeshSurface& surface, const Material& material, double factor,
+                      const ObjectConfig& config, const SpectralGrid& grid) {
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(
+            fmt::format("{}: its greatest albedo is {:.4g} times the reference, which is too bright "
+                        "for the material of the surface {}: {}; accepted: a darker material, or "
+                        "another albedo_reference",
+                        config.albedo_where, factor, in_quotes(surface.name), why));
+    };
+    if (factor * reflectance_of(material, grid) > 1) refuse("it would create light");
+    const SurfaceConfig* const rule = find_surface(config.materials.surfaces, surface.name);
+    if (!rule) return;
+    MaterialConfig scaled = rule->material;
+    for (double& value : scaled.reflectance.value) value *= factor;
+    try {
+        validate(scaled);
+    } catch (const InputError& problem) {
+        refuse(problem.what());
+    }
+}
+
+void brighten(SceneObject& object, double factor, const ObjectConfig& config, const SpectralGrid& grid) {
+    for (std::size_t s = 0; s < object.materials.size(); ++s) {
+        Material& material = object.materials[s];
+        require_darkness(object.mesh.surfaces[s], material, factor, config, grid);
+        const auto scale = static_cast<float>(factor);
+        material.base = scale * material.base;
+        if (material.is_bare()) material.highlight = scale * material.highlight;
+    }
+}
+
 SceneObject make_object(Mesh mesh, const ObjectConfig& config, const ScenarioConfig& scenario,
                         const SpectralGrid& grid, LoadedObject& found) {
     SceneObject object;
     object.mesh = std::move(mesh);
     const auto scale = static_cast<float>(config.scale);
     for (Vec3f& vertex : object.mesh.vertices_m) vertex = scale * vertex;
-    if (wants_levels_of_detail(scenario)) {
+    const double brightest = paint(object.mesh, config);
+    // A level's vertices would each have the albedo of one of many facets, not their mean.
+    if (wants_levels_of_detail(scenario) && !config.has_albedo_file) {
         const Progress progress("levels of detail of " + config.name);
         object.levels = cached_levels(object.mesh, cache_folder());
     }
     object.materials = load_materials(object.mesh, config.materials, grid);
     tell(object.mesh, object.materials, config, grid, found);
+    if (config.has_albedo_file) brighten(object, brightest, config, grid);
     return object;
 }
 
 // Objects of one make have the same meshes and the same looks, wherever they are and however they turn.
 std::string make_of(const ObjectConfig& config, const std::filesystem::path& mesh) {
-    std::string make = fmt::format("{}\n{}\n", mesh.string(), config.scale);
+    std::string make = fmt::format("{}\n{}\n{}\n{}\n{}\n", mesh.string(), config.scale, config.mesh_surface,
+                                   config.albedo_file.string(), config.albedo_reference);
     for (const JointConfig& joint : config.joints) make += joint.node + "\n";
     MaterialSet materials = config.materials;
     return make + section_listing(section_of(materials));
@@ -161,7 +178,9 @@ std::vector<Mesh> load_meshes(const ObjectConfig& config, const std::filesystem:
                               const std::vector<std::string>& nodes) {
     const Progress progress("mesh " + file.filename().string());
     try {
-        return load_mesh_parts(file, nodes);
+        return load_mesh_parts(
+            file, nodes,
+            config.has_mesh_surface ? std::optional(static_cast<int>(config.mesh_surface)) : std::nullopt);
     } catch (const InputError& error) {
         if (config.mesh_where.empty()) throw;
         throw InputError(config.mesh_where + ": " + error.what());
@@ -182,7 +201,7 @@ std::vector<SceneObject> load_objects(const ScenarioConfig& scenario, const Spec
     for (std::size_t i = 0; i < scenario.objects.size(); ++i) {
         const ObjectConfig& config = scenario.objects[i];
         progress.done(static_cast<double>(i));
-        const std::filesystem::path file = mesh_path(config);
+        const std::filesystem::path file = mesh_file_of(config);
         const auto [make, is_new] = loaded.try_emplace(make_of(config, file), Loaded{i, objects.size()});
         std::vector<std::string> nodes;
         for (const JointConfig& joint : config.joints) nodes.push_back(joint.node);
@@ -271,6 +290,12 @@ std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const At
 }
 
 }  // namespace
+
+Mesh load_whole_mesh(const ObjectConfig& config) {
+    Mesh mesh = std::move(load_meshes(config, mesh_file_of(config), {}).front());
+    for (Vec3f& vertex : mesh.vertices_m) vertex = static_cast<float>(config.scale) * vertex;
+    return mesh;
+}
 
 double LoadedObject::mean_reflectance() const {
     double area_m2 = 0, sum_m2 = 0;

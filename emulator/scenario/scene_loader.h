@@ -41,6 +41,11 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
                                         std::vector<LoadedObject>* found = nullptr,
                                         LightLoading* light = nullptr);
 
+// Returns the file of an object's mesh, which is made if need be. Throws InputError or DeviceError.
+std::filesystem::path mesh_file_of(const ObjectConfig& object);
+// Loads an object's mesh with all its parts, unturned, in the object's axes and at its scale. Throws as above.
+Mesh load_whole_mesh(const ObjectConfig& object);
+
 // Loads what the maps of the camera's fixed_pattern hold.
 DetectorPictures load_detector_pictures(const CameraModel& camera);
 

@@ -10,11 +10,12 @@ namespace {
 
 struct MeshArguments {
     std::filesystem::path file;
+    std::optional<int> surface;
     bool json = false;
 };
 
 int carry_out(const MeshArguments& o) {
-    const MeshSurvey found = survey_mesh(load_mesh_contents(o.file), o.file.string());
+    const MeshSurvey found = survey_mesh(load_mesh_contents(o.file, o.surface), o.file.string());
     fmt::print("{}", o.json ? to_json(found) : to_text(found));
     return 0;
 }
@@ -25,7 +26,9 @@ void add_mesh_command(CLI::App& app, Action& action) {
     auto o = std::make_shared<MeshArguments>();
     CLI::App* mesh =
         app.add_subcommand("mesh", "say how large a mesh file is, what it is made of, what is wrong with it");
-    mesh->add_option("file", o->file, "GLB, glTF, OBJ, STL or PLY file")->required();
+    mesh->add_option("file", o->file, "GLB, glTF, OBJ, STL or PLY file, or a shape (.tab, .plt, .icq, .bds)")
+        ->required();
+    mesh->add_option("--surface", o->surface, "code of the surface, of a shape kernel (.bds) with several");
     mesh->add_flag("--json", o->json, "machine-readable");
     when_named(mesh, action, o, carry_out);
 }

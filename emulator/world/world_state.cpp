@@ -166,7 +166,10 @@ void WorldState::evaluate_sources(TimeTai time) const {
         live_[i] = things_[i]->sampled->command.arrival_monotonic_ns != 0;
         if (!follows_source(i)) now_[i] = things_[i]->sampled->motion_at(time);
     }
-    held_.fetch_add(sources_.evaluate({time, origin_}, live_, now_, standing_), std::memory_order_relaxed);
+    const std::uint64_t held = sources_.evaluate({time, origin_}, live_, now_, standing_);
+    if (held == 0) return;
+    if (held_.load(std::memory_order_relaxed) == 0) first_held_.store(time, std::memory_order_relaxed);
+    held_.fetch_add(held, std::memory_order_release);
 }
 
 void WorldState::sample_again(TimeTai time, bool with_bodies, WorldSnapshot& world) const {

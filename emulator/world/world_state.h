@@ -84,7 +84,9 @@ class WorldState {
     // Returns, for each of things(), the number of the newest command that the last sample() knew. Loop.
     void shown_numbers(std::span<std::uint64_t> numbers) const;
     // Returns how often a source was asked for an instant that it does not know, and stood still. Any thread.
-    std::uint64_t held() const { return held_.load(std::memory_order_relaxed); }
+    std::uint64_t held() const { return held_.load(std::memory_order_acquire); }
+    // Says which source did not know the first such instant, and why; empty: there was none. Any thread but the loop's.
+    std::string first_gap() const { return held() == 0 ? std::string() : sources_.gap_at(first_held_.load()); }
 
   private:
     struct History {
@@ -116,6 +118,7 @@ class WorldState {
     mutable std::vector<Motion> now_;
     mutable std::vector<std::uint8_t> live_, standing_;
     mutable std::atomic<std::uint64_t> held_{0};
+    mutable std::atomic<TimeTai> first_held_{};
 
     void evaluate_sources(TimeTai time) const;
     bool follows_source(std::size_t thing) const { return sources_.has(thing) && !live_[thing]; }

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <span>
 
+#include "io/files/dsk_shape.h"
 #include "io/files/mesh_import.h"
 #include "io/files/shape_table.h"
 #include "io/system/confined.h"
@@ -116,22 +117,42 @@ std::vector<MeshNode> read_nodes(ConfinedResult& in) {
     return nodes;
 }
 
-MeshContents shape_contents(const std::filesystem::path& file) {
-    return {read_shape_table(read_input_file(file, mesh_kind()), file.string()), {}, 0};
+// Shapes of small bodies have no nodes; a shape kernel tells its segments in their place.
+bool is_shape(const std::string& kind) { return kind == ".bds" || is_shape_table(kind); }
+
+MeshContents shape_contents(const std::filesystem::path& file, const std::string& kind,
+                            std::optional<int> surface) {
+    const std::string bytes = read_input_file(file, mesh_kind());
+    if (kind != ".bds") return {read_shape_table(bytes, file.string()), {}, 0};
+    MeshContents out;
+    std::uint64_t plates = 0;
+    out.mesh = read_dsk_shape(bytes, file.string(), surface);
+    for (const DskSegment& segment : dsk_segments(bytes, file.string())) {
+        out.nodes.push_back({"surface " + std::to_string(segment.surface) + " of body " +
+                                 std::to_string(segment.body) + ", frame " + std::to_string(segment.frame),
+                             0, segment.plates});
+        if (!surface || segment.surface == *surface) plates += segment.plates;
+    }
+    out.collapsed_triangles = plates - out.mesh.triangles.size();
+    return out;
 }
 
 // Has `work` read the file in a child process; it gets the file's kind.
 template <class Work>
-ConfinedResult read_confined(const std::filesystem::path& file, const Work& work) {
+ConfinedResult read_confined(const std::filesystem::path& file, std::optional<int> surface,
+                             const Work& work) {
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::array<std::string, 8> kinds = {".glb", ".gltf", ".obj", ".stl",
-                                              ".ply", ".tab",  ".plt", ".icq"};
+    const std::array<std::string, 9> kinds = {".glb", ".gltf", ".obj", ".stl", ".ply",
+                                              ".tab", ".plt",  ".icq", ".bds"};
     std::error_code error;
     if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": no such mesh file");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
         throw refused(file.string(), "a file of kind " + in_quotes(kind),
-                      ".glb .gltf .obj .stl .ply .tab .plt .icq");
+                      ".glb .gltf .obj .stl .ply .tab .plt .icq .bds");
+    if (surface && kind != ".bds")
+        throw refused(file.string(), "the surface " + std::to_string(*surface),
+                      "none: only shape kernels (.bds) have surfaces by number");
     const std::uint64_t bytes = open_input_file(file, mesh_kind()).bytes;
     const ConfinedLimits limits{kMinMemory_bytes + kMeshMemoryPerByte * bytes,
                                 kMinCpu_s + kMeshCpu_s_byte * static_cast<double>(bytes)};
@@ -140,10 +161,10 @@ ConfinedResult read_confined(const std::filesystem::path& file, const Work& work
 
 }  // namespace
 
-MeshContents load_mesh_contents(const std::filesystem::path& file) {
-    ConfinedResult result = read_confined(file, [&](const std::string& kind, ConfinedOutput& out) {
+MeshContents load_mesh_contents(const std::filesystem::path& file, std::optional<int> surface) {
+    ConfinedResult result = read_confined(file, surface, [&](const std::string& kind, ConfinedOutput& out) {
         const MeshContents contents =
-            is_shape_table(kind) ? shape_contents(file) : import_mesh_contents(file, kind);
+            is_shape(kind) ? shape_contents(file, kind, surface) : import_mesh_contents(file, kind);
         write_mesh(contents.mesh, out);
         write_nodes(contents.nodes, out);
         out.value(contents.collapsed_triangles);
@@ -157,12 +178,13 @@ MeshContents load_mesh_contents(const std::filesystem::path& file) {
 
 Mesh load_mesh(const std::filesystem::path& file) { return std::move(load_mesh_parts(file, {}).front()); }
 
-std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes) {
-    ConfinedResult result = read_confined(file, [&](const std::string& kind, ConfinedOutput& out) {
-        if (is_shape_table(kind)) {
+std::vector<Mesh> load_mesh_parts(const std::filesystem::path& file, std::span<const std::string> nodes,
+                                  std::optional<int> surface) {
+    ConfinedResult result = read_confined(file, surface, [&](const std::string& kind, ConfinedOutput& out) {
+        if (is_shape(kind)) {
             if (!nodes.empty())
                 throw refused(file.string(), "the node " + in_quotes(nodes[0]), "none: it has no nodes");
-            write_mesh(shape_contents(file).mesh, out);
+            write_mesh(shape_contents(file, kind, surface).mesh, out);
             return;
         }
         for (const Mesh& mesh : import_mesh_parts(file, kind, nodes)) write_mesh(mesh, out);

@@ -58,7 +58,10 @@ class ShapeReader {
 
     static std::string lines_text(const Words& words) {
         std::string out;
-        for (std::size_t i = 0; i < words.count; ++i) out += (i ? " " : "") + std::string(words.word[i]);
+        for (std::size_t i = 0; i < words.count; ++i) {
+            if (i > 0) out += ' ';
+            out += words.word[i];
+        }
         return out;
     }
     bool more(Words& words) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spice/daf_file.h"
+#include "io/naif/daf_file.h"
 #include "io/spice/kernel_pool.h"
 #include "render/vocabulary/vec.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spice/daf_file.h"
+#include "io/naif/daf_file.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {

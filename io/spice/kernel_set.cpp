@@ -58,6 +58,8 @@ class Loader {
                 set_.binaries.push_back(std::make_unique<DafFile>(file));
                 return;
             case Kind::kShape:
+                // A mission's meta-kernel names shapes beside the rest.
+                if (depth > 0) return;
                 throw InputError(file.string() +
                                  ": is a shape kernel (DSK); accepted here: SPK, CK, PCK and text "
                                  "kernels (a shape is an object's mesh)");

@@ -1,4 +1,4 @@
-// SPK types 2, 3 and 20: Chebyshev polynomials over spans of equal length.
+// SPK types 2, 3 and 20: Chebyshev polynomials over spans of equal length; type 14: over spans of any length.
 
 #include "io/spice/chebyshev_records.h"
 #include "io/spice/spk_types.h"
@@ -71,9 +71,60 @@ class ChebyshevVelocities final : public SpkSegment {
     double begin_et_s_ = 0, length_s_ = 0, unit_m_ = 0, unit_m_s_ = 0;
 };
 
+// Type 14, a "generic segment": the degree, packets of the middle and half the length of a span [s] and coefficients of
+// x, y, z [km] and their rates [km/s], then the times at which the packets begin, and where all of these lie: 17 numbers,
+// of which a place counts from the segment's first word. A packet holds until the next one begins.
+class ChebyshevPackets final : public SpkSegment {
+  public:
+    ChebyshevPackets(const SpkSummary& about, std::vector<double> words)
+        : SpkSegment(about), words_(std::move(words), about.where) {
+        words_.count_from_end(1, "items at its end", kItems, kItems);
+        const auto item = [&](std::size_t number, const char* what, double least, double most) {
+            return words_.count_from_end(kItems - number + 1, what, least, most);
+        };
+        const std::size_t constants = item(1, "place of constants", 0, kMostRecords);
+        item(2, "constants", 1, 1);
+        item(5, "kind of index", 3, 3);
+        times_ = item(6, "place of times", 0, kMostRecords), count_ = item(7, "times", 1, kMostRecords);
+        packets_ = item(11, "place of packets", 0, kMostRecords);
+        item(12, "packets", static_cast<double>(count_), static_cast<double>(count_));
+        const std::size_t size = item(15, "words of a packet", 8, 1e6);
+        before_ = item(16, "words before a packet", 0, 1e6), step_ = size + before_;
+        words_.require_size(std::max({constants + 1, times_ + count_, packets_ + count_ * step_}));
+        const double degree = words_[constants];
+        terms_ = (size - 2) / 6;
+        if (size != 2 + 6 * terms_ || degree != static_cast<double>(terms_ - 1))
+            words_.fail("degree: found " + plain(degree) + " and packets of " + std::to_string(size) +
+                        " words; accepted: 2 and six times the degree and 1");
+        words_.require_rising(times_, count_, "time");
+        for (std::size_t i = 0; i < count_; ++i)
+            if (!(words_[packet(i) + 1] > 0))
+                words_.fail("packet " + std::to_string(i + 1) + ": its radius is " +
+                            plain(words_[packet(i) + 1]) + "; accepted: above 0");
+    }
+
+    StateVector at(double et_s) const override {
+        const std::size_t after = times_up_to(words_.piece(times_, count_), et_s);
+        const std::size_t from = packet(after > 0 ? after - 1 : 0);
+        const double s = std::clamp((et_s - words_[from]) / words_[from + 1], -1.0, 1.0);
+        std::array<double, 6> v{};
+        for (std::size_t k = 0; k < 6; ++k)
+            v[k] = kKilometre_m * chebyshev_at(words_.piece(from + 2 + k * terms_, terms_), s).value;
+        return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    }
+
+  private:
+    static constexpr std::size_t kItems = 17;
+    SegmentWords words_;
+    std::size_t times_ = 0, packets_ = 0, count_ = 0, before_ = 0, step_ = 0, terms_ = 0;
+
+    std::size_t packet(std::size_t i) const { return packets_ + i * step_ + before_; }
+};
+
 }  // namespace
 
 std::unique_ptr<SpkSegment> make_spk_chebyshev(const SpkSummary& about, std::vector<double> words) {
+    if (about.type == 14) return std::make_unique<ChebyshevPackets>(about, std::move(words));
     if (about.type == 20) return std::make_unique<ChebyshevVelocities>(about, std::move(words));
     return std::make_unique<ChebyshevStates>(about, std::move(words));
 }

@@ -1,4 +1,5 @@
-// SPK types 8, 9, 12, 13 and 18: states at instants, interpolated in a window around the time.
+// SPK types 8, 9, 12, 13 and 18: states at instants, interpolated in a window around the time; type 19: several such
+// series, each for a span of its own.
 
 #include "io/spice/sample_window.h"
 #include "io/spice/segment_words.h"
@@ -9,7 +10,8 @@ namespace hilcam {
 namespace {
 
 // Packets of six words, x, y, z, x', y', z' [km, km/s], of subtype 0 of type 18 twelve, in which position with velocity
-// and velocity with acceleration are apart. Then, with even steps (8, 12), the first time and the step, else all times
+// and velocity with acceleration are apart. A series of type 19 is as a segment of type 18, with a subtype 2 as type 13 has
+// it. Then, with even steps (8, 12), the first time and the step, else all times
 // with every hundredth; then the degree (8, 9), the window less 1 (12, 13) or subtype and window (18); how many.
 class Discrete final : public SpkSegment {
   public:
@@ -19,10 +21,10 @@ class Discrete final : public SpkSegment {
           even_(about.type == 8 || about.type == 12),
           hermite_(about.type == 12 || about.type == 13) {
         count_ = words_.count_from_end(1, "states", 1, kMostRecords);
-        if (about.type == 18) {
+        if (about.type == 18 || about.type == 19) {
             truncated_ = true;
-            const std::size_t subtype = words_.count_from_end(3, "subtype", 0, 1);
-            hermite_ = subtype == 0, apart_ = subtype == 0;
+            const std::size_t subtype = words_.count_from_end(3, "subtype", 0, about.type == 18 ? 1 : 2);
+            hermite_ = subtype != 1, apart_ = subtype == 0;
             window_ = words_.count_from_end(2, "window", 2, static_cast<double>(most_nodes()));
         } else {
             window_ = 1 + words_.count_from_end(2, hermite_ ? "window less 1" : "degree", 1,
@@ -96,9 +98,57 @@ class Discrete final : public SpkSegment {
     }
 };
 
+// Type 19: the series one behind the other; then where the span of each begins, and where the last one ends [s], with
+// every hundredth; where each series begins, counted from the segment's first word, and 1 past the last; 1 where an
+// instant between two spans belongs to the later one, else 0; how many.
+class Piecewise final : public SpkSegment {
+  public:
+    Piecewise(const SpkSummary& about, std::vector<double> words) : SpkSegment(about) {
+        const SegmentWords all(std::move(words), about.where);
+        const std::size_t count = all.count_from_end(1, "series", 1, kMostRecords);
+        later_ = all.count_from_end(2, "later one at an instant between", 0, 1) == 1;
+        const std::size_t after = 2 + (count + 1) + count / kDirectoryStep + (count + 1);
+        all.require_size(after);
+        const std::size_t spans = all.size() - after, begins = all.size() - 2 - (count + 1);
+        all.require_rising(spans, count + 1, "begin of a span");
+        const auto times = all.piece(spans, count + 1);
+        spans_et_s_.assign(times.begin(), times.end());
+        if (spans_et_s_.front() > about.start_et_s || spans_et_s_.back() < about.stop_et_s)
+            all.fail("its series go from " + plain(spans_et_s_.front()) + " to " + plain(spans_et_s_.back()) +
+                     " s; accepted: over all of its span");
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto place = [&](std::size_t k) {
+                return all.count_from_end(all.size() - begins - k, "begin of a series", 1,
+                                          static_cast<double>(spans + 1));
+            };
+            const std::size_t first = place(i) - 1, end = place(i + 1) - 1;
+            if (end < first)
+                all.fail("begin of series " + std::to_string(i + 2) + ": is before the one before");
+            const auto piece = all.piece(first, end - first);
+            SpkSummary own = about;
+            own.where += ": series " + std::to_string(i + 1);
+            series_.push_back(
+                std::make_unique<Discrete>(own, std::vector<double>(piece.begin(), piece.end())));
+        }
+    }
+
+    StateVector at(double et_s) const override {
+        const auto begin = spans_et_s_.begin(), last = spans_et_s_.end() - 1;
+        const auto next =
+            later_ ? std::upper_bound(begin + 1, last, et_s) : std::lower_bound(begin + 1, last, et_s);
+        return series_[static_cast<std::size_t>(next - begin) - 1]->at(et_s);
+    }
+
+  private:
+    std::vector<double> spans_et_s_;
+    std::vector<std::unique_ptr<Discrete>> series_;
+    bool later_ = false;
+};
+
 }  // namespace
 
 std::unique_ptr<SpkSegment> make_spk_discrete(const SpkSummary& about, std::vector<double> words) {
+    if (about.type == 19) return std::make_unique<Piecewise>(about, std::move(words));
     return std::make_unique<Discrete>(about, std::move(words));
 }
 

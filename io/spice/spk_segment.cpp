@@ -27,6 +27,7 @@ std::unique_ptr<SpkSegment> load_spk_segment(const DafFile& file, const DafArray
     switch (about.type) {
         case 2:
         case 3:
+        case 14:
         case 20:
             return make_spk_chebyshev(about, file.words(array));
         case 5:
@@ -36,13 +37,14 @@ std::unique_ptr<SpkSegment> load_spk_segment(const DafFile& file, const DafArray
         case 12:
         case 13:
         case 18:
+        case 19:
             return make_spk_discrete(about, file.words(array));
         case 1:
         case 21:
             return make_spk_differences(about, file.words(array));
         default:
             throw InputError(about.where + ": found type " + std::to_string(about.type) +
-                             "; accepted: 1, 2, 3, 5, 8, 9, 12, 13, 18, 20, 21");
+                             "; accepted: 1, 2, 3, 5, 8, 9, 12, 13, 14, 18, 19, 20, 21");
     }
 }
 

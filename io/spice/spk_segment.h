@@ -2,13 +2,13 @@
 // A segment of an SPK: where a body is about a centre over a span of time, by one of the data types of NAIF, "SPK
 // Required Reading".
 //
-// Types: 1, 21 (modified difference arrays), 2, 3, 20 (Chebyshev polynomials), 5 (two bodies between states), 8, 9, 12,
-// 13, 18 (interpolated states). What NAIF's document says of a type stands in that type's source.
+// Types: 1, 21 (modified difference arrays), 2, 3, 14, 20 (Chebyshev polynomials), 5 (two bodies between states), 8, 9,
+// 12, 13, 18, 19 (interpolated states). What NAIF's document says of a type stands in that type's source.
 
 #include <memory>
 #include <string>
 
-#include "io/spice/daf_file.h"
+#include "io/naif/daf_file.h"
 #include "render/sky/bodies.h"
 
 namespace hilcam {

@@ -10,11 +10,11 @@ namespace hilcam {
 
 inline constexpr double kKilometre_m = 1000;
 
-// Types 2, 3, 20.
+// Types 2, 3, 14, 20.
 std::unique_ptr<SpkSegment> make_spk_chebyshev(const SpkSummary& about, std::vector<double> words);
 // Type 5.
 std::unique_ptr<SpkSegment> make_spk_two_body(const SpkSummary& about, std::vector<double> words);
-// Types 8, 9, 12, 13, 18.
+// Types 8, 9, 12, 13, 18, 19.
 std::unique_ptr<SpkSegment> make_spk_discrete(const SpkSummary& about, std::vector<double> words);
 // Types 1, 21.
 std::unique_ptr<SpkSegment> make_spk_differences(const SpkSummary& about, std::vector<double> words);

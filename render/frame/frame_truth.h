@@ -34,6 +34,8 @@ struct TruthWishes {
     double faintest_magnitude = 30;
     // Layers, a value for each pixel.
     bool object = false, range = false, depth = false, normal = false, position = false, part = false;
+    // FrameTruth::silhouettes, with visibility; they are allocated for each frame, so this is not for the loop.
+    bool silhouettes = false;
     // The thing of which each object of the renderer is a part; empty: each object is a thing of its own. The
     // first of a thing's objects gives its pose. Things are numbered in the order of their first objects.
     std::vector<std::uint32_t> thing_of_object;
@@ -83,6 +85,17 @@ struct SeenThing {
     PixelBox silhouette_box_px;          // may reach beyond the frame
     bool silhouette_cut = false;         // there is more of it than a frame's size away
     double visible_fraction = kUnknown;  // visible area over the silhouette's
+};
+
+// The pixels that a whole object covers by the rays through their middles alone, large or small, in the frame and
+// as far beside it as SeenThing has it; for labels. Beside the frame a ray may stand for a square of several.
+struct PixelSilhouette {
+    std::uint32_t thing = kSkyId;  // id of the object
+    std::uint64_t px = 0;          // pixels that it would cover if it were alone
+    PixelBox box_px;               // px of the frame; may reach beyond it
+    // The frame's pixels that it covers behind other things, by row * width + column, rising. With the object's
+    // own pixels of the object layer they are its silhouette in the frame.
+    std::vector<std::uint32_t> hidden_px;
 };
 
 // A part of an object that turns: where it is now.
@@ -139,6 +152,7 @@ struct FrameTruth {
     std::vector<SeenStar> stars;       // that are drawn in the frame, in the catalogue's order
     std::uint64_t stars_left_out = 0;  // for which there was no room
     TruthLayers layers;
+    std::vector<PixelSilhouette> silhouettes;  // those of the objects, without terrain
     double took_ms = 0;
 
     // Scratch: where objects that are drawn as points can be met, and the stars of the field.

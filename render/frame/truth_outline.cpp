@@ -52,6 +52,11 @@ class Packets {
     std::size_t count_ = 0;
 };
 
+std::size_t pixel_number(const FrameRaster& raster, Vec2d frame_px) {
+    return static_cast<std::size_t>(frame_px.y) * static_cast<std::size_t>(raster.width_px) +
+           static_cast<std::size_t>(frame_px.x);
+}
+
 }  // namespace
 
 void TruthProbe::Outline::add(Vec2d frame_px, double area) {
@@ -111,18 +116,21 @@ std::uint32_t TruthProbe::meets_alone(const SeenThing& thing, std::span<const Ve
 }
 
 // Sums up what the thing covers of the places that fill(row, packets) gives, over all rows from one to
-// another.
+// another. marks: a byte for each pixel of the frame, which is set where it is covered.
 template <class Fill>
-TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, int last_row,
-                                        const Fill& fill) const {
+TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, int last_row, const Fill& fill,
+                                        std::vector<std::uint8_t>* marks) const {
     const auto add_rows = [&](const tbb::blocked_range<int>& range, Outline sum) {
         const auto trace = [&](std::span<const Vec2d> frame_px, std::span<const double> area_px) {
             std::array<Vec2d, kPacketSize> image_px;
             for (std::size_t k = 0; k < frame_px.size(); ++k)
                 image_px[k] = truth_.raster.image_px(frame_px[k]);
             const std::uint32_t met = meets_alone(thing, {image_px.data(), frame_px.size()});
-            for (std::size_t k = 0; k < frame_px.size(); ++k)
-                if ((met >> k & 1u) != 0) sum.add(frame_px[k], area_px[k]);
+            for (std::size_t k = 0; k < frame_px.size(); ++k) {
+                if ((met >> k & 1u) == 0) continue;
+                sum.add(frame_px[k], area_px[k]);
+                if (marks) (*marks)[pixel_number(truth_.raster, frame_px[k])] = 1;
+            }
         };
         Packets packets(trace);
         for (int row = range.begin(); row < range.end(); ++row) fill(row, packets);
@@ -138,12 +146,13 @@ TruthProbe::Outline TruthProbe::covered(const SeenThing& thing, int first_row, i
 }
 
 // Finds the part within the frame that lies behind other things and under black pixels.
-TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelBox& bounds) const {
+TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelBox& bounds,
+                                            std::vector<std::uint8_t>* marks) const {
     const PixelBox box{std::max(bounds.x0, 0), std::max(bounds.y0, 0),
                        std::min(bounds.x1, truth_.raster.width_px),
                        std::min(bounds.y1, truth_.raster.height_px)};
     if (box.empty()) return {};
-    return covered(thing, box.y0, box.y1, [&](int y, auto& packets) {
+    const auto fill = [&](int y, auto& packets) {
         const std::span<const std::uint32_t> ids = std::as_const(truth_.layers.object).row(y);
         for (int x = box.x0; x < box.x1; ++x) {
             const std::uint32_t id = ids[static_cast<std::size_t>(x)];
@@ -152,40 +161,28 @@ TruthProbe::Outline TruthProbe::hidden_part(const SeenThing& thing, const PixelB
             const Vec2d at{x + 0.5, y + 0.5};
             if (id != kSkyId || !on_image(truth_.raster.image_px(at))) packets.add(at, 1);
         }
-    });
+    };
+    return covered(thing, box.y0, box.y1, fill, marks);
 }
 
 // Finds the part in a box beside the frame; rays go through the middles of squares of `step` pixels.
 TruthProbe::Outline TruthProbe::part_beside(const SeenThing& thing, const PixelBox& box, int step) const {
     if (box.empty()) return {};
     const int rows = (box.y1 - box.y0 + step - 1) / step;
-    return covered(thing, 0, rows, [&](int row, auto& packets) {
+    const auto fill = [&](int row, auto& packets) {
         const int y0 = box.y0 + row * step, y1 = std::min(y0 + step, box.y1);
         for (int x0 = box.x0; x0 < box.x1; x0 += step) {
             const int x1 = std::min(x0 + step, box.x1);
             packets.add({0.5 * (x0 + x1), 0.5 * (y0 + y1)}, area_of({x0, y0, x1, y1}));
         }
-    });
+    };
+    return covered(thing, 0, rows, fill, nullptr);
 }
 
-void TruthProbe::measure_outline(SeenThing& thing) {
-    const auto disks = frame_.background->disks();
-    if (thing.is_body && std::none_of(disks.begin(), disks.end(),
-                                      [&](const PlacedBody& body) { return truth_id(body.id) == thing.id; }))
-        return;
-    // Ground has no outline of its own: there is as much of it as the camera needs.
-    if (placer_.has_terrain() && thing.id == 1 + owner_of(placer_.objects() - 1)) return;
-    const PixelBox bounds = canvas_bounds(thing);
-    if (bounds.empty()) return;
-    if (bounds.x1 - bounds.x0 <= SeenThing::kSmall_px && bounds.y1 - bounds.y0 <= SeenThing::kSmall_px)
-        return measure_small(thing, bounds);
-
+// Finds the part in all of the bounds beside the frame; step: gets the side of the squares.
+TruthProbe::Outline TruthProbe::parts_beside(const SeenThing& thing, const PixelBox& bounds,
+                                             int& step) const {
     const int width = truth_.raster.width_px, height = truth_.raster.height_px;
-    Outline all = hidden_part(thing, bounds);
-    if (thing.visible_px > 0) {
-        const PixelBox& seen = thing.visible_box_px;
-        all.add(Outline{static_cast<double>(thing.visible_px), seen.x0, seen.y0, seen.x1, seen.y1});
-    }
     const int y0 = std::max(bounds.y0, 0), y1 = std::min(bounds.y1, height);
     const std::array<PixelBox, 4> beside = {{{bounds.x0, bounds.y0, bounds.x1, std::min(bounds.y1, 0)},
                                              {bounds.x0, std::max(bounds.y0, height), bounds.x1, bounds.y1},
@@ -193,8 +190,60 @@ void TruthProbe::measure_outline(SeenThing& thing) {
                                              {std::max(bounds.x0, width), y0, bounds.x1, y1}}};
     double area_px = 0;
     for (const PixelBox& box : beside) area_px += area_of(box);
-    const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area_px / kMaxRaysBeside))));
+    step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area_px / kMaxRaysBeside))));
+    Outline all;
     for (const PixelBox& box : beside) all.add(part_beside(thing, box, step));
+    return all;
+}
+
+// A body that is a point has none, and ground neither: there is as much of it as the camera needs.
+bool TruthProbe::has_outline(const SeenThing& thing) const {
+    const auto disks = frame_.background->disks();
+    if (thing.is_body)
+        return std::any_of(disks.begin(), disks.end(),
+                           [&](const PlacedBody& body) { return truth_id(body.id) == thing.id; });
+    return !placer_.has_terrain() || thing.id != 1 + owner_of(placer_.objects() - 1);
+}
+
+PixelSilhouette TruthProbe::silhouette_of(const SeenThing& thing, std::vector<std::uint8_t>& marks) const {
+    PixelSilhouette out;
+    out.thing = thing.id;
+    const PixelBox bounds = canvas_bounds(thing);
+    if (bounds.empty()) return out;
+    std::fill(marks.begin(), marks.end(), std::uint8_t{0});
+    Outline all = hidden_part(thing, bounds, &marks);
+    if (all.area_px > 0)
+        for (std::size_t i = 0; i < marks.size(); ++i)
+            if (marks[i] != 0) out.hidden_px.push_back(static_cast<std::uint32_t>(i));
+    if (thing.visible_px > 0) all.add(Outline(thing.visible_box_px, static_cast<double>(thing.visible_px)));
+    int step = 1;
+    all.add(parts_beside(thing, bounds, step));
+    out.px = static_cast<std::uint64_t>(all.area_px);
+    out.box_px = all.box();
+    return out;
+}
+
+// This comes before measure_outline(), which has other boxes of small things than their pixels'.
+void TruthProbe::find_silhouettes() {
+    truth_.silhouettes.clear();
+    std::vector<std::uint8_t> marks(static_cast<std::size_t>(truth_.raster.width_px) *
+                                    static_cast<std::size_t>(truth_.raster.height_px));
+    for (const SeenThing& thing : truth_.things)
+        if (!thing.is_body && has_outline(thing)) truth_.silhouettes.push_back(silhouette_of(thing, marks));
+}
+
+void TruthProbe::measure_outline(SeenThing& thing) {
+    if (!has_outline(thing)) return;
+    const PixelBox bounds = canvas_bounds(thing);
+    if (bounds.empty()) return;
+    if (bounds.x1 - bounds.x0 <= SeenThing::kSmall_px && bounds.y1 - bounds.y0 <= SeenThing::kSmall_px)
+        return measure_small(thing, bounds);
+
+    const int width = truth_.raster.width_px, height = truth_.raster.height_px;
+    Outline all = hidden_part(thing, bounds);
+    if (thing.visible_px > 0) all.add(Outline(thing.visible_box_px, static_cast<double>(thing.visible_px)));
+    int step = 1;
+    all.add(parts_beside(thing, bounds, step));
     thing.silhouette_px = all.area_px;
     thing.silhouette_box_px = all.box();
     if (all.area_px <= 0) return;

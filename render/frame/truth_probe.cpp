@@ -78,6 +78,7 @@ void TruthProbe::report() {
     if (truth_.wishes.rays()) trace_pixels();
     if (truth_.wishes.visibility) {
         count_pixels();
+        if (truth_.wishes.silhouettes) find_silhouettes();
         for (SeenThing& thing : truth_.things) measure_outline(thing);
     }
     if (truth_.wishes.stars) report_stars();

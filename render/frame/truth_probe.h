@@ -55,6 +55,9 @@ class TruthProbe {
         double area_px = 0;
         int x0 = 1 << 30, y0 = 1 << 30, x1 = -(1 << 30), y1 = -(1 << 30);
 
+        Outline() = default;
+        Outline(const PixelBox& box, double area)
+            : area_px(area), x0(box.x0), y0(box.y0), x1(box.x1), y1(box.y1) {}
         void add(Vec2d frame_px, double area);
         void add(const Outline& other);
         PixelBox box() const { return area_px > 0 ? PixelBox{x0, y0, x1, y1} : PixelBox{}; }
@@ -63,9 +66,15 @@ class TruthProbe {
     PixelBox canvas_bounds(const SeenThing& thing) const;
     std::uint32_t meets_alone(const SeenThing& thing, std::span<const Vec2d> image_px) const;
     template <class Fill>
-    Outline covered(const SeenThing& thing, int first_row, int last_row, const Fill& fill) const;
-    Outline hidden_part(const SeenThing& thing, const PixelBox& bounds) const;
+    Outline covered(const SeenThing& thing, int first_row, int last_row, const Fill& fill,
+                    std::vector<std::uint8_t>* marks) const;
+    Outline hidden_part(const SeenThing& thing, const PixelBox& bounds,
+                        std::vector<std::uint8_t>* marks = nullptr) const;
     Outline part_beside(const SeenThing& thing, const PixelBox& box, int step) const;
+    Outline parts_beside(const SeenThing& thing, const PixelBox& bounds, int& step) const;
+    bool has_outline(const SeenThing& thing) const;
+    void find_silhouettes();
+    PixelSilhouette silhouette_of(const SeenThing& thing, std::vector<std::uint8_t>& marks) const;
     void measure_small(SeenThing& thing, const PixelBox& bounds);
 
     const FramePlacer& placer_;

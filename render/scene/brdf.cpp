@@ -5,6 +5,7 @@
 
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/lane_sum.h"
+#include "render/vocabulary/units.h"
 
 namespace hilcam {
 
@@ -180,6 +181,36 @@ float brdf_lobe_share(const Scatterer& at, float no) {
 float brdf_below_facets(const Material& material, float no) {
     const LobeAlbedo* const facets = facets_of(material);
     return facets ? 1 - (*facets)(no) : 1.0f;
+}
+
+namespace {
+
+// The share of sunlight from 45 degrees that comes back in all directions: the midpoint rule over the
+// hemisphere, for models without narrow lobes.
+double hemispherical_reflectance(const Scatterer& at, const SpectralGrid& grid) {
+    constexpr int kCosines = 32, kAzimuths = 64;
+    constexpr float in = 0.70710678f;
+    double sum = 0;
+    for (int i = 0; i < kCosines; ++i)
+        for (int j = 0; j < kAzimuths; ++j) {
+            const float out = (static_cast<float>(i) + 0.5f) / kCosines;
+            const float azimuth_rad = 2 * kPiF * (static_cast<float>(j) + 0.5f) / kAzimuths;
+            const float between =
+                in * out + std::sqrt((1 - in * in) * (1 - out * out)) * std::cos(azimuth_rad);
+            sum += static_cast<double>(mean(brdf_value(at, {in, out, between}), grid.size()) * out);
+        }
+    return sum * 2 * kPi / (kCosines * kAzimuths);
+}
+
+}  // namespace
+
+// The albedo that brdf_albedo() has for a path's sake is far above what these models reflect.
+double reflectance_of(const Material& material, const SpectralGrid& grid) {
+    const Scatterer at{&material, material.ggx_alpha, material.base, material.highlight};
+    constexpr float kCosine = 0.7f;
+    return std::min(1.0, material.traits().albedo_is_bound
+                             ? hemispherical_reflectance(at, grid)
+                             : static_cast<double>(brdf_albedo(at, kCosine, grid.size())));
 }
 
 }  // namespace hilcam

@@ -18,12 +18,15 @@ Mat3d fixed_from_icrf(const OwnBody& body, const StateVector& s, TimeTai time) {
     const Vec3d node{-std::sin(ra), std::cos(ra), 0};
     const Vec3d z{std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
     const Vec3d across = cross(z, node);
-    // J2000, 12 h TT, is 2000-01-01T11:59:27.816 TAI.
-    static const TimeTai j2000 = parse_utc("2000-01-01T11:58:55.816Z");
-    const double seconds = static_cast<double>(time - j2000) * kSecondsPerNs;
-    const double w = std::fmod(body.meridian_rad + body.rate_rad_s * seconds, kTurn_rad);
+    const double w = std::fmod(body.meridian_rad + body.rate_rad_s * seconds_since_j2000(time), kTurn_rad);
     const Vec3d x = std::cos(w) * node + std::sin(w) * across;
     return {x, cross(z, x), z};
+}
+
+double seconds_since_j2000(TimeTai time) {
+    // J2000, 12 h TT, is 2000-01-01T11:59:27.816 TAI.
+    static const TimeTai j2000 = parse_utc("2000-01-01T11:58:55.816Z");
+    return static_cast<double>(time - j2000) * kSecondsPerNs;
 }
 
 void place_own_bodies(TimeTai time, const OwnBodies& own, std::optional<BodyId> home, Bodies& out) {

@@ -32,6 +32,8 @@ struct OwnBodies {
     std::vector<OwnBody> list;  // kMaxOwnBodies at most
 };
 
+// Returns the seconds of TT since J2000.
+double seconds_since_j2000(TimeTai time);
 // Its axes at an instant from its state about its centre.
 Mat3d fixed_from_icrf(const OwnBody& body, const StateVector& about_center, TimeTai time);
 // Puts them into `bodies`, whose planets stand already; home: the body that the origin belongs to. Loop.

@@ -4,6 +4,7 @@
     campaign_test.py HILCAM SOURCE_DIR [CLASS...]
 """
 import csv
+import itertools
 import json
 import math
 import os
@@ -126,6 +127,37 @@ def box_of(mask):
     return [int(x.min()), int(y.min()), int(x.max() - x.min() + 1), int(y.max() - y.min() + 1)]
 
 
+def ply(file):
+    """Vertices [mm], normals and triangles of a PLY file in text, as the format's document has models."""
+    lines = iter(file.read_text().splitlines())
+    counts, names, element = {}, [], None
+    assert next(lines) == "ply" and next(lines) == "format ascii 1.0"
+    for line in lines:
+        word, *rest = line.split()
+        if word == "end_header":
+            break
+        if word == "element":
+            element = rest[0]
+            counts[element] = int(rest[1])
+        elif word == "property" and element == "vertex":
+            names.append(rest[-1])
+    table = numpy.array([[float(v) for v in next(lines).split()] for _ in range(counts["vertex"])])
+    faces = numpy.array([[int(v) for v in next(lines).split()] for _ in range(counts["face"])])
+    assert next(lines, None) is None and (faces[:, 0] == 3).all()
+    columns = [[names.index(n) for n in group] for group in (("x", "y", "z"), ("nx", "ny", "nz"))]
+    return table[:, columns[0]], table[:, columns[1]], faces[:, 1:]
+
+
+def check_model(test, vertices, normals, triangles, info):
+    """models_info.json as scripts/calc_model_info.py of the toolkit counts it."""
+    test.assertEqual(len(numpy.unique(triangles)), len(vertices))
+    test.assertLess(numpy.abs(numpy.linalg.norm(normals, axis=1) - 1).max(), 1e-5)
+    diameter = max(numpy.linalg.norm(vertices - v, axis=1).max() for v in vertices)
+    for name, value in (("diameter", diameter), *((f"min_{a}", v) for a, v in zip("xyz", vertices.min(0))),
+                        *((f"size_{a}", v) for a, v in zip("xyz", numpy.ptp(vertices, axis=0)))):
+        test.assertLess(abs(info[name] - value), 1e-7 * diameter, name)
+
+
 class Made(unittest.TestCase):
     """One campaign that all of these look at."""
 
@@ -162,6 +194,15 @@ class Made(unittest.TestCase):
         self.assertFalse((parts / "index.csv").exists())
         campaign(CAMPAIGN, parts, "--merge")
         self.assertEqual(contents(parts), first)
+        # Two clusters that share nothing, with a case that both have made: their folders copied together are one campaign.
+        clusters = [self.top / f"cluster_{n}/out" for n in (1, 2)]
+        for cluster, part in zip(clusters, ("1-5", "5-8")):
+            campaign(CAMPAIGN, cluster, "--cases", part)
+        together = self.top / "together/out"
+        for cluster in clusters:
+            shutil.copytree(cluster, together, dirs_exist_ok=True)
+        campaign(CAMPAIGN, together, "--merge")
+        self.assertEqual(contents(together), first)
 
     def test_a_case_comes_again_alone_and_as_a_picture(self):
         alone = self.top / "alone/out"
@@ -230,9 +271,14 @@ class Made(unittest.TestCase):
                 stem = f"{int(key):06d}"
                 self.assertEqual((scene / f"gray/{stem}.png").read_bytes(), (self.folder / f"views/{case['name']}.png").read_bytes())
                 mask = numpy.array(Image.open(scene / f"mask_visib/{stem}_000000.png")) > 0
+                whole = numpy.array(Image.open(scene / f"mask/{stem}_000000.png")) > 0
                 info, pose = infos[key][0], poses[key][0]
                 self.assertEqual((int(mask.sum()), box_of(mask)), (info["px_count_visib"], info["bbox_visib"]))
+                self.assertEqual(info["visib_fract"], info["px_count_visib"] / info["px_count_all"])
                 self.assertAlmostEqual(info["visib_fract"], target["visible_fraction"])
+                # Nothing stands before the target.
+                self.assertTrue((whole == mask).all())
+                self.assertEqual(info["px_count_valid"], info["px_count_visib"])
                 if not target["silhouette_cut"] and info["visib_fract"] == 1:
                     self.assertEqual(info["bbox_obj"], info["bbox_visib"])
                 # The model's origin, by cam_K and the pose, is truth's centre without distortion, from the first pixel's middle.
@@ -253,6 +299,16 @@ class Made(unittest.TestCase):
                 depth = numpy.array(Image.open(scene / f"depth/{stem}.png")) * camera["depth_scale"] / 1000
                 self.assertEqual((depth > 0).sum(), mask.sum())
                 self.assertLess(numpy.abs(depth[mask] - p[2]).max(), target["radius_m"] + camera["depth_scale"] / 1000)
+
+    def test_bop_model(self):
+        vertices, normals, triangles = ply(self.folder / "bop/models/obj_000001.ply")
+        info = json.loads((self.folder / "bop/models/models_info.json").read_text())
+        self.assertEqual(list(info), ["1"])
+        check_model(self, vertices, normals, triangles, info["1"])
+        # The target of 20,000 triangles, whose truth tells the sphere about its origin that holds it.
+        self.assertGreater(len(triangles), 15000)
+        radius = record(self.folder, 1)["frames"][0]["truth"]["objects"][0]["radius_m"]
+        self.assertAlmostEqual(numpy.linalg.norm(vertices, axis=1).max() / 1000, radius, 4)
 
     def test_yolo(self):
         data = yaml.safe_load((self.folder / "yolo/data.yaml").read_text())
@@ -313,6 +369,125 @@ class Made(unittest.TestCase):
         page = (older / "index.html").read_text()
         self.assertIn("8 cases are in both; 1 have another outcome", page)
         self.assertIn("<td>000002</td><td>done</td><td>failed</td><td>too dark</td>", page)
+
+
+class Hidden(unittest.TestCase):
+    """BOP's labels where one object hides another, and a third is cut by the frame: two cubes of 2 m of one make, the first 10 m
+    away and the second, small by its scale, before its right half; a big one at the frame's left edge."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        top = pathlib.Path(cls.temporary.name)
+        corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        quads = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+        (top / "cube.obj").write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a} {b} {c} {d}\n" for a, b, c, d in quads))
+        scenario = yaml.safe_load(SCENARIO.read_text())
+        # World axes are the camera's.
+        scenario["time_utc"] = "2026-03-20T14:00:00Z"
+        scenario["camera_pose"] = {"position_m": [0, 0, 0], "attitude": "quaternion", "attitude_wxyz": [1, 0, 0, 0]}
+        cube = lambda name, place, scale=1: {"name": name, "mesh": "cube.obj", "scale": scale,
+                                             "pose": {"position_m": place, "attitude": "quaternion", "attitude_wxyz": [0.9, 0.3, 0.3, 0.1]}}
+        scenario["objects"] = [cube("behind", [0.2, 0.1, 10]), cube("before", [0.6, 0.1, 6], 0.4), cube("cut", [-1.4, 0.2, 5], 0.5), cube("gone", [0, 0, -5])]
+        (top / "scenario.yaml").write_text(yaml.safe_dump(scenario))
+        cls.folder = top / "out"
+        campaign("name: hidden\nscenario: scenario.yaml\nlabels: [bop, coco]\n", cls.folder, "--jobs", 1)
+        cls.scene = cls.folder / "bop/all/000000"
+        cls.camera, cls.poses, cls.infos = (json.loads((cls.scene / f"scene_{n}.json").read_text())["0"] for n in ("camera", "gt", "gt_info"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def mask(self, kind, instance):
+        return numpy.array(Image.open(self.scene / f"{kind}/000000_{instance:06d}.png")) > 0
+
+    def places(self, instance):
+        """The model's corners in the picture, by cam_K and the pose, in px from its corner."""
+        vertices, _, _ = ply(self.folder / f"bop/models/obj_{self.poses[instance]['obj_id']:06d}.ply")
+        k, r = (numpy.array(v).reshape(3, 3) for v in (self.camera["cam_K"], self.poses[instance]["cam_R_m2c"]))
+        seen = (vertices @ r.T + self.poses[instance]["cam_t_m2c"]) @ k.T
+        return seen[:, :2] / seen[:, 2:] + 0.5
+
+    def test_masks_have_what_is_hidden(self):
+        for i, info in enumerate(self.infos):
+            whole, visible = self.mask("mask", i), self.mask("mask_visib", i)
+            self.assertFalse((visible & ~whole).any())
+            self.assertEqual(int(visible.sum()), info["px_count_visib"])
+            if info["px_count_all"]:
+                self.assertEqual(info["visib_fract"], info["px_count_visib"] / info["px_count_all"])
+        behind, before = self.mask("mask", 0), self.mask("mask", 1)
+        # Wherever both are, the nearer one is seen.
+        self.assertGreater((behind & before).sum(), 100)
+        self.assertTrue((self.mask("mask_visib", 0) == behind & ~before).all())
+        self.assertEqual((self.infos[0]["px_count_all"], self.infos[0]["bbox_obj"]), (behind.sum(), box_of(behind)))
+        self.assertLess(self.infos[0]["visib_fract"], 1)
+        self.assertEqual(self.infos[1]["visib_fract"], 1)
+        # The hidden part counts: what hides it has a depth.
+        self.assertEqual(self.infos[0]["px_count_valid"], self.infos[0]["px_count_all"])
+
+    def test_what_lies_beside_the_frame_counts(self):
+        info, whole = self.infos[2], self.mask("mask", 2)
+        self.assertEqual(info["px_count_valid"], whole.sum())
+        self.assertEqual(info["px_count_visib"], whole.sum())
+        self.assertGreater(info["px_count_all"], whole.sum())
+        self.assertLess(info["bbox_obj"][0], 0)
+        self.assertEqual(info["bbox_visib"], box_of(whole))
+
+    def test_what_is_not_seen_has_nothing(self):
+        self.assertEqual(self.infos[3], {"bbox_obj": [-1] * 4, "bbox_visib": [-1] * 4, "px_count_all": 0, "px_count_valid": 0, "px_count_visib": 0, "visib_fract": 0})
+        self.assertFalse(self.mask("mask", 3).any() or self.mask("mask_visib", 3).any())
+
+    def test_models_lie_where_the_masks_are(self):
+        """A cube's silhouette is the convex hull of its corners: every pixel's middle in it is the mask's, and no other."""
+        height, width = self.mask("mask", 0).shape
+        y, x = numpy.mgrid[0:height, 0:width] + 0.5
+        for i in range(3):
+            corners = self.places(i)
+            left, top, across, down = self.infos[i]["bbox_obj"]
+            self.assertLess(numpy.abs(corners.min(0) - [left, top]).max(), 1)
+            self.assertLess(numpy.abs(corners.max(0) - [left + across, top + down]).max(), 1)
+            # How far a pixel's middle lies outside of the hull, by the support function across every two corners: the hull's edges are among them.
+            outside = numpy.full((height, width), -numpy.inf)
+            for a, b in itertools.permutations(numpy.unique(corners, axis=0), 2):
+                c, s = numpy.array([a[1] - b[1], b[0] - a[0]]) / numpy.hypot(*(a - b))
+                numpy.maximum(outside, x * c + y * s - (corners @ [c, s]).max(), out=outside)
+            mask = self.mask("mask", i)
+            self.assertLess(outside[mask].max(), 1e-2)
+            self.assertGreater(outside[~mask].min(), -1e-2)
+
+    def test_each_object_has_its_model(self):
+        info = json.loads((self.folder / "bop/models/models_info.json").read_text())
+        self.assertEqual(list(info), ["1", "2", "3", "4"])
+        for i, scale in zip(range(1, 5), (1, 0.4, 0.5, 1)):
+            vertices, normals, triangles = ply(self.folder / f"bop/models/obj_{i:06d}.ply")
+            check_model(self, vertices, normals, triangles, info[str(i)])
+            self.assertAlmostEqual(info[str(i)]["diameter"], 2000 * scale * math.sqrt(3), 2)
+            self.assertAlmostEqual(info[str(i)]["min_x"], -1000 * scale, 3)
+            # Normals point outwards.
+            self.assertTrue((numpy.einsum("ij,ij->i", vertices, normals) > 0).all())
+
+    def test_a_shape_that_varies_has_no_model(self):
+        folder = self.folder.parent / "scales/out"
+        (folder.parent).mkdir()
+        for name in ("scenario.yaml", "cube.obj"):
+            shutil.copy(self.folder.parent / name, folder.parent)
+        text = "name: scales\nscenario: scenario.yaml\nvary: [{key: objects.1.scale, uniform: [0.3, 0.5]}]\nlabels: [bop]\n"
+        (folder.parent / "scenario.yaml").write_text((self.folder.parent / "scenario.yaml").read_text().replace("../../configs", f"{SOURCE}/configs"))
+        campaign(text, folder, "--jobs", 1)
+        self.assertEqual(sorted(p.name for p in (folder / "bop/models").iterdir()), ["models_info.json", "obj_000001.ply", "obj_000003.ply", "obj_000004.ply"])
+
+    def test_records_of_an_older_program_are_named(self):
+        older = self.folder.parent / "older/out"
+        older.parent.mkdir()
+        for name in ("scenario.yaml", "cube.obj"):
+            shutil.copy(self.folder.parent / name, older.parent)
+        campaign("name: hidden\nscenario: scenario.yaml\nlabels: [bop, coco]\n", older, "--jobs", 1)
+        case = record(older, 1)
+        del case["frames"][0]["silhouettes"]
+        (older / "cases/000001.json").write_text(json.dumps(case))
+        result = campaign("name: hidden\nscenario: scenario.yaml\nlabels: [bop, coco]\n", older, "--merge", expect=2)
+        self.assertIn("000001.json: has no silhouettes", result.stderr)
 
 
 class Flow(unittest.TestCase):
@@ -415,17 +590,28 @@ class Killed(unittest.TestCase):
             (broken.parent).mkdir()
             shutil.copy(whole.parent / "campaign.yaml", broken.parent)
             shutil.copy(whole.parent / "points.csv", broken.parent)
-            done = []
-            for _ in range(10):
+            records = lambda: len(list((broken / "cases").glob("0*.json")))
+            done = [0]
+            for kill in range(10):
                 process = subprocess.Popen([HILCAM, "campaign", broken.parent / "campaign.yaml", "--out", broken],
                                            stderr=subprocess.DEVNULL, start_new_session=True)
-                # Loading comes first, each time.
-                time.sleep(draw.uniform(0.25, 0.55) * min(took, 4))
+                # Every other kill comes once this process has finished cases, however long it loads, in the middle of later ones;
+                # the others come at any time, most of them while it loads.
+                if kill % 2 == 0:
+                    wanted, end = done[-1] + draw.randint(1, 5), time.monotonic() + 120
+                    while records() < wanted and process.poll() is None and time.monotonic() < end:
+                        time.sleep(0.002)
+                    time.sleep(draw.uniform(0, 0.05))
+                else:
+                    time.sleep(draw.uniform(0.05, 0.3) * min(took, 4))
+                self.assertIsNone(process.poll(), "the campaign ended before it was killed")
                 os.killpg(process.pid, signal.SIGKILL)
                 process.wait()
-                done.append(len(list((broken / "cases").glob("0*.json"))))
+                done.append(records())
             self.assertEqual(done, sorted(done))
-            self.assertGreater(len(set(done)), 2, done)
+            # The five kills that waited for cases have each left some more.
+            self.assertGreaterEqual(len(set(done)), 6, done)
+            self.assertLess(done[-1], 60)
             campaign(text, broken)
             self.assertEqual(contents(broken), contents(whole))
             self.assertEqual([p for p in broken.rglob(".unfinished*")], [])

@@ -196,7 +196,7 @@ class Campaigns(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         top = pathlib.Path(cls.temporary.name)
         (top / "t.csv").write_text("camera.exposure_ms\n0.1\n-1\n0.3\n")
-        (top / "c.yaml").write_text(f"name: c\nscenario: {SCENARIO}\ncount: 3\ntable: t.csv\npictures: {{count: 2, flow: true, variance: true, layers: [object, position]}}\n")
+        (top / "c.yaml").write_text(f"name: c\nscenario: {SCENARIO}\ncount: 3\ntable: t.csv\npictures: {{count: 2, flow: true, variance: true, layers: [object, position]}}\nlabels: [bop]\n")
         cls.campaign = hilcam.Campaign.make(top / "c.yaml", top / "out", program=str(HILCAM))
 
     @classmethod
@@ -222,6 +222,7 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(c.view(1, picture=1).shape[:2], size)
         mask = c.mask(1)
         self.assertEqual(int(mask.sum()), truth[0].objects[0].visible_px)
+        self.assertTrue(numpy.array_equal(c.silhouette(1), mask))  # nothing stands before it
         layers = c.layers(1)
         self.assertTrue(numpy.array_equal(layers["object.ID"] == 1, mask))
         self.assertLess(numpy.abs(layers["position.Z"][mask] - truth[0].objects[0].position_camera_m[2]).max(), truth[0].objects[0].radius_m)

@@ -15,6 +15,12 @@ from .truth import FrameTruth
 PathLike = Union[str, pathlib.Path]
 
 
+def _mask_in(frame: Dict[str, Any], text: Optional[str]) -> numpy.ndarray:
+    image = frame["truth"]["image"]
+    size = (image["height_px"], image["width_px"])
+    return numpy.zeros(size, bool) if text is None else mask_of_run_lengths(text, *size)
+
+
 @dataclasses.dataclass(frozen=True)
 class Case:
     number: int
@@ -95,10 +101,14 @@ class Campaign:
     def mask(self, number: int, object: int = 1, picture: int = 0) -> numpy.ndarray:
         """Where an object is visible: booleans, of the picture's size."""
         frame = self.case(number).record["frames"][picture]
-        image = frame["truth"]["image"]
-        text = frame["masks"].get(str(object))
-        size = (image["height_px"], image["width_px"])
-        return numpy.zeros(size, bool) if text is None else mask_of_run_lengths(text, *size)
+        return _mask_in(frame, frame["masks"].get(str(object)))
+
+    def silhouette(self, number: int, object: int = 1, picture: int = 0) -> numpy.ndarray:
+        """What a whole object covers, also behind others: booleans, of the picture's size. Of a campaign with labels of BOP."""
+        frame = self.case(number).record["frames"][picture]
+        if "silhouettes" not in frame:
+            raise KeyError(f"{self.folder}: case {number} has no silhouettes; a campaign with bop among its labels has them")
+        return _mask_in(frame, frame["silhouettes"].get(str(object), {}).get("mask"))
 
     def _file(self, kind: str, number: int, picture: int, endings: Sequence[str]) -> pathlib.Path:
         stem = self.case(number).record["frames"][picture]["name"]

@@ -5,6 +5,7 @@
 #include "emulator/scenario/initial_world.h"
 #include "emulator/scenario/motion_builder.h"
 #include "io/config/config_yaml.h"
+#include "render/sky/own_bodies.h"
 #include "render/vocabulary/time_system.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/files.h"
@@ -128,6 +129,30 @@ TEST_F(MotionScenario, WhatIsMissingIsNamed) {
                 HasSubstr("iss.tle:2: found the instant 2026-01-01T00:00:00.000Z; it ends at 2014-02-19"));
 }
 
+// Eros as Archinal et al. 2018 have it: 11.35, 17.22, 326.07 + 1639.38864745 d; against a body of the same angles.
+TEST_F(MotionScenario, APoleAndARateAreTheIausAngles) {
+    World world(
+        scenario("objects:\n  - {name: eros, mesh: iss.obj, motion: {kind: fixed, position_m: [0, 0, 9000], "
+                 "attitude: {law: pole, "
+                 "pole_deg: [11.35, 17.22], meridian_deg: 326.07, rate_deg_day: 1639.38864745}}}\n"));
+    OwnBody eros;
+    eros.synchronous = false;
+    eros.pole_right_ascension_rad = 11.35 * kDegree_rad, eros.pole_declination_rad = 17.22 * kDegree_rad;
+    eros.meridian_rad = 326.07 * kDegree_rad, eros.rate_rad_s = 1639.38864745 * kDegree_rad / 86400;
+    for (const double after_s : {0.0, 1.0, 5000.0}) {
+        const WorldSnapshot now = world.at(after_s);
+        const Mat3d world_from_body = to_matrix(now.objects[0].world_from_body);
+        const Mat3d expected = transposed(fixed_from_icrf(eros, {}, now.time));
+        for (const Vec3d axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}})
+            EXPECT_LT(length(world_from_body * axis - expected * axis), 1e-8) << after_s;
+    }
+    const auto error = [&](const std::string& attitude) {
+        return error_of([&] { scenario("camera_motion: {kind: fixed, attitude: " + attitude + "}\n"); });
+    };
+    EXPECT_THAT(error("{law: pole}"), HasSubstr("it needs 'pole_deg'"));
+    EXPECT_THAT(error("{rate_deg_day: 3}"), HasSubstr("rate_deg_day: has no effect with this law"));
+}
+
 // Outside of what a file knows, with `hold`: the nearest place, at rest, and counted.
 TEST_F(MotionScenario, OutsideItStandsStillAndSaysSo) {
     World world(scenario("camera_motion: {kind: tle, tle: {file: iss.tle, valid_days: 1}, outside: hold}\n"));
@@ -135,6 +160,8 @@ TEST_F(MotionScenario, OutsideItStandsStillAndSaysSo) {
     EXPECT_EQ(now.camera.position_world_m, later.camera.position_world_m);
     EXPECT_EQ(length(now.camera_velocity_m_s), 0);
     EXPECT_EQ(world.state.held(), 2u);
+    EXPECT_THAT(world.state.first_gap(), HasSubstr("iss.tle:2: found the instant "));
+    EXPECT_THAT(world.state.first_gap(), HasSubstr("Z; it ends at 2014-01-21T22:23:04.000Z"));
 }
 
 // What it was turned by its orbit stays as it was, and so does what follows it there; none of it moves.

@@ -86,9 +86,11 @@ TEST_F(KernelBodiesTest, AMetaKernelNamesKernelsBesideIt) {
     write("names.tf", "KPL/FK\n\\begindata\nNAIF_BODY_NAME += 'SHIP'\nNAIF_BODY_CODE += -99\n");
     const auto meta = write("all.tm",
                             "KPL/MK\n\\begindata\nPATH_SYMBOLS = ( 'K' )\nPATH_VALUES = ( 'spk' )\n"
-                            "KERNELS_TO_LOAD = ( 'names.tf' '$K/long_+'\n 'name.bsp' )\n");
+                            "KERNELS_TO_LOAD = ( 'names.tf' '$K/long_+'\n 'name.bsp' 'shape.bds' )\n");
+    // A shape is an object's mesh: it is passed over here.
+    write("shape.bds", "DAS/DSK " + std::string(1100, '\0'));
     SpiceKernels k(std::vector{meta});
-    EXPECT_EQ(k.set.files.size(), 3u);
+    EXPECT_EQ(k.set.files.size(), 4u);
     EXPECT_NO_THROW(k.bodies.require(-99, "test"));
     EXPECT_EQ(k.set.pool.texts("NAIF_BODY_NAME")->front(), "SHIP");
 }

@@ -174,6 +174,82 @@ TEST(SpkSegment, InterpolatedStatesGivePolynomialsOfTheirDegree) {
     EXPECT_NEAR(length(s.velocity_m_s - 2e3 * m.velocity_km_s(1234.5)), 0, 1e-6);
 }
 
+// Type 14 over spans of any length, which begin at all times but the last.
+std::vector<double> packets_words(const Cubic& m, const std::vector<double>& times) {
+    std::vector<double> words = {3};
+    const double count = static_cast<double>(times.size() - 1);
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+        const double mid = 0.5 * (times[i] + times[i + 1]), radius = 0.5 * (times[i + 1] - times[i]);
+        words.insert(words.end(), {mid, radius});
+        append(words, chebyshev_of(m, mid, radius));
+        const auto v = rates_of(m, mid, radius);
+        append(words, std::array{v[0], v[1], v[2], Vec3d{}});
+    }
+    const auto begins = static_cast<double>(words.size());
+    words.insert(words.end(), times.begin(), times.end() - 1);
+    const auto end = static_cast<double>(words.size());
+    // Constants, reference directory and its type, references, packet directory, packets, reserved, size, offset, items.
+    words.insert(words.end(), {0, 1, end, 0, 3, begins, count, end, 0, 0, 1, count, end, 0, 26, 0, 17});
+    return words;
+}
+
+// Type 19: spans by turns of all three subtypes, each with states of its own from 30 s before to 30 s after it.
+std::vector<double> piecewise_words(const Cubic& m, const std::vector<double>& spans, bool later) {
+    std::vector<double> words, begins;
+    for (std::size_t i = 0; i + 1 < spans.size(); ++i) {
+        const std::size_t subtype = i % 3;
+        begins.push_back(static_cast<double>(words.size() + 1));
+        std::vector<double> times;
+        for (double t = spans[i] - 30; t <= spans[i + 1] + 30; t += 10) times.push_back(t);
+        for (const double t : times) {
+            const Vec3d p = m.position_km(t), v = m.velocity_km_s(t), a = 2 * m.c2 + 6 * (t - m.t0) * m.c3;
+            words.insert(words.end(), {p.x, p.y, p.z, v.x, v.y, v.z});
+            if (subtype == 0) words.insert(words.end(), {v.x, v.y, v.z, a.x, a.y, a.z});
+        }
+        words.insert(words.end(), times.begin(), times.end());
+        for (std::size_t k = 99; k + 1 < times.size(); k += 100) words.push_back(times[k]);
+        words.insert(words.end(), {static_cast<double>(subtype), subtype == 1 ? 8.0 : 4.0,
+                                   static_cast<double>(times.size())});
+    }
+    begins.push_back(static_cast<double>(words.size() + 1));
+    words.insert(words.end(), spans.begin(), spans.end());
+    for (std::size_t k = 99; k + 1 <= spans.size() - 1; k += 100) words.push_back(spans[k]);
+    words.insert(words.end(), begins.begin(), begins.end());
+    words.insert(words.end(), {later ? 1.0 : 0.0, static_cast<double>(spans.size() - 1)});
+    return words;
+}
+
+TEST(SpkSegment, PacketsOfAnyLengthAndSeriesOneAfterTheOtherGiveTheMotion) {
+    const Cubic m{300};
+    for (const bool big : {false, true})
+        expect_on(m, *loaded(segment(14, 0, 1600, packets_words(m, {0, 40, 200, 900, 1600})), big), 0, 1600);
+    // More than a hundred spans have a directory, and so have more than a hundred states.
+    std::vector<double> spans;
+    for (int i = 0; i <= 203; ++i) spans.push_back(40.0 * i);
+    spans.push_back(40 * 203 + 2000);
+    for (const bool later : {false, true})
+        expect_on(m, *loaded(segment(19, 0, spans.back(), piecewise_words(m, spans, later))), 0,
+                  spans.back());
+}
+
+// Two series that disagree: where they meet, the flag says which counts.
+TEST(SpkSegment, AnInstantBetweenTwoSeriesBelongsToTheOneThatIsSaid) {
+    for (const bool later : {false, true}) {
+        std::vector<double> words;
+        for (const double x : {1.0, 2.0}) {
+            for (int i = 0; i < 2; ++i) words.insert(words.end(), {x, 0, 0, 0, 0, 0});
+            words.insert(words.end(), {x - 1, x, 1, 2, 2});
+        }
+        words.insert(words.end(), {0, 1, 2, 1, 18, 35, later ? 1.0 : 0.0, 2});
+        const auto s = loaded(segment(19, 0, 2, words));
+        EXPECT_EQ(s->at(0).position_m.x, 1000);
+        EXPECT_EQ(s->at(0.999).position_m.x, 1000);
+        EXPECT_EQ(s->at(1).position_m.x, later ? 2000 : 1000);
+        EXPECT_EQ(s->at(1.001).position_m.x, 2000);
+        EXPECT_EQ(s->at(2).position_m.x, 2000);
+    }
+}
+
 TEST(SpkSegment, AWindowIsMovedInwardsAtTheEnds) {
     // A cubic through four states is not the motion, so that the choice of states shows: degree 3 of t^4.
     std::vector<double> words, times = {0, 1, 2, 3, 4, 5};
@@ -281,8 +357,19 @@ TEST(SpkSegment, DamagedSegmentsAreRefusedInOneLine) {
     words.back() = 0.5;
     EXPECT_THAT(refusal(segment(2, 0, 600, words)),
                 HasSubstr("records: found 0.5; accepted: a whole number"));
+    EXPECT_THAT(refusal(segment(15, 0, 1, {1, 2})),
+                HasSubstr("found type 15; accepted: 1, 2, 3, 5, 8, 9, 12, 13, 14, 18, 19, 20, 21"));
     EXPECT_THAT(refusal(segment(14, 0, 1, {1, 2})),
-                HasSubstr("found type 14; accepted: 1, 2, 3, 5, 8, 9, 12, 13, 18, 20, 21"));
+                HasSubstr("items at its end: found 2; accepted: a whole number, 17"));
+    words = packets_words(m, {0, 40, 200, 600});
+    words[0] = 2;
+    EXPECT_THAT(refusal(segment(14, 0, 600, words)),
+                HasSubstr("degree: found 2 and packets of 26 words; accepted: 2 and six times"));
+    words = piecewise_words(m, {0, 250, 700}, true);
+    EXPECT_THAT(refusal(segment(19, 0, 701, words)),
+                HasSubstr("its series go from 0 to 700 s; accepted: over all of its span"));
+    words[words.size() - 4] = 1e6;
+    EXPECT_THAT(refusal(segment(19, 0, 700, words)), HasSubstr("begin of a series: found 1000000; accepted"));
     EXPECT_THAT(refusal(segment(9, 0, 1, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 5, 5, 1, 2})),
                 HasSubstr("time 2: found 5 after 5"));
     EXPECT_THAT(refusal(segment(8, 0, 1, {0, 0, 0, 0, 0, 0, 0, 1, 3, 1})),

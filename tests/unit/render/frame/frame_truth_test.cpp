@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/sky/bodies.h"
@@ -104,6 +105,32 @@ TEST(Truth, WhatIsHalfHiddenAndWhatIsHalfOutsideAreHalfVisible) {
     EXPECT_EQ(value_at(t.layers.object, 63, 64), 2u);
     EXPECT_EQ(value_at(t.layers.object, 64, 64), 1u);
     EXPECT_NEAR(value_at(t.layers.depth_m, 63, 64), 2, 2e-6);
+}
+
+// The same two, and a cube of 8 px, small for the truth, half behind the plate.
+TEST(Truth, PixelSilhouettesHaveWhatIsHiddenAndWhatIsSmall) {
+    TruthStage s;
+    s.wishes.silhouettes = true;
+    s.add(cube(lambert(0.5), s.grid), {0, 0, 4}, {});
+    s.add(plate(lambert(0.5), s.grid), {-1, 0, 2});
+    s.add(cube(lambert(0.5), s.grid, 0.1875f), {0, 0, 3}, {});
+    const FrameTruth t = s.tell();
+    ASSERT_EQ(t.silhouettes.size(), 3u);
+    // The small cube's face of 0.1875 m at 2.90625 m: 64 -+ 4.13 px, the middles of 8 pixels.
+    const PixelSilhouette &behind = t.silhouettes[0], &before = t.silhouettes[1], &small = t.silhouettes[2];
+    EXPECT_EQ(behind.thing, 1u);
+    EXPECT_EQ(behind.px, 36u * 36u);
+    expect_box(behind.box_px, {46, 46, 82, 82});
+    EXPECT_EQ(behind.hidden_px.size(), 18u * 36u + 4u * 8u);
+    EXPECT_EQ(behind.hidden_px.front(), 46u * 128u + 46u);
+    EXPECT_TRUE(std::is_sorted(behind.hidden_px.begin(), behind.hidden_px.end()));
+    EXPECT_EQ(before.px, 128u * 128u);
+    EXPECT_TRUE(before.hidden_px.empty());
+    EXPECT_EQ(small.px, 8u * 8u);
+    expect_box(small.box_px, {60, 60, 68, 68});
+    EXPECT_EQ(small.hidden_px.size(), 4u * 8u);
+    for (const std::uint32_t px : small.hidden_px) EXPECT_LT(px % 128, 64u);
+    EXPECT_EQ(t.things[2].visible_px, 4u * 8u);
 }
 
 TEST(Truth, WhatIsWhollyHiddenOrBehindTheCameraIsNotVisible) {

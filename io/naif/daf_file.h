@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "io/naif/naif_record.h"
 #include "io/system/input_file.h"
 
 namespace hilcam {
@@ -47,13 +48,11 @@ class DafFile {
     std::optional<InputFile> file_;  // none: bytes_
     std::string bytes_;
     std::uint64_t size_ = 0;
-    bool big_endian_ = false;
+    NaifNumbers numbers_;
     std::vector<DafArray> arrays_;
 
     void open();
     void read(std::uint64_t from, char* to, std::size_t size) const;
-    double double_at(const char* bytes) const;
-    std::int32_t integer_at(const char* bytes) const;
     void read_summaries(std::int32_t first_record, std::size_t integers);
     DafArray array_of(const char* summary, const char* name, std::size_t integers) const;
     [[noreturn]] void fail(const std::string& what) const;

@@ -1,9 +1,7 @@
-#include "io/spice/daf_file.h"
+#include "io/naif/daf_file.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -11,28 +9,10 @@
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kRecordBytes = 1024, kWordBytes = 8;
+constexpr std::size_t kRecordBytes = kNaifRecordBytes, kWordBytes = 8;
 constexpr std::uint64_t kWordsInRecord = kRecordBytes / kWordBytes;
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 34;
 constexpr std::size_t kMaxArrays = 1'000'000;
-// All characters that transfers as text change stand between these.
-constexpr std::string_view kFtpBegin = "FTPSTR", kFtpEnd = "ENDFTP";
-constexpr std::string_view kFtpMiddle("FTPSTR:\r:\n:\r\n:\r\0:\x81:\x10\xce:ENDFTP", 28);
-
-std::uint64_t whole(const char* bytes, std::size_t count, bool big_endian) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t at = big_endian ? i : count - 1 - i;
-        value = value << 8 | static_cast<unsigned char>(bytes[at]);
-    }
-    return value;
-}
-
-std::string without_tail(std::string_view text) {
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.remove_suffix(1);
-    return std::string(text);
-}
-
 }  // namespace
 
 DafFile::DafFile(const std::filesystem::path& file)
@@ -58,14 +38,6 @@ void DafFile::read(std::uint64_t from, char* to, std::size_t size) const {
         std::copy_n(bytes_.data() + from, size, to);
 }
 
-double DafFile::double_at(const char* bytes) const {
-    return std::bit_cast<double>(whole(bytes, kWordBytes, big_endian_));
-}
-
-std::int32_t DafFile::integer_at(const char* bytes) const {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(whole(bytes, 4, big_endian_)));
-}
-
 void DafFile::open() {
     std::array<char, kRecordBytes> record{};
     if (size_ < kRecordBytes)
@@ -80,30 +52,28 @@ void DafFile::open() {
     kind_ = word == "NAIF/DAF" ? "SPK" : word.substr(4);
     const std::string format = without_tail(text.substr(88, 8));
     if (format == "BIG-IEEE")
-        big_endian_ = true;
+        numbers_.big_endian = true;
     else if (format == "LTL-IEEE")
-        big_endian_ = false;
+        numbers_.big_endian = false;
     else if (format.empty() || format.find_first_not_of('\0') == std::string::npos)
         // Older files do not say: the number of doubles in a summary is 2 in one order and 2^25 in the other.
-        big_endian_ = whole(record.data() + 8, 4, true) == 2;
+        numbers_.big_endian = NaifNumbers{true}.integer_at(record.data() + 8) == 2;
     else
         fail("found the binary format " + in_quotes(format) + "; accepted: LTL-IEEE, BIG-IEEE");
-    // The string is longer in later files, but begins as this.
-    const std::size_t begin = text.find(kFtpBegin), end = text.find(kFtpEnd);
-    if (begin != std::string_view::npos &&
-        (end == std::string_view::npos || text.substr(begin, end + kFtpEnd.size() - begin) != kFtpMiddle))
+    if (!arrived_as_binary(text))
         fail(
             "was damaged when it was transferred as text (its FTP string is changed); accepted: one "
             "transferred as "
             "binary");
-    const std::int32_t doubles = integer_at(record.data() + 8), integers = integer_at(record.data() + 12);
+    const std::int32_t doubles = numbers_.integer_at(record.data() + 8),
+                       integers = numbers_.integer_at(record.data() + 12);
     const std::int32_t expected = kind_ == "PCK" ? 5 : 6;
     if (kind_ != "SPK" && kind_ != "CK" && kind_ != "PCK")
         fail("found the kind " + in_quotes(kind_) + " of kernel; accepted: SPK, CK, PCK");
     if (doubles != 2 || integers != expected)
         fail("its summaries have " + std::to_string(doubles) + " doubles and " + std::to_string(integers) +
              " integers; accepted: 2 and " + std::to_string(expected));
-    read_summaries(integer_at(record.data() + 76), static_cast<std::size_t>(expected));
+    read_summaries(numbers_.integer_at(record.data() + 76), static_cast<std::size_t>(expected));
 }
 
 void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
@@ -115,7 +85,8 @@ void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
             fail("its summary records go in a circle; accepted: a chain that ends");
         const auto from = static_cast<std::uint64_t>(record - 1) * kRecordBytes;
         read(from, summaries.data(), kRecordBytes);
-        const double next = double_at(summaries.data()), count = double_at(summaries.data() + 16);
+        const double next = numbers_.double_at(summaries.data()),
+                     count = numbers_.double_at(summaries.data() + 16);
         const auto most = static_cast<double>((kRecordBytes - 24) / summary_bytes);
         if (!(next >= 0 && next < 2147483648.0) || !(count >= 0 && count <= most))
             fail("its summary record " + std::to_string(record) + " is damaged");
@@ -132,9 +103,9 @@ void DafFile::read_summaries(std::int32_t first_record, std::size_t integers) {
 DafArray DafFile::array_of(const char* summary, const char* name, std::size_t integers) const {
     DafArray out;
     out.name = harmless(without_tail({name, kWordBytes * (2 + (integers + 1) / 2)}));
-    for (std::size_t i = 0; i < 2; ++i) out.doubles[i] = double_at(summary + kWordBytes * i);
+    for (std::size_t i = 0; i < 2; ++i) out.doubles[i] = numbers_.double_at(summary + kWordBytes * i);
     for (std::size_t i = 0; i < integers; ++i)
-        out.integers.push_back(integer_at(summary + 2 * kWordBytes + 4 * i));
+        out.integers.push_back(numbers_.integer_at(summary + 2 * kWordBytes + 4 * i));
     const std::int32_t last = out.integers.back(), first = out.integers[integers - 2];
     out.integers.resize(integers - 2);
     const std::string which =
@@ -156,7 +127,7 @@ std::vector<double> DafFile::words(const DafArray& array) const {
     read((array.first - 1) * kWordBytes, bytes.data(), bytes.size());
     std::vector<double> out(array.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i] = double_at(bytes.data() + i * kWordBytes);
+        out[i] = numbers_.double_at(bytes.data() + i * kWordBytes);
         if (!std::isfinite(out[i]))
             fail("array " + in_quotes(array.name) + ": word " + std::to_string(i + 1) +
                  " is no number; accepted: finite ones");

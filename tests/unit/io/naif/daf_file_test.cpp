@@ -1,4 +1,4 @@
-#include "io/spice/daf_file.h"
+#include "io/naif/daf_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
