@@ -92,6 +92,9 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     vertex.surface = {&material, alpha, material.base, material.highlight};
     vertex.facet_alpha = alpha;
+    if (!object.corner_colors.empty())
+        vertex.surface.base =
+            vertex.surface.base * frame.bands->spectrum(object.color_at(hits.triangle[k], u, v));
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];
         const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];

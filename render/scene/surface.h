@@ -40,6 +40,10 @@ struct PackedTriangle {
 };
 static_assert(sizeof(PackedTriangle) == 16);
 
+// Factors on a material's base, linear red, green, blue, each 0 to 4 in 16 bits.
+using PackedColor = std::array<std::uint16_t, 3>;
+inline constexpr float kColorSteps = 65535.0f / 4;
+
 // An object as rays see it.
 struct ObjectSurfaces {
     // materials: one per surface of the mesh; texture of a material indexes the textures.
@@ -50,6 +54,7 @@ struct ObjectSurfaces {
     std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
     std::vector<float>
         uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
+    std::vector<std::array<PackedColor, 3>> corner_colors;  // empty when the mesh has none
     std::vector<Material> materials;
     // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
     // have them, too. The mesh itself has flattened none: empty.
@@ -60,6 +65,16 @@ struct ObjectSurfaces {
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
 
+    // Returns the factor on the base at barycentric (u, v) of a triangle; only where there are corner_colors.
+    Vec3f color_at(std::size_t triangle, float u, float v) const {
+        const auto& c = corner_colors[triangle];
+        const auto at = [&](std::size_t k) {
+            return ((1 - u - v) * static_cast<float>(c[0][k]) + u * static_cast<float>(c[1][k]) +
+                    v * static_cast<float>(c[2][k])) /
+                   kColorSteps;
+        };
+        return {at(0), at(1), at(2)};
+    }
     // The shading normal at barycentric (u, v), body axes, unit; `geometric` where the mesh has none.
     static Vec3f normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) {
         if (triangle.flat) return geometric;
