@@ -95,36 +95,36 @@ void BoulderField::find(Vec3d middle, double reach_rad, double smallest_m,
             boulders.push_back(b);
 }
 
-void BoulderField::add(const Patch& patch) const {
+void BoulderField::add(const GroundPatch& patch) const {
     std::vector<Shaped> boulders;
     constexpr double kPosts = 3;
     for (const Octave& octave : octaves_)
-        if (octave.least_m >= kPosts * patch.spacing_m)
+        if (octave.least_m >= kPosts * patch.texel_m)
             find_shaped(octave, patch.middle, patch.reach_rad + octave.most_m / radius_m_, boulders);
     for (const Shaped& boulder : boulders) add_one(boulder, patch);
 }
 
-void BoulderField::add_one(const Shaped& b, const Patch& patch) const {
+void BoulderField::add_one(const Shaped& b, const GroundPatch& patch) const {
     const double radius_m = 0.5 * b.diameter_m;
     if (length(b.place - patch.middle) > patch.reach_rad * 1.001 + radius_m / radius_m_) return;
     const Vec3d aside = std::abs(b.place.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
     const Vec3d east = normalized(cross(aside, b.place)), north = cross(b.place, east);
     const double c = std::cos(b.turn_rad), s = std::sin(b.turn_rad);
     const double per_radius = radius_m_ / radius_m;
-    for (std::size_t i = 0; i < patch.places.size(); ++i) {
+    patch.for_each(patch.window(b.place, radius_m / radius_m_), [&](std::size_t i) {
         const Vec3d away = patch.places[i] - b.place;
-        if (dot(away, away) * per_radius * per_radius > 1) continue;
+        if (dot(away, away) * per_radius * per_radius > 1) return;
         const double e = dot(away, east) * per_radius, n = dot(away, north) * per_radius;
         const double x = c * e + s * n, y = (c * n - s * e) / b.slim;
         const double inside = 1 - x * x - y * y;
-        if (inside <= 0) continue;
+        if (inside <= 0) return;
         double z = std::sqrt(inside);
         for (std::size_t k = 0; k < kPlanes; ++k)
             z = std::min(z, (b.plane_at[k] - b.plane[k].x * x - b.plane[k].y * y) / b.plane[k].z);
-        if (z <= 0) continue;
+        if (z <= 0) return;
         patch.heights_m[i] += b.height_m * z;
         if (!patch.colors.empty()) patch.colors[i] = static_cast<float>(b.bright) * patch.colors[i];
-    }
+    });
 }
 
 }  // namespace hilcam

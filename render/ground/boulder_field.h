@@ -32,7 +32,7 @@ struct Boulder {
 class BoulderField final : public GroundDetail {
   public:
     BoulderField(double radius_m, const BoulderSettings& settings);
-    void add(const Patch& patch) const override;
+    void add(const GroundPatch& patch) const override;
     // Appends the boulders above a diameter with their middles within an angle of a direction.
     void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Boulder>& boulders) const;
     // Number per square metre of diameters above one.
@@ -57,7 +57,7 @@ class BoulderField final : public GroundDetail {
 
     void find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
                      std::vector<Shaped>& boulders) const;
-    void add_one(const Shaped& boulder, const Patch& patch) const;
+    void add_one(const Shaped& boulder, const GroundPatch& patch) const;
 };
 
 }  // namespace hilcam

@@ -86,18 +86,18 @@ void CraterField::find(Vec3d middle, double reach_rad, double smallest_m,
             craters.push_back(c);
 }
 
-void CraterField::add(const Patch& patch) const {
+void CraterField::add(const GroundPatch& patch) const {
     std::vector<Shaped> craters;
     // A crater of fewer posts is no crater.
-    constexpr double kPosts = 3;
+    constexpr double kPosts = 2.5;
     for (const Octave& octave : octaves_)
-        if (octave.least_m >= kPosts * patch.spacing_m)
+        if (octave.least_m >= kPosts * patch.texel_m)
             find_shaped(octave, patch.middle, patch.reach_rad + kRayReach * 0.5 * octave.most_m / radius_m_,
                         craters);
     for (const Shaped& crater : craters) add_one(crater, patch);
 }
 
-void CraterField::add_one(const Shaped& c, const Patch& patch) const {
+void CraterField::add_one(const Shaped& c, const GroundPatch& patch) const {
     const double radius_m = 0.5 * c.diameter_m;
     const double reach = c.bright > 0 ? kRayReach : CraterProfile::kReach;
     if (length(c.place - patch.middle) * radius_m_ > patch.reach_rad * radius_m_ * 1.001 + reach * radius_m)
@@ -106,10 +106,10 @@ void CraterField::add_one(const Shaped& c, const Patch& patch) const {
     const Vec3d aside = std::abs(c.place.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
     const Vec3d east = normalized(cross(aside, c.place)), north = cross(c.place, east);
     const double most2 = (reach * 1.1 * radius_m / radius_m_) * (reach * 1.1 * radius_m / radius_m_);
-    for (std::size_t i = 0; i < patch.places.size(); ++i) {
+    patch.for_each(patch.window(c.place, reach * 1.1 * radius_m / radius_m_), [&](std::size_t i) {
         const Vec3d away = patch.places[i] - c.place;
         const double away2 = dot(away, away);
-        if (away2 > most2) continue;
+        if (away2 > most2) return;
         const double azimuth = std::atan2(dot(away, north), dot(away, east));
         double outline = 1;
         for (std::size_t k = 0; k < 4; ++k)
@@ -122,7 +122,7 @@ void CraterField::add_one(const Shaped& c, const Patch& patch) const {
                 x < 1 ? 0.6 : std::exp(1 - x) * (0.3 + 0.7 * ray * ray) * (1 - x / kRayReach);
             patch.colors[i] = static_cast<float>(1 + c.bright * share) * patch.colors[i];
         }
-    }
+    });
 }
 
 }  // namespace hilcam

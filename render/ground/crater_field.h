@@ -38,7 +38,7 @@ class CraterField final : public GroundDetail {
   public:
     // Octaves are counted from the body's smallest crater.
     CraterField(double radius_m, const CraterSettings& settings);
-    void add(const Patch& patch) const override;
+    void add(const GroundPatch& patch) const override;
     // Appends the craters above a diameter with their middles within an angle of a direction.
     void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Crater>& craters) const;
     const CraterLaw& law() const { return law_; }
@@ -61,7 +61,7 @@ class CraterField final : public GroundDetail {
 
     void find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
                      std::vector<Shaped>& craters) const;
-    void add_one(const Shaped& crater, const Patch& patch) const;
+    void add_one(const Shaped& crater, const GroundPatch& patch) const;
 };
 
 }  // namespace hilcam

@@ -147,23 +147,30 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
     mesh.triangles.resize(leaves.size() * kTileTriangles);
     mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
     mesh.surfaces.resize(1);
-    tbb::parallel_for(std::size_t{0}, leaves.size(),
-                      [&](std::size_t i) { append(view, edges, leaves[i], out.anchor_m, i, mesh); });
+    auto normals = std::make_shared<GroundNormals>();
+    normals->tiles.resize(leaves.size());
+    normals->triangles_per_tile = kTileTriangles;
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
+        append(view, edges, leaves[i], out.anchor_m, i, mesh, normals->tiles[i]);
+    });
+    out.normals = std::move(normals);
     return out;
 }
 
 void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m,
-                          std::size_t index, Mesh& mesh) const {
+                          std::size_t index, Mesh& mesh, GroundNormals::Tile& normals) const {
     const std::size_t first = index * kTileVertices;
     const GroundTile& tile = *leaf.tile;
     const double spacing_m = maker_.spacing_m(leaf.key.level), reach_m = spacing_m * edges;
     const Vec3d shift_m = tile.middle_m - anchor_m;
+    normals.own = tile.own_normals, normals.above = tile.above_normals;
     for (std::size_t i = 0; i < kSide * kSide; ++i) {
         const GroundTile::Look& own = tile.own[i];
         const GroundTile::Look& above = tile.above[i];
         const double distance_m = length(tile.middle_m + to_double(above.point_m) - view.camera_m);
         const auto share = static_cast<float>(
             std::clamp((distance_m / reach_m - kMorphFrom) / (kMorphTo - kMorphFrom), 0.0, 1.0));
+        normals.share[i] = static_cast<std::uint8_t>(std::lround(255 * share));
         const Vec3d own_m = to_double(own.point_m), above_m = to_double(above.point_m);
         mesh.vertices_m[first + i] =
             to_float(shift_m + (own_m + static_cast<double>(share) * (above_m - own_m)));

@@ -56,7 +56,7 @@ class GlobeTerrain final : public Terrain {
     void forget_oldest();
     TerrainMesh assemble(const TerrainView& view, double edges, const std::vector<Leaf>& leaves) const;
     void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, std::size_t index,
-                Mesh& mesh) const;
+                Mesh& mesh, GroundNormals::Tile& normals) const;
 };
 
 }  // namespace hilcam

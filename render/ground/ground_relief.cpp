@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "render/vocabulary/random.h"
 #include "render/vocabulary/units.h"
@@ -132,11 +133,9 @@ GroundRelief::GroundRelief(double radius_m, const ReliefSettings& settings)
     for (double& amplitude_m : amplitude_m_) amplitude_m *= wanted_m / std::sqrt(sum);
 }
 
-void GroundRelief::add(const Patch& patch) const {
-    // A wave of fewer posts is none.
-    constexpr double kPosts = 3;
+void GroundRelief::add_octaves(const GroundPatch& patch, double least_m, double below_m) const {
     for (std::size_t k = 0; k < wavelength_m_.size(); ++k) {
-        if (wavelength_m_[k] < kPosts * patch.spacing_m) break;
+        if (wavelength_m_[k] < least_m || wavelength_m_[k] >= below_m) continue;
         // Octaves' lattices are turned against each other by their offsets alone.
         const double scale = radius_m_ / wavelength_m_[k], shift = 0.37 * static_cast<double>(k);
         for (std::size_t i = 0; i < patch.places.size(); ++i) {
@@ -145,6 +144,16 @@ void GroundRelief::add(const Patch& patch) const {
                 amplitude_m_[k] * noise(static_cast<std::uint64_t>(settings_.seed), static_cast<int>(k), p);
         }
     }
+}
+
+// A wave of fewer texels is none.
+void GroundRelief::add(const GroundPatch& patch) const {
+    constexpr double kLeastTexels = 3;
+    add_octaves(patch, kLeastTexels * patch.texel_m, kWideTexels * patch.texel_m);
+}
+
+void GroundRelief::add_wide(const GroundPatch& patch) const {
+    add_octaves(patch, kWideTexels * patch.texel_m, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace hilcam

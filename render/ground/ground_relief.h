@@ -30,13 +30,16 @@ std::optional<ReliefSettings> measured_relief(GroundSurface& surface, double spa
 class GroundRelief final : public GroundDetail {
   public:
     GroundRelief(double radius_m, const ReliefSettings& settings);
-    void add(const Patch& patch) const override;
+    void add(const GroundPatch& patch) const override;
+    void add_wide(const GroundPatch& patch) const override;
     const ReliefSettings& settings() const { return settings_; }
 
   private:
     double radius_m_;
     ReliefSettings settings_;
     std::vector<double> wavelength_m_, amplitude_m_;
+
+    void add_octaves(const GroundPatch& patch, double least_m, double below_m) const;
 };
 
 }  // namespace hilcam

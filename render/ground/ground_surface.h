@@ -38,6 +38,10 @@ class GroundSurface {
     void find_heights(std::span<const Vec3d> places, double footprint_m, std::span<double> heights_m);
     // Finds the factors on the material's reflectance, linear red, green, blue.
     void find_colors(std::span<const Vec3d> places, double footprint_m, std::span<Vec3f> colors);
+    // Returns the spacing of the finest map of heights, or a very large one.
+    double finest_m() const {
+        return heights_.empty() ? 1e30 : heights_.front().map.raster->shape().spacing_m;
+    }
     bool has_colors() const { return !albedo_.empty(); }
     // Returns a point of the body at a height over a place, in its axes.
     Vec3d point(Vec3d place, double height_m) const;

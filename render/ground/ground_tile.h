@@ -3,6 +3,9 @@
 // the face is cut into 2^level x 2^level of them. Each vertex is kept twice: as the level has it, and where it lies
 // on the ground of the level above, so that a mesh can go from one to the other without a step (continuous levels of
 // detail; Strugar, J. Graphics, GPU and Game Tools 14(4), 57, 2009).
+//
+// The ground is worked out at texels, four on an edge of a quadrilateral: they have the normals that it is shaded with
+// (ground_normals.h), and a vertex is their weighted mean about it.
 
 #include <cstdint>
 #include <memory>
@@ -11,6 +14,7 @@
 
 #include "render/ground/ground_detail.h"
 #include "render/ground/ground_surface.h"
+#include "render/scene/ground_normals.h"
 
 namespace hilcam {
 
@@ -27,7 +31,7 @@ struct GroundTileKey {
 };
 
 struct GroundTile {
-    static constexpr int kQuads = 32;  // along an edge
+    static constexpr int kQuads = GroundNormals::kQuads;  // along an edge
     static constexpr int kSide = kQuads + 1;
 
     struct Look {
@@ -38,9 +42,13 @@ struct GroundTile {
     Vec3d middle_m;       // body axes
     double radius_m = 0;  // radius about the middle that holds all
     std::vector<Look> own, above;
+    std::shared_ptr<const GroundNormals::Grid> own_normals, above_normals;
     std::uint64_t used = 0;  // number of the mesh that used it last
 
-    static constexpr std::size_t kBytes = 2 * sizeof(Look) * kSide * kSide;
+    static constexpr std::size_t kBytes =
+        2 * sizeof(Look) * kSide * kSide +
+        sizeof(std::uint32_t) * (GroundNormals::kSide * GroundNormals::kSide +
+                                 GroundNormals::kHalfSide * GroundNormals::kHalfSide);
 };
 
 // Makes tiles; the same key always gives the same tile, bit by bit.
@@ -52,23 +60,35 @@ class GroundTileMaker {
 
     // Makes tiles on all of oneTBB's threads.
     std::vector<std::unique_ptr<GroundTile>> make(std::span<const GroundTileKey> keys);
-    // Returns the distance of neighbours at a level [m], about.
+    // Returns the distance of neighbouring vertices at a level [m], about.
     double spacing_m(int level) const;
 
   private:
+    // Texels with a border about what is used, and each fourth of them with a border of one more: the nodes.
     struct Grid {
-        int side = 0;  // with a border of one about what is used
-        std::vector<Vec3d> places;
-        std::vector<double> heights_m;
-        std::vector<Vec3f> colors;
-        double spacing_m = 1;
+        GroundTileKey key;
+        int quads = 0;
+        double texel_m = 1;
+        bool by_nodes = false;  // the maps are smooth between the nodes
+        std::vector<Vec3d> places, node_places;
+        std::vector<double> heights_m, node_heights_m;
+        std::vector<Vec3f> colors, node_colors;
+
+        int side() const { return quads * GroundNormals::kTexels + 1 + 2 * kBorder; }
+        int nodes() const { return quads + 5; }
+    };
+    static constexpr int kBorder = GroundNormals::kTexels;
+    struct Looks {
+        std::vector<GroundTile::Look> vertices;
+        std::shared_ptr<const GroundNormals::Grid> normals;
     };
     GroundSurface& surface_;
     std::span<const std::unique_ptr<const GroundDetail>> details_;
 
-    Grid lay(const GroundTileKey& key, int quads, double spacing_m);
+    Grid lay(const GroundTileKey& key, int quads, double texel_m);
+    std::vector<Vec3d> places_of(const Grid& grid, int step, int first, int side) const;
     void add_details(Grid& grid) const;
-    std::vector<GroundTile::Look> looks(const Grid& grid, Vec3d middle_m) const;
+    Looks looks(const Grid& grid, Vec3d middle_m) const;
     std::unique_ptr<GroundTile> finish(Grid& own, Grid& above) const;
 };
 

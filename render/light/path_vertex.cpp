@@ -39,8 +39,11 @@ bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir
 
     lie.view_dir = -normalized(dir);
     Vec3f geometric = world_from_body * geometric_body;
-    Vec3f normal =
-        world_from_body * ObjectSurfaces::normal_at(triangle, hits.u[k], hits.v[k], geometric_body);
+    Vec3f normal_body;
+    if (!object.ground_normals ||
+        !object.ground_normals->find(hits.triangle[k], hits.u[k], hits.v[k], normal_body))
+        normal_body = ObjectSurfaces::normal_at(triangle, hits.u[k], hits.v[k], geometric_body);
+    Vec3f normal = world_from_body * normal_body;
     lie.back = dot(geometric, lie.view_dir) < 0;
     if (lie.back) geometric = -geometric;
     if (dot(normal, geometric) < 0) normal = -normal;

@@ -10,28 +10,12 @@
 #include <vector>
 
 #include "render/scene/color_bands.h"
+#include "render/scene/ground_normals.h"
 #include "render/scene/level_facets.h"
+#include "render/scene/packed_normal.h"
 #include "render/scene/scene.h"
 
 namespace hilcam {
-
-// Unit vectors in 32 bits, octahedral with 16 bits an axis: largest error 0.0037 deg (Cigolle et al., JCGT
-// 3(2), 2014).
-std::uint32_t pack_normal(Vec3f unit);
-inline Vec3f unpack_normal(std::uint32_t packed) {
-    const auto from_snorm16 = [](std::uint32_t bits) {
-        return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(bits))) *
-               (1.0f / 32767.0f);
-    };
-    float x = from_snorm16(packed & 0xFFFFu);
-    float y = from_snorm16(packed >> 16);
-    const float z = 1 - std::abs(x) - std::abs(y);
-    // Unfold the lower half without a branch.
-    const float t = std::max(-z, 0.0f);
-    x += x >= 0 ? -t : t;
-    y += y >= 0 ? -t : t;
-    return normalized(Vec3f{x, y, z});
-}
 
 struct PackedTriangle {
     std::array<std::uint32_t, 3> corner_normals;  // meaningless when flat
@@ -61,6 +45,7 @@ struct ObjectSurfaces {
     std::vector<float> flattened_alpha;
     std::vector<LevelFacets> facets;  // facets of a level's triangles; empty for the mesh itself
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
+    std::shared_ptr<const GroundNormals> ground_normals;      // null: the corners' normals are all
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object

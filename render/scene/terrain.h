@@ -2,8 +2,10 @@
 // Ground that follows the camera, as an interface: whoever has heights makes a mesh for one place of the camera, fine
 // where it is near and coarse where it is far. terrain_patch.h is a map about one place, render/ground a whole body.
 
+#include <memory>
 #include <optional>
 
+#include "render/scene/ground_normals.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
@@ -20,6 +22,7 @@ struct TerrainView {
 
 struct TerrainMesh {
     Mesh mesh;       // about the anchor, one surface
+    std::shared_ptr<const GroundNormals> normals;  // null: the vertices' own are all
     Vec3d anchor_m;  // terrain axes; near the camera, so that single precision keeps its digits there
 };
 

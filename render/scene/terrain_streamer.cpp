@@ -18,11 +18,12 @@ TerrainStreamer::~TerrainStreamer() {
 
 std::unique_ptr<PreparedTerrain> TerrainStreamer::make(const TerrainView& view) const {
     TerrainMesh terrain = ground_.mesh(view);
-    order_triangles(terrain.mesh);
+    // A mesh with normals of its own is in their order.
+    if (!terrain.normals) order_triangles(terrain.mesh);
+    auto surfaces = std::make_shared<ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr);
+    surfaces->ground_normals = std::move(terrain.normals);
     return std::make_unique<PreparedTerrain>(
-        PreparedTerrain{embree_.prepare(terrain.mesh),
-                        std::make_shared<const ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr),
-                        terrain.anchor_m, view});
+        PreparedTerrain{embree_.prepare(terrain.mesh), std::move(surfaces), terrain.anchor_m, view});
 }
 
 void TerrainStreamer::request(const TerrainView& view) {

@@ -12,6 +12,14 @@
 
 namespace hilcam {
 
+inline constexpr double kMoonRadius_m = 1737.4e3;
+
+// The normal of a sphere at a longitude and latitude.
+inline Vec3d place_on_sphere(double longitude_deg, double latitude_deg) {
+    const double lon = longitude_deg * kDegree_rad, lat = latitude_deg * kDegree_rad;
+    return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+}
+
 // A whole body in longitude from 180 W and latitude from 90 N, half as many rows as columns.
 class WholeMap : public GroundRaster {
   public:
@@ -65,7 +73,9 @@ class DetailMap final : public WholeMap {
                      down = kPi * (row + 0.5) / shape_.rows;
         const Vec3d place{std::sin(down) * std::cos(lon), std::sin(down) * std::sin(lon), std::cos(down)};
         double height_m = 0;
-        detail_.add({{&place, 1}, {&height_m, 1}, {}, place, 0, 0.25 * shape_.spacing_m});
+        const GroundPatch patch{1, {&place, 1}, {&height_m, 1}, {}, place, 0, 0.25 * shape_.spacing_m};
+        detail_.add_wide(patch);
+        detail_.add(patch);
         return height_m;
     }
 

@@ -13,6 +13,7 @@
 
 #include "render/ground/ground_surface.h"
 #include "render/vocabulary/check.h"
+#include "tests/support/ground_maps.h"
 
 namespace hilcam {
 namespace {
@@ -20,8 +21,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr double kRadius_m = 1737.4e3;
-const MappedBody kMoon{"moon", {kRadius_m, kRadius_m}};
+const MappedBody kMoonBody{"moon", {kMoonRadius_m, kMoonRadius_m}};
 
 std::filesystem::path file_named(const std::string& name) {
     const std::filesystem::path folder =
@@ -78,23 +78,18 @@ GroundMapConfig config_of(const std::filesystem::path& file) {
 
 std::string refusal_of(const GroundMapConfig& config) {
     try {
-        open_ground_map(config, kMoon);
+        open_ground_map(config, kMoonBody);
     } catch (const InputError& error) {
         return error.what();
     }
     return "";
 }
 
-Vec3d place_at(double longitude_deg, double latitude_deg) {
-    const double lon = longitude_deg * kDegree_rad, lat = latitude_deg * kDegree_rad;
-    return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
-}
-
 double height_at(const GroundMapConfig& config, double longitude_deg, double latitude_deg) {
     std::vector<GroundMap> maps;
-    maps.push_back(open_ground_map(config, kMoon));
-    GroundSurface surface(kMoon.figure, std::move(maps), std::size_t{1} << 20);
-    const Vec3d place = place_at(longitude_deg, latitude_deg);
+    maps.push_back(open_ground_map(config, kMoonBody));
+    GroundSurface surface(kMoonBody.figure, std::move(maps), std::size_t{1} << 20);
+    const Vec3d place = place_on_sphere(longitude_deg, latitude_deg);
     double height_m = 0;
     surface.find_heights({&place, 1}, 0, {&height_m, 1});
     return height_m;
@@ -135,7 +130,7 @@ TEST(GroundMapFile, ProjectionsAgreeWithTheirFormulas) {
         return 1000 * std::sin(lon * kDegree_rad) * std::cos(lat * kDegree_rad);
     };
     // Equirectangular from 0 to 360 E, in metres.
-    const double turn_m = 2 * kPi * kRadius_m;
+    const double turn_m = 2 * kPi * kMoonRadius_m;
     MadeMap plane;
     plane.projection = "+proj=eqc +R=1737400 +lon_0=180 +units=m +no_defs";
     plane.columns = 720, plane.rows = 360;
@@ -150,7 +145,7 @@ TEST(GroundMapFile, ProjectionsAgreeWithTheirFormulas) {
     polar.value = [&](int c, int r) {
         const double x = -200e3 + 1000 * (c + 0.5), y = 200e3 - 1000 * (r + 0.5);
         return ground(std::atan2(x, y) / kDegree_rad,
-                      -90 + 2 * std::atan(std::hypot(x, y) / (2 * kRadius_m)) / kDegree_rad);
+                      -90 + 2 * std::atan(std::hypot(x, y) / (2 * kMoonRadius_m)) / kDegree_rad);
     };
     MadeMap envi = plane;
     envi.driver = "ENVI";
@@ -188,7 +183,7 @@ TEST(GroundMapFile, APds3LabelIsRead) {
         }
     out.close();
     GroundMapConfig config = config_of(file);
-    config.offset = -kRadius_m;  // the label's offset makes radii
+    config.offset = -kMoonRadius_m;  // the label's offset makes radii
     // Column 32 is just east of 180 E, row 16 just south of the equator.
     EXPECT_NEAR(height_at(config, 180 + 0.5 * kColumn_deg, -0.5 * kRow_deg), 0.5 * (20 * 16 - 3 * 32), 1.0);
     EXPECT_NEAR(height_at(config, 180 + 10.5 * kColumn_deg, -3.5 * kRow_deg), 0.5 * (20 * 19 - 3 * 42), 1.0);
@@ -241,12 +236,12 @@ TEST(GroundMapFile, AMapLargerThanMemoryIsReadWhereItIsLookedAt) {
     config.bounds_deg = {-180, -90, 180, 90};
     config.offset = 5;
     std::vector<GroundMap> maps;
-    maps.push_back(open_ground_map(config, kMoon));
-    GroundSurface surface(kMoon.figure, std::move(maps), std::size_t{4} << 20);
+    maps.push_back(open_ground_map(config, kMoonBody));
+    GroundSurface surface(kMoonBody.figure, std::move(maps), std::size_t{4} << 20);
     std::vector<double> heights_m(1000);
     for (const double footprint_m : {1e5, 1e4, 100.0}) {
         std::vector<Vec3d> places;
-        for (int i = 0; i < 1000; ++i) places.push_back(place_at(0.36 * i - 180, 0.17 * i - 85));
+        for (int i = 0; i < 1000; ++i) places.push_back(place_on_sphere(0.36 * i - 180, 0.17 * i - 85));
         surface.find_heights(places, footprint_m, heights_m);
         for (const double height_m : heights_m) ASSERT_NEAR(height_m, 5, 1e-9);
         EXPECT_LE(surface.pages().bytes(), std::size_t{4} << 20);

@@ -12,17 +12,12 @@
 namespace hilcam {
 namespace {
 
-constexpr Figure kMoon = kFigures[index_of(BodyId::kMoon)];
+constexpr Figure kMoonFigure = kFigures[index_of(BodyId::kMoonFigure)];
 
 std::vector<GroundMap> relief(int columns, double amplitude_m) {
     std::vector<GroundMap> maps(1);
-    maps[0].raster = std::make_unique<WaveMap>(columns, amplitude_m, kMoon.equatorial_radius_m);
+    maps[0].raster = std::make_unique<WaveMap>(columns, amplitude_m, kMoonFigure.equatorial_radius_m);
     return maps;
-}
-
-Vec3d place_at(double longitude_deg, double latitude_deg) {
-    const double lon = longitude_deg * kDegree_rad, lat = latitude_deg * kDegree_rad;
-    return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
 }
 
 // The two faces of an edge have the same points there, and every direction is on one face.
@@ -58,9 +53,9 @@ TEST(GlobeTerrain, RaysMeetTheHeightsOfTheMap) {
     constexpr double kAbove_m = 20'000;
     for (const auto& [lon, lat] :
          {std::pair{23.4, 0.7}, {179.99, -12.0}, {-180.0, 40.0}, {77.0, 89.9}, {0.0, 90.0}, {10.0, -90.0}}) {
-        GlobeTerrain terrain(kMoon, relief(1440, 3000), {}, {});
-        GroundSurface surface(kMoon, relief(1440, 3000), std::size_t{16} << 20);
-        const Vec3d up = place_at(lon, lat);
+        GlobeTerrain terrain(kMoonFigure, relief(1440, 3000), {}, {});
+        GroundSurface surface(kMoonFigure, relief(1440, 3000), std::size_t{16} << 20);
+        const Vec3d up = place_on_sphere(lon, lat);
         TerrainView view;
         view.camera_m = surface.point(up, kAbove_m);
         view.boresight = -up;
@@ -81,7 +76,7 @@ TEST(GlobeTerrain, RaysMeetTheHeightsOfTheMap) {
             const Vec3d place = normalized(point_m);
             double height_m = 0;
             surface.find_heights({&place, 1}, 0, {&height_m, 1});
-            const double error_m = length(point_m) - kMoon.equatorial_radius_m - height_m;
+            const double error_m = length(point_m) - kMoonFigure.equatorial_radius_m - height_m;
             ASSERT_TRUE(std::isfinite(error_m));
             most_m = std::max(most_m, std::abs(error_m)), sum2_m2 += error_m * error_m;
         }
@@ -97,10 +92,10 @@ TEST(GlobeTerrain, RaysMeetTheHeightsOfTheMap) {
 TEST(GlobeTerrain, MemoryIsBoundedAndTheSameViewGivesTheSameMesh) {
     GlobeSettings settings;
     settings.most_bytes = std::size_t{64} << 20;
-    GlobeTerrain terrain(kMoon, relief(5760, 3000), {}, settings);
+    GlobeTerrain terrain(kMoonFigure, relief(5760, 3000), {}, settings);
     const auto mesh_at = [&](double lon) {
         TerrainView view;
-        view.camera_m = (kMoon.equatorial_radius_m + 15'000) * place_at(lon, 5);
+        view.camera_m = (kMoonFigure.equatorial_radius_m + 15'000) * place_on_sphere(lon, 5);
         view.boresight = -normalized(view.camera_m);
         view.half_field_rad = 0.4;
         view.most_triangles = 300'000;
@@ -132,13 +127,13 @@ TEST(GlobeTerrain, ThereAreNoGapsBetweenTiles) {
             s.quality.max_depth = 1;
             s.scene.terrain = std::make_unique<SceneTerrain>();
             s.scene.terrain->ground = std::make_unique<GlobeTerrain>(
-                kMoon, relief(1440, 3000), std::vector<std::unique_ptr<const GroundDetail>>{},
+                kMoonFigure, relief(1440, 3000), std::vector<std::unique_ptr<const GroundDetail>>{},
                 GlobeSettings{});
             s.scene.terrain->material = make_material(lambert(0.5), s.grid);
             s.scene.terrain->most_triangles = 1'000'000;
             s.scene.terrain->edge_px = 4;
-            const Vec3d up = place_at(lon, lat);
-            s.world.camera.position_world_m = (kMoon.equatorial_radius_m + 20'000) * up;
+            const Vec3d up = place_on_sphere(lon, lat);
+            s.world.camera.position_world_m = (kMoonFigure.equatorial_radius_m + 20'000) * up;
             const Vec3d side = normalized(cross(up, Vec3d{0.3, -0.2, 0.1}));
             s.world.camera.world_from_body =
                 look_along(-std::cos(slant_rad) * up + std::sin(slant_rad) * side, side);
@@ -153,12 +148,12 @@ TEST(GlobeTerrain, ThereAreNoGapsBetweenTiles) {
 // What changes from one mesh to the next, where the camera has moved by a fiftieth of its height, is less than a quarter of a
 // pixel.
 TEST(GlobeTerrain, NothingStepsByAQuarterOfAPixelWhileTheCameraComesDown) {
-    GlobeTerrain terrain(kMoon, relief(1440, 3000), {}, {});
-    const Vec3d up = place_at(45, 3);
+    GlobeTerrain terrain(kMoonFigure, relief(1440, 3000), {}, {});
+    const Vec3d up = place_on_sphere(45, 3);
     constexpr double kPixel_rad = 1.5e-3;
     const auto made_at = [&](double height_m) {
         TerrainView view;
-        view.camera_m = (kMoon.equatorial_radius_m + height_m) * up;
+        view.camera_m = (kMoonFigure.equatorial_radius_m + height_m) * up;
         view.boresight = -up;
         view.half_field_rad = 0.4;
         view.pixel_rad = kPixel_rad;
@@ -174,9 +169,9 @@ TEST(GlobeTerrain, NothingStepsByAQuarterOfAPixelWhileTheCameraComesDown) {
             const double off_rad = 0.35 * std::sqrt((i + 0.5) / 400), turn_rad = 2.39996 * i;
             const double across_m = height_m * std::tan(off_rad);
             const Vec3d place =
-                normalized(kMoon.equatorial_radius_m * up + across_m * std::cos(turn_rad) * east +
+                normalized(kMoonFigure.equatorial_radius_m * up + across_m * std::cos(turn_rad) * east +
                            across_m * std::sin(turn_rad) * north);
-            const Vec3d above_m = (kMoon.equatorial_radius_m + 10'000) * place;
+            const Vec3d above_m = (kMoonFigure.equatorial_radius_m + 10'000) * place;
             const double step_m =
                 std::abs(before->distance_m(above_m, -place) - now->distance_m(above_m, -place));
             most_px =

@@ -12,19 +12,16 @@
 namespace hilcam {
 namespace {
 
-constexpr double kRadius_m = 1737.4e3;
-
-Vec3d place_at(double longitude_deg, double latitude_deg) {
-    const double lon = longitude_deg * kDegree_rad, lat = latitude_deg * kDegree_rad;
-    return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+double cap_m2(double reach_rad) {
+    return 2 * kPi * kMoonRadius_m * kMoonRadius_m * (1 - std::cos(reach_rad));
 }
-
-double cap_m2(double reach_rad) { return 2 * kPi * kRadius_m * kRadius_m * (1 - std::cos(reach_rad)); }
 
 // The heights that a detail adds at places of its own, one by one.
 double added_m(const GroundDetail& detail, Vec3d place, double spacing_m) {
     double height_m = 0;
-    detail.add({{&place, 1}, {&height_m, 1}, {}, place, 0, spacing_m});
+    const GroundPatch patch{1, {&place, 1}, {&height_m, 1}, {}, place, 0, spacing_m};
+    detail.add_wide(patch);
+    detail.add(patch);
     return height_m;
 }
 
@@ -47,15 +44,15 @@ TEST(CraterLaw, HasThePublishedNumbers) {
 TEST(CraterField, NumbersFollowTheLaw) {
     CraterSettings settings;
     settings.smallest_m = 1, settings.largest_m = 2000;
-    const CraterField field(kRadius_m, settings);
+    const CraterField field(kMoonRadius_m, settings);
     for (const auto& [smallest_m, reach_m] :
          {std::pair{1.0, 150.0}, {8.0, 1500.0}, {60.0, 12e3}, {500.0, 100e3}})
-        for (const Vec3d& middle :
-             {place_at(10, 5), place_at(45, 35.26), place_at(0, 90), place_at(180, -44)}) {
+        for (const Vec3d& middle : {place_on_sphere(10, 5), place_on_sphere(45, 35.26),
+                                    place_on_sphere(0, 90), place_on_sphere(180, -44)}) {
             std::vector<Crater> craters;
-            field.find(middle, reach_m / kRadius_m, smallest_m, craters);
+            field.find(middle, reach_m / kMoonRadius_m, smallest_m, craters);
             const double expected =
-                (field.law().per_m2(smallest_m) - field.law().per_m2(2000)) * cap_m2(reach_m / kRadius_m);
+                (field.law().per_m2(smallest_m) - field.law().per_m2(2000)) * cap_m2(reach_m / kMoonRadius_m);
             EXPECT_GT(expected, 300);
             EXPECT_NEAR(static_cast<double>(craters.size()), expected, 4 * std::sqrt(expected)) << smallest_m;
             for (const Crater& c : craters) EXPECT_TRUE(c.diameter_m >= smallest_m && c.diameter_m <= 2000);
@@ -66,9 +63,9 @@ TEST(CraterField, NumbersFollowTheLaw) {
 TEST(CraterField, DiametersAreDrawnFromTheLaw) {
     CraterSettings settings;
     settings.smallest_m = 1, settings.largest_m = 500;
-    const CraterField field(kRadius_m, settings);
+    const CraterField field(kMoonRadius_m, settings);
     std::vector<Crater> craters;
-    field.find(place_at(23, 1), 200 / kRadius_m, 1, craters);
+    field.find(place_on_sphere(23, 1), 200 / kMoonRadius_m, 1, craters);
     std::vector<double> diameters_m;
     for (const Crater& c : craters) diameters_m.push_back(c.diameter_m);
     std::sort(diameters_m.begin(), diameters_m.end());
@@ -87,15 +84,15 @@ TEST(CraterField, DiametersAreDrawnFromTheLaw) {
 
 // The same craters are found from wherever one looks.
 TEST(CraterField, TheSameSeedGivesTheSameCratersFromAnywhere) {
-    const CraterField field(kRadius_m, CraterSettings{});
+    const CraterField field(kMoonRadius_m, CraterSettings{});
     CraterSettings other_seed;
     other_seed.seed = 2;
-    const CraterField other(kRadius_m, other_seed);
-    const Vec3d middle = place_at(45, 1);
+    const CraterField other(kMoonRadius_m, other_seed);
+    const Vec3d middle = place_on_sphere(45, 1);
     std::vector<Crater> wide, narrow, others;
-    field.find(middle, 3000 / kRadius_m, 20, wide);
-    field.find(middle, 500 / kRadius_m, 20, narrow);
-    other.find(middle, 500 / kRadius_m, 20, others);
+    field.find(middle, 3000 / kMoonRadius_m, 20, wide);
+    field.find(middle, 500 / kMoonRadius_m, 20, narrow);
+    other.find(middle, 500 / kMoonRadius_m, 20, others);
     ASSERT_GT(narrow.size(), 50u);
     std::set<std::pair<double, double>> known, unknown;
     for (const Crater& c : wide) known.insert({c.place.x, c.diameter_m});
@@ -126,15 +123,15 @@ TEST(CraterProfile, FreshAndWornShapes) {
 TEST(CraterField, TheGroundHasTheCraters) {
     CraterSettings settings;
     settings.smallest_m = 400, settings.largest_m = 401;
-    const CraterField field(kRadius_m, settings);
+    const CraterField field(kMoonRadius_m, settings);
     std::vector<Crater> craters;
-    field.find(place_at(10, 5), 100e3 / kRadius_m, 1, craters);
+    field.find(place_on_sphere(10, 5), 100e3 / kMoonRadius_m, 1, craters);
     ASSERT_GT(craters.size(), 3u);
     const CraterProfile profile;
     int alone = 0;
     for (const Crater& c : craters) {
         if (std::any_of(craters.begin(), craters.end(), [&](const Crater& o) {
-                return length(o.place - c.place) > 0 && length(o.place - c.place) * kRadius_m < 1300;
+                return length(o.place - c.place) > 0 && length(o.place - c.place) * kMoonRadius_m < 1300;
             }))
             continue;
         ++alone;
@@ -148,10 +145,10 @@ TEST(CraterField, TheGroundHasTheCraters) {
 TEST(BoulderField, NumbersFollowThePowerLawAndCoverWhatIsAsked) {
     BoulderSettings settings;
     settings.abundance = 0.03, settings.exponent = 2.4;
-    const BoulderField field(kRadius_m, settings);
+    const BoulderField field(kMoonRadius_m, settings);
     std::vector<Boulder> boulders;
-    const double reach_rad = 100 / kRadius_m;
-    field.find(place_at(-33, 61), reach_rad, 0.1, boulders);
+    const double reach_rad = 100 / kMoonRadius_m;
+    field.find(place_on_sphere(-33, 61), reach_rad, 0.1, boulders);
     for (const double d : {0.1, 0.3, 1.0}) {
         const double expected = (field.per_m2(d) - field.per_m2(10)) * cap_m2(reach_rad);
         const auto found = std::count_if(boulders.begin(), boulders.end(),
@@ -174,13 +171,13 @@ TEST(BoulderField, NumbersFollowThePowerLawAndCoverWhatIsAsked) {
 TEST(GroundRelief, DifferencesFollowThePower) {
     ReliefSettings settings;
     settings.longest_m = 2000, settings.deviation_m = 3, settings.at_m = 100, settings.hurst = 0.8;
-    const GroundRelief relief(kRadius_m, settings);
+    const GroundRelief relief(kMoonRadius_m, settings);
     for (const double lag_m : {0.5, 2.0, 10.0, 50.0}) {
         double sum = 0;
         constexpr int kPlaces = 3000;
         for (int i = 0; i < kPlaces; ++i) {
-            const Vec3d a = place_at(0.0137 * i, 20 + 0.0053 * i);
-            const Vec3d b = normalized(a + lag_m / kRadius_m * normalized(cross(Vec3d{0, 0, 1}, a)));
+            const Vec3d a = place_on_sphere(0.0137 * i, 20 + 0.0053 * i);
+            const Vec3d b = normalized(a + lag_m / kMoonRadius_m * normalized(cross(Vec3d{0, 0, 1}, a)));
             const double d = added_m(relief, b, 0.1) - added_m(relief, a, 0.1);
             sum += d * d;
         }
@@ -193,16 +190,16 @@ TEST(GroundRelief, DifferencesFollowThePower) {
 TEST(GroundRelief, TheMapsOwnSpectrumIsMeasured) {
     ReliefSettings settings;
     settings.longest_m = 2000e3, settings.deviation_m = 300, settings.at_m = 10e3, settings.hurst = 0.75;
-    const GroundRelief relief(kRadius_m, settings);
+    const GroundRelief relief(kMoonRadius_m, settings);
     std::vector<GroundMap> maps(1);
-    maps[0].raster = std::make_unique<DetailMap>(1440, relief, kRadius_m);
-    GroundSurface surface({kRadius_m, kRadius_m}, std::move(maps), std::size_t{64} << 20);
-    const double spacing_m = 2 * kPi * kRadius_m / 1440;
+    maps[0].raster = std::make_unique<DetailMap>(1440, relief, kMoonRadius_m);
+    GroundSurface surface({kMoonRadius_m, kMoonRadius_m}, std::move(maps), std::size_t{64} << 20);
+    const double spacing_m = 2 * kPi * kMoonRadius_m / 1440;
     const std::optional<ReliefSettings> found = measured_relief(surface, spacing_m);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->hurst, 0.75, 0.12);
     EXPECT_NEAR(found->deviation_m, 300 * std::pow(found->at_m / 10e3, 0.75), 0.2 * 300);
-    GroundSurface flat({kRadius_m, kRadius_m}, {}, 1 << 20);
+    GroundSurface flat({kMoonRadius_m, kMoonRadius_m}, {}, 1 << 20);
     EXPECT_FALSE(measured_relief(flat, spacing_m));
 }
 
