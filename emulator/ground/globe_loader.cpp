@@ -9,9 +9,7 @@
 namespace hilcam {
 namespace {
 
-using Details = std::vector<std::unique_ptr<const GroundDetail>>;
-
-// What is not given is measured on the maps, which are opened for that once more.
+// Figures that are not given are measured on the maps, which are opened for that once more.
 ReliefSettings complete(ReliefSettings relief, const GlobeConfig& globe, const MappedBody& body) {
     if (relief.deviation_m > 0 && relief.longest_m > 0) return relief;
     std::vector<GroundMap> maps;
@@ -38,8 +36,17 @@ ReliefSettings complete(ReliefSettings relief, const GlobeConfig& globe, const M
     return relief;
 }
 
-Details details_of(const GlobeConfig& globe, const MappedBody& body) {
-    Details details;
+}  // namespace
+
+std::vector<GroundMap> open_maps(const GlobeConfig& globe, const MappedBody& body) {
+    std::vector<GroundMap> maps;
+    for (const GroundMapConfig& map : globe.maps) maps.push_back(open_ground_map(map, body));
+    return maps;
+}
+
+std::vector<std::unique_ptr<const GroundDetail>> details_of(const GlobeConfig& globe,
+                                                            const MappedBody& body) {
+    std::vector<std::unique_ptr<const GroundDetail>> details;
     const double radius_m = body.figure.equatorial_radius_m;
     if (globe.relief)
         details.push_back(std::make_unique<GroundRelief>(radius_m, complete(*globe.relief, globe, body)));
@@ -49,14 +56,10 @@ Details details_of(const GlobeConfig& globe, const MappedBody& body) {
     return details;
 }
 
-}  // namespace
-
 std::unique_ptr<Terrain> load_globe(const GlobeConfig& globe, const MappedBody& body) {
-    std::vector<GroundMap> maps;
-    for (const GroundMapConfig& map : globe.maps) maps.push_back(open_ground_map(map, body));
     constexpr int kMegabyteBits = 20;
     return std::make_unique<GlobeTerrain>(
-        body.figure, std::move(maps), details_of(globe, body),
+        body.figure, open_maps(globe, body), details_of(globe, body),
         GlobeSettings{static_cast<std::size_t>(globe.memory_mb) << kMegabyteBits, globe.finest_m});
 }
 

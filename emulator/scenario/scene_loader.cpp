@@ -288,10 +288,7 @@ std::unique_ptr<SceneTerrain> load_terrain(const ScenarioConfig& s, const Spectr
     auto terrain = std::make_unique<SceneTerrain>();
     if (t.globe) {
         terrain->body = body_named(s, t.globe->body);
-        const std::size_t i = index_of(*terrain->body);
-        terrain->ground = load_globe(
-            *t.globe,
-            {t.globe->body, i < kBodyCount ? kFigures[i] : s.origin.own->list[i - kBodyCount].figure});
+        terrain->ground = load_globe(*t.globe, ground_body(s));
     } else {
         const TimeTai time = parse_utc(s.time_utc);
         terrain->ground = std::make_unique<TerrainPatch>(open_height_map(*t.heights), t.radius_m);
@@ -307,6 +304,12 @@ std::unique_ptr<SceneTerrain> load_terrain(const ScenarioConfig& s, const Spectr
 }
 
 }  // namespace
+
+MappedBody ground_body(const ScenarioConfig& s) {
+    const std::string& name = s.terrain->globe->body;
+    const std::size_t i = index_of(body_named(s, name));
+    return {name, i < kBodyCount ? kFigures[i] : s.origin.own->list[i - kBodyCount].figure};
+}
 
 double LoadedObject::mean_reflectance() const {
     double area_m2 = 0, sum_m2 = 0;

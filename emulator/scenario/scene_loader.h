@@ -41,6 +41,9 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
                                         std::vector<LoadedObject>* found = nullptr,
                                         LightLoading* light = nullptr);
 
+// Finds the body whose ground the scenario's terrain.globe is. Throws InputError where there is no such body.
+MappedBody ground_body(const ScenarioConfig& scenario);
+
 // Loads what the maps of the camera's fixed_pattern hold.
 DetectorPictures load_detector_pictures(const CameraModel& camera);
 

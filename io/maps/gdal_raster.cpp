@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -36,6 +37,8 @@ void start_gdal() {
         CPLSetConfigOption("CPL_VSIL_CURL_ALLOWED_EXTENSIONS", "{none}");
         CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");
         OSRSetPROJEnableNetwork(false);
+        // PROJ prints what a damaged file's projection lacks, unless it is told not to.
+        setenv("PROJ_DEBUG", "0", 0);
         GDALSetCacheMax64(kCacheBytes);
         GDALRegister_GTiff();
         GDALRegister_PDS();

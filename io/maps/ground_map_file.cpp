@@ -12,15 +12,15 @@ Fields fields(GroundMapConfig& c) {
         required(path("file", c.file, c.where,
                       "map: GeoTIFF, PDS3 or ISIS label, ENVI header's data, or a picture with bounds_deg")),
         choice("kind", c.kind, {"heights", "albedo"},
-               "what its values are: heights over the body's ellipsoid [m], or factors on the material's "
+               "meaning of its values: heights over the body's ellipsoid [m], or factors on the material's "
                "reflectance (one channel, or red, green and blue)"),
         choice("between", c.between, {"bilinear", "cubic"}, "interpolation between the posts"),
         number("scale", c.scale, 1, {-1e9, 1e9}, "factor on the file's values, beside the file's own"),
-        number("offset", c.offset, 1, {-1e9, 1e9}, "what is added to that [m for heights]"),
+        number("offset", c.offset, 1, {-1e9, 1e9}, "number that is added to that [m for heights]"),
         choice("coding", c.coding, {"linear", "srgb"},
                "srgb: values of 0 to 255 are codes of sRGB, which stand for 0 to 1, before scale and offset"),
         choice("holes", c.holes, {"refuse", "fill"},
-               "what becomes of a map with holes (no-data). fill: they show the map below, or height 0"),
+               "treatment of holes (no-data). fill: they show the map below, or height 0"),
         number("blend_posts", c.blend_posts, 1, {0, 1e4},
                "width of the margin over which the map is blended into what lies below, in its own posts"),
         numbers("bounds_deg", c.bounds_deg, 1, {-360, 540}, {0, 4},

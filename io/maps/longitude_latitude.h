@@ -1,5 +1,5 @@
 #pragma once
-// Where the posts of a map in longitude and latitude are.
+// This finds the posts of a map in longitude and latitude.
 
 #include <cmath>
 

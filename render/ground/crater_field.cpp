@@ -64,9 +64,10 @@ void CraterField::find_shaped(const Octave& octave, Vec3d middle, double reach_r
             const auto waves = octave.cells.words(cell, k, 1, seed, kPurpose);
             const auto phases = octave.cells.words(cell, k, 2, seed, kPurpose);
             for (std::size_t i = 0; i < 4; ++i) {
-                c.wave[i] =
+                const double wave =
                     0.06 * (GroundCells::uniform(waves[i]) - 0.5) / (1 + 0.5 * static_cast<double>(i));
-                c.phase_rad[i] = 2 * kPi * GroundCells::uniform(phases[i]);
+                const double phase_rad = 2 * kPi * GroundCells::uniform(phases[i]);
+                c.wave_cos[i] = wave * std::cos(phase_rad), c.wave_sin[i] = wave * std::sin(phase_rad);
             }
             const auto rays = octave.cells.words(cell, k, 3, seed, kPurpose);
             c.bright = settings_.rays * std::max(0.0, 1 - c.worn / kRaysWorn);
@@ -110,13 +111,22 @@ void CraterField::add_one(const Shaped& c, const GroundPatch& patch) const {
         const Vec3d away = patch.places[i] - c.place;
         const double away2 = dot(away, away);
         if (away2 > most2) return;
-        const double azimuth = std::atan2(dot(away, north), dot(away, east));
+        const double distance = std::sqrt(away2);
         double outline = 1;
-        for (std::size_t k = 0; k < 4; ++k)
-            outline += c.wave[k] * std::cos(static_cast<double>(k + 2) * azimuth + c.phase_rad[k]);
-        const double x = std::sqrt(away2) * radius_m_ / (radius_m * outline);
+        if (distance > 0) {
+            // Cosines and sines of two, three ... times the azimuth, by rotation.
+            const double c1 = dot(away, east) / distance, s1 = dot(away, north) / distance;
+            double ck = c1, sk = s1;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double next = ck * c1 - sk * s1;
+                sk = sk * c1 + ck * s1, ck = next;
+                outline += c.wave_cos[k] * ck + c.wave_sin[k] * sk;
+            }
+        }
+        const double x = distance * radius_m_ / (radius_m * outline);
         patch.heights_m[i] += depth_m * profile_.height(x, c.worn);
         if (c.bright > 0 && !patch.colors.empty() && x < kRayReach) {
+            const double azimuth = std::atan2(dot(away, north), dot(away, east));
             const double ray = 0.5 + 0.5 * std::cos(c.ray_count * azimuth + c.ray_phase_rad);
             const double share =
                 x < 1 ? 0.6 : std::exp(1 - x) * (0.3 + 0.7 * ray * ray) * (1 - x / kRayReach);

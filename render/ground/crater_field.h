@@ -45,7 +45,7 @@ class CraterField final : public GroundDetail {
 
   private:
     struct Shaped : Crater {
-        std::array<double, 4> wave, phase_rad;  // of the rim's outline, of 2 to 5 turns
+        std::array<double, 4> wave_cos, wave_sin;  // waves of the rim's outline, of 2 to 5 turns
         double bright = 0, ray_phase_rad = 0;
         int ray_count = 7;
     };

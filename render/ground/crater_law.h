@@ -1,5 +1,5 @@
 #pragma once
-// How many craters there are: what has fallen since the ground was new, or what is left of it where new craters have worn
+// The laws of how many craters there are: what has fallen since the ground was new, or what is left of it where new craters have worn
 // away the old ones. Cumulative numbers, per square metre, of diameters above one.
 
 #include <vector>

@@ -19,7 +19,7 @@
 namespace hilcam {
 
 struct GlobeSettings {
-    std::size_t most_bytes = std::size_t{512} << 20;  // of maps and tiles that are kept
+    std::size_t most_bytes = std::size_t{512} << 20;  // memory of maps and tiles that are kept
     double finest_m = 0.01;  // vertices are not nearer to each other than this, about
 };
 
@@ -37,7 +37,7 @@ class GlobeTerrain final : public Terrain {
     std::size_t kept_bytes() const { return surface_.pages().bytes() + tiles_.size() * GroundTile::kBytes; }
 
   private:
-    static constexpr double kOutside = 8;
+    static constexpr double kOutside = 32;
     struct Leaf {
         GroundTileKey key;
         const GroundTile* tile;

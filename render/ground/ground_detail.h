@@ -1,5 +1,5 @@
 #pragma once
-// What is finer than the maps, as an interface: something that adds to the heights of places.
+// The interface of what is finer than the maps: something that adds to the heights of places.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ struct GroundPatch {
     std::span<Vec3f> colors;        // factors on the reflectance; empty where nobody asks for them
     Vec3d middle;                   // a unit vector amid the places
     double reach_rad = 0;           // angle from the middle to the farthest of them
-    double texel_m = 1;             // what is finer than a few of these is left out
+    double texel_m = 1;             // width of a texel; details of fewer than some of these are left out
 
     // Rows and columns in which places can be that are within an angle of a direction.
     struct Window {

@@ -23,7 +23,7 @@ struct ReliefSettings {
 };
 Fields fields(ReliefSettings& settings);
 
-// What a map's heights differ by: fits the power law to root-mean-square differences over 1, 2 and 4 of its spacings, at places all over
+// Measures what a map's heights differ by: fits the power law to root-mean-square differences over 1, 2 and 4 of its spacings, at places all over
 // the body. None where the body has no map of heights, or a flat one.
 std::optional<ReliefSettings> measured_relief(GroundSurface& surface, double spacing_m);
 

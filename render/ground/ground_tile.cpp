@@ -80,7 +80,7 @@ std::vector<Vec3d> GroundTileMaker::places_of(const Grid& grid, int step, int fi
     return places;
 }
 
-// What the maps have at the texels, or where they are smooth between these, at the nodes.
+// Takes what the maps have at the texels, or where they are smooth between these, at the nodes.
 GroundTileMaker::Grid GroundTileMaker::lay(const GroundTileKey& key, int quads, double texel_m) {
     Grid grid{key, quads, texel_m, texel_m * kTexels < 0.5 * surface_.finest_m(), {}, {}, {}, {}, {}, {}};
     grid.places = places_of(grid, 1, -kBorder, grid.side());

@@ -52,7 +52,7 @@ struct SceneTerrain {
     std::string name;
     std::unique_ptr<Terrain> ground;
     Pose pose;                      // in the world, without a body
-    std::optional<BodyId> body;     // with which it turns
+    std::optional<BodyId> body;     // body with which it turns
     std::optional<Geodetic> place;  // its axes there: x east, y north, z up; none: the body's own axes
     Material material;
     double edge_px = 2;

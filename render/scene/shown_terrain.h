@@ -37,7 +37,7 @@ class ShownTerrain {
     std::size_t index_;
     TerrainStreamer streamer_;
     bool any_ = false;
-    Vec3d anchor_m_;        // of the mesh that is shown
+    Vec3d anchor_m_;        // anchor of the mesh that is shown
     TerrainView made_for_;  // the same mesh's view
     Vec3d seen_from_m_;     // the camera at the last update(), terrain axes
 

@@ -10,7 +10,7 @@
 
 namespace hilcam {
 
-// What a mesh is made for. Terrain axes.
+// A view is what a mesh is made for. Terrain axes.
 struct TerrainView {
     Vec3d camera_m;
     double pixel_rad = 1e-3;

@@ -18,7 +18,7 @@ struct PreparedTerrain {
     PreparedMesh tree;
     std::shared_ptr<const ObjectSurfaces> surfaces;
     Vec3d anchor_m;
-    TerrainView view;  // what it was made for
+    TerrainView view;  // view that it was made for
 };
 
 class TerrainStreamer {

@@ -12,7 +12,7 @@
 namespace hilcam {
 namespace {
 
-constexpr Figure kMoonFigure = kFigures[index_of(BodyId::kMoonFigure)];
+constexpr Figure kMoonFigure = kFigures[index_of(BodyId::kMoon)];
 
 std::vector<GroundMap> relief(int columns, double amplitude_m) {
     std::vector<GroundMap> maps(1);
