@@ -91,6 +91,9 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     vertex.surface_number = triangle.surface;
     vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
     vertex.mirrors_near = true;
+    vertex.known_sun = object.known_sun.empty() || frame.objects->size() > 1
+                           ? KnownSun::kAsk
+                           : object.known_sun[hits.triangle[k]];
 
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     vertex.surface = {&material, alpha, material.base, material.highlight};

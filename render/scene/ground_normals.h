@@ -16,6 +16,9 @@
 
 namespace hilcam {
 
+// What is known of a triangle's sunlight before a ray asks.
+enum class KnownSun : std::uint8_t { kAsk, kLit, kDark };
+
 class GroundNormals {
   public:
     static constexpr int kQuads = 32, kTexels = 4;

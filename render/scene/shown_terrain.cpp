@@ -49,7 +49,10 @@ bool ShownTerrain::is_stale(const TerrainView& view) const {
     if (!terrain_->ground->depends_on_boresight()) return false;
     const double turned_rad =
         std::atan2(length(cross(view.boresight, old.boresight)), dot(view.boresight, old.boresight));
-    return turned_rad > 0.5 * kFieldMargin_rad || view.pixel_rad != old.pixel_rad;
+    // A tenth of the Sun's own disk.
+    constexpr double kSunStep_rad = 0.001;
+    return turned_rad > 0.5 * kFieldMargin_rad || view.pixel_rad != old.pixel_rad ||
+           length(view.sun_dir - old.sun_dir) > kSunStep_rad;
 }
 
 Pose ShownTerrain::update(const WorldSnapshot& world, double focal_length_px, double half_field_rad,
@@ -62,9 +65,14 @@ Pose ShownTerrain::update(const WorldSnapshot& world, double focal_length_px, do
     seen_from_m_ = camera_m;
     const Vec3d boresight =
         transposed(world_from_terrain) * (to_matrix(camera.world_from_body) * Vec3d{0, 0, 1});
-    const TerrainView view{camera_m,          1 / focal_length_px,
-                           terrain_->edge_px, terrain_->most_triangles,
-                           boresight,         half_field_rad + kFieldMargin_rad};
+    const TerrainView view{
+        camera_m,
+        1 / focal_length_px,
+        terrain_->edge_px,
+        terrain_->most_triangles,
+        boresight,
+        half_field_rad + kFieldMargin_rad,
+        transposed(world_from_terrain) * normalized(world.bodies.sun_world_m - camera.position_world_m)};
     const bool stale = !any_ || is_stale(view);
     if (!any_ || (stale && terrain_->wait)) {
         const std::unique_ptr<PreparedTerrain> made = streamer_.make(view);

@@ -46,6 +46,7 @@ struct ObjectSurfaces {
     std::vector<LevelFacets> facets;  // facets of a level's triangles; empty for the mesh itself
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     std::shared_ptr<const GroundNormals> ground_normals;      // null: the corners' normals are all
+    std::vector<KnownSun> known_sun;                          // per triangle; empty: rays ask the Sun
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object

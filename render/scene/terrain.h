@@ -18,10 +18,11 @@ struct TerrainView {
     std::size_t most_triangles = 1'000'000;
     Vec3d boresight{0, 0, 1};            // unit
     double half_field_rad = 3.14159265;  // angle from the boresight beyond which the camera sees nothing
+    Vec3d sun_dir{0, 0, 1};              // towards the Sun, unit
 };
 
 struct TerrainMesh {
-    Mesh mesh;       // about the anchor, one surface
+    Mesh mesh;                                     // about the anchor, one surface
     std::shared_ptr<const GroundNormals> normals;  // null: the vertices' own are all
     Vec3d anchor_m;  // terrain axes; near the camera, so that single precision keeps its digits there
 };

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "render/scene/ground_sun.h"
 #include "render/scene/triangle_order.h"
 
 namespace hilcam {
@@ -21,9 +22,11 @@ std::unique_ptr<PreparedTerrain> TerrainStreamer::make(const TerrainView& view) 
     // A mesh with normals of its own is in their order.
     if (!terrain.normals) order_triangles(terrain.mesh);
     auto surfaces = std::make_shared<ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr);
+    PreparedMesh tree = embree_.prepare(terrain.mesh);
+    if (terrain.normals) surfaces->known_sun = known_sun(embree_, tree, terrain, view.sun_dir);
     surfaces->ground_normals = std::move(terrain.normals);
     return std::make_unique<PreparedTerrain>(
-        PreparedTerrain{embree_.prepare(terrain.mesh), std::move(surfaces), terrain.anchor_m, view});
+        PreparedTerrain{std::move(tree), std::move(surfaces), terrain.anchor_m, view});
 }
 
 void TerrainStreamer::request(const TerrainView& view) {
@@ -38,7 +41,8 @@ void TerrainStreamer::work() {
         delete used_.exchange(nullptr, std::memory_order_acquire);
         const TerrainView view = wanted_.read();
         const bool waiting = ready_.load() != nullptr;
-        if (waiting || (any && view.camera_m == made_for.camera_m && view.boresight == made_for.boresight)) {
+        if (waiting || (any && view.camera_m == made_for.camera_m && view.boresight == made_for.boresight &&
+                        view.sun_dir == made_for.sun_dir)) {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
             continue;
         }
