@@ -26,6 +26,7 @@ void add_subcommands(CLI::App& app, Action& action) {
     add_render_command(app, action);
     add_check_command(app, action);
     add_mesh_command(app, action);
+    add_ground_command(app, action);
     add_bench_command(app, action);
     add_tradeoff_command(app, action);
     add_campaign_command(app, action);

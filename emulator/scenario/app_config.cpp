@@ -258,6 +258,16 @@ void settle_nadir(ScenarioConfig& s) {
     for (ObjectConfig& object : s.objects) settle(object.pose);
 }
 
+// The ground of a whole body stands in that body's place.
+void settle_ground(ScenarioConfig& s) {
+    if (!s.terrain || !s.terrain->globe) return;
+    const std::string& name = s.terrain->globe->body;
+    for (std::size_t i = 0; i < kBodyCount; ++i)
+        if (kBodyNames[i] == name) s.bodies[i].visible = false;
+    for (OwnBodyConfig& own : s.own_bodies)
+        if (own.name == name) own.look.visible = false;
+}
+
 }  // namespace
 
 namespace {
@@ -299,6 +309,7 @@ ScenarioConfig load_scenario(const std::filesystem::path& file, std::span<const 
     root.validate = [&scenario] {
         settle_free_space(scenario);
         settle_nadir(scenario);
+        settle_ground(scenario);
         validate(scenario);
     };
     read_config(file, root, overrides);

@@ -182,6 +182,13 @@ Fields fields(PlaceConfig& p) {
 }
 
 void validate(const TerrainConfig& t) {
+    if (t.heights.has_value() == t.globe.has_value())
+        throw InputError("terrain has either 'heights' or 'globe'; found " +
+                         std::string(t.globe ? "both" : "neither"));
+    if (t.globe)
+        for (const auto& [key, given] :
+             {std::pair{"pose", t.has_pose}, {"place", t.place.has_value()}, {"radius_km", t.has_radius}})
+            if (given) throw KeyError(key, "has no effect with 'globe', which lies on its body");
     if (t.has_pose && t.place) throw KeyError("place", "terrain has either 'pose' or 'place'; found both");
     if (t.pose.frame != PoseConfig::Frame::kWorld)
         throw refused_key("pose.frame", "'local'", "terrain.place, which has local axes");
@@ -193,8 +200,11 @@ void validate(const TerrainConfig& t) {
 Fields fields(TerrainConfig& t) {
     return {
         text("name", t.name, "name of the terrain in messages"),
-        required(section("heights", t.heights, "height map")),
-        number("radius_km", t.radius_m, 1000, {0, 1e6}, "radius of the sphere under the map; 0: a plane"),
+        section("heights", t.heights, "height map about one place"),
+        section("globe", t.globe, "ground of a whole body, of many maps; replaces heights (docs/ground.md)"),
+        optional(number("radius_km", t.radius_m, 1000, {0, 1e6},
+                        "radius of the sphere under the height map; 0: a plane"),
+                 t.has_radius),
         optional(
             section("pose", t.pose,
                     "fixed pose in the world of the map's middle at height 0; axes x east, y north, z up"),

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/ground/globe_config.h"
 #include "emulator/scenario/motion_config.h"
 #include "emulator/world/world_state.h"
 #include "io/files/height_map_file.h"
@@ -90,14 +91,15 @@ struct PlaceConfig {
 };
 Fields fields(PlaceConfig& place);
 
-// Ground from a height map, at rest in the world or on a body that turns.
+// Ground from a height map, at rest in the world or on a body that turns, or that of a whole body.
 struct TerrainConfig {
     std::string name = "terrain";
-    HeightMapConfig heights;
+    std::optional<HeightMapConfig> heights;
+    std::optional<GlobeConfig> globe;
     double radius_m = 0;
     PoseConfig pose;
     std::optional<PlaceConfig> place;
-    bool has_pose = false;
+    bool has_pose = false, has_radius = false;
     MaterialConfig material;
     double edge_px = 2;
     std::int64_t most_triangles = 1'000'000;

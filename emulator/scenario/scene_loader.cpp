@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "emulator/ground/globe_loader.h"
 #include "emulator/progress/progress.h"
 #include "emulator/scenario/lamp_setup.h"
 #include "emulator/scenario/scenario_listing.h"
@@ -25,6 +26,8 @@
 #include "render/earth/earth_model.h"
 #include "render/frame/plugin.h"
 #include "render/scene/brdf.h"
+#include "render/scene/terrain_patch.h"
+#include "render/sky/own_bodies.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
@@ -289,12 +292,48 @@ std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const At
     return std::make_shared<EarthModel>(config, read_earth_map(config.map), std::move(clouds), air, grid);
 }
 
+BodyId body_named(const ScenarioConfig& s, const std::string& name) {
+    std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
+    for (const OwnBodyConfig& own : s.own_bodies) names.push_back(own.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw refused("terrain.globe.body", in_quotes(name), fmt::format("{}", fmt::join(names, ", ")));
+    return static_cast<BodyId>(found - names.begin());
+}
+
+std::unique_ptr<SceneTerrain> load_terrain(const ScenarioConfig& s, const SpectralGrid& grid) {
+    const TerrainConfig& t = *s.terrain;
+    const Progress progress("terrain " + t.name);
+    auto terrain = std::make_unique<SceneTerrain>();
+    if (t.globe) {
+        terrain->body = body_named(s, t.globe->body);
+        terrain->ground = load_globe(*t.globe, ground_body(s));
+    } else {
+        const TimeTai time = parse_utc(s.time_utc);
+        terrain->ground = std::make_unique<TerrainPatch>(open_height_map(*t.heights), t.radius_m);
+        terrain->pose = initial_motion(t.pose, time, bodies_at(time, s.origin)).pose;
+        if (t.place) terrain->body = t.place->body, terrain->place = t.place->place;
+    }
+    terrain->name = t.name;
+    terrain->material = load_material(t.material, grid);
+    terrain->edge_px = t.edge_px;
+    terrain->most_triangles = static_cast<std::size_t>(t.most_triangles);
+    terrain->wait = t.wait;
+    return terrain;
+}
+
 }  // namespace
 
 Mesh load_whole_mesh(const ObjectConfig& config) {
     Mesh mesh = std::move(load_meshes(config, mesh_file_of(config), {}).front());
     for (Vec3f& vertex : mesh.vertices_m) vertex = static_cast<float>(config.scale) * vertex;
     return mesh;
+}
+
+MappedBody ground_body(const ScenarioConfig& s) {
+    const std::string& name = s.terrain->globe->body;
+    const std::size_t i = index_of(body_named(s, name));
+    return {name, i < kBodyCount ? kFigures[i] : s.origin.own->list[i - kBodyCount].figure};
 }
 
 double LoadedObject::mean_reflectance() const {
@@ -332,15 +371,7 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
     scene.objects = load_objects(scenario, grid, found ? *found : objects);
     load_tables(scene, scenario, light ? *light : at_once);
     const TimeTai time = parse_utc(scenario.time_utc);
-    if (scenario.terrain) {
-        const TerrainConfig& t = *scenario.terrain;
-        const Progress progress("terrain " + t.name);
-        const Pose pose = initial_motion(t.pose, time, bodies_at(time, scenario.origin)).pose;
-        scene.terrain = std::make_unique<SceneTerrain>(SceneTerrain{
-            t.name, open_height_map(t.heights), t.radius_m, pose,
-            t.place ? std::optional(t.place->body) : std::nullopt, t.place ? t.place->place : Geodetic{},
-            load_material(t.material, grid), t.edge_px, static_cast<std::size_t>(t.most_triangles), t.wait});
-    }
+    if (scenario.terrain) scene.terrain = load_terrain(scenario, grid);
     scene.lamps = scene_lamps(scenario, grid);
     scene.stars_time = time;
     if (const auto& stars = scenario.stars; stars && !stars->catalogue.empty())

@@ -45,6 +45,8 @@ std::unique_ptr<Renderer> load_renderer(const ScenarioConfig& scenario, const Sp
 std::filesystem::path mesh_file_of(const ObjectConfig& object);
 // Loads an object's mesh with all its parts, unturned, in the object's axes and at its scale. Throws as above.
 Mesh load_whole_mesh(const ObjectConfig& object);
+// Finds the body whose ground the scenario's terrain.globe is. Throws InputError where there is no such body.
+MappedBody ground_body(const ScenarioConfig& scenario);
 
 // Loads what the maps of the camera's fixed_pattern hold.
 DetectorPictures load_detector_pictures(const CameraModel& camera);

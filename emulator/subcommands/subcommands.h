@@ -18,6 +18,7 @@ void add_recording_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
 void add_mesh_command(CLI::App& app, Action& action);
+void add_ground_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
 void add_tradeoff_command(CLI::App& app, Action& action);
 void add_campaign_command(CLI::App& app, Action& action);

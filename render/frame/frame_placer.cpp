@@ -168,7 +168,8 @@ void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
     HILCAM_CHECK(world.objects.size() + (terrain_ ? 1 : 0) == objects_.size());
     world_ = world;
     if (terrain_) {
-        world_.objects.push_back(terrain_->update(world_, frame_.geometry.focal_length_px, objects_.back()));
+        world_.objects.push_back(terrain_->update(world_, frame_.geometry.focal_length_px,
+                                                  half_field_rad(frame_.geometry), objects_.back()));
         radii_m_.back() = objects_.back().radius_m();
     }
     const RaySpace space = choose_ray_space(world_, radii_m_, rays_->is_still());

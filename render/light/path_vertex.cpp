@@ -39,8 +39,11 @@ bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir
 
     lie.view_dir = -normalized(dir);
     Vec3f geometric = world_from_body * geometric_body;
-    Vec3f normal =
-        world_from_body * ObjectSurfaces::normal_at(triangle, hits.u[k], hits.v[k], geometric_body);
+    Vec3f normal_body;
+    if (!object.ground_normals ||
+        !object.ground_normals->find(hits.triangle[k], hits.u[k], hits.v[k], normal_body))
+        normal_body = ObjectSurfaces::normal_at(triangle, hits.u[k], hits.v[k], geometric_body);
+    Vec3f normal = world_from_body * normal_body;
     lie.back = dot(geometric, lie.view_dir) < 0;
     if (lie.back) geometric = -geometric;
     if (dot(normal, geometric) < 0) normal = -normal;
@@ -88,10 +91,16 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     vertex.surface_number = triangle.surface;
     vertex.keeps_light = frame.kept && frame.kept->keeps(vertex.object);
     vertex.mirrors_near = true;
+    vertex.known_sun = object.known_sun.empty() || frame.objects->size() > 1
+                           ? KnownSun::kAsk
+                           : object.known_sun[hits.triangle[k]];
 
     const float alpha = material.has_facets() ? std::max(material.ggx_alpha, alpha_least) : 0.0f;
     vertex.surface = {&material, alpha, material.base, material.highlight};
     vertex.facet_alpha = alpha;
+    if (!object.corner_colors.empty())
+        vertex.surface.base =
+            vertex.surface.base * frame.bands->spectrum(object.color_at(hits.triangle[k], u, v));
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];
         const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];

@@ -91,7 +91,11 @@ void add_sunlight(Tile& tile, std::span<const Vertex> vertices) {
         Scatterer surface = at.surface;
         if (!frame.sun_is_disk && surface.alpha > 0) surface.alpha = sun_widened(surface.alpha);
         const Spectrum weight = (ni * share) * (at.weight * light * brdf_value(surface, c));
-        if (largest(weight) > 0) ask({&at, weight, dir}, {{at.start()}, {1}});
+        if (!(largest(weight) > 0) || (!frame.sun_is_disk && at.known_sun == KnownSun::kDark)) continue;
+        if (!frame.sun_is_disk && at.known_sun == KnownSun::kLit)
+            tile.pixels[at.pixel] += weight;
+        else
+            ask({&at, weight, dir}, {{at.start()}, {1}});
     }
     if (finds_edges) tile.edges->add_light(tile, sun);
 }

@@ -295,6 +295,10 @@ std::uint32_t EmbreeScene::occluded_by(std::size_t object, const RayPacket& rays
     return blocked_in(implementation_->levels[object].front(), rays);
 }
 
+std::uint32_t EmbreeScene::occluded_by(const PreparedMesh& mesh, const RayPacket& rays) const {
+    return blocked_in(static_cast<RTCScene>(mesh.scene_), rays);
+}
+
 void EmbreeScene::start_recording() {
     implementation_->recorded = std::make_unique<tbb::concurrent_vector<Implementation::Recorded>>();
 }

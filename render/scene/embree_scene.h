@@ -97,6 +97,8 @@ class EmbreeScene {
     // any time but while adopt() runs.
     void intersect_with(std::size_t object, const RayPacket& rays, HitPacket& hits) const;
     std::uint32_t occluded_by(std::size_t object, const RayPacket& rays) const;
+    // The same of a mesh that was made beside the scene; rays in its own axes. Any thread.
+    std::uint32_t occluded_by(const PreparedMesh& mesh, const RayPacket& rays) const;
 
     // Keeps a copy of every packet that is traced from now on, by any thread, for measurements.
     void start_recording();

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "render/scene/color_bands.h"
-#include "render/scene/height_map.h"
 #include "render/scene/lamp.h"
 #include "render/scene/material.h"
 #include "render/scene/mesh_lod.h"
+#include "render/scene/terrain.h"
 #include "render/sky/atmosphere.h"
 #include "render/sky/bodies.h"
 #include "render/sky/body_light.h"
@@ -47,14 +47,13 @@ struct SceneBody {
     std::string name{};        // name of a body of the scenario's own
 };
 
-// Ground from a height map (terrain.h), at rest in the world or on a body that turns.
+// Ground (terrain.h), at rest in the world or on a body that turns.
 struct SceneTerrain {
     std::string name;
-    std::unique_ptr<HeightMap> map;
-    double radius_m = 0;
-    Pose pose;                   // in the world, without a body
-    std::optional<BodyId> body;  // on which the map's middle is at `place`, x east, y north, z up
-    Geodetic place;
+    std::unique_ptr<Terrain> ground;
+    Pose pose;                      // in the world, without a body
+    std::optional<BodyId> body;     // body with which it turns
+    std::optional<Geodetic> place;  // its axes there: x east, y north, z up; none: the body's own axes
     Material material;
     double edge_px = 2;
     std::size_t most_triangles = 1'000'000;

@@ -1,5 +1,7 @@
 #include "render/scene/shown_terrain.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hilcam {
@@ -7,11 +9,15 @@ namespace {
 
 // East, north and up at the place are the terrain's axes.
 Pose pose_on_body(const SceneTerrain& terrain, const BodyState& body) {
-    const Mat3d fixed_from_terrain = body_fixed_from_local(terrain.place);
     const Mat3d world_from_fixed = transposed(body.fixed_from_world);
-    return {body.world_m + world_from_fixed * body_fixed_position_m(*terrain.body, terrain.place),
+    if (!terrain.place) return {body.world_m, to_quat(world_from_fixed)};
+    const Mat3d fixed_from_terrain = body_fixed_from_local(*terrain.place);
+    return {body.world_m + world_from_fixed * body_fixed_position_m(*terrain.body, *terrain.place),
             to_quat(world_from_fixed * fixed_from_terrain)};
 }
+
+// Beyond the field, so that a camera that turns slowly sees no edge of what is fine.
+constexpr double kFieldMargin_rad = 0.1;
 
 }  // namespace
 
@@ -33,18 +39,41 @@ ShownTerrain::ShownTerrain(EmbreeScene& embree, std::unique_ptr<SceneTerrain> te
     : embree_(embree),
       terrain_(std::move(terrain)),
       index_(index),
-      streamer_(embree, *terrain_->map, terrain_->radius_m, terrain_->material) {}
+      streamer_(embree, *terrain_->ground, terrain_->material) {}
 
-Pose ShownTerrain::update(const WorldSnapshot& world, double focal_length_px, ShownObject& object) {
+// Other terrain is needed once the camera has moved by a fiftieth of its distance to the ground under it, or where
+// its field reaches beyond what the mesh was made for.
+bool ShownTerrain::is_stale(const TerrainView& view) const {
+    const TerrainView& old = made_for_;
+    if (length(view.camera_m - old.camera_m) > 0.02 * length(view.camera_m - anchor_m_)) return true;
+    if (!terrain_->ground->depends_on_boresight()) return false;
+    const double turned_rad =
+        std::atan2(length(cross(view.boresight, old.boresight)), dot(view.boresight, old.boresight));
+    // A tenth of the Sun's own disk.
+    constexpr double kSunStep_rad = 0.001;
+    return turned_rad > 0.5 * kFieldMargin_rad || view.pixel_rad != old.pixel_rad ||
+           length(view.sun_dir - old.sun_dir) > kSunStep_rad;
+}
+
+Pose ShownTerrain::update(const WorldSnapshot& world, double focal_length_px, double half_field_rad,
+                          ShownObject& object) {
     const Pose pose =
         terrain_->body ? pose_on_body(*terrain_, world.bodies[*terrain_->body]) : terrain_->pose;
     const Pose& camera = world.camera;
     const Mat3d world_from_terrain = to_matrix(pose.world_from_body);
     const Vec3d camera_m = transposed(world_from_terrain) * (camera.position_world_m - pose.position_world_m);
     seen_from_m_ = camera_m;
-    const TerrainView view{camera_m, 1 / focal_length_px, terrain_->edge_px, terrain_->most_triangles};
-    // Other terrain is needed once the camera has moved by a fiftieth of its distance to the ground under it.
-    const bool stale = !any_ || length(camera_m - camera_m_) > 0.02 * length(camera_m - anchor_m_);
+    const Vec3d boresight =
+        transposed(world_from_terrain) * (to_matrix(camera.world_from_body) * Vec3d{0, 0, 1});
+    const TerrainView view{
+        camera_m,
+        1 / focal_length_px,
+        terrain_->edge_px,
+        terrain_->most_triangles,
+        boresight,
+        half_field_rad + kFieldMargin_rad,
+        transposed(world_from_terrain) * normalized(world.bodies.sun_world_m - camera.position_world_m)};
+    const bool stale = !any_ || is_stale(view);
     if (!any_ || (stale && terrain_->wait)) {
         const std::unique_ptr<PreparedTerrain> made = streamer_.make(view);
         adopt(*made, object);
@@ -62,8 +91,26 @@ Pose ShownTerrain::update(const WorldSnapshot& world, double focal_length_px, Sh
 void ShownTerrain::adopt(PreparedTerrain& prepared, ShownObject& object) {
     embree_.adopt(index_, prepared.tree);
     std::swap(object.levels.front(), prepared.surfaces);
-    anchor_m_ = prepared.anchor_m, camera_m_ = prepared.camera_m;
+    anchor_m_ = prepared.anchor_m, made_for_ = prepared.view;
     any_ = true;
+}
+
+std::optional<double> ShownTerrain::height_above_ground_m() const {
+    const Terrain& ground = *terrain_->ground;
+    if (const auto known = ground.height_above_ground_m(seen_from_m_)) return known;
+    if (!any_ || !is_finite(seen_from_m_)) return {};
+    // Down, or where nothing is below, up.
+    const Vec3f up = to_float(ground.up_at(seen_from_m_)), from = to_float(seen_from_m_ - anchor_m_);
+    RayPacket rays;
+    rays.count = 2;
+    rays.set(0, from, -up, 0, std::numeric_limits<float>::infinity());
+    rays.set(1, from, up, 0, std::numeric_limits<float>::infinity());
+    HitPacket hits;
+    embree_.intersect_with(index_, rays, hits);
+    for (const int side : {0, 1})
+        if (const auto k = static_cast<std::size_t>(side); hits.object[k] != HitPacket::kMiss)
+            return (side == 0 ? 1.0 : -1.0) * static_cast<double>(hits.distance[k]);
+    return {};
 }
 
 }  // namespace hilcam

@@ -23,13 +23,13 @@ class ShownTerrain {
     // Takes what the streamer has ready and asks it for what the camera needs; the first call, and every one
     // of a terrain that waits, makes it at once. Gives the pose of the object's mesh. Loop, but for those
     // calls.
-    Pose update(const WorldSnapshot& world, double focal_length_px, ShownObject& object);
+    // half_field_rad: angle from the boresight beyond which the camera sees nothing.
+    Pose update(const WorldSnapshot& world, double focal_length_px, double half_field_rad,
+                ShownObject& object);
 
-    // Returns the camera's height at the last update(), over the ground as the map has it; none beside the
-    // map. Loop.
-    std::optional<double> height_above_ground_m() const {
-        return hilcam::height_above_ground_m(*terrain_->map, terrain_->radius_m, seen_from_m_);
-    }
+    // Returns the camera's height at the last update() over the ground, as the map has it where that is known
+    // without the mesh, else over the mesh; none beside the ground. Loop.
+    std::optional<double> height_above_ground_m() const;
 
   private:
     EmbreeScene& embree_;
@@ -37,9 +37,11 @@ class ShownTerrain {
     std::size_t index_;
     TerrainStreamer streamer_;
     bool any_ = false;
-    Vec3d anchor_m_, camera_m_;  // anchor and camera of the mesh that is shown
-    Vec3d seen_from_m_;          // the camera at the last update(), terrain axes
+    Vec3d anchor_m_;        // anchor of the mesh that is shown
+    TerrainView made_for_;  // the same mesh's view
+    Vec3d seen_from_m_;     // the camera at the last update(), terrain axes
 
+    bool is_stale(const TerrainView& view) const;
     void adopt(PreparedTerrain& prepared, ShownObject& object);
 };
 

@@ -34,6 +34,13 @@ std::vector<Box> clusters_of(const Mesh& mesh) {
     return boxes;
 }
 
+PackedColor pack_color(Vec3f c) {
+    const auto packed = [](float value) {
+        return static_cast<std::uint16_t>(std::clamp(std::round(kColorSteps * value), 0.0f, 65535.0f));
+    };
+    return {packed(c.x), packed(c.y), packed(c.z)};
+}
+
 // Square root of the areas' ratio.
 float density_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
     const Vec3f a = mesh.vertices_m[t[0]];
@@ -74,6 +81,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
         corner_uvs.resize(mesh.triangles.size());
         uv_per_m.resize(mesh.triangles.size());
     }
+    if (!mesh.colors.empty()) corner_colors.resize(mesh.triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         triangles[i].surface = mesh.surface_of_triangle[i];
         // A zero normal stands for "the file has none here".
@@ -87,6 +95,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
             const std::uint32_t vertex = mesh.triangles[i][k];
             triangles[i].corner_normals[k] = flat ? 0 : pack_normal(mesh.normals[vertex]);
             if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
+            if (!mesh.colors.empty()) corner_colors[i][k] = pack_color(mesh.colors[vertex]);
         }
         if (textured) uv_per_m[i] = density_of(mesh, mesh.triangles[i]);
     }

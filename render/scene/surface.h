@@ -10,28 +10,12 @@
 #include <vector>
 
 #include "render/scene/color_bands.h"
+#include "render/scene/ground_normals.h"
 #include "render/scene/level_facets.h"
+#include "render/scene/packed_normal.h"
 #include "render/scene/scene.h"
 
 namespace hilcam {
-
-// Unit vectors in 32 bits, octahedral with 16 bits an axis: largest error 0.0037 deg (Cigolle et al., JCGT
-// 3(2), 2014).
-std::uint32_t pack_normal(Vec3f unit);
-inline Vec3f unpack_normal(std::uint32_t packed) {
-    const auto from_snorm16 = [](std::uint32_t bits) {
-        return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(bits))) *
-               (1.0f / 32767.0f);
-    };
-    float x = from_snorm16(packed & 0xFFFFu);
-    float y = from_snorm16(packed >> 16);
-    const float z = 1 - std::abs(x) - std::abs(y);
-    // Unfold the lower half without a branch.
-    const float t = std::max(-z, 0.0f);
-    x += x >= 0 ? -t : t;
-    y += y >= 0 ? -t : t;
-    return normalized(Vec3f{x, y, z});
-}
 
 struct PackedTriangle {
     std::array<std::uint32_t, 3> corner_normals;  // meaningless when flat
@@ -39,6 +23,10 @@ struct PackedTriangle {
     std::uint16_t flat;  // 1: the mesh has no normals; use the geometric one
 };
 static_assert(sizeof(PackedTriangle) == 16);
+
+// Factors on a material's base, linear red, green, blue, each 0 to 4 in 16 bits.
+using PackedColor = std::array<std::uint16_t, 3>;
+inline constexpr float kColorSteps = 65535.0f / 4;
 
 // An object as rays see it.
 struct ObjectSurfaces {
@@ -50,16 +38,29 @@ struct ObjectSurfaces {
     std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
     std::vector<float>
         uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
+    std::vector<std::array<PackedColor, 3>> corner_colors;  // empty when the mesh has none
     std::vector<Material> materials;
     // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
     // have them, too. The mesh itself has flattened none: empty.
     std::vector<float> flattened_alpha;
     std::vector<LevelFacets> facets;  // facets of a level's triangles; empty for the mesh itself
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
+    std::shared_ptr<const GroundNormals> ground_normals;      // null: the corners' normals are all
+    std::vector<KnownSun> known_sun;                          // per triangle; empty: rays ask the Sun
     // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
 
+    // Returns the factor on the base at barycentric (u, v) of a triangle; only where there are corner_colors.
+    Vec3f color_at(std::size_t triangle, float u, float v) const {
+        const auto& c = corner_colors[triangle];
+        const auto at = [&](std::size_t k) {
+            return ((1 - u - v) * static_cast<float>(c[0][k]) + u * static_cast<float>(c[1][k]) +
+                    v * static_cast<float>(c[2][k])) /
+                   kColorSteps;
+        };
+        return {at(0), at(1), at(2)};
+    }
     // The shading normal at barycentric (u, v), body axes, unit; `geometric` where the mesh has none.
     static Vec3f normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) {
         if (triangle.flat) return geometric;

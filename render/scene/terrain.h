@@ -1,39 +1,44 @@
 #pragma once
-// Terrain from a height map: a mesh for one place of the camera, fine where it is near and coarse where it is
-// far, so that a map larger than memory can be looked at. Terrain axes: x east, y north, z up, origin at the
-// map's middle at height 0. On a sphere the map is laid out by distance and direction from that middle
-// (azimuthal equidistant).
-//
-// Tiles of 32 x 32 quadrilaterals in a quadtree; the tile whose edges are widest on the screen is split
-// first, until edges are as narrow as asked for or the triangles are used up. Where a tile meets a coarser
-// one its border lies on that one's edges; small skirts keep rounding from opening gaps. Normals are those of
-// the heights at the tile's own spacing. Not modelled: overhangs, and what lies beyond the map's edge.
+// Ground that follows the camera, as an interface: whoever has heights makes a mesh for one place of the camera, fine
+// where it is near and coarse where it is far. terrain_patch.h is a map about one place, render/ground a whole body.
 
+#include <memory>
 #include <optional>
 
-#include "render/scene/height_map.h"
+#include "render/scene/ground_normals.h"
 #include "render/vocabulary/mesh.h"
 
 namespace hilcam {
 
+// A view is what a mesh is made for. Terrain axes.
 struct TerrainView {
-    Vec3d camera_m;  // terrain axes
+    Vec3d camera_m;
     double pixel_rad = 1e-3;
     double edge_px = 2;  // greatest edge of a triangle on the screen
     std::size_t most_triangles = 1'000'000;
+    Vec3d boresight{0, 0, 1};            // unit
+    double half_field_rad = 3.14159265;  // angle from the boresight beyond which the camera sees nothing
+    Vec3d sun_dir{0, 0, 1};              // towards the Sun, unit
 };
 
 struct TerrainMesh {
-    Mesh mesh;       // about the anchor, one surface
+    Mesh mesh;                                     // about the anchor, one surface
+    std::shared_ptr<const GroundNormals> normals;  // null: the vertices' own are all
     Vec3d anchor_m;  // terrain axes; near the camera, so that single precision keeps its digits there
 };
 
-// radius_m: of the sphere under the map; 0: a plane. Any thread; allocates.
-TerrainMesh terrain_mesh(const HeightMap& map, double radius_m, const TerrainView& view);
-
-// Returns the height of a point, in terrain axes, above the ground along its own vertical [m], bilinear
-// between the map's four posts around; negative: below it. None beside the map. Loop, any thread; no
-// allocation.
-std::optional<double> height_above_ground_m(const HeightMap& map, double radius_m, Vec3d point_m);
+class Terrain {
+  public:
+    virtual ~Terrain() = default;
+    // Returns the mesh for a view. Any thread, one at a time; allocates.
+    virtual TerrainMesh mesh(const TerrainView& view) = 0;
+    // True where what the camera does not see is coarser, so that a camera that turns needs another mesh.
+    virtual bool depends_on_boresight() const = 0;
+    // Returns the vertical at a point, unit. Loop, any thread.
+    virtual Vec3d up_at(Vec3d point_m) const = 0;
+    // Returns the height of a point above the ground along its own vertical [m], negative: below it, where that is
+    // known without the mesh; none beside the map. Loop, any thread; no allocation.
+    virtual std::optional<double> height_above_ground_m(Vec3d point_m) const = 0;
+};
 
 }  // namespace hilcam

@@ -2,13 +2,13 @@
 
 #include <chrono>
 
+#include "render/scene/ground_sun.h"
 #include "render/scene/triangle_order.h"
 
 namespace hilcam {
 
-TerrainStreamer::TerrainStreamer(const EmbreeScene& embree, const HeightMap& map, double radius_m,
-                                 const Material& material)
-    : embree_(embree), map_(map), radius_m_(radius_m), material_(material) {}
+TerrainStreamer::TerrainStreamer(const EmbreeScene& embree, Terrain& ground, const Material& material)
+    : embree_(embree), ground_(ground), material_(material) {}
 
 TerrainStreamer::~TerrainStreamer() {
     stop_.store(true);
@@ -18,12 +18,15 @@ TerrainStreamer::~TerrainStreamer() {
 }
 
 std::unique_ptr<PreparedTerrain> TerrainStreamer::make(const TerrainView& view) const {
-    TerrainMesh terrain = terrain_mesh(map_, radius_m_, view);
-    order_triangles(terrain.mesh);
+    TerrainMesh terrain = ground_.mesh(view);
+    // A mesh with normals of its own is in their order.
+    if (!terrain.normals) order_triangles(terrain.mesh);
+    auto surfaces = std::make_shared<ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr);
+    PreparedMesh tree = embree_.prepare(terrain.mesh);
+    if (terrain.normals) surfaces->known_sun = known_sun(embree_, tree, terrain, view.sun_dir);
+    surfaces->ground_normals = std::move(terrain.normals);
     return std::make_unique<PreparedTerrain>(
-        PreparedTerrain{embree_.prepare(terrain.mesh),
-                        std::make_shared<const ObjectSurfaces>(terrain.mesh, std::vector{material_}, nullptr),
-                        terrain.anchor_m, view.camera_m});
+        PreparedTerrain{std::move(tree), std::move(surfaces), terrain.anchor_m, view});
 }
 
 void TerrainStreamer::request(const TerrainView& view) {
@@ -32,18 +35,19 @@ void TerrainStreamer::request(const TerrainView& view) {
 }
 
 void TerrainStreamer::work() {
-    Vec3d made_for;
+    TerrainView made_for;
     bool any = false;
     while (!stop_.load()) {
         delete used_.exchange(nullptr, std::memory_order_acquire);
         const TerrainView view = wanted_.read();
         const bool waiting = ready_.load() != nullptr;
-        if (waiting || (any && view.camera_m == made_for)) {
+        if (waiting || (any && view.camera_m == made_for.camera_m && view.boresight == made_for.boresight &&
+                        view.sun_dir == made_for.sun_dir)) {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
             continue;
         }
         ready_.store(make(view).release(), std::memory_order_release);
-        made_for = view.camera_m;
+        made_for = view;
         any = true;
     }
 }

@@ -18,14 +18,13 @@ struct PreparedTerrain {
     PreparedMesh tree;
     std::shared_ptr<const ObjectSurfaces> surfaces;
     Vec3d anchor_m;
-    Vec3d camera_m;  // that it was made for
+    TerrainView view;  // view that it was made for
 };
 
 class TerrainStreamer {
   public:
     // All but the material must outlive this. Owner thread.
-    TerrainStreamer(const EmbreeScene& embree, const HeightMap& map, double radius_m,
-                    const Material& material);
+    TerrainStreamer(const EmbreeScene& embree, Terrain& ground, const Material& material);
     ~TerrainStreamer();
 
     // Makes terrain for a view at once. Not for the loop.
@@ -38,8 +37,7 @@ class TerrainStreamer {
 
   private:
     const EmbreeScene& embree_;
-    const HeightMap& map_;
-    double radius_m_;
+    Terrain& ground_;
     Material material_;
     Latest<TerrainView> wanted_;
     std::atomic<PreparedTerrain*> ready_{nullptr}, used_{nullptr};

@@ -33,6 +33,7 @@ struct Mesh {
     std::vector<Vec3f> vertices_m;
     std::vector<Vec3f> normals;  // one unit vector per vertex, or empty: flat shading
     std::vector<Vec2f> uvs;      // one per vertex, or empty: no textures
+    std::vector<Vec3f> colors;   // one per vertex, or empty: factors on what the surface reflects, linear RGB
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint16_t> surface_of_triangle;  // index into surfaces
     std::vector<MeshSurface> surfaces;

@@ -19,11 +19,11 @@ LAYERS = ("emulator", "io", "sensor", "render")
 ROOMS = (
     "emulator", "emulator/subcommands",
     "emulator/tradeoff", "emulator/campaign", "emulator/check", "emulator/bench", "emulator/characterise", "emulator/run", "emulator/recording",
-    "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion", "emulator/progress",
+    "emulator/loop", "emulator/scenario", "emulator/events", "emulator/send", "emulator/world", "emulator/motion", "emulator/progress", "emulator/ground",
     "io/gige", "io/gige/device", "io/gige/stream", "io/uvc", "io/v4l2", "io/vizard", "io/preview", "io/shm", "io/truth", "io/commands",
-    "io/spice", "io/files", "io/pictures", "io/config", "io/contract", "io/naif", "io/system",
+    "io/spice", "io/maps", "io/files", "io/pictures", "io/config", "io/contract", "io/naif", "io/system",
     "sensor/measure", "sensor", "sensor/stray", "sensor/convolution",
-    "render/frame", "render/light", "render/visibility", "render/skylight", "render/scene", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
+    "render/frame", "render/light", "render/visibility", "render/skylight", "render/ground", "render/scene", "render/earth", "render/sky", "render/brdf", "render/vocabulary",
 )
 MOST_FILES = 50
 # The sections of the data sheet name each other, so the sensor's stages stay side by side.
@@ -48,6 +48,9 @@ ONLY_IN = {
     "zmq": {"io/vizard/commands_vizard.cpp"},
     "hwy": {"render/light/primary_vertices.cpp", "render/visibility/fragment_packet.cpp",
             "render/visibility/visibility_raster.cpp", "sensor/convolution/fourier.cpp"},
+    "gdal": {"io/maps/gdal_raster.cpp"},
+    "ogr_": {"io/maps/gdal_raster.cpp"},
+    "cpl_": {"io/maps/gdal_raster.cpp"},
     "libusb": {"io/commands/command_link_usb.cpp", "io/commands/commands_usb.cpp", "io/commands/usb_device.cpp"},
     "erfa": {"render/sky/bodies.cpp", "render/sky/earth_frames.cpp", "render/sky/stars.cpp", "render/vocabulary/time.cpp",
              "render/vocabulary/time_system.cpp"},

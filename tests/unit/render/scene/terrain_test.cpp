@@ -1,4 +1,4 @@
-#include "render/scene/terrain.h"
+#include "render/scene/terrain_patch.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,8 @@ class Waves final : public HeightMap {
 // coarse.
 TEST(Terrain, AMapLargerThanMemoryIsReadWhereItIsLookedAt) {
     const Waves map(1'000'000, 1, 3);
-    TerrainView view{{12'345, -54'321, 100}, 1e-3, 2, 200'000};
+    TerrainView view{
+        .camera_m = {12'345, -54'321, 100}, .pixel_rad = 1e-3, .edge_px = 2, .most_triangles = 200'000};
     const TerrainMesh terrain = terrain_mesh(map, 0, view);
     EXPECT_LE(terrain.mesh.triangles.size(), 200'000u);
     EXPECT_GT(terrain.mesh.triangles.size(), 100'000u);
@@ -85,7 +86,8 @@ TEST(Terrain, HeightAboveGroundIsThatUnderThePoint) {
 TEST(Terrain, OnASphereDistancesAlongTheGroundStay) {
     constexpr double kMoon_m = 1737.4e3;
     const Waves map(4097, 100, 0);
-    const TerrainMesh terrain = terrain_mesh(map, kMoon_m, {{0, 0, 1e5}, 1e-3, 2, 100'000});
+    const TerrainMesh terrain = terrain_mesh(
+        map, kMoon_m, {.camera_m = {0, 0, 1e5}, .pixel_rad = 1e-3, .edge_px = 2, .most_triangles = 100'000});
     double farthest_rad = 0;
     std::size_t on_sphere = 0;
     for (const Vec3f& v : terrain.mesh.vertices_m) {
@@ -108,7 +110,7 @@ TEST(Terrain, ThereAreNoGapsBetweenTiles) {
         s.quality.path_model = "direct";
         s.quality.max_depth = 1;
         s.scene.terrain = std::make_unique<SceneTerrain>();
-        s.scene.terrain->map = std::make_unique<Waves>(20'001, 2, 30);
+        s.scene.terrain->ground = std::make_unique<TerrainPatch>(std::make_unique<Waves>(20'001, 2, 30), 0);
         s.scene.terrain->material = make_material(lambert(0.5), s.grid);
         s.scene.terrain->most_triangles = 60'000;
         s.scene.terrain->edge_px = 4;
@@ -130,8 +132,7 @@ TEST(Terrain, FollowsTheCameraBesideTheFrames) {
     s.camera(64, 0.5);
     s.quality.path_model = "direct";
     s.scene.terrain = std::make_unique<SceneTerrain>();
-    auto map = std::make_unique<Waves>(200'001, 1, 30);
-    s.scene.terrain->map = std::move(map);
+    s.scene.terrain->ground = std::make_unique<TerrainPatch>(std::make_unique<Waves>(200'001, 1, 30), 0);
     s.scene.terrain->material = make_material(lambert(0.5), s.grid);
     s.scene.terrain->most_triangles = 50'000;
     s.scene.terrain->pose = {{0, 0, 500}, from_rotation_vector({kPi, 0, 0})};

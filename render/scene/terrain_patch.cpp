@@ -1,4 +1,4 @@
-#include "render/scene/terrain.h"
+#include "render/scene/terrain_patch.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,19 @@
+#pragma once
+// Makes the ground of a whole body of what a scenario says of it.
+
+#include <memory>
+#include <vector>
+
+#include "emulator/ground/globe_config.h"
+#include "render/scene/terrain.h"
+
+namespace hilcam {
+
+// Opens the maps. Throws InputError.
+std::vector<GroundMap> open_maps(const GlobeConfig& globe, const MappedBody& body);
+// Makes what is below them; what is left to be measured on the maps is. Throws InputError.
+std::vector<std::unique_ptr<const GroundDetail>> details_of(const GlobeConfig& globe, const MappedBody& body);
+// Makes the ground of both. Throws InputError.
+std::unique_ptr<Terrain> load_globe(const GlobeConfig& globe, const MappedBody& body);
+
+}  // namespace hilcam

@@ -1,0 +1,27 @@
+#pragma once
+// This tells as text what is on the ground about a place: the craters and boulders that were seeded, and heights with slopes and steps, for
+// who judges whether a navigation or a landing program has found them.
+
+#include <string>
+
+#include "emulator/ground/globe_config.h"
+#include "render/sky/bodies.h"
+
+namespace hilcam {
+
+struct GroundSurvey {
+    enum class What { kCraters, kBoulders, kHeights } what = What::kCraters;
+    Geodetic middle;
+    double within_m =
+        100;  // craters and boulders whose middles are so near; half the edge of the heights' square
+    double smallest_m = 0;  // least diameter; 0: all
+    double spacing_m = 1;   // distance of the heights
+};
+
+// Returns comma-separated values with a line of names. Places are east and north of the middle, along the ground [m]. Craters:
+// diameter, and wear (0 fresh to CraterProfile::kMostWorn). Boulders: greatest width, height above the ground. Heights: over the
+// ellipsoid, with the slope of the plane through the neighbours and the greatest difference of height to one of them after that
+// plane. Throws InputError where the ground has no such things, or there would be too many of them.
+std::string survey_ground(const GlobeConfig& globe, const MappedBody& body, const GroundSurvey& survey);
+
+}  // namespace hilcam

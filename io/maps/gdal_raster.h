@@ -1,0 +1,13 @@
+#pragma once
+// Maps in the formats and projections of GDAL: GeoTIFF, PDS3, ISIS, ENVI. The one unit that knows it. Only files of this
+// machine are opened, by these formats' drivers and no others: nothing is looked for in the network.
+
+#include "io/maps/ground_map_file.h"
+
+namespace hilcam {
+
+// See open_ground_map(). A map without overviews is read thinly where it is looked at from afar: make some of large ones
+// (gdaladdo, or a Cloud-optimised GeoTIFF).
+std::unique_ptr<GroundRaster> open_gdal_raster(const GroundMapConfig& config, const MappedBody& body);
+
+}  // namespace hilcam

@@ -1,0 +1,54 @@
+#include "io/maps/ground_map_file.h"
+
+#include "io/maps/gdal_raster.h"
+#include "io/maps/picture_raster.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/plain_number.h"
+
+namespace hilcam {
+
+Fields fields(GroundMapConfig& c) {
+    return {
+        required(path("file", c.file, c.where,
+                      "map: GeoTIFF, PDS3 or ISIS label, ENVI header's data, or a picture with bounds_deg")),
+        choice("kind", c.kind, {"heights", "albedo"},
+               "meaning of its values: heights over the body's ellipsoid [m], or factors on the material's "
+               "reflectance (one channel, or red, green and blue)"),
+        choice("between", c.between, {"bilinear", "cubic"}, "interpolation between the posts"),
+        number("scale", c.scale, 1, {-1e9, 1e9}, "factor on the file's values, beside the file's own"),
+        number("offset", c.offset, 1, {-1e9, 1e9}, "number that is added to that [m for heights]"),
+        choice("coding", c.coding, {"linear", "srgb"},
+               "srgb: values of 0 to 255 are codes of sRGB, which stand for 0 to 1, before scale and offset"),
+        choice("holes", c.holes, {"refuse", "fill"},
+               "treatment of holes (no-data). fill: they show the map below, or height 0"),
+        number("blend_posts", c.blend_posts, 1, {0, 1e4},
+               "width of the margin over which the map is blended into what lies below, in its own posts"),
+        numbers("bounds_deg", c.bounds_deg, 1, {-360, 540}, {0, 4},
+                "[west, south, east, north] of the outer edges of a map in longitude and latitude, where the "
+                "file has no projection or a wrong one"),
+    };
+}
+
+void validate(const GroundMapConfig& c) {
+    const std::vector<double>& b = c.bounds_deg;
+    if (b.empty()) return;
+    if (b.size() != 4)
+        throw refused_key("bounds_deg", std::to_string(b.size()) + " numbers", "[west, south, east, north]");
+    if (!(b[0] < b[2] && b[2] - b[0] <= 360))
+        throw refused_key("bounds_deg", "west " + plain(b[0]) + ", east " + plain(b[2]),
+                          "an east that is more, by 360 at most");
+    if (!(b[1] < b[3] && b[1] >= -90 && b[3] <= 90))
+        throw refused_key("bounds_deg", "south " + plain(b[1]) + ", north " + plain(b[3]),
+                          "a north that is more, both within -90 to 90");
+}
+
+GroundMap open_ground_map(const GroundMapConfig& config, const MappedBody& body) {
+    GroundMap map;
+    map.kind = config.kind;
+    map.between = config.between;
+    map.raster = is_picture(config.file) ? open_picture_raster(config, body) : open_gdal_raster(config, body);
+    map.blend_m = config.blend_posts * map.raster->shape().spacing_m;
+    return map;
+}
+
+}  // namespace hilcam

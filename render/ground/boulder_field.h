@@ -1,0 +1,63 @@
+#pragma once
+// Seeded boulders: numbers by a power law of the diameter, N(> D) = K D^-b (Cintala & McBride, NASA TM-104804, 1995: b of 2 to 3
+// at the Surveyors' sites), K from the share of the ground that they cover (rock abundance; Bandfield et al., J. Geophys. Res. 116,
+// E00H02, 2011). Each is a stone of seeded shape, half buried: an ellipsoid cut by planes. It is part of the ground's heights: without
+// overhangs, and there where the ground's vertices are near enough to each other to show it, so that what is not
+// seen costs nothing.
+
+#include <cstdint>
+#include <vector>
+
+#include "render/ground/ground_cells.h"
+#include "render/ground/ground_detail.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+struct BoulderSettings {
+    std::int64_t seed = 1;
+    double abundance = 0.02;  // share of the ground that is covered by boulders between the two diameters
+    double exponent = 2.5;    // b
+    double smallest_m = 0.1, largest_m = 10;
+};
+Fields fields(BoulderSettings& settings);
+void validate(const BoulderSettings& settings);
+
+struct Boulder {
+    Vec3d place;            // unit vector
+    double diameter_m = 0;  // greatest width
+    double height_m = 0;    // above the ground
+};
+
+class BoulderField final : public GroundDetail {
+  public:
+    BoulderField(double radius_m, const BoulderSettings& settings);
+    void add(const GroundPatch& patch) const override;
+    // Appends the boulders above a diameter with their middles within an angle of a direction.
+    void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Boulder>& boulders) const;
+    // Number per square metre of diameters above one.
+    double per_m2(double diameter_m) const;
+
+  private:
+    static constexpr int kPlanes = 6;
+    struct Shaped : Boulder {
+        double turn_rad = 0, slim = 1;     // the smaller width over the greater
+        std::array<Vec3d, kPlanes> plane;  // unit normals, in units of the half axes
+        std::array<double, kPlanes> plane_at;
+        double bright = 1;
+    };
+    double radius_m_;
+    BoulderSettings settings_;
+    double factor_;  // K
+    struct Octave {
+        double least_m, most_m, per_m2;
+        GroundCells cells;
+    };
+    std::vector<Octave> octaves_;
+
+    void find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
+                     std::vector<Shaped>& boulders) const;
+    void add_one(const Shaped& boulder, const GroundPatch& patch) const;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,67 @@
+#pragma once
+// Seeded craters: numbers by the law (crater_law.h), each with a shape of its wear (crater_profile.h), a rim that is not quite
+// round, and rays of bright ejecta while it is young. Those that a patch's spacing cannot show are left out.
+//
+// Wear: where craters have come and gone to equilibrium their wears are spread evenly up to the one at which they are
+// counted no more (Fassett & Thomson 2014, there); of larger ones, which all are there still, up to what the ground's age
+// has worn them. Craters lie over each other by adding up.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "render/ground/crater_law.h"
+#include "render/ground/crater_profile.h"
+#include "render/ground/ground_cells.h"
+#include "render/ground/ground_detail.h"
+#include "render/vocabulary/config_field.h"
+
+namespace hilcam {
+
+struct CraterSettings {
+    std::int64_t seed = 1;
+    double age_ga = 3.5;
+    double smallest_m = 0.2, largest_m = 1000;
+    double diffusivity_m2_ga = 5500;  // Fassett & Thomson 2014: 5.5 m^2/Ma
+    double rays = 0.5;                // greatest brightening by rays, about
+};
+Fields fields(CraterSettings& settings);
+void validate(const CraterSettings& settings);
+
+struct Crater {
+    Vec3d place;  // unit vector
+    double diameter_m = 0;
+    double worn = 0;  // CraterProfile
+};
+
+class CraterField final : public GroundDetail {
+  public:
+    // Octaves are counted from the body's smallest crater.
+    CraterField(double radius_m, const CraterSettings& settings);
+    void add(const GroundPatch& patch) const override;
+    // Appends the craters above a diameter with their middles within an angle of a direction.
+    void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Crater>& craters) const;
+    const CraterLaw& law() const { return law_; }
+
+  private:
+    struct Shaped : Crater {
+        std::array<double, 4> wave_cos, wave_sin;  // waves of the rim's outline, of 2 to 5 turns
+        double bright = 0, ray_phase_rad = 0;
+        int ray_count = 7;
+    };
+    double radius_m_;
+    CraterSettings settings_;
+    CraterLaw law_;
+    CraterProfile profile_;
+    struct Octave {
+        double least_m, most_m, per_m2;
+        GroundCells cells;
+    };
+    std::vector<Octave> octaves_;
+
+    void find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
+                     std::vector<Shaped>& craters) const;
+    void add_one(const Shaped& crater, const GroundPatch& patch) const;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,31 @@
+#pragma once
+// The shape of a crater, fresh or worn: heights over the ground around, by the distance from its middle.
+//
+// Fresh: a bowl as deep under its rim as 0.196 D^1.010 and a rim as high as 0.036 D^1.014 (D, in km; Pike, in Impact and
+// Explosion Cratering, 489, 1977), a parabola inside; outside the ejecta fall as the third power of the distance (McGetchin et al.,
+// Earth Planet. Sci. Lett. 20, 226, 1973) to nothing at kReach radii. Worn: the same after diffusion of its heights, whose
+// measure is diffusivity times time over the radius squared (Fassett & Thomson, J. Geophys. Res. Planets 119, 2255, 2014). Not
+// modelled: flat floors and terraces of craters above 15 km, secondary craters' shapes.
+
+#include <vector>
+
+namespace hilcam {
+
+class CraterProfile {
+  public:
+    static constexpr double kReach = 3;       // radii
+    static constexpr double kMostWorn = 0.5;  // a tenth of the depth is left
+
+    CraterProfile();
+    // Returns the height over the radius at a distance in radii; 0 beyond kReach. depth: of a fresh crater under its rim,
+    // over the radius. worn: 0 to kMostWorn.
+    double height(double distance, double worn) const;
+    // Depth under the rim over the diameter of a fresh crater.
+    static double fresh_depth(double diameter_m);
+
+  private:
+    static constexpr int kStates = 24, kSteps = 192;
+    std::vector<std::vector<double>> states_;  // by wear, by distance; of a fresh depth of 1
+};
+
+}  // namespace hilcam

@@ -1,0 +1,55 @@
+#pragma once
+// The directions from a body's centre, or the normals of its ellipsoid, on the six faces of a cube: each face a square
+// whose two coordinates are angles from its middle, -1 to 1 for -45 to 45 deg (the equiangular projection; Ronchi, Iacono
+// and Paolucci, J. Comput. Phys. 124, 93, 1996). Its squares differ by less than 1.42 in their edges. Along a common
+// edge two faces have the same coordinate, one of them perhaps from the other end, so that their points there are the
+// same.
+
+#include <array>
+#include <cmath>
+
+#include "render/vocabulary/units.h"
+#include "render/vocabulary/vec.h"
+
+namespace hilcam {
+
+inline constexpr int kCubeFaces = 6;
+
+struct CubeFace {
+    Vec3d axis, right, up;  // right x up = axis
+};
+inline constexpr std::array<CubeFace, kCubeFaces> kCube = {{
+    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+    {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}},
+    {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+    {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}},
+    {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
+    {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}},
+}};
+
+struct CubePoint {
+    int face = 0;
+    Vec2d at;  // right, up; within -1 .. 1
+};
+
+// Returns the unit vector of a point; coordinates may go beyond the face a little.
+inline Vec3d cube_direction(int face, Vec2d at) {
+    const CubeFace& f = kCube[static_cast<std::size_t>(face)];
+    // 45 deg is exact, so that faces meet.
+    const auto tangent = [](double x) { return std::abs(x) == 1 ? x : std::tan(0.25 * kPi * x); };
+    return normalized(f.axis + tangent(at.x) * f.right + tangent(at.y) * f.up);
+}
+
+// Returns the point of a direction, of any length.
+inline CubePoint cube_point(Vec3d dir) {
+    CubePoint out;
+    double most = -1;
+    for (int face = 0; face < kCubeFaces; ++face)
+        if (const double along = dot(kCube[static_cast<std::size_t>(face)].axis, dir); along > most)
+            most = along, out.face = face;
+    const CubeFace& f = kCube[static_cast<std::size_t>(out.face)];
+    out.at = {std::atan(dot(f.right, dir) / most) * 4 / kPi, std::atan(dot(f.up, dir) / most) * 4 / kPi};
+    return out;
+}
+
+}  // namespace hilcam

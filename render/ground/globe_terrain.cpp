@@ -1,0 +1,202 @@
+#include "render/ground/globe_terrain.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/ground/cube_sphere.h"
+
+namespace hilcam {
+namespace {
+
+constexpr int kQuads = GroundTile::kQuads, kSide = GroundTile::kSide;
+constexpr std::size_t kBorder = 4 * kQuads;
+constexpr std::size_t kTileVertices = kSide * kSide + kBorder;
+constexpr std::size_t kTileTriangles = 2 * kQuads * kQuads + 2 * kBorder;
+// Distances over which a vertex goes to the level above: of those at which tiles of its level are used.
+constexpr double kMorphFrom = 1.5, kMorphTo = 2;
+// A tile's own width must be less than what kMorphFrom leaves: at least so many edges of a triangle to the nearest.
+constexpr double kLeastEdges = 128;
+constexpr int kFinestLevel = 27;
+
+// The vertices around a tile, against the clock.
+int border_vertex(int k) {
+    const int side = k / kQuads, along = k % kQuads;
+    const int x = side == 0 ? along : side == 1 ? kQuads : side == 2 ? kQuads - along : 0;
+    const int y = side == 0 ? 0 : side == 1 ? along : side == 2 ? kQuads : kQuads - along;
+    return y * kSide + x;
+}
+
+}  // namespace
+
+GlobeTerrain::GlobeTerrain(const Figure& figure, std::vector<GroundMap> maps,
+                           std::vector<std::unique_ptr<const GroundDetail>> details,
+                           const GlobeSettings& settings)
+    : surface_(figure, std::move(maps), settings.most_bytes / 2),
+      details_(std::move(details)),
+      maker_(surface_, details_),
+      most_tiles_(settings.most_bytes / 2 / GroundTile::kBytes),
+      finest_level_(0) {
+    while (finest_level_ < kFinestLevel && maker_.spacing_m(finest_level_) > settings.finest_m)
+        ++finest_level_;
+}
+
+Vec3d GlobeTerrain::up_at(Vec3d p) const {
+    const Figure& f = surface_.figure();
+    const double ratio = f.equatorial_radius_m / f.polar_radius_m;
+    return length(p) > 0 ? normalized(Vec3d{p.x, p.y, p.z * ratio * ratio}) : Vec3d{0, 0, 1};
+}
+
+// Makes those that are not kept.
+void GlobeTerrain::require(std::span<const GroundTileKey> keys) {
+    std::vector<GroundTileKey> missing;
+    for (const GroundTileKey& key : keys)
+        if (!tiles_.contains(key.word())) missing.push_back(key);
+    std::vector<std::unique_ptr<GroundTile>> made = maker_.make(missing);
+    for (std::size_t i = 0; i < made.size(); ++i) tiles_[missing[i].word()] = std::move(made[i]);
+    for (const GroundTileKey& key : keys) tiles_[key.word()]->used = mesh_number_;
+}
+
+// Beside the field, or behind the ground's horizon.
+bool GlobeTerrain::is_outside(const TerrainView& view, const GroundTile& tile) const {
+    const Vec3d to_tile = tile.middle_m - view.camera_m;
+    const double distance = length(to_tile);
+    if (distance <= tile.radius_m) return false;
+    const double off_rad = std::atan2(length(cross(to_tile, view.boresight)), dot(to_tile, view.boresight));
+    if (off_rad - std::asin(tile.radius_m / distance) > view.half_field_rad) return true;
+    // Ground below the ellipsoid by more than this hides less than it is taken to.
+    constexpr double kLowest = 0.99;
+    const double horizon_m = kLowest * surface_.figure().polar_radius_m;
+    const double camera_m = length(view.camera_m), middle_m = length(tile.middle_m);
+    const double top_m = middle_m + tile.radius_m;
+    if (camera_m <= horizon_m || tile.radius_m >= middle_m) return false;
+    const double apart_rad =
+        std::atan2(length(cross(view.camera_m, tile.middle_m)), dot(view.camera_m, tile.middle_m)) -
+        std::asin(tile.radius_m / middle_m);
+    return apart_rad > std::acos(horizon_m / camera_m) + std::acos(std::min(1.0, horizon_m / top_m));
+}
+
+// Finds the tiles to be shown. edges: distance over an edge of a triangle there, from which it is fine enough. False
+// where there would be more triangles than that.
+bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t most_triangles,
+                          std::vector<Leaf>& leaves) {
+    leaves.clear();
+    std::vector<GroundTileKey> wave;
+    for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
+    while (!wave.empty()) {
+        if ((leaves.size() + wave.size()) * kTileTriangles > most_triangles) return false;
+        require(wave);
+        std::vector<GroundTileKey> next;
+        for (const GroundTileKey& key : wave) {
+            const GroundTile& tile = *tiles_[key.word()];
+            const double distance_m = length(view.camera_m - tile.middle_m) - tile.radius_m;
+            const double reach_m =
+                maker_.spacing_m(key.level) * edges / (is_outside(view, tile) ? kOutside : 1.0);
+            if (key.level < finest_level_ && distance_m < reach_m)
+                for (int k = 0; k < 4; ++k) next.push_back(key.child(k));
+            else
+                leaves.push_back({key, &tile});
+        }
+        wave = std::move(next);
+    }
+    return true;
+}
+
+void GlobeTerrain::forget_oldest() {
+    if (tiles_.size() <= most_tiles_) return;
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> by_age;
+    for (const auto& [word, tile] : tiles_) by_age.push_back({tile->used, word});
+    std::sort(by_age.begin(), by_age.end());
+    for (std::size_t i = 0; i < by_age.size() && tiles_.size() > most_tiles_; ++i)
+        tiles_.erase(by_age[i].second);
+}
+
+TerrainMesh GlobeTerrain::mesh(const TerrainView& view) {
+    ++mesh_number_;
+    std::vector<Leaf> leaves;
+    double edges = std::max(kLeastEdges, 1 / (view.edge_px * view.pixel_rad));
+    while (!select(view, edges, view.most_triangles, leaves)) {
+        if (edges == kLeastEdges) {
+            select(view, edges, std::numeric_limits<std::size_t>::max(), leaves);
+            break;
+        }
+        edges = std::max(kLeastEdges, 0.9 * edges);
+    }
+    TerrainMesh out = assemble(view, edges, leaves);
+    forget_oldest();
+    return out;
+}
+
+TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
+                                   const std::vector<Leaf>& leaves) const {
+    TerrainMesh out;
+    double nearest_m = 1e300;
+    for (const Leaf& leaf : leaves)
+        if (length(leaf.tile->middle_m - view.camera_m) - leaf.tile->radius_m < nearest_m)
+            for (const GroundTile::Look& look : leaf.tile->own) {
+                const Vec3d point_m = leaf.tile->middle_m + to_double(look.point_m);
+                const double distance_m = length(point_m - view.camera_m);
+                if (distance_m < nearest_m) nearest_m = distance_m, out.anchor_m = point_m;
+            }
+    Mesh& mesh = out.mesh;
+    mesh.vertices_m.resize(leaves.size() * kTileVertices);
+    mesh.normals.resize(mesh.vertices_m.size());
+    if (surface_.has_colors() || !details_.empty()) mesh.colors.resize(mesh.vertices_m.size());
+    mesh.triangles.resize(leaves.size() * kTileTriangles);
+    mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
+    mesh.surfaces.resize(1);
+    auto normals = std::make_shared<GroundNormals>();
+    normals->tiles.resize(leaves.size());
+    normals->triangles_per_tile = kTileTriangles;
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
+        append(view, edges, leaves[i], out.anchor_m, i, mesh, normals->tiles[i]);
+    });
+    out.normals = std::move(normals);
+    return out;
+}
+
+void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m,
+                          std::size_t index, Mesh& mesh, GroundNormals::Tile& normals) const {
+    const std::size_t first = index * kTileVertices;
+    const GroundTile& tile = *leaf.tile;
+    const double spacing_m = maker_.spacing_m(leaf.key.level), reach_m = spacing_m * edges;
+    const Vec3d shift_m = tile.middle_m - anchor_m;
+    normals.own = tile.own_normals, normals.above = tile.above_normals;
+    for (std::size_t i = 0; i < kSide * kSide; ++i) {
+        const GroundTile::Look& own = tile.own[i];
+        const GroundTile::Look& above = tile.above[i];
+        const double distance_m = length(tile.middle_m + to_double(above.point_m) - view.camera_m);
+        const auto share = static_cast<float>(
+            std::clamp((distance_m / reach_m - kMorphFrom) / (kMorphTo - kMorphFrom), 0.0, 1.0));
+        normals.share[i] = static_cast<std::uint8_t>(std::lround(255 * share));
+        const Vec3d own_m = to_double(own.point_m), above_m = to_double(above.point_m);
+        mesh.vertices_m[first + i] =
+            to_float(shift_m + (own_m + static_cast<double>(share) * (above_m - own_m)));
+        mesh.normals[first + i] = normalized(own.normal + share * (above.normal - own.normal));
+        if (!mesh.colors.empty()) mesh.colors[first + i] = own.color + share * (above.color - own.color);
+    }
+    std::size_t triangle = index * kTileTriangles;
+    const auto vertex = [&](std::size_t k) { return static_cast<std::uint32_t>(first + k); };
+    for (std::size_t y = 0; y < kQuads; ++y)
+        for (std::size_t x = 0; x < kQuads; ++x) {
+            const std::size_t k = y * kSide + x;
+            mesh.triangles[triangle++] = {vertex(k), vertex(k + 1), vertex(k + kSide)};
+            mesh.triangles[triangle++] = {vertex(k + 1), vertex(k + kSide + 1), vertex(k + kSide)};
+        }
+    const Vec3f down = to_float(-spacing_m * up_at(tile.middle_m));
+    constexpr std::size_t kInner = kSide * kSide;
+    for (std::size_t k = 0; k < kBorder; ++k) {
+        const auto edge = static_cast<std::size_t>(border_vertex(static_cast<int>(k)));
+        const auto next = static_cast<std::size_t>(border_vertex(static_cast<int>((k + 1) % kBorder)));
+        mesh.vertices_m[first + kInner + k] = mesh.vertices_m[first + edge] + down;
+        mesh.normals[first + kInner + k] = mesh.normals[first + edge];
+        if (!mesh.colors.empty()) mesh.colors[first + kInner + k] = mesh.colors[first + edge];
+        const std::uint32_t below = vertex(kInner + k), next_below = vertex(kInner + (k + 1) % kBorder);
+        mesh.triangles[triangle++] = {vertex(edge), below, vertex(next)};
+        mesh.triangles[triangle++] = {vertex(next), below, next_below};
+    }
+}
+
+}  // namespace hilcam

@@ -1,0 +1,62 @@
+#pragma once
+// The ground of a whole body, as fine as the camera sees it: tiles of a cube's six faces in quadtrees. A tile is cut into
+// four while its vertices are farther apart than `edge_px` pixels where it is nearest to the camera. With its
+// distance each vertex goes from its own level's ground to that of the level above, which it has reached where the next
+// coarser tile begins: meshes join without gaps, and nothing steps while the camera comes nearer. Beside the field and
+// behind the horizon, where only shadows come from, tiles are kOutside times coarser; skirts hang from the tiles'
+// edges, so that no light comes through where such a tile begins. Where triangles are too many, all are wider, down to a 128th
+// of the distance, from which on they may be more than was asked for: wider ones would not join.
+//
+// Terrain axes are the body's own, from its centre. Not modelled: overhangs.
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "render/ground/ground_tile.h"
+#include "render/scene/terrain.h"
+
+namespace hilcam {
+
+struct GlobeSettings {
+    std::size_t most_bytes = std::size_t{512} << 20;  // memory of maps and tiles that are kept
+    double finest_m = 0.01;  // vertices are not nearer to each other than this, about
+};
+
+class GlobeTerrain final : public Terrain {
+  public:
+    GlobeTerrain(const Figure& figure, std::vector<GroundMap> maps,
+                 std::vector<std::unique_ptr<const GroundDetail>> details, const GlobeSettings& settings);
+
+    TerrainMesh mesh(const TerrainView& view) override;
+    bool depends_on_boresight() const override { return true; }
+    Vec3d up_at(Vec3d point_m) const override;
+    std::optional<double> height_above_ground_m(Vec3d) const override { return {}; }
+
+    // Returns how many bytes maps and tiles hold. The thread of mesh().
+    std::size_t kept_bytes() const { return surface_.pages().bytes() + tiles_.size() * GroundTile::kBytes; }
+
+  private:
+    static constexpr double kOutside = 32;
+    struct Leaf {
+        GroundTileKey key;
+        const GroundTile* tile;
+    };
+    GroundSurface surface_;
+    std::vector<std::unique_ptr<const GroundDetail>> details_;
+    GroundTileMaker maker_;
+    std::size_t most_tiles_;
+    int finest_level_;
+    std::uint64_t mesh_number_ = 0;
+    std::unordered_map<std::uint64_t, std::unique_ptr<GroundTile>> tiles_;
+
+    void require(std::span<const GroundTileKey> keys);
+    bool select(const TerrainView& view, double edges, std::size_t most_triangles, std::vector<Leaf>& leaves);
+    bool is_outside(const TerrainView& view, const GroundTile& tile) const;
+    void forget_oldest();
+    TerrainMesh assemble(const TerrainView& view, double edges, const std::vector<Leaf>& leaves) const;
+    void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, std::size_t index,
+                Mesh& mesh, GroundNormals::Tile& normals) const;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,42 @@
+#pragma once
+// Pages of maps in bounded memory: what was asked for last stays, what was asked for longest ago goes.
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "render/ground/ground_raster.h"
+
+namespace hilcam {
+
+// One thread at a time.
+class GroundPages {
+  public:
+    static constexpr int kPage = 64;  // posts along a page's edge
+
+    explicit GroundPages(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+    // Returns the values of a post of a raster at a level, all of whose posts are there to be asked for; valid until
+    // the next call. key: number of the raster, its own.
+    const float* post(GroundRaster& raster, std::uint32_t key, int level, int column, int row);
+
+    std::size_t bytes() const { return bytes_; }
+    std::uint64_t reads() const { return reads_; }  // pages that were read so far
+
+  private:
+    struct Page {
+        std::uint64_t key;
+        int columns;
+        std::vector<float> values;
+    };
+    std::size_t most_bytes_, bytes_ = 0;
+    std::uint64_t reads_ = 0;
+    std::list<Page> pages_;  // the last one asked for comes first
+    std::unordered_map<std::uint64_t, std::list<Page>::iterator> found_;
+
+    Page& page(GroundRaster& raster, std::uint64_t key, int level, int page_column, int page_row);
+};
+
+}  // namespace hilcam

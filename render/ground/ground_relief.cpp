@@ -1,0 +1,159 @@
+#include "render/ground/ground_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "render/vocabulary/random.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+constexpr int kMostOctaves = 32;
+
+// A gradient of the lattice's corner: towards the middles of a cube's edges, as Perlin has them.
+double gradient(std::uint64_t seed, int octave, std::int64_t x, std::int64_t y, std::int64_t z, Vec3d to) {
+    // A mixer of 64 bits (Stafford's 13th of splitmix64; Steele, Lea and Flood, OOPSLA 14): the lattice has too many corners
+    // for ten rounds of Philox each.
+    std::uint64_t h = seed ^ (static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u) ^
+                      (static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu) ^
+                      (static_cast<std::uint64_t>(z) * 0x165667B19E3779F9u) ^
+                      (static_cast<std::uint64_t>(octave) << 56);
+    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
+    h = (h ^ (h >> 27)) * 0x94D049BB133111EBu;
+    h ^= h >> 31;
+    const double u = h & 8u ? to.y : to.x,
+                 v = (h & 12u) == 12u ? to.x : (h & 8u ? to.z : (h & 4u ? to.z : to.y));
+    return (h & 1u ? -u : u) + (h & 2u ? -v : v);
+}
+
+double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+
+double noise(std::uint64_t seed, int octave, Vec3d p) {
+    const double fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
+    const auto x = static_cast<std::int64_t>(fx), y = static_cast<std::int64_t>(fy),
+               z = static_cast<std::int64_t>(fz);
+    const Vec3d t{p.x - fx, p.y - fy, p.z - fz};
+    const double u = fade(t.x), v = fade(t.y), w = fade(t.z);
+    double sum = 0;
+    for (int k = 0; k < 2; ++k)
+        for (int j = 0; j < 2; ++j)
+            for (int i = 0; i < 2; ++i)
+                sum += (i ? u : 1 - u) * (j ? v : 1 - v) * (k ? w : 1 - w) *
+                       gradient(seed, octave, x + i, y + j, z + k, {t.x - i, t.y - j, t.z - k});
+    return sum;
+}
+
+// The mean square of differences of the noise over a distance in wavelengths, by its values at fixed places.
+double mean_square_difference(double distance) {
+    constexpr int kPlaces = 2048;
+    double sum = 0;
+    for (int i = 0; i < kPlaces; ++i) {
+        // A low-discrepancy sequence in three dimensions (Roberts 2018).
+        const Vec3d p{37.3 * std::fmod(0.8191725134 * i, 1.0) + 0.1,
+                      37.3 * std::fmod(0.6710436067 * i, 1.0) + 0.1,
+                      37.3 * std::fmod(0.5497004779 * i, 1.0) + 0.1};
+        const double turn = 2.39996 * i, z = std::fmod(0.754877666 * i, 1.0) * 2 - 1,
+                     r = std::sqrt(1 - z * z);
+        const double d =
+            noise(7, 0, p + distance * Vec3d{r * std::cos(turn), r * std::sin(turn), z}) - noise(7, 0, p);
+        sum += d * d;
+    }
+    return sum / kPlaces;
+}
+
+}  // namespace
+
+Fields fields(ReliefSettings& r) {
+    return {
+        integer("seed", r.seed, {0, 9e15}, "seed of the relief, apart from the scenario's"),
+        number(
+            "deviation_m", r.deviation_m, 1, {0, 1e5},
+            "root mean square of the differences of height over at_m; 0: that and hurst are measured on the "
+            "finest map of heights"),
+        number("at_m", r.at_m, 1, {1e-3, 1e6}, "distance over which deviation_m holds"),
+        number("hurst", r.hurst, 1, {0.1, 0.99}, "power of the distance with which the differences grow"),
+        number("longest_m", r.longest_m, 1, {0, 1e6},
+               "longest wave; 0: twice the spacing of the finest map of heights"),
+    };
+}
+
+std::optional<ReliefSettings> measured_relief(GroundSurface& surface, double spacing_m) {
+    constexpr int kPlaces = 1500;
+    const double radius_m = surface.figure().equatorial_radius_m;
+    constexpr std::array<double, 3> kLags = {1, 2, 4};
+    std::vector<Vec3d> places;
+    for (int i = 0; i < kPlaces; ++i) {
+        // Even over the sphere: a golden-angle spiral.
+        const double z = 1 - 2 * (i + 0.5) / kPlaces, r = std::sqrt(1 - z * z), turn = 2.399963229728653 * i;
+        const Vec3d at{r * std::cos(turn), r * std::sin(turn), z};
+        const Vec3d aside = normalized(cross(std::abs(z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}, at));
+        const Vec3d way = std::cos(turn * 7) * aside + std::sin(turn * 7) * cross(at, aside);
+        places.push_back(at);
+        for (const double lag : kLags) places.push_back(normalized(at + lag * spacing_m / radius_m * way));
+    }
+    std::vector<double> heights_m(places.size());
+    surface.find_heights(places, 0, heights_m);
+    std::array<double, 3> log_rms{};
+    for (std::size_t k = 0; k < kLags.size(); ++k) {
+        double sum = 0;
+        for (std::size_t i = 0; i < kPlaces; ++i) {
+            const double d = heights_m[4 * i + k + 1] - heights_m[4 * i];
+            sum += d * d;
+        }
+        if (!(sum > 0)) return {};
+        log_rms[k] = 0.5 * std::log2(sum / kPlaces);
+    }
+    ReliefSettings out;
+    // A line through three points at lags of 1, 2 and 4: its slope is that between the outer ones.
+    out.hurst = std::clamp(0.5 * (log_rms[2] - log_rms[0]), 0.3, 0.98);
+    out.at_m = 2 * spacing_m;
+    out.deviation_m = std::exp2((log_rms[0] + log_rms[1] + log_rms[2]) / 3);
+    out.longest_m = 2 * spacing_m;
+    return out;
+}
+
+GroundRelief::GroundRelief(double radius_m, const ReliefSettings& settings)
+    : radius_m_(radius_m), settings_(settings) {
+    // Octaves in proportion to wavelength^hurst, together with the deviation asked for. Longer ones, which are the map's, count
+    // in it.
+    constexpr int kLonger = 12;
+    const double probe_m = 0.1 * settings.longest_m;
+    double sum = 0;
+    for (int k = -kLonger; k < kMostOctaves; ++k) {
+        const double share = std::exp2(-k), amplitude = std::pow(share, settings.hurst);
+        sum += amplitude * amplitude * mean_square_difference(probe_m / (settings.longest_m * share));
+        if (k < 0) continue;
+        wavelength_m_.push_back(settings.longest_m * share);
+        amplitude_m_.push_back(amplitude);
+    }
+    const double wanted_m = settings.deviation_m * std::pow(probe_m / settings.at_m, settings.hurst);
+    for (double& amplitude_m : amplitude_m_) amplitude_m *= wanted_m / std::sqrt(sum);
+}
+
+void GroundRelief::add_octaves(const GroundPatch& patch, double least_m, double below_m) const {
+    for (std::size_t k = 0; k < wavelength_m_.size(); ++k) {
+        if (wavelength_m_[k] < least_m || wavelength_m_[k] >= below_m) continue;
+        // Octaves' lattices are turned against each other by their offsets alone.
+        const double scale = radius_m_ / wavelength_m_[k], shift = 0.37 * static_cast<double>(k);
+        for (std::size_t i = 0; i < patch.places.size(); ++i) {
+            const Vec3d p = scale * patch.places[i] + Vec3d{shift, 0.5 * shift, -shift};
+            patch.heights_m[i] +=
+                amplitude_m_[k] * noise(static_cast<std::uint64_t>(settings_.seed), static_cast<int>(k), p);
+        }
+    }
+}
+
+// A wave of fewer texels is none.
+void GroundRelief::add(const GroundPatch& patch) const {
+    constexpr double kLeastTexels = 3;
+    add_octaves(patch, kLeastTexels * patch.texel_m, kWideTexels * patch.texel_m);
+}
+
+void GroundRelief::add_wide(const GroundPatch& patch) const {
+    add_octaves(patch, kWideTexels * patch.texel_m, std::numeric_limits<double>::infinity());
+}
+
+}  // namespace hilcam

@@ -1,0 +1,73 @@
+#pragma once
+// The ground of a body as a function of the place: heights and colours of nested maps. Where
+// several maps of a kind lie over each other the finest counts, blended into the one below at its margin; where there is
+// none, the height is 0 and the factor on the reflectance 1.
+//
+// Values are bilinear between posts, or by cubic convolution (Keys, IEEE Trans. ASSP 29, 1153, 1981, a = -1/2), which goes
+// through the posts, too; where a footprint is wider than the posts are apart, from a pyramid of means of 2 x 2. A hole
+// shows what lies below it. A pole has the mean of the row beside it.
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/ground/ground_pages.h"
+#include "render/ground/ground_raster.h"
+#include "render/sky/bodies.h"
+
+namespace hilcam {
+
+enum class GroundKind { kHeights, kAlbedo };
+enum class GroundBetween { kBilinear, kCubic };
+
+struct GroundMap {
+    std::unique_ptr<GroundRaster> raster;
+    GroundKind kind = GroundKind::kHeights;
+    GroundBetween between = GroundBetween::kBilinear;
+    double blend_m = 0;  // width of the margin over which it blends into what lies below
+};
+
+// One thread at a time.
+class GroundSurface {
+  public:
+    GroundSurface(const Figure& figure, std::vector<GroundMap> maps, std::size_t most_bytes);
+
+    const Figure& figure() const { return figure_; }
+    // Finds the heights over the ellipsoid [m] of places, averaged over about a footprint.
+    void find_heights(std::span<const Vec3d> places, double footprint_m, std::span<double> heights_m);
+    // Finds the factors on the material's reflectance, linear red, green, blue.
+    void find_colors(std::span<const Vec3d> places, double footprint_m, std::span<Vec3f> colors);
+    // Returns the spacing of the finest map of heights, or a very large one.
+    double finest_m() const {
+        return heights_.empty() ? 1e30 : heights_.front().map.raster->shape().spacing_m;
+    }
+    bool has_colors() const { return !albedo_.empty(); }
+    // Returns a point of the body at a height over a place, in its axes.
+    Vec3d point(Vec3d place, double height_m) const;
+    const GroundPages& pages() const { return pages_; }
+
+  private:
+    struct Layer {
+        GroundMap map;
+        std::uint32_t key;
+        int levels;
+        std::map<std::pair<int, int>, Vec3d> pole_means{};  // by level and row
+    };
+    Figure figure_;
+    GroundPages pages_;
+    std::vector<Layer> heights_, albedo_;  // from the finest to the coarsest
+    std::vector<Vec2d> posts_;
+
+    struct Sample {
+        Vec3d value;
+        double weight = 0;  // 0: a hole, or beside the map
+    };
+    Sample sample(Layer& layer, Vec2d post, int level);
+    bool pole_mean(Layer& layer, int level, int row, Vec3d& mean);
+    bool value_at(Layer& layer, int level, int column, int row, Vec3d& value);
+    template <class Add>
+    void visit(std::vector<Layer>& layers, std::span<const Vec3d> places, double footprint_m, const Add& add);
+};
+
+}  // namespace hilcam

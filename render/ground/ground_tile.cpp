@@ -1,0 +1,194 @@
+#include "render/ground/ground_tile.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/ground/cube_sphere.h"
+
+namespace hilcam {
+namespace {
+
+constexpr int kTexels = GroundNormals::kTexels;
+
+GroundTile::Look between(const GroundTile::Look& a, const GroundTile::Look& b) {
+    return {0.5f * (a.point_m + b.point_m), 0.5f * (a.normal + b.normal), 0.5f * (a.color + b.color)};
+}
+
+// Shares of four nodes at a texel between the second and the third (Catmull & Rom, 1974).
+std::array<double, 4> node_shares(int texel) {
+    const double t = static_cast<double>(texel) / kTexels, t2 = t * t, t3 = t2 * t;
+    return {0.5 * (-t3 + 2 * t2 - t), 0.5 * (3 * t3 - 5 * t2 + 2), 0.5 * (-3 * t3 + 4 * t2 + t),
+            0.5 * (t3 - t2)};
+}
+
+// Adds values at the nodes, smoothly, to those at the texels: rows first, then columns.
+template <class T>
+void add_between(const std::vector<T>& nodes, int node_side, int side, std::vector<T>& texels) {
+    std::array<std::array<double, 4>, kTexels> shares;
+    for (int t = 0; t < kTexels; ++t) shares[static_cast<std::size_t>(t)] = node_shares(t);
+    const auto blend = [&](const T* at, std::size_t step, int texel) {
+        const auto& s = shares[static_cast<std::size_t>(texel)];
+        using N = std::conditional_t<std::is_same_v<T, double>, double, float>;
+        return static_cast<N>(s[0]) * at[0] + static_cast<N>(s[1]) * at[step] +
+               static_cast<N>(s[2]) * at[2 * step] + static_cast<N>(s[3]) * at[3 * step];
+    };
+    const auto width = static_cast<std::size_t>(side);
+    // The last texel is a node's own: it is looked at from the one before, at the end of whose interval it lies.
+    const auto interval = [&](int k) { return std::min(k / kTexels, node_side - 4); };
+    std::vector<T> rows(static_cast<std::size_t>(node_side) * width);
+    for (int y = 0; y < node_side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const T* const row = nodes.data() + y * node_side;
+            rows[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+                x / kTexels > interval(x) ? row[interval(x) + 2] : blend(row + interval(x), 1, x % kTexels);
+        }
+    for (int y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            const T* const column = rows.data() + static_cast<std::size_t>(interval(y)) * width + x;
+            texels[static_cast<std::size_t>(y) * width + x] =
+                texels[static_cast<std::size_t>(y) * width + x] +
+                (y / kTexels > interval(y) ? column[2 * width] : blend(column, width, y % kTexels));
+        }
+}
+
+// The weights of texels about a vertex: a tent as wide as the quadrilaterals.
+constexpr std::array<double, 2 * kTexels - 1> kTent = {1, 2, 3, 4, 3, 2, 1};
+static_assert(kTexels == 4);
+
+}  // namespace
+
+double GroundTileMaker::spacing_m(int level) const {
+    return 0.5 * kPi * surface_.figure().equatorial_radius_m / std::ldexp(GroundTile::kQuads, level);
+}
+
+// Places on a square grid: texels first, first + step, ... of the tile, `side` along an edge.
+std::vector<Vec3d> GroundTileMaker::places_of(const Grid& grid, int step, int first, int side) const {
+    const double tiles = std::ldexp(1, grid.key.level);
+    const int texels = grid.quads * kTexels;
+    const auto at = [&](std::int32_t tile, int k) {
+        // A whole number over a power of two: neighbours have the same bits.
+        return -1 + 2 * ((static_cast<double>(tile) * texels + first + step * k) / (tiles * texels));
+    };
+    std::vector<Vec3d> places;
+    places.reserve(static_cast<std::size_t>(side * side));
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            places.push_back(cube_direction(grid.key.face, {at(grid.key.column, x), at(grid.key.row, y)}));
+    return places;
+}
+
+// Takes what the maps have at the texels, or where they are smooth between these, at the nodes.
+GroundTileMaker::Grid GroundTileMaker::lay(const GroundTileKey& key, int quads, double texel_m) {
+    Grid grid{key, quads, texel_m, texel_m * kTexels < 0.5 * surface_.finest_m(), {}, {}, {}, {}, {}, {}};
+    grid.places = places_of(grid, 1, -kBorder, grid.side());
+    grid.heights_m.assign(grid.places.size(), 0);
+    grid.node_places = places_of(grid, kTexels, -2 * kTexels, grid.nodes());
+    grid.node_heights_m.assign(grid.node_places.size(), 0);
+    if (grid.by_nodes)
+        surface_.find_heights(grid.node_places, texel_m, grid.node_heights_m);
+    else
+        surface_.find_heights(grid.places, texel_m, grid.heights_m);
+    grid.node_colors.assign(grid.node_places.size(), Vec3f{1, 1, 1});
+    if (surface_.has_colors()) surface_.find_colors(grid.node_places, texel_m * kTexels, grid.node_colors);
+    return grid;
+}
+
+void GroundTileMaker::add_details(Grid& grid) const {
+    const std::size_t middle = grid.places.size() / 2;
+    GroundPatch patch{grid.side(), grid.places, grid.heights_m, {}, grid.places[middle], 0, grid.texel_m};
+    for (const Vec3d& place : grid.places)
+        patch.reach_rad =
+            std::max(patch.reach_rad, std::asin(std::min(1.0, length(cross(place, patch.middle)))));
+    GroundPatch nodes = patch;
+    nodes.side = grid.nodes(), nodes.places = grid.node_places, nodes.heights_m = grid.node_heights_m;
+    for (const auto& detail : details_) detail->add_wide(nodes);
+    add_between(grid.node_heights_m, grid.nodes(), grid.side(), grid.heights_m);
+    grid.colors.assign(grid.places.size(), Vec3f{});
+    add_between(grid.node_colors, grid.nodes(), grid.side(), grid.colors);
+    patch.colors = grid.colors;
+    for (const auto& detail : details_) detail->add(patch);
+}
+
+GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m) const {
+    std::vector<Vec3d> points(grid.places.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = surface_.point(grid.places[i], grid.heights_m[i]) - middle_m;
+    const int texels = grid.quads * kTexels + 1;
+    const auto side = static_cast<std::size_t>(grid.side());
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y + kBorder) * side + static_cast<std::size_t>(x + kBorder);
+    };
+    const auto normal_at = [&](std::size_t i) {
+        return to_float(
+            normalized(cross(points[i + 1] - points[i - 1], points[i + side] - points[i - side])));
+    };
+    auto normals = std::make_shared<GroundNormals::Grid>();
+    normals->reserve(static_cast<std::size_t>(texels * texels));
+    for (int y = 0; y < texels; ++y)
+        for (int x = 0; x < texels; ++x) normals->push_back(pack_normal(normal_at(index(x, y))));
+    Looks out;
+    for (int y = 0; y < texels; y += kTexels)
+        for (int x = 0; x < texels; x += kTexels) {
+            double height_m = 0;
+            for (int j = 0; j < static_cast<int>(kTent.size()); ++j)
+                for (int i = 0; i < static_cast<int>(kTent.size()); ++i)
+                    height_m += kTent[static_cast<std::size_t>(i)] * kTent[static_cast<std::size_t>(j)] *
+                                grid.heights_m[index(x + i - kTexels + 1, y + j - kTexels + 1)];
+            const std::size_t at = index(x, y);
+            const Vec3d point_m =
+                surface_.point(grid.places[at], height_m / (kTexels * kTexels * kTexels * kTexels)) -
+                middle_m;
+            out.vertices.push_back({to_float(point_m), normal_at(at), grid.colors[at]});
+        }
+    out.normals = std::move(normals);
+    return out;
+}
+
+std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above) const {
+    add_details(own);
+    add_details(above);
+    auto tile = std::make_unique<GroundTile>();
+    const std::size_t middle = own.places.size() / 2;
+    tile->middle_m = surface_.point(own.places[middle], own.heights_m[middle]);
+    Looks fine = looks(own, tile->middle_m);
+    const Looks coarse = looks(above, tile->middle_m);
+    tile->own = std::move(fine.vertices);
+    tile->own_normals = std::move(fine.normals), tile->above_normals = coarse.normals;
+    constexpr int kSide = GroundTile::kSide, kHalf = GroundTile::kQuads / 2 + 1;
+    const auto at = [&](int x, int y) {
+        return coarse.vertices[static_cast<std::size_t>(y / 2 * kHalf + x / 2)];
+    };
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const int right = x % 2, up = y % 2;  // the triangles' diagonal goes from the right to the top
+            tile->above.push_back(right + up == 0 ? at(x, y)
+                                                  : between(at(x + right, y - up), at(x - right, y + up)));
+        }
+    for (const std::vector<GroundTile::Look>* looks : {&tile->own, &tile->above})
+        for (const GroundTile::Look& look : *looks)
+            tile->radius_m = std::max(tile->radius_m, length(to_double(look.point_m)));
+    return tile;
+}
+
+std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make(std::span<const GroundTileKey> keys) {
+    // A wave may be of many tiles, and their grids are large.
+    constexpr std::size_t kTogether = 64;
+    std::vector<std::unique_ptr<GroundTile>> tiles(keys.size());
+    for (std::size_t first = 0; first < keys.size(); first += kTogether) {
+        std::vector<Grid> own, above;
+        const std::size_t count = std::min(kTogether, keys.size() - first);
+        for (const GroundTileKey& key : keys.subspan(first, count)) {
+            const double texel_m = spacing_m(key.level) / kTexels;
+            own.push_back(lay(key, GroundTile::kQuads, texel_m));
+            above.push_back(lay(key, GroundTile::kQuads / 2, 2 * texel_m));
+        }
+        tbb::parallel_for(std::size_t{0}, count,
+                          [&](std::size_t i) { tiles[first + i] = finish(own[i], above[i]); });
+    }
+    return tiles;
+}
+
+}  // namespace hilcam

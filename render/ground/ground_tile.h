@@ -1,0 +1,95 @@
+#pragma once
+// A square of a body's ground: 32 x 32 quadrilaterals on a face of the cube (cube_sphere.h), at one of the levels in which
+// the face is cut into 2^level x 2^level of them. Each vertex is kept twice: as the level has it, and where it lies
+// on the ground of the level above, so that a mesh can go from one to the other without a step (continuous levels of
+// detail; Strugar, J. Graphics, GPU and Game Tools 14(4), 57, 2009).
+//
+// The ground is worked out at texels, four on an edge of a quadrilateral: they have the normals that it is shaded with
+// (ground_normals.h), and a vertex is their weighted mean about it.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/ground/ground_detail.h"
+#include "render/ground/ground_surface.h"
+#include "render/scene/ground_normals.h"
+
+namespace hilcam {
+
+struct GroundTileKey {
+    int face = 0, level = 0;
+    std::int32_t column = 0, row = 0;  // along the face's right and up
+    friend bool operator==(const GroundTileKey& a, const GroundTileKey& b) = default;
+    GroundTileKey child(int k) const { return {face, level + 1, 2 * column + k % 2, 2 * row + k / 2}; }
+    // Levels are below 28.
+    std::uint64_t word() const {
+        return (static_cast<std::uint64_t>(face) << 61) | (static_cast<std::uint64_t>(level) << 56) |
+               (static_cast<std::uint64_t>(row) << 28) | static_cast<std::uint64_t>(column);
+    }
+};
+
+struct GroundTile {
+    static constexpr int kQuads = GroundNormals::kQuads;  // along an edge
+    static constexpr int kSide = kQuads + 1;
+
+    struct Look {
+        Vec3f point_m;  // about the middle, body axes
+        Vec3f normal;
+        Vec3f color;  // factor on the reflectance
+    };
+    Vec3d middle_m;       // body axes
+    double radius_m = 0;  // radius about the middle that holds all
+    std::vector<Look> own, above;
+    std::shared_ptr<const GroundNormals::Grid> own_normals, above_normals;
+    std::uint64_t used = 0;  // number of the mesh that used it last
+
+    static constexpr std::size_t kBytes =
+        2 * sizeof(Look) * kSide * kSide +
+        sizeof(std::uint32_t) * (GroundNormals::kSide * GroundNormals::kSide +
+                                 GroundNormals::kHalfSide * GroundNormals::kHalfSide);
+};
+
+// Makes tiles; the same key always gives the same tile, bit by bit.
+class GroundTileMaker {
+  public:
+    // All must outlive this. One thread at a time.
+    GroundTileMaker(GroundSurface& surface, std::span<const std::unique_ptr<const GroundDetail>> details)
+        : surface_(surface), details_(details) {}
+
+    // Makes tiles on all of oneTBB's threads.
+    std::vector<std::unique_ptr<GroundTile>> make(std::span<const GroundTileKey> keys);
+    // Returns the distance of neighbouring vertices at a level [m], about.
+    double spacing_m(int level) const;
+
+  private:
+    // Texels with a border about what is used, and each fourth of them with a border of one more: the nodes.
+    struct Grid {
+        GroundTileKey key;
+        int quads = 0;
+        double texel_m = 1;
+        bool by_nodes = false;  // the maps are smooth between the nodes
+        std::vector<Vec3d> places, node_places;
+        std::vector<double> heights_m, node_heights_m;
+        std::vector<Vec3f> colors, node_colors;
+
+        int side() const { return quads * GroundNormals::kTexels + 1 + 2 * kBorder; }
+        int nodes() const { return quads + 5; }
+    };
+    static constexpr int kBorder = GroundNormals::kTexels;
+    struct Looks {
+        std::vector<GroundTile::Look> vertices;
+        std::shared_ptr<const GroundNormals::Grid> normals;
+    };
+    GroundSurface& surface_;
+    std::span<const std::unique_ptr<const GroundDetail>> details_;
+
+    Grid lay(const GroundTileKey& key, int quads, double texel_m);
+    std::vector<Vec3d> places_of(const Grid& grid, int step, int first, int side) const;
+    void add_details(Grid& grid) const;
+    Looks looks(const Grid& grid, Vec3d middle_m) const;
+    std::unique_ptr<GroundTile> finish(Grid& own, Grid& above) const;
+};
+
+}  // namespace hilcam

@@ -1,0 +1,47 @@
+#pragma once
+// Terrain from one height map: a mesh for one place of the camera, so that a map
+// larger than memory can be looked at. Terrain axes: x east, y north, z up, origin at the
+// map's middle at height 0. On a sphere the map is laid out by distance and direction from that middle
+// (azimuthal equidistant).
+//
+// Tiles of 32 x 32 quadrilaterals in a quadtree; the tile whose edges are widest on the screen is split
+// first, until edges are as narrow as asked for or the triangles are used up. Where a tile meets a coarser
+// one its border lies on that one's edges; small skirts keep rounding from opening gaps. Normals are those of
+// the heights at the tile's own spacing. Not modelled: overhangs, and what lies beyond the map's edge.
+
+#include <memory>
+#include <optional>
+
+#include "render/scene/height_map.h"
+#include "render/scene/terrain.h"
+
+namespace hilcam {
+
+// radius_m: of the sphere under the map; 0: a plane. Any thread; allocates.
+TerrainMesh terrain_mesh(const HeightMap& map, double radius_m, const TerrainView& view);
+
+// Returns the height of a point, in terrain axes, above the ground along its own vertical [m], bilinear
+// between the map's four posts around; negative: below it. None beside the map. Loop, any thread; no
+// allocation.
+std::optional<double> height_above_ground_m(const HeightMap& map, double radius_m, Vec3d point_m);
+
+class TerrainPatch final : public Terrain {
+  public:
+    TerrainPatch(std::unique_ptr<const HeightMap> map, double radius_m)
+        : map_(std::move(map)), radius_m_(radius_m) {}
+
+    TerrainMesh mesh(const TerrainView& view) override { return terrain_mesh(*map_, radius_m_, view); }
+    bool depends_on_boresight() const override { return false; }
+    Vec3d up_at(Vec3d point_m) const override {
+        return radius_m_ > 0 ? normalized(point_m + Vec3d{0, 0, radius_m_}) : Vec3d{0, 0, 1};
+    }
+    std::optional<double> height_above_ground_m(Vec3d point_m) const override {
+        return hilcam::height_above_ground_m(*map_, radius_m_, point_m);
+    }
+
+  private:
+    std::unique_ptr<const HeightMap> map_;
+    double radius_m_;
+};
+
+}  // namespace hilcam
