@@ -10,7 +10,7 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
-#include "sensor/half_light_adder.h"
+#include "sensor/convolution/half_light_adder.h"
 #include "sensor/mtf.h"
 #include "sensor/point_light.h"
 #include "sensor/stray/far_wings.h"
@@ -19,7 +19,7 @@
 namespace hilcam {
 namespace {
 
-tbb::blocked_range<int> rows_of(int height) { return {0, height, 16}; }
+tbb::blocked_range<int> image_rows(int height) { return {0, height, 16}; }
 
 constexpr float kMax_e = 1e9f;         // greatest mean charge of a pixel
 constexpr float kMaxBefore_e = 1e12f;  // greatest charge of a radiance pixel
@@ -146,7 +146,7 @@ struct FocalPlane::Implementation {
                   planes = weighed ? 1 : bins;
         Spectrum factor = weighed ? Spectrum{{1}} : channel.per_radiance;
         for (float& value : factor.bin) value *= static_cast<float>(exposure_s);
-        tbb::parallel_for(rows_of(radiance.height()), [&](const tbb::blocked_range<int>& range) {
+        tbb::parallel_for(image_rows(radiance.height()), [&](const tbb::blocked_range<int>& range) {
             for (int y = range.begin(); y < range.end(); ++y)
                 collapse_row(channel, radiance, {factor, first, planes}, y);
         });
@@ -154,7 +154,7 @@ struct FocalPlane::Implementation {
         take_out_bright(channel, is_halved(rays_of(exposure)) ? radiance.halves() : nullptr, exposure_s);
         close_border(channel);
         if (zone_weights.empty()) return;
-        tbb::parallel_for(rows_of(channel.convolver->height()), [&](const tbb::blocked_range<int>& range) {
+        tbb::parallel_for(image_rows(channel.convolver->height()), [&](const tbb::blocked_range<int>& range) {
             for (int y = range.begin(); y < range.end(); ++y) split_by_zone(channel, y);
         });
     }
@@ -238,7 +238,7 @@ struct FocalPlane::Implementation {
             exposure_s / static_cast<double>(charge_e) *
             static_cast<double>(
                 illumination[static_cast<std::size_t>(y) * static_cast<std::size_t>(halves.width()) + at]);
-        constexpr double kMiddle_px = 0.25;  // of a half, from that of the pixel
+        constexpr double kMiddle_px = 0.25;  // a half's middle from its pixel's
         const auto way_px = [&](int difference) {
             return kMiddle_px *
                    std::clamp(per_rate * static_cast<double>(halves.row(y, difference, pixel.channel)[at]),
@@ -418,7 +418,9 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
         else
             channel.convolver->run(blur);
         if (is_halved(rays) && radiance.halves() && radiance.halves()->used())
-            my.half_adder.add(radiance, static_cast<int>(c), blur, exposure.exposure_s, channel);
+            my.half_adder.add(radiance,
+                              {static_cast<int>(c), channel.halves, channel.per_radiance, channel.most_e},
+                              blur, exposure.exposure_s, *channel.convolver);
     }
 }
 
@@ -434,7 +436,7 @@ void FocalPlane::gather(std::span<const PointSource> sources, std::span<const Si
     const int top = static_cast<int>(my.view.camera.black_rows);
     bool veiled = false;
     for (OutsideLight& outside : my.outside) veiled = outside.collect(beside, exposure.exposure_s);
-    tbb::parallel_for(rows_of(height), [&](const tbb::blocked_range<int>& range) {
+    tbb::parallel_for(image_rows(height), [&](const tbb::blocked_range<int>& range) {
         for (int y = range.begin(); y < range.end(); ++y) {
             std::fill(light_e.row(y).begin(), light_e.row(y).end(), 0.0f);
             if (y >= top) my.sample_row(y - top, light_e.row(y).data() + left);

@@ -50,7 +50,7 @@ struct LightChannel {
     };
     std::vector<GridKernel> kernels;
     std::vector<HalfKernels> halves;  // by zone; none where no frame has halves
-    float most_e = 0;                 // what brighter pixels were cut to in the present frame
+    float most_e = 0;                 // the limit to which the present frame's brighter pixels were cut
     std::optional<Ghost> ghost;
 
     // Null: there is none.

@@ -58,7 +58,7 @@ void slow_down(double moving, WorldSnapshot& world) {
     world.camera_rate_rad_s = moving * world.camera_rate_rad_s;
 }
 
-// How the detector's channels answer to radiance: all of it, or one for each colour filter.
+// Returns the detector's answers to radiance, of its one channel or by colour filter.
 std::vector<Spectrum> responses_of(const CameraModel& camera, const SpectralGrid& grid) {
     if (camera.color_filter.pattern.empty()) return {electrons_per_s_per_radiance(camera, grid)};
     std::vector<Spectrum> out;

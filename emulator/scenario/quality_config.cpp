@@ -30,7 +30,7 @@ SensorSampling sampling_of(const QualityConfig& q) {
     SensorSampling sampling{static_cast<int>(q.guard_px), ray_grid_of(q.render),
                             static_cast<int>(q.oversampling)};
     if (q.render.uses_buffer() && q.oversampling == 1) {
-        sampling.other_grids.push_back(sampling.samples_per_axis);  // of frames that are the sum of several
+        sampling.other_grids.push_back(sampling.samples_per_axis);  // a sum of several pictures has no halves
         sampling.samples_per_axis = halved(sampling.samples_per_axis);
     }
     sampling.always_fft = q.psf == PsfMethod::kFft;

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "render/scene/height_map.h"
+#include "render/ground/height_map.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {

@@ -142,7 +142,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
     return sum;
 }
 
-// Where in their pixels light falls is known of frames that the visibility buffer makes.
+// Frames that the visibility buffer makes know where in their pixels light falls.
 void FrameTracer::find_halves(const FramePlacer& placer, bool marks, RadianceImage& radiance) {
     HalfLight* const halves = radiance.halves();
     halves_ = halves && marks && quality().uses_buffer() && placer.frame().visibility ? halves : nullptr;

@@ -34,12 +34,12 @@ struct Vertex {
     std::uint16_t surface_number;  // surface of the object's mesh
     bool back;                     // the side that its triangle's own normal points away from
     bool keeps_light;              // its light from other surfaces and the bodies is kept (kept_scene.h)
-    KnownSun known_sun;            // what the mesh knows of the Sun there, where nothing else stands in the scene
-    bool mirrors_near;             // where that, something may stand in the mirror's direction
-    float weight_samples;          // samples of sixteen a pixel that see it, where it is not one ray's
-    HalfShares halves;             // where in the pixel they are
-    float facet_alpha;             // alpha of the lobes of its facets
-    const Facet* facets;           // the vertex's own among them; null: it is one
+    KnownSun known_sun;  // the mesh's own knowledge of the Sun there, where nothing else stands in the scene
+    bool mirrors_near;   // where that, something may stand in the mirror's direction
+    float weight_samples;  // samples of sixteen a pixel that see it, where it is not one ray's
+    HalfShares halves;     // where in the pixel they are
+    float facet_alpha;     // alpha of the lobes of its facets
+    const Facet* facets;   // the vertex's own among them; null: it is one
     Spectrum weight;
     Scatterer surface;
 

@@ -16,7 +16,7 @@
 
 namespace hilcam {
 
-// What is known of a triangle's sunlight before a ray asks.
+// A triangle's sunlight is known in one of these ways before a ray asks.
 enum class KnownSun : std::uint8_t { kAsk, kLit, kDark };
 
 class GroundNormals {

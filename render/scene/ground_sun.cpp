@@ -34,7 +34,7 @@ Seen seen_from_tile(const EmbreeScene& embree, const PreparedMesh& tree, const M
     return seen;
 }
 
-// Of a quadrilateral with those around it in the tile.
+// Returns what those around a quadrilateral in the tile have seen.
 KnownSun known_of(const Seen& seen, int x, int y) {
     int lit = 0, all = 0;
     for (int j = std::max(0, y - 1); j <= std::min(kQuads, y + 2); ++j)

@@ -1,6 +1,6 @@
 #pragma once
 // Ground that follows the camera, as an interface: whoever has heights makes a mesh for one place of the camera, fine
-// where it is near and coarse where it is far. terrain_patch.h is a map about one place, render/ground a whole body.
+// where it is near and coarse where it is far. render/ground has a map about one place (terrain_patch.h) and a whole body (globe_terrain.h).
 
 #include <memory>
 #include <optional>

@@ -40,8 +40,12 @@ constexpr HalfShares half_shares_at(float x_px, float y_px) {
     return {across, down, across * down};
 }
 
-// How a pixel's differences are known.
-enum class HalfKind : std::uint8_t { kSmooth, kBackground, kObject };  // not; it sees no object; it sees one
+// A pixel's differences are known in one of these ways.
+enum class HalfKind : std::uint8_t {
+    kSmooth,      // one sample has told of all of it
+    kBackground,  // many have, and none sees an object
+    kObject,      // one of many sees an object
+};
 
 class HalfLight {
   public:

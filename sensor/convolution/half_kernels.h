@@ -1,6 +1,6 @@
 #pragma once
-// What it changes in a convolved picture that light is known by halves of its pixels (half_light.h): three small
-// kernels, one for each of the differences.
+// Three small kernels change a convolved picture by what is known of halves of its pixels (half_light.h), one for each
+// of the differences.
 //
 // A pixel's light is a quarter each from the middles of its quarters, plus what its differences move between them. With
 // p(x, y) the image of a point by samples that are twice as dense each way as pixels, (x, y) from it to a pixel's

@@ -1,4 +1,4 @@
-#include "render/scene/terrain_patch.h"
+#include "render/ground/terrain_patch.h"
 
 #include <gtest/gtest.h>
 

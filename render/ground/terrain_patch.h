@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-#include "render/scene/height_map.h"
+#include "render/ground/height_map.h"
 #include "render/scene/terrain.h"
 
 namespace hilcam {

@@ -1,4 +1,4 @@
-#include "sensor/half_light_adder.h"
+#include "sensor/convolution/half_light_adder.h"
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
@@ -21,18 +21,17 @@ float HalfLightAdder::Source::rate_e_s(int x, int y) const {
     return sum;
 }
 
-void HalfLightAdder::add(const RadianceImage& radiance, int number, const FrameBlur& blur, double exposure_s,
-                         LightChannel& channel) const {
+void HalfLightAdder::add(const RadianceImage& radiance, const Channel& channel, const FrameBlur& blur,
+                         double exposure_s, Convolver& image) const {
     const int width = radiance.width(), height = radiance.height();
-    Convolver& image = *channel.convolver;
     const auto stride = static_cast<std::size_t>(image.row(1).data() - image.row(0).data());
-    for (std::size_t zone = 0; zone < channel.halves.size(); ++zone) {
-        HalfKernels& kernels = channel.halves[zone];
+    for (std::size_t zone = 0; zone < channel.kernels.size(); ++zone) {
+        HalfKernels& kernels = channel.kernels[zone];
         if (!kernels.prepare(blur)) continue;
         const Source source{radiance,
                             *radiance.halves(),
-                            number,
-                            radiance.responses().empty() ? &channel.per_radiance : nullptr,
+                            channel.number,
+                            radiance.responses().empty() ? &channel.response : nullptr,
                             static_cast<float>(exposure_s),
                             channel.most_e,
                             zone_weights_.empty() ? nullptr : zone_weights_[zone].data(),
@@ -73,7 +72,7 @@ bool HalfLightAdder::gather(const Source& source, int x_px, int y_px, Scratch& s
     return take_smooth(scratch);
 }
 
-// What of the block at (from_x, from_y) lies about the one at (x_px, y_px).
+// Copies the part of the block at (from_x, from_y) that lies about the one at (x_px, y_px).
 void HalfLightAdder::copy_block(const Source& source, int from_x, int from_y, int x_px, int y_px,
                                 Scratch& scratch) const {
     if (source.radiance.dark(from_x, from_y)) return;

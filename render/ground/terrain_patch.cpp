@@ -1,4 +1,4 @@
-#include "render/scene/terrain_patch.h"
+#include "render/ground/terrain_patch.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 namespace hilcam {
 namespace {
 
-constexpr int kQuads = 32;                                            // along a tile's edge
-constexpr std::size_t kTriangles = 2 * kQuads * kQuads + 8 * kQuads;  // triangles of a tile with its skirts
+constexpr int kSteps = 32;                                            // along a tile's edge
+constexpr std::size_t kTriangles = 2 * kSteps * kSteps + 8 * kSteps;  // triangles of a tile with its skirts
 
 // A square of the map: its first column and row, and the distance between the columns it uses.
 struct TerrainTile {
@@ -59,13 +59,13 @@ class TerrainBuilder {
     std::set<std::array<int, 3>> leaves_;
 
     static std::array<int, 3> key_of(int column, int row, int step) {
-        const int span = step * kQuads;
+        const int span = step * kSteps;
         return {column / span, row / span, step};
     }
     // The step of the tile that holds a point, if that tile is coarser than `step`; else `step`.
     int coarser_step(int column, int row, int step) const {
         if (column < 0 || row < 0 || column >= map_.columns() - 1 || row >= map_.rows() - 1) return step;
-        for (int s = step; s * kQuads < 2 * std::max(map_.columns(), map_.rows()); s *= 2)
+        for (int s = step; s * kSteps < 2 * std::max(map_.columns(), map_.rows()); s *= 2)
             if (leaves_.contains(key_of(column, row, s))) return s;
         return step;
     }
@@ -74,18 +74,18 @@ class TerrainBuilder {
     // edge.
     Vec3d vertex_at(const TerrainTile& t, int x, int y) const {
         const int column = last_column(t.column + x * t.step), row = last_row(t.row + y * t.step);
-        if (x == 0 || x == kQuads) {
-            const int s = coarser_step(x == 0 ? t.column - 1 : t.column + kQuads * t.step,
-                                       std::min(row, last_row(t.row + (kQuads - 1) * t.step)), t.step);
+        if (x == 0 || x == kSteps) {
+            const int s = coarser_step(x == 0 ? t.column - 1 : t.column + kSteps * t.step,
+                                       std::min(row, last_row(t.row + (kSteps - 1) * t.step)), t.step);
             if (s > t.step && row % s != 0) {
                 const int above = row / s * s, below = last_row(above + s);
                 const double share = static_cast<double>(row - above) / (below - above);
                 return (1 - share) * place(column, above) + share * place(column, below);
             }
         }
-        if (y == 0 || y == kQuads) {
-            const int s = coarser_step(std::min(column, last_column(t.column + (kQuads - 1) * t.step)),
-                                       y == 0 ? t.row - 1 : t.row + kQuads * t.step, t.step);
+        if (y == 0 || y == kSteps) {
+            const int s = coarser_step(std::min(column, last_column(t.column + (kSteps - 1) * t.step)),
+                                       y == 0 ? t.row - 1 : t.row + kSteps * t.step, t.step);
             if (s > t.step && column % s != 0) {
                 const int left = column / s * s, right = last_column(left + s);
                 const double share = static_cast<double>(column - left) / (right - left);
@@ -117,7 +117,7 @@ class TerrainBuilder {
 
     // Width of the tile's edges on the screen, where it is nearest to the camera.
     double edge_px(const TerrainTile& t) const {
-        const int span = t.step * kQuads;
+        const int span = t.step * kSteps;
         // The nearest point of a tile is near the one under the camera, if that is inside; else at its
         // border.
         const int column = std::clamp(column_of(view_.camera_m), t.column, last_column(t.column + span));
@@ -128,7 +128,7 @@ class TerrainBuilder {
 
     std::vector<TerrainTile> tiles() const {
         int step = 1;
-        while (step * kQuads < std::max(map_.columns(), map_.rows()) - 1) step *= 2;
+        while (step * kSteps < std::max(map_.columns(), map_.rows()) - 1) step *= 2;
         std::priority_queue<TerrainTile> open;
         const auto add = [&](TerrainTile t) {
             if (t.column >= map_.columns() - 1 || t.row >= map_.rows() - 1) return;
@@ -146,7 +146,7 @@ class TerrainBuilder {
                 continue;
             }
             open.pop();
-            const int half = t.step / 2, reach = half * kQuads;
+            const int half = t.step / 2, reach = half * kSteps;
             for (const int dy : {0, reach})
                 for (const int dx : {0, reach}) add({t.column + dx, t.row + dy, half, 0});
         }
@@ -161,35 +161,35 @@ class TerrainBuilder {
 
     void append(const TerrainTile& t, Mesh& mesh) const {
         const auto base = static_cast<std::uint32_t>(mesh.vertices_m.size());
-        constexpr int kSide = kQuads + 1;
-        for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < kSide; ++x) {
+        constexpr int kTileSide = kSteps + 1;
+        for (int y = 0; y < kTileSide; ++y)
+            for (int x = 0; x < kTileSide; ++x) {
                 const int column = last_column(t.column + x * t.step), row = last_row(t.row + y * t.step);
                 mesh.vertices_m.push_back(to_float(vertex_at(t, x, y) - anchor_m_));
                 mesh.normals.push_back(normal_at(column, row, t.step));
             }
-        const auto at = [&](int x, int y) { return base + static_cast<std::uint32_t>(y * kSide + x); };
+        const auto at = [&](int x, int y) { return base + static_cast<std::uint32_t>(y * kTileSide + x); };
         // Past the map's edge points fall together: those quadrilaterals are left out.
         const auto inside = [&](int x, int y) {
             return t.column + x * t.step < map_.columns() - 1 && t.row + y * t.step < map_.rows() - 1;
         };
-        for (int y = 0; y < kQuads; ++y)
-            for (int x = 0; x < kQuads; ++x) {
+        for (int y = 0; y < kSteps; ++y)
+            for (int x = 0; x < kSteps; ++x) {
                 if (!inside(x, y)) continue;
                 mesh.triangles.push_back({at(x, y), at(x, y + 1), at(x + 1, y)});
                 mesh.triangles.push_back({at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)});
             }
-        for (int i = 0; i < kQuads; ++i) {
+        for (int i = 0; i < kSteps; ++i) {
             skirt(t, i, 0, i + 1, 0, base, mesh);
-            skirt(t, i + 1, kQuads, i, kQuads, base, mesh);
+            skirt(t, i + 1, kSteps, i, kSteps, base, mesh);
             skirt(t, 0, i + 1, 0, i, base, mesh);
-            skirt(t, kQuads, i, kQuads, i + 1, base, mesh);
+            skirt(t, kSteps, i, kSteps, i + 1, base, mesh);
         }
     }
 
     // A strip that hangs from the border between two points: rounding shall open no gap.
     void skirt(const TerrainTile& t, int x0, int y0, int x1, int y1, std::uint32_t base, Mesh& mesh) const {
-        constexpr int kSide = kQuads + 1;
+        constexpr int kTileSide = kSteps + 1;
         const auto down = [&](int x, int y) {
             const int column = last_column(t.column + x * t.step), row = last_row(t.row + y * t.step);
             const Vec3d edge = vertex_at(t, x, y);
@@ -201,8 +201,8 @@ class TerrainBuilder {
         if (t.column + std::min(x0, x1) * t.step > map_.columns() - 1 ||
             t.row + std::min(y0, y1) * t.step > map_.rows() - 1)
             return;
-        const std::uint32_t a = base + static_cast<std::uint32_t>(y0 * kSide + x0);
-        const std::uint32_t b = base + static_cast<std::uint32_t>(y1 * kSide + x1);
+        const std::uint32_t a = base + static_cast<std::uint32_t>(y0 * kTileSide + x0);
+        const std::uint32_t b = base + static_cast<std::uint32_t>(y1 * kTileSide + x1);
         const std::uint32_t c = down(x0, y0), d = down(x1, y1);
         mesh.triangles.push_back({a, b, c});
         mesh.triangles.push_back({b, d, c});

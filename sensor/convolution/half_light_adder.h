@@ -5,10 +5,12 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/vocabulary/radiance_image.h"
-#include "sensor/light_channel.h"
+#include "sensor/convolution/convolve.h"
+#include "sensor/convolution/half_kernels.h"
 
 namespace hilcam {
 
@@ -20,9 +22,17 @@ class HalfLightAdder {
                    const std::vector<std::vector<float>>& zone_weights)
         : illumination_(illumination), zone_weights_(zone_weights) {}
 
-    // radiance: what the channel was made of, with halves. number: of the channel. Loop: no allocation, no lock.
-    void add(const RadianceImage& radiance, int number, const FrameBlur& blur, double exposure_s,
-             LightChannel& channel) const;
+    // One channel of the detector: its number, the kernels of each zone of the field, its response to radiance, and the
+    // greatest charge that its pixels were cut to.
+    struct Channel {
+        int number;
+        std::span<HalfKernels> kernels;
+        const Spectrum& response;
+        float most_e;
+    };
+    // radiance: the picture with halves of which `image` was made and convolved. Loop: no allocation, no lock.
+    void add(const RadianceImage& radiance, const Channel& channel, const FrameBlur& blur, double exposure_s,
+             Convolver& image) const;
 
   private:
     const std::vector<float>& illumination_;
@@ -32,7 +42,7 @@ class HalfLightAdder {
         const RadianceImage& radiance;
         const HalfLight& light;
         int number;
-        const Spectrum* response;  // what makes charge of radiance; null: the image has charge rates
+        const Spectrum* response;  // null: the image has charge rates already
         float exposure_s, most_e;  // most_e: the greatest charge of a pixel; no half has more
         const float* zone;         // null: the whole field is one
         std::size_t zone_width;    // floats in a row of it
