@@ -3,7 +3,9 @@
 
     run_program_test.py HILCAM SOURCE_DIR
 """
+import csv
 import json
+import math
 import os
 import pathlib
 import pty
@@ -376,6 +378,27 @@ class Characterise(unittest.TestCase):
         result = hilcam("characterise", self.CAMERA, "--set", "f_number=0")
         self.assertEqual(result.returncode, 2)
         self.assertIn("f_number", result.stderr)
+
+
+class Ground(unittest.TestCase):
+    SCENARIO = SOURCE / "configs/scenarios/lunar_landing.yaml"
+
+    def test_it_lists_what_is_about_the_site(self):
+        result = hilcam("ground", self.SCENARIO, "--list", "boulders", "--within-m", 20, "--smallest-m", 0.5)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = list(csv.DictReader(result.stdout.splitlines()))
+        self.assertGreater(len(rows), 3)
+        for row in rows:
+            self.assertGreaterEqual(float(row["diameter_m"]), 0.5)
+            self.assertLessEqual(math.hypot(float(row["east_m"]), float(row["north_m"])), 20.01)
+
+    def test_what_has_no_ground_is_refused(self):
+        result = hilcam("ground", SOURCE / "configs/scenarios/small.yaml", "--list", "craters")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("has no terrain.globe", result.stderr)
+        result = hilcam("ground", self.SCENARIO, "--list", "trees")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("craters", result.stderr)
 
 
 class Calibration(unittest.TestCase):
