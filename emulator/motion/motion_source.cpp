@@ -62,7 +62,8 @@ std::string MotionSource::gap_at(TimeTai time) const {
         const char* why = v.status == MotionStatus::kBefore  ? "begins at "
                           : v.status == MotionStatus::kAfter ? "ends at "
                                                              : "has a gap there; the nearest it knows is ";
-        return part.name() + ": found the instant " + format_utc(time) + "; it " + why + format_utc(v.nearest);
+        return part.name() + ": found the instant " + format_utc(time) + "; it " + why +
+               format_utc(v.nearest);
     };
     const std::string gap = gap_of(*trajectory_);
     return gap.empty() ? gap_of(*attitude_) : gap;

@@ -86,7 +86,9 @@ class WorldState {
     // Returns how often a source was asked for an instant that it does not know, and stood still. Any thread.
     std::uint64_t held() const { return held_.load(std::memory_order_acquire); }
     // Says which source did not know the first such instant, and why; empty: there was none. Any thread but the loop's.
-    std::string first_gap() const { return held() == 0 ? std::string() : sources_.gap_at(first_held_.load()); }
+    std::string first_gap() const {
+        return held() == 0 ? std::string() : sources_.gap_at(first_held_.load());
+    }
 
   private:
     struct History {

@@ -24,9 +24,10 @@ enum class RandomPurpose : std::uint32_t {
     kPixelPlace = 11,   // start of the sequence of rays in a pixel (place_sequence.h)
     kPointing = 32,     // pointing of the camera's line of sight; pixel: sinusoid, index: axis
     kAttitude = 33,     // attitude of a body; pixel: sinusoid, index: thing and axis
-    kCrater = 35,       // craters of seeded ground (render/ground); frame: cell, pixel: crater, index: octave and use
-    kBoulder = 36,      // boulders, in the same way
-    kCampaign = 34,     // cases of a campaign (emulator/campaign/draw_source.h); frame: case, index: try
+    kCrater =
+        35,  // craters of seeded ground (render/ground); frame: cell, pixel: crater, index: octave and use
+    kBoulder = 36,   // boulders, in the same way
+    kCampaign = 34,  // cases of a campaign (emulator/campaign/draw_source.h); frame: case, index: try
 };
 
 struct RandomKey {
