@@ -72,7 +72,7 @@ class Completion(unittest.TestCase):
 
     def test_keys_and_faults(self):
         self.assertEqual(completed("hilcam run --set camera.shutter.li"), ["camera.shutter.line_time_us="])
-        self.assertEqual(completed("hilcam run --set objects.0.mes"), ["objects.0.mesh="])
+        self.assertEqual(completed("hilcam run --set objects.0.mes"), ["objects.0.mesh=", "objects.0.mesh_surface="])
         self.assertEqual(completed("hilcam manual camera.shutter.li"), ["camera.shutter.line_time_us"])
         self.assertEqual(completed("hilcam send fault packet_dr"), ["packet_drop"])
         self.assertIn("clear", completed("hilcam send fault _"))
