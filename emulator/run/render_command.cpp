@@ -105,7 +105,9 @@ void render_to_files(const ScenarioConfig& bench, PictureStage stage, double tim
     const ScenarioConfig scenario = scenario_of_camera(bench, number - 1);
     check_names(stage, files);
     require_unused(files);
-    StillCamera camera(scenario, time_offset_s);
+    StillCamera camera(
+        scenario, time_offset_s,
+        stage == PictureStage::kRadiance ? StillCamera::Light::kRadiance : StillCamera::Light::kCharge);
     for (const LoadedObject& object : camera.objects())
         if (const std::string warning = warning_of(object); !warning.empty()) spdlog::warn("{}", warning);
     PictureWriter writer(picture_run_of(scenario, number));

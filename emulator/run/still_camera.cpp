@@ -22,8 +22,9 @@ Exposure first_exposure(const CameraModel& camera) {
 
 }  // namespace
 
-StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s)
+StillCamera::StillCamera(const ScenarioConfig& scenario, double time_offset_s, Light light)
     : scenario_(scenario),
+      light_(light),
       grid_(scenario.spectrum_edges_um),
       renderer_(load_renderer(scenario, grid_, image_geometry(scenario), &objects_)) {
     take(scenario, time_offset_s);
@@ -38,8 +39,9 @@ void StillCamera::take(const ScenarioConfig& scenario, double time_offset_s) {
     snapshot_ = snapshot_at(scenario, start, time_);
     world_.emplace(initial_motions(scenario, start), scenario.origin, joints_of(scenario), scenario.mount,
                    load_motion_sources(scenario), lamp_mounts(scenario));
-    exposures_.emplace(*renderer_, exposure_config_of(scenario), scenario.camera, grid_,
-                       world_->placed_objects());
+    ExposureConfig exposures = exposure_config_of(scenario);
+    exposures.for_detector = light_ == Light::kCharge;
+    exposures_.emplace(*renderer_, exposures, scenario.camera, grid_, world_->placed_objects());
     exposure_ = first_exposure(scenario.camera);
     renderer_->require_air(snapshot_);
 }

@@ -14,8 +14,12 @@ namespace hilcam {
 
 class StillCamera {
   public:
+    // What render() gives: radiance bin by bin, or, as frames of a run have it, what the detector's channels make of it, from
+    // which alone charges are those of a run to the last bit.
+    enum class Light { kCharge, kRadiance };
     // Loads all that the scenario names. Throws InputError, DeviceError. Owner thread, as all here.
-    explicit StillCamera(const ScenarioConfig& scenario, double time_offset_s = 0);
+    explicit StillCamera(const ScenarioConfig& scenario, double time_offset_s = 0,
+                         Light light = Light::kCharge);
 
     // Makes the body that the camera rides on stand there from now on, at rest against the object that is
     // nearest; everything else is where it was. Throws InputError where the atmosphere does not cover what is
@@ -56,6 +60,7 @@ class StillCamera {
     SensorChain& chain();
 
     ScenarioConfig scenario_;
+    Light light_;
     SpectralGrid grid_;
     std::vector<LoadedObject> objects_;
     std::unique_ptr<Renderer> renderer_;
