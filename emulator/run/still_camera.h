@@ -14,8 +14,8 @@ namespace hilcam {
 
 class StillCamera {
   public:
-    // What render() gives: radiance bin by bin, or, as frames of a run have it, what the detector's channels make of it, from
-    // which alone charges are those of a run to the last bit.
+    // Pictures hold radiance bin by bin, or what the detector's channels make of it, as frames of a run do: only then are
+    // charges those of a run to the last bit.
     enum class Light { kCharge, kRadiance };
     // Loads all that the scenario names. Throws InputError, DeviceError. Owner thread, as all here.
     explicit StillCamera(const ScenarioConfig& scenario, double time_offset_s = 0,
