@@ -84,6 +84,7 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
                           std::vector<Leaf>& leaves) {
     leaves.clear();
     std::vector<GroundTileKey> wave;
+    wave.reserve(kCubeFaces);
     for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
     while (!wave.empty()) {
         if ((leaves.size() + wave.size()) * kTileTriangles > most_triangles) return false;
