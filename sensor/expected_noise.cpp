@@ -9,12 +9,9 @@ namespace hilcam {
 namespace {
 
 Spectrum most_sensitive(const CameraModel& camera, const SpectralGrid& grid) {
-    if (camera.color_filter.pattern.empty()) return electrons_per_s_per_radiance(camera, grid);
     Spectrum most;
-    for (const ColorFilterConfig& filter : camera.color_filter.filters) {
-        const Spectrum one = electrons_per_s_per_radiance(camera, grid, &filter.transmission);
+    for (const Spectrum& one : channel_responses(camera, grid))
         for (int b = 0; b < grid.size(); ++b) most[b] = std::max(most[b], one[b]);
-    }
     return most;
 }
 

@@ -10,6 +10,7 @@
 
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
+#include "sensor/convolution/bright_pixels.h"
 #include "sensor/convolution/half_light_adder.h"
 #include "sensor/mtf.h"
 #include "sensor/point_light.h"
@@ -23,10 +24,6 @@ tbb::blocked_range<int> image_rows(int height) { return {0, height, 16}; }
 
 constexpr float kMax_e = 1e9f;         // greatest mean charge of a pixel
 constexpr float kMaxBefore_e = 1e12f;  // greatest charge of a radiance pixel
-// Brighter pixels than so many full wells are drawn as points: in the FFT the Sun would ring along its rows
-// and columns and come back over the picture's edges.
-constexpr float kBrightWells = 10;
-constexpr std::size_t kMaxBright = 4096;
 
 // Factors on planes of the image, from one of them on.
 struct Weights {
@@ -75,7 +72,11 @@ struct FocalPlane::Implementation {
     std::vector<double> cell_sums;                 // sums of a ghost's cells
     std::vector<float> row_peaks;                  // brightest pixel of each row of a channel
     HalfLightAdder half_adder{illumination, zone_weights};
-    std::vector<BrightPixel> bright;
+    BrightPixels bright{{view.image.padded_width(), view.image.padded_height(), view.sampling.guard_px,
+                         view.sampling.oversampling},
+                        view.camera.full_well_e,
+                        static_cast<int>(channels.size()),
+                        illumination};
     bool dark = false;  // nothing in the radiance image
 
     static std::vector<LightChannel> make_channels(const DetectorView& view, const SpectralGrid& grid) {
@@ -130,11 +131,15 @@ struct FocalPlane::Implementation {
                         zone_weight(c.field_zones, z,
                                     view.lens.field_fraction(view.detector_px(x), view.detector_px(y)))));
         row_peaks.resize(static_cast<std::size_t>(image.padded_height()));
-        bright.reserve(kMaxBright * channels.size());
     }
 
     RayGrid rays_of(const Exposure& exposure) const {
         return exposure.ray_grid.value_or(view.sampling.samples_per_axis);
+    }
+    // Null: it is not known of the frame where in its pixels light falls.
+    const HalfLight* halves_of(const RadianceImage& radiance, const Exposure& exposure) const {
+        const HalfLight* const halves = radiance.halves();
+        return is_halved(rays_of(exposure)) && halves && halves->used() ? halves : nullptr;
     }
 
     // --- radiance to electrons
@@ -151,7 +156,7 @@ struct FocalPlane::Implementation {
                 collapse_row(channel, radiance, {factor, first, planes}, y);
         });
         if (channel.ghost) collect_ghost(channel);
-        take_out_bright(channel, is_halved(rays_of(exposure)) ? radiance.halves() : nullptr, exposure_s);
+        take_out_bright(channel, radiance, exposure);
         close_border(channel);
         if (zone_weights.empty()) return;
         tbb::parallel_for(image_rows(channel.convolver->height()), [&](const tbb::blocked_range<int>& range) {
@@ -174,6 +179,14 @@ struct FocalPlane::Implementation {
             most = std::max(most, greatest(out + x, static_cast<std::size_t>(end - x)));
         }
         row_peaks[static_cast<std::size_t>(y)] = most;
+    }
+    void take_out_bright(LightChannel& channel, const RadianceImage& radiance, const Exposure& exposure) {
+        const auto number = static_cast<std::size_t>(&channel - channels.data());
+        const std::size_t before = bright.all().size();
+        channel.most_e = bright.take_out({*channel.convolver, row_peaks, static_cast<int>(number),
+                                          halves_of(radiance, exposure), exposure.exposure_s});
+        for (const BrightPixel& pixel : bright.all().subspan(before))
+            wings[number].collect(pixel.position_px.x, pixel.position_px.y, pixel.electrons);
     }
     // Beside and below the picture, where the FFT's size is smooth: a ramp from its last pixels to its first,
     // which for the FFT come next. A step there would ring into the picture.
@@ -206,64 +219,6 @@ struct FocalPlane::Implementation {
             float* part = channel.convolver->row(y, static_cast<int>(z)).data();
             for (std::size_t x = 0; x < width; ++x) part[x] = all[x] * weight[x];
         }
-    }
-
-    // Turns what is over the limit into points and leaves the limit in the picture. Where more than
-    // kMaxBright pixels are over it, ten times the limit.
-    // halves: where in them light falls, of frames that know.
-    void take_out_bright(LightChannel& channel, const HalfLight* halves, double exposure_s) {
-        auto limit = kBrightWells * static_cast<float>(view.camera.full_well_e);
-        const std::size_t before = bright.size();
-        const auto number = static_cast<int>(&channel - channels.data());
-        while (!take_out_over(channel, limit, number, before)) limit *= 10;
-        channel.most_e = limit;
-        if (before == bright.size()) return;
-        for (std::size_t i = before; i < bright.size(); ++i) {
-            const Vec2d at = bright[i].position_px;
-            const float excess = static_cast<float>(bright[i].electrons);
-            float& pixel = channel.convolver->row(image_row(at.y))[static_cast<std::size_t>(image_row(at.x))];
-            pixel -= excess;
-            bright[i].electrons /= view.sampling.oversampling * view.sampling.oversampling;
-            if (halves) bright[i].position_px = bright_place(bright[i], excess + limit, *halves, exposure_s);
-            wings[static_cast<std::size_t>(number)].collect(at.x, at.y, bright[i].electrons);
-        }
-    }
-    // The place of the middle of a pixel's light, as its halves tell [px of the detector's frame].
-    Vec2d bright_place(const BrightPixel& pixel, float charge_e, const HalfLight& halves,
-                       double exposure_s) const {
-        const int x = image_row(pixel.position_px.x), y = image_row(pixel.position_px.y);
-        const auto at = static_cast<std::size_t>(x);
-        if (halves.unknown(x, y) || halves.kinds(y)[at] == HalfKind::kSmooth) return pixel.position_px;
-        const double per_rate =
-            exposure_s / static_cast<double>(charge_e) *
-            static_cast<double>(
-                illumination[static_cast<std::size_t>(y) * static_cast<std::size_t>(halves.width()) + at]);
-        constexpr double kMiddle_px = 0.25;  // a half's middle from its pixel's
-        const auto way_px = [&](int difference) {
-            return kMiddle_px *
-                   std::clamp(per_rate * static_cast<double>(halves.row(y, difference, pixel.channel)[at]),
-                              -1.0, 1.0);
-        };
-        return {pixel.position_px.x + way_px(0), pixel.position_px.y + way_px(1)};
-    }
-    int image_row(double detector_px) const {
-        return static_cast<int>((detector_px + view.sampling.guard_px) * view.sampling.oversampling);
-    }
-    // False when there are too many.
-    bool take_out_over(const LightChannel& channel, float limit, int number, std::size_t before) {
-        bright.resize(before);
-        for (int y = 0; y < view.image.padded_height(); ++y) {
-            if (row_peaks[static_cast<std::size_t>(y)] <= limit) continue;
-            const std::span<const float> row = channel.convolver->row(y);
-            for (int x = 0; x < view.image.padded_width(); ++x) {
-                const float value = row[static_cast<std::size_t>(x)];
-                if (value <= limit) continue;
-                if (bright.size() - before == kMaxBright) return false;
-                bright.push_back(
-                    {{view.detector_px(x), view.detector_px(y)}, static_cast<double>(value - limit), number});
-            }
-        }
-        return true;
     }
 
     // Before convolution; the light of a cell of the ghost's size goes together.
@@ -417,7 +372,7 @@ void FocalPlane::convolve(const RadianceImage& radiance, const Exposure& exposur
             kernel->run(*channel.convolver);
         else
             channel.convolver->run(blur);
-        if (is_halved(rays) && radiance.halves() && radiance.halves()->used())
+        if (my.halves_of(radiance, exposure))
             my.half_adder.add(radiance,
                               {static_cast<int>(c), channel.halves, channel.per_radiance, channel.most_e},
                               blur, exposure.exposure_s, *channel.convolver);
@@ -443,7 +398,7 @@ void FocalPlane::gather(std::span<const PointSource> sources, std::span<const Si
             if (y >= top && veiled) my.veil_row(y - top, light_e.row(y).subspan(left));
         }
     });
-    for (const BrightPixel& pixel : my.bright) my.points.add(pixel, light_e);
+    for (const BrightPixel& pixel : my.bright.all()) my.points.add(pixel, light_e);
     my.points.add(sources, light_e);
     my.points.finish(light_e);
 }

@@ -61,6 +61,14 @@ Spectrum electrons_per_s_per_radiance(const CameraModel& c, const SpectralGrid& 
     return out;
 }
 
+std::vector<Spectrum> channel_responses(const CameraModel& c, const SpectralGrid& grid) {
+    if (c.color_filter.pattern.empty()) return {electrons_per_s_per_radiance(c, grid)};
+    std::vector<Spectrum> out;
+    for (const ColorFilterConfig& filter : c.color_filter.filters)
+        out.push_back(electrons_per_s_per_radiance(c, grid, &filter.transmission));
+    return out;
+}
+
 RelativeIllumination::RelativeIllumination(const CameraModel& camera, const ImageGeometry& geometry)
     : geometry_(geometry),
       one_line_(camera.shutter.kind == ShutterKind::kLineScan),

@@ -13,6 +13,8 @@
 // R the relative illumination and Omega the solid angle of a pixel at its place (Omega_0 on the axis), so
 // that a dense field of points and a uniform field agree through any lens.
 
+#include <vector>
+
 #include "render/vocabulary/spectrum.h"
 #include "sensor/camera_model.h"
 
@@ -32,6 +34,8 @@ double lens_transmission(const CameraModel& camera, double wavelength_um);
 // included. filter: of a colour filter array, or null.
 Spectrum electrons_per_s_per_radiance(const CameraModel& camera, const SpectralGrid& grid,
                                       const Curve* filter = nullptr);
+// The same of each channel of the detector: of all of it, or of each colour filter.
+std::vector<Spectrum> channel_responses(const CameraModel& camera, const SpectralGrid& grid);
 // Electrons per second and unit of on-axis spectral irradiance of a point [W m^-2 um^-1], per bin; without
 // fill factor.
 Spectrum electrons_per_s_per_irradiance(const CameraModel& camera, const SpectralGrid& grid,

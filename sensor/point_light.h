@@ -13,18 +13,12 @@
 
 #include "render/vocabulary/image.h"
 #include "render/vocabulary/point_source.h"
+#include "sensor/convolution/bright_pixels.h"
 #include "sensor/light_channel.h"
 #include "sensor/point_trail.h"
 #include "sensor/stray/far_wings.h"
 
 namespace hilcam {
-
-// A pixel of the picture that is drawn as a point.
-struct BrightPixel {
-    Vec2d position_px;  // place in the detector's frame
-    double electrons = 0;
-    int channel = 0;
-};
 
 class PointLight {
   public:

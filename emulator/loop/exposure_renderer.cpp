@@ -58,15 +58,6 @@ void slow_down(double moving, WorldSnapshot& world) {
     world.camera_rate_rad_s = moving * world.camera_rate_rad_s;
 }
 
-// Returns the detector's answers to radiance, of its one channel or by colour filter.
-std::vector<Spectrum> responses_of(const CameraModel& camera, const SpectralGrid& grid) {
-    if (camera.color_filter.pattern.empty()) return {electrons_per_s_per_radiance(camera, grid)};
-    std::vector<Spectrum> out;
-    for (const ColorFilterConfig& filter : camera.color_filter.filters)
-        out.push_back(electrons_per_s_per_radiance(camera, grid, &filter.transmission));
-    return out;
-}
-
 // About the camera's axes, from one attitude to another.
 Vec3d mean_rate(Quat from, Quat to, double seconds) {
     const Quat turn = conjugate(from) * to;
@@ -94,7 +85,7 @@ ExposureRenderer::ExposureRenderer(Renderer& renderer, const ExposureConfig& con
       oversampling_(static_cast<double>(config.sampling.oversampling)),
       jitter_(camera.jitter, config.seed, config.start),
       noise_(camera, grid, config.sampling),
-      responses_(responses_of(camera, grid)),
+      responses_(channel_responses(camera, grid)),
       for_detector_(config.for_detector),
       has_halves_(is_halved(config.sampling.samples_per_axis)),
       bins_(static_cast<std::size_t>(grid.size())) {

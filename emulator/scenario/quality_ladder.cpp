@@ -135,7 +135,7 @@ std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
 
 RayGrid ray_grid_of(const RenderQuality& q) {
     if (q.noise_budget > 0) return kScatteredRays;
-    if (q.uses_buffer()) return q.pixel_samples().buffer_px() * kVisibilitySamplesAcross;
+    if (q.uses_buffer()) return q.pixel_samples().across();
     return static_cast<RayGrid>(q.samples_per_axis);
 }
 

@@ -213,7 +213,7 @@ class GdalRaster final : public GroundRaster {
         find_turn(reference, to_ground);
     }
 
-    // Of maps whose columns are meridians: how many make a turn, and whether the rows reach the poles.
+    // If the map's columns are meridians, finds how many of them make a turn, and whether its rows reach the poles.
     void find_turn(const OGRSpatialReference& reference, const double* to_ground) {
         double turn = 360, north = 90;
         if (reference.IsProjected()) {

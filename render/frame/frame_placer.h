@@ -33,7 +33,8 @@ namespace hilcam {
 
 class FramePlacer {
   public:
-    // levels: of quality; the first is in use until set_quality(). Takes the scene over; builds the acceleration structures. Throws InputError. Owner thread.
+    // Takes the scene over; builds the acceleration structures. levels: qualities that frames may have, the first until
+    // set_quality(). Throws InputError. Owner thread.
     FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                 std::span<const RenderQuality> levels, const RenderModels& models, const Modules& modules);
     FramePlacer(const FramePlacer&) = delete;  // the view points into it

@@ -11,26 +11,31 @@ void fill_zero(RadianceImage& radiance, const PixelBox& box) {
             std::fill(radiance.row(y, p).begin() + box.x0, radiance.row(y, p).begin() + box.x1, 0.0f);
 }
 
-// share: factor on the pixels' values.
-void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, int bins,
-           RadianceImage& radiance) {
-    // Some pixels at a time: a tile's, bin by bin, would pass through the nearest cache once a bin.
+// share: factor on the pixels' values. value_of: of a pixel, for a plane of the image.
+template <class ValueOf>
+void write_planes(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance,
+                  const ValueOf& value_of) {
+    // Some pixels at a time: a tile's, plane by plane, would pass through the nearest cache once a plane.
     constexpr int kTogether = 16;
     const int width = box.x1 - box.x0;
-    const std::span<const Spectrum> responses = radiance.responses();
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = 0; x < width; x += kTogether) {
             const Spectrum* in = pixels.data() + (y - box.y0) * width + x;
             const int count = std::min(kTogether, width - x);
-            for (int b = 0; b < bins && responses.empty(); ++b) {
-                float* out = radiance.row(y, b).data() + box.x0 + x;
-                for (int i = 0; i < count; ++i) out[i] = share * in[i][b];
-            }
-            for (std::size_t c = 0; c < responses.size(); ++c) {
-                float* out = radiance.row(y, static_cast<int>(c)).data() + box.x0 + x;
-                for (int i = 0; i < count; ++i) out[i] = share * sum_of_products(responses[c], in[i]);
+            for (int plane = 0; plane < radiance.planes(); ++plane) {
+                float* out = radiance.row(y, plane).data() + box.x0 + x;
+                for (int i = 0; i < count; ++i) out[i] = share * value_of(in[i], plane);
             }
         }
+}
+void write(std::span<const Spectrum> pixels, float share, const PixelBox& box, RadianceImage& radiance) {
+    const std::span<const Spectrum> responses = radiance.responses();
+    if (responses.empty())
+        write_planes(pixels, share, box, radiance, [](const Spectrum& pixel, int bin) { return pixel[bin]; });
+    else
+        write_planes(pixels, share, box, radiance, [&](const Spectrum& pixel, int channel) {
+            return sum_of_products(responses[static_cast<std::size_t>(channel)], pixel);
+        });
 }
 
 // Writes a part of a block. False: nothing, as no pixel's differences are known, and it may be left.
@@ -157,7 +162,7 @@ void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std
                              TileStats& stats, RadianceImage& radiance) {
     int n = placer.samples_in(box);
     VisibilityTile* seen = nullptr;
-    if (quality().uses_buffer() && n <= kVisibilitySamplesAcross) {
+    if (quality().uses_buffer() && n <= quality().pixel_samples().across()) {
         n = kVisibilitySamplesAcross;
         if (placer.frame().visibility) seen = &seen_[slot];
     }
@@ -191,7 +196,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     }
     paths()[slot]->trace(tile);
     const float share = 1 / static_cast<float>(n * n);
-    write(pixels, share, box, frame.bins, radiance);
+    write(pixels, share, box, radiance);
     // A block of several tiles has one mark.
     const bool alone = box.x1 - box.x0 == RadianceImage::kBlock_px;
     if (halves_ && write(tile, share, alone, *halves_)) halves_->mark_unknown(box.x0, box.y0, false);
@@ -200,7 +205,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
 void FrameTracer::trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
                                   TileStats& stats, RadianceImage& radiance) {
     const NoiseBudget budget{quality().noise_budget, static_cast<int>(quality().most_passes), noise_};
-    write(samplers_[slot]->trace(frame, box, n, budget, *paths()[slot], stats), 1, box, frame.bins, radiance);
+    write(samplers_[slot]->trace(frame, box, n, budget, *paths()[slot], stats), 1, box, radiance);
 }
 
 }  // namespace hilcam

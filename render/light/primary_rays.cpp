@@ -39,8 +39,7 @@ class PrimaryRays {
         patched_ = bodies_ && linear_ && !pictured_ && frame_.background->earth_in_patches();
     }
 
-    // uncovered: samples of each pixel that see no object; null: rays find the
-    // objects.
+    // uncovered: samples of each pixel that see no object; null: rays find the objects.
     std::size_t trace(const SampleMask* uncovered) {
         uncovered_ = uncovered;
         // Blocks of 4 x 4 pixels, so that a packet's rays run close together; they are the mask's blocks too.
@@ -340,17 +339,19 @@ class PrimaryRays {
         }
     }
 
-    // Of a pixel that is even, one ray tells for all samples that see no object; else each tells for itself.
+    // A ray tells for itself; the one ray of an even pixel for all samples that see no object.
     void add_backdrop_to(std::uint32_t pixel, std::size_t k, std::uint16_t sample, float sun_cosine) {
+        const PixelSamples& grid = frame_.samples;
+        if (even_ && uncovered_[pixel] == grid.all())
+            return add_backdrop(k, sun_cosine, grid.weight(grid.all()) * weight_, tile_.pixels[pixel]);
         if (!even_) tile_.set_kind(pixel, HalfKind::kBackground);
         float samples = 1;
         HalfShares halves = half_shares_at(x_at_[k] - x_of_[k], y_at_[k] - y_of_[k]);
         if (uncovered_) {
-            const PixelSamples& grid = frame_.samples;
             const SampleMask seen = uncovered_[pixel] & (even_ ? grid.all() : grid.about(sample));
             if (seen == 0) return;
             samples = grid.weight(seen);
-            if (even_ || grid.quarters() > 1) halves = grid.halves(seen);
+            halves = grid.halves(seen);
         }
         Spectrum light;
         add_backdrop(k, sun_cosine, samples * weight_, light);

@@ -22,6 +22,7 @@ class PixelSamples {
 
     // Pixels of the buffer in one of the picture, in each direction.
     constexpr int buffer_px() const { return quarters_ == 1 ? 1 : 2; }
+    constexpr int across() const { return buffer_px() * kVisibilitySamplesAcross; }
     constexpr int quarters() const { return quarters_; }
     constexpr SampleMask all() const { return quarters_ == 1 ? 0xFFFF : ~SampleMask{0}; }
     // Returns how many samples of sixteen a pixel these stand for.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kQuarter_px = 0.25;
 
-// Nodes and weights on -1/2 .. 1/2 (Gauss and Legendre; Abramowitz & Stegun 1964, table 25.4). A smear of so
-// many pixels is a mean over them, good to 2e-3 of the modulation at half a cycle per pixel.
+// Nodes and weights on -1/2 .. 1/2 (Gauss and Legendre; Abramowitz & Stegun 1964, table 25.4). A smear is a mean over
+// them: up to the lengths of nodes_of() its modulation is right to 2e-3 up to half a cycle per pixel.
 struct Node {
     double at, weight;
 };
@@ -27,11 +27,11 @@ constexpr Node kFive[] = {{-0.4530899230, 0.1184634425},
                           {0, 0.2844444444},
                           {0.2692346551, 0.2393143352},
                           {0.4530899230, 0.1184634425}};
-constexpr double kMostSmear_px = 4;
+constexpr double kMostSmear_px = 3.1;
 std::span<const Node> nodes_of(double smear_px) {
     if (smear_px <= 0.02) return kOne;
     if (smear_px <= 0.5) return kTwo;
-    if (smear_px <= 1.5) return kThree;
+    if (smear_px <= 1.2) return kThree;
     return kFive;
 }
 // The same of a Gaussian of standard deviation 1 (Gauss and Hermite, table 25.10).
@@ -105,19 +105,27 @@ HILCAM_CLONES void add_row(const float* in, std::size_t side, const std::uint8_t
 }  // namespace
 
 std::complex<double> smooth_transfer(const Transfer& fine, double u, double v) {
-    // What a quarter of a pixel to either side of the middle, and the smooth difference of the two, make of a frequency that
-    // folds back to another.
-    const auto along = [](double folded, double f) {
-        const double slope = 2 * (static_cast<double>(kNextWeight) * std::sin(2 * kPi * folded) +
-                                  static_cast<double>(kSecondWeight) * std::sin(4 * kPi * folded));
-        return std::cos(2 * kPi * kQuarter_px * f) + slope * std::sin(2 * kPi * kQuarter_px * f);
+    // A frequency that others fold back to, and what the middles of the two halves and their smooth difference make of each.
+    struct Folded {
+        std::array<double, 3> frequency, factor;
     };
-    std::complex<double> sum = 0;
-    for (const double by_u : {-1.0, 0.0, 1.0})
-        for (const double by_v : {-1.0, 0.0, 1.0}) {
-            const double fu = u + by_u, fv = v + by_v;
-            if (std::abs(fu) <= 1 && std::abs(fv) <= 1) sum += fine(fu, fv) * along(u, fu) * along(v, fv);
+    const auto folded_to = [](double f) {
+        const double slope = 2 * (static_cast<double>(kNextWeight) * std::sin(2 * kPi * f) +
+                                  static_cast<double>(kSecondWeight) * std::sin(4 * kPi * f));
+        Folded out;
+        for (std::size_t i = 0; i < 3; ++i) {
+            out.frequency[i] = f + static_cast<double>(i) - 1;
+            const double turn_rad = 2 * kPi * kQuarter_px * out.frequency[i];
+            out.factor[i] = std::cos(turn_rad) + slope * std::sin(turn_rad);
         }
+        return out;
+    };
+    const Folded across = folded_to(u), down = folded_to(v);
+    std::complex<double> sum = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (std::abs(across.frequency[i]) <= 1 && std::abs(down.frequency[j]) <= 1)
+                sum += across.factor[i] * down.factor[j] * fine(across.frequency[i], down.frequency[j]);
     return sum;
 }
 
@@ -142,23 +150,26 @@ bool HalfKernels::prepare(const FrameBlur& blur) {
 
 void HalfKernels::make_weights(const FrameBlur& blur) {
     prepared_.smear_px = blur.smear_px, prepared_.sigma_px = blur.sigma_px;
-    const auto blurred = [&](const std::vector<float>& image, double x, double y) {
+    const std::span<const Node> smears = nodes_of(std::hypot(blur.smear_px.x, blur.smear_px.y)),
+                                across = gaussian_nodes(blur.sigma_px.x),
+                                down = gaussian_nodes(blur.sigma_px.y);
+    const auto blurred = [&](double x, double y) {
         double sum = 0;
-        for (const Node& smear : nodes_of(std::hypot(blur.smear_px.x, blur.smear_px.y)))
-            for (const Node& gx : gaussian_nodes(blur.sigma_px.x))
-                for (const Node& gy : gaussian_nodes(blur.sigma_px.y))
+        for (const Node& smear : smears)
+            for (const Node& gx : across)
+                for (const Node& gy : down)
                     sum += smear.weight * gx.weight * gy.weight *
-                           value_at(image, x - smear.at * blur.smear_px.x - gx.at * blur.sigma_px.x,
+                           value_at(point_, x - smear.at * blur.smear_px.x - gx.at * blur.sigma_px.x,
                                     y - smear.at * blur.smear_px.y - gy.at * blur.sigma_px.y);
         return sum;
     };
     std::array<double, kParts> sums{};
     for (int y = -reach_px_; y <= reach_px_; ++y)
         for (int x = -reach_px_; x <= reach_px_; ++x) {
-            const double upper_left = blurred(point_, x + kQuarter_px, y + kQuarter_px),
-                         upper_right = blurred(point_, x - kQuarter_px, y + kQuarter_px),
-                         lower_left = blurred(point_, x + kQuarter_px, y - kQuarter_px),
-                         lower_right = blurred(point_, x - kQuarter_px, y - kQuarter_px);
+            const double upper_left = blurred(x + kQuarter_px, y + kQuarter_px),
+                         upper_right = blurred(x - kQuarter_px, y + kQuarter_px),
+                         lower_left = blurred(x + kQuarter_px, y - kQuarter_px),
+                         lower_right = blurred(x - kQuarter_px, y - kQuarter_px);
             const std::array<double, kParts> of{(upper_right + lower_right - upper_left - lower_left) / 4,
                                                 (lower_left + lower_right - upper_left - upper_right) / 4,
                                                 (upper_left + lower_right - upper_right - lower_left) / 4};
@@ -167,7 +178,7 @@ void HalfKernels::make_weights(const FrameBlur& blur) {
                 sums[part] += of[part];
             }
         }
-    // Light that moves is neither more nor less.
+    // Light that moves is neither made nor lost.
     for (std::size_t part = 0; part < kParts; ++part)
         weights_[part][index_of(0, 0)] -= static_cast<float>(sums[part]);
 }

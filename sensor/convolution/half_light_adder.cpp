@@ -87,11 +87,16 @@ void HalfLightAdder::copy_block(const Source& source, int from_x, int from_y, in
         const float* zone =
             source.zone ? source.zone + static_cast<std::size_t>(y) * source.zone_width : nullptr;
         const auto row = static_cast<std::size_t>(y - y_px + kRim_px);
-        const auto factor = [&](int x) { return source.exposure_s * lens[x]; };
-        const auto share = [&](int x) { return zone ? zone[x] : 1.0f; };
-        float* charge_e = scratch.charge_e[row].data() + kRim_px - x_px;
-        for (int x = x0; x < x1; ++x)
-            charge_e[x] = share(x) * std::min(factor(x) * source.rate_e_s(x, y), source.most_e);
+        // What makes charge of a rate: of a pixel that was cut, of as much of it as was left.
+        std::array<float, kArea_px> factor;
+        float* const charge_e = scratch.charge_e[row].data();
+        for (int x = x0; x < x1; ++x) {
+            const auto at = static_cast<std::size_t>(x - x_px + kRim_px);
+            const float rate_e_s = source.rate_e_s(x, y), all_e = source.exposure_s * lens[x] * rate_e_s;
+            const float left = all_e > source.most_e ? source.most_e / all_e : 1.0f;
+            factor[at] = left * (zone ? zone[x] : 1.0f) * source.exposure_s * lens[x];
+            charge_e[at] = factor[at] * rate_e_s;
+        }
         if (!known) continue;
         std::copy_n(source.light.kinds(y).data() + x0, x1 - x0,
                     scratch.kinds[row].data() + x0 + kRim_px - x_px);
@@ -102,7 +107,7 @@ void HalfLightAdder::copy_block(const Source& source, int from_x, int from_y, in
             const float* in = source.light.row(y, static_cast<int>(part), source.number).data();
             float* to = scratch.parts[part].data() + in_y * HalfKernels::kSide_px + kReach_px - x_px;
             for (int x = first; x < last; ++x)
-                to[x] = share(x) * std::clamp(factor(x) * in[x], -source.most_e, source.most_e);
+                to[x] = factor[static_cast<std::size_t>(x - x_px + kRim_px)] * in[x];
         }
     }
 }

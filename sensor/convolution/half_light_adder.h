@@ -43,7 +43,7 @@ class HalfLightAdder {
         const HalfLight& light;
         int number;
         const Spectrum* response;  // null: the image has charge rates already
-        float exposure_s, most_e;  // most_e: the greatest charge of a pixel; no half has more
+        float exposure_s, most_e;  // most_e: the charge to which brighter pixels were cut
         const float* zone;         // null: the whole field is one
         std::size_t zone_width;    // floats in a row of it
 

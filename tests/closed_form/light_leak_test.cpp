@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "tests/support/split_triangles.h"
 #include "tests/support/stage.h"
 
 namespace hilcam {
@@ -19,20 +20,7 @@ SceneObject dark_room(const SpectralGrid& grid) { return cube(lambert(kWallAlbed
 
 // Each triangle in four, so many times, and each with corners of its own.
 void split_into_islands(Mesh& mesh, int times) {
-    for (int round = 0; round < times; ++round) {
-        const auto before = mesh.triangles;
-        mesh.triangles.clear();
-        for (const auto& [a, b, c] : before) {
-            const auto middle = [&](std::uint32_t i, std::uint32_t k) {
-                mesh.vertices_m.push_back(0.5f * (mesh.vertices_m[i] + mesh.vertices_m[k]));
-                return static_cast<std::uint32_t>(mesh.vertices_m.size() - 1);
-            };
-            const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-            for (const std::array<std::uint32_t, 3> triangle :
-                 {std::array<std::uint32_t, 3>{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
-                mesh.triangles.push_back(triangle);
-        }
-    }
+    split_triangles(mesh, times);
     const std::vector<Vec3f> corners = mesh.vertices_m;
     mesh.vertices_m.clear();
     for (auto& triangle : mesh.triangles)

@@ -10,6 +10,7 @@
 #include "render/vocabulary/check.h"
 #include "tests/extremes/convex_truth.h"
 #include "tests/extremes/groups.h"
+#include "tests/support/split_triangles.h"
 
 namespace hilcam::extremes {
 namespace {
@@ -63,23 +64,6 @@ void add_inner_walls(Mesh& mesh) {
          {std::array<std::uint32_t, 3>{0, 3, 7}, {0, 7, 4}, {1, 2, 6}, {1, 6, 5}})
         mesh.triangles.push_back(triangle);
 }
-// Each triangle in four, six times over.
-void split(Mesh& mesh) {
-    for (int round = 0; round < 6; ++round) {
-        std::vector<std::array<std::uint32_t, 3>> triangles;
-        for (const auto& [a, b, c] : mesh.triangles) {
-            const auto middle = [&](std::uint32_t i, std::uint32_t k) {
-                mesh.vertices_m.push_back(0.5f * (mesh.vertices_m[i] + mesh.vertices_m[k]));
-                return static_cast<std::uint32_t>(mesh.vertices_m.size() - 1);
-            };
-            const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-            for (const std::array<std::uint32_t, 3> triangle :
-                 {std::array<std::uint32_t, 3>{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
-                triangles.push_back(triangle);
-        }
-        mesh.triangles = triangles;
-    }
-}
 // A triangle of its own with this corner.
 void add_corner(Mesh& mesh, Vec3f corner) {
     mesh.vertices_m.push_back(corner);
@@ -125,7 +109,7 @@ Group meshes() {
                    cube_with("every triangle twice, once inverted", duplicate_inverted),
                    cube_with("with triangles of no area", add_degenerate),
                    cube_with("not manifold: walls inside", add_inner_walls),
-                   cube_with("49,152 triangles", split),
+                   cube_with("49,152 triangles", [](Mesh& mesh) { split_triangles(mesh, 6); }),
                    cube_with("with triangles of 1e-7 m on a face", add_dust),
                    cube_with("with a triangle to a vertex that is no number",
                              [](Mesh& m) {

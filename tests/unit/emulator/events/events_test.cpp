@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "emulator/events/event_sequence.h"
@@ -245,7 +246,7 @@ class EventsTest : public PlateTest {
         const auto file = scenario("", "events: [" + events + "]\n");
         return error_of([&] { load_scenario(file, {}); });
     }
-    // The frames of a run, from its recording.
+    // The frames of a run, from its recording, in the order of their times: two cameras' are kept as each is done.
     std::vector<FrameUse> frames_of(const std::filesystem::path& file) {
         const ScenarioConfig config = load_scenario(file, {});
         RunLimits limits;
@@ -260,6 +261,9 @@ class EventsTest : public PlateTest {
         for (Record record; reader.next(record);)
             if (const auto* frame = std::get_if<RecordedFrame>(&record)) frames.push_back(frame->use);
         EXPECT_EQ(reader.end(), RecordingEnd::kClean) << reader.end_text();
+        std::stable_sort(frames.begin(), frames.end(), [](const FrameUse& a, const FrameUse& b) {
+            return a.exposure_mid.ns < b.exposure_mid.ns;
+        });
         return frames;
     }
     RecordingHeader header_;

@@ -25,7 +25,7 @@ Mesh two_facets() {
     return mesh;
 }
 
-// As path_vertex.cpp has it.
+// Returns the albedo at a place in a triangle as the renderer does: the texture at the corners' interpolated coordinates.
 float factor_at(const Mesh& mesh, std::size_t triangle, float u, float v) {
     const MipTexture texture(mesh.textures.at(0));
     const auto& t = mesh.triangles[triangle];

@@ -66,7 +66,7 @@ TEST(HalfKernels, PutLightWhereItComesFrom) {
 
 // Slow changes are convolved as the transfer function says: a picture by halves is no softer.
 TEST(HalfKernels, LeaveSmoothLightAsItIs) {
-    // Of means over pixels, which halves have not got: their own means are between.
+    // A whole pixel is a mean over its area, a half over half as much: between the two is what halves have less.
     const auto by_pixels = [](double u, double v) {
         return transfer(u, v) * (sinc(u / 2) * sinc(v / 2) / (sinc(u) * sinc(v)));
     };
@@ -76,7 +76,7 @@ TEST(HalfKernels, LeaveSmoothLightAsItIs) {
                 << u << ' ' << v;
 }
 
-// Of light that moves there is neither more nor less.
+// The kernels move light within the picture: none is added or lost.
 TEST(HalfKernels, SumToNothing) {
     HalfKernels kernels(transfer);
     for (const Vec2d smear_px : {Vec2d{0, 0}, Vec2d{1.3, 0.4}}) {
