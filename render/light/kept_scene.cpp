@@ -295,11 +295,18 @@ Spectrum KeptScene::reflect_lobe(const FrameView& frame, const Place& place) con
     Spectrum radiance;
     if (lobe.of_irradiance > 0) radiance += lobe.of_irradiance * others(frame, light, place.nearest);
     if (sunlit) radiance += sun * lobe.kept;
+    Spectrum out = reflectance * radiance;
+    if (at.surface.material->texture >= 0) out = tint(at.surface) * out;
     for (std::size_t b = 0; b < bodies; ++b)
-        radiance += (share * lobe.free[b]) *
-                    sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(reflectance));
-    const Spectrum out = reflectance * radiance;
-    return at.surface.material->texture >= 0 ? tint(at.surface) * out : out;
+        out += (share * lobe.free[b]) * sent_of_body(b, at, largest(reflectance));
+    return out;
+}
+
+// The radiance that a facet lobe sends of all of a body's light. reflectance: of the lobe.
+Spectrum KeptScene::sent_of_body(std::size_t body, const Vertex& at, float reflectance) const {
+    const SkyLight::Glossy found = sky_.glossy(body, at.normal, at.view_dir, at.surface.alpha, reflectance);
+    if (!(largest(found.radiance) > 0)) return {};
+    return brdf_mirrored(at.surface, found.facet_cosine) * found.radiance;
 }
 
 void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec3f mirror, Spectrum weight,
@@ -307,7 +314,7 @@ void KeptScene::add_bodies_in_lobe(const FrameView& frame, const Vertex& at, Vec
     bool meets = false;
     for (std::size_t b = 0; b < sky_.bodies().size(); ++b) {
         meets = meets || sky_.is_met(b, mirror);
-        radiance += weight * sky_.glossy(b, at.normal, at.view_dir, at.surface.alpha, largest(weight));
+        radiance += at.weight * sent_of_body(b, at, largest(weight));
     }
     // Small bodies, and air.
     if (!meets && frame.background->may_meet_body(mirror))

@@ -96,6 +96,7 @@ class KeptScene {
     Spectrum others(const FrameView& frame, const KeptLight& light, const Where& where) const;
     Spectrum reflect_diffuse(const FrameView& frame, const Place& place) const;
     Spectrum reflect_lobe(const FrameView& frame, const Place& place) const;
+    Spectrum sent_of_body(std::size_t body, const Vertex& at, float reflectance) const;
 };
 
 }  // namespace hilcam

@@ -107,7 +107,7 @@ BrdfSample brdf_exact(const Scatterer& at, Vec3f normal, Vec3f view_dir, int par
     const float no = std::clamp(dot(normal, view_dir), 1e-4f, 1.0f);
     if (part == 0 && at.has_exact()) {
         out.dir = normalized(reflect(view_dir, normal));
-        out.weight = std::visit([&](const auto& model) { return model.mirrored(at, no); }, at.material->brdf);
+        out.weight = brdf_mirrored(at, no);
         out.exact = out.valid = true;
     }
     if (part == 1 && at.is_glass()) {
@@ -172,6 +172,10 @@ Spectrum sheet_transmittance(const Scatterer& at, float cosine) {
 
 float brdf_albedo(const Scatterer& at, float no, int bins) {
     return std::visit([&](const auto& model) { return model.albedo(at, no, bins); }, at.material->brdf);
+}
+
+Spectrum brdf_mirrored(const Scatterer& at, float cosine) {
+    return std::visit([&](const auto& model) { return model.mirrored(at, cosine); }, at.material->brdf);
 }
 
 float brdf_lobe_share(const Scatterer& at, float no) {

@@ -14,17 +14,24 @@ namespace {
 constexpr float kGolden = 0.61803399f;
 constexpr std::size_t kLanes = 16;
 
-// Weights of directions in a facet lobe: D V cos.
+// Weights of directions in a facet lobe, D V cos, and what Schlick's Fresnel term has there of full reflection.
 HILCAM_CLONES
 void lobe_weights(const float* x, const float* y, const float* z, std::size_t count, Vec3f normal, Vec3f view,
-                  float alpha, float* weight) {
+                  float alpha, float* weight, float* schlick) {
     const GgxLobe law(alpha, std::max(dot(normal, view), 1e-2f));
     for (std::size_t i = 0; i < count; ++i) {
         const float ni = std::max(x[i] * normal.x + y[i] * normal.y + z[i] * normal.z, 0.0f);
         const float io = x[i] * view.x + y[i] * view.y + z[i] * view.z;
         // The patches' irradiance is across the way: their cosine belongs to the weight.
         weight[i] = ni * law.at(std::max(ni, 1e-3f), io);
+        const float left = 1 - std::sqrt(std::max(0.5f + 0.5f * io, 0.0f)), squared = left * left;
+        schlick[i] = squared * squared * left;
     }
+}
+
+// The cosine at which Schlick's Fresnel term is its mean over a lobe. sums: of the weights, and of the term times them.
+float facet_cosine(float weights, float terms) {
+    return weights > 0 ? 1 - std::pow(std::max(terms / weights, 0.0f), 0.2f) : 1.0f;
 }
 
 // Sum of weight times value: a vector holds the bins of one, and four sums side by side do not wait for each other.
@@ -176,6 +183,7 @@ void SkyLight::place_parts(std::span<const Look> looks, Vec3f axis, float one_mi
         middle[best] = middle[best] + largest(look.irradiance) * look.dir;
     }
     for (std::size_t k = 0; k < count; ++k) {
+        out.brightest[k] = largest(out.irradiance[k]);
         const Vec3f dir = dot(middle[k], middle[k]) > 0 ? normalized(middle[k]) : seed[k];
         out.x[k] = dir.x, out.y[k] = dir.y, out.z[k] = dir.z;
     }
@@ -207,7 +215,7 @@ const FacetSlopes kSlopes(16), kSlopesAtLimb(64);
 // Facets of the lobe, each with what it sees of the map over its share of the directions (Krivanek & Colbert, GPU
 // Gems 3, 2007, ch. 20). Those that the map is too coarse for see it together along the mirror's direction, and each
 // by itself where the disk's limb is near.
-Spectrum SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
+SkyLight::Glossy SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const {
     const Disks& disks = disks_[body];
     const Frame local(normal);
     const float no = std::max(dot(normal, view_dir), 1e-2f);
@@ -223,7 +231,11 @@ Spectrum SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, f
     const bool at_limb = std::abs(off - disks.half_angle_rad) < kLimb * alpha;
     const FacetSlopes& slopes = at_limb ? kSlopesAtLimb : kSlopes;
     Spectrum sum;
-    float all = 0, together = 0, density = 0;
+    float all = 0, together = 0, density = 0, bright = 0, bright_terms = 0;
+    const auto add = [&](const Spectrum& light, float weight, float vh) {
+        sum += weight * light;
+        bright += weight * largest(light), bright_terms += weight * largest(light) * schlick_weight(vh);
+    };
     for (std::size_t i = 0; i < slopes.count; ++i) {
         const float steep = 1 + alpha * alpha * slopes.squared[i], nh = 1 / std::sqrt(steep);
         const Vec3f facet = nh * local.to_world({alpha * slopes.x[i], alpha * slopes.y[i], 1});
@@ -237,15 +249,16 @@ Spectrum SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, f
             4 * vh / (nh * ggx_distribution(alpha, nh) * static_cast<float>(slopes.count));
         all += weight;
         if (spread_sr >= disks.map.texel_sr())
-            sum += weight * disks.map.about(dir, spread_sr);
+            add(disks.map.about(dir, spread_sr), weight, vh);
         else if (at_limb)
-            sum += weight * look_at(dir, spread_sr);
+            add(look_at(dir, spread_sr), weight, vh);
         else
             together += weight, density += weight / spread_sr;
     }
     // They look about as far as an even disk would of the same mean density.
-    if (together > 0) sum += together * look_at(mirror, together * together / density);
-    return all > 0 ? (1 / all) * sum : Spectrum{};
+    if (together > 0) add(look_at(mirror, together * together / density), together, no);
+    if (!(all > 0)) return {};
+    return {(whole_lobe(alpha, no) / all) * sum, facet_cosine(bright, bright_terms)};
 }
 
 // Middle and size of the even disk whose light has the same mean direction and spread: half angle is the root
@@ -266,8 +279,8 @@ void SkyLight::place_light(const Disk& disk, Body& body) {
     body.light_cosine = std::max(-1.0f, 1 - square / sum);  // |off|^2 is 2 - 2 cos
 }
 
-Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
-                          float reflectance) const {
+SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha,
+                                  float reflectance) const {
     const Disks& disks = disks_[body];
     // So many parts that facets' alpha is what they lie apart; else all.
     std::size_t k = 0;
@@ -290,11 +303,18 @@ Spectrum SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float 
             (no * std::max(alpha, 1e-4f)) <
         kNextToNothing)
         return {};
-    alignas(64) std::array<float, kPatches> weight;
-    lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), count, normal, view_dir, alpha, weight.data());
-    Spectrum sum;
-    weighted_sum(weight.data(), disk.irradiance.data(), kParts[k], sum);
-    return (1 / whole_lobe(alpha, no)) * sum;
+    alignas(64) std::array<float, kPatches> weight, schlick;
+    lobe_weights(disk.x.data(), disk.y.data(), disk.z.data(), count, normal, view_dir, alpha, weight.data(),
+                 schlick.data());
+    Glossy out;
+    weighted_sum(weight.data(), disk.irradiance.data(), kParts[k], out.radiance);
+    float bright = 0, terms = 0;
+    for (std::size_t i = 0; i < kParts[k]; ++i) {
+        bright += weight[i] * disk.brightest[i];
+        terms += weight[i] * disk.brightest[i] * schlick[i];
+    }
+    out.facet_cosine = facet_cosine(bright, terms);
+    return out;
 }
 
 }  // namespace hilcam

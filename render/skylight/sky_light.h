@@ -40,10 +40,13 @@ class SkyLight {
     Spectrum irradiance(std::size_t body, Vec3f world_normal) const {
         return irradiance_[body].at(world_normal);
     }
-    // The mean radiance of the body over a facet lobe (GGX alpha; 0: a mirror) as its viewer sees it: times
-    // all that the lobe reflects, Fresnel's term included, it is what is sent. Unit vectors, world.
-    // reflectance: what is not worth it with that is zero.
-    Spectrum glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha, float reflectance) const;
+    // The body's light in a facet lobe: facets that lean towards it are met at other angles than the lobe's mean.
+    struct Glossy {
+        Spectrum radiance;       // that facets which reflect everything would send to the viewer
+        float facet_cosine = 1;  // cosine at which these facets are met, for Fresnel's term
+    };
+    // alpha: of GGX; 0: a mirror. Unit vectors, world. reflectance: what is not worth it with that is zero.
+    Glossy glossy(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha, float reflectance) const;
 
   private:
     // A function of the direction, on an octahedron's faces (Cigolle et al., JCGT 3(2), 2014); bilinear.
@@ -63,6 +66,7 @@ class SkyLight {
     };
     struct Disk {
         alignas(64) std::array<float, kPatches> x{}, y{}, z{};
+        std::array<float, kPatches> brightest{};      // greatest bin of the next
         std::array<Spectrum, kPatches> irradiance{};  // irradiance by each, on a surface that faces it
         float min_alpha = 0;
     };
@@ -79,7 +83,7 @@ class SkyLight {
     std::array<DirectionMap, kMaxBodies> irradiance_;
     std::array<Disks, kMaxBodies> disks_;
 
-    Spectrum narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
+    Glossy narrow_lobe(std::size_t body, Vec3f normal, Vec3f view_dir, float alpha) const;
     static void place_light(const Disk& disk, Body& body);
     void place_disks(const Background& background, std::size_t number, Disks& disks) const;
     static void place_parts(std::span<const Look> looks, Vec3f axis, float one_minus_cosine,
