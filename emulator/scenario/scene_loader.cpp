@@ -286,9 +286,15 @@ std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const At
                                              const SpectralGrid& grid) {
     if (config.map.empty()) return nullptr;
     const Progress progress("Earth");
-    EarthMap clouds;
+    CloudMaps clouds;
     if (config.cloud_seed != 0) clouds = seeded_clouds(static_cast<std::uint64_t>(config.cloud_seed));
     if (!config.cloud_map.empty()) clouds = read_earth_map(config.cloud_map);
+    if (!config.clouds.empty()) {
+        std::vector<CloudMaps::Timed> maps;
+        for (const CloudsConfig& one : config.clouds)
+            maps.push_back({parse_utc(one.at_utc), read_earth_map(one.map)});
+        clouds = CloudMaps(std::move(maps));
+    }
     return std::make_shared<EarthModel>(config, read_earth_map(config.map), std::move(clouds), air, grid);
 }
 

@@ -84,31 +84,6 @@ Figure raised(double height_m) {
 
 }  // namespace
 
-Fields fields(EarthConfig& c) {
-    return {
-        path("map", c.map,
-             "map of land, water, clouds and lights, as the source tree's tools/make_earth_map.py makes it; "
-             "left out: the "
-             "Earth is "
-             "earth.albedo or earth.albedo_map"),
-        number("wind_m_s", c.wind_m_s, 1, {0, 30},
-               "wind over all seas at 12.5 m, which makes the glint wide"),
-        number("cloud_thickness", c.cloud_thickness, 1, {0, 10},
-               "factor on the clouds' optical thickness; 0: no clouds"),
-        path("cloud_map", c.cloud_map,
-             "another map of the same form, whose clouds are used; left out: those of map"),
-        integer("cloud_seed", c.cloud_seed, {0, 1e9}, "seed of invented clouds; 0: those of a map"),
-        number("lights", c.lights, 1, {0, 100}, "factor on the light of cities at night"),
-    };
-}
-
-void validate(const EarthConfig& c) {
-    if (c.map.empty() && !c.cloud_map.empty()) throw KeyError("cloud_map", "has no effect without 'map'");
-    if (c.map.empty() && c.cloud_seed != 0) throw KeyError("cloud_seed", "has no effect without 'map'");
-    if (!c.cloud_map.empty() && c.cloud_seed != 0)
-        throw KeyError("cloud_seed", "and 'cloud_map' both say where clouds are; accepted: one of them");
-}
-
 // The place where a ray ends.
 struct EarthModel::Place {
     Vec3d point_m, normal;
@@ -121,10 +96,10 @@ struct EarthModel::Place {
           cos_phase(static_cast<float>(dot(sun, to_viewer))) {}
 };
 
-EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, EarthMap clouds, const Atmosphere* air,
+EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clouds, const Atmosphere* air,
                        const SpectralGrid& grid)
     : ground_map_(std::make_shared<const EarthMap>(std::move(ground))),
-      cloud_map_(std::make_shared<const EarthMap>(std::move(clouds))),
+      cloud_maps_(std::make_shared<const CloudMaps>(std::move(clouds))),
       air_(air),
       land_(grid),
       sea_(config.wind_m_s, grid),
@@ -240,7 +215,7 @@ bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
 }
 
 float EarthModel::texels_across(const MapFootprint& f) const {
-    const auto height = static_cast<float>(std::max(ground().height(), clouds().height()));
+    const auto height = static_cast<float>(std::max(ground().height(), cloud_maps_->height()));
     return height * std::sqrt(std::max(4 * f.u1 * f.u1 + f.v1 * f.v1, 4 * f.u2 * f.u2 + f.v2 * f.v2));
 }
 
@@ -252,13 +227,12 @@ bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
     return true;
 }
 
-EarthModel::Shade EarthModel::shade(const EarthAspect& a) const {
+EarthModel::Shade EarthModel::shade(const EarthAspect& a, double clouds) const {
     const EarthSample ground = ground_map_->sample(a.u, a.v, a.footprint);
     const Spectrum land = land_.reflectance(ground);
     const float water = ground.water();
     float direct = 1, diffuse = 0, back = 0, cloud = 0, share = 1, passed = 1, high = 0;
     if (table_) {
-        const EarthMap& map = clouds();
         // What is nearer than a good part of the footprint is seen by the same look.
         const MapFootprint& f = a.footprint;
         const float seen_as_one = 0.12f * (f.u1 * f.u1 + f.u2 * f.u2 + 0.25f * (f.v1 * f.v1 + f.v2 * f.v2)) /
@@ -267,7 +241,8 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a) const {
         const EarthSample over =
             together && a.cloud_u * a.cloud_u + 0.25f * a.cloud_v * a.cloud_v < seen_as_one
                 ? ground
-                : map.sample(a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v, a.footprint);
+                : clouds_at(clouds, a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v,
+                            a.footprint);
         cloud = cloud_of(over);
         if (!(cloud > kMinCloud)) cloud = 0;
         // Where the Sun's ray comes through the clouds; and what they spread, which comes from a place as wide as they are
@@ -275,14 +250,14 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a) const {
         const float towards_sun =
             together && a.shade_u * a.shade_u + 0.25f * a.shade_v * a.shade_v < seen_as_one
                 ? cloud_of(ground)
-                : cloud_of(
-                      map.sample(a.u + kUsualTop_m * a.shade_u, a.v + kUsualTop_m * a.shade_v, a.footprint));
+                : cloud_of(clouds_at(clouds, a.u + kUsualTop_m * a.shade_u, a.v + kUsualTop_m * a.shade_v,
+                                     a.footprint));
         constexpr float kSpread =
             static_cast<float>(2 * static_cast<double>(kUsualTop_m) / (kPi * kRadius_m));
         const bool wide = f.v1 * f.v1 + f.v2 * f.v2 > kSpread * kSpread;
         const float mean = wide && together
                                ? cloud_of(ground)
-                               : cloud_of(map.sample(a.u, a.v, std::max(kSpread, std::abs(f.v2))));
+                               : cloud_of(clouds_at(clouds, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
         direct = by_steps(a.beam, towards_sun);
         share = by_steps(a.lit, mean);
         diffuse = std::max(0.0f, share - by_steps(a.beam, mean));
@@ -331,7 +306,7 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
 bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
     const double to_ground_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
-        const Shade seen = shade(aspect_at(ray, to_ground_m, 0));
+        const Shade seen = shade(aspect_at(ray, to_ground_m, 0), ray.clouds);
         radiance += weight * (ray.irradiance_w_m2_um * seen.over_sun_sr + seen.lights_w_m2_sr_um);
         return true;
     }
@@ -340,11 +315,11 @@ bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const
         table_ ? intersect_ellipsoid(raised(static_cast<double>(kUsualTop_m)), ray.origin_m, ray.dir) : -1;
     if (to_level_m > 0) {
         EarthAspect aspect = aspect_at(ray, to_level_m, static_cast<double>(kUsualTop_m));
-        const float cloud = cloud_of(clouds().sample(aspect.u, aspect.v, aspect.footprint));
+        const float cloud = cloud_of(clouds_at(ray.clouds, aspect.u, aspect.v, aspect.footprint));
         if (cloud > kMinCloud) {
             // No ground is below it: nothing comes up through it.
             aspect.seen.fill(0);
-            radiance += weight * ray.irradiance_w_m2_um * shade(aspect).over_sun_sr;
+            radiance += weight * ray.irradiance_w_m2_um * shade(aspect, ray.clouds).over_sun_sr;
             weight = table_->transmitted(cloud, 0) * (weight * aspect.seen_high);
             return false;
         }
@@ -395,10 +370,11 @@ std::vector<EarthModel::PartInfo> EarthModel::parts() const {
                    ground().bytes()});
     if (glints_) out.push_back({Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0});
     if (table_)
-        out.push_back(
-            {Part::kClouds,
-             "clouds: table by doubling, shadows" + std::string(together() ? "" : ", a map of their own"),
-             table_->bytes() + cloud_map_->bytes()});
+        out.push_back({Part::kClouds,
+                       "clouds: table by doubling, shadows" + std::string(together() ? "" : ", ") +
+                           (cloud_maps_->count() > 1 ? std::to_string(cloud_maps_->count()) + " maps by time"
+                                                     : (together() ? "" : "a map of their own")),
+                       table_->bytes() + cloud_maps_->bytes()});
     if (air_) out.push_back({Part::kAir, "air: above the clouds and below them", columns_->bytes()});
     if (lights_ > 0) out.push_back({Part::kLights, "lights of cities", 0});
     return out;

@@ -14,10 +14,12 @@
 // Body axes (ITRF), metres. Light per unit of solar irradiance unless the unit says otherwise. const functions: loop, any
 // thread.
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
 #include "render/earth/air_columns.h"
+#include "render/earth/cloud_maps.h"
 #include "render/earth/cloud_table.h"
 #include "render/earth/earth_config.h"
 #include "render/earth/earth_map.h"
@@ -28,8 +30,8 @@ namespace hilcam {
 
 class EarthModel {
   public:
-    // air: may be null; must outlive this. clouds: their map where it is not the ground's; may be empty.
-    EarthModel(const EarthConfig& config, EarthMap ground, EarthMap clouds, const Atmosphere* air,
+    // air: may be null; must outlive this. clouds: their maps where they are not the ground's; may be empty.
+    EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clouds, const Atmosphere* air,
                const SpectralGrid& grid);
 
     struct Ray {
@@ -37,6 +39,7 @@ class EarthModel {
         Vec3d sun_dir;
         double width_rad = 0;  // width of the cone that it stands for
         Spectrum irradiance_w_m2_um;
+        double clouds = 0;  // number of their map (CloudMaps::number_at)
     };
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
     // before the sky; else weight is dimmed by what air it met.
@@ -54,7 +57,14 @@ class EarthModel {
     struct Shade {
         Spectrum over_sun_sr, lights_w_m2_sr_um;
     };
-    Shade shade(const EarthAspect& aspect) const;
+    Shade shade(const EarthAspect& aspect, double clouds) const;
+    // Returns the number of the clouds' map at an instant; 0 where they do not change.
+    double clouds_at(TimeTai time) const { return cloud_maps_->number_at(time); }
+    // Returns the nearest number that there is.
+    double clouds_on(double number) const {
+        return std::clamp(number, 0.0,
+                          static_cast<double>(std::max<std::size_t>(cloud_maps_->count(), 1) - 1));
+    }
 
     // An upper bound of radiance over irradiance at the body [sr^-1]; glint apart.
     static constexpr float kMaxOverSun = 0.32f;
@@ -76,7 +86,8 @@ class EarthModel {
 
   private:
     // Shared by copies.
-    std::shared_ptr<const EarthMap> ground_map_, cloud_map_;
+    std::shared_ptr<const EarthMap> ground_map_;
+    std::shared_ptr<const CloudMaps> cloud_maps_;  // empty: the clouds are the ground map's
     const Atmosphere* air_;
     std::shared_ptr<const AirColumns> columns_;  // null without air
     std::shared_ptr<const CloudTable> table_;    // null without clouds
@@ -89,8 +100,12 @@ class EarthModel {
     bool glints_ = true;
 
     const EarthMap& ground() const { return *ground_map_; }
-    const EarthMap& clouds() const { return cloud_map_->empty() ? *ground_map_ : *cloud_map_; }
-    bool together() const { return cloud_map_->empty(); }  // ground and clouds are of one map
+    bool together() const { return cloud_maps_->empty(); }  // ground and clouds are of one map
+    template <class Footprint>
+    EarthSample clouds_at(double number, float u, float v, const Footprint& footprint) const {
+        return together() ? ground_map_->sample(u, v, footprint)
+                          : cloud_maps_->sample(number, u, v, footprint);
+    }
     struct Place;
     void place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const;
     Atmosphere::Sight air_past(const Ray& ray) const;

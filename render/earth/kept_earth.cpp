@@ -18,9 +18,9 @@ std::size_t KeptEarth::bytes() const {
     return sum;
 }
 
-bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir) {
+bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, double clouds) {
     if (!EarthPicture::is_for(camera_m, pixel_rad_)) return false;
-    const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir);
+    const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir, clouds);
     std::size_t at = find(key);
     const bool is_being_made = at == asked_ && ahead_.is_at_work();
     if (at == pictures_.size() || is_being_made) ahead_.wait();
@@ -30,7 +30,7 @@ bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir) {
     }
     shown_ = at;
     pictures_[at].last_shown = ++frames_;
-    look_ahead({camera_m, sun_dir});
+    look_ahead({camera_m, sun_dir, clouds});
     return true;
 }
 
@@ -64,8 +64,9 @@ void KeptEarth::look_ahead(const Place& now) {
     for (double ahead = 1; ahead <= 128; ahead *= 2) {
         const Vec3d camera_m = on(long_before_.camera_m, now.camera_m, ahead);
         if (!EarthPicture::is_for(camera_m, pixel_rad_)) return;
-        const EarthPicture::Key key =
-            EarthPicture::key_of(camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)));
+        const EarthPicture::Key key = EarthPicture::key_of(
+            camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)),
+            earth_.clouds_on(now.clouds + ahead / past * (now.clouds - long_before_.clouds)));
         if (key == pictures_[shown_].key) continue;
         if (find(key) < pictures_.size()) return;
         asked_ = room_for(key);
