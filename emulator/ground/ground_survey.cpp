@@ -42,31 +42,30 @@ void require_few(double count, const char* what) {
                         what, kMost));
 }
 
+// Lists the things of a field, each with a second figure of its own. names: of the kind of thing and of that figure.
+template <class Field, class Thing>
+std::string list_of(const Field& field, const LocalPlane& at, const GroundSurvey& s, double smallest_m,
+                    const char* things, const char* figure, double Thing::*second) {
+    require_few(field.per_m2(std::max(s.smallest_m, smallest_m)) * kPi * s.within_m * s.within_m, things);
+    std::vector<Thing> found;
+    field.find(at.up, s.within_m / at.radius_m, s.smallest_m, found);
+    std::string out = fmt::format("longitude_deg,latitude_deg,east_m,north_m,diameter_m,{}\n", figure);
+    for (const Thing& thing : found)
+        out += fmt::format("{},{:.4f},{:.4f}\n", at.text_of(thing.place), thing.diameter_m, thing.*second);
+    return out;
+}
+
 std::string craters(const GlobeConfig& globe, const LocalPlane& at, const GroundSurvey& s) {
     if (!globe.craters) throw InputError("terrain.globe.craters: there are none in this scenario");
-    const CraterField field(at.radius_m, *globe.craters);
-    const double least_m = std::max(s.smallest_m, globe.craters->smallest_m);
-    require_few(field.law().per_m2(least_m) * kPi * s.within_m * s.within_m, "craters");
-    std::vector<Crater> found;
-    field.find(at.up, s.within_m / at.radius_m, s.smallest_m, found);
-    std::string out = "longitude_deg,latitude_deg,east_m,north_m,diameter_m,worn\n";
-    for (const Crater& c : found)
-        out += fmt::format("{},{:.4f},{:.4f}\n", at.text_of(c.place), c.diameter_m, c.worn);
-    return out;
+    return list_of(CraterField(at.radius_m, *globe.craters), at, s, globe.craters->smallest_m, "craters",
+                   "worn", &Crater::worn);
 }
 
 std::string boulders(const GlobeConfig& globe, const LocalPlane& at, const GroundSurvey& s) {
     if (!globe.boulders || !(globe.boulders->abundance > 0))
         throw InputError("terrain.globe.boulders: there are none in this scenario");
-    const BoulderField field(at.radius_m, *globe.boulders);
-    const double least_m = std::max(s.smallest_m, globe.boulders->smallest_m);
-    require_few(field.per_m2(least_m) * kPi * s.within_m * s.within_m, "boulders");
-    std::vector<Boulder> found;
-    field.find(at.up, s.within_m / at.radius_m, s.smallest_m, found);
-    std::string out = "longitude_deg,latitude_deg,east_m,north_m,diameter_m,height_m\n";
-    for (const Boulder& b : found)
-        out += fmt::format("{},{:.4f},{:.4f}\n", at.text_of(b.place), b.diameter_m, b.height_m);
-    return out;
+    return list_of(BoulderField(at.radius_m, *globe.boulders), at, s, globe.boulders->smallest_m, "boulders",
+                   "height_m", &Boulder::height_m);
 }
 
 // Slope and step at a post from those about it, `side` to a row.

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/ground/ground_cells.h"
 #include "render/ground/ground_detail.h"
+#include "render/ground/seeded_octaves.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
@@ -49,14 +49,9 @@ class BoulderField final : public GroundDetail {
     double radius_m_;
     BoulderSettings settings_;
     double factor_;  // K
-    struct Octave {
-        double least_m, most_m, per_m2;
-        GroundCells cells;
-    };
-    std::vector<Octave> octaves_;
+    SeededOctaves octaves_;
 
-    void find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
-                     std::vector<Shaped>& boulders) const;
+    Shaped shaped(const SeededOctaves::Thing& thing) const;
     void add_one(const Shaped& boulder, const GroundPatch& patch) const;
 };
 
