@@ -32,9 +32,11 @@ void validate(const BoulderSettings& b) {
 }
 
 // abundance = integral of pi/4 D^2 slim dN, dN = K b D^(-b - 1) dD. Cells have about one boulder, none wider than they are.
-BoulderField::BoulderField(double radius_m, const BoulderSettings& s)
+BoulderField::BoulderField(double radius_m, const BoulderSettings& s,
+                           std::shared_ptr<const SeededFactor> factor)
     : radius_m_(radius_m),
       settings_(s),
+      by_place_(std::move(factor)),
       factor_(s.abundance /
               (0.25 * kPi * kMeanSlim * s.exponent * area_integral(s.exponent, s.smallest_m, s.largest_m))),
       octaves_(
@@ -42,10 +44,17 @@ BoulderField::BoulderField(double radius_m, const BoulderSettings& s)
           [this](double diameter_m) { return per_m2(diameter_m); },
           [](const SeededOctaves::Octave& octave) {
               return std::max(octave.most_m, std::sqrt(1 / octave.per_m2));
-          }) {}
+          },
+          by_place_) {}
 
 double BoulderField::per_m2(double diameter_m) const {
     return factor_ * std::pow(diameter_m, -settings_.exponent);
+}
+
+double BoulderField::per_m2_at(Vec3d place, double diameter_m) const {
+    double factor = 1;
+    if (by_place_) by_place_->find({&place, 1}, {&factor, 1});
+    return factor * per_m2(diameter_m);
 }
 
 BoulderField::Shaped BoulderField::shaped(const SeededOctaves::Thing& thing) const {

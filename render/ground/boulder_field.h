@@ -31,12 +31,15 @@ struct Boulder {
 
 class BoulderField final : public GroundDetail {
   public:
-    BoulderField(double radius_m, const BoulderSettings& settings);
+    // factor: on the settings' abundance, by place; null: that everywhere.
+    BoulderField(double radius_m, const BoulderSettings& settings,
+                 std::shared_ptr<const SeededFactor> factor = nullptr);
     void add(const GroundPatch& patch) const override;
     // Appends the boulders above a diameter with their middles within an angle of a direction.
     void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Boulder>& boulders) const;
-    // Number per square metre of diameters above one.
+    // Number per square metre of diameters above one, by the settings, and at a place.
     double per_m2(double diameter_m) const;
+    double per_m2_at(Vec3d place, double diameter_m) const;
 
   private:
     static constexpr int kPlanes = 6;
@@ -48,6 +51,7 @@ class BoulderField final : public GroundDetail {
     };
     double radius_m_;
     BoulderSettings settings_;
+    std::shared_ptr<const SeededFactor> by_place_;
     double factor_;  // K
     SeededOctaves octaves_;
 

@@ -41,8 +41,9 @@ class CraterField final : public GroundDetail {
     void add(const GroundPatch& patch) const override;
     // Appends the craters above a diameter with their middles within an angle of a direction.
     void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Crater>& craters) const;
-    // Number per square metre of diameters above one.
+    // Number per square metre of diameters above one, which is the same at any place.
     double per_m2(double diameter_m) const { return law_.per_m2(diameter_m); }
+    double per_m2_at(Vec3d, double diameter_m) const { return per_m2(diameter_m); }
 
   private:
     struct Shaped : Crater {

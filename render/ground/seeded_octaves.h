@@ -1,17 +1,28 @@
 #pragma once
 // Things of a body's ground that are seeded by a law of how many there are above a diameter: octaves of diameters, each in cells
 // (ground_cells.h) of its own size. A cell draws how many of its octave are in it, and for each the place and the rank among
-// the octave's diameters; what else a kind of thing has it draws itself.
+// the octave's diameters; what else a kind of thing has it draws itself. Where a place has more or fewer of them than the law, more
+// or fewer are drawn in its cell; a factor's peaks that are narrower than a cell (a thing's width or more) may be cut.
 
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "render/ground/ground_cells.h"
 #include "render/ground/ground_detail.h"
 
 namespace hilcam {
+
+// How many times as many things a place has as the law says.
+class SeededFactor {
+  public:
+    virtual ~SeededFactor() = default;
+    // As many factors as places. Any thread.
+    virtual void find(std::span<const Vec3d> places, std::span<double> factors) const = 0;
+};
 
 class SeededOctaves {
   public:
@@ -38,7 +49,7 @@ class SeededOctaves {
             above = octave.larger_per_m2 + GroundCells::uniform(first[2]) * octave.per_m2;
             spare = GroundCells::uniform(first[3]);
         }
-        // Returns four random words. use: 1 to 254.
+        // Returns four random words. use: 1 to 253.
         std::array<std::uint32_t, 4> words(std::uint32_t use) const {
             return octave_.cells.words(cell_, index_, use, from_.seed_, from_.purpose_);
         }
@@ -53,7 +64,8 @@ class SeededOctaves {
     // per_m2: the law, number per square metre of diameters above one. cell_m: least width of an octave's cells.
     SeededOctaves(double radius_m, std::int64_t seed, RandomPurpose purpose, double smallest_m,
                   double largest_m, const std::function<double(double diameter_m)>& per_m2,
-                  const std::function<double(const Octave&)>& cell_m);
+                  const std::function<double(const Octave&)>& cell_m,
+                  std::shared_ptr<const SeededFactor> factor = nullptr);
 
     // Calls f(thing) for those of octaves with diameters above one that have their middles within an angle of a direction; some
     // smaller ones are among them.
@@ -79,15 +91,23 @@ class SeededOctaves {
     RandomKey seed_;
     RandomPurpose purpose_;
     std::vector<Octave> octaves_;
+    std::shared_ptr<const SeededFactor> factor_;  // null: the law everywhere
+
+    // Finds the greatest factor at a cell's middle and corners.
+    double most_factor(const Octave& octave, const GroundCells::Cell& cell) const;
+    // Says whether a thing that was drawn for that factor is one by the factor of its own place.
+    bool is_kept(const Thing& thing, double most) const;
 
     template <class F>
     void visit(const Octave& octave, Vec3d middle, double reach_rad, const F& f) const {
         std::vector<GroundCells::Cell> cells;
         octave.cells.find(middle, reach_rad, cells);
         for (const GroundCells::Cell& cell : cells) {
+            const double most = factor_ ? most_factor(octave, cell) : 1;
             const int count =
-                octave.cells.count(cell, octave.per_m2 * octave.cells.area_m2(cell), seed_, purpose_);
-            for (int k = 0; k < count; ++k) f(Thing(*this, octave, cell, k));
+                octave.cells.count(cell, most * octave.per_m2 * octave.cells.area_m2(cell), seed_, purpose_);
+            for (int k = 0; k < count; ++k)
+                if (const Thing thing(*this, octave, cell, k); !factor_ || is_kept(thing, most)) f(thing);
         }
     }
 };
