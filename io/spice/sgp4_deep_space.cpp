@@ -1,4 +1,4 @@
-#include "emulator/motion/sgp4_deep_space.h"
+#include "io/spice/sgp4_deep_space.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "emulator/motion/sgp4.h"
+#include "io/spice/sgp4.h"
 
 namespace hilcam {
 
