@@ -12,7 +12,7 @@
 
 namespace hilcam {
 
-// What a lander cannot stand on.
+// The limits beyond which a lander cannot stand.
 struct HazardLimits {
     double slope_rad = 10 * kDegree_rad;
     double step_m = 0.3;

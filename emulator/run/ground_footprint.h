@@ -1,5 +1,5 @@
 #pragma once
-// What of a scenario's ground is in the picture that its camera takes at an instant: the craters and boulders with their places in
+// This tells what of a scenario's ground is in the picture that its camera takes at an instant: the craters and boulders with their places in
 // the frame, and slopes, steps and hazards for each pixel.
 //
 // The picture's own rays say what is seen: a thing counts as visible where the ray through its middle's pixel ends at it, not at

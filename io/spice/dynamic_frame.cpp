@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "io/spice/frame_definition.h"
-#include "io/spice/frame_rate.h"
 #include "io/spice/kernel_names.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
@@ -119,7 +118,7 @@ class DynamicReader {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::string item = "ANGLE_" + std::to_string(i + 1) + "_COEFFS";
             const auto coefficients = pool_.numbers(require(item));
-            constexpr std::size_t kMost = 20;  // as NAIF's reader has it
+            constexpr std::size_t kMost = 20;  // NAIF's reader takes as many
             if (!coefficients || coefficients->size() > kMost)
                 fail(item, "accepted: 1 to " + std::to_string(kMost) + " numbers");
             for (const double c : *coefficients) out_.angles_rad[i].push_back(unit * c);

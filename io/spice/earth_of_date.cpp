@@ -1,6 +1,5 @@
 #include "io/spice/earth_of_date.h"
 
-#include "io/spice/frame_rate.h"
 #include "render/sky/earth_frames.h"
 
 namespace hilcam {

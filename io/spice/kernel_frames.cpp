@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/spice/frame_rate.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/quoted.h"
 

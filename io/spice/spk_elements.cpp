@@ -2,9 +2,9 @@
 
 #include <array>
 
+#include "io/orbits/two_body.h"
 #include "io/spice/segment_words.h"
 #include "io/spice/spk_types.h"
-#include "io/spice/two_body.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
@@ -150,7 +150,7 @@ class Equinoctial final : public SpkSegment {
         kPoleDeclination,
         kWords
     };
-    static constexpr double kMostEccentric = 0.9;  // as NAIF's reader has it
+    static constexpr double kMostEccentric = 0.9;  // NAIF's reader takes as much
     std::array<double, kWords> w_{};
 
     Mat3d frame_from_equator() const {

@@ -1,10 +1,10 @@
 // SPK type 10: satellites of the Earth by two-line element sets and SGP4, one set fading into the next.
 
+#include "io/orbits/sgp4.h"
 #include "io/spice/earth_of_date.h"
 #include "io/spice/ephemeris_time.h"
 #include "io/spice/frame_definition.h"
 #include "io/spice/generic_segment.h"
-#include "io/spice/sgp4.h"
 #include "io/spice/spk_types.h"
 #include "render/vocabulary/units.h"
 

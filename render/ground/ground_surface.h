@@ -21,7 +21,7 @@
 
 namespace hilcam {
 
-// What a map's values are. Those of Hapke's law are in the order of HapkeParameters; the slope is in degrees.
+// A map's values are one of these. Those of Hapke's law are in the order of HapkeParameters; the slope is in degrees.
 enum class GroundKind {
     kHeights,
     kAlbedo,

@@ -16,11 +16,11 @@
 
 namespace hilcam {
 
-// How many times as many things a place has as the law says.
+// A factor by place says how many times as many things there are as the law says.
 class SeededFactor {
   public:
     virtual ~SeededFactor() = default;
-    // As many factors as places. Any thread.
+    // Finds as many factors as there are places. Any thread.
     virtual void find(std::span<const Vec3d> places, std::span<double> factors) const = 0;
 };
 

@@ -13,7 +13,7 @@ struct HapkeParameters {
     friend bool operator==(const HapkeParameters&, const HapkeParameters&) = default;
 };
 
-// What the law takes: least and greatest of a parameter.
+// The least and the greatest value of a parameter that the law takes.
 struct HapkeLimits {
     double least, most;
 };

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "io/spice/earth_of_date.h"
-#include "io/spice/sgp4.h"
+#include "io/orbits/sgp4.h"
 #include "io/spice/spk_segment.h"
-#include "io/spice/two_body.h"
+#include "io/orbits/two_body.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/spice_writer.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "io/spice/two_body.h"
+#include "io/orbits/two_body.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/spice_writer.h"

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "io/spice/sgp4.h"
+#include "io/orbits/sgp4.h"
 
 namespace hilcam {
 
