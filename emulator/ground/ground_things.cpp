@@ -20,6 +20,7 @@ std::vector<GroundThing> found_in(const auto& field, const MappedBody& body, Vec
     std::vector<Thing> found;
     field.find(middle, within_m / body.figure.equatorial_radius_m, smallest_m, found);
     std::vector<GroundThing> out;
+    out.reserve(found.size());
     for (const Thing& thing : found) out.push_back({thing.place, thing.diameter_m, thing.*figure});
     return out;
 }

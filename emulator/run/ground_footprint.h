@@ -6,10 +6,12 @@
 // a hill before it. Places are of mid-exposure.
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "emulator/ground/ground_survey.h"
 #include "emulator/scenario/app_config.h"
+#include "io/truth/ground_truth.h"
 
 namespace hilcam {
 
@@ -24,6 +26,10 @@ struct GroundFootprint {
 // the picture, or too much.
 std::string survey_footprint(const ScenarioConfig& scenario, const GroundSurvey& survey,
                              const GroundFootprint& footprint);
+
+// Returns who finds the craters and boulders of each frame for outputs.truth.ground_px; null: nobody asked. Throws InputError where
+// the scenario has no ground of a body, or its maps cannot be opened.
+std::shared_ptr<const GroundTruth> ground_truth_of(const ScenarioConfig& scenario);
 
 // Writes an OpenEXR picture of the frame's size with the channels slope_deg, step_m and hazard (0, 1) of the ground that each pixel
 // shows, by heights at survey.spacing_m about it; NaN where there is none. Throws InputError as above, DeviceError.

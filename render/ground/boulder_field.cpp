@@ -94,7 +94,8 @@ void BoulderField::add(const GroundPatch& patch) const {
 void BoulderField::add_one(const Shaped& b, const GroundPatch& patch) const {
     const double radius_m = 0.5 * b.diameter_m;
     if (length(b.place - patch.middle) > patch.reach_rad * 1.001 + radius_m / radius_m_) return;
-    const auto [east, north] = axes_along(b.place);
+    const AlongGround axes = axes_along(b.place);
+    const Vec3d east = axes.east, north = axes.north;
     const double c = std::cos(b.turn_rad), s = std::sin(b.turn_rad);
     const double per_radius = radius_m_ / radius_m;
     patch.for_each(patch.window(b.place, radius_m / radius_m_), [&](std::size_t i) {

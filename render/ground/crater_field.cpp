@@ -79,7 +79,8 @@ void CraterField::add_one(const Shaped& c, const GroundPatch& patch) const {
     if (length(c.place - patch.middle) * radius_m_ > patch.reach_rad * radius_m_ * 1.001 + reach * radius_m)
         return;
     const double depth_m = CraterProfile::fresh_depth(c.diameter_m) * c.diameter_m;
-    const auto [east, north] = axes_along(c.place);
+    const AlongGround axes = axes_along(c.place);
+    const Vec3d east = axes.east, north = axes.north;
     const double most2 = (reach * 1.1 * radius_m / radius_m_) * (reach * 1.1 * radius_m / radius_m_);
     patch.for_each(patch.window(c.place, reach * 1.1 * radius_m / radius_m_), [&](std::size_t i) {
         const Vec3d away = patch.places[i] - c.place;

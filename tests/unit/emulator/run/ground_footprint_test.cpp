@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -140,6 +141,33 @@ TEST(GroundFootprint, PlacesAreThoseOfTheLens) {
         EXPECT_NEAR((128 - row[kY]) / focal_px * 200, row[kNorth], 2);
         EXPECT_NEAR(row[kDiameterPx], row[kDiameter] / row[kDistance] * focal_px, 0.01);
     }
+}
+
+// The truth of a run's frames has the same lists, without the picture's rays.
+TEST(GroundFootprint, TruthListsTheSame) {
+    const ScenarioConfig s = above_the_site(
+        150, {"terrain.globe.boulders.smallest_m=0.5", "outputs.truth={port: 5012, ground_px: 4}"});
+    const auto ground = ground_truth_of(s);
+    ASSERT_NE(ground, nullptr);
+    StillCamera camera(s);
+    FrameTruth truth = make_truth(s, camera.renderer(), truth_wishes(s));
+    truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), {1, 1});
+    camera.tell(truth);
+    const SeenGroundThings found = ground->find(truth);
+    EXPECT_FALSE(found.left_out);
+    for (const auto& [things, what] : {std::pair{&found.craters, GroundSurvey::What::kCraters},
+                                       {&found.boulders, GroundSurvey::What::kBoulders}}) {
+        const Rows rows = seen(s, what, 4);
+        ASSERT_EQ(things->size(), rows.size());
+        ASSERT_GT(rows.size(), 1u);
+        for (const auto& row : rows)
+            EXPECT_TRUE(std::any_of(things->begin(), things->end(), [&](const SeenGroundThing& thing) {
+                return std::abs(thing.place_px.x - row[kX]) < 1e-3 &&
+                       std::abs(thing.place_px.y - row[kY]) < 1e-3 &&
+                       std::abs(thing.diameter_m - row[kDiameter]) < 1e-3 && !thing.visible;
+            }));
+    }
+    EXPECT_EQ(ground_truth_of(above_the_site(150)), nullptr);
 }
 
 TEST(GroundFootprint, APictureWithoutGroundIsRefused) {

@@ -70,23 +70,51 @@ TEST(CraterField, NumbersFollowTheLaw) {
         }
 }
 
-// The slope of the distribution is the law's as well, which a wrong law fails: Kolmogorov's distance, 1.63 / sqrt(n) at 1 %.
+// Kolmogorov's distance of numbers from the share of them that a law has below each.
+template <class Share>
+double distance_from(std::vector<double> numbers, const Share& share_below) {
+    std::sort(numbers.begin(), numbers.end());
+    double most = 0;
+    const auto n = static_cast<double>(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        most = std::max(most, std::abs((static_cast<double>(i) + 0.5) / n - share_below(numbers[i])));
+    return most;
+}
+// The distance that one of a hundred samples of the law exceeds.
+double most_distance(std::size_t count) { return 1.63 / std::sqrt(static_cast<double>(count)); }
+
+// The slope of the distribution is the law's as well, which a wrong law fails.
 TEST(CraterField, DiametersAreDrawnFromTheLaw) {
     std::vector<double> diameters_m;
     for (const Crater& c : found_of<Crater>(craters_between(1, 500), place_on_sphere(23, 1), 200, 1))
         diameters_m.push_back(c.diameter_m);
-    std::sort(diameters_m.begin(), diameters_m.end());
     const auto distance = [&](double power) {
-        double most = 0;
-        const auto n = static_cast<double>(diameters_m.size());
-        for (std::size_t i = 0; i < diameters_m.size(); ++i)
-            most = std::max(
-                most, std::abs((static_cast<double>(i) + 0.5) / n - (1 - std::pow(diameters_m[i], -power))));
-        return most;
+        return distance_from(diameters_m, [power](double d) { return 1 - std::pow(d, -power); });
     };
-    const double limit = 1.63 / std::sqrt(static_cast<double>(diameters_m.size()));
-    EXPECT_LT(distance(2), limit);
-    EXPECT_GT(distance(2.3), limit);
+    EXPECT_LT(distance(2), most_distance(diameters_m.size()));
+    EXPECT_GT(distance(2.3), most_distance(diameters_m.size()));
+}
+
+// Wear is spread evenly up to the greatest that craters of a size can have: where they are in equilibrium all, where the
+// ground's age has not worn them so far, less.
+TEST(CraterField, WearIsEven) {
+    CraterSettings settings;
+    settings.smallest_m = 300, settings.largest_m = 1000;
+    const CraterField large(kMoonRadius_m, settings);
+    std::vector<double> of_small, of_large;
+    for (const Crater& c : found_of<Crater>(craters_between(1, 500), place_on_sphere(23, 1), 100, 1))
+        of_small.push_back(c.worn / CraterProfile::kMostWorn);
+    for (const Crater& c : found_of<Crater>(large, place_on_sphere(-60, 33), 60e3, 300)) {
+        const double oldest =
+            settings.diffusivity_m2_ga * settings.age_ga / (0.25 * c.diameter_m * c.diameter_m);
+        ASSERT_LT(oldest, CraterProfile::kMostWorn * 2);
+        of_large.push_back(c.worn / std::min(CraterProfile::kMostWorn, oldest));
+    }
+    for (const std::vector<double>& worn : {of_small, of_large}) {
+        ASSERT_GT(worn.size(), 200u);
+        EXPECT_LT(distance_from(worn, [](double w) { return w; }), most_distance(worn.size()));
+        EXPECT_GT(distance_from(worn, [](double w) { return w * w; }), most_distance(worn.size()));
+    }
 }
 
 // The same craters are found from wherever one looks.
@@ -167,6 +195,24 @@ TEST(BoulderField, NumbersFollowThePowerLawAndCoverWhatIsAsked) {
                          [](const Boulder& a, const Boulder& b) { return a.diameter_m < b.diameter_m; });
     EXPECT_GT(added_m(field, largest->place, 0.02), 0.5 * largest->height_m);
     EXPECT_EQ(added_m(field, largest->place, 10), 0);
+}
+
+// Boulders' diameters are the power law's between the smallest and the largest, which another power fails.
+TEST(BoulderField, DiametersAreDrawnFromTheLaw) {
+    BoulderSettings settings;
+    settings.exponent = 2.5, settings.smallest_m = 0.2, settings.largest_m = 5;
+    std::vector<double> diameters_m;
+    for (const Boulder& b :
+         found_of<Boulder>(BoulderField(kMoonRadius_m, settings), place_on_sphere(100, -20), 150, 0.2))
+        diameters_m.push_back(b.diameter_m);
+    const auto distance = [&](double power) {
+        return distance_from(diameters_m, [power](double d) {
+            return (1 - std::pow(d / 0.2, -power)) / (1 - std::pow(5 / 0.2, -power));
+        });
+    };
+    ASSERT_GT(diameters_m.size(), 3000u);
+    EXPECT_LT(distance(2.5), most_distance(diameters_m.size()));
+    EXPECT_GT(distance(2.3), most_distance(diameters_m.size()));
 }
 
 // The differences of the relief grow as asked for, over distances that its longest wave has little to do with.
