@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "io/spice/earth_of_date.h"
 #include "io/orbits/sgp4.h"
-#include "io/spice/spk_segment.h"
 #include "io/orbits/two_body.h"
+#include "io/spice/earth_of_date.h"
+#include "io/spice/spk_segment.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
 #include "tests/support/spice_writer.h"
@@ -23,9 +23,9 @@ std::unique_ptr<SpkSegment> loaded_elements(int type, double start, double stop,
         "test.bsp");
     return load_spk_segment(file, file.arrays().front());
 }
-std::string elements_refusal(int type, std::vector<double> words, int frame = 1) {
+std::string elements_refusal(int type, std::vector<double> words, int frame = 1, double start_et_s = 0) {
     try {
-        loaded_elements(type, 0, 100, std::move(words), frame);
+        loaded_elements(type, start_et_s, start_et_s + 100, std::move(words), frame);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -266,26 +266,33 @@ TEST(SpkTwoLine, OneSetFadesIntoTheNext) {
 }
 
 TEST(SpkTwoLine, DamagedSegmentsAreRefusedInOneLine) {
+    const auto refused_set = [](std::vector<double> words, int frame = 1, double start_et_s = kEpoch_et_s) {
+        return elements_refusal(10, std::move(words), frame, start_et_s);
+    };
     std::vector<double> other = kWgs72;
     other[6] = 6378.137;
-    EXPECT_EQ(elements_refusal(10, two_line_words({kLume}, other)), "nothing");  // within what kernels round
+    EXPECT_EQ(refused_set(two_line_words({kLume}, other)), "nothing");  // within what kernels round
     other[0] = 1.0827e-3;
-    EXPECT_THAT(elements_refusal(10, two_line_words({kLume}, other)),
+    EXPECT_THAT(refused_set(two_line_words({kLume}, other)),
                 HasSubstr("J2: found 0.0010827; accepted: 0.001082616 (WGS 72)"));
-    EXPECT_THAT(elements_refusal(10, two_line_words({kLume}), 17),
-                HasSubstr("frame: found 17; accepted: 1 (J2000)"));
+    EXPECT_THAT(refused_set(two_line_words({kLume}), 17), HasSubstr("frame: found 17; accepted: 1 (J2000)"));
     Elements broken = kLume;
     broken.eccentricity = 1.5;
-    EXPECT_THAT(elements_refusal(10, two_line_words({broken})),
-                HasSubstr("packet 1: eccentricity: found 1.5"));
+    EXPECT_THAT(refused_set(two_line_words({broken})), HasSubstr("packet 1: eccentricity: found 1.5"));
     broken = kLume;
     broken.turns_day = 17.5;
-    EXPECT_THAT(elements_refusal(10, two_line_words({broken})),
+    EXPECT_THAT(refused_set(two_line_words({broken})),
                 HasSubstr("packet 1: its elements are no orbit above the ground"));
     std::vector<double> words = two_line_words({kLume});
     words[words.size() - 18] += 1;
-    EXPECT_THAT(elements_refusal(10, words), HasSubstr("packet 1: its epoch is"));
-    EXPECT_THAT(elements_refusal(10, {1, 2}), HasSubstr("items at its end: found 2"));
+    EXPECT_THAT(refused_set(words), HasSubstr("packet 1: its epoch is"));
+    EXPECT_THAT(refused_set({1, 2}), HasSubstr("items at its end: found 2"));
+    EXPECT_THAT(refused_set(two_line_words({kLume}), 1, 0),
+                HasSubstr("packet 1: stands for 0 s, years from its epoch"));
+    broken = kLume;
+    broken.epoch_et_s = 1e12;
+    EXPECT_THAT(refused_set(two_line_words({broken})),
+                HasSubstr("packet 1: its epoch is 1e+12 s; accepted: the years"));
 }
 
 // Vallado, Fundamentals of Astrodynamics and Applications, 4th ed., 2013, example 3-15: a state of 2004-04-06T07:51:28.386009 UTC
