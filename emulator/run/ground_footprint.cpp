@@ -125,7 +125,7 @@ Extent extent_of(const std::vector<Vec3d>& places, double nearest_m, const Figur
         out.within_m = std::max(out.within_m, figure.equatorial_radius_m * length(at - out.middle));
     return out;
 }
-// By all of the picture's rays.
+// Finds it by all of the picture's rays.
 Extent extent_by_rays(const GroundView& view, const Figure& figure) {
     std::vector<Vec3d> places;
     double nearest_m = std::numeric_limits<double>::infinity();
@@ -139,7 +139,7 @@ Extent extent_by_rays(const GroundView& view, const Figure& figure) {
         }
     return extent_of(places, nearest_m, figure);
 }
-// By some places of the frame and the height of the ground below the camera, with a margin for what lies between them and for relief.
+// Finds it by some places of the frame and the height of the ground below the camera, with a margin for what lies between them and for relief.
 Extent extent_by_ellipsoid(const GroundView& view, const Figure& figure, double ground_m) {
     constexpr int kAcross = 16;
     constexpr double kMargin = 1.15;
