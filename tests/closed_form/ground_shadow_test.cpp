@@ -52,8 +52,8 @@ struct Scenery {
             std::function<double(double, double)> height_m, bool disk)
         : middle_m(middle_east_m) {
         constexpr int kSide_px = 256;
-        pixel_m = wide_m / kSide_px, above_m = 10 * wide_m;
-        stage.camera(kSide_px, 0.05);
+        pixel_m = wide_m / kSide_px, above_m = 2 * wide_m;
+        stage.camera(kSide_px, 0.25);
         stage.quality.path_model = "direct";
         stage.quality.max_depth = 1;
         stage.quality.sun_disk = disk;
@@ -65,7 +65,7 @@ struct Scenery {
         stage.scene.terrain->ground = std::make_unique<GlobeTerrain>(kMoonFigure, std::vector<GroundMap>{},
                                                                      std::move(details), GlobeSettings{});
         stage.scene.terrain->material = make_material(lambert(0.5), stage.grid);
-        stage.scene.terrain->edge_px = 0.5;
+        stage.scene.terrain->edge_px = 1;
         stage.scene.terrain->most_triangles = 4'000'000;
         const double turn = middle_m / kRadius_m;
         const Vec3d below = std::cos(turn) * up + std::sin(turn) * east;
