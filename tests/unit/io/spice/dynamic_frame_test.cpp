@@ -78,7 +78,8 @@ void expect_rate(Kernels& kernels, double et_s, double tolerance) {
 }
 
 // NAIF's CSPICE gives this matrix for the frame MRO_MME_OF_DATE of the Mars Reconnaissance Orbiter (SpiceyPy's tests, test_zzdynrot,
-// 8 digits): Mars' mean equator of date, with Mars' pole of the IAU's report of 2009 (pck00010.tpc).
+// 8 digits). Mars' mean equator of date, as the mission's frames kernel has it by Euler's angles, and by two vectors with Mars' pole of
+// the IAU's report of 2009 (pck00010.tpc).
 TEST(DynamicFrame, MarsMeanEquatorOfDateIsThatOfCspice) {
     Kernels kernels(
         frame_text("FRAME_5000_FAMILY = 'TWO-VECTOR'\nFRAME_5000_PRI_AXIS = 'Z'\nFRAME_5000_PRI_VECTOR_DEF = "
@@ -94,6 +95,13 @@ TEST(DynamicFrame, MarsMeanEquatorOfDateIsThatOfCspice) {
                             {0.73932559, 0.53692566, -0.40633546},
                             {0, 0.60345527, 0.79739685}};
     expect_same(kernels.turn(221'051'477.42023).reference_from_frame, expected, 1e-7);
+    Kernels euler(frame_text(
+        "FRAME_5000_FAMILY = 'EULER'\nFRAME_5000_EPOCH = @2000-JAN-1/12:00:00\nFRAME_5000_AXES = ( 3 1 3 "
+        ")\nFRAME_5000_UNITS = 'DEGREES'\nFRAME_5000_ANGLE_1_COEFFS = ( -47.68143 0.33621061170684714e-10 "
+        ")\nFRAME_5000_ANGLE_2_COEFFS = ( -37.1135 -0.19298045478743630e-10 )\nFRAME_5000_ANGLE_3_COEFFS = ( "
+        "0.0 "
+        ")\nFRAME_5000_ROTATION_STATE = 'INERTIAL'\n"));
+    expect_same(euler.turn(221'051'477.42023).reference_from_frame, expected, 1e-7);
     EXPECT_LT(length(kernels.turn(0).rate_rad_s), 1e-12);  // the pole's own rate, not Mars' day
 }
 
