@@ -6,7 +6,8 @@ Fields fields(GlobeConfig& g) {
     return {
         required(text("body", g.body, "body whose ground it is: one of the program's, or of `bodies`")),
         sections("maps", g.maps,
-                 "maps of heights and albedo; where several lie over each other the finest counts"),
+                 "maps of heights, albedo and other figures by place; where several lie over each other the "
+                 "finest counts"),
         section("relief", g.relief, "seeded relief between the posts of the maps; left out: none"),
         section("craters", g.craters, "seeded craters; left out: none"),
         section("boulders", g.boulders, "seeded boulders; left out: none"),

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "render/ground/globe_terrain.h"
+#include "render/ground/rock_abundance.h"
 #include "render/vocabulary/check.h"
 
 namespace hilcam {
@@ -40,8 +41,31 @@ ReliefSettings complete(ReliefSettings relief, const GlobeConfig& globe, const M
 
 std::vector<GroundMap> open_maps(const GlobeConfig& globe, const MappedBody& body) {
     std::vector<GroundMap> maps;
-    for (const GroundMapConfig& map : globe.maps) maps.push_back(open_ground_map(map, body));
+    for (const GroundMapConfig& map : globe.maps)
+        if (map.kind != GroundKind::kRockAbundance) maps.push_back(open_ground_map(map, body));
     return maps;
+}
+
+std::unique_ptr<const BoulderField> boulders_of(const GlobeConfig& globe, const MappedBody& body) {
+    std::vector<GroundMap> maps;
+    for (const GroundMapConfig& map : globe.maps) {
+        if (map.kind != GroundKind::kRockAbundance) continue;
+        if (!globe.boulders)
+            throw InputError(map.where + ": kind: found rock_abundance without boulders; accepted: with " +
+                             "terrain.globe.boulders, which says their sizes");
+        maps.push_back(open_ground_map(map, body));
+    }
+    if (!globe.boulders || (maps.empty() && !(globe.boulders->abundance > 0))) return nullptr;
+    const double radius_m = body.figure.equatorial_radius_m;
+    if (maps.empty()) return std::make_unique<BoulderField>(radius_m, *globe.boulders);
+    // Cells are for a share that maps' largest ones are not many times of.
+    constexpr double kLeastSeeded = 0.02;
+    BoulderSettings seeded = *globe.boulders;
+    seeded.abundance = std::max(seeded.abundance, kLeastSeeded);
+    return std::make_unique<BoulderField>(
+        radius_m, seeded,
+        std::make_shared<RockAbundance>(body.figure, std::move(maps), globe.boulders->abundance,
+                                        seeded.abundance));
 }
 
 std::vector<std::unique_ptr<const GroundDetail>> details_of(const GlobeConfig& globe,
@@ -51,16 +75,23 @@ std::vector<std::unique_ptr<const GroundDetail>> details_of(const GlobeConfig& g
     if (globe.relief)
         details.push_back(std::make_unique<GroundRelief>(radius_m, complete(*globe.relief, globe, body)));
     if (globe.craters) details.push_back(std::make_unique<CraterField>(radius_m, *globe.craters));
-    if (globe.boulders && globe.boulders->abundance > 0)
-        details.push_back(std::make_unique<BoulderField>(radius_m, *globe.boulders));
+    if (auto boulders = boulders_of(globe, body)) details.push_back(std::move(boulders));
     return details;
 }
 
-std::unique_ptr<Terrain> load_globe(const GlobeConfig& globe, const MappedBody& body) {
+std::unique_ptr<Terrain> load_globe(const GlobeConfig& globe, const MappedBody& body,
+                                    const Material& material) {
+    const auto* const hapke = std::get_if<brdf::Hapke>(&material.brdf);
+    for (const GroundMapConfig& map : globe.maps)
+        if (is_of_hapke(map.kind) && !hapke)
+            throw InputError(map.where +
+                             ": kind: found a parameter of Hapke's law; accepted: with a material of "
+                             "model hapke (terrain.material)");
     constexpr int kMegabyteBits = 20;
     return std::make_unique<GlobeTerrain>(
         body.figure, open_maps(globe, body), details_of(globe, body),
-        GlobeSettings{static_cast<std::size_t>(globe.memory_mb) << kMegabyteBits, globe.finest_m});
+        GlobeSettings{static_cast<std::size_t>(globe.memory_mb) << kMegabyteBits, globe.finest_m,
+                      hapke ? hapke->parameters : HapkeParameters{}});
 }
 
 }  // namespace hilcam

@@ -2,131 +2,55 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "emulator/ground/globe_loader.h"
-#include "render/vocabulary/check.h"
+#include "emulator/ground/ground_heights.h"
+#include "emulator/ground/ground_things.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
 namespace {
 
-// The list of a thousand square kilometres' smallest craters would fill a disk.
-constexpr double kMost = 2e6;
-
-// The tangent plane at a place.
-struct LocalPlane {
-    Vec3d up, east, north;
-    double radius_m;
-
-    LocalPlane(const Geodetic& middle, const Figure& figure) : radius_m(figure.equatorial_radius_m) {
-        const Mat3d axes = transposed(body_fixed_from_local(middle));
-        east = axes.x, north = axes.y, up = axes.z;
-    }
-    Vec3d place(double east_m, double north_m) const {
-        return normalized(up + east_m / radius_m * east + north_m / radius_m * north);
-    }
-    std::string text_of(Vec3d place) const {
-        const double scale = radius_m / dot(place, up);
-        return fmt::format("{:.8f},{:.8f},{:.4f},{:.4f}", std::atan2(place.y, place.x) / kDegree_rad,
-                           std::asin(std::clamp(place.z, -1.0, 1.0)) / kDegree_rad, scale * dot(place, east),
-                           scale * dot(place, north));
-    }
-};
-
-void require_few(double count, const char* what) {
-    if (count > kMost)
-        throw InputError(
-            fmt::format("--within-m, --smallest-m: there are about {:.2g} {} there; accepted: {:.0g}", count,
-                        what, kMost));
-}
-
-std::string craters(const GlobeConfig& globe, const LocalPlane& at, const GroundSurvey& s) {
-    if (!globe.craters) throw InputError("terrain.globe.craters: there are none in this scenario");
-    const CraterField field(at.radius_m, *globe.craters);
-    const double least_m = std::max(s.smallest_m, globe.craters->smallest_m);
-    require_few(field.law().per_m2(least_m) * kPi * s.within_m * s.within_m, "craters");
-    std::vector<Crater> found;
-    field.find(at.up, s.within_m / at.radius_m, s.smallest_m, found);
-    std::string out = "longitude_deg,latitude_deg,east_m,north_m,diameter_m,worn\n";
-    for (const Crater& c : found)
-        out += fmt::format("{},{:.4f},{:.4f}\n", at.text_of(c.place), c.diameter_m, c.worn);
+std::string things(GroundThings kind, const GlobeConfig& globe, const MappedBody& body,
+                   const GroundSurvey& s) {
+    const LocalPlane at(s.middle, body.figure);
+    std::string out = std::string(kPlaceColumns) + things_columns(kind) + "\n";
+    for (const GroundThing& thing : find_things(kind, globe, body, at.up, s.within_m, s.smallest_m))
+        out += fmt::format("{},{:.4f},{:.4f}\n", at.text_of(thing.place), thing.diameter_m, thing.figure);
     return out;
 }
 
-std::string boulders(const GlobeConfig& globe, const LocalPlane& at, const GroundSurvey& s) {
-    if (!globe.boulders || !(globe.boulders->abundance > 0))
-        throw InputError("terrain.globe.boulders: there are none in this scenario");
-    const BoulderField field(at.radius_m, *globe.boulders);
-    const double least_m = std::max(s.smallest_m, globe.boulders->smallest_m);
-    require_few(field.per_m2(least_m) * kPi * s.within_m * s.within_m, "boulders");
-    std::vector<Boulder> found;
-    field.find(at.up, s.within_m / at.radius_m, s.smallest_m, found);
-    std::string out = "longitude_deg,latitude_deg,east_m,north_m,diameter_m,height_m\n";
-    for (const Boulder& b : found)
-        out += fmt::format("{},{:.4f},{:.4f}\n", at.text_of(b.place), b.diameter_m, b.height_m);
-    return out;
-}
-
-// Slope and step at a post from those about it, `side` to a row.
-std::string slope_of(const std::vector<double>& h, std::size_t i, std::size_t side, double spacing_m) {
-    double east = 0, north = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        east += (h[i + 1 + k * side - side] - h[i - 1 + k * side - side]) / (6 * spacing_m);
-        north += (h[i + side + k - 1] - h[i - side + k - 1]) / (6 * spacing_m);
-    }
-    double step_m = 0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-            const auto j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) +
-                                                    y * static_cast<std::ptrdiff_t>(side) + x);
-            step_m = std::max(step_m, std::abs(h[j] - h[i] - spacing_m * (x * east + y * north)));
-        }
-    return fmt::format("{:.4f},{:.3f},{:.4f}", h[i], std::atan(std::hypot(east, north)) / kDegree_rad,
-                       step_m);
-}
-
-std::string heights(const GlobeConfig& globe, const MappedBody& body, const LocalPlane& at,
-                    const GroundSurvey& s) {
-    const int half = static_cast<int>(std::min(std::floor(s.within_m / s.spacing_m), kMost)),
-              side = 2 * half + 3;
-    require_few(1.0 * side * side, "heights");
-    std::vector<Vec3d> places;
-    for (int y = -half - 1; y <= half + 1; ++y)
-        for (int x = -half - 1; x <= half + 1; ++x)
-            places.push_back(at.place(x * s.spacing_m, y * s.spacing_m));
-    std::vector<double> heights_m(places.size());
-    constexpr std::size_t kBytes = std::size_t{64} << 20;
-    GroundSurface surface(body.figure, open_maps(globe, body), kBytes);
-    surface.find_heights(places, s.spacing_m, heights_m);
-    const GroundPatch patch{side,       places, heights_m,
-                            {},         at.up,  (s.within_m + 2 * s.spacing_m) * std::sqrt(2) / at.radius_m,
-                            s.spacing_m};
-    for (const auto& detail : details_of(globe, body)) detail->add_wide(patch), detail->add(patch);
-    std::string out = "longitude_deg,latitude_deg,east_m,north_m,height_m,slope_deg,step_m\n";
-    for (int y = 1; y + 1 < side; ++y)
-        for (int x = 1; x + 1 < side; ++x) {
-            const auto i = static_cast<std::size_t>(y * side + x);
-            out += at.text_of(places[i]) + "," +
-                   slope_of(heights_m, i, static_cast<std::size_t>(side), s.spacing_m) + "\n";
+std::string heights(const GlobeConfig& globe, const MappedBody& body, const GroundSurvey& s, bool hazards) {
+    const LocalPlane at(s.middle, body.figure);
+    const HeightSquare square = GroundHeights(globe, body).square(at, s.within_m, s.spacing_m);
+    std::string out =
+        std::string(kPlaceColumns) + "height_m,slope_deg,step_m" + (hazards ? ",hazard\n" : "\n");
+    for (int y = -square.half; y <= square.half; ++y)
+        for (int x = -square.half; x <= square.half; ++x) {
+            const GroundSlope slope = square.slope(x, y);
+            out +=
+                fmt::format("{},{:.4f},{:.3f},{:.4f}", at.text_of(at.place(x * s.spacing_m, y * s.spacing_m)),
+                            square.height_m(x, y), slope.slope_rad / kDegree_rad, slope.step_m);
+            out += hazards ? fmt::format(",{:d}\n", s.limits.is_hazard(slope)) : "\n";
         }
     return out;
 }
 
 }  // namespace
 
+const char* things_columns(GroundThings kind) {
+    return kind == GroundThings::kCraters ? "diameter_m,worn" : "diameter_m,height_m";
+}
+
 std::string survey_ground(const GlobeConfig& globe, const MappedBody& body, const GroundSurvey& survey) {
-    const LocalPlane at(survey.middle, body.figure);
     switch (survey.what) {
         case GroundSurvey::What::kCraters:
-            return craters(globe, at, survey);
+            return things(GroundThings::kCraters, globe, body, survey);
         case GroundSurvey::What::kBoulders:
-            return boulders(globe, at, survey);
+            return things(GroundThings::kBoulders, globe, body, survey);
         case GroundSurvey::What::kHeights:
+        case GroundSurvey::What::kHazards:
             break;
     }
-    return heights(globe, body, at, survey);
+    return heights(globe, body, survey, survey.what == GroundSurvey::What::kHazards);
 }
 
 }  // namespace hilcam

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/motion/sgp4.h"
+#include "io/orbits/sgp4.h"
 #include "emulator/motion/trajectories.h"
 #include "render/sky/earth_frames.h"
 #include "render/vocabulary/check.h"

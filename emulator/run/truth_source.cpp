@@ -1,6 +1,7 @@
 #include "emulator/run/truth_source.h"
 
 #include "emulator/recording/program_version.h"
+#include "emulator/run/ground_footprint.h"
 
 namespace hilcam {
 
@@ -17,6 +18,7 @@ TruthSource truth_source(const ScenarioConfig& s, const SpectralGrid& grid, std:
     source.parts = source.things;
     for (const ObjectConfig& object : s.objects)
         for (const JointConfig& joint : object.joints) source.parts.push_back(object.name + "/" + joint.node);
+    source.ground = ground_truth_of(s);
     if (s.terrain) {
         source.things.push_back(s.terrain->name);
         source.parts.push_back(s.terrain->name);

@@ -311,9 +311,10 @@ std::unique_ptr<SceneTerrain> load_terrain(const ScenarioConfig& s, const Spectr
     const TerrainConfig& t = *s.terrain;
     const Progress progress("terrain " + t.name);
     auto terrain = std::make_unique<SceneTerrain>();
+    terrain->material = load_material(t.material, grid);
     if (t.globe) {
         terrain->body = body_named(s, t.globe->body);
-        terrain->ground = load_globe(*t.globe, ground_body(s));
+        terrain->ground = load_globe(*t.globe, ground_body(s), terrain->material);
     } else {
         const TimeTai time = parse_utc(s.time_utc);
         terrain->ground = std::make_unique<TerrainPatch>(open_height_map(*t.heights), t.radius_m);
@@ -321,7 +322,6 @@ std::unique_ptr<SceneTerrain> load_terrain(const ScenarioConfig& s, const Spectr
         if (t.place) terrain->body = t.place->body, terrain->place = t.place->place;
     }
     terrain->name = t.name;
-    terrain->material = load_material(t.material, grid);
     terrain->edge_px = t.edge_px;
     terrain->most_triangles = static_cast<std::size_t>(t.most_triangles);
     terrain->wait = t.wait;
@@ -335,6 +335,8 @@ Mesh load_whole_mesh(const ObjectConfig& config) {
     for (Vec3f& vertex : mesh.vertices_m) vertex = static_cast<float>(config.scale) * vertex;
     return mesh;
 }
+
+BodyId ground_body_id(const ScenarioConfig& s) { return body_named(s, s.terrain->globe->body); }
 
 MappedBody ground_body(const ScenarioConfig& s) {
     const std::string& name = s.terrain->globe->body;

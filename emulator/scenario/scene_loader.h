@@ -47,6 +47,7 @@ std::filesystem::path mesh_file_of(const ObjectConfig& object);
 Mesh load_whole_mesh(const ObjectConfig& object);
 // Finds the body whose ground the scenario's terrain.globe is. Throws InputError where there is no such body.
 MappedBody ground_body(const ScenarioConfig& scenario);
+BodyId ground_body_id(const ScenarioConfig& scenario);
 
 // Loads what the maps of the camera's fixed_pattern hold.
 DetectorPictures load_detector_pictures(const CameraModel& camera);

@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-// Mean elements of SGP4 (emulator/motion/sgp4.h). Angles [rad].
+// Mean elements of SGP4 (io/orbits/sgp4.h). Angles [rad].
 struct Tle {
     std::string name;       // name in the line above, without blanks around; may be empty
     std::string satellite;  // its number as written, five characters or fewer, blanks stripped

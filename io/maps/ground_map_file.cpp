@@ -1,5 +1,8 @@
 #include "io/maps/ground_map_file.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "io/maps/gdal_raster.h"
 #include "io/maps/picture_raster.h"
 #include "render/vocabulary/check.h"
@@ -11,9 +14,12 @@ Fields fields(GroundMapConfig& c) {
     return {
         required(path("file", c.file, c.where,
                       "map: GeoTIFF, PDS3 or ISIS label, ENVI header's data, or a picture with bounds_deg")),
-        choice("kind", c.kind, {"heights", "albedo"},
-               "meaning of its values: heights over the body's ellipsoid [m], or factors on the material's "
-               "reflectance (one channel, or red, green and blue)"),
+        choice("kind", c.kind,
+               {"heights", "albedo", "rock_abundance", "lobe_width", "lobe_backward", "surge_amplitude",
+                "surge_width", "slope_deg"},
+               "meaning of its values: heights over the body's ellipsoid [m], factors on the material's "
+               "reflectance (one channel, or red, green and blue), the share of the ground that boulders "
+               "cover, or the material's own key of that name (hapke)"),
         choice("between", c.between, {"bilinear", "cubic"}, "interpolation between the posts"),
         number("scale", c.scale, 1, {-1e9, 1e9}, "factor on the file's values, beside the file's own"),
         number("offset", c.offset, 1, {-1e9, 1e9}, "number that is added to that [m for heights]"),
@@ -42,11 +48,43 @@ void validate(const GroundMapConfig& c) {
                           "a north that is more, both within -90 to 90");
 }
 
+namespace {
+
+// Looks at some hundreds of posts along each edge for what the kind does not take.
+void refuse_beyond(const GroundMapConfig& config, GroundRaster& raster) {
+    const std::optional<HapkeLimits> limits = limits_of(config.kind);
+    if (!limits) return;
+    constexpr int kMost = 512;
+    const GroundRaster::Shape& shape = raster.shape();
+    int level = 0;
+    while ((std::max(shape.columns, shape.rows) >> level) > kMost &&
+           (std::min(shape.columns, shape.rows) >> level) > 1)
+        ++level;
+    const int columns = shape.columns >> level, rows = shape.rows >> level;
+    std::vector<float> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    raster.read(level, 0, 0, columns, rows, values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto value = static_cast<double>(values[i]);
+        // Single precision may round the limits themselves; a hole is none of this.
+        const double slack = 1e-6 * std::max(std::abs(limits->least), std::abs(limits->most));
+        if (value < limits->least - slack || value > limits->most + slack)
+            throw InputError(config.where + ": " + config.file.string() + ": found " + plain(value) +
+                             " at column " +
+                             std::to_string((i % static_cast<std::size_t>(columns)) << level) + ", row " +
+                             std::to_string((i / static_cast<std::size_t>(columns)) << level) +
+                             "; accepted: " + plain(limits->least) + " to " + plain(limits->most) +
+                             ", with scale and offset");
+    }
+}
+
+}  // namespace
+
 GroundMap open_ground_map(const GroundMapConfig& config, const MappedBody& body) {
     GroundMap map;
     map.kind = config.kind;
     map.between = config.between;
     map.raster = is_picture(config.file) ? open_picture_raster(config, body) : open_gdal_raster(config, body);
+    refuse_beyond(config, *map.raster);
     map.blend_m = config.blend_posts * map.raster->shape().spacing_m;
     return map;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/spice/dynamic_frame.h"
 #include "io/spice/kernel_names.h"
 #include "io/system/text_number.h"
 #include "render/vocabulary/check.h"
@@ -13,6 +14,14 @@
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
+
+Mat3d turned_axes(int axis, double angle_rad) {
+    const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+    if (axis == 1) return {{1, 0, 0}, {0, c, s}, {0, -s, c}};
+    if (axis == 2) return {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
+    return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+}
+
 namespace {
 
 // Codes of the frames IAU_<body> begin here, in a range that NAIF has for nobody; the planets' have NAIF's own codes, 10010
@@ -39,14 +48,6 @@ std::string upper(std::string_view text) {
     std::string out;
     for (const char c : text) out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return out;
-}
-
-// NAIF's [angle]i: axes turned about axis i, 1 to 3.
-Mat3d about(int axis, double angle_rad) {
-    const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-    if (axis == 1) return {{1, 0, 0}, {0, c, s}, {0, -s, c}};
-    if (axis == 2) return {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
-    return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
 // Axes of older ephemerides against those of DE-400, 402 and 403, which are J2000's: the appendix of "Frames Required
@@ -76,8 +77,8 @@ constexpr std::array kOldFrames = {
 std::optional<FrameDefinition> inertial(std::string_view name, int code) {
     const auto made = [](int number, const char* text, const Mat3d& frame_from_j2000) {
         return FrameDefinition{
-            number,      text,      FrameClass::kInertial, number, transposed(frame_from_j2000),
-            kJ2000Frame, "built in"};
+            number, text,      FrameClass::kInertial, number, transposed(frame_from_j2000), kJ2000Frame,
+            {},     "built in"};
     };
     const auto is = [&](const char* text, int number) { return name == text || code == number; };
     if (is("J2000", kJ2000Frame) || name == "ICRF") return made(kJ2000Frame, "J2000", {});
@@ -85,25 +86,26 @@ std::optional<FrameDefinition> inertial(std::string_view name, int code) {
     if (is("DE-200", 14)) return made(14, "DE-200", {});
     if (is("DE-202", 15)) return made(15, "DE-202", {});
     // The obliquity of the ecliptic at J2000, Lieske 1979.
-    if (is("ECLIPJ2000", 17)) return made(17, "ECLIPJ2000", about(1, 84381.448 * kArcsecond_rad));
+    if (is("ECLIPJ2000", 17)) return made(17, "ECLIPJ2000", turned_axes(1, 84381.448 * kArcsecond_rad));
     // The frames before J2000, as "Frames Required Reading" has them in its appendix.
-    const Mat3d b1950 = about(3, 1152.84248596724 * kArcsecond_rad) *
-                        about(2, -1002.26108439117 * kArcsecond_rad) *
-                        about(3, 1153.04066200330 * kArcsecond_rad);
-    const Mat3d fk4 = about(3, 0.525 * kArcsecond_rad) * b1950;
+    const Mat3d b1950 = turned_axes(3, 1152.84248596724 * kArcsecond_rad) *
+                        turned_axes(2, -1002.26108439117 * kArcsecond_rad) *
+                        turned_axes(3, 1153.04066200330 * kArcsecond_rad);
+    const Mat3d fk4 = turned_axes(3, 0.525 * kArcsecond_rad) * b1950;
     if (is("B1950", 2)) return made(2, "B1950", b1950);
     if (is("FK4", 3)) return made(3, "FK4", fk4);
-    if (is("DE-118", 4)) return made(4, "DE-118", about(3, 0.53155 * kArcsecond_rad) * b1950);
+    if (is("DE-118", 4)) return made(4, "DE-118", turned_axes(3, 0.53155 * kArcsecond_rad) * b1950);
     // Mars's mean equator of J2000 and its node on the Earth's (pole: Davies et al., Celest. Mech. 46, 1989, 187).
     if (is("MARSIAU", 16))
-        return made(16, "MARSIAU",
-                    about(1, (90 - 52.886) * kDegree_rad) * about(3, (90 + 317.681) * kDegree_rad));
+        return made(
+            16, "MARSIAU",
+            turned_axes(1, (90 - 52.886) * kDegree_rad) * turned_axes(3, (90 + 317.681) * kDegree_rad));
     for (const OldFrame& old : kOldFrames)
         if (is(old.name, old.code)) return made(old.code, old.name, old.frame_from_j2000);
     if (is("GALACTIC", 13))
         return made(13, "GALACTIC",
-                    about(3, 327 * kDegree_rad) * about(1, 62.6 * kDegree_rad) *
-                        about(3, 282.25 * kDegree_rad) * fk4);
+                    turned_axes(3, 327 * kDegree_rad) * turned_axes(1, 62.6 * kDegree_rad) *
+                        turned_axes(3, 282.25 * kDegree_rad) * fk4);
     return {};
 }
 
@@ -136,11 +138,13 @@ class FrameReader {
         out.name = pool_.text("FRAME_" + id_ + "_NAME").value_or(id_);
         out.where = pool_.find("FRAME_" + id_ + "_CLASS")->where;
         out.class_code = pool_.integer("FRAME_" + id_ + "_CLASS_ID").value_or(code_);
-        if (*kind < 2 || *kind > 4)
+        if (*kind < 2 || *kind > 5)
             throw InputError(out.where + ": frame " + in_quotes(out.name) + ": found class " +
-                             std::to_string(*kind) + "; accepted: 2 (PCK), 3 (CK), 4 (fixed offset)");
+                             std::to_string(*kind) +
+                             "; accepted: 2 (PCK), 3 (CK), 4 (fixed offset), 5 (dynamic)");
         out.kind = static_cast<FrameClass>(*kind);
         if (out.kind == FrameClass::kFixedOffset) read_offset(out);
+        if (out.kind == FrameClass::kDynamic) read_dynamic(out);
         return out;
     }
 
@@ -156,21 +160,21 @@ class FrameReader {
         throw InputError(frame.where + ": frame " + in_quotes(frame.name) + ": no kernel has TKFRAME_" + id_ +
                          "_" + item + ", which its offset needs");
     }
-    // The code alone: frames may stand on each other in a circle, which whoever follows them finds.
-    int relative_code(const std::string& name, const std::string& where) const {
-        const std::string wanted = upper(name);
-        if (const auto code = parsed_as<int>(name)) return *code;
-        if (const auto found = inertial(wanted, 0)) return found->code;
-        if (const auto code = pool_.integer("FRAME_" + wanted)) return *code;
-        if (const auto found = body_frame(pool_, wanted, 0)) return found->code;
-        throw InputError(where + ": found the frame " + in_quotes(name) +
-                         "; accepted: J2000, ECLIPJ2000, a frame of a frames kernel (FK), IAU_<body>");
+    void read_dynamic(FrameDefinition& out) const {
+        const std::string where = out.where + ": frame " + in_quotes(out.name);
+        for (const std::string& owner : {id_, out.name})
+            if (const auto base = pool_.text("FRAME_" + owner + "_RELATIVE")) {
+                out.relative = frame_code(pool_, *base, where);
+                out.dynamic = read_dynamic_frame(pool_, id_, out.name, where);
+                return;
+            }
+        throw InputError(where + ": no kernel has FRAME_" + id_ + "_RELATIVE, which it needs");
     }
     void read_offset(FrameDefinition& out) const {
         const std::string relative = key(out, "RELATIVE"), spec_key = key(out, "SPEC");
         const std::string spec = upper(pool_.text(spec_key).value());
         out.relative =
-            relative_code(pool_.text(relative).value(), pool_.find(relative)->where + ": " + relative);
+            frame_code(pool_, pool_.text(relative).value(), pool_.find(relative)->where + ": " + relative);
         if (spec == "ANGLES") {
             out.relative_from_frame = from_angles(out);
         } else if (spec == "MATRIX") {
@@ -202,7 +206,7 @@ class FrameReader {
         for (std::size_t i = 0; i < 3; ++i) {
             if (axes[i] != 1 && axes[i] != 2 && axes[i] != 3)
                 throw InputError(pool_.find(axes_key)->where + ": " + axes_key + ": accepted: 1, 2, 3");
-            out = out * about(static_cast<int>(axes[i]), angles[i] * unit_rad);
+            out = out * turned_axes(static_cast<int>(axes[i]), angles[i] * unit_rad);
         }
         return out;
     }
@@ -219,6 +223,16 @@ class FrameReader {
 };
 
 }  // namespace
+
+int frame_code(const KernelPool& pool, const std::string& name, const std::string& where) {
+    const std::string wanted = upper(name);
+    if (const auto code = parsed_as<int>(name)) return *code;
+    if (const auto found = inertial(wanted, 0)) return found->code;
+    if (const auto code = pool.integer("FRAME_" + wanted)) return *code;
+    if (const auto found = body_frame(pool, wanted, 0)) return found->code;
+    throw InputError(where + ": found the frame " + in_quotes(name) +
+                     "; accepted: J2000, ECLIPJ2000, a frame of a frames kernel (FK), IAU_<body>");
+}
 
 FrameDefinition frame_coded(const KernelPool& pool, int code, const std::string& key) {
     if (auto found = inertial("", code)) return *found;

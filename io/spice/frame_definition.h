@@ -1,6 +1,7 @@
 #pragma once
 // Reference frames by name and code: those built into SPICE and those of frames kernels (NAIF, "Frames Required Reading").
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,7 +11,9 @@
 
 namespace hilcam {
 
-enum class FrameClass { kInertial = 1, kPck = 2, kCk = 3, kFixedOffset = 4 };
+enum class FrameClass { kInertial = 1, kPck = 2, kCk = 3, kFixedOffset = 4, kDynamic = 5 };
+
+struct DynamicFrame;
 
 struct FrameDefinition {
     int code = 0;
@@ -19,16 +22,22 @@ struct FrameDefinition {
     int class_code = 0;  // kPck: the body or binary kernel's code; kCk: the structure's
     // kInertial: into J2000's axes; kFixedOffset: into the axes of the frame `relative`.
     Mat3d relative_from_frame;
-    int relative = 1;
-    std::string where;  // place of the definition, for messages
+    int relative = 1;                               // kFixedOffset, kDynamic: the base
+    std::shared_ptr<const DynamicFrame> dynamic{};  // kDynamic
+    std::string where;                              // place of the definition, for messages
 };
 
 inline constexpr int kJ2000Frame = 1;
 
 // Returns a frame by its name (upper and lower case are the same) or code. Built in: J2000, ECLIPJ2000, DE-200, DE-202,
 // B1950, FK4, DE-118, -140, -142, -143, GALACTIC and MARSIAU of the inertial ones, ITRF93, and IAU_ with any body's name or code. Throws InputError for one that no
-// kernel has, or of a class that is none of those above (dynamic and switch frames).
+// kernel has, or of a class that is none of those above (switch frames).
 FrameDefinition frame_named(const KernelPool& pool, std::string_view name, const std::string& key);
+// Returns the code alone: frames may stand on each other in a circle, which whoever follows them finds.
+int frame_code(const KernelPool& pool, const std::string& name, const std::string& where);
+
+// Returns NAIF's [angle]i: axes turned about axis i, 1 to 3.
+Mat3d turned_axes(int axis, double angle_rad);
 FrameDefinition frame_coded(const KernelPool& pool, int code, const std::string& key);
 
 }  // namespace hilcam

@@ -15,22 +15,27 @@
 
 namespace hilcam {
 
-class KernelBodies {
+class KernelBodies final : public FrameBodies {
   public:
     // Both outlive it.
-    KernelBodies(const KernelSet& kernels, KernelFrames& frames) : kernels_(&kernels), frames_(&frames) {}
+    KernelBodies(const KernelSet& kernels, KernelFrames& frames) : kernels_(&kernels), frames_(&frames) {
+        frames.set_bodies(this);
+    }
+    ~KernelBodies() override { frames_->set_bodies(nullptr); }
+    KernelBodies(const KernelBodies&) = delete;
+    KernelBodies& operator=(const KernelBodies&) = delete;
 
     // Reads the segments of a body and of its centres. Throws InputError for a body that no SPK has; key: what asks.
-    void require(int body, const std::string& key);
+    void require(int body, const std::string& key) override;
     // True when some SPK has it.
-    bool has(int body) const;
+    bool has(int body) const override;
 
     // The geometric state of a body about another, axes of J2000 [m, m/s]; false: the kernels do not know it then. Loop.
-    bool state(int body, int center, double et_s, StateVector& out) const;
+    bool state(int body, int center, double et_s, StateVector& out) const override;
     // Returns the spans over which that is known, in order. Owner thread.
     std::vector<EtSpan> coverage(int body, int center) const;
     // Adds to a list the times at which the body may begin or cease to be known.
-    void add_boundaries(int body, std::vector<double>& et_s) const;
+    void add_boundaries(int body, std::vector<double>& et_s) const override;
 
   private:
     const KernelSet* kernels_;

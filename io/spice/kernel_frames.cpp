@@ -11,6 +11,23 @@ namespace {
 
 constexpr int kDeepestFrame = 16;
 
+// Counts dynamic frames that are asked for by each other, through the places of bodies, too: in a circle they are not known.
+class DynamicDepth {
+  public:
+    DynamicDepth() { ++depth_; }
+    ~DynamicDepth() { --depth_; }
+    DynamicDepth(const DynamicDepth&) = delete;
+    DynamicDepth& operator=(const DynamicDepth&) = delete;
+    static bool too_deep() {
+        constexpr int kMost = 3;
+        return depth_ > kMost;
+    }
+
+  private:
+    static thread_local int depth_;
+};
+thread_local int DynamicDepth::depth_ = 0;
+
 bool is_finite(const FrameTurn& t) {
     return hilcam::is_finite(t.reference_from_frame.x) && hilcam::is_finite(t.reference_from_frame.y) &&
            hilcam::is_finite(t.reference_from_frame.z) && hilcam::is_finite(t.rate_rad_s);
@@ -44,6 +61,23 @@ void KernelFrames::require(const FrameDefinition& frame, const std::string& key)
             return require_body(frame, key);
         case FrameClass::kCk:
             return require_structure(frame, key);
+        case FrameClass::kDynamic:
+            return require_dynamic(frame);
+    }
+}
+
+void KernelFrames::require_dynamic(const FrameDefinition& frame) {
+    const std::string key = frame.where + ": frame " + in_quotes(frame.name);
+    require(frame.relative, key);
+    if (frame.dynamic->family != DynamicFrame::Family::kTwoVector) return;
+    for (const FrameVector& v : frame.dynamic->vectors) {
+        require(v.frame, key);
+        if (v.kind == FrameVector::Kind::kConstant) continue;
+        if (!places_) throw InputError(key + ": stands on places of bodies, which are not asked for here");
+        // One of the two may be a centre without segments of its own, where the other's end.
+        if (!places_->has(v.observer) && !places_->has(v.target)) places_->require(v.target, key);
+        for (const int body : {v.observer, v.target})
+            if (places_->has(body)) places_->require(body, key);
     }
 }
 
@@ -129,8 +163,69 @@ bool KernelFrames::turn(int code, double et_s, FrameTurn& out, int depth) const 
         }
         case FrameClass::kCk:
             return structure_turn(structures_.find(frame.class_code)->second, et_s, out, depth);
+        case FrameClass::kDynamic:
+            return dynamic_turn(frame, et_s, out, depth);
     }
     return false;
+}
+
+bool KernelFrames::dynamic_turn(const FrameDefinition& frame, double et_s, FrameTurn& out, int depth) const {
+    const DynamicDepth here;
+    if (DynamicDepth::too_deep()) return false;
+    if (const auto frozen = frame.dynamic->frozen_et_s) {
+        FrameTurn base, then;
+        if (!moving_turn(frame, *frozen, then, depth) || !turn(frame.relative, *frozen, base, depth + 1))
+            return false;
+        return turn_in(frame.relative, et_s,
+                       {transposed(base.reference_from_frame) * then.reference_from_frame, {}}, out, depth);
+    }
+    if (!moving_turn(frame, et_s, out, depth)) return false;
+    if (frame.dynamic->inertial) out.rate_rad_s = {0, 0, 0};
+    return true;
+}
+
+bool KernelFrames::moving_turn(const FrameDefinition& frame, double et_s, FrameTurn& out, int depth) const {
+    const DynamicFrame& dynamic = *frame.dynamic;
+    if (dynamic.family == DynamicFrame::Family::kEarth) {
+        out = earth_of_date(dynamic.earth, et_s);
+        return true;
+    }
+    if (dynamic.family == DynamicFrame::Family::kEuler)
+        return turn_in(frame.relative, et_s, euler_turn(dynamic, et_s), out, depth);
+    if (!vector_axes(dynamic, et_s, out.reference_from_frame, depth)) return false;
+    // Where the kernels begin or end, there is one side only.
+    constexpr double kStep_s = 1;
+    Mat3d before = out.reference_from_frame, after = before;
+    const double span_s = (vector_axes(dynamic, et_s - kStep_s, before, depth) ? kStep_s : 0) +
+                          (vector_axes(dynamic, et_s + kStep_s, after, depth) ? kStep_s : 0);
+    out.rate_rad_s = span_s > 0 ? rate_of(out.reference_from_frame, before, after, span_s) : Vec3d{0, 0, 0};
+    return true;
+}
+
+bool KernelFrames::vector_axes(const DynamicFrame& frame, double et_s, Mat3d& out, int depth) const {
+    Vec3d primary, secondary;
+    if (!vector_of(frame.vectors[0], et_s, primary, depth) ||
+        !vector_of(frame.vectors[1], et_s, secondary, depth))
+        return false;
+    const auto axes = two_vector_axes(frame, primary, secondary);
+    if (axes) out = *axes;
+    return axes.has_value();
+}
+
+bool KernelFrames::vector_of(const FrameVector& vector, double et_s, Vec3d& out, int depth) const {
+    FrameTurn axes;
+    if (vector.kind != FrameVector::Kind::kPosition && !turn(vector.frame, et_s, axes, depth + 1))
+        return false;
+    if (vector.kind == FrameVector::Kind::kConstant) {
+        out = axes.reference_from_frame * vector.constant;
+        return true;
+    }
+    StateVector state;
+    if (!places_ || !places_->state(vector.target, vector.observer, et_s, state)) return false;
+    out = vector.kind == FrameVector::Kind::kPosition
+              ? state.position_m
+              : state.velocity_m_s - cross(axes.rate_rad_s, state.position_m);
+    return length(out) > 0;
 }
 
 bool KernelFrames::structure_turn(const Structure& s, double et_s, FrameTurn& out, int depth) const {
@@ -172,6 +267,16 @@ void KernelFrames::add_boundaries(int code, std::vector<double>& et_s) const {
     if (at == frames_.end()) return;
     const FrameDefinition& frame = at->second;
     if (frame.kind == FrameClass::kFixedOffset) return add_boundaries(frame.relative, et_s);
+    if (frame.kind == FrameClass::kDynamic) {
+        add_boundaries(frame.relative, et_s);
+        if (frame.dynamic->family != DynamicFrame::Family::kTwoVector) return;
+        for (const FrameVector& v : frame.dynamic->vectors) {
+            add_boundaries(v.frame, et_s);
+            if (v.kind == FrameVector::Kind::kConstant) continue;
+            places_->add_boundaries(v.observer, et_s);
+            places_->add_boundaries(v.target, et_s);
+        }
+    }
     if (frame.kind == FrameClass::kPck) {
         for (const auto& body : bodies_.find(frame.class_code)->second)
             et_s.insert(et_s.end(), {body->start_et_s, body->stop_et_s});

@@ -1,6 +1,7 @@
 // SPK types 2, 3 and 20: Chebyshev polynomials over spans of equal length; type 14: over spans of any length.
 
 #include "io/spice/chebyshev_records.h"
+#include "io/spice/generic_segment.h"
 #include "io/spice/spk_types.h"
 #include "io/spice/text_kernel.h"
 
@@ -71,41 +72,29 @@ class ChebyshevVelocities final : public SpkSegment {
     double begin_et_s_ = 0, length_s_ = 0, unit_m_ = 0, unit_m_s_ = 0;
 };
 
-// Type 14, a "generic segment": the degree, packets of the middle and half the length of a span [s] and coefficients of
-// x, y, z [km] and their rates [km/s], then the times at which the packets begin, and where all of these lie: 17 numbers,
-// of which a place counts from the segment's first word. A packet holds until the next one begins.
+// Type 14, a generic segment (generic_segment.h): the degree, packets of the middle and half the length of a span [s] and coefficients of
+// x, y, z [km] and their rates [km/s]. A packet holds until the next one begins.
 class ChebyshevPackets final : public SpkSegment {
   public:
     ChebyshevPackets(const SpkSummary& about, std::vector<double> words)
-        : SpkSegment(about), words_(std::move(words), about.where) {
-        words_.count_from_end(1, "items at its end", kItems, kItems);
-        const auto item = [&](std::size_t number, const char* what, double least, double most) {
-            return words_.count_from_end(kItems - number + 1, what, least, most);
-        };
-        const std::size_t constants = item(1, "place of constants", 0, kMostRecords);
-        item(2, "constants", 1, 1);
-        item(5, "kind of index", 3, 3);
-        times_ = item(6, "place of times", 0, kMostRecords), count_ = item(7, "times", 1, kMostRecords);
-        packets_ = item(11, "place of packets", 0, kMostRecords);
-        item(12, "packets", static_cast<double>(count_), static_cast<double>(count_));
-        const std::size_t size = item(15, "words of a packet", 8, 1e6);
-        before_ = item(16, "words before a packet", 0, 1e6), step_ = size + before_;
-        words_.require_size(std::max({constants + 1, times_ + count_, packets_ + count_ * step_}));
-        const double degree = words_[constants];
+        : SpkSegment(about), words_(std::move(words), about.where), parts_(words_, 1, 8) {
+        constexpr std::size_t kLastBegun = 3;
+        words_.count_from_end(GenericSegment::kIndexKindFromEnd, "kind of index", kLastBegun, kLastBegun);
+        const double degree = words_[parts_.constants];
+        const std::size_t size = parts_.packet_words;
         terms_ = (size - 2) / 6;
         if (size != 2 + 6 * terms_ || degree != static_cast<double>(terms_ - 1))
             words_.fail("degree: found " + plain(degree) + " and packets of " + std::to_string(size) +
                         " words; accepted: 2 and six times the degree and 1");
-        words_.require_rising(times_, count_, "time");
-        for (std::size_t i = 0; i < count_; ++i)
-            if (!(words_[packet(i) + 1] > 0))
+        for (std::size_t i = 0; i < parts_.count; ++i)
+            if (!(words_[parts_.packet(i) + 1] > 0))
                 words_.fail("packet " + std::to_string(i + 1) + ": its radius is " +
-                            plain(words_[packet(i) + 1]) + "; accepted: above 0");
+                            plain(words_[parts_.packet(i) + 1]) + "; accepted: above 0");
     }
 
     StateVector at(double et_s) const override {
-        const std::size_t after = times_up_to(words_.piece(times_, count_), et_s);
-        const std::size_t from = packet(after > 0 ? after - 1 : 0);
+        const std::size_t after = times_up_to(words_.piece(parts_.times, parts_.count), et_s);
+        const std::size_t from = parts_.packet(after > 0 ? after - 1 : 0);
         const double s = std::clamp((et_s - words_[from]) / words_[from + 1], -1.0, 1.0);
         std::array<double, 6> v{};
         for (std::size_t k = 0; k < 6; ++k)
@@ -114,11 +103,9 @@ class ChebyshevPackets final : public SpkSegment {
     }
 
   private:
-    static constexpr std::size_t kItems = 17;
     SegmentWords words_;
-    std::size_t times_ = 0, packets_ = 0, count_ = 0, before_ = 0, step_ = 0, terms_ = 0;
-
-    std::size_t packet(std::size_t i) const { return packets_ + i * step_ + before_; }
+    GenericSegment parts_;
+    std::size_t terms_ = 0;
 };
 
 }  // namespace

@@ -39,12 +39,17 @@ std::unique_ptr<SpkSegment> load_spk_segment(const DafFile& file, const DafArray
         case 18:
         case 19:
             return make_spk_discrete(about, file.words(array));
+        case 10:
+            return make_spk_two_line(about, file.words(array));
+        case 15:
+        case 17:
+            return make_spk_elements(about, file.words(array));
         case 1:
         case 21:
             return make_spk_differences(about, file.words(array));
         default:
             throw InputError(about.where + ": found type " + std::to_string(about.type) +
-                             "; accepted: 1, 2, 3, 5, 8, 9, 12, 13, 14, 18, 19, 20, 21");
+                             "; accepted: 1, 2, 3, 5, 8, 9, 10, 12, 13, 14, 15, 17, 18, 19, 20, 21");
     }
 }
 

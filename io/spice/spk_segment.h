@@ -3,7 +3,7 @@
 // Required Reading".
 //
 // Types: 1, 21 (modified difference arrays), 2, 3, 14, 20 (Chebyshev polynomials), 5 (two bodies between states), 8, 9,
-// 12, 13, 18, 19 (interpolated states). What NAIF's document says of a type stands in that type's source.
+// 12, 13, 18, 19 (interpolated states), 10 (two-line elements), 15, 17 (elements that precess). What NAIF's document says of a type stands in that type's source.
 
 #include <memory>
 #include <string>

@@ -1,8 +1,8 @@
 // SPK type 5: the motion of two bodies from the states before and after, one fading into the other.
 
+#include "io/orbits/two_body.h"
 #include "io/spice/segment_words.h"
 #include "io/spice/spk_types.h"
-#include "io/spice/two_body.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {

@@ -16,6 +16,10 @@ std::unique_ptr<SpkSegment> make_spk_chebyshev(const SpkSummary& about, std::vec
 std::unique_ptr<SpkSegment> make_spk_two_body(const SpkSummary& about, std::vector<double> words);
 // Types 8, 9, 12, 13, 18, 19.
 std::unique_ptr<SpkSegment> make_spk_discrete(const SpkSummary& about, std::vector<double> words);
+// Type 10.
+std::unique_ptr<SpkSegment> make_spk_two_line(const SpkSummary& about, std::vector<double> words);
+// Types 15, 17.
+std::unique_ptr<SpkSegment> make_spk_elements(const SpkSummary& about, std::vector<double> words);
 // Types 1, 21.
 std::unique_ptr<SpkSegment> make_spk_differences(const SpkSummary& about, std::vector<double> words);
 

@@ -48,6 +48,10 @@ Fields fields(TruthConfig& c) {
         flag("stars", c.stars, "true: the stars in view are listed"),
         number("faintest_magnitude", c.faintest_magnitude, 1, {-2, 30},
                "magnitude of the faintest stars listed"),
+        number(
+            "ground_px", c.ground_px, 1, {0, 1e4},
+            "least diameter in the frame of the craters and boulders of terrain.globe that are listed [px]; "
+            "0: none are"),
         integer("every_nth", c.every_nth, {1, 1e9}, "n: truth is given for every n-th frame only"),
         flag("overwrite", c.overwrite,
              "treatment of a folder that holds another run's truth. false: it is refused; true: it is "

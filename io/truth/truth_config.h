@@ -27,6 +27,7 @@ struct TruthConfig {
     bool visibility = true;
     bool stars = true;
     double faintest_magnitude = 30;
+    double ground_px = 0;  // 0: no craters and boulders
     std::int64_t every_nth = 1;
     bool overwrite = false;
 };

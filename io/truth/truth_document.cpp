@@ -95,6 +95,21 @@ Json body_of(const SeenThing& thing, const TruthWishes& wishes) {
     return out;
 }
 
+// figure: what the kind of thing calls its second figure.
+Json ground_list(const std::vector<SeenGroundThing>& things, const char* figure) {
+    Json out = Json::array();
+    for (const SeenGroundThing& thing : things)
+        out.push_back({{"longitude_deg", thing.longitude_deg},
+                       {"latitude_deg", thing.latitude_deg},
+                       {"diameter_m", thing.diameter_m},
+                       {figure, thing.figure},
+                       {"center_px", of(thing.place_px)},
+                       {"diameter_px", thing.diameter_px},
+                       {"distance_m", thing.distance_m},
+                       {"visible", thing.visible ? Json(*thing.visible) : Json(nullptr)}});
+    return out;
+}
+
 }  // namespace
 
 std::string TruthDocument::name_of_thing(const SeenThing& thing) const {
@@ -159,6 +174,12 @@ std::string TruthDocument::line(const FrameTruth& t, const FrameRecord& record, 
     out["objects"] = std::move(objects);
     out["parts"] = std::move(parts);
     out["bodies"] = std::move(bodies);
+    if (source_.ground) {
+        const SeenGroundThings ground = source_.ground->find(t);
+        out["craters"] = ground_list(ground.craters, "worn");
+        out["boulders"] = ground_list(ground.boulders, "height_m");
+        out["ground_left_out"] = ground.left_out;
+    }
     if (t.wishes.stars) {
         const double per_px = 1.0 / source_.oversampling;
         if (with_stars)

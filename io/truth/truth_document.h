@@ -2,10 +2,12 @@
 // The truth of a frame as one line of JSON; docs/truth.md has every key, its frame and unit.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "io/contract/frame_sink.h"
+#include "io/truth/ground_truth.h"
 #include "render/frame/frame_truth.h"
 #include "render/vocabulary/spectrum.h"
 #include "sensor/camera_model.h"
@@ -28,8 +30,9 @@ struct TruthSource {
     CameraModel model;
     int oversampling = 1;  // oversampling of the radiance image
     SpectralGrid grid{{0.4, 0.7}};
-    std::vector<std::string> things;  // names of the objects, by number from 1
-    std::vector<std::string> parts;   // names of the renderer's objects
+    std::vector<std::string> things;              // names of the objects, by number from 1
+    std::vector<std::string> parts;               // names of the renderer's objects
+    std::shared_ptr<const GroundTruth> ground{};  // finds craters and boulders; null: nobody asked
 };
 
 class TruthDocument {

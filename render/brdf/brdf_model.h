@@ -12,11 +12,13 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "render/brdf/microfacet.h"
 #include "render/vocabulary/config_field.h"
+#include "render/vocabulary/hapke_parameters.h"
 #include "render/vocabulary/spectrum.h"
 #include "render/vocabulary/vec.h"
 
@@ -49,6 +51,7 @@ struct SurfaceLook {
     float alpha = 0;     // alpha of the facet lobe; 0: an exact mirror on top
     Spectrum base;       // the model's `reflectance`, unless it says otherwise
     Spectrum highlight;  // zero, unless the model says otherwise; what facets reflect at normal incidence
+    std::optional<HapkeParameters> hapke{};  // the place's own, where maps of the ground have them
 };
 
 // Keys of a material that several models share, or that are no model's.

@@ -4,22 +4,16 @@
 //   f = w/4pi 1/(mu_0e + mu_e) { [1 + B(g)] p(g) + H(mu_0e) H(mu_e) - 1 } S(i, e, psi) mu_0e / mu_0
 //   H by Hapke 2002 (Icarus 157, 523, eq. 13), p a double Henyey-Greenstein function, B the shadow-hiding
 //   surge of 1986, S and the effective cosines the macroscopic roughness of 1984 (Icarus 59, 41).
-// `reflectance` is the single-scattering albedo w. Not modelled: porosity, coherent backscatter,
+// `reflectance` is the single-scattering albedo w. Maps of the ground give the other parameters by place. Not modelled: porosity, coherent backscatter,
 // polarisation.
 
 #include "render/brdf/brdf_model.h"
+#include "render/vocabulary/hapke_parameters.h"
 #include "render/vocabulary/units.h"
 
 namespace hilcam {
 
 // --- The law, for whoever reflects by it
-
-struct HapkeParameters {
-    float b = 0.25f, c = 0.5f;    // Henyey-Greenstein: width of both lobes, (1+c)/2 is the backward share
-    float surge_amplitude = 0;    // B0
-    float surge_width = 0.05f;    // h
-    float roughness_tangent = 0;  // tan of the mean slope theta-bar
-};
 
 // The part of the model that does not depend on the wavelength.
 struct HapkeGeometry {
@@ -106,12 +100,14 @@ struct Hapke : BrdfModel<Hapke> {
         double slope_rad = 0;  // mean slope theta-bar
     };
     static Fields fields(Keys& k) {
-        return {number("lobe_width", k.lobe_width, 1, {0, 0.95}, "b of hapke"),
-                number("lobe_backward", k.lobe_backward, 1, {-1, 1},
+        const auto range = [](const HapkeLimits& limits) { return Range{limits.least, limits.most}; };
+        return {number("lobe_width", k.lobe_width, 1, range(kLobeWidthLimits), "b of hapke"),
+                number("lobe_backward", k.lobe_backward, 1, range(kLobeBackwardLimits),
                        "c of hapke: (1+c)/2 of the light goes backward"),
-                number("surge_amplitude", k.surge_amplitude, 1, {0, 10}, "B0 of hapke: opposition surge"),
-                number("surge_width", k.surge_width, 1, {1e-4, 1}, "h of hapke: its width"),
-                number("slope_deg", k.slope_rad, kDegree_rad, {0, 60},
+                number("surge_amplitude", k.surge_amplitude, 1, range(kSurgeAmplitudeLimits),
+                       "B0 of hapke: opposition surge"),
+                number("surge_width", k.surge_width, 1, range(kSurgeWidthLimits), "h of hapke: its width"),
+                number("slope_deg", k.slope_rad, kDegree_rad, range(kSlopeLimits_deg),
                        "theta-bar of hapke: mean slope of the surface")};
     }
 
@@ -123,7 +119,7 @@ struct Hapke : BrdfModel<Hapke> {
                      static_cast<float>(std::tan(k.slope_rad))} {}
 
     Spectrum value(const SurfaceLook& at, Cosines c) const {
-        const HapkeGeometry g = hapke_geometry(parameters, c.no, c.ni, c.io);
+        const HapkeGeometry g = hapke_geometry(at.hapke.value_or(parameters), c.no, c.ni, c.io);
         Spectrum f;
         for (int b = 0; b < kMaxBins; ++b) f[b] = hapke(g, at.base[b]);
         return f;

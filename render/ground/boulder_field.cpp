@@ -31,84 +31,71 @@ void validate(const BoulderSettings& b) {
     if (!(b.smallest_m < b.largest_m)) throw KeyError("largest_m", "is not above smallest_m");
 }
 
-BoulderField::BoulderField(double radius_m, const BoulderSettings& s) : radius_m_(radius_m), settings_(s) {
-    // abundance = integral of pi/4 D^2 slim dN, dN = K b D^(-b - 1) dD.
-    factor_ = s.abundance /
-              (0.25 * kPi * kMeanSlim * s.exponent * area_integral(s.exponent, s.smallest_m, s.largest_m));
-    std::uint32_t number = 0;
-    for (double least_m = s.smallest_m; least_m < s.largest_m; least_m *= 2) {
-        const double most_m = std::min(2 * least_m, s.largest_m);
-        const double density = per_m2(least_m) - per_m2(most_m);
-        // About one in a cell, none wider than it.
-        octaves_.push_back({least_m, most_m, density,
-                            GroundCells(radius_m, std::max(most_m, std::sqrt(1 / density)), number++)});
-    }
-}
+// abundance = integral of pi/4 D^2 slim dN, dN = K b D^(-b - 1) dD. Cells have about one boulder, none wider than they are.
+BoulderField::BoulderField(double radius_m, const BoulderSettings& s,
+                           std::shared_ptr<const SeededFactor> factor)
+    : radius_m_(radius_m),
+      settings_(s),
+      by_place_(std::move(factor)),
+      factor_(s.abundance /
+              (0.25 * kPi * kMeanSlim * s.exponent * area_integral(s.exponent, s.smallest_m, s.largest_m))),
+      octaves_(
+          radius_m, s.seed, RandomPurpose::kBoulder, s.smallest_m, s.largest_m,
+          [this](double diameter_m) { return per_m2(diameter_m); },
+          [](const SeededOctaves::Octave& octave) {
+              return std::max(octave.most_m, std::sqrt(1 / octave.per_m2));
+          },
+          by_place_) {}
 
 double BoulderField::per_m2(double diameter_m) const {
     return factor_ * std::pow(diameter_m, -settings_.exponent);
 }
 
-void BoulderField::find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
-                               std::vector<Shaped>& boulders) const {
-    std::vector<GroundCells::Cell> cells;
-    octave.cells.find(middle, reach_rad, cells);
-    const RandomKey seed{static_cast<std::uint64_t>(settings_.seed), 0};
-    constexpr RandomPurpose kPurpose = RandomPurpose::kBoulder;
-    for (const GroundCells::Cell& cell : cells) {
-        const int count =
-            octave.cells.count(cell, octave.per_m2 * octave.cells.area_m2(cell), seed, kPurpose);
-        for (int k = 0; k < count; ++k) {
-            const auto first = octave.cells.words(cell, k, 0, seed, kPurpose);
-            Shaped& b = boulders.emplace_back();
-            b.place =
-                octave.cells.direction(cell, GroundCells::uniform(first[0]), GroundCells::uniform(first[1]));
-            const double number = per_m2(octave.most_m) + GroundCells::uniform(first[2]) * octave.per_m2;
-            b.diameter_m = std::pow(number / factor_, -1 / settings_.exponent);
-            b.turn_rad = kPi * GroundCells::uniform(first[3]);
-            const auto shape = octave.cells.words(cell, k, 1, seed, kPurpose);
-            b.slim = kSlimFrom + (1 - kSlimFrom) * GroundCells::uniform(shape[0]);
-            b.height_m = b.diameter_m * (0.3 + 0.35 * GroundCells::uniform(shape[1])) * b.slim;
-            b.bright = 0.85 + 0.4 * GroundCells::uniform(shape[2]);
-            for (std::size_t i = 0; i < kPlanes; ++i) {
-                const auto plane =
-                    octave.cells.words(cell, k, static_cast<std::uint32_t>(2 + i), seed, kPurpose);
-                // Planes lean by 10 to 80 deg, each in its sector.
-                const double turn = 2 * kPi * (static_cast<double>(i) + GroundCells::uniform(plane[0])) /
-                                    kPlanes,
-                             lean = 0.17 + 1.22 * GroundCells::uniform(plane[1]);
-                b.plane[i] = {std::sin(lean) * std::cos(turn), std::sin(lean) * std::sin(turn),
-                              std::cos(lean)};
-                b.plane_at[i] = 0.62 + 0.33 * GroundCells::uniform(plane[2]);
-            }
-        }
+double BoulderField::per_m2_at(Vec3d place, double diameter_m) const {
+    double factor = 1;
+    if (by_place_) by_place_->find({&place, 1}, {&factor, 1});
+    return factor * per_m2(diameter_m);
+}
+
+BoulderField::Shaped BoulderField::shaped(const SeededOctaves::Thing& thing) const {
+    Shaped b;
+    b.place = thing.place;
+    b.diameter_m = std::pow(thing.above / factor_, -1 / settings_.exponent);
+    b.turn_rad = kPi * thing.spare;
+    const auto shape = thing.words(1);
+    b.slim = kSlimFrom + (1 - kSlimFrom) * GroundCells::uniform(shape[0]);
+    b.height_m = b.diameter_m * (0.3 + 0.35 * GroundCells::uniform(shape[1])) * b.slim;
+    b.bright = 0.85 + 0.4 * GroundCells::uniform(shape[2]);
+    for (std::size_t i = 0; i < kPlanes; ++i) {
+        const auto plane = thing.words(static_cast<std::uint32_t>(2 + i));
+        // Planes lean by 10 to 80 deg, each in its sector.
+        const double turn = 2 * kPi * (static_cast<double>(i) + GroundCells::uniform(plane[0])) / kPlanes,
+                     lean = 0.17 + 1.22 * GroundCells::uniform(plane[1]);
+        b.plane[i] = {std::sin(lean) * std::cos(turn), std::sin(lean) * std::sin(turn), std::cos(lean)};
+        b.plane_at[i] = 0.62 + 0.33 * GroundCells::uniform(plane[2]);
     }
+    return b;
 }
 
 void BoulderField::find(Vec3d middle, double reach_rad, double smallest_m,
                         std::vector<Boulder>& boulders) const {
-    std::vector<Shaped> all;
-    for (const Octave& octave : octaves_)
-        if (octave.most_m > smallest_m) find_shaped(octave, middle, reach_rad, all);
-    for (const Shaped& b : all)
-        if (b.diameter_m >= smallest_m && length(b.place - middle) <= 2 * std::sin(0.5 * reach_rad))
-            boulders.push_back(b);
+    octaves_.visit_within(middle, reach_rad, smallest_m, [&](const SeededOctaves::Thing& thing) {
+        if (const Shaped b = shaped(thing); b.diameter_m >= smallest_m) boulders.push_back(b);
+    });
 }
 
 void BoulderField::add(const GroundPatch& patch) const {
-    std::vector<Shaped> boulders;
+    // A boulder of fewer posts is no boulder.
     constexpr double kPosts = 3;
-    for (const Octave& octave : octaves_)
-        if (octave.least_m >= kPosts * patch.texel_m)
-            find_shaped(octave, patch.middle, patch.reach_rad + octave.most_m / radius_m_, boulders);
-    for (const Shaped& boulder : boulders) add_one(boulder, patch);
+    octaves_.visit_on(patch, kPosts, 1,
+                      [&](const SeededOctaves::Thing& thing) { add_one(shaped(thing), patch); });
 }
 
 void BoulderField::add_one(const Shaped& b, const GroundPatch& patch) const {
     const double radius_m = 0.5 * b.diameter_m;
     if (length(b.place - patch.middle) > patch.reach_rad * 1.001 + radius_m / radius_m_) return;
-    const Vec3d aside = std::abs(b.place.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
-    const Vec3d east = normalized(cross(aside, b.place)), north = cross(b.place, east);
+    const AlongGround axes = axes_along(b.place);
+    const Vec3d east = axes.east, north = axes.north;
     const double c = std::cos(b.turn_rad), s = std::sin(b.turn_rad);
     const double per_radius = radius_m_ / radius_m;
     patch.for_each(patch.window(b.place, radius_m / radius_m_), [&](std::size_t i) {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/ground/ground_cells.h"
 #include "render/ground/ground_detail.h"
+#include "render/ground/seeded_octaves.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
@@ -31,12 +31,15 @@ struct Boulder {
 
 class BoulderField final : public GroundDetail {
   public:
-    BoulderField(double radius_m, const BoulderSettings& settings);
+    // factor: on the settings' abundance, by place; null: that everywhere.
+    BoulderField(double radius_m, const BoulderSettings& settings,
+                 std::shared_ptr<const SeededFactor> factor = nullptr);
     void add(const GroundPatch& patch) const override;
     // Appends the boulders above a diameter with their middles within an angle of a direction.
     void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Boulder>& boulders) const;
-    // Number per square metre of diameters above one.
+    // Number per square metre of diameters above one, by the settings, and at a place.
     double per_m2(double diameter_m) const;
+    double per_m2_at(Vec3d place, double diameter_m) const;
 
   private:
     static constexpr int kPlanes = 6;
@@ -48,15 +51,11 @@ class BoulderField final : public GroundDetail {
     };
     double radius_m_;
     BoulderSettings settings_;
+    std::shared_ptr<const SeededFactor> by_place_;
     double factor_;  // K
-    struct Octave {
-        double least_m, most_m, per_m2;
-        GroundCells cells;
-    };
-    std::vector<Octave> octaves_;
+    SeededOctaves octaves_;
 
-    void find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
-                     std::vector<Shaped>& boulders) const;
+    Shaped shaped(const SeededOctaves::Thing& thing) const;
     void add_one(const Shaped& boulder, const GroundPatch& patch) const;
 };
 

@@ -30,72 +30,47 @@ void validate(const CraterSettings& c) {
     if (!(c.smallest_m < c.largest_m)) throw KeyError("largest_m", "is not above smallest_m");
 }
 
-CraterField::CraterField(double radius_m, const CraterSettings& settings)
+CraterField::CraterField(double radius_m, const CraterSettings& s)
     : radius_m_(radius_m),
-      settings_(settings),
-      law_(settings.age_ga, settings.smallest_m, settings.largest_m) {
-    std::uint32_t number = 0;
-    for (double least_m = settings.smallest_m; least_m < settings.largest_m; least_m *= 2) {
-        const double most_m = std::min(2 * least_m, settings.largest_m);
-        octaves_.push_back({least_m, most_m, law_.per_m2(least_m) - law_.per_m2(most_m),
-                            GroundCells(radius_m, CraterProfile::kReach * least_m, number++)});
-    }
-}
+      settings_(s),
+      law_(s.age_ga, s.smallest_m, s.largest_m),
+      octaves_(
+          radius_m, s.seed, RandomPurpose::kCrater, s.smallest_m, s.largest_m,
+          [this](double diameter_m) { return law_.per_m2(diameter_m); },
+          [](const SeededOctaves::Octave& octave) { return CraterProfile::kReach * octave.least_m; }) {}
 
-void CraterField::find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
-                              std::vector<Shaped>& craters) const {
-    std::vector<GroundCells::Cell> cells;
-    octave.cells.find(middle, reach_rad, cells);
-    const RandomKey seed{static_cast<std::uint64_t>(settings_.seed), 0};
-    constexpr RandomPurpose kPurpose = RandomPurpose::kCrater;
-    for (const GroundCells::Cell& cell : cells) {
-        const int count =
-            octave.cells.count(cell, octave.per_m2 * octave.cells.area_m2(cell), seed, kPurpose);
-        for (int k = 0; k < count; ++k) {
-            const auto first = octave.cells.words(cell, k, 0, seed, kPurpose);
-            Shaped& c = craters.emplace_back();
-            c.place =
-                octave.cells.direction(cell, GroundCells::uniform(first[0]), GroundCells::uniform(first[1]));
-            c.diameter_m =
-                law_.diameter_m(law_.per_m2(octave.most_m) + GroundCells::uniform(first[2]) * octave.per_m2);
-            const double radius_m = 0.5 * c.diameter_m;
-            const double oldest = settings_.diffusivity_m2_ga * settings_.age_ga / (radius_m * radius_m);
-            c.worn = GroundCells::uniform(first[3]) * std::min(CraterProfile::kMostWorn, oldest);
-            const auto waves = octave.cells.words(cell, k, 1, seed, kPurpose);
-            const auto phases = octave.cells.words(cell, k, 2, seed, kPurpose);
-            for (std::size_t i = 0; i < 4; ++i) {
-                const double wave =
-                    0.06 * (GroundCells::uniform(waves[i]) - 0.5) / (1 + 0.5 * static_cast<double>(i));
-                const double phase_rad = 2 * kPi * GroundCells::uniform(phases[i]);
-                c.wave_cos[i] = wave * std::cos(phase_rad), c.wave_sin[i] = wave * std::sin(phase_rad);
-            }
-            const auto rays = octave.cells.words(cell, k, 3, seed, kPurpose);
-            c.bright = settings_.rays * std::max(0.0, 1 - c.worn / kRaysWorn);
-            c.ray_phase_rad = 2 * kPi * GroundCells::uniform(rays[0]);
-            c.ray_count = 5 + static_cast<int>(rays[1] % 7);
-        }
+CraterField::Shaped CraterField::shaped(const SeededOctaves::Thing& thing) const {
+    Shaped c;
+    c.place = thing.place;
+    c.diameter_m = law_.diameter_m(thing.above);
+    const double radius_m = 0.5 * c.diameter_m;
+    const double oldest = settings_.diffusivity_m2_ga * settings_.age_ga / (radius_m * radius_m);
+    c.worn = thing.spare * std::min(CraterProfile::kMostWorn, oldest);
+    const auto waves = thing.words(1), phases = thing.words(2), rays = thing.words(3);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double wave =
+            0.06 * (GroundCells::uniform(waves[i]) - 0.5) / (1 + 0.5 * static_cast<double>(i));
+        const double phase_rad = 2 * kPi * GroundCells::uniform(phases[i]);
+        c.wave_cos[i] = wave * std::cos(phase_rad), c.wave_sin[i] = wave * std::sin(phase_rad);
     }
+    c.bright = settings_.rays * std::max(0.0, 1 - c.worn / kRaysWorn);
+    c.ray_phase_rad = 2 * kPi * GroundCells::uniform(rays[0]);
+    c.ray_count = 5 + static_cast<int>(rays[1] % 7);
+    return c;
 }
 
 void CraterField::find(Vec3d middle, double reach_rad, double smallest_m,
                        std::vector<Crater>& craters) const {
-    std::vector<Shaped> all;
-    for (const Octave& octave : octaves_)
-        if (octave.most_m > smallest_m) find_shaped(octave, middle, reach_rad, all);
-    for (const Shaped& c : all)
-        if (c.diameter_m >= smallest_m && length(c.place - middle) <= 2 * std::sin(0.5 * reach_rad))
-            craters.push_back(c);
+    octaves_.visit_within(middle, reach_rad, smallest_m, [&](const SeededOctaves::Thing& thing) {
+        if (const Shaped c = shaped(thing); c.diameter_m >= smallest_m) craters.push_back(c);
+    });
 }
 
 void CraterField::add(const GroundPatch& patch) const {
-    std::vector<Shaped> craters;
     // A crater of fewer posts is no crater.
     constexpr double kPosts = 2.5;
-    for (const Octave& octave : octaves_)
-        if (octave.least_m >= kPosts * patch.texel_m)
-            find_shaped(octave, patch.middle, patch.reach_rad + kRayReach * 0.5 * octave.most_m / radius_m_,
-                        craters);
-    for (const Shaped& crater : craters) add_one(crater, patch);
+    octaves_.visit_on(patch, kPosts, 0.5 * kRayReach,
+                      [&](const SeededOctaves::Thing& thing) { add_one(shaped(thing), patch); });
 }
 
 void CraterField::add_one(const Shaped& c, const GroundPatch& patch) const {
@@ -104,8 +79,8 @@ void CraterField::add_one(const Shaped& c, const GroundPatch& patch) const {
     if (length(c.place - patch.middle) * radius_m_ > patch.reach_rad * radius_m_ * 1.001 + reach * radius_m)
         return;
     const double depth_m = CraterProfile::fresh_depth(c.diameter_m) * c.diameter_m;
-    const Vec3d aside = std::abs(c.place.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
-    const Vec3d east = normalized(cross(aside, c.place)), north = cross(c.place, east);
+    const AlongGround axes = axes_along(c.place);
+    const Vec3d east = axes.east, north = axes.north;
     const double most2 = (reach * 1.1 * radius_m / radius_m_) * (reach * 1.1 * radius_m / radius_m_);
     patch.for_each(patch.window(c.place, reach * 1.1 * radius_m / radius_m_), [&](std::size_t i) {
         const Vec3d away = patch.places[i] - c.place;

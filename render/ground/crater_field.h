@@ -12,8 +12,8 @@
 
 #include "render/ground/crater_law.h"
 #include "render/ground/crater_profile.h"
-#include "render/ground/ground_cells.h"
 #include "render/ground/ground_detail.h"
+#include "render/ground/seeded_octaves.h"
 #include "render/vocabulary/config_field.h"
 
 namespace hilcam {
@@ -41,7 +41,9 @@ class CraterField final : public GroundDetail {
     void add(const GroundPatch& patch) const override;
     // Appends the craters above a diameter with their middles within an angle of a direction.
     void find(Vec3d middle, double reach_rad, double smallest_m, std::vector<Crater>& craters) const;
-    const CraterLaw& law() const { return law_; }
+    // Number per square metre of diameters above one, which is the same at any place.
+    double per_m2(double diameter_m) const { return law_.per_m2(diameter_m); }
+    double per_m2_at(Vec3d, double diameter_m) const { return per_m2(diameter_m); }
 
   private:
     struct Shaped : Crater {
@@ -53,14 +55,9 @@ class CraterField final : public GroundDetail {
     CraterSettings settings_;
     CraterLaw law_;
     CraterProfile profile_;
-    struct Octave {
-        double least_m, most_m, per_m2;
-        GroundCells cells;
-    };
-    std::vector<Octave> octaves_;
+    SeededOctaves octaves_;
 
-    void find_shaped(const Octave& octave, Vec3d middle, double reach_rad,
-                     std::vector<Shaped>& craters) const;
+    Shaped shaped(const SeededOctaves::Thing& thing) const;
     void add_one(const Shaped& crater, const GroundPatch& patch) const;
 };
 

@@ -32,6 +32,16 @@ struct CubePoint {
     Vec2d at;  // right, up; within -1 .. 1
 };
 
+// Two directions along the ground at a place: in right angles to it and to each other; east and north but near the poles.
+struct AlongGround {
+    Vec3d east, north;
+};
+inline AlongGround axes_along(Vec3d place) {
+    const Vec3d aside = std::abs(place.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
+    const Vec3d east = normalized(cross(aside, place));
+    return {east, cross(place, east)};
+}
+
 // Returns the unit vector of a point; coordinates may go beyond the face a little.
 inline Vec3d cube_direction(int face, Vec2d at) {
     const CubeFace& f = kCube[static_cast<std::size_t>(face)];

@@ -36,8 +36,8 @@ GlobeTerrain::GlobeTerrain(const Figure& figure, std::vector<GroundMap> maps,
                            const GlobeSettings& settings)
     : surface_(figure, std::move(maps), settings.most_bytes / 2),
       details_(std::move(details)),
-      maker_(surface_, details_),
-      most_tiles_(settings.most_bytes / 2 / GroundTile::kBytes),
+      maker_(surface_, details_, settings.hapke),
+      most_tiles_(settings.most_bytes / 2 / tile_bytes()),
       finest_level_(0) {
     while (finest_level_ < kFinestLevel && maker_.spacing_m(finest_level_) > settings.finest_m)
         ++finest_level_;
@@ -144,7 +144,8 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
     Mesh& mesh = out.mesh;
     mesh.vertices_m.resize(leaves.size() * kTileVertices);
     mesh.normals.resize(mesh.vertices_m.size());
-    if (surface_.has_colors() || !details_.empty()) mesh.colors.resize(mesh.vertices_m.size());
+    if (surface_.has(GroundKind::kAlbedo) || !details_.empty()) mesh.colors.resize(mesh.vertices_m.size());
+    if (surface_.has_hapke()) mesh.hapke.resize(mesh.vertices_m.size());
     mesh.triangles.resize(leaves.size() * kTileTriangles);
     mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
     mesh.surfaces.resize(1);
@@ -177,6 +178,8 @@ void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& lea
             to_float(shift_m + (own_m + static_cast<double>(share) * (above_m - own_m)));
         mesh.normals[first + i] = normalized(own.normal + share * (above.normal - own.normal));
         if (!mesh.colors.empty()) mesh.colors[first + i] = own.color + share * (above.color - own.color);
+        if (!mesh.hapke.empty())
+            mesh.hapke[first + i] = blend(tile.own_hapke[i], 1 - share, tile.above_hapke[i], share, {}, 0);
     }
     std::size_t triangle = index * kTileTriangles;
     const auto vertex = [&](std::size_t k) { return static_cast<std::uint32_t>(first + k); };
@@ -194,6 +197,7 @@ void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& lea
         mesh.vertices_m[first + kInner + k] = mesh.vertices_m[first + edge] + down;
         mesh.normals[first + kInner + k] = mesh.normals[first + edge];
         if (!mesh.colors.empty()) mesh.colors[first + kInner + k] = mesh.colors[first + edge];
+        if (!mesh.hapke.empty()) mesh.hapke[first + kInner + k] = mesh.hapke[first + edge];
         const std::uint32_t below = vertex(kInner + k), next_below = vertex(kInner + (k + 1) % kBorder);
         mesh.triangles[triangle++] = {vertex(edge), below, vertex(next)};
         mesh.triangles[triangle++] = {vertex(next), below, next_below};

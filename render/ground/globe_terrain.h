@@ -20,7 +20,8 @@ namespace hilcam {
 
 struct GlobeSettings {
     std::size_t most_bytes = std::size_t{512} << 20;  // memory of maps and tiles that are kept
-    double finest_m = 0.01;  // vertices are not nearer to each other than this, about
+    double finest_m = 0.01;   // vertices are not nearer to each other than this, about
+    HapkeParameters hapke{};  // the material's own, where maps have others by place
 };
 
 class GlobeTerrain final : public Terrain {
@@ -34,7 +35,7 @@ class GlobeTerrain final : public Terrain {
     std::optional<double> height_above_ground_m(Vec3d) const override { return {}; }
 
     // Returns how many bytes maps and tiles hold. The thread of mesh().
-    std::size_t kept_bytes() const { return surface_.pages().bytes() + tiles_.size() * GroundTile::kBytes; }
+    std::size_t kept_bytes() const { return surface_.pages().bytes() + tiles_.size() * tile_bytes(); }
 
   private:
     static constexpr double kOutside = 32;
@@ -50,6 +51,9 @@ class GlobeTerrain final : public Terrain {
     std::uint64_t mesh_number_ = 0;
     std::unordered_map<std::uint64_t, std::unique_ptr<GroundTile>> tiles_;
 
+    std::size_t tile_bytes() const {
+        return GroundTile::kBytes + (surface_.has_hapke() ? GroundTile::kHapkeBytes : 0);
+    }
     void require(std::span<const GroundTileKey> keys);
     bool select(const TerrainView& view, double edges, std::size_t most_triangles, std::vector<Leaf>& leaves);
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;

@@ -19,8 +19,7 @@ void GroundCells::find(Vec3d middle, double reach_rad, std::vector<Cell>& cells)
     const double pitch_rad = 0.25 * kPi / 1.42 / std::ldexp(1.0, bits_);
     const double reach = std::min(reach_rad, 0.45 * kPi) + pitch_rad;
     const int steps = static_cast<int>(std::ceil(reach / pitch_rad));
-    const Vec3d aside = std::abs(middle.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
-    const Vec3d right = normalized(cross(aside, middle)), up = cross(middle, right);
+    const auto [right, up] = axes_along(middle);
     const double cells_across = std::ldexp(1.0, bits_);
     const auto first = static_cast<std::ptrdiff_t>(cells.size());
     const auto index = [&](double x) {

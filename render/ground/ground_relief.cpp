@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/ground/cube_sphere.h"
 #include "render/vocabulary/random.h"
 #include "render/vocabulary/units.h"
 
@@ -89,8 +90,8 @@ std::optional<ReliefSettings> measured_relief(GroundSurface& surface, double spa
         // Even over the sphere: a golden-angle spiral.
         const double z = 1 - 2 * (i + 0.5) / kPlaces, r = std::sqrt(1 - z * z), turn = 2.399963229728653 * i;
         const Vec3d at{r * std::cos(turn), r * std::sin(turn), z};
-        const Vec3d aside = normalized(cross(std::abs(z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}, at));
-        const Vec3d way = std::cos(turn * 7) * aside + std::sin(turn * 7) * cross(at, aside);
+        const auto [east, north] = axes_along(at);
+        const Vec3d way = std::cos(turn * 7) * east + std::sin(turn * 7) * north;
         places.push_back(at);
         for (const double lag : kLags) places.push_back(normalized(at + lag * spacing_m / radius_m * way));
     }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/vocabulary/units.h"
+
 namespace hilcam {
 namespace {
 
@@ -31,12 +33,12 @@ GroundSurface::GroundSurface(const Figure& figure, std::vector<GroundMap> maps, 
     : figure_(figure), pages_(most_bytes) {
     std::uint32_t key = 0;
     for (GroundMap& map : maps) {
-        std::vector<Layer>& layers = map.kind == GroundKind::kHeights ? heights_ : albedo_;
+        std::vector<Layer>& layers = layers_[static_cast<std::size_t>(map.kind)];
         const int levels = levels_of(map.raster->shape());
         layers.push_back({std::move(map), key++, levels});
     }
-    for (std::vector<Layer>* layers : {&heights_, &albedo_})
-        std::stable_sort(layers->begin(), layers->end(), [](const Layer& a, const Layer& b) {
+    for (std::vector<Layer>& layers : layers_)
+        std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) {
             return a.map.raster->shape().spacing_m < b.map.raster->shape().spacing_m;
         });
 }
@@ -128,13 +130,13 @@ GroundSurface::Sample GroundSurface::sample(Layer& layer, Vec2d post, int level)
     return out;
 }
 
-// Calls add(index, sample) for each place and each layer from the finest on; it returns what weight is left.
+// Calls add(index, share, value) for each place and each layer of a kind from the finest on; it returns what weight is left.
 template <class Add>
-void GroundSurface::visit(std::vector<Layer>& layers, std::span<const Vec3d> places, double footprint_m,
+void GroundSurface::visit(GroundKind kind, std::span<const Vec3d> places, double footprint_m,
                           const Add& add) {
     std::vector<double> left(places.size(), 1.0);
     posts_.resize(places.size());
-    for (Layer& layer : layers) {
+    for (Layer& layer : layers_[static_cast<std::size_t>(kind)]) {
         if (std::none_of(left.begin(), left.end(), [](double share) { return share > 0; })) return;
         layer.map.raster->find_posts(places, posts_);
         const double across = footprint_m / layer.map.raster->shape().spacing_m;
@@ -152,15 +154,52 @@ void GroundSurface::visit(std::vector<Layer>& layers, std::span<const Vec3d> pla
 void GroundSurface::find_heights(std::span<const Vec3d> places, double footprint_m,
                                  std::span<double> heights_m) {
     std::fill(heights_m.begin(), heights_m.end(), 0.0);
-    visit(heights_, places, footprint_m,
+    visit(GroundKind::kHeights, places, footprint_m,
           [&](std::size_t i, double share, Vec3d value) { heights_m[i] += share * value.x; });
 }
 
 void GroundSurface::find_colors(std::span<const Vec3d> places, double footprint_m, std::span<Vec3f> colors) {
     std::fill(colors.begin(), colors.end(), Vec3f{1, 1, 1});
-    visit(albedo_, places, footprint_m, [&](std::size_t i, double share, Vec3d value) {
+    visit(GroundKind::kAlbedo, places, footprint_m, [&](std::size_t i, double share, Vec3d value) {
         colors[i] = colors[i] + to_float(share * (value - Vec3d{1, 1, 1}));
     });
+}
+
+void GroundSurface::find_figures(GroundKind kind, std::span<const Vec3d> places, double footprint_m,
+                                 std::span<double> figures) {
+    const std::vector<double> own(figures.begin(), figures.end());
+    const HapkeLimits limits = limits_of(kind).value_or(HapkeLimits{-1e300, 1e300});
+    visit(kind, places, footprint_m, [&](std::size_t i, double share, Vec3d value) {
+        figures[i] += share * (std::clamp(value.x, limits.least, limits.most) - own[i]);
+    });
+}
+
+bool GroundSurface::has_hapke() const {
+    return std::any_of(layers_.begin() + static_cast<int>(GroundKind::kLobeWidth), layers_.end(),
+                       [](const std::vector<Layer>& layers) { return !layers.empty(); });
+}
+
+void GroundSurface::find_hapke(std::span<const Vec3d> places, double footprint_m,
+                               std::span<HapkeParameters> hapke) {
+    std::vector<double> figures(places.size());
+    const auto find = [&](GroundKind kind, float HapkeParameters::*of) {
+        if (!has(kind)) return;
+        for (std::size_t i = 0; i < places.size(); ++i) figures[i] = static_cast<double>(hapke[i].*of);
+        find_figures(kind, places, footprint_m, figures);
+        for (std::size_t i = 0; i < places.size(); ++i) hapke[i].*of = static_cast<float>(figures[i]);
+    };
+    find(GroundKind::kLobeWidth, &HapkeParameters::b);
+    find(GroundKind::kLobeBackward, &HapkeParameters::c);
+    find(GroundKind::kSurgeAmplitude, &HapkeParameters::surge_amplitude);
+    find(GroundKind::kSurgeWidth, &HapkeParameters::surge_width);
+    if (!has(GroundKind::kSlope)) return;
+    for (HapkeParameters& p : hapke)
+        p.roughness_tangent =
+            static_cast<float>(std::atan(static_cast<double>(p.roughness_tangent)) / kDegree_rad);
+    find(GroundKind::kSlope, &HapkeParameters::roughness_tangent);
+    for (HapkeParameters& p : hapke)
+        p.roughness_tangent =
+            static_cast<float>(std::tan(static_cast<double>(p.roughness_tangent) * kDegree_rad));
 }
 
 }  // namespace hilcam

@@ -1,5 +1,5 @@
 #pragma once
-// The ground of a body as a function of the place: heights and colours of nested maps. Where
+// The ground of a body as a function of the place: heights, colours and other figures of nested maps. Where
 // several maps of a kind lie over each other the finest counts, blended into the one below at its margin; where there is
 // none, the height is 0 and the factor on the reflectance 1.
 //
@@ -7,18 +7,54 @@
 // through the posts, too; where a footprint is wider than the posts are apart, from a pyramid of means of 2 x 2. A hole
 // shows what lies below it. A pole has the mean of the row beside it.
 
+#include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "render/ground/ground_pages.h"
 #include "render/ground/ground_raster.h"
 #include "render/sky/bodies.h"
+#include "render/vocabulary/hapke_parameters.h"
 
 namespace hilcam {
 
-enum class GroundKind { kHeights, kAlbedo };
+// A map's values are one of these. Those of Hapke's law are in the order of HapkeParameters; the slope is in degrees.
+enum class GroundKind {
+    kHeights,
+    kAlbedo,
+    kRockAbundance,
+    kLobeWidth,
+    kLobeBackward,
+    kSurgeAmplitude,
+    kSurgeWidth,
+    kSlope
+};
+inline constexpr std::size_t kGroundKinds = 8;
+// Returns the least and the greatest figure of kinds that have such bounds.
+inline std::optional<HapkeLimits> limits_of(GroundKind kind) {
+    switch (kind) {
+        case GroundKind::kHeights:
+        case GroundKind::kAlbedo:
+            break;
+        case GroundKind::kRockAbundance:
+            return HapkeLimits{0, 0.5};
+        case GroundKind::kLobeWidth:
+            return kLobeWidthLimits;
+        case GroundKind::kLobeBackward:
+            return kLobeBackwardLimits;
+        case GroundKind::kSurgeAmplitude:
+            return kSurgeAmplitudeLimits;
+        case GroundKind::kSurgeWidth:
+            return kSurgeWidthLimits;
+        case GroundKind::kSlope:
+            return kSlopeLimits_deg;
+    }
+    return {};
+}
+inline bool is_of_hapke(GroundKind kind) { return kind >= GroundKind::kLobeWidth; }
 enum class GroundBetween { kBilinear, kCubic };
 
 struct GroundMap {
@@ -38,11 +74,18 @@ class GroundSurface {
     void find_heights(std::span<const Vec3d> places, double footprint_m, std::span<double> heights_m);
     // Finds the factors on the material's reflectance, linear red, green, blue.
     void find_colors(std::span<const Vec3d> places, double footprint_m, std::span<Vec3f> colors);
+    // Finds figures of a kind with one channel, within its limits; where there is no map they stay as they are given.
+    void find_figures(GroundKind kind, std::span<const Vec3d> places, double footprint_m,
+                      std::span<double> figures);
+    // Finds the parameters of Hapke's law; where there is no map they stay as they are given.
+    void find_hapke(std::span<const Vec3d> places, double footprint_m, std::span<HapkeParameters> hapke);
     // Returns the spacing of the finest map of heights, or a very large one.
     double finest_m() const {
-        return heights_.empty() ? 1e30 : heights_.front().map.raster->shape().spacing_m;
+        const std::vector<Layer>& heights = layers_of(GroundKind::kHeights);
+        return heights.empty() ? 1e30 : heights.front().map.raster->shape().spacing_m;
     }
-    bool has_colors() const { return !albedo_.empty(); }
+    bool has(GroundKind kind) const { return !layers_of(kind).empty(); }
+    bool has_hapke() const;
     // Returns a point of the body at a height over a place, in its axes.
     Vec3d point(Vec3d place, double height_m) const;
     const GroundPages& pages() const { return pages_; }
@@ -56,18 +99,21 @@ class GroundSurface {
     };
     Figure figure_;
     GroundPages pages_;
-    std::vector<Layer> heights_, albedo_;  // from the finest to the coarsest
+    std::array<std::vector<Layer>, kGroundKinds> layers_;  // by kind, each from the finest to the coarsest
     std::vector<Vec2d> posts_;
 
     struct Sample {
         Vec3d value;
         double weight = 0;  // 0: a hole, or beside the map
     };
+    const std::vector<Layer>& layers_of(GroundKind kind) const {
+        return layers_[static_cast<std::size_t>(kind)];
+    }
     Sample sample(Layer& layer, Vec2d post, int level);
     bool pole_mean(Layer& layer, int level, int row, Vec3d& mean);
     bool value_at(Layer& layer, int level, int column, int row, Vec3d& value);
     template <class Add>
-    void visit(std::vector<Layer>& layers, std::span<const Vec3d> places, double footprint_m, const Add& add);
+    void visit(GroundKind kind, std::span<const Vec3d> places, double footprint_m, const Add& add);
 };
 
 }  // namespace hilcam

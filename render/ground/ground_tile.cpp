@@ -82,7 +82,7 @@ std::vector<Vec3d> GroundTileMaker::places_of(const Grid& grid, int step, int fi
 
 // Takes what the maps have at the texels, or where they are smooth between these, at the nodes.
 GroundTileMaker::Grid GroundTileMaker::lay(const GroundTileKey& key, int quads, double texel_m) {
-    Grid grid{key, quads, texel_m, texel_m * kTexels < 0.5 * surface_.finest_m(), {}, {}, {}, {}, {}, {}};
+    Grid grid{key, quads, texel_m, texel_m * kTexels < 0.5 * surface_.finest_m(), {}, {}, {}, {}, {}, {}, {}};
     grid.places = places_of(grid, 1, -kBorder, grid.side());
     grid.heights_m.assign(grid.places.size(), 0);
     grid.node_places = places_of(grid, kTexels, -2 * kTexels, grid.nodes());
@@ -92,7 +92,13 @@ GroundTileMaker::Grid GroundTileMaker::lay(const GroundTileKey& key, int quads, 
     else
         surface_.find_heights(grid.places, texel_m, grid.heights_m);
     grid.node_colors.assign(grid.node_places.size(), Vec3f{1, 1, 1});
-    if (surface_.has_colors()) surface_.find_colors(grid.node_places, texel_m * kTexels, grid.node_colors);
+    if (surface_.has(GroundKind::kAlbedo))
+        surface_.find_colors(grid.node_places, texel_m * kTexels, grid.node_colors);
+    if (surface_.has_hapke()) {
+        const std::vector<Vec3d> vertices = places_of(grid, kTexels, 0, quads + 1);
+        grid.hapke.assign(vertices.size(), hapke_);
+        surface_.find_hapke(vertices, texel_m * kTexels, grid.hapke);
+    }
     return grid;
 }
 
@@ -161,11 +167,18 @@ std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above) cons
     const auto at = [&](int x, int y) {
         return coarse.vertices[static_cast<std::size_t>(y / 2 * kHalf + x / 2)];
     };
+    tile->own_hapke = std::move(own.hapke);
+    const auto hapke_at = [&](int x, int y) {
+        return above.hapke[static_cast<std::size_t>(y / 2 * kHalf + x / 2)];
+    };
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             const int right = x % 2, up = y % 2;  // the triangles' diagonal goes from the right to the top
             tile->above.push_back(right + up == 0 ? at(x, y)
                                                   : between(at(x + right, y - up), at(x - right, y + up)));
+            if (!above.hapke.empty())
+                tile->above_hapke.push_back(
+                    blend(hapke_at(x + right, y - up), 0.5f, hapke_at(x - right, y + up), 0.5f, {}, 0));
         }
     for (const std::vector<GroundTile::Look>* looks : {&tile->own, &tile->above})
         for (const GroundTile::Look& look : *looks)

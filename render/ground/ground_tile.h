@@ -42,9 +42,11 @@ struct GroundTile {
     Vec3d middle_m;       // body axes
     double radius_m = 0;  // radius about the middle that holds all
     std::vector<Look> own, above;
+    std::vector<HapkeParameters> own_hapke, above_hapke;  // empty where no map has them
     std::shared_ptr<const GroundNormals::Grid> own_normals, above_normals;
     std::uint64_t used = 0;  // number of the mesh that used it last
 
+    static constexpr std::size_t kHapkeBytes = 2 * sizeof(HapkeParameters) * kSide * kSide;
     static constexpr std::size_t kBytes =
         2 * sizeof(Look) * kSide * kSide +
         sizeof(std::uint32_t) * (GroundNormals::kSide * GroundNormals::kSide +
@@ -55,8 +57,10 @@ struct GroundTile {
 class GroundTileMaker {
   public:
     // All must outlive this. One thread at a time.
-    GroundTileMaker(GroundSurface& surface, std::span<const std::unique_ptr<const GroundDetail>> details)
-        : surface_(surface), details_(details) {}
+    // hapke: the material's own parameters, where maps have others by place.
+    GroundTileMaker(GroundSurface& surface, std::span<const std::unique_ptr<const GroundDetail>> details,
+                    const HapkeParameters& hapke = {})
+        : surface_(surface), details_(details), hapke_(hapke) {}
 
     // Makes tiles on all of oneTBB's threads.
     std::vector<std::unique_ptr<GroundTile>> make(std::span<const GroundTileKey> keys);
@@ -73,6 +77,7 @@ class GroundTileMaker {
         std::vector<Vec3d> places, node_places;
         std::vector<double> heights_m, node_heights_m;
         std::vector<Vec3f> colors, node_colors;
+        std::vector<HapkeParameters> hapke;  // at the vertices; empty where no map has them
 
         int side() const { return quads * GroundNormals::kTexels + 1 + 2 * kBorder; }
         int nodes() const { return quads + 5; }
@@ -84,6 +89,7 @@ class GroundTileMaker {
     };
     GroundSurface& surface_;
     std::span<const std::unique_ptr<const GroundDetail>> details_;
+    HapkeParameters hapke_;
 
     Grid lay(const GroundTileKey& key, int quads, double texel_m);
     std::vector<Vec3d> places_of(const Grid& grid, int step, int first, int side) const;

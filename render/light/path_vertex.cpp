@@ -101,6 +101,7 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
     if (!object.corner_colors.empty())
         vertex.surface.base =
             vertex.surface.base * frame.bands->spectrum(object.color_at(hits.triangle[k], u, v));
+    if (!object.corner_hapke.empty()) vertex.surface.hapke = object.hapke_at(hits.triangle[k], u, v);
     if (material.texture >= 0) {
         const auto& uv = object.corner_uvs[hits.triangle[k]];
         const MipTexture& texture = (*object.textures)[static_cast<std::size_t>(material.texture)];

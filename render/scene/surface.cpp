@@ -82,6 +82,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
         uv_per_m.resize(mesh.triangles.size());
     }
     if (!mesh.colors.empty()) corner_colors.resize(mesh.triangles.size());
+    if (!mesh.hapke.empty()) corner_hapke.resize(mesh.triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         triangles[i].surface = mesh.surface_of_triangle[i];
         // A zero normal stands for "the file has none here".
@@ -96,6 +97,7 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
             triangles[i].corner_normals[k] = flat ? 0 : pack_normal(mesh.normals[vertex]);
             if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
             if (!mesh.colors.empty()) corner_colors[i][k] = pack_color(mesh.colors[vertex]);
+            if (!mesh.hapke.empty()) corner_hapke[i][k] = mesh.hapke[vertex];
         }
         if (textured) uv_per_m[i] = density_of(mesh, mesh.triangles[i]);
     }

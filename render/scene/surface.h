@@ -38,7 +38,8 @@ struct ObjectSurfaces {
     std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
     std::vector<float>
         uv_per_m;  // per triangle of a textured object: length in the picture over length on the surface
-    std::vector<std::array<PackedColor, 3>> corner_colors;  // empty when the mesh has none
+    std::vector<std::array<PackedColor, 3>> corner_colors;     // empty when the mesh has none
+    std::vector<std::array<HapkeParameters, 3>> corner_hapke;  // empty when the mesh has none
     std::vector<Material> materials;
     // The slopes that a level of detail has flattened, as a GGX alpha, by surface; its materials' own alphas
     // have them, too. The mesh itself has flattened none: empty.
@@ -60,6 +61,11 @@ struct ObjectSurfaces {
                    kColorSteps;
         };
         return {at(0), at(1), at(2)};
+    }
+    // Returns the place's parameters of Hapke's law; only where there are corner_hapke.
+    HapkeParameters hapke_at(std::size_t triangle, float u, float v) const {
+        const auto& c = corner_hapke[triangle];
+        return blend(c[0], 1 - u - v, c[1], u, c[2], v);
     }
     // The shading normal at barycentric (u, v), body axes, unit; `geometric` where the mesh has none.
     static Vec3f normal_at(const PackedTriangle& triangle, float u, float v, Vec3f geometric) {

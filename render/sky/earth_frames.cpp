@@ -20,6 +20,18 @@ Mat3d icrf_from_eme2000() {
                             {bias[2][0], bias[2][1], bias[2][2]}});
 }
 
+EarthOfDate1976 earth_of_date_1976(double et_s) {
+    const double days = et_s / 86400;
+    double mean[3][3], nutation[3][3];
+    eraPmat76(2451545.0, days, mean);
+    eraNutm80(2451545.0, days, nutation);
+    const auto matrix = [](const double(&m)[3][3]) {
+        return Mat3d{{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
+    };
+    const Mat3d mean_from_j2000 = matrix(mean);
+    return {mean_from_j2000, matrix(nutation) * mean_from_j2000, eraObl80(2451545.0, days)};
+}
+
 Vec3d earth_rate_rad_s(TimeTai time, const EarthOrientation& measured) {
     return kEarthRate_rad_s * earth_rotated_from_icrf(time, measured).z;
 }

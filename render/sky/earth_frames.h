@@ -17,6 +17,14 @@ Mat3d icrf_from_teme(TimeTai time, const EarthOrientation& measured);
 // Mean equator and equinox of J2000 into ICRF: the frame bias of IAU 2006 (ERFA eraBp06), 23 mas.
 Mat3d icrf_from_eme2000();
 
+// The Earth's mean and true equator and equinox of date by the IAU's precession of 1976 and nutation of 1980 (ERFA's eraPmat76,
+// eraNutm80, eraObl80), as SPICE has them. et_s: TDB seconds since J2000, which TT is 2 ms from. Any thread.
+struct EarthOfDate1976 {
+    Mat3d mean_from_j2000, true_from_j2000;
+    double mean_obliquity_rad;
+};
+EarthOfDate1976 earth_of_date_1976(double et_s);
+
 // The Earth's rotation in ICRF axes: about the celestial intermediate pole, which is not quite ITRF's z.
 Vec3d earth_rate_rad_s(TimeTai time, const EarthOrientation& measured);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/vocabulary/hapke_parameters.h"
 #include "render/vocabulary/vec.h"
 
 namespace hilcam {
@@ -34,6 +35,7 @@ struct Mesh {
     std::vector<Vec3f> normals;  // one unit vector per vertex, or empty: flat shading
     std::vector<Vec2f> uvs;      // one per vertex, or empty: no textures
     std::vector<Vec3f> colors;   // one per vertex, or empty: factors on what the surface reflects, linear RGB
+    std::vector<HapkeParameters> hapke;  // one per vertex, or empty: the material's own
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint16_t> surface_of_triangle;  // index into surfaces
     std::vector<MeshSurface> surfaces;

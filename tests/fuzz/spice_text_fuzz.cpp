@@ -1,12 +1,12 @@
-// Any text is a text kernel, from which times, clocks, frames, orientations and instruments can be asked, or refused in one
+// Any text is a text kernel, from which times, clocks, turns of frames, orientations and instruments can be asked, or refused in one
 // line.
 
 #include <string>
 #include <string_view>
 
 #include "io/spice/body_orientation.h"
-#include "io/spice/frame_definition.h"
 #include "io/spice/instrument_kernel.h"
+#include "io/spice/kernel_frames.h"
 #include "io/spice/kernel_names.h"
 #include "io/spice/spacecraft_clock.h"
 #include "io/spice/text_kernel.h"
@@ -35,7 +35,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     refused_in_one_line([&] { time = ephemeris_time(pool); });
     refused_in_one_line(
         [&] { (void)SpacecraftClock(pool, -99, time).et_s(SpacecraftClock(pool, -99, time).ticks(1e8)); });
-    refused_in_one_line([&] { (void)frame_named(pool, "CAM", "fuzz"); });
+    refused_in_one_line([&] {
+        KernelSet set;
+        set.pool = pool;
+        KernelFrames frames(set);
+        FrameTurn turn;
+        const int code = frames.require("CAM", "fuzz");
+        for (const double et_s : {0.0, -3e8, 1e300}) (void)frames.turn(code, et_s, turn);
+    });
     refused_in_one_line([&] { (void)kernel_code(pool, "SHIP"); });
     refused_in_one_line([&] {
         if (const auto body = text_orientation(pool, 401)) (void)body->at(1e8);

@@ -392,6 +392,53 @@ class Ground(unittest.TestCase):
             self.assertGreaterEqual(float(row["diameter_m"]), 0.5)
             self.assertLessEqual(math.hypot(float(row["east_m"]), float(row["north_m"])), 100.1)
 
+    def test_hazards_are_heights_with_a_judgement(self):
+        result = hilcam("ground", self.SCENARIO, "--list", "hazards", "--within-m", 10, "--spacing-m", 0.5, "--slope-deg", 4, "--step-m", 0.1)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = list(csv.DictReader(result.stdout.splitlines()))
+        self.assertEqual(len(rows), 41 * 41)
+        for row in rows:
+            # A text's last digit may be on the other side of a limit.
+            slope, step = float(row["slope_deg"]), float(row["step_m"])
+            if abs(slope - 4) > 1e-3 and abs(step - 0.1) > 1e-4:
+                self.assertEqual(row["hazard"], "1" if slope > 4 or step > 0.1 else "0")
+        self.assertEqual({row["hazard"] for row in rows}, {"0", "1"})
+
+    def test_the_axes_of_a_site_are_those_of_its_poses(self):
+        """A camera that stands in local axes, as truth has it in the world's."""
+        scenario = SOURCE / "tools/landing_example/landing.yaml"
+        x, y, z, *axes = map(float, hilcam("ground", scenario, "--list", "axes").stdout.splitlines()[1].split(","))
+        self.assertLess(math.hypot(x, y, z), 1e-3)  # the origin is the site
+        with tempfile.TemporaryDirectory() as folder:
+            result = hilcam("render", scenario, "--out", f"{folder}/a.png", "--truth", folder, "--set", "camera.width_px=16", "--set",
+                            "camera.height_px=16")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            pose = json.loads(pathlib.Path(folder, "a.truth.jsonl").read_text().splitlines()[1])["pose"]
+        # 300 m up, looking down: a half turn about east after the site's axes.
+        w, a, b, c = axes
+        up = (2 * (a * c + w * b), 2 * (b * c - w * a), 1 - 2 * (a * a + b * b))
+        for found, expected in zip(pose["position_m"], up):
+            self.assertAlmostEqual(found, 300 * expected, delta=1e-3)
+        turned = (-a, w, c, -b)  # (w, a, b, c) * (0, 1, 0, 0)
+        self.assertAlmostEqual(abs(sum(p * q for p, q in zip(pose["attitude_wxyz"], turned))), 1, delta=1e-9)
+
+    def test_a_picture_lists_what_it_shows(self):
+        scenario = SOURCE / "tools/landing_example/landing.yaml"
+        result = hilcam("ground", scenario, "--list", "craters", "--footprint", "--smallest-px", 20)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = list(csv.DictReader(result.stdout.splitlines()))
+        self.assertGreater(len(rows), 5)
+        for row in rows:
+            self.assertTrue(0 <= float(row["x_px"]) < 512 and 0 <= float(row["y_px"]) < 512 and float(row["diameter_px"]) >= 20)
+        with tempfile.TemporaryDirectory() as folder:
+            result = hilcam("ground", scenario, "--list", "hazards", "--footprint", "--spacing-m", 2, "--out", f"{folder}/h.exr")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertGreater(pathlib.Path(folder, "h.exr").stat().st_size, 10_000)
+        for wrong in (("--list", "hazards", "--footprint"), ("--list", "heights", "--footprint"), ("--list", "craters", "--out", "a.exr")):
+            result = hilcam("ground", scenario, *wrong)
+            self.assertEqual(result.returncode, 2, wrong)
+            self.assertIn("--out" if "heights" not in wrong else "--footprint", result.stderr)
+
     def test_what_has_no_ground_is_refused(self):
         result = hilcam("ground", SOURCE / "configs/scenarios/small.yaml", "--list", "craters")
         self.assertEqual(result.returncode, 2)

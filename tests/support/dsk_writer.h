@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
 
 #include "render/vocabulary/vec.h"
+#include "tests/support/byte_order.h"
 
 namespace hilcam {
 
@@ -84,19 +84,11 @@ class DskWriter {
     }
 
     template <class T>
-    std::string ordered(T value) const {
-        std::string out(sizeof value, '\0');
-        std::memcpy(out.data(), &value, sizeof value);
-        // The tests' machines are little-endian.
-        if (big_endian_) out.assign(out.rbegin(), out.rend());
-        return out;
-    }
-    template <class T>
     std::vector<std::string> records_of(const std::vector<T>& values) const {
         std::vector<std::string> out;
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (i % (1024 / sizeof(T)) == 0) out.emplace_back();
-            out.back() += ordered(values[i]);
+            out.back() += ordered(values[i], big_endian_);
         }
         for (std::string& record : out) record.resize(1024, '\0');
         return out;
@@ -104,9 +96,9 @@ class DskWriter {
 
     std::string head() const {
         std::string out = "DAS/DSK ";
-        out += std::string(60, ' ') + ordered(std::int32_t{0}) + ordered(std::int32_t{0}) +
-               ordered(std::int32_t{1}) + ordered(std::int32_t{900}) +
-               (big_endian_ ? "BIG-IEEE" : "LTL-IEEE");
+        out += std::string(60, ' ') + ordered(std::int32_t{0}, big_endian_) +
+               ordered(std::int32_t{0}, big_endian_) + ordered(std::int32_t{1}, big_endian_) +
+               ordered(std::int32_t{900}, big_endian_) + (big_endian_ ? "BIG-IEEE" : "LTL-IEEE");
         out.resize(699, '\0');
         out += std::string("FTPSTR:\r:\n:\r\n:\r\0:\x81:\x10\xce:ENDFTP", 28);
         out.resize(1024, '\0');
@@ -170,7 +162,7 @@ class DskWriter {
             directory[0] = before;
             directory[1] = end < all.size() ? record + 1 + records : 0;
             std::string text;
-            for (const std::int32_t n : directory) text += ordered(n);
+            for (const std::int32_t n : directory) text += ordered(n, big_endian_);
             out += text + data;
             before = record, record += 1 + records;
         }

@@ -2,9 +2,10 @@
 // Writes binary SPICE kernels from what NAIF's "DAF Required Reading" says of the container, with nothing of the readers.
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
+
+#include "tests/support/byte_order.h"
 
 namespace hilcam {
 
@@ -72,16 +73,8 @@ class SpiceWriter {
     bool big_endian_;
     std::vector<WrittenArray> arrays_;
 
-    template <class T>
-    std::string ordered(T value) const {
-        std::string out(sizeof value, '\0');
-        std::memcpy(out.data(), &value, sizeof value);
-        // The tests' machines are little-endian.
-        if (big_endian_) out.assign(out.rbegin(), out.rend());
-        return out;
-    }
-    std::string number(double value) const { return ordered(value); }
-    std::string integer(std::int32_t value) const { return ordered(value); }
+    std::string number(double value) const { return ordered(value, big_endian_); }
+    std::string integer(std::int32_t value) const { return ordered(value, big_endian_); }
 };
 
 }  // namespace hilcam

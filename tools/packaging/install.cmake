@@ -52,6 +52,7 @@ install_name(tools/client/hilcam_client.h ${CMAKE_INSTALL_INCLUDEDIR}/hilcam/hil
 install_name(tools/client/hilcam_shm.h ${CMAKE_INSTALL_INCLUDEDIR}/hilcam/hilcam_shm.h program)
 install_name(tools/client/hilcam_client.py ${data}/client/hilcam_client.py program)
 install_name(tools/flight_software_example ${doc}-examples/examples/flight_software_example examples)
+install_name(tools/landing_example ${doc}-examples/examples/landing_example examples)
 install_name(tools/flight_software_glue ${doc}-examples/examples/flight_software_glue examples)
 
 # --- the Python package, as Debian has such: pip installs it elsewhere ---
@@ -64,6 +65,6 @@ install(FILES tools/client/hilcam_client.py DESTINATION ${python_package} RENAME
 # --- the examples ---
 install(TARGETS hilcam-make-spacecraft RUNTIME DESTINATION ${HILCAM_INSTALL_HELPERDIR} COMPONENT examples)
 install(DIRECTORY configs/scenarios configs/meshes DESTINATION ${data} COMPONENT examples)
-install(DIRECTORY tools/flight_software_example tools/flight_software_glue DESTINATION ${doc}-examples/examples COMPONENT examples)
+install(DIRECTORY tools/flight_software_example tools/landing_example tools/flight_software_glue DESTINATION ${doc}-examples/examples COMPONENT examples)
 install(FILES tools/quickstart_client.py DESTINATION ${doc}-examples/examples COMPONENT examples)
 install(FILES tools/packaging/examples.md DESTINATION ${doc}-examples/examples RENAME README.md COMPONENT examples)

@@ -198,7 +198,7 @@ TEST(KernelFrames, ACircleOfFramesIsNeverKnown) {
     EXPECT_FALSE(frames.turn(frames.require("A", "test"), 0, turn));
 }
 
-TEST(KernelFrames, AnAttitudeAgainstADynamicFrameIsNotKnownAndSaysSo) {
+TEST(KernelFrames, AnAttitudeAgainstASwitchFrameIsNotKnownAndSaysSo) {
     std::vector<double> words;
     append_quaternion(words, 0);
     append_quaternion(words, 100);
@@ -206,12 +206,12 @@ TEST(KernelFrames, AnAttitudeAgainstADynamicFrameIsNotKnownAndSaysSo) {
     WrittenArray array = segment(3, false, words);
     array.integers[1] = 5000;
     const auto set = set_with(
-        array, "CK", (std::string(kFrames) + "FRAME_5000_CLASS = 5\nFRAME_5000_NAME = 'OF_DATE'\n").c_str());
+        array, "CK", (std::string(kFrames) + "FRAME_5000_CLASS = 6\nFRAME_5000_NAME = 'SWITCHED'\n").c_str());
     KernelFrames frames(*set);
     FrameTurn turn;
     EXPECT_FALSE(frames.turn(frames.require("SHIP", "test"), 50, turn));
     ASSERT_EQ(frames.left_out().size(), 1u);
-    EXPECT_THAT(frames.left_out().front(), HasSubstr("frame 'OF_DATE': found class 5"));
+    EXPECT_THAT(frames.left_out().front(), HasSubstr("frame 'SWITCHED': found class 6"));
 }
 
 TEST(KernelFrames, AMeasuredPoleIsThatOfTheProgramsOwnFormulas) {

@@ -157,8 +157,8 @@ TEST(FrameDefinition, OffsetsByAnglesMatrixAndQuaternionAreTheSame) {
     }
     EXPECT_THAT(refusal([&] { frame("TKFRAME_X_SPEC = 'ANGLES'\n"); }),
                 HasSubstr("no kernel has TKFRAME_-99001_ANGLES"));
-    EXPECT_THAT(refusal([&] { frame_named(pool_of("FRAME_Y = 5000\nFRAME_5000_CLASS = 5\n"), "Y", "k"); }),
-                HasSubstr("found class 5; accepted: 2 (PCK), 3 (CK), 4 (fixed offset)"));
+    EXPECT_THAT(refusal([&] { frame_named(pool_of("FRAME_Y = 5000\nFRAME_5000_CLASS = 6\n"), "Y", "k"); }),
+                HasSubstr("found class 6; accepted: 2 (PCK), 3 (CK), 4 (fixed offset), 5 (dynamic)"));
     EXPECT_THAT(refusal([&] { frame_named(KernelPool(), "NOWHERE", "attitude.spice.frame"); }),
                 HasSubstr("attitude.spice.frame: found the frame 'NOWHERE'"));
     EXPECT_EQ(frame_named(KernelPool(), "iau_mars", "k").class_code, 499);

@@ -225,5 +225,41 @@ TEST(GlobeTerrain, TheSunThatAMeshKnowsIsTheOneThatRaysFind) {
     }
 }
 
+// A map of a parameter of Hapke's law whose values are the longitude.
+class LongitudeMap final : public WholeMap {
+  public:
+    LongitudeMap() : WholeMap(1440, kMoonFigure.equatorial_radius_m) {}
+    double height_m(int column, int) const override { return longitude_deg(column) / 90; }
+    double longitude_deg(int column) const { return (column + 0.5) * 360 / shape_.columns - 180; }
+};
+
+// Each vertex of the mesh has the map's parameter of its place, at all levels and between them; skirts have their edges'.
+TEST(GlobeTerrain, VerticesHaveThePlacesParameters) {
+    std::vector<GroundMap> maps(1);
+    maps[0].kind = GroundKind::kLobeBackward;
+    maps[0].raster = std::make_unique<LongitudeMap>();
+    GlobeSettings settings;
+    settings.hapke.b = 0.33f;
+    GlobeTerrain terrain(kMoonFigure, std::move(maps), {}, settings);
+    TerrainView view;
+    const Vec3d up = place_on_sphere(30, 10);
+    view.camera_m = (kMoonFigure.equatorial_radius_m + 50e3) * up;
+    view.boresight = -up;
+    view.half_field_rad = 0.4;
+    const TerrainMesh made = terrain.mesh(view);
+    ASSERT_EQ(made.mesh.hapke.size(), made.mesh.vertices_m.size());
+    int compared = 0;
+    for (std::size_t i = 0; i < made.mesh.vertices_m.size(); ++i) {
+        const Vec3d at = made.anchor_m + to_double(made.mesh.vertices_m[i]);
+        EXPECT_EQ(made.mesh.hapke[i].b, 0.33f);
+        const double longitude_deg = std::atan2(at.y, at.x) / kDegree_rad;
+        // In view: tiles there are far finer than the map.
+        if (length(normalized(at) - up) > 0.01) continue;
+        ++compared;
+        EXPECT_NEAR(made.mesh.hapke[i].c, longitude_deg / 90, 2e-4);
+    }
+    EXPECT_GT(compared, 10'000);
+}
+
 }  // namespace
 }  // namespace hilcam

@@ -25,6 +25,20 @@ double added_m(const GroundDetail& detail, Vec3d place, double spacing_m) {
     return height_m;
 }
 
+CraterField craters_between(double smallest_m, double largest_m) {
+    CraterSettings settings;
+    settings.smallest_m = smallest_m, settings.largest_m = largest_m;
+    return CraterField(kMoonRadius_m, settings);
+}
+
+// The things of a field above a diameter within a distance of a place.
+template <class Thing>
+std::vector<Thing> found_of(const auto& field, Vec3d middle, double within_m, double smallest_m) {
+    std::vector<Thing> things;
+    field.find(middle, within_m / kMoonRadius_m, smallest_m, things);
+    return things;
+}
+
 // Neukum, Ivanov & Hartmann 2001, table 1 and eq. 5: 8.38e-4 craters above 1 km on a square kilometre of 1 Ga; Trask's 10^-1.1 of
 // one metre on a square metre.
 TEST(CraterLaw, HasThePublishedNumbers) {
@@ -42,44 +56,65 @@ TEST(CraterLaw, HasThePublishedNumbers) {
 
 // Counts of what was seeded lie within four deviations of Poisson's of the law's, from 1 m to 1 km, at different places.
 TEST(CraterField, NumbersFollowTheLaw) {
-    CraterSettings settings;
-    settings.smallest_m = 1, settings.largest_m = 2000;
-    const CraterField field(kMoonRadius_m, settings);
+    const CraterField field = craters_between(1, 2000);
     for (const auto& [smallest_m, reach_m] :
          {std::pair{1.0, 150.0}, {8.0, 1500.0}, {60.0, 12e3}, {500.0, 100e3}})
         for (const Vec3d& middle : {place_on_sphere(10, 5), place_on_sphere(45, 35.26),
                                     place_on_sphere(0, 90), place_on_sphere(180, -44)}) {
-            std::vector<Crater> craters;
-            field.find(middle, reach_m / kMoonRadius_m, smallest_m, craters);
+            const auto craters = found_of<Crater>(field, middle, reach_m, smallest_m);
             const double expected =
-                (field.law().per_m2(smallest_m) - field.law().per_m2(2000)) * cap_m2(reach_m / kMoonRadius_m);
+                (field.per_m2(smallest_m) - field.per_m2(2000)) * cap_m2(reach_m / kMoonRadius_m);
             EXPECT_GT(expected, 300);
             EXPECT_NEAR(static_cast<double>(craters.size()), expected, 4 * std::sqrt(expected)) << smallest_m;
             for (const Crater& c : craters) EXPECT_TRUE(c.diameter_m >= smallest_m && c.diameter_m <= 2000);
         }
 }
 
-// The slope of the distribution is the law's as well, which a wrong law fails: Kolmogorov's distance, 1.63 / sqrt(n) at 1 %.
+// Kolmogorov's distance of numbers from the share of them that a law has below each.
+template <class Share>
+double distance_from(std::vector<double> numbers, const Share& share_below) {
+    std::sort(numbers.begin(), numbers.end());
+    double most = 0;
+    const auto n = static_cast<double>(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        most = std::max(most, std::abs((static_cast<double>(i) + 0.5) / n - share_below(numbers[i])));
+    return most;
+}
+// The distance that one of a hundred samples of the law exceeds.
+double most_distance(std::size_t count) { return 1.63 / std::sqrt(static_cast<double>(count)); }
+
+// The slope of the distribution is the law's as well, which a wrong law fails.
 TEST(CraterField, DiametersAreDrawnFromTheLaw) {
-    CraterSettings settings;
-    settings.smallest_m = 1, settings.largest_m = 500;
-    const CraterField field(kMoonRadius_m, settings);
-    std::vector<Crater> craters;
-    field.find(place_on_sphere(23, 1), 200 / kMoonRadius_m, 1, craters);
     std::vector<double> diameters_m;
-    for (const Crater& c : craters) diameters_m.push_back(c.diameter_m);
-    std::sort(diameters_m.begin(), diameters_m.end());
+    for (const Crater& c : found_of<Crater>(craters_between(1, 500), place_on_sphere(23, 1), 200, 1))
+        diameters_m.push_back(c.diameter_m);
     const auto distance = [&](double power) {
-        double most = 0;
-        const auto n = static_cast<double>(diameters_m.size());
-        for (std::size_t i = 0; i < diameters_m.size(); ++i)
-            most = std::max(
-                most, std::abs((static_cast<double>(i) + 0.5) / n - (1 - std::pow(diameters_m[i], -power))));
-        return most;
+        return distance_from(diameters_m, [power](double d) { return 1 - std::pow(d, -power); });
     };
-    const double limit = 1.63 / std::sqrt(static_cast<double>(diameters_m.size()));
-    EXPECT_LT(distance(2), limit);
-    EXPECT_GT(distance(2.3), limit);
+    EXPECT_LT(distance(2), most_distance(diameters_m.size()));
+    EXPECT_GT(distance(2.3), most_distance(diameters_m.size()));
+}
+
+// Wear is spread evenly up to the greatest that craters of a size can have: where they are in equilibrium all, where the
+// ground's age has not worn them so far, less.
+TEST(CraterField, WearIsEven) {
+    CraterSettings settings;
+    settings.smallest_m = 300, settings.largest_m = 1000;
+    const CraterField large(kMoonRadius_m, settings);
+    std::vector<double> of_small, of_large;
+    for (const Crater& c : found_of<Crater>(craters_between(1, 500), place_on_sphere(23, 1), 100, 1))
+        of_small.push_back(c.worn / CraterProfile::kMostWorn);
+    for (const Crater& c : found_of<Crater>(large, place_on_sphere(-60, 33), 60e3, 300)) {
+        const double oldest =
+            settings.diffusivity_m2_ga * settings.age_ga / (0.25 * c.diameter_m * c.diameter_m);
+        ASSERT_LT(oldest, CraterProfile::kMostWorn * 2);
+        of_large.push_back(c.worn / std::min(CraterProfile::kMostWorn, oldest));
+    }
+    for (const std::vector<double>& worn : {of_small, of_large}) {
+        ASSERT_GT(worn.size(), 200u);
+        EXPECT_LT(distance_from(worn, [](double w) { return w; }), most_distance(worn.size()));
+        EXPECT_GT(distance_from(worn, [](double w) { return w * w; }), most_distance(worn.size()));
+    }
 }
 
 // The same craters are found from wherever one looks.
@@ -89,10 +124,9 @@ TEST(CraterField, TheSameSeedGivesTheSameCratersFromAnywhere) {
     other_seed.seed = 2;
     const CraterField other(kMoonRadius_m, other_seed);
     const Vec3d middle = place_on_sphere(45, 1);
-    std::vector<Crater> wide, narrow, others;
-    field.find(middle, 3000 / kMoonRadius_m, 20, wide);
-    field.find(middle, 500 / kMoonRadius_m, 20, narrow);
-    other.find(middle, 500 / kMoonRadius_m, 20, others);
+    const auto wide = found_of<Crater>(field, middle, 3000, 20),
+               narrow = found_of<Crater>(field, middle, 500, 20),
+               others = found_of<Crater>(other, middle, 500, 20);
     ASSERT_GT(narrow.size(), 50u);
     std::set<std::pair<double, double>> known, unknown;
     for (const Crater& c : wide) known.insert({c.place.x, c.diameter_m});
@@ -121,11 +155,8 @@ TEST(CraterProfile, FreshAndWornShapes) {
 
 // A crater's bottom lies as deep as its shape says.
 TEST(CraterField, TheGroundHasTheCraters) {
-    CraterSettings settings;
-    settings.smallest_m = 400, settings.largest_m = 401;
-    const CraterField field(kMoonRadius_m, settings);
-    std::vector<Crater> craters;
-    field.find(place_on_sphere(10, 5), 100e3 / kMoonRadius_m, 1, craters);
+    const CraterField field = craters_between(400, 401);
+    const auto craters = found_of<Crater>(field, place_on_sphere(10, 5), 100e3, 1);
     ASSERT_GT(craters.size(), 3u);
     const CraterProfile profile;
     int alone = 0;
@@ -146,9 +177,8 @@ TEST(BoulderField, NumbersFollowThePowerLawAndCoverWhatIsAsked) {
     BoulderSettings settings;
     settings.abundance = 0.03, settings.exponent = 2.4;
     const BoulderField field(kMoonRadius_m, settings);
-    std::vector<Boulder> boulders;
-    const double reach_rad = 100 / kMoonRadius_m;
-    field.find(place_on_sphere(-33, 61), reach_rad, 0.1, boulders);
+    constexpr double kWithin_m = 100, reach_rad = kWithin_m / kMoonRadius_m;
+    const auto boulders = found_of<Boulder>(field, place_on_sphere(-33, 61), kWithin_m, 0.1);
     for (const double d : {0.1, 0.3, 1.0}) {
         const double expected = (field.per_m2(d) - field.per_m2(10)) * cap_m2(reach_rad);
         const auto found = std::count_if(boulders.begin(), boulders.end(),
@@ -165,6 +195,24 @@ TEST(BoulderField, NumbersFollowThePowerLawAndCoverWhatIsAsked) {
                          [](const Boulder& a, const Boulder& b) { return a.diameter_m < b.diameter_m; });
     EXPECT_GT(added_m(field, largest->place, 0.02), 0.5 * largest->height_m);
     EXPECT_EQ(added_m(field, largest->place, 10), 0);
+}
+
+// Boulders' diameters are the power law's between the smallest and the largest, which another power fails.
+TEST(BoulderField, DiametersAreDrawnFromTheLaw) {
+    BoulderSettings settings;
+    settings.exponent = 2.5, settings.smallest_m = 0.2, settings.largest_m = 5;
+    std::vector<double> diameters_m;
+    for (const Boulder& b :
+         found_of<Boulder>(BoulderField(kMoonRadius_m, settings), place_on_sphere(100, -20), 150, 0.2))
+        diameters_m.push_back(b.diameter_m);
+    const auto distance = [&](double power) {
+        return distance_from(diameters_m, [power](double d) {
+            return (1 - std::pow(d / 0.2, -power)) / (1 - std::pow(5 / 0.2, -power));
+        });
+    };
+    ASSERT_GT(diameters_m.size(), 3000u);
+    EXPECT_LT(distance(2.5), most_distance(diameters_m.size()));
+    EXPECT_GT(distance(2.3), most_distance(diameters_m.size()));
 }
 
 // The differences of the relief grow as asked for, over distances that its longest wave has little to do with.

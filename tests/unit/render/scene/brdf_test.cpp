@@ -288,5 +288,20 @@ TEST(Material, EmissionIsPlancksTimesOneMinusReflectance) {
     EXPECT_NEAR(m.emission[0] / (0.75 * 4744.4), 1, 2e-3);
 }
 
+// A place's parameters of Hapke's law stand for the material's: the same values as of a material that has them.
+TEST(Brdf, APlacesHapkeParametersCount) {
+    MaterialConfig there = model(kModel<brdf::Hapke>, 0.4);
+    there.lobe_width = 0.4, there.lobe_backward = -0.2, there.surge_amplitude = 0.7, there.surge_width = 0.1;
+    there.slope_rad = 12 * kDegree_rad;
+    const Material own = make_material(model(kModel<brdf::Hapke>, 0.4), kGrid),
+                   other = make_material(there, kGrid);
+    Scatterer placed = scatterer(own);
+    placed.hapke = std::get<brdf::Hapke>(other.brdf).parameters;
+    for (const Cosines c : {Cosines{0.9f, 0.8f, 0.7f}, {0.3f, 0.6f, 0.1f}, {0.5f, 0.5f, 1}}) {
+        EXPECT_EQ(brdf_value(placed, c)[0], brdf_value(scatterer(other), c)[0]);
+        EXPECT_NE(brdf_value(placed, c)[0], brdf_value(scatterer(own), c)[0]);
+    }
+}
+
 }  // namespace
 }  // namespace hilcam

@@ -1,4 +1,4 @@
-#include "emulator/motion/sgp4.h"
+#include "io/orbits/sgp4.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "emulator/motion/sgp4.h"
+#include "io/orbits/sgp4.h"
 
 namespace hilcam {
 

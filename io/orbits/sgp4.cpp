@@ -1,9 +1,9 @@
-#include "emulator/motion/sgp4.h"
+#include "io/orbits/sgp4.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/motion/sgp4_deep_space.h"
+#include "io/orbits/sgp4_deep_space.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/plain_number.h"
 #include "render/vocabulary/units.h"

@@ -1,4 +1,4 @@
-#include "io/spice/two_body.h"
+#include "io/orbits/two_body.h"
 
 #include <cmath>
 

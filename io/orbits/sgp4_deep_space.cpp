@@ -1,4 +1,4 @@
-#include "emulator/motion/sgp4_deep_space.h"
+#include "io/orbits/sgp4_deep_space.h"
 
 #include <cmath>
 

@@ -1,0 +1,50 @@
+#include "emulator/ground/ground_things.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "emulator/ground/globe_loader.h"
+#include "render/vocabulary/check.h"
+#include "render/vocabulary/units.h"
+
+namespace hilcam {
+namespace {
+
+template <class Thing>
+std::vector<GroundThing> found_in(const auto& field, const MappedBody& body, Vec3d middle, double within_m,
+                                  double smallest_m, double smallest_seeded_m, const char* what,
+                                  double Thing::*figure) {
+    require_few(field.per_m2_at(middle, std::max(smallest_m, smallest_seeded_m)) * kPi * within_m * within_m,
+                what);
+    std::vector<Thing> found;
+    field.find(middle, within_m / body.figure.equatorial_radius_m, smallest_m, found);
+    std::vector<GroundThing> out;
+    out.reserve(found.size());
+    for (const Thing& thing : found) out.push_back({thing.place, thing.diameter_m, thing.*figure});
+    return out;
+}
+
+}  // namespace
+
+void require_few(double count, const char* what, const char* keys) {
+    if (count > kMostListed)
+        throw InputError(fmt::format("{}: there are about {:.2g} {} there; accepted: {:.0g}", keys, count,
+                                     what, kMostListed));
+}
+
+std::vector<GroundThing> find_things(GroundThings kind, const GlobeConfig& globe, const MappedBody& body,
+                                     Vec3d middle, double within_m, double smallest_m) {
+    if (kind == GroundThings::kCraters) {
+        if (!globe.craters) throw InputError("terrain.globe.craters: there are none in this scenario");
+        const CraterField field(body.figure.equatorial_radius_m, *globe.craters);
+        return found_in(field, body, middle, within_m, smallest_m, globe.craters->smallest_m, "craters",
+                        &Crater::worn);
+    }
+    const auto field = boulders_of(globe, body);
+    if (!field) throw InputError("terrain.globe.boulders: there are none in this scenario");
+    return found_in(*field, body, middle, within_m, smallest_m, globe.boulders->smallest_m, "boulders",
+                    &Boulder::height_m);
+}
+
+}  // namespace hilcam

@@ -1,0 +1,184 @@
+#include "emulator/run/ground_footprint.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "emulator/run/still_camera.h"
+#include "emulator/run/truth_source.h"
+#include "emulator/scenario/scene_loader.h"
+#include "render/ground/crater_profile.h"
+#include "render/vocabulary/check.h"
+#include "sensor/published_frame.h"
+#include "tests/support/files.h"
+
+namespace hilcam {
+namespace {
+
+using testing::HasSubstr;
+
+// The landing example's scene from straight above its site, with other ground where a test asks for it.
+ScenarioConfig above_the_site(double height_m, std::vector<std::string> more = {}) {
+    std::vector<std::string> overrides = {"terrain.edge_px=1.5", "terrain.most_triangles=600000",
+                                          "camera.width_px=320", "camera.height_px=256",
+                                          "camera_pose.position_m=[0, 0, " + std::to_string(height_m) + "]"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return load_scenario(HILCAM_SOURCE_DIR "/tools/landing_example/landing.yaml", overrides);
+}
+
+using Rows = std::vector<std::vector<double>>;
+enum Column : std::size_t { kEast = 2, kNorth, kDiameter, kFigure, kX, kY, kDiameterPx, kDistance, kVisible };
+Rows rows_of(const std::string& text) {
+    std::istringstream lines(text);
+    Rows rows;
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        std::vector<double>& row = rows.emplace_back();
+        std::istringstream fields(line);
+        for (std::string field; std::getline(fields, field, ',');)
+            row.push_back(std::strtod(field.c_str(), nullptr));
+    }
+    return rows;
+}
+Rows seen(const ScenarioConfig& s, GroundSurvey::What what, double smallest_px) {
+    GroundSurvey survey;
+    survey.what = what;
+    return rows_of(survey_footprint(s, survey, {0, smallest_px}));
+}
+
+// The heights of the mesh that a picture shows, over the site's plane, by its own rays; the camera looks straight down.
+class PictureHeights {
+  public:
+    PictureHeights(const ScenarioConfig& s, double camera_m) : camera_(s), camera_m_(camera_m) {
+        TruthWishes wishes = truth_wishes(s);
+        wishes.stars = wishes.visibility = false, wishes.position = true;
+        truth_ = make_truth(s, camera_.renderer(), wishes);
+        truth_.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), {1, 1});
+        camera_.tell(truth_);
+    }
+    double at(int x, int y) const {
+        return camera_m_ -
+               static_cast<double>(truth_.layers.position_m.row(y, 2)[static_cast<std::size_t>(x)]);
+    }
+    int width() const { return truth_.raster.width_px; }
+    int height() const { return truth_.raster.height_px; }
+
+  private:
+    StillCamera camera_;
+    double camera_m_;
+    FrameTruth truth_;
+};
+
+// Stones stand in the picture where the list has them: of the ground that the picture's rays meet, the middle of what is
+// higher than all around it by a third of the stone's height is within a pixel and a half of the listed place.
+TEST(GroundFootprint, BouldersAreWhereThePictureHasThem) {
+    const ScenarioConfig s = above_the_site(
+        60, {"terrain.globe.relief.deviation_m=0.01", "terrain.globe.craters.largest_m=0.3",
+             "terrain.globe.boulders.smallest_m=0.5", "terrain.globe.boulders.abundance=0.05"});
+    const PictureHeights heights(s, 60);
+    int compared = 0;
+    for (const auto& row : seen(s, GroundSurvey::What::kBoulders, 9)) {
+        EXPECT_EQ(row[kVisible], 1);
+        const int half = static_cast<int>(std::lround(0.75 * row[kDiameterPx]));
+        const int x0 = static_cast<int>(row[kX]), y0 = static_cast<int>(row[kY]);
+        if (x0 < half || y0 < half || x0 + half >= heights.width() || y0 + half >= heights.height()) continue;
+        double lowest_m = 1e9, sum = 0, sum_x = 0, sum_y = 0;
+        for (int y = y0 - half; y <= y0 + half; ++y)
+            for (int x = x0 - half; x <= x0 + half; ++x) lowest_m = std::min(lowest_m, heights.at(x, y));
+        for (int y = y0 - half; y <= y0 + half; ++y)
+            for (int x = x0 - half; x <= x0 + half; ++x)
+                if (heights.at(x, y) > lowest_m + 0.33 * row[kFigure])
+                    sum += 1, sum_x += x + 0.5, sum_y += y + 0.5;
+        ASSERT_GT(sum, 4) << row[kEast] << ' ' << row[kNorth];
+        EXPECT_NEAR(sum_x / sum, row[kX], 1.5) << row[kEast] << ' ' << row[kNorth];
+        EXPECT_NEAR(sum_y / sum, row[kY], 1.5) << row[kEast] << ' ' << row[kNorth];
+        ++compared;
+    }
+    EXPECT_GT(compared, 5);
+}
+
+// Craters lie there, too: the middle of each that is not worn flat is lower than the circle of its rim by most of what its shape says.
+TEST(GroundFootprint, CratersAreWhereThePictureHasThem) {
+    const ScenarioConfig s =
+        above_the_site(400, {"terrain.globe.relief.deviation_m=0.01", "terrain.globe.craters.smallest_m=6",
+                             "terrain.globe.craters.largest_m=60", "terrain.globe.boulders.abundance=0"});
+    const PictureHeights heights(s, 400);
+    const CraterProfile profile;
+    int compared = 0;
+    for (const auto& row : seen(s, GroundSurvey::What::kCraters, 16)) {
+        const double radius_px = 0.5 * row[kDiameterPx];
+        if (row[kFigure] > 0.2 || row[kX] < 2 * radius_px || row[kY] < 2 * radius_px ||
+            row[kX] > heights.width() - 2 * radius_px || row[kY] > heights.height() - 2 * radius_px)
+            continue;
+        const double floor_m = heights.at(static_cast<int>(row[kX]), static_cast<int>(row[kY]));
+        double rim_m = 0;
+        for (int k = 0; k < 8; ++k)
+            rim_m += heights.at(static_cast<int>(row[kX] + radius_px * std::cos(k * kPi / 4)),
+                                static_cast<int>(row[kY] + radius_px * std::sin(k * kPi / 4))) /
+                     8;
+        // Others lie over it, and the mesh has an edge every two or three pixels.
+        const double expected_m = CraterProfile::fresh_depth(row[kDiameter]) * row[kDiameter] *
+                                  (profile.height(1, row[kFigure]) - profile.height(0, row[kFigure]));
+        EXPECT_GT(rim_m - floor_m, 0.6 * expected_m) << row[kEast] << ' ' << row[kNorth];
+        ++compared;
+    }
+    EXPECT_GT(compared, 3);
+}
+
+// Places are east and north of the site, which the camera stands above, and of the size that the lens makes of them.
+TEST(GroundFootprint, PlacesAreThoseOfTheLens) {
+    const ScenarioConfig s = above_the_site(200, {"terrain.globe.boulders.smallest_m=0.5"});
+    const double focal_px = s.camera.focal_length_m / s.camera.pitch_m;
+    const auto rows = seen(s, GroundSurvey::What::kBoulders, 3);
+    ASSERT_GT(rows.size(), 3u);
+    for (const auto& row : rows) {
+        // The camera is 200 m over the site's plane, the ground some metres off it.
+        EXPECT_NEAR((row[kX] - 160) / focal_px * 200, row[kEast], 2);
+        EXPECT_NEAR((128 - row[kY]) / focal_px * 200, row[kNorth], 2);
+        EXPECT_NEAR(row[kDiameterPx], row[kDiameter] / row[kDistance] * focal_px, 0.01);
+    }
+}
+
+// The truth of a run's frames has the same lists, without the picture's rays.
+TEST(GroundFootprint, TruthListsTheSame) {
+    const ScenarioConfig s = above_the_site(
+        150, {"terrain.globe.boulders.smallest_m=0.5", "outputs.truth={port: 5012, ground_px: 4}"});
+    const auto ground = ground_truth_of(s);
+    ASSERT_NE(ground, nullptr);
+    StillCamera camera(s);
+    FrameTruth truth = make_truth(s, camera.renderer(), truth_wishes(s));
+    truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), {1, 1});
+    camera.tell(truth);
+    const SeenGroundThings found = ground->find(truth);
+    EXPECT_FALSE(found.left_out);
+    for (const auto& [things, what] : {std::pair{&found.craters, GroundSurvey::What::kCraters},
+                                       {&found.boulders, GroundSurvey::What::kBoulders}}) {
+        const Rows rows = seen(s, what, 4);
+        ASSERT_EQ(things->size(), rows.size());
+        ASSERT_GT(rows.size(), 1u);
+        for (const auto& row : rows)
+            EXPECT_TRUE(std::any_of(things->begin(), things->end(), [&](const SeenGroundThing& thing) {
+                return std::abs(thing.place_px.x - row[kX]) < 1e-3 &&
+                       std::abs(thing.place_px.y - row[kY]) < 1e-3 &&
+                       std::abs(thing.diameter_m - row[kDiameter]) < 1e-3 && !thing.visible;
+            }));
+    }
+    EXPECT_EQ(ground_truth_of(above_the_site(150)), nullptr);
+}
+
+TEST(GroundFootprint, APictureWithoutGroundIsRefused) {
+    const ScenarioConfig s = above_the_site(100, {"camera_pose.attitude_euler_deg=[0, 0, 0]"});
+    try {
+        seen(s, GroundSurvey::What::kCraters, 3);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("--footprint: no ground is in the picture"));
+    }
+}
+
+}  // namespace
+}  // namespace hilcam
