@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/orbits/sgp4.h"
 #include "emulator/motion/trajectories.h"
+#include "io/orbits/sgp4.h"
 #include "render/sky/earth_frames.h"
 #include "render/vocabulary/check.h"
 
