@@ -27,8 +27,8 @@ TEST(SkyParts, EachPartOfTheEarthIsNamedWithItsTimeAndMemory) {
         plan,
         Contains(MatchesRegex("earth: map of 4096 x 2048 with its halves; takes .* ms of a core; 89.5 MB")));
     EXPECT_THAT(plan, Contains(MatchesRegex("earth: sea: Cox-Munk glint at 7.0 m/s; takes .* ms of a core")));
-    EXPECT_THAT(plan, Contains(MatchesRegex("earth: clouds: .*; takes [0-9.]* ms of a core; .* MB")));
-    EXPECT_THAT(plan, Contains(MatchesRegex("earth: air: .*; takes [0-9.]* ms of a core; .* MB")));
+    EXPECT_THAT(plan, Contains(MatchesRegex("earth: clouds: .*; takes .* ms of a core; .* MB")));
+    EXPECT_THAT(plan, Contains(MatchesRegex("earth: air: .*; takes .* ms of a core; .* MB")));
     EXPECT_THAT(plan, Contains(MatchesRegex("earth: lights of cities; takes .* ms of a core")));
     EXPECT_THAT(plan, Contains(MatchesRegex("stars: [0-9]* in the picture, found in [0-9.]* ms; .* MB")));
 
