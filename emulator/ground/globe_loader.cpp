@@ -58,7 +58,7 @@ std::unique_ptr<const BoulderField> boulders_of(const GlobeConfig& globe, const 
     if (!globe.boulders || (maps.empty() && !(globe.boulders->abundance > 0))) return nullptr;
     const double radius_m = body.figure.equatorial_radius_m;
     if (maps.empty()) return std::make_unique<BoulderField>(radius_m, *globe.boulders);
-    // Cells are for a share that maps' largest ones are not many times of.
+    // Cells are sized for this share at least, so that one holds few boulders where a map has more of them.
     constexpr double kLeastSeeded = 0.02;
     BoulderSettings seeded = *globe.boulders;
     seeded.abundance = std::max(seeded.abundance, kLeastSeeded);

@@ -20,11 +20,12 @@ struct GroundThing {
 // A list of a thousand square kilometres' smallest craters would fill a disk.
 inline constexpr double kMostListed = 2e6;
 // Throws InputError for more; keys: what would make them fewer.
-void require_few(double count, const char* what, const char* keys = "--within-m, --smallest-m");
+void require_few(double count, const char* what, const char* keys);
 
 // Finds those above a diameter with their middles within a distance of a place. Throws InputError where the ground has no
-// such things, or there would be too many.
+// such things, or there would be too many; keys: what would make them fewer.
 std::vector<GroundThing> find_things(GroundThings kind, const GlobeConfig& globe, const MappedBody& body,
-                                     Vec3d middle, double within_m, double smallest_m);
+                                     Vec3d middle, double within_m, double smallest_m,
+                                     const char* keys = "--within-m, --smallest-m");
 
 }  // namespace hilcam

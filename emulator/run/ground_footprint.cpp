@@ -159,22 +159,35 @@ Extent extent_by_ellipsoid(const GroundView& view, const Figure& figure, double 
     return out;
 }
 
+// Limits of a list of a frame's craters or boulders.
+struct ThingLimits {
+    double smallest_m, smallest_px;
+    const char* keys;           // those that would make the list shorter
+    double most = kMostListed;  // entries at most
+};
+
 // The craters or boulders of a part of the ground that a frame shows.
 std::vector<SeenGroundThing> seen_things(GroundThings kind, const GlobeConfig& globe, const MappedBody& body,
                                          GroundHeights& heights, const GroundView& view, const Extent& extent,
-                                         double smallest_m, double smallest_px) {
+                                         const ThingLimits& limits) {
     std::vector<SeenGroundThing> out;
-    const double least_m = std::max(smallest_m, extent.smallest_m(smallest_px, view));
-    for (const GroundThing& thing : find_things(kind, globe, body, extent.middle, extent.within_m, least_m)) {
+    const double least_m = std::max(limits.smallest_m, extent.smallest_m(limits.smallest_px, view));
+    for (const GroundThing& thing :
+         find_things(kind, globe, body, extent.middle, extent.within_m, least_m, limits.keys)) {
         // A boulder's middle is on its top, a crater's on its floor.
         constexpr double kFine = 0.05;
         const Vec3d point_m =
             heights.point_m(thing.place, heights.height_m(thing.place, kFine * thing.diameter_m));
         SeenGroundThing seen;
-        if (!view.find(thing.place, point_m, thing.diameter_m, seen) || seen.diameter_px < smallest_px)
+        if (!view.find(thing.place, point_m, thing.diameter_m, seen) || seen.diameter_px < limits.smallest_px)
             continue;
         seen.figure = thing.figure;
         out.push_back(seen);
+        // Heights of the rest would take long.
+        if (static_cast<double>(out.size()) > limits.most)
+            throw InputError(fmt::format(
+                "{}: there are more of them in the picture than a list can have; accepted: {:.0f}",
+                limits.keys, limits.most));
     }
     return out;
 }
@@ -235,22 +248,20 @@ class RunGround final : public GroundTruth {
             const Extent extent = extent_by_ellipsoid(view, body_.figure, ground_m);
             if (!extent.any()) return out;
             const auto list = [&](GroundThings kind) {
-                return seen_things(kind, globe_, body_, heights_, view, extent, 0, smallest_px_);
+                return seen_things(kind, globe_, body_, heights_, view, extent,
+                                   {0, smallest_px_, "outputs.truth.ground_px", kMostInLine});
             };
             if (globe_.craters) out.craters = list(GroundThings::kCraters);
             if (globe_.boulders) out.boulders = list(GroundThings::kBoulders);
-            if (out.craters.size() + out.boulders.size() > kMostInLine)
-                throw InputError("too many for a line");
-        } catch (const InputError&) {
-            // There are more than a list can have.
+        } catch (const InputError& error) {
             out = {};
-            out.left_out = true;
+            out.left_out = error.what();
         }
         return out;
     }
 
   private:
-    static constexpr std::size_t kMostInLine = 8192;  // a megabyte and a half of text
+    static constexpr double kMostInLine = 4096;  // entries of each kind; a megabyte and a half of text in all
     GlobeConfig globe_;
     MappedBody body_;
     BodyId id_;
@@ -274,8 +285,8 @@ std::string survey_footprint(const ScenarioConfig& s, const GroundSurvey& survey
     std::string out =
         std::string(kPlaceColumns) + things_columns(kind) + ",x_px,y_px,diameter_px,distance_m,visible\n";
     for (const SeenGroundThing& seen :
-         seen_things(kind, globe, still.body(), heights, still.view(), still.extent(), survey.smallest_m,
-                     footprint.smallest_px)) {
+         seen_things(kind, globe, still.body(), heights, still.view(), still.extent(),
+                     {survey.smallest_m, footprint.smallest_px, "--smallest-m, --smallest-px"})) {
         const Geodetic at{seen.longitude_deg * kDegree_rad, seen.latitude_deg * kDegree_rad, 0};
         out += fmt::format("{},{:.4f},{:.4f},{:.3f},{:.3f},{:.3f},{:.4f},{:d}\n",
                            plane.text_of(LocalPlane(at, still.body().figure).up), seen.diameter_m,

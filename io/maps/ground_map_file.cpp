@@ -52,7 +52,7 @@ namespace {
 
 // Looks at some hundreds of posts along each edge for what the kind does not take.
 void refuse_beyond(const GroundMapConfig& config, GroundRaster& raster) {
-    const std::optional<HapkeLimits> limits = limits_of(config.kind);
+    const std::optional<ParameterLimits> limits = limits_of(config.kind);
     if (!limits) return;
     constexpr int kMost = 512;
     const GroundRaster::Shape& shape = raster.shape();

@@ -3,6 +3,7 @@
 // (emulator/run/ground_footprint.h).
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "render/frame/frame_truth.h"
@@ -20,7 +21,7 @@ struct SeenGroundThing {
 };
 struct SeenGroundThings {
     std::vector<SeenGroundThing> craters, boulders;
-    bool left_out = false;  // true: there are too many, and none are listed
+    std::string left_out;  // reason why none are listed; empty: all are
 };
 
 class GroundTruth {

@@ -100,7 +100,7 @@ struct Hapke : BrdfModel<Hapke> {
         double slope_rad = 0;  // mean slope theta-bar
     };
     static Fields fields(Keys& k) {
-        const auto range = [](const HapkeLimits& limits) { return Range{limits.least, limits.most}; };
+        const auto range = [](const ParameterLimits& limits) { return Range{limits.least, limits.most}; };
         return {number("lobe_width", k.lobe_width, 1, range(kLobeWidthLimits), "b of hapke"),
                 number("lobe_backward", k.lobe_backward, 1, range(kLobeBackwardLimits),
                        "c of hapke: (1+c)/2 of the light goes backward"),

@@ -37,6 +37,10 @@ double CloudMaps::number_at(TimeTai time) const {
     return number + static_cast<double>(time - before) / static_cast<double>(after->at - before);
 }
 
+double CloudMaps::nearest(double number) const {
+    return maps_.empty() ? 0 : std::clamp(number, 0.0, static_cast<double>(maps_.size() - 1));
+}
+
 template <class Footprint>
 EarthSample CloudMaps::mix(double number, float u, float v, const Footprint& footprint) const {
     const auto first = static_cast<std::size_t>(number);

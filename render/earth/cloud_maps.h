@@ -28,6 +28,8 @@ class CloudMaps {
 
     // The number of the map of an instant, with the share of the one after it behind the point. Loop, any thread.
     double number_at(TimeTai time) const;
+    // Returns the nearest number that sample() takes; 0 of no maps.
+    double nearest(double number) const;
     // Cloud and cloud top over a footprint, as EarthMap has them; nothing else. number: from 0 to count() - 1. Loop, any
     // thread.
     EarthSample sample(double number, float u, float v, const MapFootprint& footprint) const;

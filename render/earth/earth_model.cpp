@@ -227,7 +227,7 @@ bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
     return true;
 }
 
-EarthModel::Shade EarthModel::shade(const EarthAspect& a, double clouds) const {
+EarthModel::Shade EarthModel::shade(const EarthAspect& a, double cloud_number) const {
     const EarthSample ground = ground_map_->sample(a.u, a.v, a.footprint);
     const Spectrum land = land_.reflectance(ground);
     const float water = ground.water();
@@ -241,8 +241,8 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, double clouds) const {
         const EarthSample over =
             together && a.cloud_u * a.cloud_u + 0.25f * a.cloud_v * a.cloud_v < seen_as_one
                 ? ground
-                : clouds_at(clouds, a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v,
-                            a.footprint);
+                : cloud_sample(cloud_number, a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v,
+                               a.footprint);
         cloud = cloud_of(over);
         if (!(cloud > kMinCloud)) cloud = 0;
         // Where the Sun's ray comes through the clouds; and what they spread, which comes from a place as wide as they are
@@ -250,14 +250,15 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, double clouds) const {
         const float towards_sun =
             together && a.shade_u * a.shade_u + 0.25f * a.shade_v * a.shade_v < seen_as_one
                 ? cloud_of(ground)
-                : cloud_of(clouds_at(clouds, a.u + kUsualTop_m * a.shade_u, a.v + kUsualTop_m * a.shade_v,
-                                     a.footprint));
+                : cloud_of(cloud_sample(cloud_number, a.u + kUsualTop_m * a.shade_u,
+                                        a.v + kUsualTop_m * a.shade_v, a.footprint));
         constexpr float kSpread =
             static_cast<float>(2 * static_cast<double>(kUsualTop_m) / (kPi * kRadius_m));
         const bool wide = f.v1 * f.v1 + f.v2 * f.v2 > kSpread * kSpread;
-        const float mean = wide && together
-                               ? cloud_of(ground)
-                               : cloud_of(clouds_at(clouds, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
+        const float mean =
+            wide && together
+                ? cloud_of(ground)
+                : cloud_of(cloud_sample(cloud_number, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
         direct = by_steps(a.beam, towards_sun);
         share = by_steps(a.lit, mean);
         diffuse = std::max(0.0f, share - by_steps(a.beam, mean));
@@ -306,7 +307,7 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
 bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
     const double to_ground_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
-        const Shade seen = shade(aspect_at(ray, to_ground_m, 0), ray.clouds);
+        const Shade seen = shade(aspect_at(ray, to_ground_m, 0), ray.cloud_number);
         radiance += weight * (ray.irradiance_w_m2_um * seen.over_sun_sr + seen.lights_w_m2_sr_um);
         return true;
     }
@@ -315,11 +316,11 @@ bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const
         table_ ? intersect_ellipsoid(raised(static_cast<double>(kUsualTop_m)), ray.origin_m, ray.dir) : -1;
     if (to_level_m > 0) {
         EarthAspect aspect = aspect_at(ray, to_level_m, static_cast<double>(kUsualTop_m));
-        const float cloud = cloud_of(clouds_at(ray.clouds, aspect.u, aspect.v, aspect.footprint));
+        const float cloud = cloud_of(cloud_sample(ray.cloud_number, aspect.u, aspect.v, aspect.footprint));
         if (cloud > kMinCloud) {
             // No ground is below it: nothing comes up through it.
             aspect.seen.fill(0);
-            radiance += weight * ray.irradiance_w_m2_um * shade(aspect, ray.clouds).over_sun_sr;
+            radiance += weight * ray.irradiance_w_m2_um * shade(aspect, ray.cloud_number).over_sun_sr;
             weight = table_->transmitted(cloud, 0) * (weight * aspect.seen_high);
             return false;
         }

@@ -14,7 +14,6 @@
 // Body axes (ITRF), metres. Light per unit of solar irradiance unless the unit says otherwise. const functions: loop, any
 // thread.
 
-#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -39,7 +38,7 @@ class EarthModel {
         Vec3d sun_dir;
         double width_rad = 0;  // width of the cone that it stands for
         Spectrum irradiance_w_m2_um;
-        double clouds = 0;  // number of their map (CloudMaps::number_at)
+        double cloud_number = 0;  // number of the clouds' map (CloudMaps::number_at)
     };
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
     // before the sky; else weight is dimmed by what air it met.
@@ -57,14 +56,8 @@ class EarthModel {
     struct Shade {
         Spectrum over_sun_sr, lights_w_m2_sr_um;
     };
-    Shade shade(const EarthAspect& aspect, double clouds) const;
-    // Returns the number of the clouds' map at an instant; 0 where they do not change.
-    double clouds_at(TimeTai time) const { return cloud_maps_->number_at(time); }
-    // Returns the nearest number that there is.
-    double clouds_on(double number) const {
-        return std::clamp(number, 0.0,
-                          static_cast<double>(std::max<std::size_t>(cloud_maps_->count(), 1) - 1));
-    }
+    Shade shade(const EarthAspect& aspect, double cloud_number) const;
+    const CloudMaps& cloud_maps() const { return *cloud_maps_; }
 
     // An upper bound of radiance over irradiance at the body [sr^-1]; glint apart.
     static constexpr float kMaxOverSun = 0.32f;
@@ -102,7 +95,7 @@ class EarthModel {
     const EarthMap& ground() const { return *ground_map_; }
     bool together() const { return cloud_maps_->empty(); }  // ground and clouds are of one map
     template <class Footprint>
-    EarthSample clouds_at(double number, float u, float v, const Footprint& footprint) const {
+    EarthSample cloud_sample(double number, float u, float v, const Footprint& footprint) const {
         return together() ? ground_map_->sample(u, v, footprint)
                           : cloud_maps_->sample(number, u, v, footprint);
     }

@@ -72,7 +72,7 @@ Spectrum EarthPatch::look(Cell cell, float s, float t) const {
             aspect.u += w * (off > 0.5f ? off - 1 : (off < -0.5f ? off + 1 : off));
             aspect.v += w * here.v;
         }
-    const EarthModel::Shade seen = earth_->shade(aspect, clouds_);
+    const EarthModel::Shade seen = earth_->shade(aspect, cloud_number_);
     return irradiance_ * seen.over_sun_sr + seen.lights_w_m2_sr_um;
 }
 

@@ -118,14 +118,14 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
 
 }  // namespace
 
-EarthPicture::Key EarthPicture::key_of(Vec3d camera_m, Vec3d sun_dir, double clouds) {
+EarthPicture::Key EarthPicture::key_of(Vec3d camera_m, Vec3d sun_dir, double cloud_number) {
     const double distance_m = length(camera_m);
     return {{steps(std::atan2(camera_m.y, camera_m.x), kCameraStep_rad),
              steps(std::asin(camera_m.z / distance_m), kCameraStep_rad),
              steps(std::log(distance_m / kEarthRadius_m), kDistanceStep)},
             {steps(std::atan2(sun_dir.y, sun_dir.x), kSunStep_rad),
              steps(std::asin(std::clamp(sun_dir.z, -1.0, 1.0)), kSunStep_rad)},
-            steps(clouds, kCloudStep)};
+            steps(cloud_number, kCloudStep)};
 }
 
 bool EarthPicture::is_for(Vec3d camera_m, double pixel_rad) {
@@ -179,7 +179,8 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
     const double b = static_cast<double>(band.first) + row * spacing;
     Coded* out = light_.data() + band.offset +
                  static_cast<std::size_t>(row) * static_cast<std::size_t>(band.columns + 1);
-    EarthModel::Ray ray{camera_m_, {}, sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_, irradiance, clouds_};
+    EarthModel::Ray ray{camera_m_,  {},           sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_,
+                        irradiance, cloud_number_};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
     for (int column = 0; column < band.columns; ++column) {
         const double turn = 2 * kPi * column / band.columns;
@@ -203,7 +204,7 @@ void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum&
     camera_m_ = kEarthRadius_m * std::exp(key.camera[2] * kDistanceStep) *
                 from_steps(key.camera[0] * kCameraStep_rad, key.camera[1] * kCameraStep_rad);
     sun_dir_ = from_steps(key.sun[0] * kSunStep_rad, key.sun[1] * kSunStep_rad);
-    clouds_ = key.clouds * kCloudStep;
+    cloud_number_ = key.cloud_number * kCloudStep;
     const Vec3d from_m = stretched(kEarthFigure, camera_m_);
     distance_m_ = length(from_m);
     ahead_ = from_m / -distance_m_;

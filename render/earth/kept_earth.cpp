@@ -18,9 +18,9 @@ std::size_t KeptEarth::bytes() const {
     return sum;
 }
 
-bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, double clouds) {
+bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, double cloud_number) {
     if (!EarthPicture::is_for(camera_m, pixel_rad_)) return false;
-    const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir, clouds);
+    const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir, cloud_number);
     std::size_t at = find(key);
     const bool is_being_made = at == asked_ && ahead_.is_at_work();
     if (at == pictures_.size() || is_being_made) ahead_.wait();
@@ -30,7 +30,7 @@ bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, double clouds) {
     }
     shown_ = at;
     pictures_[at].last_shown = ++frames_;
-    look_ahead({camera_m, sun_dir, clouds});
+    look_ahead({camera_m, sun_dir, cloud_number});
     return true;
 }
 
@@ -64,9 +64,11 @@ void KeptEarth::look_ahead(const Place& now) {
     for (double ahead = 1; ahead <= 128; ahead *= 2) {
         const Vec3d camera_m = on(long_before_.camera_m, now.camera_m, ahead);
         if (!EarthPicture::is_for(camera_m, pixel_rad_)) return;
-        const EarthPicture::Key key = EarthPicture::key_of(
-            camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)),
-            earth_.clouds_on(now.clouds + ahead / past * (now.clouds - long_before_.clouds)));
+        const double cloud_number =
+            now.cloud_number + ahead / past * (now.cloud_number - long_before_.cloud_number);
+        const EarthPicture::Key key =
+            EarthPicture::key_of(camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)),
+                                 earth_.cloud_maps().nearest(cloud_number));
         if (key == pictures_[shown_].key) continue;
         if (find(key) < pictures_.size()) return;
         asked_ = room_for(key);

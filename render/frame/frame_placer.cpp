@@ -231,7 +231,7 @@ void FramePlacer::place_background() {
 void FramePlacer::place_earth_picture() {
     if (!kept_earth_ || !rays_->is_still() || !background_.earth_in_patches()) return;
     const PlacedBody& earth = background_.disks().front();
-    if (kept_earth_->place(earth.camera_m, earth.sun_dir, background_.clouds()))
+    if (kept_earth_->place(earth.camera_m, earth.sun_dir, background_.cloud_number()))
         frame_.earth_picture = &kept_earth_->picture();
     const double au = kAstronomicalUnit_m * earth.sun_radius_rad / kSunRadius_m;
     frame_.earth_picture_factor = static_cast<float>(au * au);

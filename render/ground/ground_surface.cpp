@@ -168,7 +168,7 @@ void GroundSurface::find_colors(std::span<const Vec3d> places, double footprint_
 void GroundSurface::find_figures(GroundKind kind, std::span<const Vec3d> places, double footprint_m,
                                  std::span<double> figures) {
     const std::vector<double> own(figures.begin(), figures.end());
-    const HapkeLimits limits = limits_of(kind).value_or(HapkeLimits{-1e300, 1e300});
+    const ParameterLimits limits = limits_of(kind).value_or(ParameterLimits{-1e300, 1e300});
     visit(kind, places, footprint_m, [&](std::size_t i, double share, Vec3d value) {
         figures[i] += share * (std::clamp(value.x, limits.least, limits.most) - own[i]);
     });

@@ -34,13 +34,13 @@ enum class GroundKind {
 };
 inline constexpr std::size_t kGroundKinds = 8;
 // Returns the least and the greatest figure of kinds that have such bounds.
-inline std::optional<HapkeLimits> limits_of(GroundKind kind) {
+inline std::optional<ParameterLimits> limits_of(GroundKind kind) {
     switch (kind) {
         case GroundKind::kHeights:
         case GroundKind::kAlbedo:
             break;
         case GroundKind::kRockAbundance:
-            return HapkeLimits{0, 0.5};
+            return ParameterLimits{0, 0.5};
         case GroundKind::kLobeWidth:
             return kLobeWidthLimits;
         case GroundKind::kLobeBackward:

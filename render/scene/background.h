@@ -80,7 +80,8 @@ class Background {
     Spectrum point_irradiance(const PlacedBody& body) const;
     const Atmosphere* air() const { return air_; }
     const EarthModel* earth() const { return earth_; }
-    double clouds() const { return clouds_; }  // number of the Earth's cloud map in this frame (CloudMaps)
+    // Returns the number of the Earth's cloud map in this frame (CloudMaps).
+    double cloud_number() const { return cloud_number_; }
     std::string name_of(BodyId id) const;
     // Returns how far above its ground a body is to be seen [m].
     double top_m(BodyId id) const;
@@ -168,7 +169,7 @@ class Background {
     const std::array<SceneBody, kMaxBodies>* scene_;
     const Atmosphere* air_;
     const EarthModel* earth_;
-    double clouds_ = 0;
+    double cloud_number_ = 0;
     Spectrum sun_irradiance_1au_;
     SunDisk disk_;
     ColorBands bands_;

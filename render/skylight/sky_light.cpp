@@ -7,6 +7,7 @@
 #include "render/brdf/microfacet.h"
 #include "render/scene/material.h"
 #include "render/vocabulary/clones.h"
+#include "render/vocabulary/lane_sum.h"
 
 namespace hilcam {
 namespace {
@@ -29,9 +30,24 @@ void lobe_weights(const float* x, const float* y, const float* z, std::size_t co
     }
 }
 
-// The cosine at which Schlick's Fresnel term is its mean over a lobe. sums: of the weights, and of the term times them.
-float facet_cosine(float weights, float terms) {
-    return weights > 0 ? 1 - std::pow(std::max(terms / weights, 0.0f), 0.2f) : 1.0f;
+// Sums over what a lobe sees of a body, by its brightest bin: of the light, and of it times Schlick's Fresnel term.
+struct SchlickSums {
+    float light = 0, term = 0;
+
+    // The cosine at which the term is its mean.
+    float facet_cosine() const { return light > 0 ? 1 - std::pow(std::max(term / light, 0.0f), 0.2f) : 1.0f; }
+};
+// In lanes, so that the sums are vectors. count: a multiple of kLanes.
+HILCAM_CLONES
+void schlick_sums(const float* weight, const float* brightest, const float* schlick, std::size_t count,
+                  SchlickSums& out) {
+    std::array<float, kLanes> lights{}, terms{};
+    for (std::size_t first = 0; first < count; first += kLanes)
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            const float light = weight[first + i] * brightest[first + i];
+            lights[i] += light, terms[i] += light * schlick[first + i];
+        }
+    out = {lane_sum(lights), lane_sum(terms)};
 }
 
 // Sum of weight times value: a vector holds the bins of one, and four sums side by side do not wait for each other.
@@ -231,10 +247,12 @@ SkyLight::Glossy SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f vie
     const bool at_limb = std::abs(off - disks.half_angle_rad) < kLimb * alpha;
     const FacetSlopes& slopes = at_limb ? kSlopesAtLimb : kSlopes;
     Spectrum sum;
-    float all = 0, together = 0, density = 0, bright = 0, bright_terms = 0;
+    float all = 0, together = 0, density = 0;
+    SchlickSums sums;
     const auto add = [&](const Spectrum& light, float weight, float vh) {
+        const float bright = weight * largest(light);
         sum += weight * light;
-        bright += weight * largest(light), bright_terms += weight * largest(light) * schlick_weight(vh);
+        sums.light += bright, sums.term += bright * schlick_weight(vh);
     };
     for (std::size_t i = 0; i < slopes.count; ++i) {
         const float steep = 1 + alpha * alpha * slopes.squared[i], nh = 1 / std::sqrt(steep);
@@ -258,7 +276,7 @@ SkyLight::Glossy SkyLight::narrow_lobe(std::size_t body, Vec3f normal, Vec3f vie
     // They look about as far as an even disk would of the same mean density.
     if (together > 0) add(look_at(mirror, together * together / density), together, no);
     if (!(all > 0)) return {};
-    return {(whole_lobe(alpha, no) / all) * sum, facet_cosine(bright, bright_terms)};
+    return {(whole_lobe(alpha, no) / all) * sum, sums.facet_cosine()};
 }
 
 // Middle and size of the even disk whose light has the same mean direction and spread: half angle is the root
@@ -308,12 +326,9 @@ SkyLight::Glossy SkyLight::glossy(std::size_t body, Vec3f normal, Vec3f view_dir
                  schlick.data());
     Glossy out;
     weighted_sum(weight.data(), disk.irradiance.data(), kParts[k], out.radiance);
-    float bright = 0, terms = 0;
-    for (std::size_t i = 0; i < kParts[k]; ++i) {
-        bright += weight[i] * disk.brightest[i];
-        terms += weight[i] * disk.brightest[i] * schlick[i];
-    }
-    out.facet_cosine = facet_cosine(bright, terms);
+    SchlickSums sums;
+    schlick_sums(weight.data(), disk.brightest.data(), schlick.data(), count, sums);
+    out.facet_cosine = sums.facet_cosine();
     return out;
 }
 

@@ -13,11 +13,11 @@ struct HapkeParameters {
     friend bool operator==(const HapkeParameters&, const HapkeParameters&) = default;
 };
 
-// The least and the greatest value of a parameter that the law takes.
-struct HapkeLimits {
+// The least and the greatest value of a parameter that its law takes.
+struct ParameterLimits {
     double least, most;
 };
-inline constexpr HapkeLimits kLobeWidthLimits{0, 0.95}, kLobeBackwardLimits{-1, 1},
+inline constexpr ParameterLimits kLobeWidthLimits{0, 0.95}, kLobeBackwardLimits{-1, 1},
     kSurgeAmplitudeLimits{0, 10}, kSurgeWidthLimits{1e-4, 1}, kSlopeLimits_deg{0, 60};
 
 // Returns the mean of three by their shares.

@@ -101,7 +101,8 @@ TEST(GroundFootprint, BouldersAreWhereThePictureHasThem) {
     EXPECT_GT(compared, 5);
 }
 
-// Craters lie there, too: the middle of each that is not worn flat is lower than the circle of its rim by most of what its shape says.
+// Craters lie there, too: the middle of each that is not worn flat is lower than the circle of its rim by most of what its shape says, and what is
+// deeper than half of that lies about it, in the mean within a pixel; others lie over some.
 TEST(GroundFootprint, CratersAreWhereThePictureHasThem) {
     const ScenarioConfig s =
         above_the_site(400, {"terrain.globe.relief.deviation_m=0.01", "terrain.globe.craters.smallest_m=6",
@@ -109,6 +110,7 @@ TEST(GroundFootprint, CratersAreWhereThePictureHasThem) {
     const PictureHeights heights(s, 400);
     const CraterProfile profile;
     int compared = 0;
+    Vec2d mean_px{0, 0};
     for (const auto& row : seen(s, GroundSurvey::What::kCraters, 16)) {
         const double radius_px = 0.5 * row[kDiameterPx];
         if (row[kFigure] > 0.2 || row[kX] < 2 * radius_px || row[kY] < 2 * radius_px ||
@@ -124,9 +126,23 @@ TEST(GroundFootprint, CratersAreWhereThePictureHasThem) {
         const double expected_m = CraterProfile::fresh_depth(row[kDiameter]) * row[kDiameter] *
                                   (profile.height(1, row[kFigure]) - profile.height(0, row[kFigure]));
         EXPECT_GT(rim_m - floor_m, 0.6 * expected_m) << row[kEast] << ' ' << row[kNorth];
+        // The middle of what is deeper than half.
+        double sum = 0, sum_x = 0, sum_y = 0;
+        const int half = static_cast<int>(radius_px);
+        for (int y = -half; y <= half; ++y)
+            for (int x = -half; x <= half; ++x) {
+                const int at_x = static_cast<int>(row[kX]) + x, at_y = static_cast<int>(row[kY]) + y;
+                if (std::hypot(x, y) < radius_px && heights.at(at_x, at_y) < 0.5 * (rim_m + floor_m))
+                    sum += 1, sum_x += at_x + 0.5, sum_y += at_y + 0.5;
+            }
+        ASSERT_GT(sum, 4);
+        const Vec2d off_px{sum_x / sum - row[kX], sum_y / sum - row[kY]};
+        EXPECT_LT(std::hypot(off_px.x, off_px.y), radius_px / 3) << row[kEast] << ' ' << row[kNorth];
+        mean_px.x += off_px.x, mean_px.y += off_px.y;
         ++compared;
     }
-    EXPECT_GT(compared, 3);
+    ASSERT_GT(compared, 3);
+    EXPECT_LT(std::hypot(mean_px.x, mean_px.y) / compared, 1);
 }
 
 // Places are east and north of the site, which the camera stands above, and of the size that the lens makes of them.
@@ -143,18 +159,22 @@ TEST(GroundFootprint, PlacesAreThoseOfTheLens) {
     }
 }
 
-// The truth of a run's frames has the same lists, without the picture's rays.
-TEST(GroundFootprint, TruthListsTheSame) {
-    const ScenarioConfig s = above_the_site(
-        150, {"terrain.globe.boulders.smallest_m=0.5", "outputs.truth={port: 5012, ground_px: 4}"});
+// Returns what a run tells of the ground in its picture.
+SeenGroundThings told_by_run(const ScenarioConfig& s) {
     const auto ground = ground_truth_of(s);
-    ASSERT_NE(ground, nullptr);
     StillCamera camera(s);
     FrameTruth truth = make_truth(s, camera.renderer(), truth_wishes(s));
     truth.raster = raster_of(s.camera, static_cast<int>(s.quality.oversampling), {1, 1});
     camera.tell(truth);
-    const SeenGroundThings found = ground->find(truth);
-    EXPECT_FALSE(found.left_out);
+    return ground->find(truth);
+}
+
+// The truth of a run's frames has the same lists, without the picture's rays.
+TEST(GroundFootprint, TruthListsTheSame) {
+    const ScenarioConfig s = above_the_site(
+        150, {"terrain.globe.boulders.smallest_m=0.5", "outputs.truth={port: 5012, ground_px: 4}"});
+    const SeenGroundThings found = told_by_run(s);
+    EXPECT_EQ(found.left_out, "");
     for (const auto& [things, what] : {std::pair{&found.craters, GroundSurvey::What::kCraters},
                                        {&found.boulders, GroundSurvey::What::kBoulders}}) {
         const Rows rows = seen(s, what, 4);
@@ -168,6 +188,22 @@ TEST(GroundFootprint, TruthListsTheSame) {
             }));
     }
     EXPECT_EQ(ground_truth_of(above_the_site(150)), nullptr);
+}
+
+TEST(GroundFootprint, TruthSaysWhyItListsNothing) {
+    const SeenGroundThings many = told_by_run(above_the_site(
+        300, {"terrain.globe.craters.smallest_m=0.2", "outputs.truth={port: 5012, ground_px: 0.2}"}));
+    EXPECT_TRUE(many.craters.empty() && many.boulders.empty());
+    EXPECT_THAT(many.left_out, HasSubstr("outputs.truth.ground_px: there are more of them in the picture"));
+}
+
+// Ground without stones still has craters.
+TEST(GroundFootprint, TruthListsCratersWhereThereAreNoBoulders) {
+    const SeenGroundThings found = told_by_run(above_the_site(
+        150, {"terrain.globe.boulders.abundance=0", "outputs.truth={port: 5012, ground_px: 4}"}));
+    EXPECT_EQ(found.left_out, "");
+    EXPECT_GT(found.craters.size(), 1u);
+    EXPECT_TRUE(found.boulders.empty());
 }
 
 TEST(GroundFootprint, APictureWithoutGroundIsRefused) {

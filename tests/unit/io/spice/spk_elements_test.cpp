@@ -60,7 +60,8 @@ TEST(SpkEquinoctial, GivesTheStatesOfNaifsExample) {
     }
 }
 
-// With rates and a leaning equator the velocity is the position's derivative, and node and periapsis go as they are told.
+// Where node and periapsis turn by given rates about an equator that leans, the velocity is the position's derivative, and both
+// angles turn at those rates.
 TEST(SpkEquinoctial, PrecessesAsToldAndItsVelocityIsTheDerivative) {
     const double a = 24'000, n = 1.7e-4, node_rate = -3e-7, periapsis_rate = 2e-7;
     const auto segment =

@@ -1,4 +1,4 @@
-// Clouds by time: which maps an instant has, their mean, and that frames and kept pictures show it.
+// Clouds by time: an instant has two maps and a share of each, and frames and kept pictures show their mean.
 
 #include "render/earth/cloud_maps.h"
 
@@ -7,7 +7,7 @@
 #include "render/earth/kept_earth.h"
 #include "render/sky/sun.h"
 #include "render/vocabulary/config_field.h"
-#include "tests/support/stage.h"
+#include "tests/support/earth_stage.h"
 
 namespace hilcam {
 namespace {
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 constexpr TimeTai kNoon{800'000'000'000'000'000};
 TimeTai hours_after_noon(double hours) { return kNoon + std::llround(hours * 3600e9); }
 
-// Even: cloud and top as codes, on land of one grey.
+// The map is even: cloud and top as codes, on land of one grey.
 EarthMap even_clouds(std::uint8_t cloud, std::uint8_t top) {
     EarthMap::Level level{4, 2, {}};
     EarthMap::Texel texel{80, 80, 80, 80};
@@ -63,15 +63,7 @@ TEST(CloudMaps, BetweenTwoInstantsIsTheirMean) {
 
 // What the disk sends [W m^-2 sr^-1 um^-1, as a mean over the picture] at an instant.
 double light_at(TimeTai time, bool kept) {
-    Stage s;
-    s.camera(64, 0.2);
-    s.earth(0.3);
-    s.scene.earth =
-        std::make_shared<const EarthModel>(EarthConfig{}, even_clouds(0, 0), three_maps(), nullptr, s.grid);
-    s.quality.kept_earth = kept;
-    s.quality.visibility = kept ? "buffer" : "rays";
-    s.quality.samples_per_axis = kept ? 1 : 4;
-    s.sun({0.3, 0.5, -1});
+    Stage s = earth_stage(64, 0.2, kept, 4, even_clouds(0, 0), three_maps());
     s.world.time = time;
     s.world.bodies[BodyId::kEarth].world_m = {0, 0, 42164e3};
     s.render();

@@ -8,7 +8,7 @@
 
 #include "render/sky/sun.h"
 #include "render/vocabulary/units.h"
-#include "tests/support/stage.h"
+#include "tests/support/earth_stage.h"
 
 namespace hilcam {
 namespace {
@@ -69,15 +69,7 @@ TEST_F(KeptEarthTest, FarCamerasAloneHaveOne) {
 
 // Mean radiance with the Earth, from geostationary height, so far from the middle of a field of 19 degrees on each side.
 double light_at(double off_rad, bool kept) {
-    Stage s;
-    s.camera(128, 0.35);
-    s.earth(0.3);
-    s.scene.earth =
-        std::make_shared<const EarthModel>(EarthConfig{}, seeded_clouds(3, 64), EarthMap(), nullptr, s.grid);
-    s.quality.kept_earth = kept;
-    s.quality.visibility = kept ? "buffer" : "rays";
-    s.quality.samples_per_axis = kept ? 1 : 12;
-    s.sun({0.3, 0.5, -1});
+    Stage s = earth_stage(128, 0.35, kept, 12, seeded_clouds(3, 64), {});
     s.world.bodies[BodyId::kEarth].world_m = 42164e3 * Vec3d{std::sin(off_rad), 0, std::cos(off_rad)};
     s.render();
     return s.mean();
