@@ -87,7 +87,7 @@ std::vector<double> sky_costs_ms(const FrameView& frame) {
     for (std::size_t body = 0; body < frame.body_box_count; ++body) {
         double least_ms = 0;
         for (int time = 0; time < kTimes && least_ms < kLong_ms; ++time) {
-            const Stopwatch watch;
+            const ThreadStopwatch watch;
             tiles.each(frame.body_boxes[body], [&](const PixelBox& box) { tiles.fill(frame, box); });
             const double ms = tiles.stride() * watch.ms();
             least_ms = time == 0 ? ms : std::min(least_ms, ms);
@@ -125,7 +125,7 @@ std::vector<SkyPart> sky_parts(const FrameView& frame) {
                 std::vector<double> least_ms(1 + views.size(), std::numeric_limits<double>::infinity());
                 for (int time = 0; time < kTimes; ++time)
                     for (std::size_t k = 0; k <= views.size(); ++k) {
-                        const Stopwatch watch;
+                        const ThreadStopwatch watch;
                         tiles.fill(k == 0 ? frame : views[k - 1], box);
                         least_ms[k] = std::min(least_ms[k], watch.ms());
                     }

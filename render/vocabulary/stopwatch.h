@@ -1,10 +1,12 @@
 #pragma once
-// Measures how long work takes, by the machine's clock that never goes back. Loop.
+// Measures how long work takes. Loop.
 
 #include <chrono>
+#include <ctime>
 
 namespace hilcam {
 
+// Measures by the machine's clock that never goes back.
 class Stopwatch {
   public:
     // Since it was made.
@@ -14,6 +16,20 @@ class Stopwatch {
   private:
     using Clock = std::chrono::steady_clock;
     Clock::time_point begun_ = Clock::now();
+};
+
+// Measures the processor time of the thread that made it, which others that share the machine hardly change.
+class ThreadStopwatch {
+  public:
+    double ms() const { return now_ms() - begun_ms_; }
+
+  private:
+    static double now_ms() {
+        std::timespec time{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+        return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+    }
+    double begun_ms_ = now_ms();
 };
 
 }  // namespace hilcam

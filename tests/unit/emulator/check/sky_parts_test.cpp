@@ -56,8 +56,7 @@ TEST(SkyParts, TheMoonsReliefIsTheLargestPartOfIt) {
         ADD_FAILURE() << what;
         return 0.0;
     };
-    EXPECT_GT(after("moon: relief; takes "), 0.4 * after("its pixels take "));
-    EXPECT_THAT(plan, Contains(HasSubstr("moon: light of other bodies; takes ")));
+    EXPECT_GT(after("moon: relief; takes "), after("moon: light of other bodies; takes "));
 
     const std::vector<std::string> smooth = plan_of(
         "moon_flyby", {"moon={law: hapke, albedo_map: " HILCAM_SOURCE_DIR "/configs/maps/moon_color.png}"});
