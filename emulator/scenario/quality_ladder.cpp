@@ -105,7 +105,7 @@ struct Limits {
 RenderQuality limited(const RenderQuality& from, const RenderQuality& configured, const Limits& to) {
     RenderQuality q = from;
     q.samples_per_axis = std::min(q.samples_per_axis, to.samples_per_axis);
-    q.buffer_samples = 16;
+    q.buffer_samples = std::min<std::int64_t>(q.buffer_samples, 16);
     q.max_depth = std::min(q.max_depth, to.max_depth);
     q.contribution_threshold = std::max(q.contribution_threshold, to.contribution_threshold);
     q.lod_error_px = std::max(q.lod_error_px, to.lod_error_px);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/light/ground_light.h"
 #include "render/light/point_field.h"
 #include "render/visibility/screen_bounds.h"
 #include "render/vocabulary/check.h"
@@ -35,6 +36,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
       full_mask_(geometry),
       rays_(modules.rays.make(models.rays.model, models.rays)),
       radiance_model_(modules.radiance.make(models.radiance)),
+      plain_light_(models.radiance == "reflected" || models.radiance == "emissive"),
       lod_error_px_(levels.front().lod_error_px),
       samples_per_axis_(static_cast<int>(levels.front().samples_per_axis)),
       rays_across_(static_cast<int>(levels.front().rays_across)) {
@@ -65,7 +67,10 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
                                    : stars_.size();
 
-    for (const RenderQuality& level : levels) make_visibility(geometry, level);
+    for (const RenderQuality& level : levels) {
+        make_visibility(geometry, level);
+        if (level.sees_ground()) make_ground_visibility(geometry);
+    }
     frame_.scene = &embree_;
     frame_.objects = &shown_;
     frame_.world_from_body.resize(objects_.size());
@@ -89,6 +94,18 @@ void FramePlacer::make_visibility(const ImageGeometry& geometry, const RenderQua
     if (buffer) return;
     seen_.reserve(objects_.size());
     buffer = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), visibility_room());
+}
+
+void FramePlacer::make_ground_visibility(const ImageGeometry& geometry) {
+    const bool plain =
+        plain_light_ && lamps_.all().empty() && is_plain_ground(objects_.back().materials().front());
+    if (ground_visibility_ || !terrain_ || objects_.size() > 1 || !plain || !geometry.distortion.none() ||
+        !rays_->is_still())
+        return;
+    seen_.reserve(1);
+    const std::size_t most = terrain_->most_triangles() + terrain_->most_triangles() / 4;
+    ground_visibility_ =
+        std::make_unique<VisibilityBuffer>(ground_geometry(geometry), VisibilityBuffer::Room{1, most, most});
 }
 
 // Objects shown in more triangles than this are left to rays, which hardly cost more for more.
@@ -132,7 +149,7 @@ void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& pat
     frame_.max_depth = static_cast<int>(quality.max_depth);
     frame_.contribution_threshold = static_cast<float>(quality.contribution_threshold);
     frame_.sun_is_disk = quality.sun_disk;
-    uses_visibility_ = quality.uses_buffer();
+    uses_visibility_ = quality.uses_buffer(), sees_ground_ = quality.sees_ground();
     frame_.samples = quality.pixel_samples();
     set_paths(paths);
 }
@@ -186,7 +203,7 @@ void FramePlacer::place_shapes(const WorldSnapshot& world, RandomKey key) {
                  {world_.time, world_.camera, world_.rows_velocity_m_s, world_.camera_rate_rad_s});
     place_objects();
     place_background();
-    frame_.visibility = nullptr;
+    frame_.visibility = frame_.ground = nullptr;
     any_placed_ = true;
 }
 
@@ -237,7 +254,20 @@ void FramePlacer::place_earth_picture() {
     frame_.earth_picture_factor = static_cast<float>(au * au);
 }
 
+// In space, and where its mesh is all there is to see of it.
+bool FramePlacer::ground_is_alone() const {
+    return ground_visibility_ && sees_ground_ && !background_.camera_in_air() && frame_.start_before_m <= 0 &&
+           plans_.back().use == ObjectUse::kMesh && plans_.back().samples_per_axis == 1 &&
+           frame_.rays->linear();
+}
+
 void FramePlacer::place_visibility() {
+    if (ground_is_alone()) {
+        seen_.clear();
+        seen_.push_back({0, world_.objects.back(), radii_m_.back(), embree_.mesh(0, 0)});
+        if (ground_visibility_->place(world_.camera, seen_)) frame_.ground = ground_visibility_.get();
+        return;
+    }
     VisibilityBuffer* const buffer = (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();
     if (!buffer || !uses_visibility_ || !rays_->is_still()) return;
     seen_.clear();

@@ -122,11 +122,13 @@ class FramePlacer {
     ScreenMask object_mask_, full_mask_;
     // Buffers of 4 x 4 and of 8 x 8 samples a pixel, as levels of quality use them; null: rays.
     std::unique_ptr<VisibilityBuffer> visibility_, fine_visibility_;
+    std::unique_ptr<VisibilityBuffer> ground_visibility_;  // of ground alone (ground_light.h); null: rays
     std::vector<VisibilityBuffer::Shown> seen_;
-    bool uses_visibility_ = false;
+    bool uses_visibility_ = false, sees_ground_ = false;
     std::unique_ptr<RayGenerator> rays_;
     std::unique_ptr<RadianceModel> radiance_model_;
     std::unique_ptr<ShownTerrain> terrain_;
+    bool plain_light_;  // reflected sunlight is what the radiance model has of the ground
     double lod_error_px_;
     int samples_per_axis_;
     int rays_across_;
@@ -139,6 +141,8 @@ class FramePlacer {
     void place_background();
     void place_earth_picture();
     void make_visibility(const ImageGeometry& geometry, const RenderQuality& level);
+    void make_ground_visibility(const ImageGeometry& geometry);
+    bool ground_is_alone() const;
     VisibilityBuffer::Room visibility_room() const;
 };
 

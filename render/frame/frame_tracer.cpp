@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/light/ground_light.h"
+
 namespace hilcam {
 namespace {
 
@@ -66,7 +68,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
                          std::span<const RenderQuality> levels)
     : width_(geometry.padded_width()), height_(geometry.padded_height()) {
     int max_tiles = 0;
-    bool budget = false, buffer = false;
+    bool budget = false, buffer = false, ground = false;
     for (const RenderQuality& quality : levels) {
         // The visibility buffer's samples cost no memory of a path model's.
         const bool rays = !quality.uses_buffer();
@@ -77,7 +79,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
         levels_.push_back(
             {quality, set, edge_px, (width_ + edge_px - 1) / edge_px, (height_ + edge_px - 1) / edge_px});
         max_tiles = std::max(max_tiles, levels_.back().tiles_across * levels_.back().tiles_down);
-        buffer = buffer || !rays;
+        buffer = buffer || !rays, ground = ground || quality.sees_ground();
         budget = budget || quality.noise_budget > 0;
     }
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
@@ -85,6 +87,7 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
     if (buffer)
         seen_.resize(slots()), edges_.resize(slots()), tile_halves_.resize(slots()),
             tile_kinds_.resize(slots());
+    if (ground) ground_seen_.resize(slots());
     facets_.resize(slots());
     for (std::size_t i = 0; budget && i < slots(); ++i)
         samplers_.push_back(std::make_unique<AdaptiveSampler>());
@@ -109,10 +112,12 @@ void FrameTracer::use_level(std::size_t level) {
     level_ = level;
 }
 
+// Two rows side by side, so that four neighbours come after each other.
 PixelBox FrameTracer::tile(int index) const {
     const Level& level = levels_[level_];
-    const int x = index % level.tiles_across * level.tile_px;
-    const int y = index / level.tiles_across * level.tile_px;
+    const int first_row = index / (2 * level.tiles_across) * 2, within = index % (2 * level.tiles_across);
+    const int rows = std::min(2, level.tiles_down - first_row);
+    const int x = within / rows * level.tile_px, y = (first_row + within % rows) * level.tile_px;
     return {x, y, std::min(x + level.tile_px, width_), std::min(y + level.tile_px, height_)};
 }
 
@@ -126,6 +131,7 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
     const bool marks = levels_[level_].tile_px == RadianceImage::kBlock_px;
     if (!marks) radiance.clear_marks();
     find_halves(placer, marks, radiance);
+    for (GroundSeen& seen : ground_seen_) seen.x_px = seen.y_px = -1;
     const int all = levels_[level_].tiles_across * levels_[level_].tiles_down;
     tiles_done_.store(0, std::memory_order_relaxed);
     tiles_all_.store(all, std::memory_order_relaxed);
@@ -178,6 +184,16 @@ void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std
         }
 }
 
+// Null: nothing of the ground is there.
+const VisibilityTile* FrameTracer::ground_at(const FrameView& frame, const PixelBox& box, std::size_t slot) {
+    GroundSeen& seen = ground_seen_[slot];
+    const int x = box.x0 / kGroundTile_px * kVisibilityTile_px,
+              y = box.y0 / kGroundTile_px * kVisibilityTile_px;
+    if (seen.x_px != x || seen.y_px != y)
+        seen.x_px = x, seen.y_px = y, seen.any = frame.ground->fill(x, y, seen.tile);
+    return seen.any ? &seen.tile : nullptr;
+}
+
 void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
                              VisibilityTile* seen, TileStats& stats, RadianceImage& radiance) {
     const auto count = static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0));
@@ -186,6 +202,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     Tile tile{frame, box, n, pixels, stats, facets_[slot]};
     tile.seen = seen;
     if (seen) tile.edges = &edges_[slot];
+    if (frame.ground) tile.ground = ground_at(frame, box, slot);
     if (halves_) {
         tile.half_responses = halves_->responses();
         tile.halves =

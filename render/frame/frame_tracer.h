@@ -80,7 +80,14 @@ class FrameTracer {
     std::vector<std::vector<HalfKind>> tile_kinds_;  // likewise
     std::vector<std::vector<float>> tile_halves_;    // likewise; none where rays see
     std::vector<FacetList> facets_;
-    std::vector<VisibilityTile> seen_;                        // none where rays see
+    // A tile of the frame's buffer of the ground, of which several of the picture's are parts.
+    struct GroundSeen {
+        VisibilityTile tile;
+        int x_px = -1, y_px = -1;
+        bool any = false;
+    };
+    std::vector<GroundSeen> ground_seen_;                     // one per slot; none where rays see
+    std::vector<VisibilityTile> seen_;                        // likewise
     std::vector<SunEdges> edges_;                             // likewise
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
@@ -92,6 +99,7 @@ class FrameTracer {
     void find_halves(const FramePlacer& placer, bool marks, RadianceImage& radiance);
     void trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot, TileStats& stats,
                     RadianceImage& radiance);
+    const VisibilityTile* ground_at(const FrameView& frame, const PixelBox& box, std::size_t slot);
     void trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
                     VisibilityTile* seen, TileStats& stats, RadianceImage& radiance);
     void trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,

@@ -9,10 +9,15 @@ Fields fields(RenderQuality& q) {
         per_frame(
             text("visibility", q.visibility,
                  "rays; or buffer: what the camera sees is found by many samples a pixel at once. That needs "
-                 "one instant for all rows, no terrain, and a lens that bends lines little within 16 pixels; "
-                 "elsewhere rays are used")),
-        per_frame(integer("buffer_samples", q.buffer_samples, {16, 64},
-                          "number of the visibility buffer's samples in a pixel: 16 or 64")),
+                 "one instant for all rows, and a lens that bends lines little within 16 pixels; elsewhere, "
+                 "and for "
+                 "terrain with 16 or more samples, rays are used")),
+        per_frame(integer("buffer_samples", q.buffer_samples, {1, 64},
+                          "number of the visibility buffer's samples in a pixel: 16 or 64; or 1, for terrain "
+                          "that is alone in "
+                          "the scene, in the Sun's light (path_model: direct) and by a lens without "
+                          "distortion: what one ray a "
+                          "pixel finds, for a third of the time; elsewhere it is as visibility: rays")),
         per_frame(text("path_model", q.path_model,
                        "path model: kept | direct | hemisphere | path, or a plug-in's")),
         per_frame(integer("max_depth", q.max_depth, {1, 64},

@@ -16,7 +16,7 @@ namespace hilcam {
 struct RenderQuality {
     std::int64_t samples_per_axis = 1;  // n: a regular n x n grid of rays in each pixel
     std::string visibility = "rays";    // or "buffer": buffer_samples a pixel where it can
-    std::int64_t buffer_samples = 16;   // or 64
+    std::int64_t buffer_samples = 16;   // or 64; 1: of ground alone
     std::string path_model = "path";
     std::int64_t max_depth = 2;            // 1: direct light only; 2: one bounce; ...
     double contribution_threshold = 1e-3;  // see path_model.h
@@ -35,7 +35,12 @@ struct RenderQuality {
     std::int64_t most_passes = 16;    // over a pixel, with a noise budget
 
     // A noise budget is for rays.
-    bool uses_buffer() const { return visibility == "buffer" && noise_budget == 0; }
+    bool uses_buffer() const { return visibility == "buffer" && noise_budget == 0 && buffer_samples > 1; }
+    // Ground alone is seen once a pixel, sixteen pixels at a time (ground_light.h).
+    bool sees_ground() const {
+        return visibility == "buffer" && noise_budget == 0 && buffer_samples == 1 && samples_per_axis == 1 &&
+               path_model == "direct" && !sun_disk;
+    }
     PixelSamples pixel_samples() const { return PixelSamples(buffer_samples == 64 ? 8 : 4); }
 };
 Fields fields(RenderQuality& quality);

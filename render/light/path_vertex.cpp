@@ -54,6 +54,12 @@ bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir
     return true;
 }
 
+float rounding_m(Vec3f p, Vec3f o) {
+    const float greatest =
+        std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), std::abs(o.x), std::abs(o.y), std::abs(o.z)});
+    return 16 * std::numeric_limits<float>::epsilon() * greatest;
+}
+
 bool make_vertex(const FrameView& frame, const HitPacket& hits, int lane, Vec3f origin_m, Vec3f dir,
                  float alpha_least, RayWidth width, Vertex& vertex) {
     Lie lie;
@@ -80,12 +86,7 @@ void make_vertex(const FrameView& frame, const HitPacket& hits, int lane, const 
 
     vertex.footprint_m = width.footprint_m + width.spread_rad * hits.distance[k] * length(dir);
     vertex.point_m = origin_m + hits.distance[k] * dir;
-    // The hit point's rounding grows with the coordinates it was made of: 16 half-ulps of the greatest
-    // (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
-    const float greatest =
-        std::max({std::abs(vertex.point_m.x), std::abs(vertex.point_m.y), std::abs(vertex.point_m.z),
-                  std::abs(origin_m.x), std::abs(origin_m.y), std::abs(origin_m.z)});
-    vertex.offset_m = 16 * std::numeric_limits<float>::epsilon() * greatest;
+    vertex.offset_m = rounding_m(vertex.point_m, origin_m);
 
     vertex.object = hits.object[k];
     vertex.surface_number = triangle.surface;

@@ -61,6 +61,10 @@ struct Lie {
 // Loop, any thread.
 bool find_lie(const FrameView& frame, const HitPacket& hits, int lane, Vec3f dir, Lie& lie);
 
+// Returns how far above a surface a ray must start that was met at a point by a ray from another. The point's rounding grows with
+// the coordinates it was made of: 16 half-ulps of the greatest (Waechter & Binder, Ray Tracing Gems, 2019, ch. 6, use a like bound).
+float rounding_m(Vec3f point_m, Vec3f origin_m);
+
 // Point, normals and material of a lane that met an object; pixel, sample, depth and weight are the caller's.
 // The facet lobe is at least `alpha_least` wide. False where there is nothing to see. Loop, any thread.
 // footprint_m: width of the ray where it began, spread_rad: by how much it widens.

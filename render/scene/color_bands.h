@@ -22,6 +22,8 @@ class ColorBands {
   public:
     explicit ColorBands(const SpectralGrid& grid);
     Spectrum spectrum(Vec3f linear_rgb) const;
+    // Returns the shares of red, green and blue that one bin takes.
+    std::array<float, 3> shares(int bin) const { return {red_[bin], green_[bin], blue_[bin]}; }
 
   private:
     int bins_;

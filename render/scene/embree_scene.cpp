@@ -252,7 +252,8 @@ PreparedMesh::~PreparedMesh() {
 
 PreparedMesh EmbreeScene::prepare(const Mesh& mesh) const {
     PreparedMesh out;
-    out.scene_ = implementation_->build(mesh, true);
+    const RTCScene scene = implementation_->build(mesh, true);
+    out.scene_ = scene, out.mesh_ = view_of(scene, mesh);
     return out;
 }
 
@@ -261,7 +262,7 @@ void EmbreeScene::adopt(std::size_t object, PreparedMesh& mesh) {
     void* const replaced = first;
     first = static_cast<RTCScene>(mesh.scene_);
     mesh.scene_ = replaced;
-    implementation_->meshes[object].front() = {};
+    std::swap(implementation_->meshes[object].front(), mesh.mesh_);
     implementation_->shown[object] = kNoLevel;
 }
 

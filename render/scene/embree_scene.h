@@ -57,13 +57,16 @@ struct MeshView {
 class PreparedMesh {
   public:
     PreparedMesh() = default;
-    PreparedMesh(PreparedMesh&& other) noexcept : scene_(other.scene_) { other.scene_ = nullptr; }
+    PreparedMesh(PreparedMesh&& other) noexcept : scene_(other.scene_), mesh_(other.mesh_) {
+        other.scene_ = nullptr;
+    }
     PreparedMesh& operator=(PreparedMesh&&) = delete;
     ~PreparedMesh();
 
   private:
     friend class EmbreeScene;
     void* scene_ = nullptr;
+    MeshView mesh_;  // the copy that the scene keeps
 };
 
 class EmbreeScene {
@@ -86,7 +89,7 @@ class EmbreeScene {
     // there. Loop, one thread.
     void adopt(std::size_t object, PreparedMesh& mesh);
 
-    // The copy that is kept of a mesh; nothing after adopt(). Any thread.
+    // The copy that is kept of a mesh. Any thread.
     MeshView mesh(std::size_t object, std::size_t level) const;
 
     // Any thread between two place(). No allocation.

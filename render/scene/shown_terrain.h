@@ -18,6 +18,8 @@ class ShownTerrain {
     // index: of that object. Owner thread.
     ShownTerrain(EmbreeScene& embree, std::unique_ptr<SceneTerrain> terrain, std::size_t index);
 
+    // Returns the greatest number of triangles that its mesh is made of, about.
+    std::size_t most_triangles() const { return terrain_->most_triangles; }
     // Returns the body with which it turns.
     std::optional<BodyId> body() const { return terrain_->body; }
     // Takes what the streamer has ready and asks it for what the camera needs; the first call, and every one

@@ -1,0 +1,324 @@
+#include "render/light/ground_packet.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "render/vocabulary/units.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/light/ground_packet.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace hilcam {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::CappedTag<float, GroundPacket::kSize>;
+using Ints = hn::RebindToSigned<Floats>;
+using V = hn::Vec<Floats>;
+using I = hn::Vec<Ints>;
+
+HWY_INLINE V number(float value) { return hn::Set(Floats(), value); }
+
+struct Vector {
+    V x, y, z;
+};
+HWY_INLINE Vector vector(Vec3f v) { return {number(v.x), number(v.y), number(v.z)}; }
+HWY_INLINE Vector minus(const Vector& a, const Vector& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Vector plus(const Vector& a, const Vector& b) {
+    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Vector times(V s, const Vector& a) { return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)}; }
+HWY_INLINE V dotted(const Vector& a, const Vector& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE Vector crossed(const Vector& a, const Vector& b) {
+    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+// Zero where it has no length, or one beyond single precision.
+HWY_INLINE Vector unit(const Vector& a) {
+    const V squared = dotted(a, a);
+    const auto good = hn::And(hn::Gt(squared, number(1e-30f)), hn::Lt(squared, number(1e30f)));
+    return times(hn::IfThenElseZero(good, hn::Div(number(1), hn::Sqrt(squared))), a);
+}
+template <class Mask>
+HWY_INLINE Vector chosen(Mask mask, const Vector& yes, const Vector& no) {
+    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+            hn::IfThenElse(mask, yes.z, no.z)};
+}
+HWY_INLINE Vector load(const GroundPacket::Vectors& from, std::size_t k) {
+    const Floats d;
+    return {hn::Load(d, from.x.data() + k), hn::Load(d, from.y.data() + k), hn::Load(d, from.z.data() + k)};
+}
+HWY_INLINE V load(const GroundPacket::Floats& from, std::size_t k) {
+    return hn::Load(Floats(), from.data() + k);
+}
+HWY_INLINE void store(V value, GroundPacket::Floats& to, std::size_t k) {
+    hn::Store(value, Floats(), to.data() + k);
+}
+
+// unpack_long_normal() (packed_normal.h).
+HWY_INLINE Vector unpacked(const std::uint32_t* packed) {
+    const Floats d;
+    const I bits = hn::Load(Ints(), reinterpret_cast<const std::int32_t*>(packed));
+    const V scale = number(1.0f / 32767.0f);
+    V x = hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(bits))), scale);
+    V y = hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(bits)), scale);
+    const V z = hn::Sub(hn::Sub(number(1), hn::Abs(x)), hn::Abs(y));
+    const V t = hn::Max(hn::Neg(z), number(0));
+    x = hn::Add(x, hn::CopySign(t, hn::Neg(x)));
+    y = hn::Add(y, hn::CopySign(t, hn::Neg(y)));
+    return {x, y, z};
+}
+
+// Natural logarithm of a normal positive number, as sensor/noise.cpp has it: error below 2e-7.
+HWY_INLINE V logarithm(V x) {
+    const Floats d;
+    const Ints di;
+    const I bits = hn::BitCast(di, x);
+    const I exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3F3504F3)));
+    const V m = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
+    const V s = hn::Div(hn::Sub(m, number(1)), hn::Add(m, number(1))), s2 = hn::Mul(s, s);
+    V series = number(1.0f / 9);
+    for (const float term : {1.0f / 7, 1.0f / 5, 1.0f / 3, 1.0f})
+        series = hn::Add(number(term), hn::Mul(s2, series));
+    return hn::Add(hn::Mul(hn::ConvertTo(d, exponent), number(0.69314718f)),
+                   hn::Mul(hn::Mul(number(2), s), series));
+}
+
+// A bilinear mean of four packed normals, and of others half as fine, for each place.
+struct alignas(64) Lookups {
+    std::uint32_t own[4][GroundPacket::kSize], above[4][GroundPacket::kSize];
+    float own_x[GroundPacket::kSize], own_y[GroundPacket::kSize];
+    float above_x[GroundPacket::kSize], above_y[GroundPacket::kSize];
+    float share[GroundPacket::kSize];  // of the second
+};
+HWY_INLINE Vector bilinear(const std::uint32_t (&corners)[4][GroundPacket::kSize], const float* x,
+                           const float* y, std::size_t k) {
+    const Floats d;
+    const V dx = hn::Load(d, x + k), dy = hn::Load(d, y + k);
+    const V ex = hn::Sub(number(1), dx), ey = hn::Sub(number(1), dy);
+    const Vector low = plus(times(ex, unpacked(corners[0] + k)), times(dx, unpacked(corners[1] + k)));
+    const Vector high = plus(times(ex, unpacked(corners[2] + k)), times(dx, unpacked(corners[3] + k)));
+    return plus(times(ey, low), times(dy, high));
+}
+
+// Writes where in the grids of normals a place lies (GroundNormals::find). Triangles without any have their corners' instead.
+void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
+    constexpr int kQuads = GroundNormals::kQuads, kTexels = GroundNormals::kTexels;
+    const GroundNormals* const normals = surfaces.ground_normals.get();
+    std::uint32_t first = 1, end = 0;  // triangles of the tile below
+    const GroundNormals::Tile* tile = nullptr;
+    const auto corners = [](const GroundNormals::Grid& grid, int side, float x, float y, std::size_t i,
+                            std::uint32_t(&out)[4][GroundPacket::kSize], float& dx, float& dy) {
+        const int column = std::min(static_cast<int>(x), side - 2),
+                  row = std::min(static_cast<int>(y), side - 2);
+        dx = x - static_cast<float>(column), dy = y - static_cast<float>(row);
+        const std::uint32_t* const from = grid.data() + row * side + column;
+        out[0][i] = from[0], out[1][i] = from[1], out[2][i] = from[side], out[3][i] = from[side + 1];
+    };
+    for (std::size_t i = 0; i < GroundPacket::kSize; ++i) {
+        const std::uint32_t triangle = p.triangle[i];
+        p.sun[i] = surfaces.known_sun.empty() ? KnownSun::kAsk : surfaces.known_sun[triangle];
+        if (normals && !(triangle >= first && triangle < end)) {
+            const std::uint32_t number = triangle / normals->triangles_per_tile;
+            first = number * normals->triangles_per_tile, end = first + normals->triangles_per_tile;
+            tile = &normals->tiles[number];
+        }
+        const std::uint32_t in_tile = triangle - first;
+        if (!normals || in_tile >= 2 * kQuads * kQuads) {
+            // Barycentric shares as a bilinear mean: (1 - v) ((1 - x) n0 + x n1) + v n2.
+            const PackedTriangle& packed = surfaces.triangles[triangle];
+            for (std::size_t c = 0; c < 4; ++c)
+                at.own[c][i] = packed.corner_normals[std::min<std::size_t>(c, 2)];
+            at.own_x[i] = p.v[i] < 1 ? p.u[i] / (1 - p.v[i]) : 0.0f, at.own_y[i] = p.v[i];
+            for (std::size_t c = 0; c < 4; ++c) at.above[c][i] = at.own[0][i];
+            at.above_x[i] = at.above_y[i] = at.share[i] = 0;
+            continue;
+        }
+        const std::uint32_t x = in_tile / 2 % kQuads, y = in_tile / 2 / kQuads;
+        const bool second = in_tile % 2 == 1;
+        const float dx = second ? 1 - p.v[i] : p.u[i], dy = second ? p.u[i] + p.v[i] : p.v[i];
+        const std::uint8_t* const share = &tile->share[y * (kQuads + 1) + x];
+        const float low = (1 - dx) * share[0] + dx * share[1],
+                    high = (1 - dx) * share[kQuads + 1] + dx * share[kQuads + 2];
+        at.share[i] = ((1 - dy) * low + dy * high) * (1.0f / 255);
+        const float px = (static_cast<float>(x) + dx) * kTexels, py = (static_cast<float>(y) + dy) * kTexels;
+        corners(*tile->own, GroundNormals::kSide, px, py, i, at.own, at.own_x[i], at.own_y[i]);
+        corners(*tile->above, GroundNormals::kHalfSide, 0.5f * px, 0.5f * py, i, at.above, at.above_x[i],
+                at.above_y[i]);
+    }
+}
+
+// Corners' positions and colours, gathered.
+struct alignas(64) Corners {
+    float position[3][3][GroundPacket::kSize];  // by corner and axis
+    float color[3][3][GroundPacket::kSize];     // by corner and channel
+};
+void gather(const GroundInFrame& frame, const GroundPacket& p, Corners& out) {
+    const bool colored = !frame.surfaces->corner_colors.empty();
+    for (std::size_t i = 0; i < GroundPacket::kSize; ++i) {
+        const std::uint32_t triangle = p.triangle[i];
+        const auto& corners = frame.mesh.triangles[triangle];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Vec3f& at = frame.mesh.vertices_m[corners[c]];
+            out.position[c][0][i] = at.x, out.position[c][1][i] = at.y, out.position[c][2][i] = at.z;
+        }
+        if (!colored) continue;
+        const auto& colors = frame.surfaces->corner_colors[triangle];
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                out.color[c][channel][i] = static_cast<float>(colors[c][channel]);
+    }
+}
+
+// Moeller & Trumbore (J. Graphics Tools 2(1), 1997), kept to the triangle, as find_lies() has it.
+HWY_INLINE void meet(const Vector (&at)[3], const Vector& camera, const Vector& dir, std::size_t k,
+                     GroundPacket& p) {
+    const Vector e1 = minus(at[1], at[0]), e2 = minus(at[2], at[0]), from_corner = minus(camera, at[0]);
+    const Vector across = crossed(dir, e2), along = crossed(from_corner, e1);
+    const V inverse = hn::Div(number(1), dotted(e1, across));
+    V u = hn::Mul(dotted(from_corner, across), inverse), v = hn::Mul(dotted(dir, along), inverse);
+    const auto placed = hn::And(hn::IsFinite(u), hn::IsFinite(v));
+    const V third = number(1.0f / 3);
+    u = hn::Min(hn::Max(hn::IfThenElse(placed, u, third), number(0)), number(1));
+    v = hn::Min(hn::Max(hn::IfThenElse(placed, v, third), number(0)), number(1));
+    const V over = hn::Max(hn::Add(u, v), number(1));
+    u = hn::Div(u, over), v = hn::Div(v, over);
+    const Vector meets = minus(plus(times(u, e1), times(v, e2)), from_corner);
+    store(hn::Div(dotted(meets, dir), dotted(dir, dir)), p.distance, k);
+    store(u, p.u, k), store(v, p.v, k);
+    const Vector geometric = unit(crossed(e1, e2));
+    const auto back = hn::Gt(dotted(geometric, dir), number(0));
+    const Vector seen = chosen(back, times(number(-1), geometric), geometric);
+    store(seen.x, p.geometric.x, k), store(seen.y, p.geometric.y, k), store(seen.z, p.geometric.z, k);
+}
+
+HWY_INLINE void find_cosines(const GroundInFrame& frame, const Lookups& lookups, std::size_t k,
+                             GroundPacket& p) {
+    const Floats d;
+    const V above = hn::Load(d, lookups.share + k);
+    const Vector sum =
+        plus(times(hn::Sub(number(1), above), bilinear(lookups.own, lookups.own_x, lookups.own_y, k)),
+             times(above, bilinear(lookups.above, lookups.above_x, lookups.above_y, k)));
+    const Vector geometric = load(p.geometric, k), view = times(number(-1), unit(load(p.dir, k)));
+    const auto none = hn::Le(dotted(sum, sum), number(1e-6f));
+    Vector normal = chosen(none, geometric, unit(sum));
+    normal = chosen(hn::Lt(dotted(normal, geometric), number(0)), times(number(-1), normal), normal);
+    // A smoothed normal that leans away from the viewer would make the surface vanish.
+    normal = chosen(hn::Le(dotted(normal, view), number(1e-4f)), geometric, normal);
+    const Vector sun = vector(frame.sun_dir);
+    const V ni = dotted(normal, sun);
+    const auto lit = hn::And(hn::Gt(ni, number(0)), hn::Gt(dotted(geometric, sun), number(0)));
+    store(hn::Max(dotted(normal, view), number(1e-4f)), p.no, k);
+    store(hn::IfThenElseZero(lit, ni), p.ni, k);
+    store(dotted(view, sun), p.io, k);
+}
+
+void find(const GroundInFrame& frame, GroundPacket& p) {
+    const Floats d;
+    const std::size_t lanes = hn::Lanes(d);
+    Corners corners;
+    gather(frame, p, corners);
+    const Vector camera = vector(frame.camera_m);
+    const V step = number(1 / kColorSteps);
+    for (std::size_t k = 0; k < GroundPacket::kSize; k += lanes) {
+        Vector at[3];
+        for (std::size_t c = 0; c < 3; ++c)
+            at[c] = {hn::Load(d, corners.position[c][0] + k), hn::Load(d, corners.position[c][1] + k),
+                     hn::Load(d, corners.position[c][2] + k)};
+        meet(at, camera, load(p.dir, k), k, p);
+        const V u = load(p.u, k), v = load(p.v, k), w = hn::Sub(hn::Sub(number(1), u), v);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            V color = number(1);
+            if (!frame.surfaces->corner_colors.empty())
+                color = hn::Mul(hn::Add(hn::Add(hn::Mul(w, hn::Load(d, corners.color[0][channel] + k)),
+                                                hn::Mul(u, hn::Load(d, corners.color[1][channel] + k))),
+                                        hn::Mul(v, hn::Load(d, corners.color[2][channel] + k))),
+                                step);
+            store(color, p.color[channel], k);
+        }
+    }
+    Lookups lookups;
+    look_up(*frame.surfaces, p, lookups);
+    for (std::size_t k = 0; k < GroundPacket::kSize; k += lanes) find_cosines(frame, lookups, k, p);
+}
+
+// hapke_geometry() (hapke.h) of ground without slopes.
+void hapke(const HapkeParameters& h, const GroundPacket& p, HapkePacket& out) {
+    const Floats d;
+    const std::size_t lanes = hn::Lanes(d);
+    const float b2 = h.b * h.b;
+    for (std::size_t k = 0; k < GroundPacket::kSize; k += lanes) {
+        const V cos_g = hn::Min(hn::Max(load(p.io, k), number(-1)), number(1));
+        const auto lobe = [&](float sign) {
+            const V x = hn::Add(hn::Add(number(1), hn::Mul(number(sign * 2 * h.b), cos_g)), number(b2));
+            return hn::Div(number(1 - b2), hn::Mul(x, hn::Sqrt(x)));
+        };
+        const V hg =
+            hn::Add(hn::Mul(number(0.5f * (1 + h.c)), lobe(-1)), hn::Mul(number(0.5f * (1 - h.c)), lobe(1)));
+        const V tan_half_g =
+            hn::Sqrt(hn::Div(hn::Sub(number(1), cos_g), hn::Max(number(1e-12f), hn::Add(number(1), cos_g))));
+        V surge = number(0);
+        if (h.surge_amplitude > 0)
+            surge = hn::Div(number(h.surge_amplitude),
+                            hn::Add(number(1), hn::Div(tan_half_g, number(h.surge_width))));
+        store(hn::Mul(hn::Add(number(1), surge), hg), out.phase, k);
+        const V mu0 = load(p.ni, k), mu = load(p.no, k);
+        const V ni = hn::Max(mu0, number(1e-6f));
+        store(hn::Div(mu0, hn::Mul(hn::Mul(ni, number(4 * kPiF)), hn::Add(mu0, mu))), out.factor, k);
+        const auto log_of = [&](V x) { return logarithm(hn::Div(hn::Add(number(1), x), x)); };
+        store(log_of(ni), out.log0, k), store(log_of(mu), out.log1, k);
+    }
+}
+
+// hapke() and hapke_h() (hapke.h).
+void reflect(const HapkePacket& hapke, const GroundPacket& p, float scale,
+             const GroundPacket::Floats& albedos, GroundPacket::Floats& out) {
+    const Floats d;
+    const std::size_t lanes = hn::Lanes(d);
+    const V one = number(1), half = number(0.5f);
+    for (std::size_t k = 0; k < GroundPacket::kSize; k += lanes) {
+        const V albedo = load(albedos, k), mu0 = load(p.ni, k);
+        const V gamma = hn::Sqrt(hn::Max(number(0), hn::Sub(one, albedo)));
+        const V r0 = hn::Div(hn::Sub(one, gamma), hn::Add(one, gamma));
+        const auto h = [&](V x, V log) {
+            const V inner = hn::Mul(hn::Mul(half, hn::Sub(one, hn::Mul(hn::Mul(number(2), r0), x))), log);
+            return hn::Sub(one, hn::Mul(hn::Mul(albedo, x), hn::Add(r0, inner)));
+        };
+        const V below = hn::Mul(h(mu0, load(hapke.log0, k)), h(load(p.no, k), load(hapke.log1, k)));
+        const V sum = hn::Sub(hn::Add(load(hapke.phase, k), hn::Div(one, below)), one);
+        const V f = hn::Mul(hn::Mul(albedo, load(hapke.factor, k)), sum);
+        store(hn::Mul(hn::Mul(number(scale), mu0), f), out, k);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hilcam
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hilcam {
+
+HWY_EXPORT(find);
+HWY_EXPORT(hapke);
+HWY_EXPORT(reflect);
+
+void find_ground(const GroundInFrame& frame, GroundPacket& packet) {
+    HWY_DYNAMIC_DISPATCH(find)(frame, packet);
+}
+void find_hapke(const HapkeParameters& parameters, const GroundPacket& packet, HapkePacket& out) {
+    HWY_DYNAMIC_DISPATCH(hapke)(parameters, packet, out);
+}
+void reflect_hapke(const HapkePacket& hapke, const GroundPacket& packet, float scale,
+                   const GroundPacket::Floats& albedo, GroundPacket::Floats& out) {
+    HWY_DYNAMIC_DISPATCH(reflect)(hapke, packet, scale, albedo, out);
+}
+
+}  // namespace hilcam
+#endif
