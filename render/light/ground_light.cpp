@@ -38,10 +38,8 @@ class GroundTileLight {
         frame_.sun_dir = body_from_world * sun_dir_;
         const LinearRays& rays = *view_.rays->linear();
         const Vec3d corner = rays.corner + tile.box.x0 * rays.right + tile.box.y0 * rays.down;
-        world_corner_ = to_float(corner), world_right_ = to_float(rays.right),
-        world_down_ = to_float(rays.down);
-        corner_ = body_from_world * world_corner_;
-        right_ = body_from_world * world_right_, down_ = body_from_world * world_down_;
+        corner_ = body_from_world * to_float(corner);
+        right_ = body_from_world * to_float(rays.right), down_ = body_from_world * to_float(rays.down);
         // By place the law's other parameters differ, too, and slopes are for one place at a time.
         vectors_ =
             hapke_ && hapke_->parameters.roughness_tangent == 0 && frame_.surfaces->corner_hapke.empty();
@@ -67,9 +65,8 @@ class GroundTileLight {
     const brdf::Hapke* hapke_;
     bool vectors_;
     GroundInFrame frame_;
-    Vec3f camera_m_, sun_dir_;                       // ray space, world axes
-    Vec3f world_corner_, world_right_, world_down_;  // the tile's rays
-    Vec3f corner_, right_, down_;                    // the same in body axes
+    Vec3f camera_m_, sun_dir_;     // ray space, world axes
+    Vec3f corner_, right_, down_;  // the tile's rays, body axes
     GroundPacket packet_;
     std::array<GroundPacket::Floats, kMaxBins> light_;  // radiance where the Sun is seen
 
@@ -125,26 +122,29 @@ class GroundTileLight {
     void give(int x, int y) {
         const int width = tile_.box.x1 - tile_.box.x0;
         for (std::size_t i = 0; i < kPacketSize; ++i) {
+            if (!(packet_.ni[i] > 0) || packet_.sun[i] == KnownSun::kDark) continue;
             const int px = x + static_cast<int>(i) % 4, py = y + static_cast<int>(i) / 4;
             if (px >= tile_.box.x1 || py >= tile_.box.y1) continue;
-            tile_.stats.covered_px += 1;
-            if (!(packet_.ni[i] > 0) || packet_.sun[i] == KnownSun::kDark) continue;
             const auto pixel = static_cast<std::uint32_t>((py - tile_.box.y0) * width + px - tile_.box.x0);
-            Spectrum light;
-            for (int b = 0; b < view_.bins; ++b) light[b] = light_[static_cast<std::size_t>(b)][i];
-            if (packet_.sun[i] == KnownSun::kLit)
-                tile_.pixels[pixel] += light;
+            if (packet_.sun[i] == KnownSun::kAsk)
+                ask(i, pixel);
             else
-                shadow_.add(start(i, px, py), sun_dir_, {pixel, light});
+                for (int b = 0; b < view_.bins; ++b)
+                    tile_.pixels[pixel][b] += light_[static_cast<std::size_t>(b)][i];
         }
     }
 
-    // Where a ray begins that leaves the ground, as Vertex::start() has it.
-    Vec3f start(std::size_t i, int px, int py) const {
-        const Vec3f dir = world_corner_ + (static_cast<float>(px - tile_.box.x0) + 0.5f) * world_right_ +
-                          (static_cast<float>(py - tile_.box.y0) + 0.5f) * world_down_;
-        const Vec3f point_m = camera_m_ + packet_.distance[i] * dir;
-        return point_m + rounding_m(point_m, camera_m_) * (world_from_body_ * packet_.geometric.at(i));
+    // From where a ray begins that leaves the ground, as Vertex::start() has it.
+    void ask(std::size_t i, std::uint32_t pixel) {
+        Asked asked{pixel, {}};
+        for (int b = 0; b < view_.bins; ++b) asked.light[b] = light_[static_cast<std::size_t>(b)][i];
+        const auto& corners = frame_.mesh.triangles[packet_.triangle[i]];
+        const auto corner = [&](std::size_t c) { return frame_.mesh.vertices_m[corners[c]]; };
+        const float u = packet_.u[i], v = packet_.v[i];
+        const Vec3f in_body_m = (1 - u - v) * corner(0) + u * corner(1) + v * corner(2);
+        const Vec3f point_m = camera_m_ + world_from_body_ * (in_body_m - frame_.camera_m);
+        const Vec3f up = world_from_body_ * normalized(packet_.geometric.at(i));
+        shadow_.add(point_m + rounding_m(point_m, camera_m_) * up, sun_dir_, asked);
     }
 };
 
@@ -190,10 +190,8 @@ bool add_ground_light(Tile& tile) {
         return ground;
     });
     if (!all) return false;
-    if (largest(frame.background->sun_irradiance_w_m2_um()) <= 0) {
-        tile.stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
-        return true;
-    }
+    tile.stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
+    if (largest(frame.background->sun_irradiance_w_m2_um()) <= 0) return true;
     const auto lit = [&](const Asked& asked, const Spectrum*) { tile.pixels[asked.pixel] += asked.light; };
     ShadowRays<Asked, decltype(lit)> shadow(frame, tile.stats.shadow_rays, lit);
     GroundTileLight light(tile, shadow);

@@ -95,7 +95,7 @@ HWY_INLINE V logarithm(V x) {
 struct alignas(64) Lookups {
     std::uint32_t own[4][GroundPacket::kSize], above[4][GroundPacket::kSize];
     float own_x[GroundPacket::kSize], own_y[GroundPacket::kSize];
-    float above_x[GroundPacket::kSize], above_y[GroundPacket::kSize];
+    float above_x[GroundPacket::kSize] = {}, above_y[GroundPacket::kSize] = {};
     float share[GroundPacket::kSize];  // of the second
 };
 HWY_INLINE Vector bilinear(const std::uint32_t (&corners)[4][GroundPacket::kSize], const float* x,
@@ -138,7 +138,7 @@ void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
                 at.own[c][i] = packed.corner_normals[std::min<std::size_t>(c, 2)];
             at.own_x[i] = p.v[i] < 1 ? p.u[i] / (1 - p.v[i]) : 0.0f, at.own_y[i] = p.v[i];
             for (std::size_t c = 0; c < 4; ++c) at.above[c][i] = at.own[0][i];
-            at.above_x[i] = at.above_y[i] = at.share[i] = 0;
+            at.share[i] = 0;
             continue;
         }
         const std::uint32_t x = in_tile / 2 % kQuads, y = in_tile / 2 / kQuads;
@@ -150,8 +150,11 @@ void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
         at.share[i] = ((1 - dy) * low + dy * high) * (1.0f / 255);
         const float px = (static_cast<float>(x) + dx) * kTexels, py = (static_cast<float>(y) + dy) * kTexels;
         corners(*tile->own, GroundNormals::kSide, px, py, i, at.own, at.own_x[i], at.own_y[i]);
-        corners(*tile->above, GroundNormals::kHalfSide, 0.5f * px, 0.5f * py, i, at.above, at.above_x[i],
-                at.above_y[i]);
+        if (at.share[i] > 0)
+            corners(*tile->above, GroundNormals::kHalfSide, 0.5f * px, 0.5f * py, i, at.above, at.above_x[i],
+                    at.above_y[i]);
+        else
+            for (std::size_t c = 0; c < 4; ++c) at.above[c][i] = at.own[0][i];
     }
 }
 
@@ -188,14 +191,11 @@ HWY_INLINE void meet(const Vector (&at)[3], const Vector& camera, const Vector& 
     const V third = number(1.0f / 3);
     u = hn::Min(hn::Max(hn::IfThenElse(placed, u, third), number(0)), number(1));
     v = hn::Min(hn::Max(hn::IfThenElse(placed, v, third), number(0)), number(1));
-    const V over = hn::Max(hn::Add(u, v), number(1));
-    u = hn::Div(u, over), v = hn::Div(v, over);
-    const Vector meets = minus(plus(times(u, e1), times(v, e2)), from_corner);
-    store(hn::Div(dotted(meets, dir), dotted(dir, dir)), p.distance, k);
-    store(u, p.u, k), store(v, p.v, k);
-    const Vector geometric = unit(crossed(e1, e2));
-    const auto back = hn::Gt(dotted(geometric, dir), number(0));
-    const Vector seen = chosen(back, times(number(-1), geometric), geometric);
+    const V within = hn::Div(number(1), hn::Max(hn::Add(u, v), number(1)));
+    store(hn::Mul(u, within), p.u, k), store(hn::Mul(v, within), p.v, k);
+    const Vector raw = crossed(e1, e2);
+    const auto back = hn::Gt(dotted(raw, dir), number(0));
+    const Vector seen = chosen(back, times(number(-1), raw), raw);
     store(seen.x, p.geometric.x, k), store(seen.y, p.geometric.y, k), store(seen.z, p.geometric.z, k);
 }
 
@@ -203,15 +203,18 @@ HWY_INLINE void find_cosines(const GroundInFrame& frame, const Lookups& lookups,
                              GroundPacket& p) {
     const Floats d;
     const V above = hn::Load(d, lookups.share + k);
-    const Vector sum =
-        plus(times(hn::Sub(number(1), above), bilinear(lookups.own, lookups.own_x, lookups.own_y, k)),
-             times(above, bilinear(lookups.above, lookups.above_x, lookups.above_y, k)));
+    Vector sum = bilinear(lookups.own, lookups.own_x, lookups.own_y, k);
+    // Most of a picture is of one level.
+    if (!hn::AllTrue(d, hn::Eq(above, number(0))))
+        sum = plus(times(hn::Sub(number(1), above), sum),
+                   times(above, bilinear(lookups.above, lookups.above_x, lookups.above_y, k)));
     const Vector geometric = load(p.geometric, k), view = times(number(-1), unit(load(p.dir, k)));
-    const auto none = hn::Le(dotted(sum, sum), number(1e-6f));
-    Vector normal = chosen(none, geometric, unit(sum));
+    Vector normal = unit(sum);
     normal = chosen(hn::Lt(dotted(normal, geometric), number(0)), times(number(-1), normal), normal);
     // A smoothed normal that leans away from the viewer would make the surface vanish.
-    normal = chosen(hn::Le(dotted(normal, view), number(1e-4f)), geometric, normal);
+    const auto none =
+        hn::Or(hn::Le(dotted(sum, sum), number(1e-6f)), hn::Le(dotted(normal, view), number(1e-4f)));
+    if (!hn::AllFalse(d, none)) normal = chosen(none, unit(geometric), normal);
     const Vector sun = vector(frame.sun_dir);
     const V ni = dotted(normal, sun);
     const auto lit = hn::And(hn::Gt(ni, number(0)), hn::Gt(dotted(geometric, sun), number(0)));

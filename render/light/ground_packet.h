@@ -22,9 +22,8 @@ struct alignas(64) GroundPacket {
     std::array<std::uint32_t, kSize> triangle;
     Vectors dir;  // of rays from the camera, of any length
     // Out.
-    Floats distance;    // in lengths of dir
     Floats u, v;        // barycentric: corner 1, corner 2
-    Vectors geometric;  // unit, towards the viewer
+    Vectors geometric;  // of any length, towards the viewer
     Floats no, ni, io;  // the cosines that a BRDF asks for; ni is 0 where the Sun is below the ground
     std::array<Floats, 3> color;  // factors on the base, linear red, green, blue; 1 where the mesh has none
     std::array<KnownSun, kSize> sun;  // the mesh's own knowledge

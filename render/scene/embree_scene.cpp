@@ -31,6 +31,10 @@ constexpr Coherence kOcclusion = Coherence::kIncoherent;
 // Trees with spatial splits take longer to build and suit long thin triangles, as simplified meshes have.
 constexpr std::size_t kSpatialSplits = 1000000;
 
+RTCBuildQuality quality_for(const Mesh& mesh) {
+    return mesh.triangles.size() < kSpatialSplits ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+}
+
 // The two versions differ in how a query takes its options.
 #if RTC_VERSION_MAJOR >= 4
 RTCRayQueryFlags flags_of(Coherence c) {
@@ -171,11 +175,10 @@ struct EmbreeScene::Implementation {
             throw DeviceError(std::string("Embree reports error ") + std::to_string(static_cast<int>(error)) +
                               " while " + doing);
     }
-    RTCScene build(const Mesh& mesh, bool without_gaps) const {
+    RTCScene build(const Mesh& mesh, bool without_gaps, RTCBuildQuality quality) const {
         RTCScene scene = rtcNewScene(device);
         if (without_gaps) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(scene, mesh.triangles.size() < kSpatialSplits ? RTC_BUILD_QUALITY_HIGH
-                                                                              : RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetSceneBuildQuality(scene, quality);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                  sizeof(Vec3f), mesh.vertices_m.size());
@@ -186,6 +189,7 @@ struct EmbreeScene::Implementation {
         std::copy_n(mesh.vertices_m.data(), mesh.vertices_m.size(), static_cast<Vec3f*>(vertices));
         std::copy_n(mesh.triangles.data(), mesh.triangles.size(),
                     static_cast<std::array<std::uint32_t, 3>*>(triangles));
+        rtcSetGeometryBuildQuality(geometry, quality);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
@@ -213,7 +217,7 @@ EmbreeScene::EmbreeScene(std::span<const std::vector<const Mesh*>> objects, bool
             if (scene)
                 rtcRetainScene(scene);
             else
-                scene = my.build(*mesh, watertight);
+                scene = my.build(*mesh, watertight, quality_for(*mesh));
             scenes.push_back(scene);
             views.push_back(view_of(scene, *mesh));
         }
@@ -252,7 +256,7 @@ PreparedMesh::~PreparedMesh() {
 
 PreparedMesh EmbreeScene::prepare(const Mesh& mesh) const {
     PreparedMesh out;
-    const RTCScene scene = implementation_->build(mesh, true);
+    const RTCScene scene = implementation_->build(mesh, true, RTC_BUILD_QUALITY_LOW);
     out.scene_ = scene, out.mesh_ = view_of(scene, mesh);
     return out;
 }

@@ -83,7 +83,8 @@ class EmbreeScene {
     void place(std::span<const Pose> objects, std::span<const std::size_t> levels, Vec3d origin_world_m);
 
     // Returns a mesh to take an object's place, always watertight: it is ground, and a camera straight above
-    // a grid of heights looks along whole rows of its edges. Any thread, also while others trace.
+    // a grid of heights looks along whole rows of its edges. Its tree is made in a quarter of the time of others', and rays through it
+    // take a tenth more. Any thread, also while others trace.
     PreparedMesh prepare(const Mesh& mesh) const;
     // Puts it in the place of the object's first level, from the next place() on; `mesh` then holds what was
     // there. Loop, one thread.
