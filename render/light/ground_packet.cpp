@@ -1,7 +1,7 @@
 #include "render/light/ground_packet.h"
 
 #include <algorithm>
-#include <limits>
+#include <cstring>
 
 #include "render/vocabulary/units.h"
 
@@ -63,9 +63,8 @@ HWY_INLINE void store(V value, GroundPacket::Floats& to, std::size_t k) {
 }
 
 // unpack_long_normal() (packed_normal.h).
-HWY_INLINE Vector unpacked(const std::uint32_t* packed) {
+HWY_INLINE Vector unpacked(I bits) {
     const Floats d;
-    const I bits = hn::Load(Ints(), reinterpret_cast<const std::int32_t*>(packed));
     const V scale = number(1.0f / 32767.0f);
     V x = hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(bits))), scale);
     V y = hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(bits)), scale);
@@ -91,54 +90,60 @@ HWY_INLINE V logarithm(V x) {
                    hn::Mul(hn::Mul(number(2), s), series));
 }
 
-// A bilinear mean of four packed normals, and of others half as fine, for each place.
+// Four packed normals about each place, two that lie side by side together, and where it is between them.
+struct alignas(64) Neighbours {
+    std::uint32_t low[2 * GroundPacket::kSize], high[2 * GroundPacket::kSize];
+    float x[GroundPacket::kSize], y[GroundPacket::kSize];
+
+    void take(std::size_t i, const std::uint32_t* from, std::size_t side) {
+        std::memcpy(low + 2 * i, from, 2 * sizeof *from);
+        std::memcpy(high + 2 * i, from + side, 2 * sizeof *from);
+    }
+    void take(std::size_t i, const GroundNormals::Grid& grid, int side, float px, float py) {
+        const int column = std::min(static_cast<int>(px), side - 2),
+                  row = std::min(static_cast<int>(py), side - 2);
+        x[i] = px - static_cast<float>(column), y[i] = py - static_cast<float>(row);
+        take(i, grid.data() + row * side + column, static_cast<std::size_t>(side));
+    }
+    HWY_INLINE Vector mean(std::size_t k) const {
+        const Floats d;
+        const V dx = hn::Load(d, x + k), dy = hn::Load(d, y + k);
+        const auto between = [&](const std::uint32_t* row) {
+            I first, second;
+            hn::LoadInterleaved2(Ints(), reinterpret_cast<const std::int32_t*>(row) + 2 * k, first, second);
+            return plus(times(hn::Sub(number(1), dx), unpacked(first)), times(dx, unpacked(second)));
+        };
+        return plus(times(hn::Sub(number(1), dy), between(low)), times(dy, between(high)));
+    }
+};
 struct alignas(64) Lookups {
-    std::uint32_t own[4][GroundPacket::kSize], above[4][GroundPacket::kSize];
-    float own_x[GroundPacket::kSize], own_y[GroundPacket::kSize];
-    float above_x[GroundPacket::kSize] = {}, above_y[GroundPacket::kSize] = {};
+    Neighbours own, above;             // of a tile's level, and of that above it
     float share[GroundPacket::kSize];  // of the second
 };
-HWY_INLINE Vector bilinear(const std::uint32_t (&corners)[4][GroundPacket::kSize], const float* x,
-                           const float* y, std::size_t k) {
-    const Floats d;
-    const V dx = hn::Load(d, x + k), dy = hn::Load(d, y + k);
-    const V ex = hn::Sub(number(1), dx), ey = hn::Sub(number(1), dy);
-    const Vector low = plus(times(ex, unpacked(corners[0] + k)), times(dx, unpacked(corners[1] + k)));
-    const Vector high = plus(times(ex, unpacked(corners[2] + k)), times(dx, unpacked(corners[3] + k)));
-    return plus(times(ey, low), times(dy, high));
-}
 
 // Writes where in the grids of normals a place lies (GroundNormals::find). Triangles without any have their corners' instead.
 void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
     constexpr int kQuads = GroundNormals::kQuads, kTexels = GroundNormals::kTexels;
     const GroundNormals* const normals = surfaces.ground_normals.get();
+    const KnownSun* const known = surfaces.known_sun.empty() ? nullptr : surfaces.known_sun.data();
     std::uint32_t first = 1, end = 0;  // triangles of the tile below
     const GroundNormals::Tile* tile = nullptr;
-    const auto corners = [](const GroundNormals::Grid& grid, int side, float x, float y, std::size_t i,
-                            std::uint32_t(&out)[4][GroundPacket::kSize], float& dx, float& dy) {
-        const int column = std::min(static_cast<int>(x), side - 2),
-                  row = std::min(static_cast<int>(y), side - 2);
-        dx = x - static_cast<float>(column), dy = y - static_cast<float>(row);
-        const std::uint32_t* const from = grid.data() + row * side + column;
-        out[0][i] = from[0], out[1][i] = from[1], out[2][i] = from[side], out[3][i] = from[side + 1];
-    };
     for (std::size_t i = 0; i < GroundPacket::kSize; ++i) {
         const std::uint32_t triangle = p.triangle[i];
-        p.sun[i] = surfaces.known_sun.empty() ? KnownSun::kAsk : surfaces.known_sun[triangle];
+        p.sun[i] = known ? known[triangle] : KnownSun::kAsk;
         if (normals && !(triangle >= first && triangle < end)) {
             const std::uint32_t number = triangle / normals->triangles_per_tile;
             first = number * normals->triangles_per_tile, end = first + normals->triangles_per_tile;
             tile = &normals->tiles[number];
         }
         const std::uint32_t in_tile = triangle - first;
+        at.share[i] = 0;
         if (!normals || in_tile >= 2 * kQuads * kQuads) {
             // Barycentric shares as a bilinear mean: (1 - v) ((1 - x) n0 + x n1) + v n2.
-            const PackedTriangle& packed = surfaces.triangles[triangle];
-            for (std::size_t c = 0; c < 4; ++c)
-                at.own[c][i] = packed.corner_normals[std::min<std::size_t>(c, 2)];
-            at.own_x[i] = p.v[i] < 1 ? p.u[i] / (1 - p.v[i]) : 0.0f, at.own_y[i] = p.v[i];
-            for (std::size_t c = 0; c < 4; ++c) at.above[c][i] = at.own[0][i];
-            at.share[i] = 0;
+            const auto& n = surfaces.triangles[triangle].corner_normals;
+            const std::uint32_t corners[4] = {n[0], n[1], n[2], n[2]};
+            at.own.take(i, corners, 2);
+            at.own.x[i] = p.v[i] < 1 ? p.u[i] / (1 - p.v[i]) : 0.0f, at.own.y[i] = p.v[i];
             continue;
         }
         const std::uint32_t x = in_tile / 2 % kQuads, y = in_tile / 2 / kQuads;
@@ -149,12 +154,8 @@ void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
                     high = (1 - dx) * share[kQuads + 1] + dx * share[kQuads + 2];
         at.share[i] = ((1 - dy) * low + dy * high) * (1.0f / 255);
         const float px = (static_cast<float>(x) + dx) * kTexels, py = (static_cast<float>(y) + dy) * kTexels;
-        corners(*tile->own, GroundNormals::kSide, px, py, i, at.own, at.own_x[i], at.own_y[i]);
-        if (at.share[i] > 0)
-            corners(*tile->above, GroundNormals::kHalfSide, 0.5f * px, 0.5f * py, i, at.above, at.above_x[i],
-                    at.above_y[i]);
-        else
-            for (std::size_t c = 0; c < 4; ++c) at.above[c][i] = at.own[0][i];
+        at.own.take(i, *tile->own, GroundNormals::kSide, px, py);
+        if (at.share[i] > 0) at.above.take(i, *tile->above, GroundNormals::kHalfSide, 0.5f * px, 0.5f * py);
     }
 }
 
@@ -203,11 +204,10 @@ HWY_INLINE void find_cosines(const GroundInFrame& frame, const Lookups& lookups,
                              GroundPacket& p) {
     const Floats d;
     const V above = hn::Load(d, lookups.share + k);
-    Vector sum = bilinear(lookups.own, lookups.own_x, lookups.own_y, k);
+    Vector sum = lookups.own.mean(k);
     // Most of a picture is of one level.
     if (!hn::AllTrue(d, hn::Eq(above, number(0))))
-        sum = plus(times(hn::Sub(number(1), above), sum),
-                   times(above, bilinear(lookups.above, lookups.above_x, lookups.above_y, k)));
+        sum = plus(times(hn::Sub(number(1), above), sum), times(above, lookups.above.mean(k)));
     const Vector geometric = load(p.geometric, k), view = times(number(-1), unit(load(p.dir, k)));
     Vector normal = unit(sum);
     normal = chosen(hn::Lt(dotted(normal, geometric), number(0)), times(number(-1), normal), normal);
@@ -247,7 +247,7 @@ void find(const GroundInFrame& frame, GroundPacket& p) {
             store(color, p.color[channel], k);
         }
     }
-    Lookups lookups;
+    Lookups lookups{};  // what no place needs is read, too
     look_up(*frame.surfaces, p, lookups);
     for (std::size_t k = 0; k < GroundPacket::kSize; k += lanes) find_cosines(frame, lookups, k, p);
 }
@@ -269,8 +269,8 @@ void hapke(const HapkeParameters& h, const GroundPacket& p, HapkePacket& out) {
             hn::Sqrt(hn::Div(hn::Sub(number(1), cos_g), hn::Max(number(1e-12f), hn::Add(number(1), cos_g))));
         V surge = number(0);
         if (h.surge_amplitude > 0)
-            surge = hn::Div(number(h.surge_amplitude),
-                            hn::Add(number(1), hn::Div(tan_half_g, number(h.surge_width))));
+            surge = hn::Div(number(h.surge_amplitude * h.surge_width),
+                            hn::Add(number(h.surge_width), tan_half_g));
         store(hn::Mul(hn::Add(number(1), surge), hg), out.phase, k);
         const V mu0 = load(p.ni, k), mu = load(p.no, k);
         const V ni = hn::Max(mu0, number(1e-6f));
@@ -288,14 +288,15 @@ void reflect(const HapkePacket& hapke, const GroundPacket& p, float scale,
     const V one = number(1), half = number(0.5f);
     for (std::size_t k = 0; k < GroundPacket::kSize; k += lanes) {
         const V albedo = load(albedos, k), mu0 = load(p.ni, k);
+        // H = d / (d - w x (n + (d - 2 n x) / 2 ln((1 + x) / x))) with r0 = n / d: one division for both.
         const V gamma = hn::Sqrt(hn::Max(number(0), hn::Sub(one, albedo)));
-        const V r0 = hn::Div(hn::Sub(one, gamma), hn::Add(one, gamma));
-        const auto h = [&](V x, V log) {
-            const V inner = hn::Mul(hn::Mul(half, hn::Sub(one, hn::Mul(hn::Mul(number(2), r0), x))), log);
-            return hn::Sub(one, hn::Mul(hn::Mul(albedo, x), hn::Add(r0, inner)));
+        const V n = hn::Sub(one, gamma), d_of = hn::Add(one, gamma);
+        const auto below = [&](V x, V log) {
+            const V inner = hn::Mul(hn::Mul(half, hn::Sub(d_of, hn::Mul(hn::Mul(number(2), n), x))), log);
+            return hn::Sub(d_of, hn::Mul(hn::Mul(albedo, x), hn::Add(n, inner)));
         };
-        const V below = hn::Mul(h(mu0, load(hapke.log0, k)), h(load(p.no, k), load(hapke.log1, k)));
-        const V sum = hn::Sub(hn::Add(load(hapke.phase, k), hn::Div(one, below)), one);
+        const V both = hn::Mul(below(mu0, load(hapke.log0, k)), below(load(p.no, k), load(hapke.log1, k)));
+        const V sum = hn::Sub(hn::Add(load(hapke.phase, k), hn::Div(hn::Mul(d_of, d_of), both)), one);
         const V f = hn::Mul(hn::Mul(albedo, load(hapke.factor, k)), sum);
         store(hn::Mul(hn::Mul(number(scale), mu0), f), out, k);
     }
