@@ -11,23 +11,27 @@
 namespace hilcam {
 namespace {
 
-constexpr int kQuads = GroundTile::kQuads, kSide = GroundTile::kSide;
-constexpr std::size_t kBorder = 4 * kQuads;
-constexpr std::size_t kTileVertices = kSide * kSide + kBorder;
-constexpr std::size_t kTileTriangles = 2 * kQuads * kQuads + 2 * kBorder;
+// A tile as it lies in a mesh: so many quadrilaterals along an edge, and a skirt around them.
+struct Grid {
+    int quads;
+    std::size_t side() const { return static_cast<std::size_t>(quads) + 1; }
+    std::size_t border() const { return 4 * static_cast<std::size_t>(quads); }
+    std::size_t vertices() const { return side() * side() + border(); }
+    std::size_t triangles() const { return 2 * (side() - 1) * (side() - 1) + 2 * border(); }
+    // Returns a vertex around the tile, against the clock.
+    std::size_t border_vertex(std::size_t k) const {
+        const std::size_t n = side() - 1, along = k % n, turn = k / n % 4;
+        const std::size_t x = turn == 0 ? along : turn == 1 ? n : turn == 2 ? n - along : 0;
+        const std::size_t y = turn == 0 ? 0 : turn == 1 ? along : turn == 2 ? n : n - along;
+        return y * side() + x;
+    }
+};
+constexpr Grid kSeen{GroundTile::kQuads}, kBeside{GroundTile::kQuads / 2};
 // Distances over which a vertex goes to the level above: of those at which tiles of its level are used.
 constexpr double kMorphFrom = 1.5, kMorphTo = 2;
 // A tile's own width must be less than what kMorphFrom leaves: at least so many edges of a triangle to the nearest.
 constexpr double kLeastEdges = 128;
 constexpr int kFinestLevel = 27;
-
-// The vertices around a tile, against the clock.
-int border_vertex(int k) {
-    const int side = k / kQuads, along = k % kQuads;
-    const int x = side == 0 ? along : side == 1 ? kQuads : side == 2 ? kQuads - along : 0;
-    const int y = side == 0 ? 0 : side == 1 ? along : side == 2 ? kQuads : kQuads - along;
-    return y * kSide + x;
-}
 
 }  // namespace
 
@@ -78,6 +82,12 @@ bool GlobeTerrain::is_outside(const TerrainView& view, const GroundTile& tile) c
     return apart_rad > std::acos(horizon_m / camera_m) + std::acos(std::min(1.0, horizon_m / top_m));
 }
 
+std::size_t GlobeTerrain::triangles_of(std::span<const Leaf> leaves) {
+    std::size_t sum = 0;
+    for (const Leaf& leaf : leaves) sum += (leaf.outside ? kBeside : kSeen).triangles();
+    return sum;
+}
+
 // Finds the tiles to be shown. edges: distance over an edge of a triangle there, from which it is fine enough. False
 // where there would be more triangles than that.
 bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t most_triangles,
@@ -87,22 +97,24 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
     wave.reserve(kCubeFaces);
     for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
     while (!wave.empty()) {
-        if ((leaves.size() + wave.size()) * kTileTriangles > most_triangles) return false;
+        if (triangles_of(leaves) + wave.size() * kBeside.triangles() > most_triangles) return false;
         require(wave);
         std::vector<GroundTileKey> next;
         for (const GroundTileKey& key : wave) {
             const GroundTile& tile = *tiles_[key.word()];
             const double distance_m = length(view.camera_m - tile.middle_m) - tile.radius_m;
-            const double reach_m =
-                maker_.spacing_m(key.level) * edges / (is_outside(view, tile) ? kOutside : 1.0);
+            const bool outside = is_outside(view, tile);
+            const double reach_m = maker_.spacing_m(key.level) * edges / (outside ? kOutside : 1.0);
             if (key.level < finest_level_ && distance_m < reach_m)
                 for (int k = 0; k < 4; ++k) next.push_back(key.child(k));
             else
-                leaves.push_back({key, &tile});
+                leaves.push_back({key, &tile, outside});
         }
         wave = std::move(next);
     }
-    return true;
+    // Those that have normals of their own come first.
+    std::stable_partition(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; });
+    return triangles_of(leaves) <= most_triangles;
 }
 
 void GlobeTerrain::forget_oldest() {
@@ -141,64 +153,86 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
                 const double distance_m = length(point_m - view.camera_m);
                 if (distance_m < nearest_m) nearest_m = distance_m, out.anchor_m = point_m;
             }
+    const auto seen = static_cast<std::size_t>(
+        std::count_if(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; }));
+    const std::size_t beside = leaves.size() - seen;
     Mesh& mesh = out.mesh;
-    mesh.vertices_m.resize(leaves.size() * kTileVertices);
+    mesh.vertices_m.resize(seen * kSeen.vertices() + beside * kBeside.vertices());
     mesh.normals.resize(mesh.vertices_m.size());
     if (surface_.has(GroundKind::kAlbedo) || !details_.empty()) mesh.colors.resize(mesh.vertices_m.size());
     if (surface_.has_hapke()) mesh.hapke.resize(mesh.vertices_m.size());
-    mesh.triangles.resize(leaves.size() * kTileTriangles);
+    mesh.triangles.resize(triangles_of(leaves));
     mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
     mesh.surfaces.resize(1);
     auto normals = std::make_shared<GroundNormals>();
-    normals->tiles.resize(leaves.size());
-    normals->triangles_per_tile = kTileTriangles;
+    normals->tiles.resize(seen);
+    normals->triangles_per_tile = static_cast<std::uint32_t>(kSeen.triangles());
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
-        append(view, edges, leaves[i], out.anchor_m, i, mesh, normals->tiles[i]);
+        const std::size_t own = std::min(i, seen), other = i - own;
+        append(view, edges, leaves[i], out.anchor_m,
+               {own * kSeen.vertices() + other * kBeside.vertices(),
+                own * kSeen.triangles() + other * kBeside.triangles()},
+               mesh);
+        if (i < seen) take_normals(view, edges, leaves[i], normals->tiles[i]);
     });
     out.normals = std::move(normals);
     return out;
 }
 
+// Returns a vertex' share of the ground of the level above.
+float GlobeTerrain::share_above(const TerrainView& view, double edges, const Leaf& leaf,
+                                std::size_t vertex) const {
+    const double distance_m =
+        length(leaf.tile->middle_m + to_double(leaf.tile->above[vertex].point_m) - view.camera_m);
+    const double reach_m = maker_.spacing_m(leaf.key.level) * edges;
+    return static_cast<float>(
+        std::clamp((distance_m / reach_m - kMorphFrom) / (kMorphTo - kMorphFrom), 0.0, 1.0));
+}
+
+void GlobeTerrain::take_normals(const TerrainView& view, double edges, const Leaf& leaf,
+                                GroundNormals::Tile& normals) const {
+    normals.own = leaf.tile->own_normals, normals.above = leaf.tile->above_normals;
+    for (std::size_t i = 0; i < normals.share.size(); ++i)
+        normals.share[i] = static_cast<std::uint8_t>(std::lround(255 * share_above(view, edges, leaf, i)));
+}
+
 void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m,
-                          std::size_t index, Mesh& mesh, GroundNormals::Tile& normals) const {
-    const std::size_t first = index * kTileVertices;
+                          Place first, Mesh& mesh) const {
+    const Grid grid = leaf.outside ? kBeside : kSeen;
+    const std::size_t side = grid.side(), inner = side * side,
+                      step = static_cast<std::size_t>(kSeen.quads / grid.quads);
     const GroundTile& tile = *leaf.tile;
-    const double spacing_m = maker_.spacing_m(leaf.key.level), reach_m = spacing_m * edges;
     const Vec3d shift_m = tile.middle_m - anchor_m;
-    normals.own = tile.own_normals, normals.above = tile.above_normals;
-    for (std::size_t i = 0; i < kSide * kSide; ++i) {
-        const GroundTile::Look& own = tile.own[i];
-        const GroundTile::Look& above = tile.above[i];
-        const double distance_m = length(tile.middle_m + to_double(above.point_m) - view.camera_m);
-        const auto share = static_cast<float>(
-            std::clamp((distance_m / reach_m - kMorphFrom) / (kMorphTo - kMorphFrom), 0.0, 1.0));
-        normals.share[i] = static_cast<std::uint8_t>(std::lround(255 * share));
+    for (std::size_t i = 0; i < inner; ++i) {
+        const std::size_t from = i / side * step * kSeen.side() + i % side * step, to = first.vertex + i;
+        const GroundTile::Look& own = tile.own[from];
+        const GroundTile::Look& above = tile.above[from];
+        const float share = share_above(view, edges, leaf, from);
         const Vec3d own_m = to_double(own.point_m), above_m = to_double(above.point_m);
-        mesh.vertices_m[first + i] =
-            to_float(shift_m + (own_m + static_cast<double>(share) * (above_m - own_m)));
-        mesh.normals[first + i] = normalized(own.normal + share * (above.normal - own.normal));
-        if (!mesh.colors.empty()) mesh.colors[first + i] = own.color + share * (above.color - own.color);
+        mesh.vertices_m[to] = to_float(shift_m + (own_m + static_cast<double>(share) * (above_m - own_m)));
+        mesh.normals[to] = normalized(own.normal + share * (above.normal - own.normal));
+        if (!mesh.colors.empty()) mesh.colors[to] = own.color + share * (above.color - own.color);
         if (!mesh.hapke.empty())
-            mesh.hapke[first + i] = blend(tile.own_hapke[i], 1 - share, tile.above_hapke[i], share, {}, 0);
+            mesh.hapke[to] = blend(tile.own_hapke[from], 1 - share, tile.above_hapke[from], share, {}, 0);
     }
-    std::size_t triangle = index * kTileTriangles;
-    const auto vertex = [&](std::size_t k) { return static_cast<std::uint32_t>(first + k); };
-    for (std::size_t y = 0; y < kQuads; ++y)
-        for (std::size_t x = 0; x < kQuads; ++x) {
-            const std::size_t k = y * kSide + x;
-            mesh.triangles[triangle++] = {vertex(k), vertex(k + 1), vertex(k + kSide)};
-            mesh.triangles[triangle++] = {vertex(k + 1), vertex(k + kSide + 1), vertex(k + kSide)};
+    std::size_t triangle = first.triangle;
+    const auto vertex = [&](std::size_t k) { return static_cast<std::uint32_t>(first.vertex + k); };
+    for (std::size_t y = 0; y + 1 < side; ++y)
+        for (std::size_t x = 0; x + 1 < side; ++x) {
+            const std::size_t k = y * side + x;
+            mesh.triangles[triangle++] = {vertex(k), vertex(k + 1), vertex(k + side)};
+            mesh.triangles[triangle++] = {vertex(k + 1), vertex(k + side + 1), vertex(k + side)};
         }
-    const Vec3f down = to_float(-spacing_m * up_at(tile.middle_m));
-    constexpr std::size_t kInner = kSide * kSide;
-    for (std::size_t k = 0; k < kBorder; ++k) {
-        const auto edge = static_cast<std::size_t>(border_vertex(static_cast<int>(k)));
-        const auto next = static_cast<std::size_t>(border_vertex(static_cast<int>((k + 1) % kBorder)));
-        mesh.vertices_m[first + kInner + k] = mesh.vertices_m[first + edge] + down;
-        mesh.normals[first + kInner + k] = mesh.normals[first + edge];
-        if (!mesh.colors.empty()) mesh.colors[first + kInner + k] = mesh.colors[first + edge];
-        if (!mesh.hapke.empty()) mesh.hapke[first + kInner + k] = mesh.hapke[first + edge];
-        const std::uint32_t below = vertex(kInner + k), next_below = vertex(kInner + (k + 1) % kBorder);
+    const Vec3f down =
+        to_float(-static_cast<double>(step) * maker_.spacing_m(leaf.key.level) * up_at(tile.middle_m));
+    for (std::size_t k = 0; k < grid.border(); ++k) {
+        const std::size_t edge = grid.border_vertex(k), next = grid.border_vertex(k + 1);
+        const std::size_t from = first.vertex + edge, to = first.vertex + inner + k;
+        mesh.vertices_m[to] = mesh.vertices_m[from] + down;
+        mesh.normals[to] = mesh.normals[from];
+        if (!mesh.colors.empty()) mesh.colors[to] = mesh.colors[from];
+        if (!mesh.hapke.empty()) mesh.hapke[to] = mesh.hapke[from];
+        const std::uint32_t below = vertex(inner + k), next_below = vertex(inner + (k + 1) % grid.border());
         mesh.triangles[triangle++] = {vertex(edge), below, vertex(next)};
         mesh.triangles[triangle++] = {vertex(next), below, next_below};
     }

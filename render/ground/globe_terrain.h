@@ -3,7 +3,7 @@
 // four while its vertices are farther apart than `edge_px` pixels where it is nearest to the camera. With its
 // distance each vertex goes from its own level's ground to that of the level above, which it has reached where the next
 // coarser tile begins: meshes join without gaps, and nothing steps while the camera comes nearer. Beside the field and
-// behind the horizon, where only shadows come from, tiles are kOutside times coarser; skirts hang from the tiles'
+// behind the horizon, where only shadows come from, tiles are kOutside times coarser and have half their vertices each way; skirts hang from the tiles'
 // edges, so that no light comes through where such a tile begins. Where triangles are too many, all are wider, down to a 128th
 // of the distance, from which on they may be more than was asked for: wider ones would not join.
 //
@@ -42,6 +42,11 @@ class GlobeTerrain final : public Terrain {
     struct Leaf {
         GroundTileKey key;
         const GroundTile* tile;
+        bool outside;  // beside the field or behind the horizon
+    };
+    // Where a tile begins in a mesh.
+    struct Place {
+        std::size_t vertex, triangle;
     };
     GroundSurface surface_;
     std::vector<std::unique_ptr<const GroundDetail>> details_;
@@ -59,8 +64,12 @@ class GlobeTerrain final : public Terrain {
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;
     void forget_oldest();
     TerrainMesh assemble(const TerrainView& view, double edges, const std::vector<Leaf>& leaves) const;
-    void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, std::size_t index,
-                Mesh& mesh, GroundNormals::Tile& normals) const;
+    void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, Place first,
+                Mesh& mesh) const;
+    void take_normals(const TerrainView& view, double edges, const Leaf& leaf,
+                      GroundNormals::Tile& normals) const;
+    float share_above(const TerrainView& view, double edges, const Leaf& leaf, std::size_t vertex) const;
+    static std::size_t triangles_of(std::span<const Leaf> leaves);
 };
 
 }  // namespace hilcam

@@ -134,11 +134,11 @@ void look_up(const ObjectSurfaces& surfaces, GroundPacket& p, Lookups& at) {
         if (normals && !(triangle >= first && triangle < end)) {
             const std::uint32_t number = triangle / normals->triangles_per_tile;
             first = number * normals->triangles_per_tile, end = first + normals->triangles_per_tile;
-            tile = &normals->tiles[number];
+            tile = number < normals->tiles.size() ? &normals->tiles[number] : nullptr;
         }
         const std::uint32_t in_tile = triangle - first;
         at.share[i] = 0;
-        if (!normals || in_tile >= 2 * kQuads * kQuads) {
+        if (!tile || in_tile >= 2 * kQuads * kQuads) {
             // Barycentric shares as a bilinear mean: (1 - v) ((1 - x) n0 + x n1) + v n2.
             const auto& n = surfaces.triangles[triangle].corner_normals;
             const std::uint32_t corners[4] = {n[0], n[1], n[2], n[2]};

@@ -3,7 +3,7 @@
 // edge of a quadrilateral, and another half as fine, between which the tile's vertices choose.
 //
 // A tile's triangles come two by two, row by row: of the quadrilateral at (x, y) first that of its corners (0, 0), (1, 0), (0, 1), then
-// (1, 0), (1, 1), (0, 1). What comes after them in a tile has no such normals.
+// (1, 0), (1, 1), (0, 1). What comes after them in a tile, and after the last tile, has no such normals.
 
 #include <array>
 #include <cmath>
@@ -32,10 +32,15 @@ class GroundNormals {
     std::vector<Tile> tiles;
     std::uint32_t triangles_per_tile = 1;
 
+    bool has(std::uint32_t triangle) const {
+        return triangle / triangles_per_tile < tiles.size() &&
+               triangle % triangles_per_tile < 2 * kQuads * kQuads;
+    }
+
     // Finds the normal at barycentric (u, v) of a triangle, unit; false where there is none. Loop, any thread.
     bool find(std::uint32_t triangle, float u, float v, Vec3f& normal) const {
+        if (!has(triangle)) return false;
         const std::uint32_t in_tile = triangle % triangles_per_tile;
-        if (in_tile >= 2 * kQuads * kQuads) return false;
         const Tile& tile = tiles[triangle / triangles_per_tile];
         const std::uint32_t x = in_tile / 2 % kQuads, y = in_tile / 2 / kQuads;
         const bool second = in_tile % 2 == 1;

@@ -50,9 +50,12 @@ std::vector<KnownSun> known_sun(const EmbreeScene& embree, const PreparedMesh& t
     const Mesh& mesh = terrain.mesh;
     const GroundNormals& normals = *terrain.normals;
     std::vector<KnownSun> known(mesh.triangles.size(), KnownSun::kAsk);
-    const std::size_t vertices = mesh.vertices_m.size() / normals.tiles.size();
+    // Those of a tile follow each other, the first of its first triangle being the first of all.
+    const auto first_vertex = [&](std::size_t tile) -> std::size_t {
+        return mesh.triangles[tile * normals.triangles_per_tile][0];
+    };
     tbb::parallel_for(std::size_t{0}, normals.tiles.size(), [&](std::size_t tile) {
-        const Seen seen = seen_from_tile(embree, tree, mesh, tile * vertices, to_float(sun_dir));
+        const Seen seen = seen_from_tile(embree, tree, mesh, first_vertex(tile), to_float(sun_dir));
         KnownSun* const at = known.data() + tile * normals.triangles_per_tile;
         for (int y = 0; y < kQuads; ++y)
             for (int x = 0; x < kQuads; ++x) {

@@ -83,20 +83,25 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
     }
     if (!mesh.colors.empty()) corner_colors.resize(mesh.triangles.size());
     if (!mesh.hapke.empty()) corner_hapke.resize(mesh.triangles.size());
+    // A zero normal stands for "the file has none here".
+    const auto missing = [&](std::uint32_t vertex) {
+        return !(dot(mesh.normals[vertex], mesh.normals[vertex]) > 0);
+    };
+    std::vector<std::uint32_t> normals(mesh.normals.size());
+    for (std::uint32_t i = 0; i < normals.size(); ++i)
+        if (!missing(i)) normals[i] = pack_normal(mesh.normals[i]);
+    std::vector<PackedColor> colors(mesh.colors.size());
+    std::transform(mesh.colors.begin(), mesh.colors.end(), colors.begin(), pack_color);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         triangles[i].surface = mesh.surface_of_triangle[i];
-        // A zero normal stands for "the file has none here".
-        const auto missing = [&](std::uint32_t vertex) {
-            return !(dot(mesh.normals[vertex], mesh.normals[vertex]) > 0);
-        };
         const bool flat =
             no_normals || std::any_of(mesh.triangles[i].begin(), mesh.triangles[i].end(), missing);
         triangles[i].flat = flat ? 1 : 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = mesh.triangles[i][k];
-            triangles[i].corner_normals[k] = flat ? 0 : pack_normal(mesh.normals[vertex]);
+            triangles[i].corner_normals[k] = flat ? 0 : normals[vertex];
             if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
-            if (!mesh.colors.empty()) corner_colors[i][k] = pack_color(mesh.colors[vertex]);
+            if (!mesh.colors.empty()) corner_colors[i][k] = colors[vertex];
             if (!mesh.hapke.empty()) corner_hapke[i][k] = mesh.hapke[vertex];
         }
         if (textured) uv_per_m[i] = density_of(mesh, mesh.triangles[i]);

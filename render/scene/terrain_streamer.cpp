@@ -1,5 +1,7 @@
 #include "render/scene/terrain_streamer.h"
 
+#include <tbb/task_arena.h>
+
 #include <chrono>
 
 #include "render/scene/ground_sun.h"
@@ -35,6 +37,7 @@ void TerrainStreamer::request(const TerrainView& view) {
 }
 
 void TerrainStreamer::work() {
+    tbb::task_arena alone(1);  // the frames have the other threads
     TerrainView made_for;
     bool any = false;
     while (!stop_.load()) {
@@ -46,7 +49,7 @@ void TerrainStreamer::work() {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
             continue;
         }
-        ready_.store(make(view).release(), std::memory_order_release);
+        alone.execute([&] { ready_.store(make(view).release(), std::memory_order_release); });
         made_for = view;
         any = true;
     }
