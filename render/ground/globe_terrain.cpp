@@ -26,7 +26,7 @@ struct Grid {
         return y * side() + x;
     }
 };
-constexpr Grid kSeen{GroundTile::kQuads}, kBeside{GroundTile::kQuads / 2};
+constexpr Grid kSeen{GroundTile::kQuads}, kBeside{GroundTile::kSketchQuads};
 // Distances over which a vertex goes to the level above: of those at which tiles of its level are used.
 constexpr double kMorphFrom = 1.5, kMorphTo = 2;
 // A tile's own width must be less than what kMorphFrom leaves: at least so many edges of a triangle to the nearest.
@@ -41,7 +41,8 @@ GlobeTerrain::GlobeTerrain(const Figure& figure, std::vector<GroundMap> maps,
     : surface_(figure, std::move(maps), settings.most_bytes / 2),
       details_(std::move(details)),
       maker_(surface_, details_, settings.hapke),
-      most_tiles_(settings.most_bytes / 2 / tile_bytes()),
+      most_tiles_(settings.most_bytes * 3 / 8 / tile_bytes()),
+      most_sketches_(settings.most_bytes / 8 / sketch_bytes()),
       finest_level_(0) {
     while (finest_level_ < kFinestLevel && maker_.spacing_m(finest_level_) > settings.finest_m)
         ++finest_level_;
@@ -54,13 +55,14 @@ Vec3d GlobeTerrain::up_at(Vec3d p) const {
 }
 
 // Makes those that are not kept.
-void GlobeTerrain::require(std::span<const GroundTileKey> keys) {
+void GlobeTerrain::require(std::span<const GroundTileKey> keys, bool sketches) {
+    Tiles& tiles = sketches ? sketches_ : tiles_;
     std::vector<GroundTileKey> missing;
     for (const GroundTileKey& key : keys)
-        if (!tiles_.contains(key.word())) missing.push_back(key);
-    std::vector<std::unique_ptr<GroundTile>> made = maker_.make(missing);
-    for (std::size_t i = 0; i < made.size(); ++i) tiles_[missing[i].word()] = std::move(made[i]);
-    for (const GroundTileKey& key : keys) tiles_[key.word()]->used = mesh_number_;
+        if (!tiles.contains(key.word())) missing.push_back(key);
+    std::vector<std::unique_ptr<GroundTile>> made = maker_.make(missing, sketches);
+    for (std::size_t i = 0; i < made.size(); ++i) tiles[missing[i].word()] = std::move(made[i]);
+    for (const GroundTileKey& key : keys) tiles[key.word()]->used = mesh_number_;
 }
 
 // Beside the field, or behind the ground's horizon.
@@ -98,10 +100,10 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
     for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
     while (!wave.empty()) {
         if (triangles_of(leaves) + wave.size() * kBeside.triangles() > most_triangles) return false;
-        require(wave);
+        require(wave, true);
         std::vector<GroundTileKey> next;
         for (const GroundTileKey& key : wave) {
-            const GroundTile& tile = *tiles_[key.word()];
+            const GroundTile& tile = *sketches_[key.word()];
             const double distance_m = length(view.camera_m - tile.middle_m) - tile.radius_m;
             const bool outside = is_outside(view, tile);
             const double reach_m = maker_.spacing_m(key.level) * edges / (outside ? kOutside : 1.0);
@@ -112,18 +114,23 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
         }
         wave = std::move(next);
     }
-    // Those that have normals of their own come first.
-    std::stable_partition(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; });
-    return triangles_of(leaves) <= most_triangles;
+    if (triangles_of(leaves) > most_triangles) return false;
+    // Those that are seen come first, and have more than their sketches.
+    const auto beside =
+        std::stable_partition(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; });
+    std::vector<GroundTileKey> seen;
+    for (auto leaf = leaves.begin(); leaf != beside; ++leaf) seen.push_back(leaf->key);
+    require(seen, false);
+    for (auto leaf = leaves.begin(); leaf != beside; ++leaf) leaf->tile = tiles_[leaf->key.word()].get();
+    return true;
 }
 
-void GlobeTerrain::forget_oldest() {
-    if (tiles_.size() <= most_tiles_) return;
+void GlobeTerrain::forget_oldest(Tiles& tiles, std::size_t most) {
+    if (tiles.size() <= most) return;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> by_age;
-    for (const auto& [word, tile] : tiles_) by_age.push_back({tile->used, word});
+    for (const auto& [word, tile] : tiles) by_age.push_back({tile->used, word});
     std::sort(by_age.begin(), by_age.end());
-    for (std::size_t i = 0; i < by_age.size() && tiles_.size() > most_tiles_; ++i)
-        tiles_.erase(by_age[i].second);
+    for (std::size_t i = 0; i < by_age.size() && tiles.size() > most; ++i) tiles.erase(by_age[i].second);
 }
 
 TerrainMesh GlobeTerrain::mesh(const TerrainView& view) {
@@ -138,7 +145,8 @@ TerrainMesh GlobeTerrain::mesh(const TerrainView& view) {
         edges = std::max(kLeastEdges, 0.9 * edges);
     }
     TerrainMesh out = assemble(view, edges, leaves);
-    forget_oldest();
+    forget_oldest(tiles_, most_tiles_);
+    forget_oldest(sketches_, most_sketches_);
     return out;
 }
 
@@ -198,22 +206,21 @@ void GlobeTerrain::take_normals(const TerrainView& view, double edges, const Lea
 
 void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m,
                           Place first, Mesh& mesh) const {
-    const Grid grid = leaf.outside ? kBeside : kSeen;
-    const std::size_t side = grid.side(), inner = side * side,
-                      step = static_cast<std::size_t>(kSeen.quads / grid.quads);
+    const Grid grid{leaf.tile->quads};
+    const std::size_t side = grid.side(), inner = side * side;
     const GroundTile& tile = *leaf.tile;
     const Vec3d shift_m = tile.middle_m - anchor_m;
     for (std::size_t i = 0; i < inner; ++i) {
-        const std::size_t from = i / side * step * kSeen.side() + i % side * step, to = first.vertex + i;
-        const GroundTile::Look& own = tile.own[from];
-        const GroundTile::Look& above = tile.above[from];
-        const float share = share_above(view, edges, leaf, from);
+        const std::size_t to = first.vertex + i;
+        const GroundTile::Look& own = tile.own[i];
+        const GroundTile::Look& above = tile.above[i];
+        const float share = share_above(view, edges, leaf, i);
         const Vec3d own_m = to_double(own.point_m), above_m = to_double(above.point_m);
         mesh.vertices_m[to] = to_float(shift_m + (own_m + static_cast<double>(share) * (above_m - own_m)));
         mesh.normals[to] = normalized(own.normal + share * (above.normal - own.normal));
         if (!mesh.colors.empty()) mesh.colors[to] = own.color + share * (above.color - own.color);
         if (!mesh.hapke.empty())
-            mesh.hapke[to] = blend(tile.own_hapke[from], 1 - share, tile.above_hapke[from], share, {}, 0);
+            mesh.hapke[to] = blend(tile.own_hapke[i], 1 - share, tile.above_hapke[i], share, {}, 0);
     }
     std::size_t triangle = first.triangle;
     const auto vertex = [&](std::size_t k) { return static_cast<std::uint32_t>(first.vertex + k); };
@@ -224,7 +231,7 @@ void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& lea
             mesh.triangles[triangle++] = {vertex(k + 1), vertex(k + side + 1), vertex(k + side)};
         }
     const Vec3f down =
-        to_float(-static_cast<double>(step) * maker_.spacing_m(leaf.key.level) * up_at(tile.middle_m));
+        to_float(-maker_.spacing_m(leaf.key.level) * kSeen.quads / grid.quads * up_at(tile.middle_m));
     for (std::size_t k = 0; k < grid.border(); ++k) {
         const std::size_t edge = grid.border_vertex(k), next = grid.border_vertex(k + 1);
         const std::size_t from = first.vertex + edge, to = first.vertex + inner + k;

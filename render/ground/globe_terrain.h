@@ -35,7 +35,9 @@ class GlobeTerrain final : public Terrain {
     std::optional<double> height_above_ground_m(Vec3d) const override { return {}; }
 
     // Returns how many bytes maps and tiles hold. The thread of mesh().
-    std::size_t kept_bytes() const { return surface_.pages().bytes() + tiles_.size() * tile_bytes(); }
+    std::size_t kept_bytes() const {
+        return surface_.pages().bytes() + tiles_.size() * tile_bytes() + sketches_.size() * sketch_bytes();
+    }
 
   private:
     static constexpr double kOutside = 32;
@@ -51,18 +53,22 @@ class GlobeTerrain final : public Terrain {
     GroundSurface surface_;
     std::vector<std::unique_ptr<const GroundDetail>> details_;
     GroundTileMaker maker_;
-    std::size_t most_tiles_;
+    std::size_t most_tiles_, most_sketches_;
     int finest_level_;
     std::uint64_t mesh_number_ = 0;
-    std::unordered_map<std::uint64_t, std::unique_ptr<GroundTile>> tiles_;
+    using Tiles = std::unordered_map<std::uint64_t, std::unique_ptr<GroundTile>>;
+    Tiles tiles_, sketches_;
 
+    std::size_t sketch_bytes() const {
+        return GroundTile::kSketchBytes + (surface_.has_hapke() ? GroundTile::kHapkeBytes / 4 : 0);
+    }
     std::size_t tile_bytes() const {
         return GroundTile::kBytes + (surface_.has_hapke() ? GroundTile::kHapkeBytes : 0);
     }
-    void require(std::span<const GroundTileKey> keys);
+    void require(std::span<const GroundTileKey> keys, bool sketches);
     bool select(const TerrainView& view, double edges, std::size_t most_triangles, std::vector<Leaf>& leaves);
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;
-    void forget_oldest();
+    static void forget_oldest(Tiles& tiles, std::size_t most);
     TerrainMesh assemble(const TerrainView& view, double edges, const std::vector<Leaf>& leaves) const;
     void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, Place first,
                 Mesh& mesh) const;

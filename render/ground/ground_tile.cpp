@@ -118,7 +118,7 @@ void GroundTileMaker::add_details(Grid& grid) const {
     for (const auto& detail : details_) detail->add(patch);
 }
 
-GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m) const {
+GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m, bool sketch) const {
     std::vector<Vec3d> points(grid.places.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         points[i] = surface_.point(grid.places[i], grid.heights_m[i]) - middle_m;
@@ -131,11 +131,14 @@ GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m) 
         return to_float(
             normalized(cross(points[i + 1] - points[i - 1], points[i + side] - points[i - side])));
     };
-    auto normals = std::make_shared<GroundNormals::Grid>();
-    normals->reserve(static_cast<std::size_t>(texels * texels));
-    for (int y = 0; y < texels; ++y)
-        for (int x = 0; x < texels; ++x) normals->push_back(pack_normal(normal_at(index(x, y))));
     Looks out;
+    if (!sketch) {
+        auto normals = std::make_shared<GroundNormals::Grid>();
+        normals->reserve(static_cast<std::size_t>(texels * texels));
+        for (int y = 0; y < texels; ++y)
+            for (int x = 0; x < texels; ++x) normals->push_back(pack_normal(normal_at(index(x, y))));
+        out.normals = std::move(normals);
+    }
     for (int y = 0; y < texels; y += kTexels)
         for (int x = 0; x < texels; x += kTexels) {
             double height_m = 0;
@@ -149,30 +152,30 @@ GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m) 
                 middle_m;
             out.vertices.push_back({to_float(point_m), normal_at(at), grid.colors[at]});
         }
-    out.normals = std::move(normals);
     return out;
 }
 
-std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above) const {
+std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above, bool sketch) const {
     add_details(own);
     add_details(above);
     auto tile = std::make_unique<GroundTile>();
+    tile->quads = own.quads;
     const std::size_t middle = own.places.size() / 2;
     tile->middle_m = surface_.point(own.places[middle], own.heights_m[middle]);
-    Looks fine = looks(own, tile->middle_m);
-    const Looks coarse = looks(above, tile->middle_m);
+    Looks fine = looks(own, tile->middle_m, sketch);
+    const Looks coarse = looks(above, tile->middle_m, sketch);
     tile->own = std::move(fine.vertices);
     tile->own_normals = std::move(fine.normals), tile->above_normals = coarse.normals;
-    constexpr int kSide = GroundTile::kSide, kHalf = GroundTile::kQuads / 2 + 1;
+    const int side = own.quads + 1, half = own.quads / 2 + 1;
     const auto at = [&](int x, int y) {
-        return coarse.vertices[static_cast<std::size_t>(y / 2 * kHalf + x / 2)];
+        return coarse.vertices[static_cast<std::size_t>(y / 2 * half + x / 2)];
     };
     tile->own_hapke = std::move(own.hapke);
     const auto hapke_at = [&](int x, int y) {
-        return above.hapke[static_cast<std::size_t>(y / 2 * kHalf + x / 2)];
+        return above.hapke[static_cast<std::size_t>(y / 2 * half + x / 2)];
     };
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
             const int right = x % 2, up = y % 2;  // the triangles' diagonal goes from the right to the top
             tile->above.push_back(right + up == 0 ? at(x, y)
                                                   : between(at(x + right, y - up), at(x - right, y + up)));
@@ -186,7 +189,9 @@ std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above) cons
     return tile;
 }
 
-std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make(std::span<const GroundTileKey> keys) {
+std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make(std::span<const GroundTileKey> keys,
+                                                               bool sketches) {
+    const int quads = sketches ? GroundTile::kSketchQuads : GroundTile::kQuads;
     // A wave may be of many tiles, and their grids are large.
     constexpr std::size_t kTogether = 64;
     std::vector<std::unique_ptr<GroundTile>> tiles(keys.size());
@@ -194,12 +199,12 @@ std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make(std::span<const G
         std::vector<Grid> own, above;
         const std::size_t count = std::min(kTogether, keys.size() - first);
         for (const GroundTileKey& key : keys.subspan(first, count)) {
-            const double texel_m = spacing_m(key.level) / kTexels;
-            own.push_back(lay(key, GroundTile::kQuads, texel_m));
-            above.push_back(lay(key, GroundTile::kQuads / 2, 2 * texel_m));
+            const double texel_m = spacing_m(key.level) * GroundTile::kQuads / quads / kTexels;
+            own.push_back(lay(key, quads, texel_m));
+            above.push_back(lay(key, quads / 2, 2 * texel_m));
         }
         tbb::parallel_for(std::size_t{0}, count,
-                          [&](std::size_t i) { tiles[first + i] = finish(own[i], above[i]); });
+                          [&](std::size_t i) { tiles[first + i] = finish(own[i], above[i], sketches); });
     }
     return tiles;
 }

@@ -4,7 +4,7 @@
 // on the ground of the level above, so that a mesh can go from one to the other without a step (continuous levels of
 // detail; Strugar, J. Graphics, GPU and Game Tools 14(4), 57, 2009).
 //
-// The ground is worked out at texels, four on an edge of a quadrilateral: they have the normals that it is shaded with
+// The ground is worked out at texels, eight on an edge of a quadrilateral: they have the normals that it is shaded with
 // (ground_normals.h), and a vertex is their weighted mean about it.
 
 #include <cstdint>
@@ -30,8 +30,10 @@ struct GroundTileKey {
     }
 };
 
+// A sketch of a tile has half the vertices each way, and no normals at texels: it says where the tile is, and is enough where the camera
+// does not look.
 struct GroundTile {
-    static constexpr int kQuads = GroundNormals::kQuads;  // along an edge
+    static constexpr int kQuads = GroundNormals::kQuads, kSketchQuads = kQuads / 2;  // along an edge
     static constexpr int kSide = kQuads + 1;
 
     struct Look {
@@ -39,6 +41,7 @@ struct GroundTile {
         Vec3f normal;
         Vec3f color;  // factor on the reflectance
     };
+    int quads = kQuads;   // along an edge
     Vec3d middle_m;       // body axes
     double radius_m = 0;  // radius about the middle that holds all
     std::vector<Look> own, above;
@@ -47,6 +50,7 @@ struct GroundTile {
     std::uint64_t used = 0;  // number of the mesh that used it last
 
     static constexpr std::size_t kHapkeBytes = 2 * sizeof(HapkeParameters) * kSide * kSide;
+    static constexpr std::size_t kSketchBytes = 2 * sizeof(Look) * (kSketchQuads + 1) * (kSketchQuads + 1);
     static constexpr std::size_t kBytes =
         2 * sizeof(Look) * kSide * kSide +
         sizeof(std::uint32_t) * (GroundNormals::kSide * GroundNormals::kSide +
@@ -62,8 +66,8 @@ class GroundTileMaker {
                     const HapkeParameters& hapke = {})
         : surface_(surface), details_(details), hapke_(hapke) {}
 
-    // Makes tiles on all of oneTBB's threads.
-    std::vector<std::unique_ptr<GroundTile>> make(std::span<const GroundTileKey> keys);
+    // Makes tiles, or sketches of them, on all of oneTBB's threads.
+    std::vector<std::unique_ptr<GroundTile>> make(std::span<const GroundTileKey> keys, bool sketches = false);
     // Returns the distance of neighbouring vertices at a level [m], about.
     double spacing_m(int level) const;
 
@@ -94,8 +98,8 @@ class GroundTileMaker {
     Grid lay(const GroundTileKey& key, int quads, double texel_m);
     std::vector<Vec3d> places_of(const Grid& grid, int step, int first, int side) const;
     void add_details(Grid& grid) const;
-    Looks looks(const Grid& grid, Vec3d middle_m) const;
-    std::unique_ptr<GroundTile> finish(Grid& own, Grid& above) const;
+    Looks looks(const Grid& grid, Vec3d middle_m, bool sketch) const;
+    std::unique_ptr<GroundTile> finish(Grid& own, Grid& above, bool sketch) const;
 };
 
 }  // namespace hilcam

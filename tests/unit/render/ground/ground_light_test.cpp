@@ -1,0 +1,145 @@
+// Ground that is alone, seen sixteen pixels at a time: it is what a ray a pixel finds, whatever it is made of and from wherever
+// it is seen; what is not for it is left to rays.
+
+#include "render/light/ground_light.h"
+
+#include <gtest/gtest.h>
+
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "render/ground/crater_field.h"
+#include "render/ground/globe_terrain.h"
+#include "tests/support/ground_maps.h"
+#include "tests/support/stage.h"
+
+namespace hilcam {
+namespace {
+
+constexpr Figure kBody = kFigures[index_of(BodyId::kMoon)];
+const Vec3d kUp = place_on_sphere(20, 5);
+
+MaterialConfig regolith(double slope_rad) {
+    MaterialConfig m = lambert(0.4);
+    m.model = kModel<brdf::Hapke>;
+    m.surge_amplitude = 1;
+    m.slope_rad = slope_rad;
+    return m;
+}
+
+struct View {
+    double height_m = 3000;
+    double slant_rad = 0;   // of the boresight against straight down
+    double sun_rad = 0.17;  // of the Sun above the horizon
+    int width_px = 150;     // with the guard band not a whole number of blocks of 4
+    double half_field_rad = 0.3;
+};
+
+// Cratered ground with the Sun low in the east. samples: of the buffer; 0: rays.
+struct Landscape : Stage {
+    Landscape(const MaterialConfig& material, const View& view, int samples) {
+        camera(view.width_px, view.half_field_rad);
+        quality.path_model = "direct";
+        quality.max_depth = 1;
+        quality.visibility = samples == 0 ? "rays" : "buffer";
+        quality.buffer_samples = samples;
+        std::vector<std::unique_ptr<const GroundDetail>> details;
+        details.push_back(std::make_unique<CraterField>(kBody.equatorial_radius_m, CraterSettings{}));
+        scene.terrain = std::make_unique<SceneTerrain>();
+        scene.terrain->ground = std::make_unique<GlobeTerrain>(kBody, std::vector<GroundMap>{},
+                                                               std::move(details), GlobeSettings{});
+        scene.terrain->material = make_material(material, grid);
+        scene.terrain->edge_px = 6;
+        const Vec3d east = normalized(cross(Vec3d{0, 0, 1}, kUp));
+        world.camera.position_world_m = (kBody.equatorial_radius_m + view.height_m) * kUp;
+        world.camera.world_from_body =
+            look_along(-std::cos(view.slant_rad) * kUp + std::sin(view.slant_rad) * east, east);
+        sun(std::sin(view.sun_rad) * kUp + std::cos(view.sun_rad) * east);
+    }
+};
+
+std::vector<float> values_of(const Stage& stage) {
+    std::vector<float> out;
+    for (int plane = 0; plane < stage.radiance.planes(); ++plane)
+        out.insert(out.end(), stage.radiance.plane(plane).begin(), stage.radiance.plane(plane).end());
+    return out;
+}
+// Shadows' edges are at a triangle's own, where a rounding decides.
+void expect_alike(const std::vector<float>& a, const std::vector<float>& b, const char* what) {
+    ASSERT_EQ(a.size(), b.size());
+    std::size_t others = 0;
+    double sum_a = 0, sum_b = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        sum_a += static_cast<double>(a[i]), sum_b += static_cast<double>(b[i]);
+        others += std::abs(a[i] - b[i]) > 5e-3f * (a[i] + b[i]) ? 1u : 0u;
+    }
+    EXPECT_LT(others, a.size() / 2000) << what;
+    EXPECT_NEAR(sum_b / sum_a, 1, 2e-4) << what;
+}
+
+TEST(GroundLight, IsThatOfARayAPixel) {
+    const View from_above, aslant{.height_m = 3000, .slant_rad = 1.3}, touching{.height_m = 1.5},
+        from_space{.height_m = 300e3, .slant_rad = 0.5};
+    const std::tuple<const char*, MaterialConfig, View> cases[] = {
+        {"from above", regolith(0), from_above}, {"aslant", regolith(0), aslant},
+        {"touching", regolith(0), touching},     {"from space", regolith(0), from_space},
+        {"rough", regolith(0.4), from_space},    {"paint", lambert(0.4), from_space}};
+    for (const auto& [name, material, view] : cases) {
+        Landscape by_rays(material, view, 0), at_once(material, view, 1);
+        by_rays.render(), at_once.render();
+        expect_alike(values_of(by_rays), values_of(at_once), name);
+        EXPECT_NEAR(at_once.stats.coverage, by_rays.stats.coverage, 1e-4) << name;
+        // It was not rays that found it; the sky above the horizon is theirs.
+        EXPECT_LT(at_once.stats.primary_rays, 0.7 * static_cast<double>(by_rays.stats.primary_rays)) << name;
+        if (view.slant_rad == 0) {
+            EXPECT_EQ(at_once.stats.primary_rays, 0u) << name;
+        }
+    }
+}
+
+TEST(GroundLight, IsDarkInTheNight) {
+    const View night{.sun_rad = -0.2};
+    Landscape at_once(regolith(0), night, 1);
+    at_once.render();
+    for (const float value : values_of(at_once)) ASSERT_EQ(value, 0.0f);
+    EXPECT_NEAR(at_once.stats.coverage, 1, 1e-6);
+}
+
+TEST(GroundLight, IsTheSameWithVectorsOfAnyWidth) {
+    const auto values = [] {
+        Landscape stage(regolith(0), {}, 1);
+        stage.render();
+        return values_of(stage);
+    };
+    const std::vector<float> widest = values();
+    for (const std::int64_t width : {HWY_AVX2, HWY_SSE4}) {
+        hwy::DisableTargets(~width);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        EXPECT_EQ(values(), widest) << hwy::TargetName(width);
+    }
+    hwy::DisableTargets(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+// What stands on the ground, or shines on it beside the Sun, is for rays.
+TEST(GroundLight, IsLeftToRaysWhereItIsNotAlone) {
+    const auto place = [](Landscape& stage, int what) {
+        if (what == 0) {
+            stage.scene.objects.push_back(cube(lambert(0.5), stage.grid, 100));
+            stage.world.objects.push_back({(kBody.equatorial_radius_m + 1000) * kUp, {}});
+        }
+        if (what == 1) stage.quality.sun_disk = true;
+    };
+    for (const int what : {0, 1}) {
+        Landscape by_rays(regolith(0), {}, 0), by_buffer(regolith(0), {}, 1);
+        place(by_rays, what), place(by_buffer, what);
+        by_rays.render(), by_buffer.render();
+        EXPECT_EQ(values_of(by_rays), values_of(by_buffer)) << what;
+        EXPECT_GT(by_buffer.stats.primary_rays, 0u) << what;
+    }
+}
+
+}  // namespace
+}  // namespace hilcam
