@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/light/ground_light.h"
 #include "render/light/point_field.h"
+#include "render/sunlit_ground/ground_light.h"
 #include "render/visibility/screen_bounds.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/units.h"
@@ -128,6 +128,7 @@ void FramePlacer::set_paths(const PathModel& paths) {
     frame_.paths_sample_lobes = paths.samples_lobes();
     uses_kept_light_ = paths.uses_kept_light();
     frame_.kept = uses_kept_light_ ? kept_.get() : nullptr;
+    frame_.ground = nullptr;  // whoever tries a path model wants to see it at work
 }
 
 // Nothing is touched that the loop reads of the objects meanwhile.

@@ -122,7 +122,8 @@ class FramePlacer {
     ScreenMask object_mask_, full_mask_;
     // Buffers of 4 x 4 and of 8 x 8 samples a pixel, as levels of quality use them; null: rays.
     std::unique_ptr<VisibilityBuffer> visibility_, fine_visibility_;
-    std::unique_ptr<VisibilityBuffer> ground_visibility_;  // of ground alone (ground_light.h); null: rays
+    std::unique_ptr<VisibilityBuffer>
+        ground_visibility_;  // buffer of ground alone (ground_light.h); null: rays
     std::vector<VisibilityBuffer::Shown> seen_;
     bool uses_visibility_ = false, sees_ground_ = false;
     std::unique_ptr<RayGenerator> rays_;

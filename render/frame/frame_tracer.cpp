@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/light/ground_light.h"
+#include "render/sunlit_ground/ground_light.h"
 
 namespace hilcam {
 namespace {
@@ -211,7 +211,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
         tile.kinds = std::span(tile_kinds_[slot]).first(count);
         std::fill(tile.kinds.begin(), tile.kinds.end(), HalfKind::kSmooth);
     }
-    paths()[slot]->trace(tile);
+    if (!tile.ground || !add_ground_light(tile)) paths()[slot]->trace(tile);
     const float share = 1 / static_cast<float>(n * n);
     write(pixels, share, box, radiance);
     // A block of several tiles has one mark.

@@ -46,7 +46,7 @@ class GlobeTerrain final : public Terrain {
         const GroundTile* tile;
         bool outside;  // beside the field or behind the horizon
     };
-    // Where a tile begins in a mesh.
+    // A place is where a tile begins in a mesh.
     struct Place {
         std::size_t vertex, triangle;
     };

@@ -35,8 +35,9 @@ struct FrameView {
     std::vector<std::uint8_t> is_point;       // per object: drawn as a point, the camera's rays pass it
     const ScreenMask* object_mask = nullptr;  // pixels that can meet an object
     const VisibilityBuffer* visibility =
-        nullptr;           // visibility_buffer.h; null: rays find what the camera sees
-    const VisibilityBuffer* ground = nullptr;  // of ground that alone is seen (ground_light.h); null: likewise
+        nullptr;  // visibility_buffer.h; null: rays find what the camera sees
+    const VisibilityBuffer* ground =
+        nullptr;           // buffer of ground that alone is seen (ground_light.h); null: likewise
     PixelSamples samples;  // those of the visibility buffer, or that it would have
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;

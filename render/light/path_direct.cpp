@@ -1,6 +1,5 @@
 #include <array>
 
-#include "render/light/ground_light.h"
 #include "render/light/path_models.h"
 #include "render/light/primary_vertices.h"
 #include "render/light/radiance_model.h"
@@ -11,7 +10,6 @@ namespace {
 class DirectPaths final : public PathModel {
   public:
     void trace(Tile& tile) override {
-        if (tile.ground && add_ground_light(tile)) return;
         PrimaryVertices seen(tile);
         while (const std::size_t count = seen.next(vertices_))
             tile.frame.radiance->add_light(tile, {vertices_.data(), count}, BodySampling::kNone);

@@ -1,7 +1,7 @@
 // Ground that is alone, seen sixteen pixels at a time: it is what a ray a pixel finds, whatever it is made of and from wherever
 // it is seen; what is not for it is left to rays.
 
-#include "render/light/ground_light.h"
+#include "render/sunlit_ground/ground_light.h"
 
 #include <gtest/gtest.h>
 
@@ -37,6 +37,26 @@ struct View {
     double half_field_rad = 0.3;
 };
 
+// One ground for all stages: its tiles are made once.
+class CrateredGround final : public Terrain {
+  public:
+    TerrainMesh mesh(const TerrainView& view) override { return ground().mesh(view); }
+    bool depends_on_boresight() const override { return true; }
+    Vec3d up_at(Vec3d point_m) const override { return ground().up_at(point_m); }
+    std::optional<double> height_above_ground_m(Vec3d) const override { return {}; }
+
+  private:
+    static GlobeTerrain& ground() {
+        static GlobeTerrain all(kBody, {}, craters(), {});
+        return all;
+    }
+    static std::vector<std::unique_ptr<const GroundDetail>> craters() {
+        std::vector<std::unique_ptr<const GroundDetail>> out;
+        out.push_back(std::make_unique<CraterField>(kBody.equatorial_radius_m, CraterSettings{}));
+        return out;
+    }
+};
+
 // Cratered ground with the Sun low in the east. samples: of the buffer; 0: rays.
 struct Landscape : Stage {
     Landscape(const MaterialConfig& material, const View& view, int samples) {
@@ -45,11 +65,8 @@ struct Landscape : Stage {
         quality.max_depth = 1;
         quality.visibility = samples == 0 ? "rays" : "buffer";
         quality.buffer_samples = samples;
-        std::vector<std::unique_ptr<const GroundDetail>> details;
-        details.push_back(std::make_unique<CraterField>(kBody.equatorial_radius_m, CraterSettings{}));
         scene.terrain = std::make_unique<SceneTerrain>();
-        scene.terrain->ground = std::make_unique<GlobeTerrain>(kBody, std::vector<GroundMap>{},
-                                                               std::move(details), GlobeSettings{});
+        scene.terrain->ground = std::make_unique<CrateredGround>();
         scene.terrain->material = make_material(material, grid);
         scene.terrain->edge_px = 6;
         const Vec3d east = normalized(cross(Vec3d{0, 0, 1}, kUp));

@@ -1,4 +1,4 @@
-#include "render/light/ground_packet.h"
+#include "render/sunlit_ground/ground_packet.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,7 +6,7 @@
 #include "render/vocabulary/units.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/light/ground_packet.cpp"
+#define HWY_TARGET_INCLUDE "render/sunlit_ground/ground_packet.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -117,8 +117,8 @@ struct alignas(64) Neighbours {
     }
 };
 struct alignas(64) Lookups {
-    Neighbours own, above;             // of a tile's level, and of that above it
-    float share[GroundPacket::kSize];  // of the second
+    Neighbours own, above;             // normals of a tile's level, and of the level above it
+    float share[GroundPacket::kSize];  // share of the second
 };
 
 // Writes where in the grids of normals a place lies (GroundNormals::find). Triangles without any have their corners' instead.
@@ -247,7 +247,7 @@ void find(const GroundInFrame& frame, GroundPacket& p) {
             store(color, p.color[channel], k);
         }
     }
-    Lookups lookups{};  // what no place needs is read, too
+    Lookups lookups{};  // those that no place needs are read, too
     look_up(*frame.surfaces, p, lookups);
     for (std::size_t k = 0; k < GroundPacket::kSize; k += lanes) find_cosines(frame, lookups, k, p);
 }

@@ -20,16 +20,16 @@ struct alignas(64) GroundPacket {
     };
     // These are the inputs. Axes are the body's.
     std::array<std::uint32_t, kSize> triangle;
-    Vectors dir;  // of rays from the camera, of any length
+    Vectors dir;  // directions of rays from the camera, of any length
     // Out.
     Floats u, v;        // barycentric: corner 1, corner 2
-    Vectors geometric;  // of any length, towards the viewer
+    Vectors geometric;  // normals towards the viewer, of any length
     Floats no, ni, io;  // the cosines that a BRDF asks for; ni is 0 where the Sun is below the ground
     std::array<Floats, 3> color;  // factors on the base, linear red, green, blue; 1 where the mesh has none
     std::array<KnownSun, kSize> sun;  // the mesh's own knowledge
 };
 
-// What all packets of a frame share.
+// This is what all packets of a frame share.
 struct GroundInFrame {
     MeshView mesh;
     const ObjectSurfaces* surfaces = nullptr;

@@ -1,16 +1,16 @@
-#include "render/light/ground_light.h"
+#include "render/sunlit_ground/ground_light.h"
 
 #include <algorithm>
 #include <variant>
 
-#include "render/light/ground_packet.h"
 #include "render/light/shadow_rays.h"
+#include "render/sunlit_ground/ground_packet.h"
 #include "render/visibility/visibility_buffer.h"
 
 namespace hilcam {
 namespace {
 
-// What asks whether the Sun reaches it.
+// A pixel asks whether the Sun reaches it.
 struct Asked {
     std::uint32_t pixel;
     Spectrum light;
