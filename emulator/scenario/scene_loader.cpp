@@ -21,6 +21,7 @@
 #include "io/files/mesh_cache.h"
 #include "io/files/mesh_file.h"
 #include "io/files/mesh_level_cache.h"
+#include "io/maps/earth_layers.h"
 #include "io/pictures/picture_file.h"
 #include "render/brdf/brdf_table.h"
 #include "render/earth/earth_model.h"
@@ -295,7 +296,9 @@ std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const At
             maps.push_back({parse_utc(one.at_utc), read_earth_map(one.map)});
         clouds = CloudMaps(std::move(maps));
     }
-    return std::make_shared<EarthModel>(config, read_earth_map(config.map), std::move(clouds), air, grid);
+    LayeredEarth earth = with_layers(read_earth_map(config.map), config.layers);
+    return std::make_shared<EarthModel>(config, std::move(earth.map), std::move(clouds), air, grid,
+                                        std::move(earth.detail));
 }
 
 BodyId body_named(const ScenarioConfig& s, const std::string& name) {

@@ -18,6 +18,20 @@ struct CloudsConfig {
 Fields fields(CloudsConfig& config);
 void validate(const CloudsConfig& config);
 
+// A map of one thing, to be read as it is looked at.
+struct EarthLayerConfig {
+    enum class Kind { kLand, kInfrared, kWater, kClouds, kCloudThickness, kCloudTops, kLights };
+    enum class Coding { kLinear, kSrgb, kBlueMarble };
+    std::filesystem::path file;
+    std::string where;  // the key's place in the scenario
+    Kind kind = Kind::kLand;
+    Coding coding = Coding::kLinear;
+    double scale = 1, offset = 0;
+    std::vector<double> bounds_deg;  // as GroundMapConfig has them
+};
+Fields fields(EarthLayerConfig& config);
+void validate(const EarthLayerConfig& config);
+
 struct EarthConfig {
     std::filesystem::path map;         // empty: the Earth is its albedo or albedo_map
     double wind_m_s = 7;               // at 12.5 m above all seas
@@ -26,6 +40,8 @@ struct EarthConfig {
     std::vector<CloudsConfig> clouds;  // by time, in place of cloud_map
     std::int64_t cloud_seed = 0;       // not 0: invented clouds in place of a map's
     double lights = 1;                 // factor on the cities' light at night
+    std::vector<EarthLayerConfig> layers;  // in place of those channels of `map`
+    std::int64_t memory_mb = 256;          // for tiles of the layers, of each camera
 };
 Fields fields(EarthConfig& config);
 void validate(const EarthConfig& config);

@@ -97,9 +97,11 @@ struct EarthModel::Place {
 };
 
 EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clouds, const Atmosphere* air,
-                       const SpectralGrid& grid)
+                       const SpectralGrid& grid, std::shared_ptr<EarthDetail> detail)
     : ground_map_(std::make_shared<const EarthMap>(std::move(ground))),
       cloud_maps_(std::make_shared<const CloudMaps>(std::move(clouds))),
+      detail_(std::move(detail)),
+      detail_bytes_(static_cast<std::size_t>(config.memory_mb) << 20),
       air_(air),
       land_(grid),
       sea_(config.wind_m_s, grid),
@@ -214,8 +216,9 @@ bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
     return true;
 }
 
-float EarthModel::texels_across(const MapFootprint& f) const {
-    const auto height = static_cast<float>(std::max(ground().height(), cloud_maps_->height()));
+float EarthModel::texels_across(const MapFootprint& f, const EarthMoment& moment) const {
+    const int rows = moment.detail ? moment.detail->shape().rows : ground().height();
+    const auto height = static_cast<float>(std::max(rows, cloud_maps_->height()));
     return height * std::sqrt(std::max(4 * f.u1 * f.u1 + f.v1 * f.v1, 4 * f.u2 * f.u2 + f.v2 * f.v2));
 }
 
@@ -227,8 +230,8 @@ bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
     return true;
 }
 
-EarthModel::Shade EarthModel::shade(const EarthAspect& a, double cloud_number) const {
-    const EarthSample ground = ground_map_->sample(a.u, a.v, a.footprint);
+EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& moment) const {
+    const EarthSample ground = ground_sample(moment, a.u, a.v, a.footprint);
     const Spectrum land = land_.reflectance(ground);
     const float water = ground.water();
     float direct = 1, diffuse = 0, back = 0, cloud = 0, share = 1, passed = 1, high = 0;
@@ -241,7 +244,7 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, double cloud_number) c
         const EarthSample over =
             together && a.cloud_u * a.cloud_u + 0.25f * a.cloud_v * a.cloud_v < seen_as_one
                 ? ground
-                : cloud_sample(cloud_number, a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v,
+                : cloud_sample(moment, a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v,
                                a.footprint);
         cloud = cloud_of(over);
         if (!(cloud > kMinCloud)) cloud = 0;
@@ -250,7 +253,7 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, double cloud_number) c
         const float towards_sun =
             together && a.shade_u * a.shade_u + 0.25f * a.shade_v * a.shade_v < seen_as_one
                 ? cloud_of(ground)
-                : cloud_of(cloud_sample(cloud_number, a.u + kUsualTop_m * a.shade_u,
+                : cloud_of(cloud_sample(moment, a.u + kUsualTop_m * a.shade_u,
                                         a.v + kUsualTop_m * a.shade_v, a.footprint));
         constexpr float kSpread =
             static_cast<float>(2 * static_cast<double>(kUsualTop_m) / (kPi * kRadius_m));
@@ -258,7 +261,7 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, double cloud_number) c
         const float mean =
             wide && together
                 ? cloud_of(ground)
-                : cloud_of(cloud_sample(cloud_number, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
+                : cloud_of(cloud_sample(moment, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
         direct = by_steps(a.beam, towards_sun);
         share = by_steps(a.lit, mean);
         diffuse = std::max(0.0f, share - by_steps(a.beam, mean));
@@ -307,7 +310,7 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
 bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
     const double to_ground_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
-        const Shade seen = shade(aspect_at(ray, to_ground_m, 0), ray.cloud_number);
+        const Shade seen = shade(aspect_at(ray, to_ground_m, 0), ray.moment);
         radiance += weight * (ray.irradiance_w_m2_um * seen.over_sun_sr + seen.lights_w_m2_sr_um);
         return true;
     }
@@ -316,11 +319,11 @@ bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const
         table_ ? intersect_ellipsoid(raised(static_cast<double>(kUsualTop_m)), ray.origin_m, ray.dir) : -1;
     if (to_level_m > 0) {
         EarthAspect aspect = aspect_at(ray, to_level_m, static_cast<double>(kUsualTop_m));
-        const float cloud = cloud_of(cloud_sample(ray.cloud_number, aspect.u, aspect.v, aspect.footprint));
+        const float cloud = cloud_of(cloud_sample(ray.moment, aspect.u, aspect.v, aspect.footprint));
         if (cloud > kMinCloud) {
             // No ground is below it: nothing comes up through it.
             aspect.seen.fill(0);
-            radiance += weight * ray.irradiance_w_m2_um * shade(aspect, ray.cloud_number).over_sun_sr;
+            radiance += weight * ray.irradiance_w_m2_um * shade(aspect, ray.moment).over_sun_sr;
             weight = table_->transmitted(cloud, 0) * (weight * aspect.seen_high);
             return false;
         }

@@ -60,6 +60,9 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
         kept_earth_ =
             std::make_unique<KeptEarth>(*earth_, scene.sun_irradiance_1au_w_m2_um,
                                         1 / geometry.focal_length_px, background_.top_m(BodyId::kEarth));
+    if (earth_ && earth_->detail())
+        earth_detail_ =
+            std::make_unique<DetailStream>(earth_->detail(), earth_->ground(), earth_->detail_bytes());
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
@@ -161,6 +164,7 @@ PixelBox FramePlacer::box_of(std::size_t i) const {
 void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     place_shapes(world, key);
     place_earth_picture();
+    place_earth_detail();
     if (frame_.kept) kept_->place(frame_, world_);
 }
 
@@ -235,6 +239,20 @@ void FramePlacer::place_earth_picture() {
         frame_.earth_picture = &kept_earth_->picture();
     const double au = kAstronomicalUnit_m * earth.sun_radius_rad / kSunRadius_m;
     frame_.earth_picture_factor = static_cast<float>(au * au);
+}
+
+// A kept picture is of the map that memory holds, which is finer than its pixels.
+void FramePlacer::place_earth_detail() {
+    if (!earth_detail_ || frame_.earth_picture) return;
+    const auto disks = background_.disks();
+    const auto earth =
+        std::find_if(disks.begin(), disks.end(), [](const PlacedBody& b) { return b.id == BodyId::kEarth; });
+    if (earth == disks.end()) return;
+    const Vec3d boresight = earth->fixed_from_world * (to_matrix(world_.camera.world_from_body) * Vec3d{0, 0, 1});
+    background_.show_detail(
+        earth_detail_->place({earth->camera_m, boresight, earth->sun_dir,
+                              half_field_rad(frame_.geometry) + rays_->sweep_rad(),
+                              1 / frame_.geometry.focal_length_px}));
 }
 
 void FramePlacer::place_visibility() {
