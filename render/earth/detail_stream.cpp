@@ -1,6 +1,9 @@
 #include "render/earth/detail_stream.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "render/vocabulary/plain_number.h"
 
 namespace hilcam {
 namespace {
@@ -54,6 +57,7 @@ const DetailTiles& DetailStream::place(const DetailView& view) {
     need_.find(view);
     if (!thread_.is_at_work()) settle();
     if (!choose_all()) {
+        ++waits_;
         thread_.wait();
         settle();
         // Those that are there keep their places.
@@ -71,6 +75,21 @@ const DetailTiles& DetailStream::place(const DetailView& view) {
     if (!thread_.is_busy()) look_ahead(view);
     before_ = view, ++frames_;
     return tiles_;
+}
+
+std::string DetailStream::fault() const {
+    const std::uint64_t count = unreadable_.load(std::memory_order_relaxed);
+    if (count == 0) return {};
+    return "earth_surface.layers: " + std::to_string(count) + (count == 1 ? " tile of " : " tiles of ") + detail_->files() +
+           " could not be read; coarser levels are shown there";
+}
+
+std::string DetailStream::explain() const {
+    std::string out = "earth: " + std::to_string(need_.tiles().size()) + " tiles of " + detail_->files() + ", of " +
+                      std::to_string(tiles_.most()) + " that earth_surface.memory_mb has room for";
+    if (need_.coarser_by() > 0)
+        out += "; for want of room the map is " + plain(std::exp2(need_.coarser_by())) + " times as coarse as pixels ask for";
+    return out;
 }
 
 // Has one of the next frames' tiles read, in turns a near one and a far one.

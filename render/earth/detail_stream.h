@@ -24,12 +24,15 @@ class DetailStream {
 
     // Returns the tiles of a frame. Loop; allocates nothing, unless the thread is ended.
     const DetailTiles& place(const DetailView& view);
-
     const DetailTiles& tiles() const { return tiles_; }
-    const DetailNeed& need() const { return need_; }
-    const EarthDetail& detail() const { return *detail_; }
-    // Returns how many tiles could not be read whole so far, each as often as it was tried. Any thread.
-    std::uint64_t unreadable() const { return unreadable_.load(std::memory_order_relaxed); }
+    // Returns how many frames had to wait for tiles. Owner thread.
+    std::uint64_t waits() const { return waits_; }
+    bool is_reading_ahead() const { return thread_.is_at_work(); }
+
+    // Says how many tiles could not be read whole so far, each as often as it was tried; empty: none. Any thread.
+    std::string fault() const;
+    // Says how many tiles the last frame needed, and what it lacks for want of memory. Not for the loop.
+    std::string explain() const;
 
   private:
     struct Load {
@@ -43,7 +46,7 @@ class DetailStream {
     DetailNeed need_, next_;
     std::vector<Load> loads_;  // the thread's while it is at work
     DetailView before_;
-    std::uint64_t frames_ = 0;
+    std::uint64_t frames_ = 0, waits_ = 0;
     std::atomic<std::uint64_t> unreadable_{0};
     AheadThread thread_;  // the last: it ends first
 

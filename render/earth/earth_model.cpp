@@ -77,6 +77,12 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
     }
 }
 
+std::string finer_levels(const EarthDetail* detail) {
+    if (!detail) return {};
+    return ", finer ones to " + std::to_string(detail->shape().columns) + " x " + std::to_string(detail->shape().rows) +
+           " by tiles of " + detail->files();
+}
+
 // The ellipsoid at a height.
 Figure raised(double height_m) {
     return {kEarth.equatorial_radius_m + height_m, kEarth.polar_radius_m + height_m};
@@ -370,8 +376,8 @@ std::vector<EarthModel::PartInfo> EarthModel::parts() const {
     std::vector<PartInfo> out;
     out.push_back({Part::kSurface,
                    "map of " + std::to_string(ground().width()) + " x " + std::to_string(ground().height()) +
-                       " with its halves",
-                   ground().bytes()});
+                       " with its halves" + finer_levels(detail_.get()),
+                   ground().bytes() + (detail_ ? detail_bytes_ : 0)});
     if (glints_) out.push_back({Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0});
     if (table_)
         out.push_back({Part::kClouds,

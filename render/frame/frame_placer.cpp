@@ -294,7 +294,10 @@ std::vector<std::string> FramePlacer::explain(const RenderQuality& quality) cons
     std::vector<std::string> names;
     for (const ShownObject& object : objects_) names.push_back(object.name);
     for (const ObjectSurfaces* surfaces : shown_) triangles.push_back(surfaces->triangles.size());
-    return hilcam::explain({frame_, plans_, names, triangles, quality, stars_.size()}, world_);
+    std::vector<std::string> out =
+        hilcam::explain({frame_, plans_, names, triangles, quality, stars_.size()}, world_);
+    if (background_.shows_detail()) out.push_back(earth_detail_->explain());
+    return out;
 }
 
 }  // namespace hilcam

@@ -85,6 +85,7 @@ class Background {
     double cloud_number() const { return earth_moment_.cloud_number; }
     // Has this frame's looks at the Earth see finer levels; they outlive it. Loop, after place().
     void show_detail(const DetailTiles& tiles) { earth_moment_.detail = &tiles; }
+    bool shows_detail() const { return earth_moment_.detail != nullptr; }
     std::string name_of(BodyId id) const;
     // Returns how far above its ground a body is to be seen [m].
     double top_m(BodyId id) const;
