@@ -1,5 +1,7 @@
 #include "io/maps/earth_layers.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -91,6 +93,7 @@ class LayerDetail final : public EarthDetail {
     LayerDetail(std::vector<EarthLayerRaster> layers, const Shape& shape) : layers_(std::move(layers)) { shape_ = shape; }
 
     bool read(const DetailKey& key, const EarthMap& below, std::span<EarthMap::Texel> texels) override {
+        if (!is_open_here()) return false;
         const LayerGrid grid{std::ldexp(shape_.columns, -key.level), std::ldexp(shape_.rows, -key.level)};
         const LayerWindow window{key.column * kTile, key.row * kTile, kSide, kSide};
         const bool whole = values_.read(layers_, grid, window);
@@ -113,6 +116,19 @@ class LayerDetail final : public EarthDetail {
   private:
     std::vector<EarthLayerRaster> layers_;
     LayerValues values_;
+    pid_t opened_by_ = getpid();
+
+    // A forked process opens the files anew, as open files share the place at which they are read. False: they are gone.
+    bool is_open_here() {
+        if (opened_by_ == getpid()) return true;
+        try {
+            for (EarthLayerRaster& layer : layers_) layer = EarthLayerRaster(layer.config());
+        } catch (const InputError&) {
+            return false;
+        }
+        opened_by_ = getpid();
+        return true;
+    }
 };
 
 // The map with the layers on it, a strip of rows at a time.

@@ -15,6 +15,23 @@ void validate(const CloudsConfig& c) {
     at_key("at_utc", [&] { parse_utc(c.at_utc); });
 }
 
+Fields fields(EarthGroundConfig& c) {
+    return {
+        required(path("map", c.map,
+                      "map of the same form as earth_surface.map, whose land, ice, water and lights are used")),
+        integer("month", c.month, {0, 12}, "its month, each year, 1 to 12; 0: at_utc says when it is"),
+        text("at_utc", c.at_utc, "its instant, UTC: YYYY-MM-DDThh:mm:ss[.f]Z"),
+    };
+}
+
+void validate(const EarthGroundConfig& c) {
+    if (c.month != 0 && !c.at_utc.empty())
+        throw KeyError("at_utc", "and 'month' both say when the map is; accepted: one of them");
+    if (c.month == 0 && c.at_utc.empty())
+        throw KeyError("month", "is missing, and at_utc; accepted: one of them");
+    if (c.month == 0) at_key("at_utc", [&] { parse_utc(c.at_utc); });
+}
+
 Fields fields(EarthLayerConfig& c) {
     return {
         required(path("file", c.file, c.where,
@@ -70,6 +87,10 @@ Fields fields(EarthConfig& c) {
             "mean by time, before the first and after the last that map stays; in place of cloud_map"),
         integer("cloud_seed", c.cloud_seed, {0, 1e9}, "seed of invented clouds; 0: those of a map"),
         number("lights", c.lights, 1, {0, 100}, "factor on the light of cities at night"),
+        sections("ground", c.ground,
+                 "surface maps of several months, which come again each year, or of several instants, in their order: "
+                 "between two of them each place has their mean by time; clouds stay those of map or of the other "
+                 "keys"),
         sections("layers", c.layers,
                  "maps that take the place of parts of map, and may be far larger than memory: tiles of them are "
                  "read as they are looked at"),
@@ -78,7 +99,31 @@ Fields fields(EarthConfig& c) {
     };
 }
 
+namespace {
+
+void validate_ground(const EarthConfig& c) {
+    if (c.map.empty()) throw KeyError("ground", "has no effect without 'map'");
+    if (!c.layers.empty())
+        throw KeyError("ground", "and 'layers' both say what the surface is; accepted: one of them");
+    for (std::size_t i = 1; i < c.ground.size(); ++i) {
+        const EarthGroundConfig &before = c.ground[i - 1], &now = c.ground[i];
+        const std::string key = "ground." + std::to_string(i) + ".";
+        if ((before.month == 0) != (now.month == 0))
+            throw KeyError(key + (now.month == 0 ? "at_utc" : "month"),
+                           "is of another kind than the map before has; accepted: all months, or all instants");
+        if (now.month != 0 && now.month <= before.month)
+            throw KeyError(key + "month", "found " + std::to_string(now.month) + "; accepted: later than the map before, " +
+                                              std::to_string(before.month));
+        if (now.month == 0 && !(parse_utc(before.at_utc) < parse_utc(now.at_utc)))
+            throw KeyError(key + "at_utc",
+                           "found " + now.at_utc + "; accepted: later than the map before, " + before.at_utc);
+    }
+}
+
+}  // namespace
+
 void validate(const EarthConfig& c) {
+    if (!c.ground.empty()) validate_ground(c);
     if (c.map.empty() && !c.cloud_map.empty()) throw KeyError("cloud_map", "has no effect without 'map'");
     if (c.map.empty() && c.cloud_seed != 0) throw KeyError("cloud_seed", "has no effect without 'map'");
     if (!c.cloud_map.empty() && c.cloud_seed != 0)

@@ -18,6 +18,15 @@ struct CloudsConfig {
 Fields fields(CloudsConfig& config);
 void validate(const CloudsConfig& config);
 
+// The surface as it is at one instant, or in the middle of a month of each year.
+struct EarthGroundConfig {
+    std::filesystem::path map;
+    std::int64_t month = 0;  // 1: January; 0: at_utc says it
+    std::string at_utc;
+};
+Fields fields(EarthGroundConfig& config);
+void validate(const EarthGroundConfig& config);
+
 // A map of one thing, to be read as it is looked at.
 struct EarthLayerConfig {
     enum class Kind { kLand, kInfrared, kWater, kClouds, kCloudThickness, kCloudTops, kLights };
@@ -40,6 +49,7 @@ struct EarthConfig {
     std::vector<CloudsConfig> clouds;  // by time, in place of cloud_map
     std::int64_t cloud_seed = 0;       // not 0: invented clouds in place of a map's
     double lights = 1;                 // factor on the cities' light at night
+    std::vector<EarthGroundConfig> ground;  // by time, in place of the surface of `map`
     std::vector<EarthLayerConfig> layers;  // in place of those channels of `map`
     std::int64_t memory_mb = 256;          // for tiles of the layers, of each camera
 };

@@ -77,6 +77,12 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
     }
 }
 
+std::string map_text(const GroundMaps& ground) {
+    const int height = ground.height();
+    return (ground.count() > 1 ? std::to_string(ground.count()) + " maps by time, the finest" : std::string("map")) +
+           " of " + std::to_string(2 * height) + " x " + std::to_string(height) + " with its halves";
+}
+
 std::string finer_levels(const EarthDetail* detail) {
     if (!detail) return {};
     return ", finer ones to " + std::to_string(detail->shape().columns) + " x " + std::to_string(detail->shape().rows) +
@@ -102,9 +108,9 @@ struct EarthModel::Place {
           cos_phase(static_cast<float>(dot(sun, to_viewer))) {}
 };
 
-EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clouds, const Atmosphere* air,
+EarthModel::EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps clouds, const Atmosphere* air,
                        const SpectralGrid& grid, std::shared_ptr<EarthDetail> detail)
-    : ground_map_(std::make_shared<const EarthMap>(std::move(ground))),
+    : ground_maps_(std::make_shared<const GroundMaps>(std::move(ground))),
       cloud_maps_(std::make_shared<const CloudMaps>(std::move(clouds))),
       detail_(std::move(detail)),
       detail_bytes_(static_cast<std::size_t>(config.memory_mb) << 20),
@@ -115,6 +121,7 @@ EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clo
       bins_(grid.size()),
       wind_m_s_(config.wind_m_s),
       lights_(config.lights) {
+    HILCAM_CHECK(ground_maps_->count() == 1 || (!cloud_maps_->empty() && !detail_));
     if (air) columns_ = std::make_shared<const AirColumns>(*air, static_cast<double>(EarthAspect::kHigh_m));
     if (cloud_factor_ > 0) table_ = std::make_shared<const CloudTable>(grid);
     // The brightest places of the map: 100 nW cm^-2 sr^-1 from 0.5 to 0.9 um, what the day/night band of VIIRS sees over the
@@ -375,8 +382,7 @@ std::vector<EarthModel::PartInfo> EarthModel::parts() const {
     };
     std::vector<PartInfo> out;
     out.push_back({Part::kSurface,
-                   "map of " + std::to_string(ground().width()) + " x " + std::to_string(ground().height()) +
-                       " with its halves" + finer_levels(detail_.get()),
+                   map_text(ground()) + finer_levels(detail_.get()),
                    ground().bytes() + (detail_ ? detail_bytes_ : 0)});
     if (glints_) out.push_back({Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0});
     if (table_)

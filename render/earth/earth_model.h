@@ -24,6 +24,7 @@
 #include "render/earth/earth_config.h"
 #include "render/earth/earth_map.h"
 #include "render/earth/earth_moment.h"
+#include "render/earth/ground_maps.h"
 #include "render/earth/land.h"
 #include "render/earth/sea.h"
 
@@ -31,9 +32,9 @@ namespace hilcam {
 
 class EarthModel {
   public:
-    // air: may be null; must outlive this. clouds: their maps where they are not the ground's; may be empty. detail: finer levels of
-    // the ground; null: none.
-    EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clouds, const Atmosphere* air,
+    // air: may be null; must outlive this. clouds: their maps where they are not the ground's, whose own are then not looked at; may be
+    // empty where the ground has one map. detail: finer levels of the one map; null: none.
+    EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps clouds, const Atmosphere* air,
                const SpectralGrid& grid, std::shared_ptr<EarthDetail> detail = nullptr);
 
     struct Ray {
@@ -60,8 +61,14 @@ class EarthModel {
         Spectrum over_sun_sr, lights_w_m2_sr_um;
     };
     Shade shade(const EarthAspect& aspect, const EarthMoment& moment) const;
-    const EarthMap& ground() const { return *ground_map_; }
-    const CloudMaps& cloud_maps() const { return *cloud_maps_; }
+    const GroundMaps& ground() const { return *ground_maps_; }
+    // Returns where an instant lies between the maps; and the nearest place that there is.
+    MapNumbers numbers_at(TimeTai time) const {
+        return {cloud_maps_->number_at(time), ground_maps_->number_at(time)};
+    }
+    MapNumbers nearest(MapNumbers n) const {
+        return {cloud_maps_->nearest(n.clouds), ground_maps_->nearest(n.ground)};
+    }
     // Returns the finer levels of the ground, to be read by one thread at a time; null: none.
     const std::shared_ptr<EarthDetail>& detail() const { return detail_; }
     std::size_t detail_bytes() const { return detail_bytes_; }  // memory for their tiles
@@ -86,7 +93,7 @@ class EarthModel {
 
   private:
     // Shared by copies.
-    std::shared_ptr<const EarthMap> ground_map_;
+    std::shared_ptr<const GroundMaps> ground_maps_;
     std::shared_ptr<const CloudMaps> cloud_maps_;  // empty: the clouds are the ground map's
     std::shared_ptr<EarthDetail> detail_;
     std::size_t detail_bytes_;
@@ -104,13 +111,13 @@ class EarthModel {
     bool together() const { return cloud_maps_->empty(); }  // ground and clouds are of one map
     template <class Footprint>
     EarthSample ground_sample(const EarthMoment& moment, float u, float v, const Footprint& footprint) const {
-        return moment.detail ? moment.detail->sample(*ground_map_, u, v, footprint)
-                             : ground_map_->sample(u, v, footprint);
+        return moment.detail ? moment.detail->sample(ground_maps_->first(), u, v, footprint)
+                             : ground_maps_->sample(moment.number.ground, u, v, footprint);
     }
     template <class Footprint>
     EarthSample cloud_sample(const EarthMoment& moment, float u, float v, const Footprint& footprint) const {
         return together() ? ground_sample(moment, u, v, footprint)
-                          : cloud_maps_->sample(moment.cloud_number, u, v, footprint);
+                          : cloud_maps_->sample(moment.number.clouds, u, v, footprint);
     }
     struct Place;
     void place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const;

@@ -5,8 +5,14 @@ namespace hilcam {
 
 class DetailTiles;
 
+// Where an instant lies between maps: the number of the one before it, with the share of the one after it behind the point.
+struct MapNumbers {
+    double clouds = 0;  // CloudMaps
+    double ground = 0;  // GroundMaps
+};
+
 struct EarthMoment {
-    double cloud_number = 0;              // number of the clouds' map (CloudMaps::number_at)
+    MapNumbers number;
     const DetailTiles* detail = nullptr;  // finer levels of the ground's map (detail_tiles.h); null: none
 };
 

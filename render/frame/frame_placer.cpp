@@ -62,7 +62,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
                                         1 / geometry.focal_length_px, background_.top_m(BodyId::kEarth));
     if (earth_ && earth_->detail())
         earth_detail_ =
-            std::make_unique<DetailStream>(earth_->detail(), earth_->ground(), earth_->detail_bytes());
+            std::make_unique<DetailStream>(earth_->detail(), earth_->ground().first(), earth_->detail_bytes());
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
@@ -235,7 +235,7 @@ void FramePlacer::place_background() {
 void FramePlacer::place_earth_picture() {
     if (!kept_earth_ || !rays_->is_still() || !background_.earth_in_patches()) return;
     const PlacedBody& earth = background_.disks().front();
-    if (kept_earth_->place(earth.camera_m, earth.sun_dir, background_.cloud_number()))
+    if (kept_earth_->place(earth.camera_m, earth.sun_dir, background_.map_numbers()))
         frame_.earth_picture = &kept_earth_->picture();
     const double au = kAstronomicalUnit_m * earth.sun_radius_rad / kSunRadius_m;
     frame_.earth_picture_factor = static_cast<float>(au * au);

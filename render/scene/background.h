@@ -81,8 +81,8 @@ class Background {
     Spectrum point_irradiance(const PlacedBody& body) const;
     const Atmosphere* air() const { return air_; }
     const EarthModel* earth() const { return earth_; }
-    // Returns the number of the Earth's cloud map in this frame (CloudMaps).
-    double cloud_number() const { return earth_moment_.cloud_number; }
+    // Returns where this frame lies between the Earth's maps.
+    MapNumbers map_numbers() const { return earth_moment_.number; }
     // Has this frame's looks at the Earth see finer levels; they outlive it. Loop, after place().
     void show_detail(const DetailTiles& tiles) { earth_moment_.detail = &tiles; }
     bool shows_detail() const { return earth_moment_.detail != nullptr; }

@@ -9,12 +9,13 @@
 
 namespace hilcam {
 
-// Water by chance in each texel, on land of one grey.
+// Grey land by chance in each texel, and water by chance.
 inline EarthMap noise_map(int height) {
     std::mt19937 random(7);
     EarthMap::Level level{2 * height, height, {}};
     for (int i = 0; i < 2 * height * height; ++i) {
-        EarthMap::Texel texel{80, 80, 80, 80};
+        const auto grey = static_cast<std::uint8_t>(random() % 200);
+        EarthMap::Texel texel{grey, grey, grey, grey};
         texel[EarthSample::kWater] = static_cast<std::uint8_t>(random() % 256);
         level.texels.push_back(texel);
     }

@@ -23,7 +23,12 @@ DetailView above(double longitude_rad) {
 }
 
 struct DetailStreamTest : testing::Test {
-    EarthMap whole = noise_map(4096), below = coarser(whole, 4);
+    static const EarthMap& whole_map() {
+        static const EarthMap map = noise_map(2048);
+        return map;
+    }
+    const EarthMap& whole = whole_map();
+    EarthMap below = coarser(whole, 4);
     std::shared_ptr<WholeDetail> detail = std::make_shared<WholeDetail>(whole, below.height());
 
     // A row of looks on the ground below.
@@ -59,7 +64,7 @@ TEST_F(DetailStreamTest, TilesAreReadBeforeTheyAreNeeded) {
     DetailStream stream(detail, below, 64 << 20);
     stream.place(above(0));
     const int first = detail->reads;
-    for (int i = 1; i < 1000; ++i) {
+    for (int i = 1; i < 2000; ++i) {
         stream.place(above(1.5e-3 * i));
         // A frame takes longer than a few tiles.
         while (stream.is_reading_ahead()) std::this_thread::yield();
@@ -79,7 +84,7 @@ TEST_F(DetailStreamTest, MemoryIsBounded) {
 }
 
 TEST_F(DetailStreamTest, ATileThatCannotBeReadIsToldAndShownCoarser) {
-    const DetailKey key{0, static_cast<int>((0.5 / (2 * kPi) + 0.5) * 8192) / EarthDetail::kTile, 2048 / EarthDetail::kTile};
+    const DetailKey key{0, static_cast<int>((0.5 / (2 * kPi) + 0.5) * 4096) / EarthDetail::kTile, 1023 / EarthDetail::kTile};
     detail->damaged.insert({key.level, key.column, key.row});
     DetailStream stream(detail, below, 64 << 20);
     const std::vector<float> seen = looks(stream.place(above(0.5)), 0.5);
