@@ -37,7 +37,8 @@ void EarthLayerRaster::refuse(const std::string& what) const { throw InputError(
 
 EarthLayerRaster::EarthLayerRaster(const EarthLayerConfig& config) : config_(config) {
     const GroundMapConfig file = raster_config(config);
-    raster_ = is_picture(file.file) ? open_picture_raster(file, kEarthBody) : open_gdal_raster(file, kEarthBody);
+    raster_ =
+        is_picture(file.file) ? open_picture_raster(file, kEarthBody) : open_gdal_raster(file, kEarthBody);
     require_whole_earth();
     const GroundRaster::Shape& shape = raster_->shape();
     const std::string channels = std::to_string(shape.bands) + (shape.bands == 1 ? " channel" : " channels");
@@ -50,9 +51,10 @@ EarthLayerRaster::EarthLayerRaster(const EarthLayerConfig& config) : config_(con
     }
     constexpr int kMostWithout = 16384;
     if (!shape.has_overviews && shape.columns > kMostWithout)
-        refuse("has " + std::to_string(shape.columns) + " x " + std::to_string(shape.rows) +
-               " posts and no overviews; accepted: with overviews (gdaladdo -r average FILE 2 4 8 16 32), or " +
-               std::to_string(kMostWithout) + " columns at most");
+        refuse(
+            "has " + std::to_string(shape.columns) + " x " + std::to_string(shape.rows) +
+            " posts and no overviews; accepted: with overviews (gdaladdo -r average FILE 2 4 8 16 32), or " +
+            std::to_string(kMostWithout) + " columns at most");
     const Vec3d date_line{-1, 0, 0};
     Vec2d post;
     raster_->find_posts({&date_line, 1}, {&post, 1});
@@ -63,7 +65,8 @@ void EarthLayerRaster::require_whole_earth() const {
     const GroundRaster::Shape& shape = raster_->shape();
     if (!shape.whole_turn || !shape.pole_above_first_row || !shape.pole_below_last_row)
         refuse(
-            "does not cover the whole Earth in longitude and latitude; accepted: 360 degrees of longitude, from 90 N "
+            "does not cover the whole Earth in longitude and latitude; accepted: 360 degrees of longitude, "
+            "from 90 N "
             "to 90 S (gdalwarp -t_srs EPSG:4326 -te -180 -90 180 90 makes it)");
     if (shape.columns != 2 * shape.rows)
         refuse("has " + std::to_string(shape.columns) + " x " + std::to_string(shape.rows) +
@@ -91,8 +94,8 @@ void EarthLayerRaster::read_posts(int level, const LayerWindow& w) {
         raster_->read(level, first, w.row, count, w.rows, part_);
         for (std::size_t y = 0; y < static_cast<std::size_t>(w.rows); ++y)
             for (std::size_t i = 0; i < static_cast<std::size_t>(count) * channels; ++i)
-                posts_[(y * static_cast<std::size_t>(w.columns) + static_cast<std::size_t>(done)) * channels + i] =
-                    decoded(part_[y * static_cast<std::size_t>(count) * channels + i]);
+                posts_[(y * static_cast<std::size_t>(w.columns) + static_cast<std::size_t>(done)) * channels +
+                       i] = decoded(part_[y * static_cast<std::size_t>(count) * channels + i]);
         done += count;
     }
 }
@@ -101,7 +104,8 @@ bool EarthLayerRaster::read(const LayerGrid& grid, const LayerWindow& w, std::ve
     // The coarsest level that is as fine as the grid.
     int level = 0;
     while ((rows() >> (level + 1)) >= grid.rows && (rows() >> (level + 1)) >= 2) ++level;
-    const double per_post = std::ldexp(1.0, -level), columns = this->columns() * per_post, rows = this->rows() * per_post;
+    const double per_post = std::ldexp(1.0, -level), columns = this->columns() * per_post,
+                 rows = this->rows() * per_post;
     const double first = first_column_ * per_post;
     const auto x_of = [&](int i) { return (w.column + i + 0.5) / grid.columns * columns + first - 0.5; };
     const int last_row = (this->rows() >> level) - 1;

@@ -38,7 +38,8 @@ class LayerValues {
         float value;
         if (finds(Kind::kWater, i, value)) out.value[EarthSample::kWater] = std::clamp(value, 0.0f, 1.0f);
         put_land(i, out);
-        if (finds(Kind::kClouds, i, value)) put_cloud(std::pow(std::clamp(value, 0.0f, 1.0f), kCloudPower), out);
+        if (finds(Kind::kClouds, i, value))
+            put_cloud(std::pow(std::clamp(value, 0.0f, 1.0f), kCloudPower), out);
         if (finds(Kind::kCloudThickness, i, value)) {
             const float x = kPerThickness * std::clamp(value, 0.0f, 1e4f);
             put_cloud(x / (1 + x), out);
@@ -90,7 +91,9 @@ class LayerValues {
 
 class LayerDetail final : public EarthDetail {
   public:
-    LayerDetail(std::vector<EarthLayerRaster> layers, const Shape& shape) : layers_(std::move(layers)) { shape_ = shape; }
+    LayerDetail(std::vector<EarthLayerRaster> layers, const Shape& shape) : layers_(std::move(layers)) {
+        shape_ = shape;
+    }
 
     bool read(const DetailKey& key, const EarthMap& below, std::span<EarthMap::Texel> texels) override {
         if (!is_open_here()) return false;

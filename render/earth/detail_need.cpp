@@ -32,12 +32,13 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
     const double across = (kTile + 1) * per_column, down = (kTile + 1) * per_row;
     const double latitude = north - down / 2, longitude = west + across / 2;
     // Geodetic latitudes onto the sphere.
-    const double reduced =
-        std::atan2(kEarth.polar_radius_m * std::sin(latitude), kEarth.equatorial_radius_m * std::cos(latitude));
+    const double reduced = std::atan2(kEarth.polar_radius_m * std::sin(latitude),
+                                      kEarth.equatorial_radius_m * std::cos(latitude));
     const double nearest_to_equator = std::max(0.0, std::abs(latitude) - down / 2);
     const double half_across = 0.5 * across * std::cos(nearest_to_equator);
-    return {{std::cos(reduced) * std::cos(longitude), std::cos(reduced) * std::sin(longitude), std::sin(reduced)},
-            1.02 * std::hypot(half_across, 0.5 * down)};
+    return {
+        {std::cos(reduced) * std::cos(longitude), std::cos(reduced) * std::sin(longitude), std::sin(reduced)},
+        1.02 * std::hypot(half_across, 0.5 * down)};
 }
 
 }  // namespace

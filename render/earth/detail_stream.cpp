@@ -80,15 +80,16 @@ const DetailTiles& DetailStream::place(const DetailView& view) {
 std::string DetailStream::fault() const {
     const std::uint64_t count = unreadable_.load(std::memory_order_relaxed);
     if (count == 0) return {};
-    return "earth_surface.layers: " + std::to_string(count) + (count == 1 ? " tile of " : " tiles of ") + detail_->files() +
-           " could not be read; coarser levels are shown there";
+    return "earth_surface.layers: " + std::to_string(count) + (count == 1 ? " tile of " : " tiles of ") +
+           detail_->files() + " could not be read; coarser levels are shown there";
 }
 
 std::string DetailStream::explain() const {
-    std::string out = "earth: " + std::to_string(need_.tiles().size()) + " tiles of " + detail_->files() + ", of " +
-                      std::to_string(tiles_.most()) + " that earth_surface.memory_mb has room for";
+    std::string out = "earth: " + std::to_string(need_.tiles().size()) + " tiles of " + detail_->files() +
+                      ", of " + std::to_string(tiles_.most()) + " that earth_surface.memory_mb has room for";
     if (need_.coarser_by() > 0)
-        out += "; for want of room the map is " + plain(std::exp2(need_.coarser_by())) + " times as coarse as pixels ask for";
+        out += "; for want of room the map is " + plain(std::exp2(need_.coarser_by())) +
+               " times as coarse as pixels ask for";
     return out;
 }
 

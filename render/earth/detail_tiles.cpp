@@ -74,21 +74,23 @@ void DetailTiles::add_at(const EarthMap& below, float u, float v, int level, flo
         float x = (u - std::floor(u)) * width - 0.5f;
         const float y = std::clamp(v, 0.0f, 1.0f) * height - 0.5f;
         if (x < 0) x += static_cast<float>(columns);
-        const int left = std::min(static_cast<int>(x), columns - 1), top = std::clamp(static_cast<int>(y), 0, rows - 1);
+        const int left = std::min(static_cast<int>(x), columns - 1),
+                  top = std::clamp(static_cast<int>(y), 0, rows - 1);
         const float right = std::min(1.0f, x - static_cast<float>(left)),
                     down = std::clamp(y - static_cast<float>(top), 0.0f, 1.0f);
         constexpr int kTile = EarthDetail::kTile;
         const EarthMap::Texel* const tile = seen(level, left / kTile, top / kTile);
         if (!tile) continue;
         const EarthMap::Texel* const first = tile + top % kTile * EarthDetail::kSide + left % kTile;
-        EarthMap::mix_texels({first, first + 1, first + EarthDetail::kSide, first + EarthDetail::kSide + 1}, right, down,
-                             weight, sum);
+        EarthMap::mix_texels({first, first + 1, first + EarthDetail::kSide, first + EarthDetail::kSide + 1},
+                             right, down, weight, sum);
         return;
     }
     below.add_at_level(u, v, static_cast<float>(level) + shape_.base_level, weight, sum);
 }
 
-void DetailTiles::add(const EarthMap& below, float u, float v, float level, float weight, EarthSample& sum) const {
+void DetailTiles::add(const EarthMap& below, float u, float v, float level, float weight,
+                      EarthSample& sum) const {
     if (level >= static_cast<float>(shape_.levels))
         return below.add_at_level(u, v, level + shape_.base_level, weight, sum);
     const int finer = static_cast<int>(level);

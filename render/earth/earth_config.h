@@ -42,16 +42,16 @@ Fields fields(EarthLayerConfig& config);
 void validate(const EarthLayerConfig& config);
 
 struct EarthConfig {
-    std::filesystem::path map;         // empty: the Earth is its albedo or albedo_map
-    double wind_m_s = 7;               // at 12.5 m above all seas
-    double cloud_thickness = 1;        // factor on their optical thickness; 0: none
-    std::filesystem::path cloud_map;   // empty: those of `map`
-    std::vector<CloudsConfig> clouds;  // by time, in place of cloud_map
-    std::int64_t cloud_seed = 0;       // not 0: invented clouds in place of a map's
-    double lights = 1;                 // factor on the cities' light at night
+    std::filesystem::path map;              // empty: the Earth is its albedo or albedo_map
+    double wind_m_s = 7;                    // at 12.5 m above all seas
+    double cloud_thickness = 1;             // factor on their optical thickness; 0: none
+    std::filesystem::path cloud_map;        // empty: those of `map`
+    std::vector<CloudsConfig> clouds;       // by time, in place of cloud_map
+    std::int64_t cloud_seed = 0;            // not 0: invented clouds in place of a map's
+    double lights = 1;                      // factor on the cities' light at night
     std::vector<EarthGroundConfig> ground;  // by time, in place of the surface of `map`
-    std::vector<EarthLayerConfig> layers;  // in place of those channels of `map`
-    std::int64_t memory_mb = 256;          // for tiles of the layers, of each camera
+    std::vector<EarthLayerConfig> layers;   // in place of those channels of `map`
+    std::int64_t memory_mb = 256;           // for tiles of the layers, of each camera
 };
 Fields fields(EarthConfig& config);
 void validate(const EarthConfig& config);

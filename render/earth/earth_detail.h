@@ -30,7 +30,8 @@ class EarthDetail {
     struct Shape {
         int columns = 2, rows = 1;  // texels of level 0
         int levels = 1;
-        float base_level = 0;  // level of EarthMap at which its texels are as large as those of level 0, below 0
+        float base_level =
+            0;  // level of EarthMap at which its texels are as large as those of level 0, below 0
 
         int columns_at(int level) const { return columns >> level; }
         int rows_at(int level) const { return rows >> level; }

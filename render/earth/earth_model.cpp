@@ -79,14 +79,15 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
 
 std::string map_text(const GroundMaps& ground) {
     const int height = ground.height();
-    return (ground.count() > 1 ? std::to_string(ground.count()) + " maps by time, the finest" : std::string("map")) +
+    return (ground.count() > 1 ? std::to_string(ground.count()) + " maps by time, the finest"
+                               : std::string("map")) +
            " of " + std::to_string(2 * height) + " x " + std::to_string(height) + " with its halves";
 }
 
 std::string finer_levels(const EarthDetail* detail) {
     if (!detail) return {};
-    return ", finer ones to " + std::to_string(detail->shape().columns) + " x " + std::to_string(detail->shape().rows) +
-           " by tiles of " + detail->files();
+    return ", finer ones to " + std::to_string(detail->shape().columns) + " x " +
+           std::to_string(detail->shape().rows) + " by tiles of " + detail->files();
 }
 
 // The ellipsoid at a height.
@@ -266,15 +267,14 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& mom
         const float towards_sun =
             together && a.shade_u * a.shade_u + 0.25f * a.shade_v * a.shade_v < seen_as_one
                 ? cloud_of(ground)
-                : cloud_of(cloud_sample(moment, a.u + kUsualTop_m * a.shade_u,
-                                        a.v + kUsualTop_m * a.shade_v, a.footprint));
+                : cloud_of(cloud_sample(moment, a.u + kUsualTop_m * a.shade_u, a.v + kUsualTop_m * a.shade_v,
+                                        a.footprint));
         constexpr float kSpread =
             static_cast<float>(2 * static_cast<double>(kUsualTop_m) / (kPi * kRadius_m));
         const bool wide = f.v1 * f.v1 + f.v2 * f.v2 > kSpread * kSpread;
-        const float mean =
-            wide && together
-                ? cloud_of(ground)
-                : cloud_of(cloud_sample(moment, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
+        const float mean = wide && together
+                               ? cloud_of(ground)
+                               : cloud_of(cloud_sample(moment, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
         direct = by_steps(a.beam, towards_sun);
         share = by_steps(a.lit, mean);
         diffuse = std::max(0.0f, share - by_steps(a.beam, mean));
@@ -381,8 +381,7 @@ std::vector<EarthModel::PartInfo> EarthModel::parts() const {
         return text.substr(0, text.find('.') + 2);
     };
     std::vector<PartInfo> out;
-    out.push_back({Part::kSurface,
-                   map_text(ground()) + finer_levels(detail_.get()),
+    out.push_back({Part::kSurface, map_text(ground()) + finer_levels(detail_.get()),
                    ground().bytes() + (detail_ ? detail_bytes_ : 0)});
     if (glints_) out.push_back({Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0});
     if (table_)

@@ -45,8 +45,8 @@ void EarthPatch::choose_steps() {
                 const auto at = static_cast<std::size_t>(j * kMaxNodes + i + k);
                 carries = carries && carries_[at];
                 if (carries)
-                    texels = std::max(
-                        texels, earth_->texels_across(std::bit_cast<EarthAspect>(nodes_[at]).footprint, moment_));
+                    texels = std::max(texels, earth_->texels_across(
+                                                  std::bit_cast<EarthAspect>(nodes_[at]).footprint, moment_));
             }
             // Half a texel from look to look: what bends between texels is seen.
             step_px_[static_cast<std::size_t>(j * kMaxNodes + i)] =

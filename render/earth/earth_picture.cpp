@@ -179,8 +179,8 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
     const double b = static_cast<double>(band.first) + row * spacing;
     Coded* out = light_.data() + band.offset +
                  static_cast<std::size_t>(row) * static_cast<std::size_t>(band.columns + 1);
-    EarthModel::Ray ray{camera_m_,  {},           sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_,
-                        irradiance, {numbers_, nullptr}};
+    EarthModel::Ray ray{camera_m_,          {}, sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_, irradiance,
+                        {numbers_, nullptr}};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
     for (int column = 0; column < band.columns; ++column) {
         const double turn = 2 * kPi * column / band.columns;

@@ -61,7 +61,8 @@ double GroundMaps::number_at(TimeTai time) const {
     const auto after = std::upper_bound(times_.begin(), times_.end(), now) - times_.begin();
     const auto last = static_cast<std::ptrdiff_t>(times_.size()) - 1;
     const auto at = [&](std::ptrdiff_t i) { return times_[static_cast<std::size_t>(i)]; };
-    if (after > 0 && after <= last) return static_cast<double>(after - 1) + (now - at(after - 1)) / (at(after) - at(after - 1));
+    if (after > 0 && after <= last)
+        return static_cast<double>(after - 1) + (now - at(after - 1)) / (at(after) - at(after - 1));
     if (!is_yearly_) return after == 0 ? 0 : static_cast<double>(last);
     // Around the turn of the year.
     const double since_last = now - at(last) + (after == 0 ? 1 : 0), between = at(0) + 1 - at(last);
@@ -82,7 +83,8 @@ EarthSample GroundMaps::mix(double number, float u, float v, const Footprint& fo
     EarthSample out = maps_[floor % maps_.size()].sample(u, v, footprint);
     if (share == 0) return out;
     const EarthSample after = maps_[(floor + 1) % maps_.size()].sample(u, v, footprint);
-    for (std::size_t c = 0; c < out.value.size(); ++c) out.value[c] += share * (after.value[c] - out.value[c]);
+    for (std::size_t c = 0; c < out.value.size(); ++c)
+        out.value[c] += share * (after.value[c] - out.value[c]);
     return out;
 }
 

@@ -64,12 +64,13 @@ void KeptEarth::look_ahead(const Place& now) {
     for (double ahead = 1; ahead <= 128; ahead *= 2) {
         const Vec3d camera_m = on(long_before_.camera_m, now.camera_m, ahead);
         if (!EarthPicture::is_for(camera_m, pixel_rad_)) return;
-        const auto number_on = [&](double before, double here) { return here + ahead / past * (here - before); };
+        const auto number_on = [&](double before, double here) {
+            return here + ahead / past * (here - before);
+        };
         const MapNumbers numbers{number_on(long_before_.numbers.clouds, now.numbers.clouds),
                                  number_on(long_before_.numbers.ground, now.numbers.ground)};
-        const EarthPicture::Key key =
-            EarthPicture::key_of(camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)),
-                                 earth_.nearest(numbers));
+        const EarthPicture::Key key = EarthPicture::key_of(
+            camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)), earth_.nearest(numbers));
         if (key == pictures_[shown_].key) continue;
         if (find(key) < pictures_.size()) return;
         asked_ = room_for(key);

@@ -20,7 +20,8 @@ template <class Add>
 void each_look(float u, float v, const MapFootprint& f, MapSize size, const Add& add) {
     constexpr int kMaxLooks = 8;
     // In texels: the axes of the ellipse that has the sides as conjugate half diameters.
-    const float a1 = size.width * f.u1, b1 = size.height * f.v1, a2 = size.width * f.u2, b2 = size.height * f.v2;
+    const float a1 = size.width * f.u1, b1 = size.height * f.v1, a2 = size.width * f.u2,
+                b2 = size.height * f.v2;
     const float xx = a1 * a1 + a2 * a2, xy = a1 * b1 + a2 * b2, yy = b1 * b1 + b2 * b2;
     const float middle = 0.5f * (xx + yy), off = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
     const float longer = std::sqrt(middle + off), shorter = std::sqrt(std::max(0.0f, middle - off));

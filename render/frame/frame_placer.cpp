@@ -61,8 +61,8 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
             std::make_unique<KeptEarth>(*earth_, scene.sun_irradiance_1au_w_m2_um,
                                         1 / geometry.focal_length_px, background_.top_m(BodyId::kEarth));
     if (earth_ && earth_->detail())
-        earth_detail_ =
-            std::make_unique<DetailStream>(earth_->detail(), earth_->ground().first(), earth_->detail_bytes());
+        earth_detail_ = std::make_unique<DetailStream>(earth_->detail(), earth_->ground().first(),
+                                                       earth_->detail_bytes());
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
@@ -248,11 +248,11 @@ void FramePlacer::place_earth_detail() {
     const auto earth =
         std::find_if(disks.begin(), disks.end(), [](const PlacedBody& b) { return b.id == BodyId::kEarth; });
     if (earth == disks.end()) return;
-    const Vec3d boresight = earth->fixed_from_world * (to_matrix(world_.camera.world_from_body) * Vec3d{0, 0, 1});
-    background_.show_detail(
-        earth_detail_->place({earth->camera_m, boresight, earth->sun_dir,
-                              half_field_rad(frame_.geometry) + rays_->sweep_rad(),
-                              1 / frame_.geometry.focal_length_px}));
+    const Vec3d boresight =
+        earth->fixed_from_world * (to_matrix(world_.camera.world_from_body) * Vec3d{0, 0, 1});
+    background_.show_detail(earth_detail_->place({earth->camera_m, boresight, earth->sun_dir,
+                                                  half_field_rad(frame_.geometry) + rays_->sweep_rad(),
+                                                  1 / frame_.geometry.focal_length_px}));
 }
 
 void FramePlacer::place_visibility() {

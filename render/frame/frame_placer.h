@@ -96,9 +96,9 @@ class FramePlacer {
     std::size_t max_stars() const { return max_stars_; }  // greatest number of stars that a frame can show
     const Background& background() const { return background_; }
     const Lamps& lamps() const { return lamps_; }
-    const Atmosphere* air() const { return air_.get(); }  // may be null
+    const Atmosphere* air() const { return air_.get(); }                      // may be null
     const DetailStream* earth_detail() const { return earth_detail_.get(); }  // may be null
-    EmbreeScene& embree() { return embree_; }             // for measuring
+    EmbreeScene& embree() { return embree_; }                                 // for measuring
 
   private:
     std::size_t triangles_ = 0;

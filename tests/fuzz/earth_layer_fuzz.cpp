@@ -32,7 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             const EarthDetail::Shape& shape = earth.detail->shape();
             for (int at = 0; at < shape.levels; ++at) {
                 earth.detail->read({at, 0, 0}, earth.map, texels);
-                earth.detail->read({at, shape.tiles_across(at) - 1, shape.tiles_down(at) - 1}, earth.map, texels);
+                earth.detail->read({at, shape.tiles_across(at) - 1, shape.tiles_down(at) - 1}, earth.map,
+                                   texels);
             }
         } catch (const InputError& error) {
             HILCAM_CHECK(std::string_view(error.what()).find('\n') == std::string_view::npos);

@@ -64,7 +64,8 @@ class RampDetail : public EarthDetail {
         std::size_t i = 0;
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x) {
-                const double south = std::min(1.0, std::ldexp(key.row * kTile + y + 0.5, key.level) / shape_.rows);
+                const double south =
+                    std::min(1.0, std::ldexp(key.row * kTile + y + 0.5, key.level) / shape_.rows);
                 texels[i] = {};
                 texels[i++][EarthSample::kWater] = static_cast<std::uint8_t>(std::lround(255 * south));
             }

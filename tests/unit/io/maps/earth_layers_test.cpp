@@ -59,7 +59,8 @@ std::filesystem::path layer_file(const std::string& name, const MadeLayer& m) {
         for (int r = 0; r < m.rows; ++r) {
             for (int c = 0; c < m.columns; ++c)
                 row[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(m.value(b, c, r));
-            EXPECT_EQ(band->RasterIO(GF_Write, 0, r, m.columns, 1, row.data(), m.columns, 1, GDT_Byte, 0, 0), CE_None);
+            EXPECT_EQ(band->RasterIO(GF_Write, 0, r, m.columns, 1, row.data(), m.columns, 1, GDT_Byte, 0, 0),
+                      CE_None);
         }
     }
     GDALClose(out);
@@ -93,7 +94,8 @@ EarthSample texel_at(EarthDetail& detail, const EarthMap& below, int level, int 
     std::vector<EarthMap::Texel> texels(EarthDetail::kTexels);
     const DetailKey key{level, column / EarthDetail::kTile, row / EarthDetail::kTile};
     EXPECT_TRUE(detail.read(key, below, texels));
-    const EarthMap::Texel& code = texels[static_cast<std::size_t>(row % EarthDetail::kTile * EarthDetail::kSide + column % EarthDetail::kTile)];
+    const EarthMap::Texel& code = texels[static_cast<std::size_t>(
+        row % EarthDetail::kTile * EarthDetail::kSide + column % EarthDetail::kTile)];
     EarthSample out;
     EarthMap::mix_texels({&code, &code, &code, &code}, 0, 0, 1, out);
     return out;
@@ -106,7 +108,8 @@ TEST(EarthLayers, TheFinestLevelHasTheFilesOwnPosts) {
     ASSERT_TRUE(earth.detail);
     EXPECT_EQ(earth.detail->shape().levels, 2);
     for (const auto& [c, r] : {std::pair{0, 0}, {511, 255}, {130, 127}, {127, 128}, {400, 3}})
-        EXPECT_NEAR(texel_at(*earth.detail, earth.map, 0, c, r).water(), value(0, c, r) / 255.0, 1e-3) << c << " " << r;
+        EXPECT_NEAR(texel_at(*earth.detail, earth.map, 0, c, r).water(), value(0, c, r) / 255.0, 1e-3)
+            << c << " " << r;
     // A tile's last column is the next one's first; the map's is its first again.
     std::vector<EarthMap::Texel> tile(EarthDetail::kTexels);
     earth.detail->read({0, 3, 0}, earth.map, tile);
@@ -144,7 +147,9 @@ TEST(EarthLayers, HolesShowTheMapBelow) {
 }
 
 TEST(EarthLayers, KindsMeanWhatTheySay) {
-    const auto colors = [](int band, int, int) { return std::array{150, 100, 50}[static_cast<std::size_t>(band)]; };
+    const auto colors = [](int band, int, int) {
+        return std::array{150, 100, 50}[static_cast<std::size_t>(band)];
+    };
     EarthLayerConfig land = layer(layer_file("land.tif", {.bands = 3, .value = colors}), Kind::kLand);
     const auto sample = [](const std::vector<EarthLayerConfig>& layers) {
         return with_layers(grey_map(), layers).map.sample(0.4f, 0.4f, 0.0f);
@@ -165,11 +170,14 @@ TEST(EarthLayers, KindsMeanWhatTheySay) {
     EXPECT_NEAR(seen.lights(), 0.2, 3e-3);
     // Open water has no land's colour.
     EXPECT_EQ(sample({land, layer(layer_file("sea.tif", even(255)), Kind::kWater)}).land(2), 0);
-    EXPECT_NEAR(sample({layer(layer_file("clouds.tif", even(128)), Kind::kClouds)}).cloud(), std::pow(128 / 255.0, 1.4), 3e-3);
+    EXPECT_NEAR(sample({layer(layer_file("clouds.tif", even(128)), Kind::kClouds)}).cloud(),
+                std::pow(128 / 255.0, 1.4), 3e-3);
     land.coding = Coding::kSrgb, land.scale = 1;
     EXPECT_NEAR(sample({land}).land(0), 0.0319, 2e-3);  // sRGB's code 50
     // Red sand of the Blue Marble is that of Libya-4.
-    const auto sand = [](int band, int, int) { return std::array{205, 178, 136}[static_cast<std::size_t>(band)]; };
+    const auto sand = [](int band, int, int) {
+        return std::array{205, 178, 136}[static_cast<std::size_t>(band)];
+    };
     EarthLayerConfig marble = layer(layer_file("marble.tif", {.bands = 3, .value = sand}), Kind::kLand, 1);
     marble.coding = Coding::kBlueMarble;
     seen = sample({marble});
@@ -181,32 +189,40 @@ TEST(EarthLayers, KindsMeanWhatTheySay) {
 TEST(EarthLayers, WhatCannotBeUsedIsNamed) {
     const auto kind = Kind::kWater;
     EXPECT_THAT(refusal(layer("missing.tif", kind)), HasSubstr("missing.tif"));
-    EXPECT_THAT(refusal(layer(layer_file("bare.tif", {.projection = ""}), kind)), HasSubstr("has no projection"));
+    EXPECT_THAT(refusal(layer(layer_file("bare.tif", {.projection = ""}), kind)),
+                HasSubstr("has no projection"));
     EXPECT_THAT(refusal(layer(layer_file("moon.tif", {.projection = "+proj=longlat +R=1737400"}), kind)),
                 HasSubstr("is of a body of radius 1737.4 km"));
-    EXPECT_THAT(refusal(layer(layer_file("polar.tif", {.projection = "+proj=stere +lat_0=90 +datum=WGS84"}), kind)),
-                HasSubstr("does not cover the whole Earth in longitude and latitude"));
-    EXPECT_THAT(refusal(layer(layer_file("part.tif", {.turn_deg = 300}), kind)), HasSubstr("does not cover the whole Earth"));
+    EXPECT_THAT(
+        refusal(layer(layer_file("polar.tif", {.projection = "+proj=stere +lat_0=90 +datum=WGS84"}), kind)),
+        HasSubstr("does not cover the whole Earth in longitude and latitude"));
+    EXPECT_THAT(refusal(layer(layer_file("part.tif", {.turn_deg = 300}), kind)),
+                HasSubstr("does not cover the whole Earth"));
     EXPECT_THAT(refusal(layer(layer_file("flat.tif", {.columns = 512, .rows = 200}), kind)),
                 HasSubstr("does not cover the whole Earth"));
-    EXPECT_THAT(refusal(layer(layer_file("rgb.tif", {.bands = 3}), kind)), HasSubstr("has 3 channels; accepted: one"));
+    EXPECT_THAT(refusal(layer(layer_file("rgb.tif", {.bands = 3}), kind)),
+                HasSubstr("has 3 channels; accepted: one"));
     EXPECT_THAT(refusal(layer(layer_file("grey.tif", {.bands = 1}), Kind::kLand)),
                 HasSubstr("has 1 channel; accepted: red, green and blue"));
-    EarthLayerConfig bounded = layer(layer_file("odd.tif", {.columns = 500, .rows = 256, .projection = ""}), kind);
+    EarthLayerConfig bounded =
+        layer(layer_file("odd.tif", {.columns = 500, .rows = 256, .projection = ""}), kind);
     bounded.bounds_deg = {-180, -90, 180, 90};
     EXPECT_THAT(refusal(bounded), HasSubstr("has 500 x 256 posts; accepted: twice as many columns as rows"));
     EarthLayerConfig placed = layer("missing.tif", kind);
     placed.where = "bench.yaml:7:11: earth_surface.layers.0.file";
     EXPECT_THAT(refusal(placed), HasSubstr("missing.tif"));
     const std::string large = refusal(layer(
-        layer_file("large.tif", {.columns = 16640, .rows = 8320, .options = {"SPARSE_OK=TRUE", "TILED=YES"}}), kind));
+        layer_file("large.tif", {.columns = 16640, .rows = 8320, .options = {"SPARSE_OK=TRUE", "TILED=YES"}}),
+        kind));
     EXPECT_THAT(large, AllOf(HasSubstr("16640 x 8320 posts and no overviews"), HasSubstr("gdaladdo")));
 }
 
 // A block of the file whose bytes are gone: what is as coarse as the map is refused at the start, else it is told of the tile.
 TEST(EarthLayers, DamageIsToldWhereItIsMet) {
     const std::filesystem::path file = layer_file(
-        "damaged.tif", {.columns = 4096, .rows = 2048, .value = [](int, int c, int r) { return (c * r) % 251; },
+        "damaged.tif", {.columns = 4096,
+                        .rows = 2048,
+                        .value = [](int, int c, int r) { return (c * r) % 251; },
                         .options = {"TILED=YES", "BLOCKXSIZE=256", "BLOCKYSIZE=256", "COMPRESS=DEFLATE"}});
     {
         GDALRegister_GTiff();

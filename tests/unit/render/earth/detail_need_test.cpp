@@ -42,13 +42,14 @@ struct Looked {
 };
 Looked looked_at(const EarthModel& earth, const EarthDetail::Shape& shape, const Pose& p, int size_px,
                  double pixel_rad) {
-    const Vec3d right = normalized(cross(p.boresight, std::abs(p.boresight.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}));
+    const Vec3d right =
+        normalized(cross(p.boresight, std::abs(p.boresight.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}));
     const Vec3d down = cross(p.boresight, right);
     Looked out;
     for (int y = 0; y < size_px; y += 3)
         for (int x = 0; x < size_px; x += 3) {
-            const Vec3d dir = normalized(p.boresight + pixel_rad * ((x + 0.5 - size_px / 2) * right +
-                                                                    (y + 0.5 - size_px / 2) * down));
+            const Vec3d dir = normalized(
+                p.boresight + pixel_rad * ((x + 0.5 - size_px / 2) * right + (y + 0.5 - size_px / 2) * down));
             EarthAspect aspect;
             if (!earth.aspect_of({p.camera_m, dir, normalized(p.camera_m), pixel_rad, {}}, aspect)) continue;
             each_look(aspect.u, aspect.v, aspect.footprint,
@@ -59,10 +60,12 @@ Looked looked_at(const EarthModel& earth, const EarthDetail::Shape& shape, const
                               ++out.looks;
                               const float turn = u - std::floor(u);
                               const auto tile = [&](float share, int cells) {
-                                  return static_cast<int>(std::max(0.0f, share * static_cast<float>(cells) - 0.5f)) /
+                                  return static_cast<int>(
+                                             std::max(0.0f, share * static_cast<float>(cells) - 0.5f)) /
                                          EarthDetail::kTile;
                               };
-                              out.tiles.push_back({at, tile(turn, shape.columns_at(at)), tile(v, shape.rows_at(at))});
+                              out.tiles.push_back(
+                                  {at, tile(turn, shape.columns_at(at)), tile(v, shape.rows_at(at))});
                           }
                       });
         }
@@ -79,7 +82,8 @@ struct DetailNeedTest : testing::Test {
     static constexpr int kSize_px = 1024;
 
     DetailView view(const Pose& p, double pixel_rad) const {
-        return {p.camera_m, p.boresight, normalized(p.camera_m), std::atan(0.5 * std::sqrt(2.0) * kSize_px * pixel_rad), pixel_rad};
+        return {p.camera_m, p.boresight, normalized(p.camera_m),
+                std::atan(0.5 * std::sqrt(2.0) * kSize_px * pixel_rad), pixel_rad};
     }
 };
 

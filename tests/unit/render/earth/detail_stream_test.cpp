@@ -19,7 +19,11 @@ constexpr double kHeight_m = 500e3, kWidePixel_rad = 4e-3;
 // Straight down, above the equator.
 DetailView above(double longitude_rad) {
     const Vec3d up{std::cos(longitude_rad), std::sin(longitude_rad), 0};
-    return {(kFigures[index_of(BodyId::kEarth)].equatorial_radius_m + kHeight_m) * up, -up, {1, 0, 0}, 0.3, kWidePixel_rad};
+    return {(kFigures[index_of(BodyId::kEarth)].equatorial_radius_m + kHeight_m) * up,
+            -up,
+            {1, 0, 0},
+            0.3,
+            kWidePixel_rad};
 }
 
 struct DetailStreamTest : testing::Test {
@@ -35,8 +39,9 @@ struct DetailStreamTest : testing::Test {
     std::vector<float> looks(const DetailTiles& tiles, double longitude_rad) const {
         std::vector<float> out;
         for (int i = -20; i <= 20; ++i)
-            out.push_back(tiles.sample(below, static_cast<float>(longitude_rad / (2 * kPi) + 0.5 + i * 2e-4), 0.5f,
-                                       MapFootprint{2e-5f, 0, 0, 4e-5f})
+            out.push_back(tiles
+                              .sample(below, static_cast<float>(longitude_rad / (2 * kPi) + 0.5 + i * 2e-4),
+                                      0.5f, MapFootprint{2e-5f, 0, 0, 4e-5f})
                               .water());
         return out;
     }
@@ -47,7 +52,10 @@ TEST_F(DetailStreamTest, WhatAFrameSeesDoesNotDependOnThoseBefore) {
     const std::vector<float> wanted = looks(fresh.place(above(0.5)), 0.5);
     EXPECT_EQ(fresh.fault(), "");
     // It is the finest level.
-    EXPECT_FLOAT_EQ(wanted[20], whole.sample(static_cast<float>(0.5 / (2 * kPi) + 0.5), 0.5f, MapFootprint{2e-5f, 0, 0, 4e-5f}).water());
+    EXPECT_FLOAT_EQ(
+        wanted[20],
+        whole.sample(static_cast<float>(0.5 / (2 * kPi) + 0.5), 0.5f, MapFootprint{2e-5f, 0, 0, 4e-5f})
+            .water());
     DetailStream moved(detail, below, 64 << 20);
     for (int i = 0; i < 300; ++i) moved.place(above(0.2 + 1e-3 * i));
     EXPECT_EQ(looks(moved.place(above(0.5)), 0.5), wanted);
@@ -84,11 +92,13 @@ TEST_F(DetailStreamTest, MemoryIsBounded) {
 }
 
 TEST_F(DetailStreamTest, ATileThatCannotBeReadIsToldAndShownCoarser) {
-    const DetailKey key{0, static_cast<int>((0.5 / (2 * kPi) + 0.5) * 4096) / EarthDetail::kTile, 1023 / EarthDetail::kTile};
+    const DetailKey key{0, static_cast<int>((0.5 / (2 * kPi) + 0.5) * 4096) / EarthDetail::kTile,
+                        1023 / EarthDetail::kTile};
     detail->damaged.insert({key.level, key.column, key.row});
     DetailStream stream(detail, below, 64 << 20);
     const std::vector<float> seen = looks(stream.place(above(0.5)), 0.5);
-    EXPECT_EQ(stream.fault(), "earth_surface.layers: 1 tile of whole.tif could not be read; coarser levels are shown there");
+    EXPECT_EQ(stream.fault(),
+              "earth_surface.layers: 1 tile of whole.tif could not be read; coarser levels are shown there");
     EarthSample coarse;
     whole.add_at_level(static_cast<float>(0.5 / (2 * kPi) + 0.5), 0.5f, 1, 1, coarse);
     EXPECT_FLOAT_EQ(seen[20], coarse.water());
@@ -105,10 +115,12 @@ TEST_F(DetailStreamTest, FramesShowTheFinerLevels) {
         s.earth(0.3);
         EarthConfig config;
         config.cloud_thickness = 0;
-        s.scene.earth = std::make_shared<const EarthModel>(config, std::move(ground), EarthMap(), nullptr, s.grid, finer);
+        s.scene.earth =
+            std::make_shared<const EarthModel>(config, std::move(ground), EarthMap(), nullptr, s.grid, finer);
         s.quality.kept_earth = false;
         s.sun({0.3, 0.5, -1});
-        s.world.bodies[BodyId::kEarth].world_m = {0, 0, kFigures[index_of(BodyId::kEarth)].equatorial_radius_m + height_m};
+        s.world.bodies[BodyId::kEarth].world_m = {
+            0, 0, kFigures[index_of(BodyId::kEarth)].equatorial_radius_m + height_m};
         s.render();
         return std::move(s.radiance);
     };

@@ -48,7 +48,8 @@ TEST(DetailTiles, ALookIsThatAtTheWholeMap) {
         for (std::size_t c = 0; c < EarthSample::kChannels; ++c)
             ASSERT_NEAR(seen.value[c], wanted.value[c], 2e-4f) << u << " " << v << " " << c;
     }
-    EXPECT_NEAR(tiles.sample(below, 0.3f, 0.4f, 0.02f).water(), whole.sample(0.3f, 0.4f, 0.02f).water(), 1e-5f);
+    EXPECT_NEAR(tiles.sample(below, 0.3f, 0.4f, 0.02f).water(), whole.sample(0.3f, 0.4f, 0.02f).water(),
+                1e-5f);
 }
 
 TEST(DetailTiles, WhatTheFrameDoesNotSeeIsTheCoarserLevel) {

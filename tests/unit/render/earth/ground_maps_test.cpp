@@ -31,7 +31,9 @@ GroundMaps four_seasons() {
 TEST(GroundMaps, MonthsComeAgainEachYear) {
     const GroundMaps maps = four_seasons();
     for (const int year : {1999, 2026, 2060}) {
-        const auto at = [&](const std::string& day) { return maps.number_at(parse_utc(std::to_string(year) + day + "T00:00:00Z")); };
+        const auto at = [&](const std::string& day) {
+            return maps.number_at(parse_utc(std::to_string(year) + day + "T00:00:00Z"));
+        };
         // A day is a ninetieth of the way; the mean year is within two of each year's own.
         EXPECT_NEAR(at("-01-16"), 0, 0.03) << year;
         EXPECT_NEAR(at("-04-16"), 1, 0.03) << year;
@@ -42,14 +44,17 @@ TEST(GroundMaps, MonthsComeAgainEachYear) {
         EXPECT_NEAR(at("-01-01"), 3.84, 0.04) << year;
     }
     // Nothing steps there.
-    EXPECT_NEAR(maps.number_at(parse_utc("2026-12-31T23:59:59Z")), maps.number_at(parse_utc("2027-01-01T00:00:01Z")), 0.03);
+    EXPECT_NEAR(maps.number_at(parse_utc("2026-12-31T23:59:59Z")),
+                maps.number_at(parse_utc("2027-01-01T00:00:01Z")), 0.03);
     EXPECT_DOUBLE_EQ(maps.nearest(4.5), 0.5);
     EXPECT_DOUBLE_EQ(maps.nearest(-0.25), 3.75);
 }
 
 TEST(GroundMaps, BetweenTwoIsTheirMean) {
     const GroundMaps maps = four_seasons();
-    const auto at = [&](double number) { return static_cast<double>(maps.sample(number, 0.3f, 0.4f, 0.0f).land(2)); };
+    const auto at = [&](double number) {
+        return static_cast<double>(maps.sample(number, 0.3f, 0.4f, 0.0f).land(2));
+    };
     const auto value = [](double code) { return code * code / 65025; };
     EXPECT_NEAR(at(0), value(200), 1e-6);
     EXPECT_NEAR(at(0.25), 0.75 * value(200) + 0.25 * value(100), 1e-6);
@@ -76,7 +81,8 @@ double light_at(const std::string& day, bool kept) {
     s.earth(0.3);
     EarthConfig config;
     config.cloud_thickness = 0;
-    s.scene.earth = std::make_shared<const EarthModel>(config, four_seasons(), CloudMaps(even_ground(0)), nullptr, s.grid);
+    s.scene.earth = std::make_shared<const EarthModel>(config, four_seasons(), CloudMaps(even_ground(0)),
+                                                       nullptr, s.grid);
     s.quality.kept_earth = kept;
     s.quality.visibility = kept ? "buffer" : "rays";
     s.quality.samples_per_axis = kept ? 1 : 4;
@@ -95,7 +101,7 @@ TEST(GroundMaps, FramesShowTheTimeOfTheYear) {
         EXPECT_NEAR(light_at(day, true) / light_at(day, false), 1, 0.02) << day;
 }
 
-std::string refusal(const EarthConfig& config) {
+std::string ground_refusal(const EarthConfig& config) {
     try {
         for (const EarthGroundConfig& one : config.ground) validate(one);
         validate(config);
@@ -109,20 +115,22 @@ TEST(GroundMaps, MistakesAreNamed) {
     EarthConfig config;
     config.map = "earth.map";
     config.ground = {{"a.map", 1, ""}, {"b.map", 7, ""}};
-    EXPECT_EQ(refusal(config), "");
+    EXPECT_EQ(ground_refusal(config), "");
     config.ground[1].month = 1;
-    EXPECT_THAT(refusal(config), HasSubstr("ground.1.month: found 1; accepted: later than the map before, 1"));
+    EXPECT_THAT(ground_refusal(config),
+                HasSubstr("ground.1.month: found 1; accepted: later than the map before, 1"));
     config.ground[1] = {"b.map", 0, "2026-01-01T00:00:00Z"};
-    EXPECT_THAT(refusal(config), HasSubstr("ground.1.at_utc: is of another kind"));
+    EXPECT_THAT(ground_refusal(config), HasSubstr("ground.1.at_utc: is of another kind"));
     config.ground[0] = {"a.map", 0, "2026-02-01T00:00:00Z"};
-    EXPECT_THAT(refusal(config), HasSubstr("ground.1.at_utc: found 2026-01-01T00:00:00Z; accepted: later"));
+    EXPECT_THAT(ground_refusal(config),
+                HasSubstr("ground.1.at_utc: found 2026-01-01T00:00:00Z; accepted: later"));
     config.ground = {{"a.map", 0, ""}};
-    EXPECT_THAT(refusal(config), HasSubstr("is missing, and at_utc"));
+    EXPECT_THAT(ground_refusal(config), HasSubstr("is missing, and at_utc"));
     config.ground = {{"a.map", 3, "2026-02-01T00:00:00Z"}};
-    EXPECT_THAT(refusal(config), HasSubstr("both say when the map is"));
+    EXPECT_THAT(ground_refusal(config), HasSubstr("both say when the map is"));
     config.ground = {{"a.map", 3, ""}};
     config.layers.emplace_back();
-    EXPECT_THAT(refusal(config), HasSubstr("'layers' both say what the surface is"));
+    EXPECT_THAT(ground_refusal(config), HasSubstr("'layers' both say what the surface is"));
 }
 
 }  // namespace

@@ -30,8 +30,9 @@ TEST(LandColors, AreTheToolsOwn) {
 
 TEST(LandColors, StayWithinZeroAndOne) {
     for (const float value : {-1.0f, 0.0f, 1e-9f, 0.5f, 1.0f, 100.0f})
-        for (const BandReflectances& bands : {bands_of_blue_marble({value, value, value}), bands_of_reflectances({value, 0, value}),
-                                              bands_of_reflectances({0, value, 0})})
+        for (const BandReflectances& bands :
+             {bands_of_blue_marble({value, value, value}), bands_of_reflectances({value, 0, value}),
+              bands_of_reflectances({0, value, 0})})
             for (const float band : bands) {
                 EXPECT_GE(band, 0);
                 EXPECT_LE(band, 1);
