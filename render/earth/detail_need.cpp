@@ -22,6 +22,7 @@ double angle_rad(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)
 struct Cap {
     Vec3d middle;  // unit
     double radius_rad;
+    double cosine;  // cosine of its latitude nearest to the equator
 };
 
 Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
@@ -34,11 +35,12 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
     // Geodetic latitudes onto the sphere.
     const double reduced = std::atan2(kEarth.polar_radius_m * std::sin(latitude),
                                       kEarth.equatorial_radius_m * std::cos(latitude));
-    const double nearest_to_equator = std::max(0.0, std::abs(latitude) - down / 2);
-    const double half_across = 0.5 * across * std::cos(nearest_to_equator);
+    const double cosine = std::max(1e-6, std::cos(std::max(0.0, std::abs(latitude) - down / 2)));
+    const double half_across = 0.5 * across * cosine;
     return {
         {std::cos(reduced) * std::cos(longitude), std::cos(reduced) * std::sin(longitude), std::sin(reduced)},
-        1.02 * std::hypot(half_across, 0.5 * down)};
+        1.02 * std::hypot(half_across, 0.5 * down),
+            cosine};
 }
 
 }  // namespace
@@ -78,9 +80,12 @@ struct DetailNeed::Sight {
         const double d_m = std::sqrt(distance_m * distance_m + kRadius_m * kRadius_m -
                                      2 * distance_m * kRadius_m * std::cos(nearest_rad));
         const double mu = std::max(0.02, (distance_m * std::cos(nearest_rad) - kRadius_m) / d_m);
-        // A look is as wide as the shorter side of a footprint, and an eighth of the longer (map_looks.h).
-        const double width_m = pixel_rad * d_m * std::max(1.0, 1 / (8 * mu));
-        return std::max(0.0, std::log2(width_m / texel_m)) + coarser_by;
+        // A look is as wide as the shorter side of a footprint, and an eighth of the longer (map_looks.h): the ray's slant makes it
+        // long, and so do columns that run together towards a pole.
+        const double width_m = pixel_rad * d_m * std::max({1.0, 1 / (8 * mu), 1 / (8 * cap.cosine)});
+        // Distances are those of the stretched Earth, which are off by a third of a hundredth.
+        constexpr double kMargin = 0.02;
+        return std::max(0.0, std::log2(width_m / texel_m) - kMargin) + coarser_by;
     }
 };
 

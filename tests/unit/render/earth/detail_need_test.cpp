@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "render/earth/earth_model.h"
 #include "render/earth/map_looks.h"
@@ -102,9 +103,9 @@ TEST_F(DetailNeedTest, HasAllThatPixelsLookAt) {
                     << key.level << " " << key.column << " " << key.row << " from " << p.camera_m.x;
             looked += all.tiles.size(), needed += need.tiles().size();
         }
-    EXPECT_LT(needed, 3 * looked) << needed << " " << looked;
-    RecordProperty("looked_at", static_cast<int>(looked));
-    RecordProperty("needed", static_cast<int>(needed));
+    // A cone about a square field, caps about square tiles, and the levels above.
+    EXPECT_LT(needed, 3 * looked);
+    std::printf("looked at %zu tiles, needed %zu\n", looked, needed);
 }
 
 TEST_F(DetailNeedTest, LessRoomMakesAllOfItCoarser) {
