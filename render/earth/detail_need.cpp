@@ -35,7 +35,9 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
     // Geodetic latitudes onto the sphere.
     const double reduced = std::atan2(kEarth.polar_radius_m * std::sin(latitude),
                                       kEarth.equatorial_radius_m * std::cos(latitude));
-    const double cosine = std::max(1e-6, std::cos(std::max(0.0, std::abs(latitude) - down / 2)));
+    // Looks of a long footprint lie up to four of their widths, eight texels, beside the place that it is of.
+    const double nearest_to_equator = std::abs(latitude) - down / 2 - 8 * per_row;
+    const double cosine = std::max(1e-6, std::cos(std::max(0.0, nearest_to_equator)));
     const double half_across = 0.5 * across * cosine;
     return {
         {std::cos(reduced) * std::cos(longitude), std::cos(reduced) * std::sin(longitude), std::sin(reduced)},
