@@ -13,7 +13,7 @@ constexpr Figure kEarth = kFigures[index_of(BodyId::kEarth)];
 constexpr double kRadius_m = kEarth.equatorial_radius_m;
 constexpr double kCloudLevel_m = 4000;  // that of EarthModel
 
-// With z stretched so that the Earth is a sphere.
+// Stretches z so that the Earth is a sphere.
 Vec3d stretched(Vec3d v) { return {v.x, v.y, v.z * kEarth.equatorial_radius_m / kEarth.polar_radius_m}; }
 
 double angle_rad(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
@@ -42,7 +42,7 @@ Cap cap_of(const EarthDetail::Shape& shape, const DetailKey& key) {
     return {
         {std::cos(reduced) * std::cos(longitude), std::cos(reduced) * std::sin(longitude), std::sin(reduced)},
         1.02 * std::hypot(half_across, 0.5 * down),
-            cosine};
+        cosine};
 }
 
 }  // namespace

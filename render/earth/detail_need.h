@@ -11,7 +11,7 @@
 
 namespace hilcam {
 
-// What a camera sees of the Earth. The Earth's axes; directions are unit.
+// A view is what a camera sees of the Earth, in the Earth's axes; directions are unit.
 struct DetailView {
     Vec3d camera_m, boresight, sun_dir;
     double half_field_rad = 0;  // about the boresight; beyond it the camera sees nothing

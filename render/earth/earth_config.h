@@ -36,7 +36,7 @@ struct EarthLayerConfig {
     Kind kind = Kind::kLand;
     Coding coding = Coding::kLinear;
     double scale = 1, offset = 0;
-    std::vector<double> bounds_deg;  // as GroundMapConfig has them
+    std::vector<double> bounds_deg;  // edges of the whole Earth, as GroundMapConfig has them
 };
 Fields fields(EarthLayerConfig& config);
 void validate(const EarthLayerConfig& config);

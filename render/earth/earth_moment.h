@@ -1,5 +1,5 @@
 #pragma once
-// What of the Earth's maps the looks of one frame are at.
+// A moment is what of the Earth's maps the looks of one frame are at.
 
 namespace hilcam {
 

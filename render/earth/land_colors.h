@@ -1,5 +1,5 @@
 #pragma once
-// What maps of colours say of the land's reflectance in the bands of land.h. tools/make_earth_map.py has the same laws, and where its
+// Colours of maps as the land's reflectance in the bands of land.h. tools/make_earth_map.py has the same laws, and where its
 // figures are from; tests/sky/earth_map_tool_test.py holds the two together.
 
 #include <array>

@@ -19,7 +19,7 @@ struct MapSize {
 template <class Add>
 void each_look(float u, float v, const MapFootprint& f, MapSize size, const Add& add) {
     constexpr int kMaxLooks = 8;
-    // In texels: the axes of the ellipse that has the sides as conjugate half diameters.
+    // The axes, in texels, of the ellipse that has the sides as conjugate half diameters.
     const float a1 = size.width * f.u1, b1 = size.height * f.v1, a2 = size.width * f.u2,
                 b2 = size.height * f.v2;
     const float xx = a1 * a1 + a2 * a2, xy = a1 * b1 + a2 * b2, yy = b1 * b1 + b2 * b2;
