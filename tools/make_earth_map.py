@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Makes maps of the Earth for hilcam (docs/earth.md says what each channel holds and where its scale comes from).
 
-    tools/make_earth_map.py FOLDER configs/maps/earth.map [--width 4096] [--sea-ice NORTH SOUTH]        land, water, ice, clouds and lights, packed
+    tools/make_earth_map.py FOLDER configs/maps/earth.map [--width 4096] [--sea-ice NORTH SOUTH | --ice PICTURE]    land, water, ice, clouds and lights, packed
     tools/make_earth_map.py Earth_ALB_2018_CERES_All_1x1.csv configs/maps/earth_albedo.png      the mean albedo of a year
 
 FOLDER holds equirectangular pictures, left edge 180 W, top 90 N, twice as wide as high: `blue_marble_albedo`, `_water`, `_cloud` and
@@ -11,6 +11,8 @@ Each of them can be given alone by --albedo, --water, --clouds, --lights.
 
 The pictures have no sea ice. With --sea-ice it is put on the water about each pole, as far from it as makes the extents NORTH and SOUTH [million km^2]:
 11.4 10.3 as the mean of August and February, 7.2 17.7 in August, 15.6 2.8 in February. Where ice really ends differs with the longitude.
+
+With --ice it is where a picture of the same form is white: the share of the water that ice covers, as passive microwaves give it for each month.
 
 The CSV: 180 rows from the south pole up, 360 columns from 180 W on, broadband shortwave albedo at the top of the atmosphere, all sky,
 mean of 2018: NASA CERES (Energy Balanced and Filled; Loeb et al., J. Climate 31, 895, 2018), as the Basilisk project distributes it.
@@ -140,7 +142,7 @@ def waves(height, width, cycles, seed):
 
 
 def sea_ice(water, extents_million_km2):
-    """The share of ice in each texel [0..1], and how bright it is against snow: on the water about each pole, as far from it as makes the extent. The
+    """The share of ice in each texel [0..1]: on the water about each pole, as far from it as makes the extent. The
     edge wanders by two degrees and the cover by a tenth, which is invented: an even cap is seen to be one."""
     height, width = water.shape
     latitude_deg = 90 - (numpy.arange(height) + 0.5) / height * 180
@@ -156,17 +158,15 @@ def sea_ice(water, extents_million_km2):
         if extent > 0:
             edge_deg = polar_deg[rows].ravel()[order[min(numpy.searchsorted(within, extent * 1e6), order.size - 1)]]
             share[rows] = cover[rows] * numpy.clip((polar_deg[rows] - edge_deg) / 4 + 0.5, 0, 1)
-    bright = numpy.where(latitude_deg > 0, NORTH_ICE_OVER_SNOW, 1.0).astype(numpy.float32)
-    return share * water, bright[:, None]
+    return share * water
 
 
-def with_sea_ice(land, water, extents_million_km2):
-    """Land with the ice, and the water that is left."""
-    ice, bright = sea_ice(water, extents_million_km2)
-    ground = 1 - water
+def with_ice(land, water, ice):
+    """Land with the ice, which is a share of the ground as the land's reflectance is one, and the water that is left."""
+    height = ice.shape[0]
+    bright = numpy.where(numpy.arange(height) < height / 2, NORTH_ICE_OVER_SNOW, 1.0).astype(numpy.float32)[:, None]
     snow = numpy.array([SNOW[2], SNOW[1], SNOW[0], SNOW_NIR], numpy.float32)
-    mixed = (land * ground[..., None] + snow * (ice * bright)[..., None]) / numpy.maximum(ground + ice, 1e-6)[..., None]
-    return numpy.where((ice > 0)[..., None], mixed, land), water - ice
+    return numpy.minimum(land + snow * (ice * bright)[..., None], 1), water - ice
 
 
 def channels(pictures, width, sea_ice_million_km2):
@@ -181,9 +181,10 @@ def channels(pictures, width, sea_ice_million_km2):
     # Thick clouds reach higher: 2 to 10 km. The picture knows no heights, so this is an assumption.
     top = numpy.where(cloud > 0.02, (2 + 8 * cloud) / 16, 2 / 16)
     lights = fitted(linear_of_srgb(pictures["lights"]), width) * (1 - water)
-    land, water = with_sea_ice(land, water, sea_ice_million_km2)
     # Bare sea has no colour of its own, which packs better.
     land *= (water < 0.999)[..., None]
+    ice = fitted(pictures["ice"], width) / 255 * water if "ice" in pictures else sea_ice(water, sea_ice_million_km2)
+    land, water = with_ice(land, water, ice)
     return numpy.concatenate([land, water[..., None], cloud[..., None], top[..., None], lights[..., None]], axis=-1)
 
 
@@ -240,7 +241,10 @@ def main():
     names = {"albedo": "albedo", "water": "water", "clouds": "cloud", "lights": "glow"}
     for key in names:
         parser.add_argument(f"--{key}", type=pathlib.Path)
+    parser.add_argument("--ice", type=pathlib.Path)
     options = parser.parse_args()
+    if options.ice and any(options.sea_ice):
+        stop("--ice and --sea-ice both say where ice is; accepted: one of them")
     if options.source.suffix == ".csv":
         return albedo_picture(options.source, options.out)
     pictures = {}
@@ -250,6 +254,8 @@ def main():
         if not found:
             stop(f"{options.source}: no blue_marble_{word}.jpg, .png or .tif, and no --{key}")
         pictures[key] = read_picture(found[0], "RGB" if key == "albedo" else "L")
+    if options.ice:
+        pictures["ice"] = read_picture(options.ice, "L")
     options.out.write_bytes(packed(channels(pictures, options.width, options.sea_ice)))
 
 

@@ -81,6 +81,7 @@ class CameraStation {
     FrameLoop& loop() { return *loop_; }
     const FrameLoop& loop() const { return *loop_; }
     Renderer& renderer() { return *renderer_; }
+    const Renderer& renderer() const { return *renderer_; }
     // Returns what was found when they were loaded, in the scenario's order.
     const std::vector<LoadedObject>& objects() const { return objects_; }
     // Says how it got its tables of directions; orders: those that it is still without.
@@ -116,6 +117,7 @@ class CameraStation {
     DeliveryMeter delivery_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::set<const FrameSink*> told_faults_;
+    bool told_map_fault_ = false;
     std::vector<LoadedObject> objects_;
     LightLoading light_;
     std::unique_ptr<Renderer> renderer_;

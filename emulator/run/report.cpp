@@ -58,10 +58,11 @@ json outputs_report(const CameraStation& station) {
     return outputs;
 }
 
-std::vector<std::string> output_faults(const CameraStation& station) {
+std::vector<std::string> faults_of(const CameraStation& station) {
     std::vector<std::string> out;
     for (const FrameSink* sink : station.sinks())
         if (const std::string fault = sink->report().fault; !fault.empty()) out.push_back(fault);
+    if (const std::string fault = station.renderer().map_fault(); !fault.empty()) out.push_back(fault);
     return out;
 }
 
@@ -124,7 +125,7 @@ json camera_report(CameraStation& station, double seconds) {
           {"last_packet", percentiles_of(delivery.command_to_last)},
           {"exposure_mid_to_last_packet", percentiles_of(delivery.exposure_to_last)}}},
         {"outputs", outputs_report(station)},
-        {"faults", output_faults(station)},
+        {"faults", faults_of(station)},
         {"fault_strikes", strikes_report(station)},
         {"quality", quality_report(station)},
         {"stages_ms", stage_times(loop.meters())},
@@ -135,7 +136,7 @@ json camera_report(CameraStation& station, double seconds) {
 
 RunOutcome run_outcome(const Emulator& emulator) {
     const LoopCounters& counters = emulator.first().loop().counters();
-    RunOutcome out{counters.frames.load(), counters.deadline_misses.load(), output_faults(emulator.first())};
+    RunOutcome out{counters.frames.load(), counters.deadline_misses.load(), faults_of(emulator.first())};
     if (const Recorder* recorder = emulator.recorder())
         if (const std::string fault = recorder->report().fault; !fault.empty()) out.faults.push_back(fault);
     return out;

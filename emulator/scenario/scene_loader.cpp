@@ -21,6 +21,7 @@
 #include "io/files/mesh_cache.h"
 #include "io/files/mesh_file.h"
 #include "io/files/mesh_level_cache.h"
+#include "io/maps/earth_layers.h"
 #include "io/pictures/picture_file.h"
 #include "render/brdf/brdf_table.h"
 #include "render/earth/earth_model.h"
@@ -282,6 +283,17 @@ void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
                         g.padded_width(), g.padded_height(), grid.size(), frame_gb, machine_gb));
 }
 
+GroundMaps load_ground(const std::vector<EarthGroundConfig>& configs) {
+    std::vector<GroundMaps::Monthly> months;
+    std::vector<GroundMaps::Timed> instants;
+    for (const EarthGroundConfig& one : configs)
+        if (one.month != 0)
+            months.push_back({static_cast<int>(one.month), read_earth_map(one.map)});
+        else
+            instants.push_back({parse_utc(one.at_utc), read_earth_map(one.map)});
+    return months.empty() ? GroundMaps(std::move(instants)) : GroundMaps(std::move(months));
+}
+
 std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const Atmosphere* air,
                                              const SpectralGrid& grid) {
     if (config.map.empty()) return nullptr;
@@ -295,7 +307,13 @@ std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const At
             maps.push_back({parse_utc(one.at_utc), read_earth_map(one.map)});
         clouds = CloudMaps(std::move(maps));
     }
-    return std::make_shared<EarthModel>(config, read_earth_map(config.map), std::move(clouds), air, grid);
+    if (!config.ground.empty()) {
+        if (clouds.empty()) clouds = read_earth_map(config.map);
+        return std::make_shared<EarthModel>(config, load_ground(config.ground), std::move(clouds), air, grid);
+    }
+    LayeredEarth earth = with_layers(read_earth_map(config.map), config.layers);
+    return std::make_shared<EarthModel>(config, std::move(earth.map), std::move(clouds), air, grid,
+                                        std::move(earth.detail));
 }
 
 BodyId body_named(const ScenarioConfig& s, const std::string& name) {

@@ -164,6 +164,7 @@ class GdalRaster final : public GroundRaster {
         const int count = file_->GetRasterCount();
         if (count < 1) refuse("has no values; accepted: a map with one channel or more");
         shape_.channels = config_.kind == GroundKind::kAlbedo && count >= 3 ? 3 : 1;
+        shape_.bands = count;
         for (int i = 1; i <= shape_.channels; ++i) {
             GDALRasterBand* const band = file_->GetRasterBand(i);
             if (GDALDataTypeIsComplex(band->GetRasterDataType()))
@@ -175,6 +176,7 @@ class GdalRaster final : public GroundRaster {
             if (!has_offset || !std::isfinite(offset)) offset = 0;
             bands_.push_back({band, scale, offset, has_none ? std::optional(none) : std::nullopt,
                               band->GetOverviewCount() > 0});
+            shape_.has_overviews = shape_.has_overviews && bands_.back().has_overviews;
         }
     }
 
@@ -265,6 +267,7 @@ class GdalRaster final : public GroundRaster {
             const CPLErr error =
                 band.band->RasterIO(GF_Read, column << level, row << level, columns << level, rows << level,
                                     raw_.data(), columns, rows, GDT_Float32, 0, 0, &how);
+            failed_reads_ += error != CE_None;
             for (std::size_t i = 0; i < raw_.size(); ++i)
                 values[i * channels + c] =
                     error == CE_None ? value_of(band, raw_[i]) : std::numeric_limits<float>::quiet_NaN();

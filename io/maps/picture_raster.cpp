@@ -64,7 +64,7 @@ class PictureRaster final : public GroundRaster {
     }
     void take_colors(const GroundMapConfig& config) {
         const Texture picture = read_picture(config.file);
-        shape_.columns = picture.width, shape_.rows = picture.height, shape_.channels = 3;
+        shape_.columns = picture.width, shape_.rows = picture.height, shape_.channels = shape_.bands = 3;
         values_.reserve(3 * picture.texels.size());
         const auto decoded = [&](std::uint8_t code) {
             return config.coding == MapCoding::kSrgb ? static_cast<double>(linear_from_srgb(code)) : code;

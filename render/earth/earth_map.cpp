@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/earth/map_looks.h"
 #include "render/vocabulary/check.h"
 #include "render/vocabulary/clones.h"
 #include "render/vocabulary/units.h"
@@ -11,8 +12,6 @@ namespace hilcam {
 namespace {
 
 constexpr int kChannels = EarthSample::kChannels;
-constexpr int kMaxLooks = 8;
-
 // A code x = c / 255 stands for x (square x + plain).
 struct Coding {
     alignas(32) std::array<float, kChannels> square{1, 1, 1, 1, 0, 0, 0, 1}, plain{0, 0, 0, 0, 1, 1, 1, 0};
@@ -26,19 +25,8 @@ void add_texel(const EarthMap::Texel& texel, float weight, EarthSample& sum) {
     }
 }
 
-EarthMap::Texel coded(const EarthSample& sample) {
-    EarthMap::Texel out;
-    for (std::size_t c = 0; c < kChannels; ++c) {
-        const float x = kCoding.square[c] > 0 ? std::sqrt(sample.value[c]) : sample.value[c];
-        out[c] = static_cast<std::uint8_t>(std::clamp(255 * x + 0.5f, 0.0f, 255.0f));
-    }
-    return out;
-}
-
-// Four texels by their weights.
-HILCAM_CLONES void mix_texels(const EarthMap::Texel& a, const EarthMap::Texel& b, const EarthMap::Texel& c,
-                              const EarthMap::Texel& d, const std::array<float, 4>& weight,
-                              EarthSample& sum) {
+HILCAM_CLONES void mix_four(const EarthMap::Texel& a, const EarthMap::Texel& b, const EarthMap::Texel& c,
+                            const EarthMap::Texel& d, const std::array<float, 4>& weight, EarthSample& sum) {
     for (std::size_t k = 0; k < kChannels; ++k) {
         const float s = kCoding.square[k], p = kCoding.plain[k];
         const auto value = [&](std::uint8_t code) {
@@ -64,12 +52,26 @@ void add_bilinear(const EarthMap::Level& level, float u, float v, float weight, 
     const auto row = [&](int j) {
         return level.texels.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(level.width);
     };
-    const float above = weight * (1 - fy), below = weight * fy;
-    mix_texels(row(y0)[x0], row(y0)[x1], row(y1)[x0], row(y1)[x1],
-               {(1 - fx) * above, fx * above, (1 - fx) * below, fx * below}, sum);
+    EarthMap::mix_texels({row(y0) + x0, row(y0) + x1, row(y1) + x0, row(y1) + x1}, fx, fy, weight, sum);
 }
 
 }  // namespace
+
+EarthMap::Texel EarthMap::coded(const EarthSample& sample) {
+    Texel out;
+    for (std::size_t c = 0; c < kChannels; ++c) {
+        const float x = kCoding.square[c] > 0 ? std::sqrt(sample.value[c]) : sample.value[c];
+        out[c] = static_cast<std::uint8_t>(std::clamp(255 * x + 0.5f, 0.0f, 255.0f));
+    }
+    return out;
+}
+
+void EarthMap::mix_texels(const std::array<const Texel*, 4>& corner, float right, float down, float weight,
+                          EarthSample& sum) {
+    const float above = weight * (1 - down), below = weight * down;
+    mix_four(*corner[0], *corner[1], *corner[2], *corner[3],
+             {(1 - right) * above, right * above, (1 - right) * below, right * below}, sum);
+}
 
 EarthMap::EarthMap(std::vector<Level> levels) : levels_(std::move(levels)) {
     HILCAM_CHECK(!levels_.empty() && levels_.back().height == 1);
@@ -120,30 +122,11 @@ void EarthMap::add_at_level(float u, float v, float level, float weight, EarthSa
 }
 
 EarthSample EarthMap::sample(float u, float v, const MapFootprint& f) const {
-    // In texels of the finest level: the axes of the ellipse that has the sides as conjugate half diameters.
-    const auto w = static_cast<float>(width()), h = static_cast<float>(height());
-    const float a1 = w * f.u1, b1 = h * f.v1, a2 = w * f.u2, b2 = h * f.v2;
-    const float xx = a1 * a1 + a2 * a2, xy = a1 * b1 + a2 * b2, yy = b1 * b1 + b2 * b2;
-    const float middle = 0.5f * (xx + yy), off = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
-    const float longer = std::sqrt(middle + off), shorter = std::sqrt(std::max(0.0f, middle - off));
-    const float width = std::max({shorter, longer / kMaxLooks, 1.0f});
-    const float level = std::log2(width);
-    const int looks = std::clamp(static_cast<int>(std::ceil(longer / width - 0.25f)), 1, kMaxLooks);
     EarthSample sum;
-    if (looks == 1) {
-        add_at_level(u, v, level, 1, sum);
-        return sum;
-    }
-    // The direction of the longer axis: the eigenvector of the greater eigenvalue, middle + off.
-    float dx = xx > yy ? middle + off - yy : xy, dy = xx > yy ? xy : middle + off - xx;
-    const float norm = std::sqrt(dx * dx + dy * dy);
-    const float per_norm = norm > 0 ? longer / norm : 0;
-    dx *= per_norm / w, dy *= per_norm / h;
-    const float share = 1 / static_cast<float>(looks);
-    for (int i = 0; i < looks; ++i) {
-        const float t = (static_cast<float>(i) + 0.5f) * share - 0.5f;
-        add_at_level(u + t * dx, v + t * dy, level, share, sum);
-    }
+    each_look(u, v, f, {static_cast<float>(width()), static_cast<float>(height())},
+              [&](float at_u, float at_v, float level, float weight) {
+                  add_at_level(at_u, at_v, level, weight, sum);
+              });
     return sum;
 }
 

@@ -46,24 +46,30 @@ class EarthMap {
     explicit EarthMap(std::vector<Level> levels);
     // Levels of which the finest alone is given.
     static std::vector<Level> halves(Level finest);
+    // Returns a sample's codes.
+    static Texel coded(const EarthSample& sample);
+    // Adds what four neighbours are between them, times weight: upper left, upper right, lower left, lower right; right, down: 0..1.
+    static void mix_texels(const std::array<const Texel*, 4>& corner, float right, float down, float weight,
+                           EarthSample& sum);
 
     bool empty() const { return levels_.empty(); }
     int width() const { return levels_.front().width; }
     int height() const { return levels_.front().height; }
     std::size_t bytes() const;
+    const Level& finest() const { return levels_.front(); }
 
     // u: 0 at 180 W, wraps around; v: 0 at the north pole, held at the poles. Several looks along the longer axis
     // of the footprint, each as wide as the shorter (McCormack et al., SIGGRAPH 99). Loop, any thread.
     EarthSample sample(float u, float v, const MapFootprint& footprint) const;
     // The same for a footprint that is round: `width`, share of the map's height.
     EarthSample sample(float u, float v, float width) const;
+    // Adds one round look, times weight. level: halves of the finest map's texels, 0: a texel wide. Loop, any thread.
+    void add_at_level(float u, float v, float level, float weight, EarthSample& sum) const;
     // Mean over the sphere.
     EarthSample mean() const;
 
   private:
     std::vector<Level> levels_;
-
-    void add_at_level(float u, float v, float level, float weight, EarthSample& sum) const;
 };
 
 }  // namespace hilcam

@@ -77,6 +77,19 @@ HILCAM_CLONES void mix_light(const EarthAspect& a, const Mix& m, const Spectrum&
     }
 }
 
+std::string map_text(const GroundMaps& ground) {
+    const int height = ground.height();
+    return (ground.count() > 1 ? std::to_string(ground.count()) + " maps by time, the finest"
+                               : std::string("map")) +
+           " of " + std::to_string(2 * height) + " x " + std::to_string(height) + " with its halves";
+}
+
+std::string finer_levels(const EarthDetail* detail) {
+    if (!detail) return {};
+    return ", finer ones to " + std::to_string(detail->shape().columns) + " x " +
+           std::to_string(detail->shape().rows) + " by tiles of " + detail->files();
+}
+
 // The ellipsoid at a height.
 Figure raised(double height_m) {
     return {kEarth.equatorial_radius_m + height_m, kEarth.polar_radius_m + height_m};
@@ -96,10 +109,12 @@ struct EarthModel::Place {
           cos_phase(static_cast<float>(dot(sun, to_viewer))) {}
 };
 
-EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clouds, const Atmosphere* air,
-                       const SpectralGrid& grid)
-    : ground_map_(std::make_shared<const EarthMap>(std::move(ground))),
+EarthModel::EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps clouds, const Atmosphere* air,
+                       const SpectralGrid& grid, std::shared_ptr<EarthDetail> detail)
+    : ground_maps_(std::make_shared<const GroundMaps>(std::move(ground))),
       cloud_maps_(std::make_shared<const CloudMaps>(std::move(clouds))),
+      detail_(std::move(detail)),
+      detail_bytes_(static_cast<std::size_t>(config.memory_mb) << 20),
       air_(air),
       land_(grid),
       sea_(config.wind_m_s, grid),
@@ -107,6 +122,7 @@ EarthModel::EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clo
       bins_(grid.size()),
       wind_m_s_(config.wind_m_s),
       lights_(config.lights) {
+    HILCAM_CHECK(ground_maps_->count() == 1 || (!cloud_maps_->empty() && !detail_));
     if (air) columns_ = std::make_shared<const AirColumns>(*air, static_cast<double>(EarthAspect::kHigh_m));
     if (cloud_factor_ > 0) table_ = std::make_shared<const CloudTable>(grid);
     // The brightest places of the map: 100 nW cm^-2 sr^-1 from 0.5 to 0.9 um, what the day/night band of VIIRS sees over the
@@ -214,8 +230,9 @@ bool EarthModel::aspect_of(const Ray& ray, EarthAspect& aspect) const {
     return true;
 }
 
-float EarthModel::texels_across(const MapFootprint& f) const {
-    const auto height = static_cast<float>(std::max(ground().height(), cloud_maps_->height()));
+float EarthModel::texels_across(const MapFootprint& f, const EarthMoment& moment) const {
+    const int rows = moment.detail ? moment.detail->shape().rows : ground().height();
+    const auto height = static_cast<float>(std::max(rows, cloud_maps_->height()));
     return height * std::sqrt(std::max(4 * f.u1 * f.u1 + f.v1 * f.v1, 4 * f.u2 * f.u2 + f.v2 * f.v2));
 }
 
@@ -227,8 +244,8 @@ bool EarthModel::map_place(const Ray& ray, float& u, float& v) {
     return true;
 }
 
-EarthModel::Shade EarthModel::shade(const EarthAspect& a, double cloud_number) const {
-    const EarthSample ground = ground_map_->sample(a.u, a.v, a.footprint);
+EarthModel::Shade EarthModel::shade(const EarthAspect& a, const EarthMoment& moment) const {
+    const EarthSample ground = ground_sample(moment, a.u, a.v, a.footprint);
     const Spectrum land = land_.reflectance(ground);
     const float water = ground.water();
     float direct = 1, diffuse = 0, back = 0, cloud = 0, share = 1, passed = 1, high = 0;
@@ -241,7 +258,7 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, double cloud_number) c
         const EarthSample over =
             together && a.cloud_u * a.cloud_u + 0.25f * a.cloud_v * a.cloud_v < seen_as_one
                 ? ground
-                : cloud_sample(cloud_number, a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v,
+                : cloud_sample(moment, a.u + kUsualTop_m * a.cloud_u, a.v + kUsualTop_m * a.cloud_v,
                                a.footprint);
         cloud = cloud_of(over);
         if (!(cloud > kMinCloud)) cloud = 0;
@@ -250,15 +267,14 @@ EarthModel::Shade EarthModel::shade(const EarthAspect& a, double cloud_number) c
         const float towards_sun =
             together && a.shade_u * a.shade_u + 0.25f * a.shade_v * a.shade_v < seen_as_one
                 ? cloud_of(ground)
-                : cloud_of(cloud_sample(cloud_number, a.u + kUsualTop_m * a.shade_u,
-                                        a.v + kUsualTop_m * a.shade_v, a.footprint));
+                : cloud_of(cloud_sample(moment, a.u + kUsualTop_m * a.shade_u, a.v + kUsualTop_m * a.shade_v,
+                                        a.footprint));
         constexpr float kSpread =
             static_cast<float>(2 * static_cast<double>(kUsualTop_m) / (kPi * kRadius_m));
         const bool wide = f.v1 * f.v1 + f.v2 * f.v2 > kSpread * kSpread;
-        const float mean =
-            wide && together
-                ? cloud_of(ground)
-                : cloud_of(cloud_sample(cloud_number, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
+        const float mean = wide && together
+                               ? cloud_of(ground)
+                               : cloud_of(cloud_sample(moment, a.u, a.v, std::max(kSpread, std::abs(f.v2))));
         direct = by_steps(a.beam, towards_sun);
         share = by_steps(a.lit, mean);
         diffuse = std::max(0.0f, share - by_steps(a.beam, mean));
@@ -307,7 +323,7 @@ Atmosphere::Sight EarthModel::air_past(const Ray& ray) const {
 bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const {
     const double to_ground_m = intersect_ellipsoid(kEarth, ray.origin_m, ray.dir);
     if (to_ground_m >= 0) {
-        const Shade seen = shade(aspect_at(ray, to_ground_m, 0), ray.cloud_number);
+        const Shade seen = shade(aspect_at(ray, to_ground_m, 0), ray.moment);
         radiance += weight * (ray.irradiance_w_m2_um * seen.over_sun_sr + seen.lights_w_m2_sr_um);
         return true;
     }
@@ -316,11 +332,11 @@ bool EarthModel::add(const Ray& ray, Spectrum& weight, Spectrum& radiance) const
         table_ ? intersect_ellipsoid(raised(static_cast<double>(kUsualTop_m)), ray.origin_m, ray.dir) : -1;
     if (to_level_m > 0) {
         EarthAspect aspect = aspect_at(ray, to_level_m, static_cast<double>(kUsualTop_m));
-        const float cloud = cloud_of(cloud_sample(ray.cloud_number, aspect.u, aspect.v, aspect.footprint));
+        const float cloud = cloud_of(cloud_sample(ray.moment, aspect.u, aspect.v, aspect.footprint));
         if (cloud > kMinCloud) {
             // No ground is below it: nothing comes up through it.
             aspect.seen.fill(0);
-            radiance += weight * ray.irradiance_w_m2_um * shade(aspect, ray.cloud_number).over_sun_sr;
+            radiance += weight * ray.irradiance_w_m2_um * shade(aspect, ray.moment).over_sun_sr;
             weight = table_->transmitted(cloud, 0) * (weight * aspect.seen_high);
             return false;
         }
@@ -365,10 +381,8 @@ std::vector<EarthModel::PartInfo> EarthModel::parts() const {
         return text.substr(0, text.find('.') + 2);
     };
     std::vector<PartInfo> out;
-    out.push_back({Part::kSurface,
-                   "map of " + std::to_string(ground().width()) + " x " + std::to_string(ground().height()) +
-                       " with its halves",
-                   ground().bytes()});
+    out.push_back({Part::kSurface, map_text(ground()) + finer_levels(detail_.get()),
+                   ground().bytes() + (detail_ ? detail_bytes_ : 0)});
     if (glints_) out.push_back({Part::kSea, "sea: Cox-Munk glint at " + rounded(wind_m_s_) + " m/s", 0});
     if (table_)
         out.push_back({Part::kClouds,

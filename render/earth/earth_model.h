@@ -20,8 +20,11 @@
 #include "render/earth/air_columns.h"
 #include "render/earth/cloud_maps.h"
 #include "render/earth/cloud_table.h"
+#include "render/earth/detail_tiles.h"
 #include "render/earth/earth_config.h"
 #include "render/earth/earth_map.h"
+#include "render/earth/earth_moment.h"
+#include "render/earth/ground_maps.h"
 #include "render/earth/land.h"
 #include "render/earth/sea.h"
 
@@ -29,16 +32,17 @@ namespace hilcam {
 
 class EarthModel {
   public:
-    // air: may be null; must outlive this. clouds: their maps where they are not the ground's; may be empty.
-    EarthModel(const EarthConfig& config, EarthMap ground, CloudMaps clouds, const Atmosphere* air,
-               const SpectralGrid& grid);
+    // air: may be null; must outlive this. clouds: their maps where they are not the ground's, whose own are then not looked at; may be
+    // empty where the ground has one map. detail: finer levels of the one map; null: none.
+    EarthModel(const EarthConfig& config, GroundMaps ground, CloudMaps clouds, const Atmosphere* air,
+               const SpectralGrid& grid, std::shared_ptr<EarthDetail> detail = nullptr);
 
     struct Ray {
         Vec3d origin_m, dir;  // unit
         Vec3d sun_dir;
         double width_rad = 0;  // width of the cone that it stands for
         Spectrum irradiance_w_m2_um;
-        double cloud_number = 0;  // number of the clouds' map (CloudMaps::number_at)
+        EarthMoment moment{};
     };
     // Adds weight times the radiance along a ray [W m^-2 sr^-1 um^-1]. True when it ends on the ground or in a cloud
     // before the sky; else weight is dimmed by what air it met.
@@ -49,15 +53,25 @@ class EarthModel {
     // The same in two steps, for pixels that share an aspect. False where the ground is not met, or grazed.
     bool aspect_of(const Ray& ray, EarthAspect& aspect) const;
     // The longest side of a footprint in texels of the finest map.
-    float texels_across(const MapFootprint& footprint) const;
+    float texels_across(const MapFootprint& footprint, const EarthMoment& moment) const;
     // Where a ray meets the ground, as EarthMap has it: u, v. False where it does not.
     static bool map_place(const Ray& ray, float& u, float& v);
     // Radiance by an aspect and the maps, per unit of irradiance [sr^-1], and that of lights [W m^-2 sr^-1 um^-1].
     struct Shade {
         Spectrum over_sun_sr, lights_w_m2_sr_um;
     };
-    Shade shade(const EarthAspect& aspect, double cloud_number) const;
-    const CloudMaps& cloud_maps() const { return *cloud_maps_; }
+    Shade shade(const EarthAspect& aspect, const EarthMoment& moment) const;
+    const GroundMaps& ground() const { return *ground_maps_; }
+    // Returns where an instant lies between the maps; and the nearest place that there is.
+    MapNumbers numbers_at(TimeTai time) const {
+        return {cloud_maps_->number_at(time), ground_maps_->number_at(time)};
+    }
+    MapNumbers nearest(MapNumbers n) const {
+        return {cloud_maps_->nearest(n.clouds), ground_maps_->nearest(n.ground)};
+    }
+    // Returns the finer levels of the ground, to be read by one thread at a time; null: none.
+    const std::shared_ptr<EarthDetail>& detail() const { return detail_; }
+    std::size_t detail_bytes() const { return detail_bytes_; }  // memory for their tiles
 
     // An upper bound of radiance over irradiance at the body [sr^-1]; glint apart.
     static constexpr float kMaxOverSun = 0.32f;
@@ -79,8 +93,10 @@ class EarthModel {
 
   private:
     // Shared by copies.
-    std::shared_ptr<const EarthMap> ground_map_;
+    std::shared_ptr<const GroundMaps> ground_maps_;
     std::shared_ptr<const CloudMaps> cloud_maps_;  // empty: the clouds are the ground map's
+    std::shared_ptr<EarthDetail> detail_;
+    std::size_t detail_bytes_;
     const Atmosphere* air_;
     std::shared_ptr<const AirColumns> columns_;  // null without air
     std::shared_ptr<const CloudTable> table_;    // null without clouds
@@ -92,12 +108,16 @@ class EarthModel {
     double wind_m_s_, lights_;
     bool glints_ = true;
 
-    const EarthMap& ground() const { return *ground_map_; }
     bool together() const { return cloud_maps_->empty(); }  // ground and clouds are of one map
     template <class Footprint>
-    EarthSample cloud_sample(double number, float u, float v, const Footprint& footprint) const {
-        return together() ? ground_map_->sample(u, v, footprint)
-                          : cloud_maps_->sample(number, u, v, footprint);
+    EarthSample ground_sample(const EarthMoment& moment, float u, float v, const Footprint& footprint) const {
+        return moment.detail ? moment.detail->sample(ground_maps_->first(), u, v, footprint)
+                             : ground_maps_->sample(moment.number.ground, u, v, footprint);
+    }
+    template <class Footprint>
+    EarthSample cloud_sample(const EarthMoment& moment, float u, float v, const Footprint& footprint) const {
+        return together() ? ground_sample(moment, u, v, footprint)
+                          : cloud_maps_->sample(moment.number.clouds, u, v, footprint);
     }
     struct Place;
     void place_air(const Ray& ray, double distance_m, const Place& place, EarthAspect& out) const;

@@ -45,8 +45,8 @@ void EarthPatch::choose_steps() {
                 const auto at = static_cast<std::size_t>(j * kMaxNodes + i + k);
                 carries = carries && carries_[at];
                 if (carries)
-                    texels = std::max(
-                        texels, earth_->texels_across(std::bit_cast<EarthAspect>(nodes_[at]).footprint));
+                    texels = std::max(texels, earth_->texels_across(
+                                                  std::bit_cast<EarthAspect>(nodes_[at]).footprint, moment_));
             }
             // Half a texel from look to look: what bends between texels is seen.
             step_px_[static_cast<std::size_t>(j * kMaxNodes + i)] =
@@ -72,7 +72,7 @@ Spectrum EarthPatch::look(Cell cell, float s, float t) const {
             aspect.u += w * (off > 0.5f ? off - 1 : (off < -0.5f ? off + 1 : off));
             aspect.v += w * here.v;
         }
-    const EarthModel::Shade seen = earth_->shade(aspect, cloud_number_);
+    const EarthModel::Shade seen = earth_->shade(aspect, moment_);
     return irradiance_ * seen.over_sun_sr + seen.lights_w_m2_sr_um;
 }
 

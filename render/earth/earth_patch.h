@@ -29,9 +29,9 @@ class EarthPatch {
             for (int i = 0; i < 2 * across_ - 1; ++i)
                 if (i % 2 || j % 2)
                     place_half(j, i, ray_at(box.x0 + i * (pitch_px_ / 2), box.y0 + j * (pitch_px_ / 2)));
-        choose_steps();
         const EarthModel::Ray first = ray_at(box.x0, box.y0);
-        irradiance_ = first.irradiance_w_m2_um, cloud_number_ = first.cloud_number;
+        irradiance_ = first.irradiance_w_m2_um, moment_ = first.moment;
+        choose_steps();
     }
     // Radiance [W m^-2 sr^-1 um^-1] at a place within the box, times weight; false where the nodes about it do not carry: near
     // the limb, at a pole. Loop.
@@ -43,7 +43,7 @@ class EarthPatch {
     PixelBox box_;
     int pitch_px_ = kWidePitch_px, across_ = 0, down_ = 0;
     Spectrum irradiance_;
-    double cloud_number_ = 0;
+    EarthMoment moment_;
     std::array<Node, kMaxNodes * kMaxNodes> nodes_;
     std::array<bool, kMaxNodes * kMaxNodes> carries_;
     // Places on the map at every half of the pitch.

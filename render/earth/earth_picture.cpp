@@ -21,7 +21,7 @@ constexpr double kEarthRadius_m = kEarthFigure.equatorial_radius_m;
 constexpr double kSpacing_px = 0.7, kWidth_px = 0.6;
 // A step of the Sun takes 27 s. The angles at which the ground is seen change as much with a step of the camera's distance.
 constexpr double kSunStep_rad = 2e-3, kCameraStep_rad = 1e-3, kDistanceStep = 4e-3;
-constexpr double kCloudStep = 1.0 / 256;  // share of the way from one map to the next
+constexpr double kMapStep = 1.0 / 256;  // share of the way from one map to the next
 // The disk's radius in pixels, and the camera's distance from the middle in radii.
 constexpr double kSmallest_px = 6, kLargest_px = 640, kNearest = 4;
 constexpr int kRings = 16;  // rings of a band, without the one that the next band shares
@@ -118,14 +118,14 @@ HILCAM_CLONES void mix_looks(const Looks& looks, std::size_t count, Spectrum* ou
 
 }  // namespace
 
-EarthPicture::Key EarthPicture::key_of(Vec3d camera_m, Vec3d sun_dir, double cloud_number) {
+EarthPicture::Key EarthPicture::key_of(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
     const double distance_m = length(camera_m);
     return {{steps(std::atan2(camera_m.y, camera_m.x), kCameraStep_rad),
              steps(std::asin(camera_m.z / distance_m), kCameraStep_rad),
              steps(std::log(distance_m / kEarthRadius_m), kDistanceStep)},
             {steps(std::atan2(sun_dir.y, sun_dir.x), kSunStep_rad),
              steps(std::asin(std::clamp(sun_dir.z, -1.0, 1.0)), kSunStep_rad)},
-            steps(cloud_number, kCloudStep)};
+            {steps(numbers.clouds, kMapStep), steps(numbers.ground, kMapStep)}};
 }
 
 bool EarthPicture::is_for(Vec3d camera_m, double pixel_rad) {
@@ -179,8 +179,8 @@ void EarthPicture::fill_row(const EarthModel& earth, const Spectrum& irradiance,
     const double b = static_cast<double>(band.first) + row * spacing;
     Coded* out = light_.data() + band.offset +
                  static_cast<std::size_t>(row) * static_cast<std::size_t>(band.columns + 1);
-    EarthModel::Ray ray{camera_m_,  {},           sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_,
-                        irradiance, cloud_number_};
+    EarthModel::Ray ray{camera_m_,          {}, sun_dir_, (limb ? 1 : kWidth_px) * pixel_rad_, irradiance,
+                        {numbers_, nullptr}};
     const double per_stretch = kEarthFigure.polar_radius_m / kEarthFigure.equatorial_radius_m;
     for (int column = 0; column < band.columns; ++column) {
         const double turn = 2 * kPi * column / band.columns;
@@ -204,7 +204,7 @@ void EarthPicture::make(const EarthModel& earth, const Key& key, const Spectrum&
     camera_m_ = kEarthRadius_m * std::exp(key.camera[2] * kDistanceStep) *
                 from_steps(key.camera[0] * kCameraStep_rad, key.camera[1] * kCameraStep_rad);
     sun_dir_ = from_steps(key.sun[0] * kSunStep_rad, key.sun[1] * kSunStep_rad);
-    cloud_number_ = key.cloud_number * kCloudStep;
+    numbers_ = {key.maps[0] * kMapStep, key.maps[1] * kMapStep};
     const Vec3d from_m = stretched(kEarthFigure, camera_m_);
     distance_m_ = length(from_m);
     ahead_ = from_m / -distance_m_;

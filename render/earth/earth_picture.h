@@ -27,11 +27,11 @@ class EarthPicture {
     struct Key {
         std::array<std::int32_t, 3> camera{};  // longitude, latitude, logarithm of distance
         std::array<std::int32_t, 2> sun{};     // longitude, latitude
-        std::int32_t cloud_number = 0;         // number of the clouds' map
+        std::array<std::int32_t, 2> maps{};    // numbers of the clouds' and of the ground's map
         bool operator==(const Key&) const = default;
     };
-    // camera_m, sun_dir: in the Earth's axes; cloud_number: CloudMaps::number_at(). Loop.
-    static Key key_of(Vec3d camera_m, Vec3d sun_dir, double cloud_number = 0);
+    // camera_m, sun_dir: in the Earth's axes; numbers: EarthModel::numbers_at(). Loop.
+    static Key key_of(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers = {});
     // A picture is worth while: the camera is far enough that it is seldom made anew, and the disk is neither a few pixels nor larger
     // than there is room for. Loop.
     static bool is_for(Vec3d camera_m, double pixel_rad);
@@ -71,7 +71,7 @@ class EarthPicture {
 
     double pixel_rad_, top_m_;
     Vec3d camera_m_, sun_dir_;
-    double cloud_number_ = 0;
+    MapNumbers numbers_;
     double distance_m_ = 1;       // stretched
     Vec3d ahead_, right_, down_;  // stretched axes, unit
     std::vector<Band> bands_;     // the last is the limb's

@@ -18,9 +18,9 @@ std::size_t KeptEarth::bytes() const {
     return sum;
 }
 
-bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, double cloud_number) {
+bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers) {
     if (!EarthPicture::is_for(camera_m, pixel_rad_)) return false;
-    const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir, cloud_number);
+    const EarthPicture::Key key = EarthPicture::key_of(camera_m, sun_dir, numbers);
     std::size_t at = find(key);
     const bool is_being_made = at == asked_ && ahead_.is_at_work();
     if (at == pictures_.size() || is_being_made) ahead_.wait();
@@ -30,7 +30,7 @@ bool KeptEarth::place(Vec3d camera_m, Vec3d sun_dir, double cloud_number) {
     }
     shown_ = at;
     pictures_[at].last_shown = ++frames_;
-    look_ahead({camera_m, sun_dir, cloud_number});
+    look_ahead({camera_m, sun_dir, numbers});
     return true;
 }
 
@@ -64,11 +64,13 @@ void KeptEarth::look_ahead(const Place& now) {
     for (double ahead = 1; ahead <= 128; ahead *= 2) {
         const Vec3d camera_m = on(long_before_.camera_m, now.camera_m, ahead);
         if (!EarthPicture::is_for(camera_m, pixel_rad_)) return;
-        const double cloud_number =
-            now.cloud_number + ahead / past * (now.cloud_number - long_before_.cloud_number);
-        const EarthPicture::Key key =
-            EarthPicture::key_of(camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)),
-                                 earth_.cloud_maps().nearest(cloud_number));
+        const auto number_on = [&](double before, double here) {
+            return here + ahead / past * (here - before);
+        };
+        const MapNumbers numbers{number_on(long_before_.numbers.clouds, now.numbers.clouds),
+                                 number_on(long_before_.numbers.ground, now.numbers.ground)};
+        const EarthPicture::Key key = EarthPicture::key_of(
+            camera_m, normalized(on(long_before_.sun_dir, now.sun_dir, ahead)), earth_.nearest(numbers));
         if (key == pictures_[shown_].key) continue;
         if (find(key) < pictures_.size()) return;
         asked_ = room_for(key);

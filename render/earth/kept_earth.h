@@ -22,10 +22,10 @@ class KeptEarth {
     // Ends the thread (AheadThread). Owner thread.
     void stop_looking_ahead() { ahead_.stop(); }
 
-    // Has the picture of a frame, the camera and the Sun in the Earth's axes, under the clouds of this number
-    // (CloudMaps::number_at); false: for such a camera none is kept. Loop; makes it, or waits for the thread, where it is
+    // Has the picture of a frame, the camera and the Sun in the Earth's axes, at this place between the maps
+    // (EarthModel::numbers_at); false: for such a camera none is kept. Loop; makes it, or waits for the thread, where it is
     // not there yet.
-    bool place(Vec3d camera_m, Vec3d sun_dir, double cloud_number = 0);
+    bool place(Vec3d camera_m, Vec3d sun_dir, MapNumbers numbers = {});
     // The one that was placed last. Any thread.
     const EarthPicture& picture() const { return *pictures_[shown_].picture; }
     // Returns the memory of all pictures that have been made.
@@ -40,7 +40,7 @@ class KeptEarth {
     };
     struct Place {
         Vec3d camera_m, sun_dir;
-        double cloud_number = 0;
+        MapNumbers numbers;
     };
 
     const EarthModel& earth_;

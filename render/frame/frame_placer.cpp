@@ -62,6 +62,9 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
         kept_earth_ =
             std::make_unique<KeptEarth>(*earth_, scene.sun_irradiance_1au_w_m2_um,
                                         1 / geometry.focal_length_px, background_.top_m(BodyId::kEarth));
+    if (earth_ && earth_->detail())
+        earth_detail_ = std::make_unique<DetailStream>(earth_->detail(), earth_->ground().first(),
+                                                       earth_->detail_bytes());
     // Rows of different instants sweep over more than a field, and draw a star several times that they are
     // slow over. Twice the field has room for its shift by a camera in motion, a few thousandths at most.
     max_stars_ = rays_->is_still() ? std::min(stars_.size(), stars_.max_within(2 * half_field_rad(geometry)))
@@ -179,6 +182,7 @@ PixelBox FramePlacer::box_of(std::size_t i) const {
 void FramePlacer::place(const WorldSnapshot& world, RandomKey key) {
     place_shapes(world, key);
     place_earth_picture();
+    place_earth_detail();
     if (frame_.kept) kept_->place(frame_, world_);
 }
 
@@ -249,7 +253,7 @@ void FramePlacer::place_background() {
 void FramePlacer::place_earth_picture() {
     if (!kept_earth_ || !rays_->is_still() || !background_.earth_in_patches()) return;
     const PlacedBody& earth = background_.disks().front();
-    if (kept_earth_->place(earth.camera_m, earth.sun_dir, background_.cloud_number()))
+    if (kept_earth_->place(earth.camera_m, earth.sun_dir, background_.map_numbers()))
         frame_.earth_picture = &kept_earth_->picture();
     const double au = kAstronomicalUnit_m * earth.sun_radius_rad / kSunRadius_m;
     frame_.earth_picture_factor = static_cast<float>(au * au);
@@ -260,6 +264,20 @@ bool FramePlacer::ground_is_alone() const {
     return ground_visibility_ && sees_ground_ && !background_.camera_in_air() && frame_.start_before_m <= 0 &&
            plans_.back().use == ObjectUse::kMesh && plans_.back().samples_per_axis == 1 &&
            frame_.rays->linear();
+}
+
+// A kept picture is of the map that memory holds, which is finer than its pixels.
+void FramePlacer::place_earth_detail() {
+    if (!earth_detail_ || frame_.earth_picture) return;
+    const auto disks = background_.disks();
+    const auto earth =
+        std::find_if(disks.begin(), disks.end(), [](const PlacedBody& b) { return b.id == BodyId::kEarth; });
+    if (earth == disks.end()) return;
+    const Vec3d boresight =
+        earth->fixed_from_world * (to_matrix(world_.camera.world_from_body) * Vec3d{0, 0, 1});
+    background_.show_detail(earth_detail_->place({earth->camera_m, boresight, earth->sun_dir,
+                                                  half_field_rad(frame_.geometry) + rays_->sweep_rad(),
+                                                  1 / frame_.geometry.focal_length_px}));
 }
 
 void FramePlacer::place_visibility() {
@@ -307,7 +325,10 @@ std::vector<std::string> FramePlacer::explain(const RenderQuality& quality) cons
     std::vector<std::string> names;
     for (const ShownObject& object : objects_) names.push_back(object.name);
     for (const ObjectSurfaces* surfaces : shown_) triangles.push_back(surfaces->triangles.size());
-    return hilcam::explain({frame_, plans_, names, triangles, quality, stars_.size()}, world_);
+    std::vector<std::string> out =
+        hilcam::explain({frame_, plans_, names, triangles, quality, stars_.size()}, world_);
+    if (background_.shows_detail()) out.push_back(earth_detail_->explain());
+    return out;
 }
 
 }  // namespace hilcam

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "render/earth/detail_stream.h"
 #include "render/earth/kept_earth.h"
 #include "render/frame/image_motion.h"
 #include "render/frame/kept_handover.h"
@@ -49,6 +50,7 @@ class FramePlacer {
     void stop_looking_ahead() {
         if (kept_) kept_->stop_looking_ahead();
         if (kept_earth_) kept_earth_->stop_looking_ahead();
+        if (earth_detail_) earth_detail_->stop_looking_ahead();
     }
     // Lets the frame that was placed be traced: sorts its triangles where the quality has a visibility
     // buffer. Loop.
@@ -94,8 +96,9 @@ class FramePlacer {
     std::size_t max_stars() const { return max_stars_; }  // greatest number of stars that a frame can show
     const Background& background() const { return background_; }
     const Lamps& lamps() const { return lamps_; }
-    const Atmosphere* air() const { return air_.get(); }  // may be null
-    EmbreeScene& embree() { return embree_; }             // for measuring
+    const Atmosphere* air() const { return air_.get(); }                      // may be null
+    const DetailStream* earth_detail() const { return earth_detail_.get(); }  // may be null
+    EmbreeScene& embree() { return embree_; }                                 // for measuring
 
   private:
     std::size_t triangles_ = 0;
@@ -113,7 +116,8 @@ class FramePlacer {
     std::unique_ptr<Atmosphere> air_;
     std::shared_ptr<const EarthModel> earth_;
     ColorBands bands_;
-    std::unique_ptr<KeptEarth> kept_earth_;  // null: none
+    std::unique_ptr<KeptEarth> kept_earth_;       // null: none
+    std::unique_ptr<DetailStream> earth_detail_;  // null: the Earth's map is in memory
     Background background_;
     KeptScene::Settings kept_settings_;
     std::unique_ptr<KeptScene> kept_;  // null: its tables have not come
@@ -141,6 +145,7 @@ class FramePlacer {
     void place_objects();
     void place_background();
     void place_earth_picture();
+    void place_earth_detail();
     void make_visibility(const ImageGeometry& geometry, const RenderQuality& level);
     void make_ground_visibility(const ImageGeometry& geometry);
     bool ground_is_alone() const;

@@ -201,6 +201,11 @@ std::uint64_t Renderer::rays_outside_air() const {
     return air ? air->rays_outside() : 0;
 }
 
+std::string Renderer::map_fault() const {
+    const DetailStream* const detail = implementation_->placer.earth_detail();
+    return detail ? detail->fault() : std::string();
+}
+
 double Renderer::floor_ms(const WorldSnapshot& world) {
     Implementation& my = *implementation_;
     my.placer.place(world, {});

@@ -110,6 +110,8 @@ class Renderer {
     // missing. For the first instant of a run; what leaves the table later is counted. Not for the loop.
     void require_air(const WorldSnapshot& world);
     std::uint64_t rays_outside_air() const;
+    // Says which maps could not be read where frames looked, and how often; empty: none. Any thread.
+    std::string map_fault() const;
     // Returns how much of the frame that is being rendered is traced, 0 to 1. Any thread.
     double share_traced() const;
 

@@ -5,6 +5,7 @@
 // A place is the unit vector of the ellipsoid's normal there, in the body's axes (x: prime meridian, z: north): its
 // latitude is geodetic. Post (0, 0) is the middle of the first cell of the file.
 
+#include <cstdint>
 #include <span>
 
 #include "render/vocabulary/vec.h"
@@ -16,6 +17,8 @@ class GroundRaster {
     struct Shape {
         int columns = 2, rows = 2;          // each at least 2
         int channels = 1;                   // 1: heights or one grey; 3: linear red, green, blue
+        int bands = 1;                      // channels that the file has, read or not
+        bool has_overviews = true;          // its coarse levels are not read out of all of its posts
         double spacing_m = 1;               // distance of neighbours, about, at the map's middle
         bool whole_turn = false;            // the last column is a neighbour of the first
         bool pole_above_first_row = false;  // the pole is half a post beyond
@@ -23,6 +26,8 @@ class GroundRaster {
     };
     virtual ~GroundRaster() = default;
     const Shape& shape() const { return shape_; }
+    // Returns how many reads have met what cannot be read so far.
+    std::uint64_t failed_reads() const { return failed_reads_; }
 
     // Finds the columns (x) and rows (y) of places; NaN where the projection has none. A column of a map of a whole turn
     // is in [-0.5, columns - 0.5). As many posts as places. One thread at a time.
@@ -34,6 +39,7 @@ class GroundRaster {
 
   protected:
     Shape shape_;
+    std::uint64_t failed_reads_ = 0;
 };
 
 }  // namespace hilcam

@@ -54,7 +54,7 @@ void Background::place(const WorldSnapshot& world, Vec3d objects_world_m, double
                        std::optional<BodyId> ground) {
     bodies_ = world.bodies;
     pixel_rad_ = pixel_rad;
-    cloud_number_ = earth_ ? earth_->cloud_maps().number_at(world.time) : 0;
+    earth_moment_ = {earth_ ? earth_->numbers_at(world.time) : MapNumbers{}, nullptr};
     objects_from_camera_m_ = objects_world_m - world.camera.position_world_m;
     const Vec3d to_sun_m = world.bodies.sun_world_m - objects_world_m;
     const double sun_distance_m = length(to_sun_m);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/earth/earth_moment.h"
 #include "render/earth/earth_rays.h"
 #include "render/scene/color_bands.h"
 #include "render/scene/scene.h"
@@ -80,8 +81,11 @@ class Background {
     Spectrum point_irradiance(const PlacedBody& body) const;
     const Atmosphere* air() const { return air_; }
     const EarthModel* earth() const { return earth_; }
-    // Returns the number of the Earth's cloud map in this frame (CloudMaps).
-    double cloud_number() const { return cloud_number_; }
+    // Returns where this frame lies between the Earth's maps.
+    MapNumbers map_numbers() const { return earth_moment_.number; }
+    // Has this frame's looks at the Earth see finer levels; they outlive it. Loop, after place().
+    void show_detail(const DetailTiles& tiles) { earth_moment_.detail = &tiles; }
+    bool shows_detail() const { return earth_moment_.detail != nullptr; }
     std::string name_of(BodyId id) const;
     // Returns how far above its ground a body is to be seen [m].
     double top_m(BodyId id) const;
@@ -169,7 +173,7 @@ class Background {
     const std::array<SceneBody, kMaxBodies>* scene_;
     const Atmosphere* air_;
     const EarthModel* earth_;
-    double cloud_number_ = 0;
+    EarthMoment earth_moment_;
     Spectrum sun_irradiance_1au_;
     SunDisk disk_;
     ColorBands bands_;

@@ -12,7 +12,7 @@ double Background::top_m(BodyId id) const {
 bool Background::add_earth(const PlacedBody& body, Vec3d origin_m, Vec3d dir, double width_rad,
                            Spectrum& weight, Spectrum& radiance) const {
     EarthModel::Ray ray{origin_m,  normalized(dir),         body.sun_dir,
-                        width_rad, body.irradiance_w_m2_um, cloud_number_};
+                        width_rad, body.irradiance_w_m2_um, earth_moment_};
     if (body.may_be_eclipsed) {
         const double distance_m = intersect_ellipsoid(kFigures[index_of(body.id)], origin_m, ray.dir);
         if (distance_m >= 0)
@@ -36,7 +36,7 @@ void Background::place_earth_patch(const PixelBox& box, Vec3d corner_dir, Vec3d 
                 [&](int x, int y) {
                     const Vec3d dir = corner + (x - box.x0) * right + (y - box.y0) * down;
                     return EarthModel::Ray{earth.camera_m, normalized(dir),          earth.sun_dir,
-                                           pixel_rad_,     earth.irradiance_w_m2_um, cloud_number_};
+                                           pixel_rad_,     earth.irradiance_w_m2_um, earth_moment_};
                 });
 }
 

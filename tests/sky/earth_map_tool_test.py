@@ -47,10 +47,26 @@ def check_sea_ice(folder):
     # The cover is 0.8 of the extent, and its edge is as much within as beyond.
     for half, extent in ((slice(0, HEIGHT // 2), 12.0), (slice(HEIGHT // 2, HEIGHT), 6.0)):
         assert abs(ice[half].sum() / (0.8 * extent) - 1) < 0.05, (extent, ice[half].sum())
-    # Its albedo in the red: snow's in the south, half a year bare in the north.
-    assert abs(icy[-1, :, 2].mean() - 0.975) < 0.01 and abs(icy[0, :, 2].mean() - 0.975 * 0.8333) < 0.01
+    # Its albedo in the red, of what it covers: snow's in the south, half a year bare in the north.
+    red = icy[..., 2].sum(axis=1) / (water - left).sum(axis=1).clip(1e-9)
+    assert abs(red[-1] - 0.975) < 0.01 and abs(red[0] - 0.975 * 0.8333) < 0.01, (red[-1], red[0])
     # The rest is as it was.
     assert (icy[100:150] == bare[100:150]).all()
+    # By a picture: half of the water of the last rows.
+    read["ice"] = numpy.zeros((HEIGHT, WIDTH), numpy.uint8)
+    read["ice"][240:] = 128
+    icy = make_earth_map.channels(read, WIDTH, (0, 0))
+    assert abs(icy[-1, :, 4].mean() - (1 - 128 / 255)) < 1e-3 and abs(icy[-1, :, 2].mean() - 0.975 * 128 / 255) < 0.005
+    assert (icy[:240] == bare[:240]).all()
+
+
+def check_land_colors():
+    """The same law stands in render/earth/land_colors.cpp, whose test LandColors.AreTheToolsOwn has these figures."""
+    colors = [[0.0096, 0.0207, 0.0032], [0.616, 0.449, 0.248], [0.89, 0.92, 0.93], [0.05, 0.06, 0.02], [0.3, 0.2, 0.1], [0.7, 0.72, 0.7]]
+    expected = [[0.02, 0.045, 0.029, 0.4], [0.25, 0.35, 0.46, 0.58], [0.975, 0.98, 0.975, 0.93], [0.05796, 0.09148, 0.08678, 0.24687],
+                [0.14755, 0.20414, 0.28525, 0.35967], [0.72771, 0.68933, 0.59717, 0.57005]]
+    bands, _ = make_earth_map.reflectances(numpy.array(colors))
+    assert numpy.allclose(bands, expected, atol=2e-5), bands
 
 
 def check_geotiff(folder, colors):
@@ -87,6 +103,7 @@ def main():
         folder = pathlib.Path(name)
         _, colors = pictures(folder)
         check_sea_ice(folder)
+        check_land_colors()
         Image.fromarray(colors[:200]).save(folder / "wide.png")
         assert "512 x 200 pixels; accepted: twice as wide as high" in error_of(folder, folder / "out.map", "--albedo", folder / "wide.png")
         try:

@@ -1,0 +1,44 @@
+#pragma once
+// Looks that a footprint on the ground takes at a map with its halves: several along its longer axis, each as wide as the shorter
+// (McCormack et al., SIGGRAPH 99).
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/earth/earth_map.h"
+
+namespace hilcam {
+
+// Texels of the finest map.
+struct MapSize {
+    float width, height;
+};
+
+// Calls add(u, v, level, weight) for each look; weights sum to 1. level: logarithm to base 2 of the look's width in texels, 0 at
+// least. Loop, any thread.
+template <class Add>
+void each_look(float u, float v, const MapFootprint& f, MapSize size, const Add& add) {
+    constexpr int kMaxLooks = 8;
+    // The axes, in texels, of the ellipse that has the sides as conjugate half diameters.
+    const float a1 = size.width * f.u1, b1 = size.height * f.v1, a2 = size.width * f.u2,
+                b2 = size.height * f.v2;
+    const float xx = a1 * a1 + a2 * a2, xy = a1 * b1 + a2 * b2, yy = b1 * b1 + b2 * b2;
+    const float middle = 0.5f * (xx + yy), off = std::sqrt(0.25f * (xx - yy) * (xx - yy) + xy * xy);
+    const float longer = std::sqrt(middle + off), shorter = std::sqrt(std::max(0.0f, middle - off));
+    const float width = std::max({shorter, longer / kMaxLooks, 1.0f});
+    const float level = std::log2(width);
+    const int looks = std::clamp(static_cast<int>(std::ceil(longer / width - 0.25f)), 1, kMaxLooks);
+    if (looks == 1) return add(u, v, level, 1.0f);
+    // The direction of the longer axis: the eigenvector of the greater eigenvalue, middle + off.
+    float dx = xx > yy ? middle + off - yy : xy, dy = xx > yy ? xy : middle + off - xx;
+    const float norm = std::sqrt(dx * dx + dy * dy);
+    const float per_norm = norm > 0 ? longer / norm : 0;
+    dx *= per_norm / size.width, dy *= per_norm / size.height;
+    const float share = 1 / static_cast<float>(looks);
+    for (int i = 0; i < looks; ++i) {
+        const float t = (static_cast<float>(i) + 0.5f) * share - 0.5f;
+        add(u + t * dx, v + t * dy, level, share);
+    }
+}
+
+}  // namespace hilcam
