@@ -128,8 +128,7 @@ class FramePlacer {
     std::unique_ptr<RadianceModel> radiance_model_;
     std::unique_ptr<ShownTerrain> terrain_;
     double lod_error_px_;
-    int samples_per_axis_;
-    int rays_across_;
+    RayDensity density_;
     FrameView frame_;
     WorldSnapshot world_;
 
