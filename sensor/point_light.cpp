@@ -254,7 +254,7 @@ void PointLight::draw(const Spot& spot, Rows rows, ElectronImage& light_e) const
     const Vec2d at_px = spot.at_px;
     const LightChannel& channel = channels_[static_cast<std::size_t>(spot.channel)];
     if (view_.mosaic.one_color() && channel.spreads.size() == 1 && spot.spikes_e == 0 &&
-        channel.spreads.front().add_faint(at_px.x, at_px.y, spot.electrons, window_of(rows, light_e)))
+        channel.spreads.front().add(at_px.x, at_px.y, spot.electrons, window_of(rows, light_e)))
         return;
     PointSpread::Room room;
     if (spot.spikes_e > 0) draw_spikes(spot, rows, light_e);

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
-#include "render/vocabulary/clones.h"
 #include "sensor/convolution/cubic_weights.h"
 #include "sensor/convolution/fourier.h"
 
@@ -59,7 +57,8 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
                 inside += static_cast<double>(centred[(y + kField_px / 2) * kField_px + x + kField_px / 2]);
         outside_[static_cast<std::size_t>(r)] = std::max(0.0, 1 - inside / total);
     }
-    make_least();
+    find_linear_errors();
+    make_places();
 }
 
 namespace {
@@ -72,34 +71,62 @@ Shift shift_of(int sixteenths) { return {sixteenths & 15, sixteenths >> 4}; }
 
 }  // namespace
 
-// The least image at each place, and how far a line between neighbours leaves the curve: an eighth of the second
-// difference, along either axis.
-void PointSpread::make_least() {
-    const auto value = [this](int x, int y, int px, int py) {  // place; pixel from the middle one
-        const Shift sx = shift_of(x), sy = shift_of(y);
-        return phase(sx.phase,
-                     sy.phase)[(py + sy.pixels + kField_px / 2) * kField_px + px + sx.pixels + kField_px / 2];
-    };
-    least_.resize(std::size_t{kPlacesAcross} * kPlacesAcross * kLeastSize);
-    float* out = least_.data();
-    for (int y = -kPlaces; y <= kPlaces; ++y)
-        for (int x = -kPlaces; x <= kPlaces; ++x, out += kLeastSize) {
-            double inside = 0;
-            for (int py = -kMinRadius_px; py <= kMinRadius_px; ++py)
-                for (int px = -kMinRadius_px; px <= kMinRadius_px; ++px) {
-                    const float here = value(x, y, px, py);
-                    inside += static_cast<double>(here);
-                    out[(py + kMinRadius_px) * kLeastPitch_px + px + kMinRadius_px] = here;
-                    const float across = value(x - 1, y, px, py) + value(x + 1, y, px, py) - 2 * here,
-                                down = value(x, y - 1, px, py) + value(x, y + 1, px, py) - 2 * here;
-                    linear_error_ =
-                        std::max(linear_error_, static_cast<double>(std::abs(across) + std::abs(down)) / 8);
+// The value at a place of a pixel so far from the middle one.
+float PointSpread::value(int x, int y, int px, int py) const {
+    const Shift sx = shift_of(x), sy = shift_of(y);
+    return phase(sx.phase,
+                 sy.phase)[(py + sy.pixels + kField_px / 2) * kField_px + px + sx.pixels + kField_px / 2];
+}
+
+// How far a line between neighbours leaves the curve: an eighth of the second difference, along either axis.
+void PointSpread::find_linear_errors() {
+    linear_errors_.assign(kMaxRadius_px + 1, 0.0);
+    for (int y = 0; y < kOversampling; ++y)
+        for (int x = 0; x < kOversampling; ++x)
+            for (int py = -kMaxRadius_px; py <= kMaxRadius_px; ++py)
+                for (int px = -kMaxRadius_px; px <= kMaxRadius_px; ++px) {
+                    const float here = 2 * value(x, y, px, py);
+                    const float across = std::abs(value(x - 1, y, px, py) + value(x + 1, y, px, py) - here),
+                                down = std::abs(value(x, y - 1, px, py) + value(x, y + 1, px, py) - here);
+                    double& most =
+                        linear_errors_[static_cast<std::size_t>(std::max(std::abs(px), std::abs(py)))];
+                    most = std::max(most, static_cast<double>(across + down) / 8);
                 }
-            const Shift sx = shift_of(x), sy = shift_of(y);
-            const double whole = phase_sums_[static_cast<std::size_t>(sy.phase * kOversampling + sx.phase)];
-            const auto scale = static_cast<float>(inside > 0 ? whole / inside : 0);
-            for (float& pixel : std::span(out, kLeastSize)) pixel *= scale;
+    for (std::size_t r = kMaxRadius_px; r-- > 0;)
+        linear_errors_[r] = std::max(linear_errors_[r], linear_errors_[r + 1]);
+}
+
+// The sums over squares about the middle pixel, place by place, and the least images, which have the light of the
+// whole field.
+void PointSpread::make_places() {
+    constexpr std::size_t kCount = std::size_t{kPlacesAcross} * kPlacesAcross;
+    least_.resize(kCount * kLeastSize);
+    inside_.resize(kCount * kRadii);
+    float* least = least_.data();
+    double* inside = inside_.data();
+    for (int y = -kPlaces; y <= kPlaces; ++y)
+        for (int x = -kPlaces; x <= kPlaces; ++x, least += kLeastSize, inside += kRadii) {
+            for (int r = 0; r < kRadii; ++r) {
+                double ring = r > 0 ? inside[r - 1] : 0;
+                for (int py = -r; py <= r; ++py)
+                    for (int px = -r; px <= r; px += std::abs(py) == r ? 1 : std::max(1, 2 * r))
+                        ring += static_cast<double>(value(x, y, px, py));
+                inside[r] = ring;
+            }
+            const double whole = whole_at(x, y), kept = inside[kMinRadius_px];
+            const auto scale = static_cast<float>(kept > 0 ? whole / kept : 0);
+            for (int py = 0; py < kLeastAcross_px; ++py)
+                for (int px = 0; px < kLeastAcross_px; ++px)
+                    least[py * kLeastPitch_px + px] =
+                        scale * value(x, y, px - kMinRadius_px, py - kMinRadius_px);
         }
+}
+
+double PointSpread::whole_at(int x, int y) const {
+    return phase_sums_[static_cast<std::size_t>(shift_of(y).phase * kOversampling + shift_of(x).phase)];
+}
+double PointSpread::inside_at(int x, int y, int radius) const {
+    return inside_[static_cast<std::size_t>(((y + kPlaces) * kPlacesAcross + x + kPlaces) * kRadii + radius)];
 }
 
 const float* PointSpread::least_table(int x, int y) const {
@@ -116,76 +143,6 @@ int PointSpread::radius_for(double electrons) const {
     return kMaxRadius_px;
 }
 
-namespace {
-
-// One of the tables that a point's image is a sum of: where in it the image's corner lies, and its weight.
-struct ShiftedTable {
-    const float* corner;
-    float weight;
-};
-
-constexpr std::size_t kTogether = 8;
-
-using TwoRows [[gnu::vector_size(64)]] = float;  // of a least image's table
-using LeastImage = std::array<TwoRows, 4>;
-
-[[gnu::always_inline]] inline void sum_least(const ShiftedTable* tables, std::size_t count,
-                                             LeastImage& sums) {
-    sums = {};
-    for (std::size_t t = 0; t < count; ++t)
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            TwoRows in;
-            std::memcpy(&in, tables[t].corner + 16 * i, sizeof(in));
-            sums[i] += tables[t].weight * in;
-        }
-}
-
-HILCAM_CLONES void copy_least(const ShiftedTable* tables, std::size_t count, float* out) {
-    LeastImage sums;
-    sum_least(tables, count, sums);
-    std::memcpy(out, sums.data(), sizeof(sums));
-}
-
-// Adds rows of eight pixels, first to end of the image's; out: where its first pixel is, or would be.
-HILCAM_CLONES void add_least(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t first,
-                             std::ptrdiff_t end, float* out, std::ptrdiff_t pitch) {
-    LeastImage sums;
-    sum_least(tables, count, sums);
-    std::array<float, 64> rows;
-    std::memcpy(rows.data(), sums.data(), sizeof(rows));
-    for (std::ptrdiff_t y = first; y < end; ++y)
-        for (std::ptrdiff_t x = 0; x < 8; ++x)
-            out[y * pitch + x] += rows[static_cast<std::size_t>(8 * y + x)];
-}
-
-// Rows of a table are pitch_in apart, those of the image pitch.
-struct Rows {
-    std::size_t pitch_in, size, pitch;
-};
-// Sums the tables to a larger image. Returns the sum over all its pixels.
-HILCAM_CLONES double sum_large(const ShiftedTable* tables, std::size_t count, Rows rows, float* out) {
-    const auto [pitch_in, size, pitch] = rows;
-    using Eight [[gnu::vector_size(32)]] = float;
-    std::array<double, kTogether> columns{};
-    for (std::size_t y = 0; y < size; ++y, out += pitch) {
-        for (std::size_t x = 0; x < pitch; x += kTogether) {
-            Eight sum{};
-            for (std::size_t t = 0; t < count; ++t) {
-                Eight in;
-                std::memcpy(&in, tables[t].corner + y * pitch_in + x, sizeof(in));
-                sum += tables[t].weight * in;
-            }
-            std::memcpy(out + x, &sum, sizeof(sum));
-        }
-        std::fill(out + size, out + pitch, 0.0f);
-        for (std::size_t x = 0; x < pitch; x += kTogether)
-            for (std::size_t i = 0; i < kTogether; ++i) columns[i] += static_cast<double>(out[x + i]);
-    }
-    return std::accumulate(columns.begin(), columns.end(), 0.0);
-}
-
-}  // namespace
-
 // A point's place: the pixel that holds it, and how far that pixel's centre lies from the point, in sixteenths.
 struct PointSpread::Place {
     int x_px, y_px, x, y;
@@ -200,27 +157,51 @@ struct PointSpread::Place {
     }
 };
 
+namespace {
+
+int pitch_of(int size) {
+    constexpr auto kTogether = static_cast<int>(kColumnsTogether);
+    return (size + kTogether - 1) / kTogether * kTogether;
+}
+
+}  // namespace
+
 PointPatch PointSpread::at(double x_px, double y_px, double electrons, Room& room) const {
     static_assert(kOversampling == 16);
     const int radius = radius_for(electrons);
     const Place place(x_px, y_px);
-    if (radius > kMinRadius_px) return large(place, radius, electrons, room);
-    // The cubic's outer samples are lost to sight in faint points.
-    if (electrons * linear_error_ < kLinear_e) {
+    if (radius > kMinRadius_px) {
+        const int size = 2 * radius + 1, pitch = pitch_of(size);
+        std::fill_n(room.data(), size * pitch, 0.0f);
+        add_large(large(place, radius, electrons), 0, size, room.data(), pitch);
+        return {place.x_px - radius, place.y_px - radius, size, pitch, room.data()};
+    }
+    if (is_linear(electrons, 0)) {
         const double u = place.beyond_x, v = place.beyond_y;
         return least(place, std::array{1 - u, u}, std::array{1 - v, v}, electrons, room);
     }
     return least(place, cubic_weights(place.beyond_x), cubic_weights(place.beyond_y), electrons, room);
 }
 
-bool PointSpread::add_faint(double x_px, double y_px, double electrons, const PictureWindow& window) const {
-    if (!(electrons * outside_[kMinRadius_px] < kOutside_e && electrons * linear_error_ < kLinear_e))
-        return false;
+bool PointSpread::is_linear(double electrons, int ring_px) const {
+    return electrons * linear_errors_[static_cast<std::size_t>(ring_px)] < kLinear_e;
+}
+
+bool PointSpread::add(double x_px, double y_px, double electrons, const PictureWindow& window) const {
+    const int radius = radius_for(electrons);
+    const bool least = radius == kMinRadius_px;
+    // The cubic's outer samples are lost to sight in faint points.
+    if (least && !is_linear(electrons, 0)) return false;
     const Place place(x_px, y_px);
-    const int left = place.x_px - kMinRadius_px, top = place.y_px - kMinRadius_px;
-    if (left < window.first_x || left + kLeastPitch_px > window.end_x) return false;
-    const int first = std::max(0, window.first_y - top), end = std::min(kLeastAcross_px, window.end_y - top);
+    const int left = place.x_px - radius, top = place.y_px - radius, size = 2 * radius + 1;
+    if (left < window.first_x || left + pitch_of(size) > window.end_x) return false;
+    const int first = std::max(0, window.first_y - top), end = std::min(size, window.end_y - top);
     if (first >= end) return true;
+    float* const out = window.origin + top * window.pitch + left;
+    if (!least) {
+        add_large(large(place, radius, electrons), first, end, out, window.pitch);
+        return true;
+    }
     const double u = place.beyond_x, v = place.beyond_y;
     const auto weight = [&](double across, double down) {
         return static_cast<float>(electrons * across * down);
@@ -231,8 +212,7 @@ bool PointSpread::add_faint(double x_px, double y_px, double electrons, const Pi
                                               {table + kLeastSize, weight(u, 1 - v)},
                                               {table + kBelow, weight(1 - u, v)},
                                               {table + kBelow + kLeastSize, weight(u, v)}}};
-    add_least(tables.data(), tables.size(), first, end, window.origin + top * window.pitch + left,
-              window.pitch);
+    add_least(tables.data(), tables.size(), first, end, out, window.pitch);
     return true;
 }
 
@@ -253,29 +233,39 @@ PointPatch PointSpread::least(const Place& place, const std::array<double, kSamp
             room.data()};
 }
 
-PointPatch PointSpread::large(const Place& place, int radius, double electrons, Room& room) const {
+// All pixels share one sub-pixel phase: the kernel is a sum of shifted tables.
+LargeImage PointSpread::large(const Place& place, int radius, double electrons) const {
     const std::array<double, 4> x_weights = cubic_weights(place.beyond_x),
                                 y_weights = cubic_weights(place.beyond_y);
-    std::array<ShiftedTable, 16> tables;
-    double whole = 0;
-    for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t i = 0; i < 4; ++i) {
-            const Shift x = shift_of(place.x - 1 + static_cast<int>(i)),
-                        y = shift_of(place.y - 1 + static_cast<int>(j));
-            const double weight = electrons * x_weights[i] * y_weights[j];
-            whole += weight * phase_sums_[static_cast<std::size_t>(y.phase * kOversampling + x.phase)];
-            const int middle = kField_px / 2 - radius;
-            tables[4 * j + i] = {
-                phase(x.phase, y.phase) + (y.pixels + middle) * kField_px + x.pixels + middle,
-                static_cast<float>(weight)};
+    double whole = 0, inside = 0;  // sums over the full field and the image
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i) {
+            const double weight =
+                x_weights[static_cast<std::size_t>(i)] * y_weights[static_cast<std::size_t>(j)];
+            whole += weight * whole_at(place.x + i - 1, place.y + j - 1);
+            inside += weight * inside_at(place.x + i - 1, place.y + j - 1, radius);
         }
-    const auto size = static_cast<std::size_t>(2 * radius + 1),
-               pitch = (size + kTogether - 1) / kTogether * kTogether;
-    const double inside = sum_large(tables.data(), tables.size(), {kField_px, size, pitch}, room.data());
-    const auto scale = static_cast<float>(inside > 0 ? whole / inside : 0);
-    for (float& value : std::span<float>(room).first(size * pitch)) value *= scale;
-    return {place.x_px - radius, place.y_px - radius, static_cast<int>(size), static_cast<int>(pitch),
-            room.data()};
+    const double all = inside > 0 ? electrons * whole / inside : 0;
+    const auto table = [&](int i, int j, double weight) {
+        const Shift x = shift_of(place.x + i), y = shift_of(place.y + j);
+        const int middle = kField_px / 2 - radius;
+        return ShiftedTable{phase(x.phase, y.phase) + (y.pixels + middle) * kField_px + x.pixels + middle,
+                            static_cast<float>(all * weight)};
+    };
+    LargeImage out;
+    for (std::size_t k = 0; k < 16; ++k)
+        out.cubic[k] = table(static_cast<int>(k % 4) - 1, static_cast<int>(k / 4) - 1,
+                             x_weights[k % 4] * y_weights[k / 4]);
+    const std::array<double, 2> across{1 - place.beyond_x, place.beyond_x},
+        down{1 - place.beyond_y, place.beyond_y};
+    for (std::size_t k = 0; k < 4; ++k)
+        out.linear[k] = table(static_cast<int>(k % 2), static_cast<int>(k / 2), across[k % 2] * down[k / 2]);
+    int near = 0;  // rings about the middle pixel, and that
+    while (near <= radius && !is_linear(electrons, near)) ++near;
+    out.pitch = kField_px;
+    out.size = 2 * radius + 1;
+    out.first_near = radius + 1 - near, out.end_near = radius + near;
+    return out;
 }
 
 }  // namespace hilcam

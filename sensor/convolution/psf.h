@@ -17,6 +17,8 @@
 #include <span>
 #include <vector>
 
+#include "sensor/convolution/point_tables.h"
+
 namespace hilcam {
 
 // Part of a point's image: a square of pixels. Its rows begin `pitch` apart, a multiple of eight, and hold
@@ -47,9 +49,9 @@ class PointSpread {
     // The image of `electrons` (on a full-fill detector) at a position [px; centre of pixel (0, 0) at (0.5,
     // 0.5)]: as large as it takes to leave out less than 0.05 e-. It lies in `room`. Loop; any thread.
     PointPatch at(double x_px, double y_px, double electrons, Room& room) const;
-    // Adds those rows of that image that a window has, where its columns are all there and the point is so faint
-    // that its image is the least; else returns false. Loop; any thread.
-    bool add_faint(double x_px, double y_px, double electrons, const PictureWindow& window) const;
+    // Adds those rows of that image that a window has, where its columns are all there, and up to seven beside it,
+    // and the point is not one of a few electrons; else returns false. Loop; any thread.
+    bool add(double x_px, double y_px, double electrons, const PictureWindow& window) const;
     // Pixels from the middle one of that image to its edge.
     int radius_for(double electrons) const;
 
@@ -62,6 +64,7 @@ class PointSpread {
     // The least image has seven pixels in each of seven rows, and its tables eight: a zero is beside them, and a
     // row of zeros below.
     static constexpr int kLeastAcross_px = 2 * kMinRadius_px + 1, kLeastPitch_px = kLeastAcross_px + 1;
+    static constexpr int kRadii = kMaxRadius_px + 1;
     static constexpr int kLeastSize = kLeastPitch_px * kLeastPitch_px;
     // Such tables for a point's place in its pixel: its centre lies half a pixel away at most, and a cubic's
     // samples one sixteenth farther.
@@ -71,16 +74,23 @@ class PointSpread {
 
     // Samples of one phase lie together: phases_[py][px][y][x].
     const float* phase(int px, int py) const;
-    void make_least();
+    float value(int x, int y, int px, int py) const;
+    double whole_at(int x, int y) const;
+    double inside_at(int x, int y, int radius_px) const;
+    bool is_linear(double electrons, int ring_px) const;
+    void find_linear_errors();
+    void make_places();
     const float* least_table(int x, int y) const;
     template <std::size_t kSamples>
     PointPatch least(const Place& place, const std::array<double, kSamples>& x_weights,
                      const std::array<double, kSamples>& y_weights, double electrons, Room& room) const;
-    PointPatch large(const Place& place, int radius, double electrons, Room& room) const;
+    LargeImage large(const Place& place, int radius_px, double electrons) const;
 
     std::vector<float> phases_;  // and a row that is read but not used
     std::vector<float> least_;   // least_[place y][place x][y][x]; with the light that the square leaves out
-    double linear_error_ = 0;    // error of a line between phases, per electron of a point
+    // Error of a line between phases per electron of a point, by ring about the middle pixel: there and beyond.
+    std::vector<double> linear_errors_;
+    std::vector<double> inside_;  // inside_[place y][place x][r]; sum over a square of half width r
     std::vector<double> phase_sums_;
     std::vector<double> outside_;  // share of the light outside a square of half width r
 };
