@@ -26,14 +26,14 @@ class ObjectProbes {
   private:
     struct Seen {
         std::size_t object;
-        std::size_t first;      // of its glimpses
-        std::size_t count = 0;  // of those
+        std::size_t first;      // number of its first glimpse
+        std::size_t count = 0;  // number of its glimpses
         TileStats stats;
     };
     std::vector<std::unique_ptr<ObjectProbe>> probes_;  // by slot of the thread pool
     std::vector<Seen> seen_;
     std::vector<ObjectProbe::Glimpse>
-        glimpses_;  // of all objects, with room for those that an object may have
+        glimpses_;  // glimpses of all objects, with room for the most
 };
 
 }  // namespace hilcam
