@@ -21,7 +21,7 @@ constexpr std::size_t kFewSpots = 64;  // fewer spots are not worth waking threa
 
 constexpr int kReach = PointSpread::kMaxRadius_px;
 constexpr int kAcross = 2 * kReach + 1;
-constexpr int kPitch = PointSpread::kField_px;  // of a patch with wings in it
+constexpr int kPitch = PointSpread::kField_px;  // numbers from row to row of a patch with wings in it
 
 // Around a point: its wings, which are added elsewhere, and those of its copies, one in every field, that the
 // table has folded in. Copies outside 25 x 25 fields are an even plane from the radius of that square's area

@@ -37,7 +37,7 @@ class ObjectProbe {
     static double before_m(const ObjectPlan& plan, double radius_m);
 
   private:
-    int samples_;  // of the present picture
+    int samples_;  // rays along an axis of the present picture
     std::unique_ptr<RayGenerator> rays_;
     ScreenMask mask_;
     FrameView view_;

@@ -7,7 +7,7 @@
 namespace hilcam {
 namespace {
 
-using TwoRows [[gnu::vector_size(64)]] = float;  // of a least image's table
+using TwoRows [[gnu::vector_size(64)]] = float;  // two rows of a least image
 using LeastImage = std::array<TwoRows, 4>;
 
 [[gnu::always_inline]] inline void sum_least(const ShiftedTable* tables, std::size_t count,

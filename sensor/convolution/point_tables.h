@@ -24,7 +24,7 @@ void add_least(const ShiftedTable* tables, std::size_t count, std::ptrdiff_t fir
 struct LargeImage {
     std::array<ShiftedTable, 16> cubic;
     std::array<ShiftedTable, 4> linear;
-    std::ptrdiff_t pitch;                       // of the tables
+    std::ptrdiff_t pitch;                       // numbers from row to row of a table
     std::ptrdiff_t size, first_near, end_near;  // columns and rows alike
 };
 // Columns that are added together: up to seven zeros are added beyond a larger image.

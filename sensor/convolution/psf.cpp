@@ -78,7 +78,7 @@ float PointSpread::value(int x, int y, int px, int py) const {
                  sy.phase)[(py + sy.pixels + kField_px / 2) * kField_px + px + sx.pixels + kField_px / 2];
 }
 
-// How far a line between neighbours leaves the curve: an eighth of the second difference, along either axis.
+// Finds how far a line between neighbours leaves the curve: an eighth of the second difference, along either axis.
 void PointSpread::find_linear_errors() {
     linear_errors_.assign(kMaxRadius_px + 1, 0.0);
     for (int y = 0; y < kOversampling; ++y)
