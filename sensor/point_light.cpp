@@ -4,7 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstring>
 
 #include "render/vocabulary/units.h"
 
@@ -19,6 +21,7 @@ constexpr std::size_t kFewSpots = 64;  // fewer spots are not worth waking threa
 
 constexpr int kReach = PointSpread::kMaxRadius_px;
 constexpr int kAcross = 2 * kReach + 1;
+constexpr int kPitch = PointSpread::kField_px;  // numbers from row to row of a patch with wings in it
 
 // Around a point: its wings, which are added elsewhere, and those of its copies, one in every field, that the
 // table has folded in. Copies outside 25 x 25 fields are an even plane from the radius of that square's area
@@ -28,7 +31,7 @@ std::vector<double> near_wings(const FarWings& wings) {
     constexpr double kField2 = static_cast<double>(PointSpread::kField_px) * PointSpread::kField_px;
     const double radius_px = (2 * kCopies + 1) * PointSpread::kField_px / std::sqrt(kPi);
     const double beyond = 2 * kPi * radius_px * radius_px * wings.density(radius_px) / kField2;
-    std::vector<double> out;
+    std::vector<double> out(std::size_t{kAcross} * kPitch);
     for (int y = -kReach; y <= kReach; ++y)
         for (int x = -kReach; x <= kReach; ++x) {
             double sum = beyond;
@@ -36,9 +39,20 @@ std::vector<double> near_wings(const FarWings& wings) {
                 for (int i = -kCopies; i <= kCopies; ++i)
                     sum += wings.density(
                         std::hypot(x - i * PointSpread::kField_px, y - j * PointSpread::kField_px));
-            out.push_back(sum);
+            out[static_cast<std::size_t>((y + kReach) * kPitch + x + kReach)] = sum;
         }
     return out;
+}
+
+// count: a multiple of eight.
+void add_vectors(const float* in, int count, float* out) {
+    using Four [[gnu::vector_size(16)]] = float;
+    for (int i = 0; i < count; i += 4) {
+        Four a, b;
+        std::memcpy(&a, in + i, sizeof(a)), std::memcpy(&b, out + i, sizeof(b));
+        b += a;
+        std::memcpy(out + i, &b, sizeof(b));
+    }
 }
 
 }  // namespace
@@ -50,10 +64,13 @@ PointLight::PointLight(const DetectorView& view, std::vector<LightChannel>& chan
       bins_(bins),
       glare_e_(channels.size()),
       trails_(view),
-      patch_(std::size_t{kAcross} * kAcross) {
+      patch_(std::size_t{kAcross} * kPitch) {
     sources_.reserve(kSourcesAtOnce), spots_until_.reserve(kSourcesAtOnce);
     spots_.reserve(kSpotsAtOnce);
     for (std::vector<std::uint32_t>& spots : band_spots_) spots.reserve(kSpotsAtOnce);
+    const auto height = static_cast<std::size_t>(view.detector.height_px);
+    for (std::size_t band = 0; band < kBands; ++band)
+        band_of_row_.resize(height * (band + 1) / kBands, static_cast<std::uint8_t>(band));
     for (const FarWings& w : wings) near_wings_.push_back(near_wings(w));
 }
 
@@ -87,12 +104,24 @@ void PointLight::add(std::span<const PointSource> points, ElectronImage& light_e
     for (std::size_t first = 0; first < points.size(); first += at_once) {
         const std::span<const PointSource> some =
             points.subspan(first, std::min(at_once, points.size() - first));
-        sources_.resize(some.size() * channels);
+        sources_.resize(some.size() * channels), spots_.resize(some.size() * channels);
+        // Most exposures have a spot of each source: these are made at once.
+        std::atomic<bool> single = trails_.scattered() == 1;
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, some.size(), kFewSpots), [&](const auto& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i)
-                for (std::size_t c = 0; c < channels; ++c) sources_[i * channels + c] = source_of(some[i], c);
+                for (std::size_t c = 0; c < channels; ++c) {
+                    Source& source = sources_[i * channels + c] = source_of(some[i], c);
+                    if (source.trail.parts > 1)
+                        single = false;
+                    else
+                        spots_[i * channels + c] =
+                            source.trail.parts == 1 ? spot_of(part_of(source, 0), 0) : Spot{};
+                }
         });
-        draw_sources(light_e);
+        if (single)
+            finish_spots(light_e);
+        else
+            draw_sources(light_e);
     }
 }
 
@@ -122,10 +151,14 @@ void PointLight::draw_sources(ElectronImage& light_e) {
     for (std::size_t first = 0; first < count; first += kSpotsAtOnce) {
         spots_.resize(std::min(kSpotsAtOnce, count - first));
         make_spots(first);
-        if (view_.camera.stray_light.veiling_glare_fraction > 0)
-            for (const Spot& spot : spots_) glare_e_[static_cast<std::size_t>(spot.channel)] += spot.glare_e;
-        draw_spots(light_e);
+        finish_spots(light_e);
     }
+}
+
+void PointLight::finish_spots(ElectronImage& light_e) {
+    if (view_.camera.stray_light.veiling_glare_fraction > 0)
+        for (const Spot& spot : spots_) glare_e_[static_cast<std::size_t>(spot.channel)] += spot.glare_e;
+    draw_spots(light_e);
 }
 
 void PointLight::make_spots(std::size_t first_spot) {
@@ -134,25 +167,28 @@ void PointLight::make_spots(std::size_t first_spot) {
         auto until = std::upper_bound(spots_until_.begin(), spots_until_.end(), first);
         auto s = static_cast<std::size_t>(until - spots_until_.begin());
         std::size_t in_source = first - (s > 0 ? spots_until_[s - 1] : 0);
-        Vec2d place_px;
-        double electrons = 0;
-        bool known = false;  // these two, of the present part
+        Part part;
+        bool known = false;  // the present part
         for (std::size_t i = range.begin(); i < range.end(); ++i, ++in_source) {
             for (; first_spot + i >= spots_until_[s]; ++s) in_source = 0, known = false;
-            const Source& source = sources_[s];
             const std::size_t of_part = in_source % trails_.scattered();
-            if (of_part == 0 || !known) {
-                place_px = trails_.place(source.trail, static_cast<int>(in_source / trails_.scattered()));
-                known = true;
-                electrons = source.electrons * (1.0 / source.trail.parts);
-                const bool near = std::abs(place_px.x) <= 1e6 && std::abs(place_px.y) <= 1e6;
-                electrons = near ? electrons * view_.lens.of_point(place_px.x, place_px.y) : 0;
-            }
-            spots_[i] = electrons > 0 ? spot_of(source.channel, trails_.scattered_px(place_px, of_part),
-                                                electrons * trails_.share(of_part))
-                                      : Spot{};
+            if (of_part == 0 || !known)
+                part = part_of(sources_[s], static_cast<int>(in_source / trails_.scattered())), known = true;
+            spots_[i] = spot_of(part, of_part);
         }
     });
+}
+
+PointLight::Part PointLight::part_of(const Source& source, int number) const {
+    const Vec2d place_px = trails_.place(source.trail, number);
+    const bool near = std::abs(place_px.x) <= 1e6 && std::abs(place_px.y) <= 1e6;
+    const double electrons = source.electrons * (1.0 / source.trail.parts);
+    return {place_px, near ? electrons * view_.lens.of_point(place_px.x, place_px.y) : 0, source.channel};
+}
+
+PointLight::Spot PointLight::spot_of(const Part& part, std::size_t i) const {
+    if (!(part.electrons > 0)) return {};
+    return spot_of(part.channel, trails_.scattered_px(part.place_px, i), part.electrons * trails_.share(i));
 }
 
 PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) const {
@@ -176,7 +212,6 @@ PointLight::Spot PointLight::spot_of(int c, Vec2d at_px, double electrons) const
 
 // Sorts points by the rows that their images touch; charge may cross over to the row before and after.
 void PointLight::sort_into_bands() {
-    constexpr auto kBandCount = static_cast<int>(kBands);
     const int height = view_.detector.height_px;
     for (std::vector<std::uint32_t>& spots : band_spots_) spots.clear();
     for (std::size_t i = 0; i < spots_.size(); ++i) {
@@ -185,9 +220,8 @@ void PointLight::sort_into_bands() {
         const int y = static_cast<int>(std::floor(spot.at_px.y)),
                   reach = (spot.spikes_e > 0 ? std::abs(y) + height : spot.radius_px) + 1;
         if (y + reach < 0 || y - reach >= height) continue;
-        // A row's band is the last that begins at it or before.
         const auto band_of = [&](int row) {
-            return static_cast<std::size_t>((kBandCount * (std::clamp(row, 0, height - 1) + 1) - 1) / height);
+            return band_of_row_[static_cast<std::size_t>(std::clamp(row, 0, height - 1))];
         };
         for (std::size_t band = band_of(y - reach); band <= band_of(y + reach); ++band)
             band_spots_[band].push_back(static_cast<std::uint32_t>(i));
@@ -209,10 +243,20 @@ void PointLight::draw_spots(ElectronImage& light_e) {
     });
 }
 
+PictureWindow PointLight::window_of(Rows rows, ElectronImage& light_e) const {
+    const auto top = static_cast<int>(view_.camera.black_rows),
+               left = static_cast<int>(view_.camera.black_columns);
+    return {
+        0, rows.begin, view_.detector.width_px, rows.end, light_e.row(top).data() + left, light_e.width()};
+}
+
 void PointLight::draw(const Spot& spot, Rows rows, ElectronImage& light_e) const {
-    PointSpread::Room room;
     const Vec2d at_px = spot.at_px;
     const LightChannel& channel = channels_[static_cast<std::size_t>(spot.channel)];
+    if (view_.mosaic.one_color() && channel.spreads.size() == 1 && spot.spikes_e == 0 &&
+        channel.spreads.front().add(at_px.x, at_px.y, spot.electrons, window_of(rows, light_e)))
+        return;
+    PointSpread::Room room;
     if (spot.spikes_e > 0) draw_spikes(spot, rows, light_e);
     const double field = channel.spreads.size() > 1 ? view_.lens.field_fraction(at_px.x, at_px.y) : 0;
     for (std::size_t z = 0; z < channel.spreads.size(); ++z) {
@@ -240,7 +284,7 @@ void PointLight::take_off_wings(Vec2d at_px, int c, double electrons, ElectronIm
     std::transform(wings.begin(), wings.end(), patch_.begin(),
                    [&](double share) { return static_cast<float>(-electrons * share); });
     add_patch({static_cast<int>(std::floor(at_px.x)) - kReach, static_cast<int>(std::floor(at_px.y)) - kReach,
-               kAcross, patch_.data()},
+               kAcross, kPitch, patch_.data()},
               c, all_rows(), light_e);
 }
 
@@ -253,10 +297,15 @@ void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronIm
     const auto crosstalk = static_cast<float>(view_.camera.crosstalk_fraction);
     if (view_.mosaic.one_color()) {
         const int from = std::max(0, -patch.left), to = std::min(patch.size, width - patch.left);
+        // Most lie within the frame, with the zeros beside them: these are added as whole vectors.
+        const bool within = from == 0 && patch.left + patch.pitch <= width;
         for (int y = std::max(rows.begin, patch.top); y < std::min(rows.end, patch.top + patch.size); ++y) {
-            const float* in = patch.electrons + (y - patch.top) * patch.size;
+            const float* in = patch.electrons + (y - patch.top) * patch.pitch;
             float* out = light_e.row(y + top).data() + left;
-            for (int i = from; i < to; ++i) out[patch.left + i] += in[i];
+            if (within)
+                add_vectors(in, patch.pitch, out + patch.left);
+            else
+                for (int i = from; i < to; ++i) out[patch.left + i] += in[i];
         }
         return;
     }
@@ -270,7 +319,7 @@ void PointLight::add_patch(const PointPatch& patch, int c, Rows rows, ElectronIm
         for (int i = std::max(0, -patch.left - 1); i < std::min(patch.size, width + 1 - patch.left); ++i) {
             const int x = patch.left + i, y = patch.top + j;
             if (view_.mosaic.channel(x, y) != c) continue;
-            const float electrons = patch.electrons[j * patch.size + i];
+            const float electrons = patch.electrons[j * patch.pitch + i];
             add(x, y, (1 - 4 * crosstalk) * electrons);
             if (crosstalk == 0) continue;
             add(x - 1, y, crosstalk * electrons), add(x + 1, y, crosstalk * electrons);

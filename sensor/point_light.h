@@ -44,6 +44,12 @@ class PointLight {
         double electrons;
         int channel;
     };
+    // A place on its way, and what of its light falls there.
+    struct Part {
+        Vec2d place_px;
+        double electrons = 0;
+        int channel = 0;
+    };
     // An image that is still to be drawn.
     struct Spot {
         Vec2d at_px;
@@ -63,8 +69,12 @@ class PointLight {
     Source source_of(const PointSource& point, std::size_t channel) const;
     void draw_sources(ElectronImage& light_e);
     void make_spots(std::size_t first_spot);
+    void finish_spots(ElectronImage& light_e);
+    Part part_of(const Source& source, int number) const;
+    Spot spot_of(const Part& part, std::size_t i) const;
     Spot spot_of(int channel, Vec2d at_px, double electrons) const;
     void sort_into_bands();
+    PictureWindow window_of(Rows rows, ElectronImage& light_e) const;
     void draw(const Spot& spot, Rows rows, ElectronImage& light_e) const;
     void draw_spots(ElectronImage& light_e);
     void draw_spikes(const Spot& spot, Rows rows, ElectronImage& light_e) const;
@@ -79,9 +89,10 @@ class PointLight {
     double jitter_px_ = 0;
     std::vector<double> glare_e_;  // by channel
     PointTrails trails_;
-    std::vector<Source> sources_;                                // some points at a time
-    std::vector<std::size_t> spots_until_;                       // number of spots of all sources up to each
-    std::vector<Spot> spots_;                                    // some of theirs, in order
+    std::vector<Source> sources_;           // some points at a time
+    std::vector<std::size_t> spots_until_;  // number of spots of all sources up to each
+    std::vector<Spot> spots_;               // some of theirs, in order
+    std::vector<std::uint8_t> band_of_row_;
     std::array<std::vector<std::uint32_t>, kBands> band_spots_;  // spots that lie in a band of rows, in order
     // Each channel keeps two things: what the wings give near a point, and what the table has folded in of
     // them.

@@ -24,6 +24,8 @@ void PointTrails::begin(const Exposure& exposure, double jitter_px) {
     turns_ = turn_rad_.x != 0 || turn_rad_.y != 0 || turn_rad_.z != 0;
     turn_px_ = view_.detector.distortion.none() ? view_.detector.focal_length_px * length(turn_rad_)
                                                 : std::numeric_limits<double>::infinity();
+    center_px_ = view_.detector.center_px();
+    per_focal2_ = 1 / (view_.detector.focal_length_px * view_.detector.focal_length_px);
     at_start_ = to_matrix(from_rotation_vector(-0.5 * turn_rad_));
     at_end_ = to_matrix(from_rotation_vector(0.5 * turn_rad_));
 }
@@ -44,8 +46,8 @@ PointTrails::Trail PointTrails::straight(Vec2d middle_px, Vec2d way_px) {
 
 PointTrails::Trail PointTrails::of_sky(Vec2d middle_px, Vec2d drift_px) const {
     if (!turns_) return straight(middle_px, drift_px);
+    if (stays_in_part(middle_px, drift_px)) return {middle_px, drift_px, true, 1};
     const Vec3d dir = view_.detector.direction_camera(middle_px.x, middle_px.y);
-    if (stays_in_part(dir, drift_px)) return {middle_px, drift_px, true, 1};
     const Vec2d from = turned_px(at_start_, dir), to = turned_px(at_end_, dir);
     const Vec2d half{0.5 * drift_px.x, 0.5 * drift_px.y};
     return {middle_px, drift_px, true,
@@ -53,10 +55,11 @@ PointTrails::Trail PointTrails::of_sky(Vec2d middle_px, Vec2d drift_px) const {
 }
 
 // Most do in most exposures. What turns by a small angle moves by that times 1 + r^2 on the plane z = 1, at
-// most, with r the greatest distance from the axis on its way.
-bool PointTrails::stays_in_part(Vec3d dir, Vec2d drift_px) const {
+// most, with r the greatest distance from the axis on its way. Lenses that bend lines are not asked (begin()).
+bool PointTrails::stays_in_part(Vec2d middle_px, Vec2d drift_px) const {
     constexpr double kFarther = 0.1, kLess = 0.99;
-    const double r2 = dir.x * dir.x + dir.y * dir.y;
+    const double x_px = middle_px.x - center_px_.x, y_px = middle_px.y - center_px_.y;
+    const double r2 = (x_px * x_px + y_px * y_px) * per_focal2_;
     const double farthest2 = 1 + 2 * (r2 + kFarther * kFarther);  // (a + b)^2 is at most 2 a^2 + 2 b^2
     const double way_px = turn_px_ * farthest2;
     return way_px < kFarther * view_.detector.focal_length_px &&
@@ -69,6 +72,7 @@ Vec2d PointTrails::turned_px(const Mat3d& turn, Vec3d dir) const {
 }
 
 Vec2d PointTrails::place(const Trail& trail, int part) const {
+    if (trail.parts == 1) return trail.middle_px;
     const double time = (part + 0.5) / trail.parts - 0.5;
     Vec2d px = trail.middle_px;
     if (trail.turns && time != 0) {

@@ -44,9 +44,11 @@ class PointTrails {
     Vec3d turn_rad_;
     bool turns_ = false;
     double turn_px_ = 0;       // on the axis
+    Vec2d center_px_{};        // the boresight's place
+    double per_focal2_ = 0;    // 1 over the focal length's square [px^-2]
     Mat3d at_start_, at_end_;  // turn the sky to where it is then
 
-    bool stays_in_part(Vec3d dir, Vec2d drift_px) const;
+    bool stays_in_part(Vec2d middle_px, Vec2d drift_px) const;
     Vec2d turned_px(const Mat3d& turn, Vec3d dir_camera) const;
     static int parts_of(Vec2d from_px, Vec2d to_px);
 };

@@ -18,6 +18,12 @@ bool any_material(const std::vector<ShownObject>& objects, const auto& says) {
     });
 }
 
+RayDensity density_of(const RenderQuality& quality) {
+    return {static_cast<int>(quality.samples_per_axis), static_cast<int>(quality.rays_across),
+            static_cast<int>(quality.point_samples),
+            static_cast<int>(std::min(quality.point_samples, quality.point_samples_least))};
+}
+
 }  // namespace
 
 FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
@@ -38,8 +44,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
       radiance_model_(modules.radiance.make(models.radiance)),
       plain_light_(models.radiance == "reflected" || models.radiance == "emissive"),
       lod_error_px_(levels.front().lod_error_px),
-      samples_per_axis_(static_cast<int>(levels.front().samples_per_axis)),
-      rays_across_(static_cast<int>(levels.front().rays_across)) {
+      density_(density_of(levels.front())) {
     const RenderQuality& quality = levels.front();
     objects_ = shown_objects(scene);
     if (scene.terrain)
@@ -149,7 +154,7 @@ bool FramePlacer::take_light() {
 
 void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& paths) {
     lod_error_px_ = quality.lod_error_px;
-    samples_per_axis_ = static_cast<int>(quality.samples_per_axis);
+    density_.samples_per_axis = static_cast<int>(quality.samples_per_axis);
     frame_.max_depth = static_cast<int>(quality.max_depth);
     frame_.contribution_threshold = static_cast<float>(quality.contribution_threshold);
     frame_.sun_is_disk = quality.sun_disk;
@@ -220,14 +225,13 @@ void FramePlacer::place_objects() {
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const Mat3d m = to_matrix(world_.objects[i].world_from_body);
         frame_.world_from_body[i] = {to_float(m.x), to_float(m.y), to_float(m.z)};
-        plans_[i] = plan_object(frame_.geometry, world_, world_.objects[i], radii_m_[i],
-                                {samples_per_axis_, rays_across_});
+        plans_[i] = plan_object(frame_.geometry, world_, world_.objects[i], radii_m_[i], density_);
         plans_[i].level = levels_[i];
         frame_.is_point[i] = plans_[i].use == ObjectUse::kPoints;
         if (!frame_.is_point[i] && still &&
             !object_mask_.add(world_.camera, world_.objects[i], shown_[i]->cluster_bounds_m))
             plans_[i].use = ObjectUse::kHidden;
-        if (!frame_.is_point[i] && plans_[i].samples_per_axis > samples_per_axis_)
+        if (!frame_.is_point[i] && plans_[i].samples_per_axis > density_.samples_per_axis)
             object_boxes_[i] = box_of(i);
         farthest_m = std::max(farthest_m, plans_[i].distance_m + radii_m_[i]);
     }
@@ -312,7 +316,7 @@ bool FramePlacer::shows_body() const {
 }
 
 int FramePlacer::samples_in(const PixelBox& box) const {
-    int n = samples_per_axis_;
+    int n = density_.samples_per_axis;
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh && plans_[i].samples_per_axis > n &&
             box.overlaps(object_boxes_[i]))

@@ -135,8 +135,7 @@ class FramePlacer {
     std::unique_ptr<ShownTerrain> terrain_;
     bool plain_light_;  // reflected sunlight is what the radiance model has of the ground
     double lod_error_px_;
-    int samples_per_axis_;
-    int rays_across_;
+    RayDensity density_;
     FrameView frame_;
     WorldSnapshot world_;
 

@@ -38,7 +38,8 @@ class FrameTracer {
     const RenderQuality& quality() const { return levels_[level_].quality; }
     // Sets the sensor's noise, against which the noise budget is weighed from the next frame on. Loop.
     void set_pixel_noise(const PixelNoise& noise) { noise_ = noise; }
-    PathModel& first_paths() { return *paths().front(); }
+    // slot: of the thread pool.
+    PathModel& paths(std::size_t slot) const { return *paths()[slot]; }
     static Paths make_paths(const Modules& modules, const std::string& name);
     // Replaces the path models of the level in use, for a comparison (render_bench.h).
     void exchange_paths(Paths& paths) { std::swap(path_sets_[levels_[level_].paths].models, paths); }

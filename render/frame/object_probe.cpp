@@ -22,27 +22,20 @@ constexpr double kMargin = 1.01;  // on the object's radius
 
 }  // namespace
 
-ObjectProbe::ObjectProbe(const FrameView& frame, int samples)
-    : samples_(samples),
+ObjectProbe::ObjectProbe(const FrameView& frame, int most_samples)
+    : samples_(most_samples),
       rays_(make_pinhole_rays()),
-      mask_(picture_of(samples, 1, 2)),
+      mask_(picture_of(most_samples, 1, 2)),
       view_(frame),
       tile_(PathModel::kMaxSamples),
-      picture_(static_cast<std::size_t>(samples * samples)) {
+      picture_(static_cast<std::size_t>(most_samples * most_samples)) {
     mask_.fill();
     view_.rays = rays_.get();
     view_.object_mask = &mask_;
 }
 
-void ObjectProbe::aim(const FrameView& frame, const WorldSnapshot& world, std::size_t i, double distance_m,
-                      double radius_m) {
-    const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-    // Turned against the camera's rows, so that an edge along them does not fall on a row of rays.
-    const Vec3d up = std::abs(to_object_m.z) < 0.9 * distance_m ? Vec3d{0.31, 0.17, 1} : Vec3d{1, 0.31, 0.17};
-    Pose camera = world.camera;
-    camera.world_from_body = look_along(to_object_m, up);
-    world_from_view_ = to_matrix(camera.world_from_body);
-    view_.geometry = picture_of(samples_, radius_m, distance_m);
+void ObjectProbe::begin(const FrameView& frame) {
+    view_.kept = frame.kept;
     view_.key = frame.key;
     view_.max_depth = frame.max_depth;
     view_.contribution_threshold = frame.contribution_threshold;
@@ -53,8 +46,17 @@ void ObjectProbe::aim(const FrameView& frame, const WorldSnapshot& world, std::s
     std::copy(frame.world_from_body.begin(), frame.world_from_body.end(), view_.world_from_body.begin());
     // The others are in the way only if they are before it, which the points themselves are asked.
     std::fill(view_.is_point.begin(), view_.is_point.end(), std::uint8_t{1});
-    view_.is_point[i] = 0;
-    view_.start_at_m = world.objects[i].position_world_m - frame.rays_world_m;
+}
+
+void ObjectProbe::aim(const WorldSnapshot& world, std::size_t i, double distance_m, double radius_m) {
+    const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
+    // Turned against the camera's rows, so that an edge along them does not fall on a row of rays.
+    const Vec3d up = std::abs(to_object_m.z) < 0.9 * distance_m ? Vec3d{0.31, 0.17, 1} : Vec3d{1, 0.31, 0.17};
+    Pose camera = world.camera;
+    camera.world_from_body = look_along(to_object_m, up);
+    world_from_view_ = to_matrix(camera.world_from_body);
+    view_.geometry = picture_of(samples_, radius_m, distance_m);
+    view_.start_at_m = world.objects[i].position_world_m - view_.rays_world_m;
     view_.start_before_m = kMargin * radius_m;
     rays_->place(view_.geometry, {world.time, camera, {}, {}});
 }
@@ -79,17 +81,26 @@ TileStats ObjectProbe::trace(PathModel& paths) {
     return stats;
 }
 
-TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& world, std::size_t i,
-                                  const ObjectPlan& plan, double radius_m, PathModel& paths,
-                                  const PointField& field, std::vector<PointSource>& points) {
-    const Vec3d to_object_m = world.objects[i].position_world_m - world.camera.position_world_m;
-    if (!field.sees(to_object_m / plan.distance_m, plan.distance_m)) return {};
-    aim(frame, world, i, plan.distance_m, radius_m);
-    const TileStats stats = trace(paths);
+int ObjectProbe::cells_across(const ObjectPlan& plan) {
+    return std::clamp(static_cast<int>(std::ceil(2 * plan.size_px)), 1, kMaxCells);
+}
+
+double ObjectProbe::before_m(const ObjectPlan& plan, double radius_m) {
+    return plan.distance_m - kMargin * radius_m;
+}
+
+std::size_t ObjectProbe::look(const WorldSnapshot& world, std::size_t i, const ObjectPlan& plan,
+                              double radius_m, PathModel& paths, Glimpse* glimpses, TileStats& stats) {
+    samples_ = plan.point_samples;
+    aim(world, i, plan.distance_m, radius_m);
+    view_.is_point[i] = 0;
+    stats += trace(paths);
+    view_.is_point[i] = 1;
+    std::size_t count = 0;
     // A sample's solid angle; the picture is a few pixels of the camera, so cosines are 1.
     const double sample_rad = 1 / view_.geometry.focal_length_px;
     const auto solid_angle = static_cast<float>(sample_rad * sample_rad);
-    const int cells = std::clamp(static_cast<int>(std::ceil(2 * plan.size_px)), 1, kMaxCells);
+    const int cells = std::min(cells_across(plan), samples_);
     for (int cy = 0; cy < cells; ++cy)
         for (int cx = 0; cx < cells; ++cx) {
             Spectrum sum;
@@ -99,7 +110,7 @@ TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& w
                 Spectrum row;
                 for (int x = cx * samples_ / cells; x < (cx + 1) * samples_ / cells; ++x) {
                     const Spectrum& here = picture_[static_cast<std::size_t>(y * samples_ + x)];
-                    const auto amount = static_cast<double>(mean(here, frame.bins));
+                    const auto amount = static_cast<double>(mean(here, view_.bins));
                     row += here;
                     x_sum += amount * (x + 0.5), y_sum += amount * (y + 0.5), light += amount;
                 }
@@ -107,10 +118,9 @@ TileStats ObjectProbe::add_points(const FrameView& frame, const WorldSnapshot& w
             }
             if (!(light > 0)) continue;
             const Vec3d at = world_from_view_ * view_.geometry.direction_camera(x_sum / light, y_sum / light);
-            field.add(normalized(at), plan.distance_m - kMargin * radius_m, solid_angle * sum, points,
-                      static_cast<std::uint32_t>(i));
+            glimpses[count++] = {normalized(at), solid_angle * sum};
         }
-    return stats;
+    return count;
 }
 
 }  // namespace hilcam

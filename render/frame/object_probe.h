@@ -9,7 +9,6 @@
 #include "render/frame/plan.h"
 #include "render/light/frame_view.h"
 #include "render/light/path_model.h"
-#include "render/light/point_field.h"
 
 namespace hilcam {
 
@@ -17,17 +16,28 @@ class ObjectProbe {
   public:
     static constexpr int kMaxCells = 16;  // along an axis: an object gives at most the square of it of points
 
-    // samples: rays along an axis of the picture. The frame's view must have its pointers and sizes by now.
-    ObjectProbe(const FrameView& frame, int samples);
+    // Light of a cell.
+    struct Glimpse {
+        Vec3d world_dir;              // unit, of its middle
+        Spectrum irradiance_w_m2_um;  // at the camera, per bin
+    };
 
-    // Adds the points of object `i`, of a sphere of radius_m, as the frame sees it. Loop; no allocation while
-    // the vector has room. Returns what it took to trace.
-    TileStats add_points(const FrameView& frame, const WorldSnapshot& world, std::size_t i,
-                         const ObjectPlan& plan, double radius_m, PathModel& paths, const PointField& field,
-                         std::vector<PointSource>& points);
+    // most_samples: rays along an axis of the largest picture. The frame's view must have its pointers and sizes by
+    // now. Owner thread.
+    ObjectProbe(const FrameView& frame, int most_samples);
+
+    // Takes over what a frame has placed. Loop, as all that follows.
+    void begin(const FrameView& frame);
+    // Finds the light of object `i`, of a sphere of radius_m, cell by cell. glimpses: room for cells_across()^2.
+    // Returns how many have any; adds to stats what it took to trace.
+    std::size_t look(const WorldSnapshot& world, std::size_t i, const ObjectPlan& plan, double radius_m,
+                     PathModel& paths, Glimpse* glimpses, TileStats& stats);
+    static int cells_across(const ObjectPlan& plan);
+    // Returns the distance at which what is in its way is before the object [m].
+    static double before_m(const ObjectPlan& plan, double radius_m);
 
   private:
-    int samples_;
+    int samples_;  // rays along an axis of the present picture
     std::unique_ptr<RayGenerator> rays_;
     ScreenMask mask_;
     FrameView view_;
@@ -35,8 +45,7 @@ class ObjectProbe {
     std::vector<Spectrum> tile_, picture_;
     std::unique_ptr<FacetList> facets_ = std::make_unique<FacetList>();
 
-    void aim(const FrameView& frame, const WorldSnapshot& world, std::size_t i, double distance_m,
-             double radius_m);
+    void aim(const WorldSnapshot& world, std::size_t i, double distance_m, double radius_m);
     TileStats trace(PathModel& paths);
 };
 

@@ -27,6 +27,18 @@ RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> ra
     return {middle, 1.01 * reach_m};
 }
 
+namespace {
+
+// A grid of n x n places knows the area of what has an outline to about n^-1.5 of it, and the light of an object
+// of s pixels, which goes with s^2, has noise of its own that goes with s: n that goes with s^(2/3) keeps the
+// error's share of that noise.
+int point_samples_of(double size_px, const RayDensity& density) {
+    const double share = std::cbrt(std::min(1.0, size_px / kPoints_px * (size_px / kPoints_px)));
+    return std::max(density.point_samples_least, static_cast<int>(std::ceil(share * density.point_samples)));
+}
+
+}  // namespace
+
 ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world, const Pose& object,
                        double radius_m, RayDensity density) {
     ObjectPlan plan;
@@ -40,6 +52,7 @@ ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world
     if (plan.size_px < kPoints_px) plan.use = ObjectUse::kPoints;
     const double across = std::ceil(density.rays_across / plan.size_px);
     plan.samples_per_axis = std::max(density.samples_per_axis, static_cast<int>(std::min(16.0, across)));
+    plan.point_samples = point_samples_of(plan.size_px, density);
     return plan;
 }
 

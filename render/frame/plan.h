@@ -23,6 +23,7 @@ struct ObjectPlan {
     double size_px = 0;        // size of the sphere that holds it
     std::size_t level = 0;     // level of detail; 0 is the mesh itself
     int samples_per_axis = 1;  // rays along a pixel of a traced object; a small one has more
+    int point_samples = 0;     // rays along its little picture, of one that is drawn as points
 };
 
 // Distances of which the camera sees the objects; decides where ray space begins (frame_view.h).
@@ -37,11 +38,12 @@ RaySpace choose_ray_space(const WorldSnapshot& world, std::span<const double> ra
 // An object this small is drawn as points: a single one below a pixel, a small cloud up to here. The regular
 // grid of rays would miss parts of it, and differently from frame to frame.
 inline constexpr double kPoints_px = 8.0;
-// The density that the quality asks for: rays along a pixel, and the least number of rays across a traced
-// object.
+// The density that the quality asks for: rays along a pixel, the least number of rays across a traced object,
+// and rays along the little picture of one that is drawn as points: as large as those are, and at least.
 struct RayDensity {
     int samples_per_axis;
     int rays_across;
+    int point_samples = 0, point_samples_least = 0;
 };
 
 ObjectPlan plan_object(const ImageGeometry& geometry, const WorldSnapshot& world, const Pose& object,

@@ -44,7 +44,7 @@ std::vector<PathModelSpeed> path_model_speeds(FramePlacer& placer, FrameTracer& 
         speeds.push_back(speed_of(name, placer, tracer, radiance, runs));
         tracer.exchange_paths(paths);
     }
-    placer.set_paths(tracer.first_paths());
+    placer.set_paths(tracer.paths(0));
     return speeds;
 }
 

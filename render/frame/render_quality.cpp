@@ -54,7 +54,12 @@ Fields fields(RenderQuality& q) {
                 "number of rays across a small object: it gets more rays per pixel, up to 16 x 16, until so "
                 "many go across it"),
         integer("point_samples", q.point_samples, {16, 512},
-                "rays in each direction of the grid by which an object of a few pixels or less is measured"),
+                "rays in each direction of the grid by which an object of 8 pixels or less is measured"),
+        integer("point_samples_least", q.point_samples_least, {8, 512},
+                "smaller objects have fewer of these rays, as the power 2/3 of their size, which leaves the "
+                "error "
+                "its share of their light's own noise, down to this number; from point_samples on: all have "
+                "as many"),
         per_frame(
             number("noise_budget", q.noise_budget, 1, {0, 100},
                    "share of a pixel's own sensor noise: the pixel is sampled again only while the standard "

@@ -31,8 +31,10 @@ struct RenderQuality {
     std::int64_t rays_across =
         128;  // rays across a small object: 64 keep 0.5 % of its flux, 512 a centroid to 0.01 px
     std::int64_t point_samples = 96;  // rays along one axis of the little picture of an object of few pixels
-    double noise_budget = 0;          // see adaptive_sampler.h; 0: a pixel is sampled once
-    std::int64_t most_passes = 16;    // over a pixel, with a noise budget
+    std::int64_t point_samples_least =
+        512;                        // fewer for smaller ones, down to so many; not more than point_samples
+    double noise_budget = 0;        // see adaptive_sampler.h; 0: a pixel is sampled once
+    std::int64_t most_passes = 16;  // over a pixel, with a noise budget
 
     // A noise budget is for rays.
     bool uses_buffer() const { return visibility == "buffer" && noise_budget == 0 && buffer_samples > 1; }

@@ -9,7 +9,7 @@
 #include "render/frame/find_side_light.h"
 #include "render/frame/frame_placer.h"
 #include "render/frame/frame_tracer.h"
-#include "render/frame/object_probe.h"
+#include "render/frame/object_probes.h"
 #include "render/frame/render_bench.h"
 #include "render/frame/truth_probe.h"
 #include "render/light/point_field.h"
@@ -30,20 +30,20 @@ std::vector<RenderQuality> all_levels(const RenderQuality& quality, std::span<co
 struct Renderer::Implementation {
     FramePlacer placer;
     FrameTracer tracer;
-    ObjectProbe probe;  // for objects of a few pixels
+    ObjectProbes probes;  // for objects of a few pixels
 
     Implementation(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
                    const std::vector<RenderQuality>& levels, const RenderModels& models,
                    const Modules& modules)
         : placer(std::move(scene), grid, geometry, levels, models, modules),
           tracer(geometry, modules, levels),
-          probe(placer.frame(), static_cast<int>(levels.front().point_samples)) {
+          probes(placer.frame(), placer.objects(), static_cast<int>(levels.front().point_samples)) {
         use_level(0);
     }
 
     void use_level(std::size_t level) {
         tracer.use_level(level);
-        placer.set_quality(tracer.quality(), tracer.first_paths());
+        placer.set_quality(tracer.quality(), tracer.paths(0));
     }
 
     // Stars, bodies, lamps and objects that are drawn as points. Gives what it took to trace.
@@ -53,12 +53,7 @@ struct Renderer::Implementation {
         for (const PlacedBody& body : placer.background().points())
             field.add(body.world_dir, body.distance_m, placer.background().point_irradiance(body), points);
         add_lamps_seen(placer.frame(), field, points);
-        TileStats sum;
-        for (std::size_t i = 0; i < placer.objects(); ++i)
-            if (placer.is_point(i))
-                sum += probe.add_points(placer.frame(), placer.world(), i, placer.plan(i), placer.radius_m(i),
-                                        tracer.first_paths(), field, points);
-        return sum;
+        return probes.add_points(placer, tracer, field, points);
     }
 
     // Says how many stars the placed frame has and what finding them takes, the shortest of three times; empty without a catalogue.

@@ -1,55 +1,62 @@
 #include "render/sky/star_sky.h"
 
-#include <array>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
 namespace hilcam {
 namespace {
 
-constexpr double kStarsPerCell = 100;
-// A face has at most so many by as many: more would cost a frame more to look through than they save.
-constexpr int kMaxCellsAcross = 64;
+constexpr std::size_t kMostPerCell = 128;
 
-// Returns the cell on the face of the cube that the direction meets; cells are about equally wide as seen
-// from the middle.
-std::uint32_t cell_of(Vec3d dir, int across) {
-    const std::array<double, 3> d{dir.x, dir.y, dir.z};
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i)
-        if (std::abs(d[i]) > std::abs(d[axis])) axis = i;
-    const auto place = [&](double along) {
-        const double angle = std::atan(along / std::abs(d[axis]));  // -pi/4 .. pi/4
-        return std::clamp(static_cast<int>((angle / (kPi / 2) + 0.5) * across), 0, across - 1);
-    };
-    const int face = 2 * static_cast<int>(axis) + (d[axis] < 0 ? 1 : 0);
-    return static_cast<std::uint32_t>((face * across + place(d[(axis + 1) % 3])) * across +
-                                      place(d[(axis + 2) % 3]));
+// Puts stars that stand near each other side by side: halves them about the middle of the axis along which they
+// are spread most, until a cell holds a part. Calls use(from, to) for each cell.
+template <class Use>
+void split(const std::vector<Star>& stars, std::span<std::uint32_t> order, std::size_t first,
+           const Use& use) {
+    if (order.size() <= kMostPerCell) return use(first, first + order.size());
+    Vec3d least{2, 2, 2}, most{-2, -2, -2};
+    for (const std::uint32_t i : order) {
+        const Vec3d& d = stars[i].world_dir;
+        least = {std::min(least.x, d.x), std::min(least.y, d.y), std::min(least.z, d.z)};
+        most = {std::max(most.x, d.x), std::max(most.y, d.y), std::max(most.z, d.z)};
+    }
+    const Vec3d spread = most - least;
+    const double Vec3d::*axis = spread.x >= spread.y && spread.x >= spread.z ? &Vec3d::x
+                                : spread.y >= spread.z                       ? &Vec3d::y
+                                                                             : &Vec3d::z;
+    const std::size_t half = order.size() / 2;
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) {
+                         const double at = stars[a].world_dir.*axis, other = stars[b].world_dir.*axis;
+                         return at != other ? at < other : a < b;
+                     });
+    split(stars, order.first(half), first, use);
+    split(stars, order.subspan(half), first + half, use);
 }
 
 }  // namespace
 
 StarSky::StarSky(std::vector<Star> stars, TimeTai time) : time_(time) {
-    const auto across =
-        std::clamp(static_cast<int>(std::sqrt(static_cast<double>(stars.size()) / (6 * kStarsPerCell))), 1,
-                   kMaxCellsAcross);
-    std::vector<std::uint32_t> cell(stars.size());
-    for (std::size_t i = 0; i < stars.size(); ++i) cell[i] = cell_of(stars[i].world_dir, across);
-    std::vector<std::size_t> order(stars.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return cell[a] < cell[b]; });
-
+    if (stars.empty()) return;
+    std::vector<std::uint32_t> order(stars.size());
+    std::iota(order.begin(), order.end(), std::uint32_t{0});
+    std::vector<std::size_t> begins;
+    split(stars, order, 0, [&](std::size_t from, std::size_t to) {
+        // As the catalogue has them.
+        std::sort(order.begin() + static_cast<std::ptrdiff_t>(from),
+                  order.begin() + static_cast<std::ptrdiff_t>(to));
+        begins.push_back(from);
+    });
+    begins.push_back(stars.size());
     stars_.reserve(stars.size());
-    for (const std::size_t i : order) {
+    for (const std::uint32_t i : order) {
         stars_.push_back(stars[i]);
         fastest_rad_yr_ = std::max(fastest_rad_yr_, static_cast<double>(length(stars[i].motion_rad_yr)));
         max_parallax_rad_ = std::max(max_parallax_rad_, static_cast<double>(stars[i].parallax_rad));
     }
-    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-        while (end < order.size() && cell[order[end]] == cell[order[begin]]) ++end;
-        cells_.push_back({cone_of(begin, end), begin, end});
-    }
+    for (std::size_t i = 0; i + 1 < begins.size(); ++i)
+        cells_.push_back({cone_of(begins[i], begins[i + 1]), begins[i], begins[i + 1]});
 }
 
 StarSky::Cone StarSky::cone_of(std::size_t begin, std::size_t end) const {

@@ -2,13 +2,14 @@
 // The stars sorted by where they stand in the sky, so that a frame looks at those of its field and at no
 // others.
 //
-// Cells are those of a cube around the barycentre, each face a square grid of equal angles: about a hundred
-// stars a cell.
+// Cells are parts of the sky that hold about as many stars each, however crowded it is there, and come in an order
+// in which neighbours mostly follow each other: what a frame draws of them after each other lies close together.
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "render/sky/star_block.h"
 #include "render/sky/stars.h"
 #include "render/vocabulary/units.h"
 
@@ -31,11 +32,16 @@ class StarSky {
     template <class Use>
     void each_within(const StarObserver& observer, Vec3d axis_dir, double angle_rad, const Use& use) const {
         const Cone field(axis_dir, angle_rad + farthest_shift_rad(observer));
+        StarBlock block;
         for (const Cell& cell : cells_) {
             if (!field.touches(cell.cone)) continue;
-            for (std::size_t i = cell.begin; i < cell.end; ++i)
-                if (field.holds(stars_[i].world_dir)) use(stars_[i], observer.apparent_dir(stars_[i]));
+            for (std::size_t i = cell.begin; i < cell.end; ++i) {
+                if (!field.holds(stars_[i].world_dir)) continue;
+                block.add(stars_[i]);
+                if (block.full()) block.use_all(observer, use);
+            }
         }
+        block.use_all(observer, use);
     }
 
   private:

@@ -3,19 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
-#include "render/vocabulary/clones.h"
 #include "sensor/convolution/cubic_weights.h"
 #include "sensor/convolution/fourier.h"
 
 namespace hilcam {
-namespace {
-
-std::array<double, 4> linear_weights(double u) { return {0, 1 - u, u, 0}; }
-
-}  // namespace
 
 PointSpread::PointSpread(const std::function<std::complex<double>(double, double)>& transfer,
                          double fill_factor) {
@@ -35,7 +28,7 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
     real_from_half_spectrum(spectrum, n, fine);
 
     // fine(x) is the share that a pixel takes whose centre lies x/16 px from the point; split by phase.
-    phases_.resize(std::size_t{n} * n);
+    phases_.resize(std::size_t{n} * n + kField_px);
     std::size_t at = 0;
     for (int py = 0; py < kOversampling; ++py)
         for (int px = 0; px < kOversampling; ++px)
@@ -47,8 +40,6 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
                     const int fy = ((y - kField_px / 2) * kOversampling + py + n) % n;
                     phases_[at++] = fine[static_cast<std::size_t>(fy) * n + static_cast<std::size_t>(fx)];
                 }
-
-    copy_core();
 
     phase_sums_.resize(std::size_t{kOversampling} * kOversampling);
     for (std::size_t p = 0; p < phase_sums_.size(); ++p) {
@@ -66,32 +57,80 @@ PointSpread::PointSpread(const std::function<std::complex<double>(double, double
                 inside += static_cast<double>(centred[(y + kField_px / 2) * kField_px + x + kField_px / 2]);
         outside_[static_cast<std::size_t>(r)] = std::max(0.0, 1 - inside / total);
     }
+    find_linear_errors();
+    make_places();
 }
 
-// The middle of each phase, and how far a line between neighbours leaves the curve: an eighth of the second
-// difference, along either axis.
-void PointSpread::copy_core() {
-    constexpr int n = kOversampling;
-    core_.resize(std::size_t{n} * n * kCoreSize + 2 * kCoreAcross_px);
-    const auto middle = [this](int px, int py, int x, int y) {
-        return phase(px, py)[(y + kField_px / 2) * kField_px + x + kField_px / 2];
-    };
-    const auto fine = [&](int fx, int fy) {  // sixteenths of a pixel from the middle
-        return middle((fx + n * n) % n, (fy + n * n) % n, (fx + n * n) / n - n, (fy + n * n) / n - n);
-    };
-    constexpr int half = kCoreAcross_px / 2;
-    for (int py = 0; py < n; ++py)
-        for (int px = 0; px < n; ++px)
-            for (int y = -half; y < half; ++y)
-                for (int x = -half; x < half; ++x) {
-                    core_[static_cast<std::size_t>((py * n + px) * kCoreSize + (y + half) * kCoreAcross_px +
-                                                   x + half)] = middle(px, py, x, y);
-                    const int fx = n * x + px, fy = n * y + py;
-                    const float here = 2 * fine(fx, fy);
-                    const float across = std::abs(fine(fx - 1, fy) + fine(fx + 1, fy) - here),
-                                down = std::abs(fine(fx, fy - 1) + fine(fx, fy + 1) - here);
-                    linear_error_ = std::max(linear_error_, static_cast<double>(across + down) / 8);
+namespace {
+
+// A distance in sixteenths of a pixel: the phase that has it, and by how many pixels that is shifted.
+struct Shift {
+    int phase, pixels;
+};
+Shift shift_of(int sixteenths) { return {sixteenths & 15, sixteenths >> 4}; }
+
+}  // namespace
+
+// The value at a place of a pixel so far from the middle one.
+float PointSpread::value(int x, int y, int px, int py) const {
+    const Shift sx = shift_of(x), sy = shift_of(y);
+    return phase(sx.phase,
+                 sy.phase)[(py + sy.pixels + kField_px / 2) * kField_px + px + sx.pixels + kField_px / 2];
+}
+
+// Finds how far a line between neighbours leaves the curve: an eighth of the second difference, along either axis.
+void PointSpread::find_linear_errors() {
+    linear_errors_.assign(kMaxRadius_px + 1, 0.0);
+    for (int y = 0; y < kOversampling; ++y)
+        for (int x = 0; x < kOversampling; ++x)
+            for (int py = -kMaxRadius_px; py <= kMaxRadius_px; ++py)
+                for (int px = -kMaxRadius_px; px <= kMaxRadius_px; ++px) {
+                    const float here = 2 * value(x, y, px, py);
+                    const float across = std::abs(value(x - 1, y, px, py) + value(x + 1, y, px, py) - here),
+                                down = std::abs(value(x, y - 1, px, py) + value(x, y + 1, px, py) - here);
+                    double& most =
+                        linear_errors_[static_cast<std::size_t>(std::max(std::abs(px), std::abs(py)))];
+                    most = std::max(most, static_cast<double>(across + down) / 8);
                 }
+    for (std::size_t r = kMaxRadius_px; r-- > 0;)
+        linear_errors_[r] = std::max(linear_errors_[r], linear_errors_[r + 1]);
+}
+
+// The sums over squares about the middle pixel, place by place, and the least images, which have the light of the
+// whole field.
+void PointSpread::make_places() {
+    constexpr std::size_t kCount = std::size_t{kPlacesAcross} * kPlacesAcross;
+    least_.resize(kCount * kLeastSize);
+    inside_.resize(kCount * kRadii);
+    float* least = least_.data();
+    double* inside = inside_.data();
+    for (int y = -kPlaces; y <= kPlaces; ++y)
+        for (int x = -kPlaces; x <= kPlaces; ++x, least += kLeastSize, inside += kRadii) {
+            for (int r = 0; r < kRadii; ++r) {
+                double ring = r > 0 ? inside[r - 1] : 0;
+                for (int py = -r; py <= r; ++py)
+                    for (int px = -r; px <= r; px += std::abs(py) == r ? 1 : std::max(1, 2 * r))
+                        ring += static_cast<double>(value(x, y, px, py));
+                inside[r] = ring;
+            }
+            const double whole = whole_at(x, y), kept = inside[kMinRadius_px];
+            const auto scale = static_cast<float>(kept > 0 ? whole / kept : 0);
+            for (int py = 0; py < kLeastAcross_px; ++py)
+                for (int px = 0; px < kLeastAcross_px; ++px)
+                    least[py * kLeastPitch_px + px] =
+                        scale * value(x, y, px - kMinRadius_px, py - kMinRadius_px);
+        }
+}
+
+double PointSpread::whole_at(int x, int y) const {
+    return phase_sums_[static_cast<std::size_t>(shift_of(y).phase * kOversampling + shift_of(x).phase)];
+}
+double PointSpread::inside_at(int x, int y, int radius) const {
+    return inside_[static_cast<std::size_t>(((y + kPlaces) * kPlacesAcross + x + kPlaces) * kRadii + radius)];
+}
+
+const float* PointSpread::least_table(int x, int y) const {
+    return least_.data() + ((y + kPlaces) * kPlacesAcross + x + kPlaces) * kLeastSize;
 }
 
 const float* PointSpread::phase(int px, int py) const {
@@ -100,96 +139,133 @@ const float* PointSpread::phase(int px, int py) const {
 
 int PointSpread::radius_for(double electrons) const {
     for (int r = kMinRadius_px; r < kMaxRadius_px; ++r)
-        if (electrons * outside_[static_cast<std::size_t>(r)] < 0.05) return r;
+        if (electrons * outside_[static_cast<std::size_t>(r)] < kOutside_e) return r;
     return kMaxRadius_px;
 }
 
-namespace {
+// A point's place: the pixel that holds it, and how far that pixel's centre lies from the point, in sixteenths.
+struct PointSpread::Place {
+    int x_px, y_px, x, y;
+    double beyond_x, beyond_y;  // the rest
 
-// One of the tables that a point's image is a sum of: where in it the image's corner lies, and its weight.
-struct ShiftedTable {
-    const float* corner;
-    float weight;
+    Place(double at_x_px, double at_y_px) {
+        const double cx = std::floor(at_x_px), cy = std::floor(at_y_px);
+        const double sx = (cx + 0.5 - at_x_px) * kOversampling, sy = (cy + 0.5 - at_y_px) * kOversampling;
+        x = static_cast<int>(std::floor(sx)), y = static_cast<int>(std::floor(sy));
+        x_px = static_cast<int>(cx), y_px = static_cast<int>(cy);
+        beyond_x = sx - x, beyond_y = sy - y;
+    }
 };
 
-constexpr std::size_t kMinAcross = 7;  // pixels of the least image; its tables have rows of eight
-// Sums the tables, one after the other. Returns the sum over all pixels.
-HILCAM_CLONES double sum_least(const ShiftedTable* tables, std::size_t count, float* out) {
-    using TwoRows [[gnu::vector_size(64)]] = float;
-    std::array<TwoRows, 4> sums{};
-    for (std::size_t t = 0; t < count; ++t)
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            TwoRows in;
-            std::memcpy(&in, tables[t].corner + 16 * i, sizeof(in));
-            sums[i] += tables[t].weight * in;
-        }
-    std::array<float, 64> rows;
-    std::memcpy(rows.data(), sums.data(), sizeof(rows));
-    std::array<double, 8> columns{};
-    for (std::size_t y = 0; y < kMinAcross; ++y) {
-        for (std::size_t x = 0; x < columns.size(); ++x) columns[x] += static_cast<double>(rows[8 * y + x]);
-        std::memcpy(out + kMinAcross * y, rows.data() + 8 * y, kMinAcross * sizeof(float));
-    }
-    return std::accumulate(columns.begin(), columns.begin() + kMinAcross, 0.0);
-}
+namespace {
 
-double sum_large(std::span<const ShiftedTable> tables, std::size_t pitch, std::size_t size, float* out) {
-    std::fill_n(out, size * size, 0.0f);
-    for (const ShiftedTable& table : tables)
-        for (std::size_t y = 0; y < size; ++y)
-            for (std::size_t x = 0; x < size; ++x)
-                out[y * size + x] += table.weight * table.corner[y * pitch + x];
-    return std::accumulate(out, out + size * size, 0.0);
+int pitch_of(int size) {
+    constexpr auto kTogether = static_cast<int>(kColumnsTogether);
+    return (size + kTogether - 1) / kTogether * kTogether;
 }
 
 }  // namespace
 
 PointPatch PointSpread::at(double x_px, double y_px, double electrons, Room& room) const {
+    static_assert(kOversampling == 16);
     const int radius = radius_for(electrons);
-    // The pixel that holds the point, and how far that pixel's centre lies from the point, in sixteenths.
-    const double cx = std::floor(x_px);
-    const double cy = std::floor(y_px);
-    const double sx = (cx + 0.5 - x_px) * kOversampling;
-    const double sy = (cy + 0.5 - y_px) * kOversampling;
-    const int ix = static_cast<int>(std::floor(sx));
-    const int iy = static_cast<int>(std::floor(sy));
-    const bool least = radius == kMinRadius_px;
-    static_assert(kMinAcross == 2 * kMinRadius_px + 1);
-    // The cubic's outer samples are lost to sight in faint points.
-    const bool linear = least && electrons * linear_error_ < kLinear_e;
-    const auto wx = linear ? linear_weights(sx - ix) : cubic_weights(sx - ix);
-    const auto wy = linear ? linear_weights(sy - iy) : cubic_weights(sy - iy);
-    double whole = 0;  // value of the full field at this place in a pixel
+    const Place place(x_px, y_px);
+    if (radius > kMinRadius_px) {
+        const int size = 2 * radius + 1, pitch = pitch_of(size);
+        std::fill_n(room.data(), size * pitch, 0.0f);
+        add_large(large(place, radius, electrons), 0, size, room.data(), pitch);
+        return {place.x_px - radius, place.y_px - radius, size, pitch, room.data()};
+    }
+    if (is_linear(electrons, 0)) {
+        const double u = place.beyond_x, v = place.beyond_y;
+        return least(place, std::array{1 - u, u}, std::array{1 - v, v}, electrons, room);
+    }
+    return least(place, cubic_weights(place.beyond_x), cubic_weights(place.beyond_y), electrons, room);
+}
 
-    // All pixels share one sub-pixel phase: the kernel is a sum of shifted tables.
-    std::array<ShiftedTable, 16> tables;
-    std::size_t count = 0;
-    const int from = linear ? 1 : 0, to = linear ? 3 : 4;
-    for (int j = from; j < to; ++j)
-        for (int i = from; i < to; ++i) {
-            const int fx = ix + i - 1;
-            const int fy = iy + j - 1;
-            // Floor division: a negative sub-pixel distance belongs to the pixel before.
-            const int px = (fx % kOversampling + kOversampling) % kOversampling;
-            const int py = (fy % kOversampling + kOversampling) % kOversampling;
-            const int left = (fx - px) / kOversampling - radius, top = (fy - py) / kOversampling - radius;
-            const int number = py * kOversampling + px;
-            const auto weight = static_cast<float>(electrons * wx[static_cast<std::size_t>(i)] *
-                                                   wy[static_cast<std::size_t>(j)]);
-            whole += static_cast<double>(weight) * phase_sums_[static_cast<std::size_t>(number)];
-            const float* const corner =
-                least ? core_.data() + number * kCoreSize + (top + kCoreAcross_px / 2) * kCoreAcross_px +
-                            left + kCoreAcross_px / 2
-                      : phase(px, py) + (top + kField_px / 2) * kField_px + left + kField_px / 2;
-            tables[count++] = {corner, weight};
-        }
-    const auto size = static_cast<std::size_t>(2 * radius + 1);
-    const double inside = least ? sum_least(tables.data(), count, room.data())
-                                : sum_large(tables, kField_px, size, room.data());
-    const auto scale = static_cast<float>(inside > 0 ? whole / inside : 0);
-    for (float& value : std::span<float>(room).first(size * size)) value *= scale;
-    return {static_cast<int>(cx) - radius, static_cast<int>(cy) - radius, static_cast<int>(size),
+bool PointSpread::is_linear(double electrons, int ring_px) const {
+    return electrons * linear_errors_[static_cast<std::size_t>(ring_px)] < kLinear_e;
+}
+
+bool PointSpread::add(double x_px, double y_px, double electrons, const PictureWindow& window) const {
+    const int radius = radius_for(electrons);
+    const bool least = radius == kMinRadius_px;
+    // The cubic's outer samples are lost to sight in faint points.
+    if (least && !is_linear(electrons, 0)) return false;
+    const Place place(x_px, y_px);
+    const int left = place.x_px - radius, top = place.y_px - radius, size = 2 * radius + 1;
+    if (left < window.first_x || left + pitch_of(size) > window.end_x) return false;
+    const int first = std::max(0, window.first_y - top), end = std::min(size, window.end_y - top);
+    if (first >= end) return true;
+    float* const out = window.origin + top * window.pitch + left;
+    if (!least) {
+        add_large(large(place, radius, electrons), first, end, out, window.pitch);
+        return true;
+    }
+    const double u = place.beyond_x, v = place.beyond_y;
+    const auto weight = [&](double across, double down) {
+        return static_cast<float>(electrons * across * down);
+    };
+    const float* table = least_table(place.x, place.y);
+    constexpr int kBelow = kPlacesAcross * kLeastSize;
+    const std::array<ShiftedTable, 4> tables{{{table, weight(1 - u, 1 - v)},
+                                              {table + kLeastSize, weight(u, 1 - v)},
+                                              {table + kBelow, weight(1 - u, v)},
+                                              {table + kBelow + kLeastSize, weight(u, v)}}};
+    add_least(tables.data(), tables.size(), first, end, out, window.pitch);
+    return true;
+}
+
+// The image is a sum of those at the places around. weights: of two, or of four about those.
+template <std::size_t kSamples>
+PointPatch PointSpread::least(const Place& place, const std::array<double, kSamples>& x_weights,
+                              const std::array<double, kSamples>& y_weights, double electrons,
+                              Room& room) const {
+    constexpr int first = 1 - static_cast<int>(kSamples) / 2;
+    std::array<ShiftedTable, kSamples * kSamples> tables;
+    for (std::size_t j = 0; j < kSamples; ++j)
+        for (std::size_t i = 0; i < kSamples; ++i)
+            tables[kSamples * j + i] = {
+                least_table(place.x + first + static_cast<int>(i), place.y + first + static_cast<int>(j)),
+                static_cast<float>(electrons * x_weights[i] * y_weights[j])};
+    copy_least(tables.data(), tables.size(), room.data());
+    return {place.x_px - kMinRadius_px, place.y_px - kMinRadius_px, kLeastAcross_px, kLeastPitch_px,
             room.data()};
+}
+
+// All pixels share one sub-pixel phase: the kernel is a sum of shifted tables.
+LargeImage PointSpread::large(const Place& place, int radius, double electrons) const {
+    const std::array<double, 4> x_weights = cubic_weights(place.beyond_x),
+                                y_weights = cubic_weights(place.beyond_y);
+    double whole = 0, inside = 0;  // sums over the full field and the image
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i) {
+            const double weight =
+                x_weights[static_cast<std::size_t>(i)] * y_weights[static_cast<std::size_t>(j)];
+            whole += weight * whole_at(place.x + i - 1, place.y + j - 1);
+            inside += weight * inside_at(place.x + i - 1, place.y + j - 1, radius);
+        }
+    const double all = inside > 0 ? electrons * whole / inside : 0;
+    const auto table = [&](int i, int j, double weight) {
+        const Shift x = shift_of(place.x + i), y = shift_of(place.y + j);
+        const int middle = kField_px / 2 - radius;
+        return ShiftedTable{phase(x.phase, y.phase) + (y.pixels + middle) * kField_px + x.pixels + middle,
+                            static_cast<float>(all * weight)};
+    };
+    LargeImage out;
+    for (std::size_t k = 0; k < 16; ++k)
+        out.cubic[k] = table(static_cast<int>(k % 4) - 1, static_cast<int>(k / 4) - 1,
+                             x_weights[k % 4] * y_weights[k / 4]);
+    const std::array<double, 2> across{1 - place.beyond_x, place.beyond_x},
+        down{1 - place.beyond_y, place.beyond_y};
+    for (std::size_t k = 0; k < 4; ++k)
+        out.linear[k] = table(static_cast<int>(k % 2), static_cast<int>(k / 2), across[k % 2] * down[k / 2]);
+    int near = 0;  // rings about the middle pixel, and that
+    while (near <= radius && !is_linear(electrons, near)) ++near;
+    out.pitch = kField_px;
+    out.size = 2 * radius + 1;
+    out.first_near = radius + 1 - near, out.end_near = radius + near;
+    return out;
 }
 
 }  // namespace hilcam

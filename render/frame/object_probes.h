@@ -1,0 +1,39 @@
+#pragma once
+// The objects that a frame draws as points, all of them: each is traced by an ObjectProbe of the thread that takes it,
+// and its points are added in the objects' order, whatever the number of threads.
+
+#include <memory>
+#include <vector>
+
+#include "render/frame/object_probe.h"
+
+namespace hilcam {
+
+class FramePlacer;
+class FrameTracer;
+
+class ObjectProbes {
+  public:
+    // samples: the most rays along an axis of an object's picture. The frame's view must have its pointers and sizes
+    // by now. Owner thread.
+    ObjectProbes(const FrameView& frame, std::size_t objects, int samples);
+
+    // Adds the points of the placed frame's objects. Loop; no allocation while the vector has room. Returns what it
+    // took to trace.
+    TileStats add_points(const FramePlacer& placer, const FrameTracer& tracer, const PointField& field,
+                         std::vector<PointSource>& points);
+
+  private:
+    struct Seen {
+        std::size_t object;
+        std::size_t first;      // number of its first glimpse
+        std::size_t count = 0;  // number of its glimpses
+        TileStats stats;
+    };
+    std::vector<std::unique_ptr<ObjectProbe>> probes_;  // by slot of the thread pool
+    std::vector<Seen> seen_;
+    std::vector<ObjectProbe::Glimpse>
+        glimpses_;  // glimpses of all objects, with room for the most
+};
+
+}  // namespace hilcam
