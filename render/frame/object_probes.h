@@ -32,8 +32,7 @@ class ObjectProbes {
     };
     std::vector<std::unique_ptr<ObjectProbe>> probes_;  // by slot of the thread pool
     std::vector<Seen> seen_;
-    std::vector<ObjectProbe::Glimpse>
-        glimpses_;  // glimpses of all objects, with room for the most
+    std::vector<ObjectProbe::Glimpse> glimpses_;  // glimpses of all objects, with room for the most
 };
 
 }  // namespace hilcam
