@@ -24,6 +24,9 @@ RayDensity density_of(const RenderQuality& quality) {
             static_cast<int>(std::min(quality.point_samples, quality.point_samples_least))};
 }
 
+// What is shown in more triangles than this is left to rays, which hardly cost more for more.
+constexpr std::size_t kMostTriangles = 8'000'000;
+
 }  // namespace
 
 FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeometry& geometry,
@@ -111,19 +114,18 @@ void FramePlacer::make_ground_visibility(const ImageGeometry& geometry) {
         !rays_->is_still())
         return;
     seen_.reserve(1);
-    const std::size_t most = terrain_->most_triangles() + terrain_->most_triangles() / 4;
+    const std::size_t most =
+        std::min(kMostTriangles, terrain_->most_triangles() + terrain_->most_triangles() / 4);
     ground_visibility_ =
         std::make_unique<VisibilityBuffer>(ground_geometry(geometry), VisibilityBuffer::Room{1, most, most});
 }
 
-// Objects shown in more triangles than this are left to rays, which hardly cost more for more.
 VisibilityBuffer::Room FramePlacer::visibility_room() const {
-    constexpr std::size_t kMaxTriangles = 8'000'000;
     VisibilityBuffer::Room room{objects_.size(), 0, 0};
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const MeshView mesh = embree_.mesh(i, 0);
-        room.vertices = std::min(kMaxTriangles, room.vertices + mesh.vertices_m.size());
-        room.triangles = std::min(kMaxTriangles, room.triangles + mesh.triangles.size());
+        room.vertices = std::min(kMostTriangles, room.vertices + mesh.vertices_m.size());
+        room.triangles = std::min(kMostTriangles, room.triangles + mesh.triangles.size());
     }
     return room;
 }
