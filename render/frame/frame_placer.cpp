@@ -24,7 +24,7 @@ RayDensity density_of(const RenderQuality& quality) {
             static_cast<int>(std::min(quality.point_samples, quality.point_samples_least))};
 }
 
-// What is shown in more triangles than this is left to rays, which hardly cost more for more.
+// Frames that show more triangles than this are left to rays, which hardly cost more for more.
 constexpr std::size_t kMostTriangles = 8'000'000;
 
 }  // namespace

@@ -10,14 +10,12 @@ Fields fields(RenderQuality& q) {
             text("visibility", q.visibility,
                  "rays; or buffer: what the camera sees is found by many samples a pixel at once. That needs "
                  "one instant for all rows, and a lens that bends lines little within 16 pixels; elsewhere, "
-                 "and for "
-                 "terrain with 16 or more samples, rays are used")),
+                 "and for terrain with 16 or more samples, rays are used")),
         per_frame(integer("buffer_samples", q.buffer_samples, {1, 64},
                           "number of the visibility buffer's samples in a pixel: 16 or 64; or 1, for terrain "
-                          "that is alone in "
-                          "the scene, in the Sun's light (path_model: direct) and by a lens without "
-                          "distortion: what one ray a "
-                          "pixel finds, for a third of the time; elsewhere it is as visibility: rays")),
+                          "that is alone in the scene, in the Sun's light (path_model: direct) and by a "
+                          "lens without distortion: what one ray a pixel finds, for a third of the time; "
+                          "elsewhere it is as visibility: rays")),
         per_frame(text("path_model", q.path_model,
                        "path model: kept | direct | hemisphere | path, or a plug-in's")),
         per_frame(integer("max_depth", q.max_depth, {1, 64},
@@ -57,9 +55,8 @@ Fields fields(RenderQuality& q) {
                 "rays in each direction of the grid by which an object of 8 pixels or less is measured"),
         integer("point_samples_least", q.point_samples_least, {8, 512},
                 "smaller objects have fewer of these rays, as the power 2/3 of their size, which leaves the "
-                "error "
-                "its share of their light's own noise, down to this number; from point_samples on: all have "
-                "as many"),
+                "error its share of their light's own noise, down to this number; from point_samples on: "
+                "all have as many"),
         per_frame(
             number("noise_budget", q.noise_budget, 1, {0, 100},
                    "share of a pixel's own sensor noise: the pixel is sampled again only while the standard "
