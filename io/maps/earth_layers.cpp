@@ -15,7 +15,8 @@ namespace {
 
 using Kind = EarthLayerConfig::Kind;
 
-// As tools/make_earth_map.py has them: grey of a picture to the clouds' scale, and a thickness's; thick ones reach higher.
+// These are tools/make_earth_map.py's: a power of a picture's grey is a cloud; of a thickness t the cloud is x / (1 + x) with x = (1 - g) t / 2,
+// the reflectance of two streams where nothing is absorbed (Bohren, Am. J. Phys. 55, 524, 1987), g = 0.85; thick clouds reach higher.
 constexpr float kCloudPower = 1.4f, kPerThickness = 0.075f, kLowestTop_m = 2000, kTopRise_m = 8000;
 constexpr float kSea = 0.999f;  // water from which on a texel has no land
 

@@ -43,7 +43,7 @@ StarSky::StarSky(std::vector<Star> stars, TimeTai time) : time_(time) {
     std::iota(order.begin(), order.end(), std::uint32_t{0});
     std::vector<std::size_t> begins;
     split(stars, order, 0, [&](std::size_t from, std::size_t to) {
-        // As the catalogue has them.
+        // A cell's stars stay in the catalogue's order.
         std::sort(order.begin() + static_cast<std::ptrdiff_t>(from),
                   order.begin() + static_cast<std::ptrdiff_t>(to));
         begins.push_back(from);
