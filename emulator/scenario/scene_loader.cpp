@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "emulator/ground/earth_loader.h"
 #include "emulator/ground/globe_loader.h"
 #include "emulator/progress/progress.h"
 #include "emulator/scenario/lamp_setup.h"
@@ -17,11 +18,9 @@
 #include "io/files/atmosphere_file.h"
 #include "io/files/brdf_file.h"
 #include "io/files/catalogue_file.h"
-#include "io/files/earth_map_file.h"
 #include "io/files/mesh_cache.h"
 #include "io/files/mesh_file.h"
 #include "io/files/mesh_level_cache.h"
-#include "io/maps/earth_layers.h"
 #include "io/pictures/picture_file.h"
 #include "render/brdf/brdf_table.h"
 #include "render/earth/earth_model.h"
@@ -283,39 +282,6 @@ void require_room(const SpectralGrid& grid, const ImageGeometry& g) {
                         g.padded_width(), g.padded_height(), grid.size(), frame_gb, machine_gb));
 }
 
-GroundMaps load_ground(const std::vector<EarthGroundConfig>& configs) {
-    std::vector<GroundMaps::Monthly> months;
-    std::vector<GroundMaps::Timed> instants;
-    for (const EarthGroundConfig& one : configs)
-        if (one.month != 0)
-            months.push_back({static_cast<int>(one.month), read_earth_map(one.map)});
-        else
-            instants.push_back({parse_utc(one.at_utc), read_earth_map(one.map)});
-    return months.empty() ? GroundMaps(std::move(instants)) : GroundMaps(std::move(months));
-}
-
-std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const Atmosphere* air,
-                                             const SpectralGrid& grid) {
-    if (config.map.empty()) return nullptr;
-    const Progress progress("Earth");
-    CloudMaps clouds;
-    if (config.cloud_seed != 0) clouds = seeded_clouds(static_cast<std::uint64_t>(config.cloud_seed));
-    if (!config.cloud_map.empty()) clouds = read_earth_map(config.cloud_map);
-    if (!config.clouds.empty()) {
-        std::vector<CloudMaps::Timed> maps;
-        for (const CloudsConfig& one : config.clouds)
-            maps.push_back({parse_utc(one.at_utc), read_earth_map(one.map)});
-        clouds = CloudMaps(std::move(maps));
-    }
-    if (!config.ground.empty()) {
-        if (clouds.empty()) clouds = read_earth_map(config.map);
-        return std::make_shared<EarthModel>(config, load_ground(config.ground), std::move(clouds), air, grid);
-    }
-    LayeredEarth earth = with_layers(read_earth_map(config.map), config.layers);
-    return std::make_shared<EarthModel>(config, std::move(earth.map), std::move(clouds), air, grid,
-                                        std::move(earth.detail));
-}
-
 BodyId body_named(const ScenarioConfig& s, const std::string& name) {
     std::vector<std::string> names(kBodyNames.begin(), kBodyNames.end());
     for (const OwnBodyConfig& own : s.own_bodies) names.push_back(own.name);
@@ -419,7 +385,10 @@ Scene load_scene(const ScenarioConfig& scenario, const SpectralGrid& grid, const
         const Progress progress("air");
         scene.air =
             modules.atmospheres.make(air.model, AtmosphereRequest{air, grid, table ? &*table : nullptr});
-        scene.earth = load_earth(scenario.earth_surface, scene.air.get(), grid);
+        if (!scenario.earth_surface.map.empty()) {
+            const Progress earth("Earth");
+            scene.earth = load_earth(scenario.earth_surface, scene.air.get(), grid);
+        }
     }
     if (scenario.sun.has_spectrum) require_cover(scenario.sun.spectrum, grid, "sun.spectrum");
     scene.sun_irradiance_1au_w_m2_um =

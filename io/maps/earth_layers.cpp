@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/maps/earth_layer_raster.h"
+#include "render/earth/cloud_table.h"
 #include "render/earth/land_colors.h"
 #include "render/vocabulary/check.h"
 
@@ -15,9 +16,8 @@ namespace {
 
 using Kind = EarthLayerConfig::Kind;
 
-// These are tools/make_earth_map.py's: a power of a picture's grey is a cloud; of a thickness t the cloud is x / (1 + x) with x = (1 - g) t / 2,
-// the reflectance of two streams where nothing is absorbed (Bohren, Am. J. Phys. 55, 524, 1987), g = 0.85; thick clouds reach higher.
-constexpr float kCloudPower = 1.4f, kPerThickness = 0.075f, kLowestTop_m = 2000, kTopRise_m = 8000;
+// The grey of a picture to the clouds' scale, and how high those reach: the figures of tools/make_earth_map.py, which says where they are from.
+constexpr float kCloudPower = 1.4f, kLowestTop_m = 2000, kTopRise_m = 8000;
 constexpr float kSea = 0.999f;  // water from which on a texel has no land
 
 // Values of all layers in a window.
@@ -42,7 +42,7 @@ class LayerValues {
         if (finds(Kind::kClouds, i, value))
             put_cloud(std::pow(std::clamp(value, 0.0f, 1.0f), kCloudPower), out);
         if (finds(Kind::kCloudThickness, i, value)) {
-            const float x = kPerThickness * std::clamp(value, 0.0f, 1e4f);
+            const float x = CloudTable::kB * std::clamp(value, 0.0f, 1e4f);
             put_cloud(x / (1 + x), out);
         }
         if (finds(Kind::kCloudTops, i, value))

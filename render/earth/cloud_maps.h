@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/earth/earth_map.h"
-#include "render/vocabulary/time.h"
+#include "render/earth/map_times.h"
 
 namespace hilcam {
 
@@ -26,17 +26,15 @@ class CloudMaps {
     int height() const;  // texels of the finest map; 0: there is none
     std::size_t bytes() const;
 
-    // The number of the map of an instant, with the share of the one after it behind the point. Loop, any thread.
-    double number_at(TimeTai time) const;
-    // Returns the nearest number that sample() takes; 0 of no maps.
-    double nearest(double number) const;
+    const MapTimes& times() const { return times_; }
     // Cloud and cloud top over a footprint, as EarthMap has them; nothing else. number: from 0 to count() - 1. Loop, any
     // thread.
     EarthSample sample(double number, float u, float v, const MapFootprint& footprint) const;
     EarthSample sample(double number, float u, float v, float width) const;
 
   private:
-    std::vector<Timed> maps_;
+    std::vector<EarthMap> maps_;
+    MapTimes times_;
 
     template <class Footprint>
     EarthSample mix(double number, float u, float v, const Footprint& footprint) const;

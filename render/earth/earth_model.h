@@ -64,10 +64,10 @@ class EarthModel {
     const GroundMaps& ground() const { return *ground_maps_; }
     // Returns where an instant lies between the maps; and the nearest place that there is.
     MapNumbers numbers_at(TimeTai time) const {
-        return {cloud_maps_->number_at(time), ground_maps_->number_at(time)};
+        return {cloud_maps_->times().number_at(time), ground_maps_->times().number_at(time)};
     }
     MapNumbers nearest(MapNumbers n) const {
-        return {cloud_maps_->nearest(n.clouds), ground_maps_->nearest(n.ground)};
+        return {cloud_maps_->times().nearest(n.clouds), ground_maps_->times().nearest(n.ground)};
     }
     // Returns the finer levels of the ground, to be read by one thread at a time; null: none.
     const std::shared_ptr<EarthDetail>& detail() const { return detail_; }

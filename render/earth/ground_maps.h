@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/earth/earth_map.h"
-#include "render/vocabulary/time.h"
+#include "render/earth/map_times.h"
 
 namespace hilcam {
 
@@ -29,21 +29,16 @@ class GroundMaps {
     int height() const;  // texels of the finest map
     std::size_t bytes() const;
 
-    // The number of the map of an instant, with the share of the one after it behind the point: from 0 to count() - 1, of months to count(),
-    // where the first one follows. Loop, any thread.
-    double number_at(TimeTai time) const;
-    // Returns the nearest number that sample() takes.
-    double nearest(double number) const;
+    const MapTimes& times() const { return times_; }
     // Means over a footprint. Loop, any thread.
     EarthSample sample(double number, float u, float v, const MapFootprint& footprint) const;
     EarthSample sample(double number, float u, float v, float width) const;
 
   private:
     std::vector<EarthMap> maps_;
-    // Instants, or shares of the year, as numbers of one kind [s, years].
-    std::vector<double> times_;
-    bool is_yearly_ = false;
+    MapTimes times_;
 
+    void require_maps() const;
     template <class Footprint>
     EarthSample mix(double number, float u, float v, const Footprint& footprint) const;
 };

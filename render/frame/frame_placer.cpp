@@ -45,7 +45,6 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
       full_mask_(geometry),
       rays_(modules.rays.make(models.rays.model, models.rays)),
       radiance_model_(modules.radiance.make(models.radiance)),
-      plain_light_(models.radiance == "reflected" || models.radiance == "emissive"),
       lod_error_px_(levels.front().lod_error_px),
       density_(density_of(levels.front())) {
     const RenderQuality& quality = levels.front();
@@ -108,8 +107,8 @@ void FramePlacer::make_visibility(const ImageGeometry& geometry, const RenderQua
 }
 
 void FramePlacer::make_ground_visibility(const ImageGeometry& geometry) {
-    const bool plain =
-        plain_light_ && lamps_.all().empty() && is_plain_ground(objects_.back().materials().front());
+    const bool plain = radiance_model_->reflects_plainly() && lamps_.all().empty() &&
+                       is_plain_ground(objects_.back().materials().front());
     if (ground_visibility_ || !terrain_ || objects_.size() > 1 || !plain || !geometry.distortion.none() ||
         !rays_->is_still())
         return;

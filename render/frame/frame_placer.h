@@ -133,7 +133,6 @@ class FramePlacer {
     std::unique_ptr<RayGenerator> rays_;
     std::unique_ptr<RadianceModel> radiance_model_;
     std::unique_ptr<ShownTerrain> terrain_;
-    bool plain_light_;  // reflected sunlight is what the radiance model has of the ground
     double lod_error_px_;
     RayDensity density_;
     FrameView frame_;

@@ -156,6 +156,7 @@ class RadianceEquation final : public RadianceModel {
         if (lamps != BodySampling::kNone) add_body_light(tile, vertices, lamps);
     }
     bool emits() const override { return emission_; }
+    bool reflects_plainly() const override { return true; }
 
   private:
     bool emission_;

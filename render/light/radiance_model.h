@@ -30,6 +30,9 @@ class RadianceModel {
     virtual void add_light(Tile& tile, std::span<const Vertex> vertices, BodySampling lamps) const = 0;
     // The materials' own emission counts.
     virtual bool emits() const = 0;
+    // True where of a surface that the Sun alone shines on it has f L cos, and its emission, and nothing else: such ground is
+    // worked out without asking it (render/sunlit_ground).
+    virtual bool reflects_plainly() const { return false; }
 };
 
 }  // namespace hilcam

@@ -10,47 +10,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "render/visibility/lane_vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace hilcam {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, GroundPacket::kSize>;
-using Ints = hn::RebindToSigned<Floats>;
-using V = hn::Vec<Floats>;
-using I = hn::Vec<Ints>;
-
-HWY_INLINE V number(float value) { return hn::Set(Floats(), value); }
-
-struct Vector {
-    V x, y, z;
-};
 HWY_INLINE Vector vector(Vec3f v) { return {number(v.x), number(v.y), number(v.z)}; }
-HWY_INLINE Vector minus(const Vector& a, const Vector& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Vector plus(const Vector& a, const Vector& b) {
-    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Vector times(V s, const Vector& a) { return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)}; }
-HWY_INLINE V dotted(const Vector& a, const Vector& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Vector crossed(const Vector& a, const Vector& b) {
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-// Zero where it has no length, or one beyond single precision.
-HWY_INLINE Vector unit(const Vector& a) {
-    const V squared = dotted(a, a);
-    const auto good = hn::And(hn::Gt(squared, number(1e-30f)), hn::Lt(squared, number(1e30f)));
-    return times(hn::IfThenElseZero(good, hn::Div(number(1), hn::Sqrt(squared))), a);
-}
-template <class Mask>
-HWY_INLINE Vector chosen(Mask mask, const Vector& yes, const Vector& no) {
-    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-            hn::IfThenElse(mask, yes.z, no.z)};
-}
 HWY_INLINE Vector load(const GroundPacket::Vectors& from, std::size_t k) {
     const Floats d;
     return {hn::Load(d, from.x.data() + k), hn::Load(d, from.y.data() + k), hn::Load(d, from.z.data() + k)};
@@ -60,19 +26,6 @@ HWY_INLINE V load(const GroundPacket::Floats& from, std::size_t k) {
 }
 HWY_INLINE void store(V value, GroundPacket::Floats& to, std::size_t k) {
     hn::Store(value, Floats(), to.data() + k);
-}
-
-// unpack_long_normal() (packed_normal.h).
-HWY_INLINE Vector unpacked(I bits) {
-    const Floats d;
-    const V scale = number(1.0f / 32767.0f);
-    V x = hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(hn::ShiftLeft<16>(bits))), scale);
-    V y = hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(bits)), scale);
-    const V z = hn::Sub(hn::Sub(number(1), hn::Abs(x)), hn::Abs(y));
-    const V t = hn::Max(hn::Neg(z), number(0));
-    x = hn::Add(x, hn::CopySign(t, hn::Neg(x)));
-    y = hn::Add(y, hn::CopySign(t, hn::Neg(y)));
-    return {x, y, z};
 }
 
 // Natural logarithm of a normal positive number, as sensor/noise.cpp has it: error below 2e-7.
@@ -111,7 +64,8 @@ struct alignas(64) Neighbours {
         const auto between = [&](const std::uint32_t* row) {
             I first, second;
             hn::LoadInterleaved2(Ints(), reinterpret_cast<const std::int32_t*>(row) + 2 * k, first, second);
-            return plus(times(hn::Sub(number(1), dx), unpacked(first)), times(dx, unpacked(second)));
+            return plus(times(hn::Sub(number(1), dx), unpacked_long(first)),
+                        times(dx, unpacked_long(second)));
         };
         return plus(times(hn::Sub(number(1), dy), between(low)), times(dy, between(high)));
     }
@@ -181,20 +135,11 @@ void gather(const GroundInFrame& frame, const GroundPacket& p, Corners& out) {
     }
 }
 
-// Moeller & Trumbore (J. Graphics Tools 2(1), 1997), kept to the triangle, as find_lies() has it.
 HWY_INLINE void meet(const Vector (&at)[3], const Vector& camera, const Vector& dir, std::size_t k,
                      GroundPacket& p) {
-    const Vector e1 = minus(at[1], at[0]), e2 = minus(at[2], at[0]), from_corner = minus(camera, at[0]);
-    const Vector across = crossed(dir, e2), along = crossed(from_corner, e1);
-    const V inverse = hn::Div(number(1), dotted(e1, across));
-    V u = hn::Mul(dotted(from_corner, across), inverse), v = hn::Mul(dotted(dir, along), inverse);
-    const auto placed = hn::And(hn::IsFinite(u), hn::IsFinite(v));
-    const V third = number(1.0f / 3);
-    u = hn::Min(hn::Max(hn::IfThenElse(placed, u, third), number(0)), number(1));
-    v = hn::Min(hn::Max(hn::IfThenElse(placed, v, third), number(0)), number(1));
-    const V within = hn::Div(number(1), hn::Max(hn::Add(u, v), number(1)));
-    store(hn::Mul(u, within), p.u, k), store(hn::Mul(v, within), p.v, k);
-    const Vector raw = crossed(e1, e2);
+    const Meeting m = meeting_of(at, camera, dir);
+    store(m.u, p.u, k), store(m.v, p.v, k);
+    const Vector raw = crossed(m.e1, m.e2);
     const auto back = hn::Gt(dotted(raw, dir), number(0));
     const Vector seen = chosen(back, times(number(-1), raw), raw);
     store(seen.x, p.geometric.x, k), store(seen.y, p.geometric.y, k), store(seen.z, p.geometric.z, k);

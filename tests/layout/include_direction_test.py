@@ -47,6 +47,7 @@ ONLY_IN = {
     "vizard.pb": {"io/vizard/vizard_message.cpp"},
     "zmq": {"io/vizard/commands_vizard.cpp"},
     "hwy": {"render/light/primary_vertices.cpp", "render/sunlit_ground/ground_packet.cpp", "render/visibility/fragment_packet.cpp",
+            "render/visibility/lane_vectors-inl.h",
             "render/visibility/visibility_raster.cpp", "sensor/convolution/fourier.cpp"},
     "gdal": {"io/maps/gdal_raster.cpp"},
     "ogr_": {"io/maps/gdal_raster.cpp"},

@@ -37,14 +37,14 @@ CloudMaps three_maps() {
 
 TEST(CloudMaps, AnInstantHasTwoMapsAndAShare) {
     const CloudMaps maps = three_maps();
-    EXPECT_DOUBLE_EQ(maps.number_at(hours_after_noon(-3)), 0);
-    EXPECT_DOUBLE_EQ(maps.number_at(kNoon), 0);
-    EXPECT_DOUBLE_EQ(maps.number_at(hours_after_noon(1.5)), 0.25);
-    EXPECT_DOUBLE_EQ(maps.number_at(hours_after_noon(6)), 1);
-    EXPECT_DOUBLE_EQ(maps.number_at(hours_after_noon(6.75)), 1.75);
-    EXPECT_DOUBLE_EQ(maps.number_at(hours_after_noon(7)), 2);
-    EXPECT_DOUBLE_EQ(maps.number_at(hours_after_noon(1000)), 2);
-    EXPECT_DOUBLE_EQ(CloudMaps(even_clouds(1, 1)).number_at(kNoon), 0);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(hours_after_noon(-3)), 0);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(kNoon), 0);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(hours_after_noon(1.5)), 0.25);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(hours_after_noon(6)), 1);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(hours_after_noon(6.75)), 1.75);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(hours_after_noon(7)), 2);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(hours_after_noon(1000)), 2);
+    EXPECT_DOUBLE_EQ(CloudMaps(even_clouds(1, 1)).times().number_at(kNoon), 0);
     EXPECT_TRUE(CloudMaps(EarthMap()).empty());
 }
 

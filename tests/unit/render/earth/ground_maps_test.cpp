@@ -32,7 +32,7 @@ TEST(GroundMaps, MonthsComeAgainEachYear) {
     const GroundMaps maps = four_seasons();
     for (const int year : {1999, 2026, 2060}) {
         const auto at = [&](const std::string& day) {
-            return maps.number_at(parse_utc(std::to_string(year) + day + "T00:00:00Z"));
+            return maps.times().number_at(parse_utc(std::to_string(year) + day + "T00:00:00Z"));
         };
         // A day is a ninetieth of the way; the mean year is within two of each year's own.
         EXPECT_NEAR(at("-01-16"), 0, 0.03) << year;
@@ -44,10 +44,10 @@ TEST(GroundMaps, MonthsComeAgainEachYear) {
         EXPECT_NEAR(at("-01-01"), 3.84, 0.04) << year;
     }
     // Nothing steps there.
-    EXPECT_NEAR(maps.number_at(parse_utc("2026-12-31T23:59:59Z")),
-                maps.number_at(parse_utc("2027-01-01T00:00:01Z")), 0.03);
-    EXPECT_DOUBLE_EQ(maps.nearest(4.5), 0.5);
-    EXPECT_DOUBLE_EQ(maps.nearest(-0.25), 3.75);
+    EXPECT_NEAR(maps.times().number_at(parse_utc("2026-12-31T23:59:59Z")),
+                maps.times().number_at(parse_utc("2027-01-01T00:00:01Z")), 0.03);
+    EXPECT_DOUBLE_EQ(maps.times().nearest(4.5), 0.5);
+    EXPECT_DOUBLE_EQ(maps.times().nearest(-0.25), 3.75);
 }
 
 TEST(GroundMaps, BetweenTwoIsTheirMean) {
@@ -68,10 +68,10 @@ TEST(GroundMaps, InstantsStayBeforeTheFirstAndAfterTheLast) {
     timed.push_back({parse_utc("2026-03-01T00:00:00Z"), even_ground(100)});
     timed.push_back({parse_utc("2026-03-11T00:00:00Z"), even_ground(200)});
     const GroundMaps maps(std::move(timed));
-    EXPECT_DOUBLE_EQ(maps.number_at(parse_utc("2020-01-01T00:00:00Z")), 0);
-    EXPECT_NEAR(maps.number_at(parse_utc("2026-03-06T00:00:00Z")), 0.5, 1e-9);
-    EXPECT_DOUBLE_EQ(maps.number_at(parse_utc("2030-01-01T00:00:00Z")), 1);
-    EXPECT_DOUBLE_EQ(maps.nearest(1.5), 1);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(parse_utc("2020-01-01T00:00:00Z")), 0);
+    EXPECT_NEAR(maps.times().number_at(parse_utc("2026-03-06T00:00:00Z")), 0.5, 1e-9);
+    EXPECT_DOUBLE_EQ(maps.times().number_at(parse_utc("2030-01-01T00:00:00Z")), 1);
+    EXPECT_DOUBLE_EQ(maps.times().nearest(1.5), 1);
 }
 
 // What the disk sends at a time of the year, without clouds.
@@ -97,7 +97,8 @@ TEST(GroundMaps, FramesShowTheTimeOfTheYear) {
     const double january = light_at("2026-01-16", false), july = light_at("2026-07-16", false);
     const GroundMaps maps = four_seasons();
     const auto grey = [&](const char* day) {
-        return static_cast<double>(maps.sample(maps.number_at(parse_utc(day)), 0.3f, 0.4f, 0.0f).land(2));
+        return static_cast<double>(
+            maps.sample(maps.times().number_at(parse_utc(day)), 0.3f, 0.4f, 0.0f).land(2));
     };
     EXPECT_NEAR(january / july, grey("2026-01-16T00:00:00Z") / grey("2026-07-16T00:00:00Z"), 0.05);
     EXPECT_GT(january / july, 15);  // (200 / 50)^2 in the middles of the months

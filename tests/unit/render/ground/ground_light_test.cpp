@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <hwy/highway.h>
-
 #include <cmath>
 #include <tuple>
 
@@ -14,6 +12,7 @@
 #include "render/ground/globe_terrain.h"
 #include "tests/support/ground_maps.h"
 #include "tests/support/stage.h"
+#include "tests/support/vector_widths.h"
 
 namespace hilcam {
 namespace {
@@ -125,19 +124,11 @@ TEST(GroundLight, IsDarkInTheNight) {
 }
 
 TEST(GroundLight, IsTheSameWithVectorsOfAnyWidth) {
-    const auto values = [] {
+    expect_same_by_any_width([] {
         Landscape stage(regolith(0), {}, 1);
         stage.render();
         return values_of(stage);
-    };
-    const std::vector<float> widest = values();
-    for (const std::int64_t width : {HWY_AVX2, HWY_SSE4}) {
-        hwy::DisableTargets(~width);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        EXPECT_EQ(values(), widest) << hwy::TargetName(width);
-    }
-    hwy::DisableTargets(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
 }
 
 // What stands on the ground, or shines on it beside the Sun, is for rays.

@@ -1,7 +1,6 @@
 #include "render/visibility/visibility_buffer.h"
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <random>
 
 #include "render/brdf/microfacet.h"
+#include "tests/support/vector_widths.h"
 
 namespace hilcam {
 namespace {
@@ -274,16 +274,10 @@ TEST(VisibilityBuffer, SeesTheSameWithVectorsOfAnyWidth) {
     Sight sight(200, 150, 300);
     sight.add(debris(1501, 3, 5), turned({0, 0, 8}));
     sight.add(sphere(1, 50), turned({0.3, 0.1, 1.2}));
-    ASSERT_TRUE(sight.place());
-    const std::vector<std::uint32_t> widest = ids_of(sight);
-    for (const std::int64_t width : {HWY_AVX2, HWY_SSE4}) {
-        hwy::DisableTargets(~width);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_same_by_any_width([&] {
         EXPECT_TRUE(sight.place());
-        EXPECT_EQ(ids_of(sight), widest) << hwy::TargetName(width);
-    }
-    hwy::DisableTargets(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        return ids_of(sight);
+    });
 }
 
 // A processor's threads sort triangles in any order.

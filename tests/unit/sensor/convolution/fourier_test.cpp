@@ -1,13 +1,13 @@
 #include "sensor/convolution/fourier.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <array>
 #include <numbers>
 #include <vector>
 
 #include "sensor/convolution/convolve.h"
+#include "tests/support/vector_widths.h"
 
 namespace hilcam {
 namespace {
@@ -96,14 +96,7 @@ TEST(Fourier, GivesTheSameBitsWithVectorsOfAnyWidth) {
         for (int y = 0; y < 84; ++y) all.insert(all.end(), picture.row(y).begin(), picture.row(y).end());
         return all;
     };
-    const std::vector<float> widest = blurred();
-    for (const std::int64_t width : {HWY_AVX2, HWY_SSE4, HWY_SSSE3}) {
-        hwy::DisableTargets(~width);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        EXPECT_EQ(blurred(), widest) << hwy::TargetName(width);
-    }
-    hwy::DisableTargets(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_same_by_any_width(blurred, {HWY_AVX2, HWY_SSE4, HWY_SSSE3});
 }
 
 TEST(Fourier, SquaresGoThereAndBack) {

@@ -1,0 +1,43 @@
+#include "emulator/ground/earth_loader.h"
+
+#include "io/files/earth_map_file.h"
+#include "io/maps/earth_layers.h"
+
+namespace hilcam {
+namespace {
+
+GroundMaps load_ground(const std::vector<EarthGroundConfig>& configs) {
+    std::vector<GroundMaps::Monthly> months;
+    std::vector<GroundMaps::Timed> instants;
+    for (const EarthGroundConfig& one : configs)
+        if (one.month != 0)
+            months.push_back({static_cast<int>(one.month), read_earth_map(one.map)});
+        else
+            instants.push_back({parse_utc(one.at_utc), read_earth_map(one.map)});
+    return months.empty() ? GroundMaps(std::move(instants)) : GroundMaps(std::move(months));
+}
+
+}  // namespace
+
+std::shared_ptr<const EarthModel> load_earth(const EarthConfig& config, const Atmosphere* air,
+                                             const SpectralGrid& grid) {
+    if (config.map.empty()) return nullptr;
+    CloudMaps clouds;
+    if (config.cloud_seed != 0) clouds = seeded_clouds(static_cast<std::uint64_t>(config.cloud_seed));
+    if (!config.cloud_map.empty()) clouds = read_earth_map(config.cloud_map);
+    if (!config.clouds.empty()) {
+        std::vector<CloudMaps::Timed> maps;
+        for (const CloudsConfig& one : config.clouds)
+            maps.push_back({parse_utc(one.at_utc), read_earth_map(one.map)});
+        clouds = CloudMaps(std::move(maps));
+    }
+    if (!config.ground.empty()) {
+        if (clouds.empty()) clouds = read_earth_map(config.map);
+        return std::make_shared<EarthModel>(config, load_ground(config.ground), std::move(clouds), air, grid);
+    }
+    LayeredEarth earth = with_layers(read_earth_map(config.map), config.layers);
+    return std::make_shared<EarthModel>(config, std::move(earth.map), std::move(clouds), air, grid,
+                                        std::move(earth.detail));
+}
+
+}  // namespace hilcam
