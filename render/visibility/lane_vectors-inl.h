@@ -66,7 +66,7 @@ HWY_INLINE Vector unpacked_long(I packed) {
     return {x, y, z};
 }
 
-// Where rays meet the planes of triangles.
+// A meeting is where rays meet the planes of triangles.
 struct Meeting {
     Vector e1, e2, from_corner;  // edges, and the way from the first corner to the rays' origin
     V u, v;                      // barycentric, kept to the triangle
