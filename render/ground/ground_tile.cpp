@@ -55,8 +55,8 @@ void add_between(const std::vector<T>& nodes, int node_side, int side, std::vect
 }
 
 // The weights of texels about a vertex: a tent as wide as the quadrilaterals.
-constexpr std::array<double, 2 * kTexels - 1> kTent = {1, 2, 3, 4, 5, 6, 7, 8, 7, 6, 5, 4, 3, 2, 1};
-static_assert(kTexels == 8);
+constexpr std::array<double, 2 * kTexels - 1> kTent = {1, 2, 3, 4, 3, 2, 1};
+static_assert(kTexels == 4);
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 // on the ground of the level above, so that a mesh can go from one to the other without a step (continuous levels of
 // detail; Strugar, J. Graphics, GPU and Game Tools 14(4), 57, 2009).
 //
-// The ground is worked out at texels, eight on an edge of a quadrilateral: they have the normals that it is shaded with
+// The ground is worked out at texels, four on an edge of a quadrilateral: they have the normals that it is shaded with
 // (ground_normals.h), and a vertex is their weighted mean about it.
 
 #include <cstdint>

@@ -21,7 +21,7 @@ enum class KnownSun : std::uint8_t { kAsk, kLit, kDark };
 
 class GroundNormals {
   public:
-    static constexpr int kQuads = 32, kTexels = 8;
+    static constexpr int kQuads = 32, kTexels = 4;
     static constexpr int kSide = kQuads * kTexels + 1, kHalfSide = kQuads * kTexels / 2 + 1;
     using Grid = std::vector<std::uint32_t>;  // packed normals, by row
 
