@@ -105,14 +105,17 @@ struct Limits {
 RenderQuality limited(const RenderQuality& from, const RenderQuality& configured, const Limits& to) {
     RenderQuality q = from;
     q.samples_per_axis = std::min(q.samples_per_axis, to.samples_per_axis);
+    if (q.sees_ground()) q.ground_step_px = 2;
     q.buffer_samples = std::min<std::int64_t>(q.buffer_samples, 16);
-    q.max_depth = std::min(q.max_depth, to.max_depth);
-    q.contribution_threshold = std::max(q.contribution_threshold, to.contribution_threshold);
+    if (q.path_model != "direct") {
+        q.max_depth = std::min(q.max_depth, to.max_depth);
+        q.contribution_threshold = std::max(q.contribution_threshold, to.contribution_threshold);
+    }
     q.lod_error_px = std::max(q.lod_error_px, to.lod_error_px);
     q.noise_budget = to.budget_factor * configured.noise_budget;
     q.sun_disk = false;
     if (to.direct) q.path_model = "direct";
-    if (to.rays) q.visibility = "rays";
+    if (to.rays && !q.sees_ground()) q.visibility = "rays";
     return q;
 }
 

@@ -88,6 +88,17 @@ TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
     }
 }
 
+// Ground alone by fewer pixels comes first, and rays, which take longer for it, do not come at all.
+TEST(QualityLadder, GroundAloneGoesToEverySecondPixel) {
+    RenderQuality ground = shipped("realtime.yaml");
+    ground.buffer_samples = 1, ground.path_model = "direct", ground.max_depth = 1;
+    ASSERT_TRUE(ground.sees_ground());
+    const std::vector<RenderQuality> levels = built_in_levels(ground);
+    ASSERT_FALSE(levels.empty());
+    EXPECT_EQ(difference(ground, levels.front()), "ground_step_px 2");
+    for (const RenderQuality& q : levels) EXPECT_TRUE(q.sees_ground());
+}
+
 TEST(QualityLadder, TheSensorIsToldOfEveryRayGrid) {
     ScenarioConfig s;
     s.quality.render.samples_per_axis = 4;
