@@ -292,7 +292,8 @@ void FramePlacer::place_earth_detail() {
 void FramePlacer::place_visibility() {
     if (ground_is_alone()) {
         seen_.clear();
-        seen_.push_back({0, world_.objects.back(), radii_m_.back(), embree_.mesh(0, 0)});
+        seen_.push_back(
+            {0, world_.objects.back(), radii_m_.back(), embree_.mesh(0, 0), shown_.back()->cluster_bounds_m});
         VisibilityBuffer& buffer = *ground_visibility(ground_step_px_);
         if (buffer.place(world_.camera, seen_))
             frame_.ground = &buffer, frame_.ground_step_px = ground_step_px_;
@@ -303,8 +304,8 @@ void FramePlacer::place_visibility() {
     seen_.clear();
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh)
-            seen_.push_back(
-                {static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i], embree_.mesh(i, levels_[i])});
+            seen_.push_back({static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i],
+                             embree_.mesh(i, levels_[i]), shown_[i]->cluster_bounds_m});
     if (buffer->place(world_.camera, seen_)) frame_.visibility = buffer;
 }
 

@@ -76,7 +76,7 @@ TEST(GroundPlaces, ABoxWhosePlacesAreNotKnownIsLeftAlone) {
 TEST(GroundPlaces, HasRoomForThePicturesOfOneKind) {
     const GroundPlaces places{RadianceImage(kWidth_px, kHeight_px, 2)};
     EXPECT_TRUE(places.has_room_for(RadianceImage(kWidth_px, kHeight_px, 2)));
-    EXPECT_FALSE(places.has_room_for(RadianceImage(kWidth_px + 1, kHeight_px, 2)));
+    EXPECT_FALSE(places.has_room_for(RadianceImage(kWidth_px + 2, kHeight_px, 2)));
     EXPECT_FALSE(places.has_room_for(RadianceImage(kWidth_px, kHeight_px, 1)));
     EXPECT_FALSE(places.has_room_for(RadianceImage(kWidth_px, kHeight_px, {Spectrum{}, Spectrum{}})));
 }
