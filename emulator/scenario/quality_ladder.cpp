@@ -105,23 +105,28 @@ struct Limits {
 RenderQuality limited(const RenderQuality& from, const RenderQuality& configured, const Limits& to) {
     RenderQuality q = from;
     q.samples_per_axis = std::min(q.samples_per_axis, to.samples_per_axis);
-    if (q.sees_ground()) q.ground_step_px = 2;
     q.buffer_samples = std::min<std::int64_t>(q.buffer_samples, 16);
-    if (q.path_model != "direct") {
-        q.max_depth = std::min(q.max_depth, to.max_depth);
-        q.contribution_threshold = std::max(q.contribution_threshold, to.contribution_threshold);
-    }
+    q.max_depth = std::min(q.max_depth, to.max_depth);
+    q.contribution_threshold = std::max(q.contribution_threshold, to.contribution_threshold);
     q.lod_error_px = std::max(q.lod_error_px, to.lod_error_px);
     q.noise_budget = to.budget_factor * configured.noise_budget;
     q.sun_disk = false;
     if (to.direct) q.path_model = "direct";
-    if (to.rays && !q.sees_ground()) q.visibility = "rays";
+    if (to.rays) q.visibility = "rays";
     return q;
+}
+
+// What makes other frames faster does nothing for ground that is alone, and rays take longer.
+std::vector<RenderQuality> levels_of_ground(RenderQuality quality) {
+    if (quality.ground_step_px > 1) return {};
+    quality.ground_step_px = 2;
+    return {quality};
 }
 
 }  // namespace
 
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
+    if (configured.sees_ground()) return levels_of_ground(configured);
     const Limits steps[] = {{2, 3, 0.005, 0.25, 2, false, false}, {1, 2, 0.5, 0.5, 4, false, false},
                             {1, 2, 0.5, 1, 0, false, false},      {1, 1, 1, 1, 0, false, false},
                             {1, 1, 1, 2, 0, true, false},         {1, 1, 1, 2, 0, true, true}};

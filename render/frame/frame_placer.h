@@ -61,6 +61,11 @@ class FramePlacer {
     void place(const WorldSnapshot& world, RandomKey key);
     // Does so without the light that is kept: for what asks where things are, and no more. Loop.
     void place_shapes(const WorldSnapshot& world, RandomKey key);
+    // Makes the terrain's first mesh, for which the first frame would wait. Terrain that waits makes each frame's own: nothing.
+    // Owner thread.
+    void make_ground_ahead(const WorldSnapshot& world) {
+        if (terrain_ && !terrain_->waits()) place_shapes(world, {});
+    }
 
     // --- the frame that was placed last
 
