@@ -46,10 +46,6 @@ class GlobeTerrain final : public Terrain {
         const GroundTile* tile;
         bool outside;  // beside the field or behind the horizon
     };
-    // A place is where a tile begins in a mesh.
-    struct Place {
-        std::size_t vertex, triangle;
-    };
     GroundSurface surface_;
     std::vector<std::unique_ptr<const GroundDetail>> details_;
     GroundTileMaker maker_;
@@ -70,7 +66,7 @@ class GlobeTerrain final : public Terrain {
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;
     static void forget_oldest(Tiles& tiles, std::size_t most);
     TerrainMesh assemble(const TerrainView& view, double edges, const std::vector<Leaf>& leaves) const;
-    void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, Place first,
+    void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, const MeshGrid& grid,
                 Mesh& mesh) const;
     void take_normals(const TerrainView& view, double edges, const Leaf& leaf,
                       GroundNormals::Tile& normals) const;
