@@ -12,6 +12,7 @@
 
 #include "render/ground/crater_law.h"
 #include "render/ground/crater_profile.h"
+#include "render/ground/crater_shape.h"
 #include "render/ground/ground_detail.h"
 #include "render/ground/seeded_octaves.h"
 #include "render/vocabulary/config_field.h"
@@ -47,9 +48,7 @@ class CraterField final : public GroundDetail {
 
   private:
     struct Shaped : Crater {
-        std::array<double, 4> wave_cos, wave_sin;  // waves of the rim's outline, of 2 to 5 turns
-        double bright = 0, ray_phase_rad = 0;
-        int ray_count = 7;
+        CraterShape shape;
     };
     double radius_m_;
     CraterSettings settings_;
@@ -58,7 +57,6 @@ class CraterField final : public GroundDetail {
     SeededOctaves octaves_;
 
     Shaped shaped(const SeededOctaves::Thing& thing) const;
-    void add_one(const Shaped& crater, const GroundPatch& patch) const;
 };
 
 }  // namespace hilcam

@@ -68,15 +68,19 @@ double GroundTileMaker::spacing_m(int level) const {
 std::vector<Vec3d> GroundTileMaker::places_of(const Grid& grid, int step, int first, int side) const {
     const double tiles = std::ldexp(1, grid.key.level);
     const int texels = grid.quads * kTexels;
-    const auto at = [&](std::int32_t tile, int k) {
+    const auto tangents_of = [&](std::int32_t tile) {
+        std::vector<double> tangents;
         // A whole number over a power of two: neighbours have the same bits.
-        return -1 + 2 * ((static_cast<double>(tile) * texels + first + step * k) / (tiles * texels));
+        for (int k = 0; k < side; ++k)
+            tangents.push_back(cube_tangent(
+                -1 + 2 * ((static_cast<double>(tile) * texels + first + step * k) / (tiles * texels))));
+        return tangents;
     };
+    const std::vector<double> across = tangents_of(grid.key.column), up = tangents_of(grid.key.row);
     std::vector<Vec3d> places;
     places.reserve(static_cast<std::size_t>(side * side));
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            places.push_back(cube_direction(grid.key.face, {at(grid.key.column, x), at(grid.key.row, y)}));
+    for (const double y : up)
+        for (const double x : across) places.push_back(cube_direction_of_tangents(grid.key.face, {x, y}));
     return places;
 }
 
