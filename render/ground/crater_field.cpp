@@ -37,16 +37,24 @@ CraterField::CraterField(double radius_m, const CraterSettings& s)
           [this](double diameter_m) { return law_.per_m2(diameter_m); },
           [](const SeededOctaves::Octave& octave) { return CraterProfile::kReach * octave.least_m; }) {}
 
-CraterField::Shaped CraterField::shaped(const SeededOctaves::Thing& thing) const {
-    Shaped c;
+Crater CraterField::crater_of(const SeededOctaves::Thing& thing) const {
+    Crater c;
     c.place = thing.place;
     c.diameter_m = law_.diameter_m(thing.above);
     const double radius_m = 0.5 * c.diameter_m;
     const double oldest = settings_.diffusivity_m2_ga * settings_.age_ga / (radius_m * radius_m);
     c.worn = thing.spare * std::min(CraterProfile::kMostWorn, oldest);
-    CraterShape& shape = c.shape;
+    return c;
+}
+
+double CraterField::bright_of(const Crater& c) const {
+    return settings_.rays * std::max(0.0, 1 - c.worn / kRaysWorn);
+}
+
+CraterShape CraterField::shape_of(const Crater& c, const SeededOctaves::Thing& thing) const {
+    CraterShape shape;
     shape.place = c.place, shape.axes = axes_along(c.place);
-    shape.radius_m = radius_m, shape.body_radius_m = radius_m_;
+    shape.radius_m = 0.5 * c.diameter_m, shape.body_radius_m = radius_m_;
     shape.depth_m = CraterProfile::fresh_depth(c.diameter_m) * c.diameter_m;
     shape.profile = profile_.at(c.worn);
     const auto waves = thing.words(1), phases = thing.words(2), rays = thing.words(3);
@@ -56,16 +64,16 @@ CraterField::Shaped CraterField::shaped(const SeededOctaves::Thing& thing) const
         const double phase_rad = 2 * kPi * GroundCells::uniform(phases[i]);
         shape.wave_cos[i] = wave * std::cos(phase_rad), shape.wave_sin[i] = wave * std::sin(phase_rad);
     }
-    shape.bright = settings_.rays * std::max(0.0, 1 - c.worn / kRaysWorn);
+    shape.bright = bright_of(c);
     shape.ray_phase_rad = 2 * kPi * GroundCells::uniform(rays[0]);
     shape.ray_count = 5 + static_cast<int>(rays[1] % 7);
-    return c;
+    return shape;
 }
 
 void CraterField::find(Vec3d middle, double reach_rad, double smallest_m,
                        std::vector<Crater>& craters) const {
     octaves_.visit_within(middle, reach_rad, smallest_m, [&](const SeededOctaves::Thing& thing) {
-        if (const Shaped c = shaped(thing); c.diameter_m >= smallest_m) craters.push_back(c);
+        if (const Crater c = crater_of(thing); c.diameter_m >= smallest_m) craters.push_back(c);
     });
 }
 
@@ -73,10 +81,10 @@ void CraterField::add(const GroundPatch& patch) const {
     // A crater of fewer posts is no crater.
     constexpr double kPosts = 2.5;
     octaves_.visit_on(patch, kPosts, 0.5 * CraterShape::kRayReach, [&](const SeededOctaves::Thing& thing) {
-        const Shaped c = shaped(thing);
-        const double reach_m = c.shape.reach() * c.shape.radius_m;
+        const Crater c = crater_of(thing);
+        const double reach_m = CraterShape::reach(bright_of(c)) * 0.5 * c.diameter_m;
         if (length(c.place - patch.middle) * radius_m_ <= patch.reach_rad * radius_m_ * 1.001 + reach_m)
-            add_crater(c.shape, patch);
+            add_crater(shape_of(c, thing), patch);
     });
 }
 

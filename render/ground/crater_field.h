@@ -47,16 +47,15 @@ class CraterField final : public GroundDetail {
     double per_m2_at(Vec3d, double diameter_m) const { return per_m2(diameter_m); }
 
   private:
-    struct Shaped : Crater {
-        CraterShape shape;
-    };
     double radius_m_;
     CraterSettings settings_;
     CraterLaw law_;
     CraterProfile profile_;
     SeededOctaves octaves_;
 
-    Shaped shaped(const SeededOctaves::Thing& thing) const;
+    Crater crater_of(const SeededOctaves::Thing& thing) const;
+    double bright_of(const Crater& crater) const;
+    CraterShape shape_of(const Crater& crater, const SeededOctaves::Thing& thing) const;
 };
 
 }  // namespace hilcam

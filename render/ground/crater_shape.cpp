@@ -31,7 +31,7 @@ struct Vector {
 class CraterDistances {
   public:
     explicit CraterDistances(const CraterShape& c) : c_(c) {
-        const double most = c.reach() * 1.1 * c.radius_m / c.body_radius_m;
+        const double most = CraterShape::reach(c.bright) * 1.1 * c.radius_m / c.body_radius_m;
         most2_ = most * most;
     }
     // False where none of the places is within its reach; distances are then not found.
@@ -99,7 +99,8 @@ void add(const CraterShape& c, const GroundPatch& patch) {
     constexpr std::size_t kMost = 8;
     const std::size_t lanes = hn::Lanes(d);
     const CraterDistances distances(c);
-    const GroundPatch::Window w = patch.window(c.place, c.reach() * 1.1 * c.radius_m / c.body_radius_m);
+    const GroundPatch::Window w =
+        patch.window(c.place, CraterShape::reach(c.bright) * 1.1 * c.radius_m / c.body_radius_m);
     const bool colored = c.bright > 0 && !patch.colors.empty();
     const auto add_some = [&](const double* places, double* heights_m, std::size_t first, std::size_t count) {
         V x, distances2;

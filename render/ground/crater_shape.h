@@ -25,7 +25,7 @@ struct CraterShape {
 
     // The rays of the youngest reach farther than their heights [radii].
     static constexpr double kRayReach = 6;
-    double reach() const { return bright > 0 ? kRayReach : CraterProfile::kReach; }
+    static double reach(double bright) { return bright > 0 ? kRayReach : CraterProfile::kReach; }
 };
 
 // Adds the crater to a patch's heights, and its rays to the colours.

@@ -45,13 +45,14 @@ void add_between(const std::vector<T>& nodes, int node_side, int side, std::vect
             rows[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
                 x / kTexels > interval(x) ? row[interval(x) + 2] : blend(row + interval(x), 1, x % kTexels);
         }
-    for (int y = 0; y < side; ++y)
-        for (std::size_t x = 0; x < width; ++x) {
-            const T* const column = rows.data() + static_cast<std::size_t>(interval(y)) * width + x;
-            texels[static_cast<std::size_t>(y) * width + x] =
-                texels[static_cast<std::size_t>(y) * width + x] +
-                (y / kTexels > interval(y) ? column[2 * width] : blend(column, width, y % kTexels));
-        }
+    for (int y = 0; y < side; ++y) {
+        const T* const above = rows.data() + static_cast<std::size_t>(interval(y)) * width;
+        T* const to = texels.data() + static_cast<std::size_t>(y) * width;
+        if (y / kTexels > interval(y))
+            for (std::size_t x = 0; x < width; ++x) to[x] = to[x] + above[2 * width + x];
+        else
+            for (std::size_t x = 0; x < width; ++x) to[x] = to[x] + blend(above + x, width, y % kTexels);
+    }
 }
 
 // The weights of texels about a vertex: a tent as wide as the quadrilaterals.
