@@ -83,27 +83,24 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
     }
     if (!mesh.colors.empty()) corner_colors.resize(mesh.triangles.size());
     if (!mesh.hapke.empty()) corner_hapke.resize(mesh.triangles.size());
-    // A zero normal stands for "the file has none here".
-    const auto missing = [&](std::uint32_t vertex) {
-        return !(dot(mesh.normals[vertex], mesh.normals[vertex]) > 0);
-    };
     std::vector<std::uint32_t> normals(mesh.normals.size());
-    for (std::uint32_t i = 0; i < normals.size(); ++i)
-        if (!missing(i)) normals[i] = pack_normal(mesh.normals[i]);
+    // A zero normal stands for "the file has none here".
+    std::vector<std::uint8_t> missing(mesh.normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        missing[i] = dot(mesh.normals[i], mesh.normals[i]) > 0 ? 0 : 1;
+        if (!missing[i]) normals[i] = pack_normal(mesh.normals[i]);
+    }
     std::vector<PackedColor> colors(mesh.colors.size());
     std::transform(mesh.colors.begin(), mesh.colors.end(), colors.begin(), pack_color);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
         triangles[i].surface = mesh.surface_of_triangle[i];
-        const bool flat =
-            no_normals || std::any_of(mesh.triangles[i].begin(), mesh.triangles[i].end(), missing);
+        const bool flat = no_normals || (missing[a] | missing[b] | missing[c]) != 0;
         triangles[i].flat = flat ? 1 : 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = mesh.triangles[i][k];
-            triangles[i].corner_normals[k] = flat ? 0 : normals[vertex];
-            if (textured) corner_uvs[i][k] = mesh.uvs[vertex];
-            if (!mesh.colors.empty()) corner_colors[i][k] = colors[vertex];
-            if (!mesh.hapke.empty()) corner_hapke[i][k] = mesh.hapke[vertex];
-        }
+        if (!flat) triangles[i].corner_normals = {normals[a], normals[b], normals[c]};
+        if (textured) corner_uvs[i] = {mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]};
+        if (!mesh.colors.empty()) corner_colors[i] = {colors[a], colors[b], colors[c]};
+        if (!mesh.hapke.empty()) corner_hapke[i] = {mesh.hapke[a], mesh.hapke[b], mesh.hapke[c]};
         if (textured) uv_per_m[i] = density_of(mesh, mesh.triangles[i]);
     }
 }
