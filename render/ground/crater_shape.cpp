@@ -116,13 +116,17 @@ void add(const CraterShape& c, const GroundPatch& patch) {
             brighten(c, patch.places[first + k], at[k], patch.colors[first + k]);
     };
     static_assert(sizeof(Vec3d) == 3 * sizeof(double));
+    // Whole vectors, which may reach beyond the window: there are no places within the crater's reach.
+    const int wanted =
+        (w.x1 - w.x0 + static_cast<int>(lanes) - 1) / static_cast<int>(lanes) * static_cast<int>(lanes);
+    const int x0 = std::max(0, std::min(w.x0, patch.side - wanted)), x1 = std::min(patch.side, x0 + wanted);
     for (int y = w.y0; y < w.y1; ++y) {
-        const auto end = static_cast<std::size_t>(y * patch.side + w.x1);
-        auto i = static_cast<std::size_t>(y * patch.side + w.x0);
+        const auto end = static_cast<std::size_t>(y * patch.side + x1);
+        auto i = static_cast<std::size_t>(y * patch.side + x0);
         for (; i + lanes <= end; i += lanes)
             add_some(&patch.places[i].x, patch.heights_m.data() + i, i, lanes);
         if (i >= end) continue;
-        // What is left of a row is less than a vector.
+        // A narrow patch has less than a vector left.
         Vec3d places[kMost] = {};
         double heights_m[kMost] = {};
         std::copy_n(patch.places.begin() + static_cast<std::ptrdiff_t>(i), end - i, places);
