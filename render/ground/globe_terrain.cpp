@@ -168,32 +168,34 @@ TerrainMesh GlobeTerrain::assemble(const TerrainView& view, double edges,
     normals->tiles.resize(seen);
     normals->triangles_per_tile = static_cast<std::uint32_t>(MeshGrid::triangles(kSeen));
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
-        append(view, edges, leaves[i], out.anchor_m, out.grids[i], mesh);
-        if (i < seen) take_normals(view, edges, leaves[i], normals->tiles[i]);
+        Shares shares;
+        find_shares(view, edges, leaves[i], shares);
+        append(leaves[i], shares, out.anchor_m, out.grids[i], mesh);
+        if (i >= seen) return;
+        GroundNormals::Tile& tile = normals->tiles[i];
+        tile.own = leaves[i].tile->own_normals, tile.above = leaves[i].tile->above_normals;
+        std::transform(shares.begin(), shares.end(), tile.share.begin(),
+                       [](float share) { return static_cast<std::uint8_t>(255 * share + 0.5f); });
     });
     out.normals = std::move(normals);
     return out;
 }
 
-// Returns a vertex' share of the ground of the level above.
-float GlobeTerrain::share_above(const TerrainView& view, double edges, const Leaf& leaf,
-                                std::size_t vertex) const {
-    const double distance_m =
-        length(leaf.tile->middle_m + to_double(leaf.tile->above[vertex].point_m) - view.camera_m);
+// Finds the vertices' shares of the ground of the level above.
+void GlobeTerrain::find_shares(const TerrainView& view, double edges, const Leaf& leaf,
+                               Shares& shares) const {
+    const GroundTile& tile = *leaf.tile;
     const double reach_m = maker_.spacing_m(leaf.key.level) * edges;
-    return static_cast<float>(
-        std::clamp((distance_m / reach_m - kMorphFrom) / (kMorphTo - kMorphFrom), 0.0, 1.0));
+    if (length(tile.middle_m - view.camera_m) + tile.radius_m < kMorphFrom * reach_m) return shares.fill(0);
+    for (std::size_t i = 0; i < tile.above.size(); ++i) {
+        const double distance_m = length(tile.middle_m + to_double(tile.above[i].point_m) - view.camera_m);
+        shares[i] = static_cast<float>(
+            std::clamp((distance_m / reach_m - kMorphFrom) / (kMorphTo - kMorphFrom), 0.0, 1.0));
+    }
 }
 
-void GlobeTerrain::take_normals(const TerrainView& view, double edges, const Leaf& leaf,
-                                GroundNormals::Tile& normals) const {
-    normals.own = leaf.tile->own_normals, normals.above = leaf.tile->above_normals;
-    for (std::size_t i = 0; i < normals.share.size(); ++i)
-        normals.share[i] = static_cast<std::uint8_t>(std::lround(255 * share_above(view, edges, leaf, i)));
-}
-
-void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m,
-                          const MeshGrid& grid, Mesh& mesh) const {
+void GlobeTerrain::append(const Leaf& leaf, const Shares& shares, Vec3d anchor_m, const MeshGrid& grid,
+                          Mesh& mesh) const {
     const GroundTile& tile = *leaf.tile;
     const std::size_t inner = static_cast<std::size_t>(tile.quads) + 1, side = MeshGrid::side(grid.quads);
     const auto vertex = [&](std::size_t x, std::size_t y) { return grid.first_vertex + y * side + x; };
@@ -202,7 +204,7 @@ void GlobeTerrain::append(const TerrainView& view, double edges, const Leaf& lea
         const std::size_t to = vertex(i % inner + 1, i / inner + 1);
         const GroundTile::Look& own = tile.own[i];
         const GroundTile::Look& above = tile.above[i];
-        const float share = share_above(view, edges, leaf, i);
+        const float share = shares[i];
         const Vec3d own_m = to_double(own.point_m), above_m = to_double(above.point_m);
         mesh.vertices_m[to] = to_float(shift_m + (own_m + static_cast<double>(share) * (above_m - own_m)));
         mesh.normals[to] = normalized(own.normal + share * (above.normal - own.normal));

@@ -9,6 +9,7 @@
 //
 // Terrain axes are the body's own, from its centre. Not modelled: overhangs.
 
+#include <array>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -66,11 +67,10 @@ class GlobeTerrain final : public Terrain {
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;
     static void forget_oldest(Tiles& tiles, std::size_t most);
     TerrainMesh assemble(const TerrainView& view, double edges, const std::vector<Leaf>& leaves) const;
-    void append(const TerrainView& view, double edges, const Leaf& leaf, Vec3d anchor_m, const MeshGrid& grid,
+    using Shares = std::array<float, GroundTile::kSide * GroundTile::kSide>;  // at a tile's vertices
+    void append(const Leaf& leaf, const Shares& shares, Vec3d anchor_m, const MeshGrid& grid,
                 Mesh& mesh) const;
-    void take_normals(const TerrainView& view, double edges, const Leaf& leaf,
-                      GroundNormals::Tile& normals) const;
-    float share_above(const TerrainView& view, double edges, const Leaf& leaf, std::size_t vertex) const;
+    void find_shares(const TerrainView& view, double edges, const Leaf& leaf, Shares& shares) const;
     static std::size_t triangles_of(std::span<const Leaf> leaves);
 };
 

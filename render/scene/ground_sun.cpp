@@ -145,20 +145,26 @@ Seen SunView::seen_from_tile(const MeshGrid& grid) const {
     // Above the ground by a hundredth of an edge, so that no triangle at the vertex hides it.
     constexpr float kAbove = 0.01f;
     const float above_m = kAbove * length(mesh_.vertices_m[vertex(1, 0)] - mesh_.vertices_m[vertex(0, 0)]);
-    const auto start = [&](int x, int y) {
-        return points_[vertex(x, y)] + above_m * seen_by_sun(mesh_.normals[vertex(x, y)]);
-    };
+    std::array<Vec3f, kSide * kSide> starts;
+    Seen seen;
     Box all;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) all.grow(start(x, y));
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        const std::size_t v = vertex(static_cast<int>(i) % kSide, static_cast<int>(i) / kSide);
+        const Vec3f normal = seen_by_sun(mesh_.normals[v]);
+        starts[i] = points_[v] + above_m * normal;
+        seen[i] = normal.z > 0 ? 1 : 0;
+        all.grow(starts[i]);
+    }
     const std::vector<Candidate> candidates = shades_over(all);
-    Seen seen{};
+    if (candidates.empty()) return seen;
     for (int y0 = 0; y0 < kSide; y0 += kAcross)
         for (int x0 = 0; x0 < kSide; x0 += kAcross) {
             Packet packet;
+            std::array<std::size_t, kLanes> of;  // beyond the tile's edge those at it
             for (int i = 0; i < kLanes; ++i) {
-                const Vec3f p = start(std::min(x0 + i % kAcross, kQuads), std::min(y0 + i / kAcross, kQuads));
+                const int x = std::min(x0 + i % kAcross, kQuads), y = std::min(y0 + i / kAcross, kQuads);
                 const auto k = static_cast<std::size_t>(i);
+                const Vec3f p = starts[of[k] = static_cast<std::size_t>(y * kSide + x)];
                 packet.x[k] = p.x, packet.y[k] = p.y, packet.z[k] = p.z;
                 packet.box.grow(p);
             }
@@ -167,11 +173,8 @@ Seen SunView::seen_from_tile(const MeshGrid& grid) const {
                 if (block->box.may_shade(packet.box))
                     for (std::size_t t = block->first; t < block->end; ++t)
                         dark |= blocked(packet, triangles[t]);
-            for (int i = 0; i < kLanes; ++i) {
-                const int x = std::min(x0 + i % kAcross, kQuads), y = std::min(y0 + i / kAcross, kQuads);
-                const bool faces = dot(mesh_.normals[vertex(x, y)], z_) > 0;
-                seen[static_cast<std::size_t>(y * kSide + x)] = (dark >> i & 1u) == 0 && faces ? 1 : 0;
-            }
+            for (std::size_t i = 0; i < kLanes; ++i)
+                if ((dark >> i & 1u) != 0) seen[of[i]] = 0;
         }
     return seen;
 }

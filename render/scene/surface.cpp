@@ -34,6 +34,21 @@ std::vector<Box> clusters_of(const Mesh& mesh) {
     return boxes;
 }
 
+// Strips of grids, as high as a run of triangles is long.
+std::vector<Box> clusters_of(const Mesh& mesh, std::span<const MeshGrid> grids) {
+    constexpr std::size_t kRows = 4;  // quadrilaterals across a strip
+    std::vector<Box> boxes;
+    for (const MeshGrid& grid : grids) {
+        const std::size_t side = MeshGrid::side(grid.quads);
+        for (std::size_t y = 0; y + 1 < side; y += kRows) {
+            Box& box = boxes.emplace_back(kNothing);
+            const std::size_t first = grid.first_vertex + y * side, rows = std::min(kRows + 1, side - y);
+            for (std::size_t i = first; i < first + rows * side; ++i) grow(box, mesh.vertices_m[i]);
+        }
+    }
+    return boxes;
+}
+
 PackedColor pack_color(Vec3f c) {
     const auto packed = [](float value) {
         return static_cast<std::uint16_t>(std::clamp(std::round(kColorSteps * value), 0.0f, 65535.0f));
@@ -65,23 +80,25 @@ std::uint32_t pack_normal(Vec3f n) {
 }
 
 ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials_of_surfaces,
-                               std::shared_ptr<const std::vector<MipTexture>> textures_of_object)
+                               std::shared_ptr<const std::vector<MipTexture>> textures_of_object,
+                               std::span<const MeshGrid> grids)
     : materials(std::move(materials_of_surfaces)),
       textures(std::move(textures_of_object)),
-      cluster_bounds_m(clusters_of(mesh)) {
+      cluster_bounds_m(grids.empty() ? clusters_of(mesh) : clusters_of(mesh, grids)) {
     HILCAM_CHECK(materials.size() == mesh.surfaces.size());
-    for (const Vec3f& v : mesh.vertices_m) radius_m = std::max(radius_m, length(to_double(v)));
+    for (const Vec3f& v : mesh.vertices_m) radius_m = std::max(radius_m, dot(to_double(v), to_double(v)));
+    radius_m = std::sqrt(radius_m);
     const bool no_normals = mesh.normals.empty();
     const bool textured = !mesh.uvs.empty() && std::any_of(materials.begin(), materials.end(),
                                                            [](const Material& m) { return m.texture >= 0; });
     if (!textured)
         for (Material& material : materials) material.texture = -1;
-    triangles.resize(mesh.triangles.size());
+    triangles.reserve(mesh.triangles.size());
     if (textured) {
         corner_uvs.resize(mesh.triangles.size());
         uv_per_m.resize(mesh.triangles.size());
     }
-    if (!mesh.colors.empty()) corner_colors.resize(mesh.triangles.size());
+    if (!mesh.colors.empty()) corner_colors.reserve(mesh.triangles.size());
     if (!mesh.hapke.empty()) corner_hapke.resize(mesh.triangles.size());
     std::vector<std::uint32_t> normals(mesh.normals.size());
     // A zero normal stands for "the file has none here".
@@ -92,14 +109,14 @@ ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials
     }
     std::vector<PackedColor> colors(mesh.colors.size());
     std::transform(mesh.colors.begin(), mesh.colors.end(), colors.begin(), pack_color);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto& [a, b, c] = mesh.triangles[i];
-        triangles[i].surface = mesh.surface_of_triangle[i];
         const bool flat = no_normals || (missing[a] | missing[b] | missing[c]) != 0;
-        triangles[i].flat = flat ? 1 : 0;
-        if (!flat) triangles[i].corner_normals = {normals[a], normals[b], normals[c]};
+        triangles.push_back(
+            {flat ? std::array<std::uint32_t, 3>{} : std::array{normals[a], normals[b], normals[c]},
+             mesh.surface_of_triangle[i], static_cast<std::uint16_t>(flat)});
         if (textured) corner_uvs[i] = {mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]};
-        if (!mesh.colors.empty()) corner_colors[i] = {colors[a], colors[b], colors[c]};
+        if (!mesh.colors.empty()) corner_colors.push_back({colors[a], colors[b], colors[c]});
         if (!mesh.hapke.empty()) corner_hapke[i] = {mesh.hapke[a], mesh.hapke[b], mesh.hapke[c]};
         if (textured) uv_per_m[i] = density_of(mesh, mesh.triangles[i]);
     }
