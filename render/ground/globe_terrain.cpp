@@ -18,6 +18,8 @@ constexpr double kMorphFrom = 1.5, kMorphTo = 2;
 // A tile's own width must be less than what kMorphFrom leaves: at least so many edges of a triangle to the nearest.
 constexpr double kLeastEdges = 128;
 constexpr int kFinestLevel = 27;
+// Sketches that keep their texels, of 0.25 MB each, until the mesh is made.
+constexpr std::size_t kMostTexels = 128;
 
 }  // namespace
 
@@ -41,14 +43,34 @@ Vec3d GlobeTerrain::up_at(Vec3d p) const {
 }
 
 // Makes those that are not kept.
-void GlobeTerrain::require(std::span<const GroundTileKey> keys, bool sketches) {
-    Tiles& tiles = sketches ? sketches_ : tiles_;
+void GlobeTerrain::require_sketches(std::span<const GroundTileKey> keys) {
     std::vector<GroundTileKey> missing;
     for (const GroundTileKey& key : keys)
-        if (!tiles.contains(key.word())) missing.push_back(key);
+        if (!sketches_.contains(key.word())) missing.push_back(key);
+    std::vector<std::unique_ptr<GroundTile>> made = maker_.sketch(missing);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        with_texels_.push_back(made[i].get());
+        sketches_[missing[i].word()] = std::move(made[i]);
+    }
+    keep_texels(kMostTexels);
+    for (const GroundTileKey& key : keys) sketches_[key.word()]->used = mesh_number_;
+}
+
+// Makes those that are not kept, of the sketches that there are.
+void GlobeTerrain::require_tiles(std::span<const GroundTileKey> keys) {
+    std::vector<GroundTileKey> missing;
+    std::vector<const GroundTile*> sketches;
+    for (const GroundTileKey& key : keys)
+        if (!tiles_.contains(key.word()))
+            missing.push_back(key), sketches.push_back(sketches_[key.word()].get());
     std::vector<std::unique_ptr<GroundTile>> made = maker_.make(missing, sketches);
-    for (std::size_t i = 0; i < made.size(); ++i) tiles[missing[i].word()] = std::move(made[i]);
-    for (const GroundTileKey& key : keys) tiles[key.word()]->used = mesh_number_;
+    for (std::size_t i = 0; i < made.size(); ++i) tiles_[missing[i].word()] = std::move(made[i]);
+    for (const GroundTileKey& key : keys) tiles_[key.word()]->used = mesh_number_;
+}
+
+// The last that were sketched keep their texels.
+void GlobeTerrain::keep_texels(std::size_t most) {
+    for (; with_texels_.size() > most; with_texels_.pop_front()) with_texels_.front()->texels.reset();
 }
 
 // Beside the field, or behind the ground's horizon.
@@ -86,7 +108,7 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
     for (int face = 0; face < kCubeFaces; ++face) wave.push_back({face, 0, 0, 0});
     while (!wave.empty()) {
         if (triangles_of(leaves) + wave.size() * MeshGrid::triangles(kBeside) > most_triangles) return false;
-        require(wave, true);
+        require_sketches(wave);
         std::vector<GroundTileKey> next;
         for (const GroundTileKey& key : wave) {
             const GroundTile& tile = *sketches_[key.word()];
@@ -106,7 +128,7 @@ bool GlobeTerrain::select(const TerrainView& view, double edges, std::size_t mos
         std::stable_partition(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.outside; });
     std::vector<GroundTileKey> seen;
     for (auto leaf = leaves.begin(); leaf != beside; ++leaf) seen.push_back(leaf->key);
-    require(seen, false);
+    require_tiles(seen);
     for (auto leaf = leaves.begin(); leaf != beside; ++leaf) leaf->tile = tiles_[leaf->key.word()].get();
     return true;
 }
@@ -131,6 +153,7 @@ TerrainMesh GlobeTerrain::mesh(const TerrainView& view) {
         edges = std::max(kLeastEdges, 0.9 * edges);
     }
     TerrainMesh out = assemble(view, edges, leaves);
+    keep_texels(0);
     forget_oldest(tiles_, most_tiles_);
     forget_oldest(sketches_, most_sketches_);
     return out;

@@ -10,6 +10,7 @@
 // Terrain axes are the body's own, from its centre. Not modelled: overhangs.
 
 #include <array>
+#include <deque>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -62,7 +63,12 @@ class GlobeTerrain final : public Terrain {
     std::size_t tile_bytes() const {
         return GroundTile::kBytes + (surface_.has_hapke() ? GroundTile::kHapkeBytes : 0);
     }
-    void require(std::span<const GroundTileKey> keys, bool sketches);
+    // Sketches that still have their texels, the first ones longest.
+    std::deque<GroundTile*> with_texels_;
+
+    void require_sketches(std::span<const GroundTileKey> keys);
+    void require_tiles(std::span<const GroundTileKey> keys);
+    void keep_texels(std::size_t most);
     bool select(const TerrainView& view, double edges, std::size_t most_triangles, std::vector<Leaf>& leaves);
     bool is_outside(const TerrainView& view, const GroundTile& tile) const;
     static void forget_oldest(Tiles& tiles, std::size_t most);

@@ -11,7 +11,7 @@
 namespace hilcam {
 namespace {
 
-constexpr int kTexels = GroundNormals::kTexels;
+constexpr int kTexels = GroundNormals::kTexels, kBorder = GroundTexels::kBorder;
 
 GroundTile::Look between(const GroundTile::Look& a, const GroundTile::Look& b) {
     return {0.5f * (a.point_m + b.point_m), 0.5f * (a.normal + b.normal), 0.5f * (a.color + b.color)};
@@ -66,7 +66,7 @@ double GroundTileMaker::spacing_m(int level) const {
 }
 
 // Places on a square grid: texels first, first + step, ... of the tile, `side` along an edge.
-std::vector<Vec3d> GroundTileMaker::places_of(const Grid& grid, int step, int first, int side) const {
+std::vector<Vec3d> GroundTileMaker::places_of(const GroundTexels& grid, int step, int first, int side) const {
     const double tiles = std::ldexp(1, grid.key.level);
     const int texels = grid.quads * kTexels;
     const auto tangents_of = [&](std::int32_t tile) {
@@ -85,9 +85,13 @@ std::vector<Vec3d> GroundTileMaker::places_of(const Grid& grid, int step, int fi
     return places;
 }
 
-// Takes what the maps have at the texels, or where they are smooth between these, at the nodes.
-GroundTileMaker::Grid GroundTileMaker::lay(const GroundTileKey& key, int quads, double texel_m) {
-    Grid grid{key, quads, texel_m, texel_m * kTexels < 0.5 * surface_.finest_m(), {}, {}, {}, {}, {}, {}, {}};
+// Takes what the maps have at the texels, or where they are smooth between these, at the nodes. quads: along the tile's edge.
+std::shared_ptr<GroundTexels> GroundTileMaker::lay(const GroundTileKey& key, int quads) {
+    const double texel_m = spacing_m(key.level) * GroundTile::kQuads / quads / kTexels;
+    auto out = std::make_shared<GroundTexels>();
+    GroundTexels& grid = *out;
+    grid.key = key, grid.quads = quads, grid.texel_m = texel_m;
+    grid.by_nodes = texel_m * kTexels < 0.5 * surface_.finest_m();
     grid.places = places_of(grid, 1, -kBorder, grid.side());
     grid.heights_m.assign(grid.places.size(), 0);
     grid.node_places = places_of(grid, kTexels, -2 * kTexels, grid.nodes());
@@ -104,10 +108,10 @@ GroundTileMaker::Grid GroundTileMaker::lay(const GroundTileKey& key, int quads, 
         grid.hapke.assign(vertices.size(), hapke_);
         surface_.find_hapke(vertices, texel_m * kTexels, grid.hapke);
     }
-    return grid;
+    return out;
 }
 
-void GroundTileMaker::add_details(Grid& grid) const {
+void GroundTileMaker::add_details(GroundTexels& grid) const {
     const std::size_t middle = grid.places.size() / 2;
     GroundPatch patch{grid.side(), grid.places, grid.heights_m, {}, grid.places[middle], 0, grid.texel_m};
     for (const Vec3d& place : grid.places)
@@ -123,7 +127,7 @@ void GroundTileMaker::add_details(Grid& grid) const {
     for (const auto& detail : details_) detail->add(patch);
 }
 
-GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m, bool sketch) const {
+GroundTileMaker::Looks GroundTileMaker::looks(const GroundTexels& grid, Vec3d middle_m, bool sketch) const {
     std::vector<Vec3d> points(grid.places.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         points[i] = surface_.point(grid.places[i], grid.heights_m[i]) - middle_m;
@@ -160,9 +164,9 @@ GroundTileMaker::Looks GroundTileMaker::looks(const Grid& grid, Vec3d middle_m, 
     return out;
 }
 
-std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above, bool sketch) const {
-    add_details(own);
-    add_details(above);
+std::unique_ptr<GroundTile> GroundTileMaker::finish(const GroundTexels& own,
+                                                    const GroundTexels& above) const {
+    const bool sketch = own.quads < GroundTile::kQuads;
     auto tile = std::make_unique<GroundTile>();
     tile->quads = own.quads;
     const std::size_t middle = own.places.size() / 2;
@@ -175,7 +179,7 @@ std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above, bool
     const auto at = [&](int x, int y) {
         return coarse.vertices[static_cast<std::size_t>(y / 2 * half + x / 2)];
     };
-    tile->own_hapke = std::move(own.hapke);
+    tile->own_hapke = own.hapke;
     const auto hapke_at = [&](int x, int y) {
         return above.hapke[static_cast<std::size_t>(y / 2 * half + x / 2)];
     };
@@ -194,24 +198,47 @@ std::unique_ptr<GroundTile> GroundTileMaker::finish(Grid& own, Grid& above, bool
     return tile;
 }
 
-std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make(std::span<const GroundTileKey> keys,
-                                                               bool sketches) {
-    const int quads = sketches ? GroundTile::kSketchQuads : GroundTile::kQuads;
-    // A wave may be of many tiles, and their grids are large.
+std::unique_ptr<GroundTile> GroundTileMaker::make(Making& making) const {
+    add_details(*making.own);
+    if (making.above_laid) {
+        add_details(*making.above_laid);
+        making.above = making.above_laid;
+    }
+    std::unique_ptr<GroundTile> tile = finish(*making.own, *making.above);
+    if (tile->quads < GroundTile::kQuads) tile->texels = making.own;
+    return tile;
+}
+
+// lay_one(i): the tile of that number, laid.
+template <class Lay>
+std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make_all(std::size_t count, const Lay& lay_one) {
+    // A wave may be of many tiles, and their texels are large.
     constexpr std::size_t kTogether = 64;
-    std::vector<std::unique_ptr<GroundTile>> tiles(keys.size());
-    for (std::size_t first = 0; first < keys.size(); first += kTogether) {
-        std::vector<Grid> own, above;
-        const std::size_t count = std::min(kTogether, keys.size() - first);
-        for (const GroundTileKey& key : keys.subspan(first, count)) {
-            const double texel_m = spacing_m(key.level) * GroundTile::kQuads / quads / kTexels;
-            own.push_back(lay(key, quads, texel_m));
-            above.push_back(lay(key, quads / 2, 2 * texel_m));
-        }
-        tbb::parallel_for(std::size_t{0}, count,
-                          [&](std::size_t i) { tiles[first + i] = finish(own[i], above[i], sketches); });
+    std::vector<std::unique_ptr<GroundTile>> tiles(count);
+    for (std::size_t first = 0; first < count; first += kTogether) {
+        std::vector<Making> makings;
+        for (std::size_t i = first; i < std::min(count, first + kTogether); ++i)
+            makings.push_back(lay_one(i));
+        tbb::parallel_for(std::size_t{0}, makings.size(),
+                          [&](std::size_t i) { tiles[first + i] = make(makings[i]); });
     }
     return tiles;
+}
+
+std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::sketch(std::span<const GroundTileKey> keys) {
+    return make_all(keys.size(), [&](std::size_t i) {
+        return Making{lay(keys[i], GroundTile::kSketchQuads), nullptr,
+                      lay(keys[i], GroundTile::kSketchQuads / 2)};
+    });
+}
+
+std::vector<std::unique_ptr<GroundTile>> GroundTileMaker::make(std::span<const GroundTileKey> keys,
+                                                               std::span<const GroundTile* const> sketches) {
+    return make_all(keys.size(), [&](std::size_t i) {
+        Making making{lay(keys[i], GroundTile::kQuads), sketches[i]->texels, nullptr};
+        if (!making.above) making.above_laid = lay(keys[i], GroundTile::kSketchQuads);
+        return making;
+    });
 }
 
 }  // namespace hilcam
