@@ -17,13 +17,13 @@ class CraterProfile {
     static constexpr double kMostWorn = 0.5;  // a tenth of the depth is left
 
     CraterProfile();
-    static constexpr int kSteps = 192;  // of the distance, to kReach
+    static constexpr int kSteps = 192;  // distances at which heights are kept, to kReach
 
     // The shape at one wear lies between two that are kept: heights at kSteps + 1 distances, of a depth of 1 under the rim when fresh.
     struct Worn {
         const double* fresher = nullptr;
         const double* older = nullptr;
-        double share = 0;  // of the second
+        double share = 0;  // the share of the second
     };
     // worn: 0 to kMostWorn. Valid as long as this is.
     Worn at(double worn) const;

@@ -93,9 +93,9 @@ class GroundSurface {
   private:
     // The 4 x 4 posts about a place; what is asked for next often has the same.
     struct Posts {
-        int level = -1, column = 0, row = 0;  // of the second post of the second row
+        int level = -1, column = 0, row = 0;  // those of the second post of the second row
         std::array<Vec3d, 16> values{};
-        std::array<bool, 16> known{}, there{};  // looked at; no hole
+        std::array<bool, 16> known{}, there{};  // it was looked at; it is no hole
     };
     struct Layer {
         GroundMap map;

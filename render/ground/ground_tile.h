@@ -64,7 +64,7 @@ struct GroundTile {
     std::vector<HapkeParameters> own_hapke, above_hapke;  // empty where no map has them
     std::shared_ptr<const GroundNormals::Grid> own_normals, above_normals;
     std::uint64_t used = 0;  // number of the mesh that used it last
-    // What a sketch is made of is what its tile has of the level above; null: nobody wants it any more.
+    // A sketch is made of these, which are its tile's of the level above; null: they have been let go of.
     std::shared_ptr<const GroundTexels> texels;
 
     static constexpr std::size_t kHapkeBytes = 2 * sizeof(HapkeParameters) * kSide * kSide;

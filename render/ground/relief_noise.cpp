@@ -28,9 +28,9 @@ HWY_INLINE V fade(V t) {
 
 // A coordinate between two planes of the lattice.
 struct Along {
-    W hash[2];   // of the planes' numbers
-    V from[2];   // way from each
-    V share[2];  // of each
+    W hash[2];   // the planes' numbers, mixed
+    V from[2];   // the way from each
+    V share[2];  // the share of each
 };
 HWY_INLINE Along along(V p, std::uint64_t factor) {
     const V floor = hn::Floor(p);

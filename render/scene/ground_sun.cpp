@@ -36,7 +36,7 @@ struct Box {
     }
 };
 
-// What of a tile faces away from the Sun, by blocks.
+// The triangles of a tile that face away from the Sun, by blocks.
 struct Shades {
     struct Block {
         Box box;
@@ -74,7 +74,7 @@ class SunView {
     };
     struct Candidate {
         const Shades::Block* block;
-        const std::array<Vec3f, 3>* triangles;  // of its tile
+        const std::array<Vec3f, 3>* triangles;  // all of its tile
     };
     const Mesh& mesh_;
     const std::vector<MeshGrid>& grids_;
@@ -147,13 +147,13 @@ Seen SunView::seen_from_tile(const MeshGrid& grid) const {
     const float above_m = kAbove * length(mesh_.vertices_m[vertex(1, 0)] - mesh_.vertices_m[vertex(0, 0)]);
     std::array<Vec3f, kSide * kSide> starts;
     Seen seen;
-    Box all;
+    Box all;  // about those that face the Sun
     for (std::size_t i = 0; i < seen.size(); ++i) {
         const std::size_t v = vertex(static_cast<int>(i) % kSide, static_cast<int>(i) / kSide);
         const Vec3f normal = seen_by_sun(mesh_.normals[v]);
         starts[i] = points_[v] + above_m * normal;
         seen[i] = normal.z > 0 ? 1 : 0;
-        all.grow(starts[i]);
+        if (seen[i]) all.grow(starts[i]);
     }
     const std::vector<Candidate> candidates = shades_over(all);
     if (candidates.empty()) return seen;
@@ -166,7 +166,7 @@ Seen SunView::seen_from_tile(const MeshGrid& grid) const {
                 const auto k = static_cast<std::size_t>(i);
                 const Vec3f p = starts[of[k] = static_cast<std::size_t>(y * kSide + x)];
                 packet.x[k] = p.x, packet.y[k] = p.y, packet.z[k] = p.z;
-                packet.box.grow(p);
+                if (seen[of[k]]) packet.box.grow(p);
             }
             std::uint32_t dark = 0;
             for (const auto& [block, triangles] : candidates)

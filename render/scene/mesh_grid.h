@@ -13,7 +13,7 @@
 namespace hilcam {
 
 struct MeshGrid {
-    std::uint32_t first_vertex = 0, first_triangle = 0;  // of the mesh
+    std::uint32_t first_vertex = 0, first_triangle = 0;  // numbers in the mesh
     std::uint32_t quads = 1;                             // along an edge, without the skirt
 
     // A grid of so many quadrilaterals has so many of these.

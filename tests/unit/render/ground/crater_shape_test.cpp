@@ -77,8 +77,12 @@ TEST(CraterShape, RaysBrighten) {
         const double radii =
             length(square.places[i] - square.crater.place) * kMoonRadius_m / square.crater.radius_m;
         const float color = square.colors[i].x;
-        if (radii < 0.99) EXPECT_NEAR(color, 1.3f, 1e-6f);
-        if (radii > 6) EXPECT_EQ(color, 1.0f);
+        if (radii < 0.99) {
+            EXPECT_NEAR(color, 1.3f, 1e-6f);
+        }
+        if (radii > 6) {
+            EXPECT_EQ(color, 1.0f);
+        }
         EXPECT_GE(color, 1.0f);
         bright += radii > 1.01 && color > 1.02f ? 1 : 0;
     }
