@@ -130,8 +130,13 @@ GroundSurface::Sample GroundSurface::sample(Layer& layer, Vec2d post, int level)
             posts.known[k] = true;
         }
         if (!posts.there[k]) return {};
-        out.value = out.value + share * posts.values[k];
+        // A map of one channel has the same value in all.
+        if (shape.channels == 1)
+            out.value.x += share * posts.values[k].x;
+        else
+            out.value = out.value + share * posts.values[k];
     }
+    if (shape.channels == 1) out.value.y = out.value.z = out.value.x;
     return out;
 }
 

@@ -29,11 +29,13 @@ template <class T>
 void add_between(const std::vector<T>& nodes, int node_side, int side, std::vector<T>& texels) {
     std::array<std::array<double, 4>, kTexels> shares;
     for (int t = 0; t < kTexels; ++t) shares[static_cast<std::size_t>(t)] = node_shares(t);
-    const auto blend = [&](const T* at, std::size_t step, int texel) {
+    // A color is three numbers.
+    using N = std::conditional_t<std::is_same_v<T, double>, double, float>;
+    constexpr std::size_t kNumbers = sizeof(T) / sizeof(N);
+    const auto blend = [&](const T* at, int texel) {
         const auto& s = shares[static_cast<std::size_t>(texel)];
-        using N = std::conditional_t<std::is_same_v<T, double>, double, float>;
-        return static_cast<N>(s[0]) * at[0] + static_cast<N>(s[1]) * at[step] +
-               static_cast<N>(s[2]) * at[2 * step] + static_cast<N>(s[3]) * at[3 * step];
+        return static_cast<N>(s[0]) * at[0] + static_cast<N>(s[1]) * at[1] + static_cast<N>(s[2]) * at[2] +
+               static_cast<N>(s[3]) * at[3];
     };
     const auto width = static_cast<std::size_t>(side);
     // The last texel is a node's own: it is looked at from the one before, at the end of whose interval it lies.
@@ -43,15 +45,27 @@ void add_between(const std::vector<T>& nodes, int node_side, int side, std::vect
         for (int x = 0; x < side; ++x) {
             const T* const row = nodes.data() + y * node_side;
             rows[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-                x / kTexels > interval(x) ? row[interval(x) + 2] : blend(row + interval(x), 1, x % kTexels);
+                x / kTexels > interval(x) ? row[interval(x) + 2] : blend(row + interval(x), x % kTexels);
         }
-    for (int y = 0; y < side; ++y) {
-        const T* const above = rows.data() + static_cast<std::size_t>(interval(y)) * width;
-        T* const to = texels.data() + static_cast<std::size_t>(y) * width;
-        if (y / kTexels > interval(y))
-            for (std::size_t x = 0; x < width; ++x) to[x] = to[x] + above[2 * width + x];
+    const auto numbers_of = [](auto* at) {
+        if constexpr (kNumbers == 1)
+            return at;
         else
-            for (std::size_t x = 0; x < width; ++x) to[x] = to[x] + blend(above + x, width, y % kTexels);
+            return &at->x;
+    };
+    const std::size_t step = kNumbers * width;
+    for (int y = 0; y < side; ++y) {
+        const N* const above = numbers_of(rows.data() + static_cast<std::size_t>(interval(y)) * width);
+        N* const to = numbers_of(texels.data() + static_cast<std::size_t>(y) * width);
+        const auto& shares_of = shares[static_cast<std::size_t>(y % kTexels)];
+        const std::array<N, 4> s = {static_cast<N>(shares_of[0]), static_cast<N>(shares_of[1]),
+                                    static_cast<N>(shares_of[2]), static_cast<N>(shares_of[3])};
+        if (y / kTexels > interval(y))
+            for (std::size_t k = 0; k < step; ++k) to[k] = to[k] + above[2 * step + k];
+        else
+            for (std::size_t k = 0; k < step; ++k)
+                to[k] = to[k] + (s[0] * above[k] + s[1] * above[step + k] + s[2] * above[2 * step + k] +
+                                 s[3] * above[3 * step + k]);
     }
 }
 

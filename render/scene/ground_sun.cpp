@@ -161,20 +161,22 @@ Seen SunView::seen_from_tile(const MeshGrid& grid) const {
         for (int x0 = 0; x0 < kSide; x0 += kAcross) {
             Packet packet;
             std::array<std::size_t, kLanes> of;  // beyond the tile's edge those at it
-            for (int i = 0; i < kLanes; ++i) {
-                const int x = std::min(x0 + i % kAcross, kQuads), y = std::min(y0 + i / kAcross, kQuads);
-                const auto k = static_cast<std::size_t>(i);
-                const Vec3f p = starts[of[k] = static_cast<std::size_t>(y * kSide + x)];
-                packet.x[k] = p.x, packet.y[k] = p.y, packet.z[k] = p.z;
-                if (seen[of[k]]) packet.box.grow(p);
+            std::uint32_t lit = 0;
+            for (std::size_t i = 0; i < kLanes; ++i) {
+                const int dx = static_cast<int>(i) % kAcross, dy = static_cast<int>(i) / kAcross;
+                of[i] =
+                    static_cast<std::size_t>(std::min(y0 + dy, kQuads) * kSide + std::min(x0 + dx, kQuads));
+                const Vec3f p = starts[of[i]];
+                packet.x[i] = p.x, packet.y[i] = p.y, packet.z[i] = p.z;
+                if (!seen[of[i]]) continue;
+                packet.box.grow(p);
+                lit |= 1u << i;
             }
-            std::uint32_t dark = 0;
             for (const auto& [block, triangles] : candidates)
-                if (block->box.may_shade(packet.box))
+                if (lit != 0 && block->box.may_shade(packet.box))
                     for (std::size_t t = block->first; t < block->end; ++t)
-                        dark |= blocked(packet, triangles[t]);
-            for (std::size_t i = 0; i < kLanes; ++i)
-                if ((dark >> i & 1u) != 0) seen[of[i]] = 0;
+                        lit &= ~blocked(packet, triangles[t]);
+            for (std::size_t i = 0; i < kLanes; ++i) seen[of[i]] = static_cast<std::uint8_t>(lit >> i & 1u);
         }
     return seen;
 }
