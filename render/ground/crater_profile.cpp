@@ -69,7 +69,7 @@ CraterProfile::Worn CraterProfile::at(double worn) const {
 double CraterProfile::height(double distance, double worn) const {
     if (!(distance < kReach)) return 0;
     const Worn shape = at(worn);
-    const double x = distance * (kSteps / kReach);
+    const double x = distance / kReach * kSteps;
     const auto i = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kSteps - 1));
     const double t = x - static_cast<double>(i);
     const auto between = [&](const double* state) { return state[i] + t * (state[i + 1] - state[i]); };

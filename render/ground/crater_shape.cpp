@@ -44,10 +44,10 @@ class CraterDistances {
         distances2 =
             hn::Add(hn::Add(hn::Mul(away.x, away.x), hn::Mul(away.y, away.y)), hn::Mul(away.z, away.z));
         if (hn::AllTrue(d, hn::Gt(distances2, number(most2_)))) return false;
-        const V distance = hn::Sqrt(distances2), per_distance = hn::Div(number(1), distance);
+        const V distance = hn::Sqrt(distances2);
         // Cosines and sines of two, three ... times the azimuth, by rotation.
-        const V c1 = hn::Mul(away.along(c_.axes.east), per_distance),
-                s1 = hn::Mul(away.along(c_.axes.north), per_distance);
+        const V c1 = hn::Div(away.along(c_.axes.east), distance),
+                s1 = hn::Div(away.along(c_.axes.north), distance);
         V ck = c1, sk = s1, outline = number(1);
         for (std::size_t k = 0; k < kCraterWaves; ++k) {
             const V next = hn::Sub(hn::Mul(ck, c1), hn::Mul(sk, s1));
@@ -69,7 +69,7 @@ class CraterDistances {
 // CraterProfile::Worn::height().
 HWY_INLINE V height(const CraterProfile::Worn& worn, V distance) {
     const Doubles d;
-    const V x = hn::Mul(distance, number(CraterProfile::kSteps / CraterProfile::kReach));
+    const V x = hn::Mul(hn::Div(distance, number(CraterProfile::kReach)), number(CraterProfile::kSteps));
     const auto inside = hn::Lt(distance, number(CraterProfile::kReach));
     const V step = hn::Min(hn::Floor(hn::IfThenElseZero(inside, x)), number(CraterProfile::kSteps - 1));
     const V t = hn::Sub(x, step);
