@@ -34,21 +34,6 @@ std::vector<Box> clusters_of(const Mesh& mesh) {
     return boxes;
 }
 
-// Strips of grids, as high as a run of triangles is long.
-std::vector<Box> clusters_of(const Mesh& mesh, std::span<const MeshGrid> grids) {
-    constexpr std::size_t kRows = 4;  // quadrilaterals across a strip
-    std::vector<Box> boxes;
-    for (const MeshGrid& grid : grids) {
-        const std::size_t side = MeshGrid::side(grid.quads);
-        for (std::size_t y = 0; y + 1 < side; y += kRows) {
-            Box& box = boxes.emplace_back(kNothing);
-            const std::size_t first = grid.first_vertex + y * side, rows = std::min(kRows + 1, side - y);
-            for (std::size_t i = first; i < first + rows * side; ++i) grow(box, mesh.vertices_m[i]);
-        }
-    }
-    return boxes;
-}
-
 PackedColor pack_color(Vec3f c) {
     const auto packed = [](float value) {
         return static_cast<std::uint16_t>(std::clamp(std::round(kColorSteps * value), 0.0f, 65535.0f));
@@ -80,11 +65,10 @@ std::uint32_t pack_normal(Vec3f n) {
 }
 
 ObjectSurfaces::ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials_of_surfaces,
-                               std::shared_ptr<const std::vector<MipTexture>> textures_of_object,
-                               std::span<const MeshGrid> grids)
+                               std::shared_ptr<const std::vector<MipTexture>> textures_of_object)
     : materials(std::move(materials_of_surfaces)),
       textures(std::move(textures_of_object)),
-      cluster_bounds_m(grids.empty() ? clusters_of(mesh) : clusters_of(mesh, grids)) {
+      cluster_bounds_m(clusters_of(mesh)) {
     HILCAM_CHECK(materials.size() == mesh.surfaces.size());
     for (const Vec3f& v : mesh.vertices_m) radius_m = std::max(radius_m, dot(to_double(v), to_double(v)));
     radius_m = std::sqrt(radius_m);

@@ -7,13 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "render/scene/color_bands.h"
 #include "render/scene/ground_normals.h"
 #include "render/scene/level_facets.h"
-#include "render/scene/mesh_grid.h"
 #include "render/scene/packed_normal.h"
 #include "render/scene/scene.h"
 
@@ -32,11 +30,9 @@ inline constexpr float kColorSteps = 65535.0f / 4;
 
 // An object as rays see it.
 struct ObjectSurfaces {
-    // materials: one per surface of the mesh; texture of a material indexes the textures. grids: all that the mesh is made of;
-    // none: it is triangles.
+    // materials: one per surface of the mesh; texture of a material indexes the textures.
     ObjectSurfaces(const Mesh& mesh, std::vector<Material> materials,
-                   std::shared_ptr<const std::vector<MipTexture>> textures,
-                   std::span<const MeshGrid> grids = {});
+                   std::shared_ptr<const std::vector<MipTexture>> textures);
 
     std::vector<PackedTriangle> triangles;
     std::vector<std::array<Vec2f, 3>> corner_uvs;  // empty when no material has a texture
