@@ -85,7 +85,9 @@ void CameraStation::load(const SpectralGrid& grid) {
     world_ = std::make_unique<WorldState>(initial_motions(scenario_, start), scenario_.origin,
                                           joints_of(scenario_), scenario_.mount,
                                           load_motion_sources(scenario_), lamp_mounts(scenario_));
-    renderer_->require_air(snapshot_at(scenario_, start, start));
+    const WorldSnapshot first = snapshot_at(scenario_, start, start);
+    renderer_->require_air(first);
+    renderer_->make_ground_ahead(first);
     ExposureConfig exposures = exposure_config_of(scenario_);
     exposures.for_detector = true;
     exposures_ = std::make_unique<ExposureRenderer>(*renderer_, exposures, scenario_.camera, grid,

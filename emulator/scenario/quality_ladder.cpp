@@ -116,9 +116,17 @@ RenderQuality limited(const RenderQuality& from, const RenderQuality& configured
     return q;
 }
 
+// What makes other frames faster does nothing for ground that is alone, and rays take longer.
+std::vector<RenderQuality> levels_of_ground(RenderQuality quality) {
+    if (quality.ground_step_px > 1) return {};
+    quality.ground_step_px = 2;
+    return {quality};
+}
+
 }  // namespace
 
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured) {
+    if (configured.sees_ground()) return levels_of_ground(configured);
     const Limits steps[] = {{2, 3, 0.005, 0.25, 2, false, false}, {1, 2, 0.5, 0.5, 4, false, false},
                             {1, 2, 0.5, 1, 0, false, false},      {1, 1, 1, 1, 0, false, false},
                             {1, 1, 1, 2, 0, true, false},         {1, 1, 1, 2, 0, true, true}};

@@ -44,7 +44,8 @@ Fields per_frame_fields(RenderQuality& quality);
 RenderQuality applied(const RenderQuality& configured, const QualityLevelConfig& level);
 
 // Steps down from a quality, each as far as it makes anything faster: towards configs/quality/realtime.yaml,
-// then coarser meshes and no noise budget, no bounce, direct light alone.
+// then coarser meshes and no noise budget, no bounce, direct light alone. For ground that is alone in the scene: to every second
+// pixel of it.
 std::vector<RenderQuality> built_in_levels(const RenderQuality& configured);
 
 // Returns how that quality places its rays in a pixel.

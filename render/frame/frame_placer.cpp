@@ -79,7 +79,7 @@ FramePlacer::FramePlacer(Scene scene, const SpectralGrid& grid, const ImageGeome
 
     for (const RenderQuality& level : levels) {
         make_visibility(geometry, level);
-        if (level.sees_ground()) make_ground_visibility(geometry);
+        if (level.sees_ground()) make_ground_visibility(geometry, level);
     }
     frame_.scene = &embree_;
     frame_.objects = &shown_;
@@ -106,17 +106,19 @@ void FramePlacer::make_visibility(const ImageGeometry& geometry, const RenderQua
     buffer = std::make_unique<VisibilityBuffer>(scaled(geometry, samples.buffer_px()), visibility_room());
 }
 
-void FramePlacer::make_ground_visibility(const ImageGeometry& geometry) {
+void FramePlacer::make_ground_visibility(const ImageGeometry& geometry, const RenderQuality& level) {
     const bool plain = radiance_model_->reflects_plainly() && lamps_.all().empty() &&
                        is_plain_ground(objects_.back().materials().front());
-    if (ground_visibility_ || !terrain_ || objects_.size() > 1 || !plain || !geometry.distortion.none() ||
+    std::unique_ptr<VisibilityBuffer>& buffer = ground_visibility(level.ground_step_px);
+    if (buffer || !terrain_ || objects_.size() > 1 || !plain || !geometry.distortion.none() ||
         !rays_->is_still())
         return;
     seen_.reserve(1);
     const std::size_t most =
         std::min(kMostTriangles, terrain_->most_triangles() + terrain_->most_triangles() / 4);
-    ground_visibility_ =
-        std::make_unique<VisibilityBuffer>(ground_geometry(geometry), VisibilityBuffer::Room{1, most, most});
+    buffer =
+        std::make_unique<VisibilityBuffer>(ground_geometry(geometry, static_cast<int>(level.ground_step_px)),
+                                           VisibilityBuffer::Room{1, most, most});
 }
 
 VisibilityBuffer::Room FramePlacer::visibility_room() const {
@@ -160,6 +162,7 @@ void FramePlacer::set_quality(const RenderQuality& quality, const PathModel& pat
     frame_.contribution_threshold = static_cast<float>(quality.contribution_threshold);
     frame_.sun_is_disk = quality.sun_disk;
     uses_visibility_ = quality.uses_buffer(), sees_ground_ = quality.sees_ground();
+    ground_step_px_ = static_cast<int>(quality.ground_step_px);
     frame_.samples = quality.pixel_samples();
     set_paths(paths);
 }
@@ -266,7 +269,8 @@ void FramePlacer::place_earth_picture() {
 
 // In space, and where its mesh is all there is to see of it.
 bool FramePlacer::ground_is_alone() const {
-    return ground_visibility_ && sees_ground_ && !background_.camera_in_air() && frame_.start_before_m <= 0 &&
+    return ground_visibility_[static_cast<std::size_t>(ground_step_px_ - 1)] && sees_ground_ &&
+           !background_.camera_in_air() && frame_.start_before_m <= 0 &&
            plans_.back().use == ObjectUse::kMesh && plans_.back().samples_per_axis == 1 &&
            frame_.rays->linear();
 }
@@ -288,8 +292,11 @@ void FramePlacer::place_earth_detail() {
 void FramePlacer::place_visibility() {
     if (ground_is_alone()) {
         seen_.clear();
-        seen_.push_back({0, world_.objects.back(), radii_m_.back(), embree_.mesh(0, 0)});
-        if (ground_visibility_->place(world_.camera, seen_)) frame_.ground = ground_visibility_.get();
+        seen_.push_back(
+            {0, world_.objects.back(), radii_m_.back(), embree_.mesh(0, 0), shown_.back()->cluster_bounds_m});
+        VisibilityBuffer& buffer = *ground_visibility(ground_step_px_);
+        if (buffer.place(world_.camera, seen_))
+            frame_.ground = &buffer, frame_.ground_step_px = ground_step_px_;
         return;
     }
     VisibilityBuffer* const buffer = (frame_.samples.quarters() == 1 ? visibility_ : fine_visibility_).get();
@@ -297,8 +304,8 @@ void FramePlacer::place_visibility() {
     seen_.clear();
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (plans_[i].use == ObjectUse::kMesh)
-            seen_.push_back(
-                {static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i], embree_.mesh(i, levels_[i])});
+            seen_.push_back({static_cast<std::uint32_t>(i), world_.objects[i], radii_m_[i],
+                             embree_.mesh(i, levels_[i]), shown_[i]->cluster_bounds_m});
     if (buffer->place(world_.camera, seen_)) frame_.visibility = buffer;
 }
 

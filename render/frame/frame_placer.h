@@ -61,6 +61,11 @@ class FramePlacer {
     void place(const WorldSnapshot& world, RandomKey key);
     // Does so without the light that is kept: for what asks where things are, and no more. Loop.
     void place_shapes(const WorldSnapshot& world, RandomKey key);
+    // Makes the terrain's first mesh, for which the first frame would wait. Terrain that waits makes each frame's own: nothing.
+    // Owner thread.
+    void make_ground_ahead(const WorldSnapshot& world) {
+        if (terrain_ && !terrain_->waits()) place_shapes(world, {});
+    }
 
     // --- the frame that was placed last
 
@@ -126,10 +131,11 @@ class FramePlacer {
     ScreenMask object_mask_, full_mask_;
     // Buffers of 4 x 4 and of 8 x 8 samples a pixel, as levels of quality use them; null: rays.
     std::unique_ptr<VisibilityBuffer> visibility_, fine_visibility_;
-    std::unique_ptr<VisibilityBuffer>
-        ground_visibility_;  // buffer of ground alone (ground_light.h); null: rays
+    // Buffers of ground alone (ground_light.h), by the pixels between their places, from 1; null: rays.
+    std::array<std::unique_ptr<VisibilityBuffer>, 2> ground_visibility_;
     std::vector<VisibilityBuffer::Shown> seen_;
     bool uses_visibility_ = false, sees_ground_ = false;
+    int ground_step_px_ = 1;
     std::unique_ptr<RayGenerator> rays_;
     std::unique_ptr<RadianceModel> radiance_model_;
     std::unique_ptr<ShownTerrain> terrain_;
@@ -145,7 +151,10 @@ class FramePlacer {
     void place_earth_picture();
     void place_earth_detail();
     void make_visibility(const ImageGeometry& geometry, const RenderQuality& level);
-    void make_ground_visibility(const ImageGeometry& geometry);
+    void make_ground_visibility(const ImageGeometry& geometry, const RenderQuality& level);
+    std::unique_ptr<VisibilityBuffer>& ground_visibility(std::int64_t step_px) {
+        return ground_visibility_[static_cast<std::size_t>(step_px - 1)];
+    }
     bool ground_is_alone() const;
     VisibilityBuffer::Room visibility_room() const;
 };

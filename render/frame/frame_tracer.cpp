@@ -76,10 +76,10 @@ FrameTracer::FrameTracer(const ImageGeometry& geometry, const Modules& modules,
         const std::size_t set = path_set(modules, quality.path_model);
         for (const auto& model : path_sets_[set].models)
             model->reserve_depth(static_cast<int>(quality.max_depth));
-        levels_.push_back(
-            {quality, set, edge_px, (width_ + edge_px - 1) / edge_px, (height_ + edge_px - 1) / edge_px});
-        max_tiles = std::max(max_tiles, levels_.back().tiles_across * levels_.back().tiles_down);
+        levels_.push_back({quality, set, TileGrid(width_, height_, edge_px)});
+        max_tiles = std::max(max_tiles, levels_.back().tiles.size());
         buffer = buffer || !rays, ground = ground || quality.sees_ground();
+        ground_has_steps_ = ground_has_steps_ || (quality.sees_ground() && quality.ground_step_px > 1);
         budget = budget || quality.noise_budget > 0;
     }
     tile_stats_.resize(static_cast<std::size_t>(max_tiles));
@@ -112,15 +112,6 @@ void FrameTracer::use_level(std::size_t level) {
     level_ = level;
 }
 
-// Two rows side by side, so that four neighbours come after each other.
-PixelBox FrameTracer::tile(int index) const {
-    const Level& level = levels_[level_];
-    const int first_row = index / (2 * level.tiles_across) * 2, within = index % (2 * level.tiles_across);
-    const int rows = std::min(2, level.tiles_down - first_row);
-    const int x = within / rows * level.tile_px, y = (first_row + within % rows) * level.tile_px;
-    return {x, y, std::min(x + level.tile_px, width_), std::min(y + level.tile_px, height_)};
-}
-
 double FrameTracer::share_done() const {
     const int all = tiles_all_.load(std::memory_order_relaxed);
     return all > 0 ? 1.0 * tiles_done_.load(std::memory_order_relaxed) / all : 0;
@@ -128,11 +119,12 @@ double FrameTracer::share_done() const {
 
 TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance) {
     // Tiles smaller than the image's blocks share a mark: it stays off.
-    const bool marks = levels_[level_].tile_px == RadianceImage::kBlock_px;
+    const bool marks = levels_[level_].tiles.edge_px() == RadianceImage::kBlock_px;
     if (!marks) radiance.clear_marks();
     find_halves(placer, marks, radiance);
     for (GroundSeen& seen : ground_seen_) seen.x_px = seen.y_px = -1;
-    const int all = levels_[level_].tiles_across * levels_[level_].tiles_down;
+    TileStats sum = trace_places(placer.frame(), radiance);
+    const int all = levels_[level_].tiles.size();
     tiles_done_.store(0, std::memory_order_relaxed);
     tiles_all_.store(all, std::memory_order_relaxed);
     for_each_tile([&](int index, const PixelBox& tile, std::size_t slot) {
@@ -148,8 +140,13 @@ TileStats FrameTracer::trace(const FramePlacer& placer, RadianceImage& radiance)
             fill_zero(radiance, tile);
         tiles_done_.fetch_add(1, std::memory_order_relaxed);
     });
+    sum += sum_of_stats(all);
+    return sum;
+}
+
+TileStats FrameTracer::sum_of_stats(int tiles) const {
     TileStats sum;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(all); ++i) sum += tile_stats_[i];
+    for (int i = 0; i < tiles; ++i) sum += tile_stats_[static_cast<std::size_t>(i)];
     return sum;
 }
 
@@ -166,6 +163,10 @@ void FrameTracer::find_halves(const FramePlacer& placer, bool marks, RadianceIma
 
 void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot,
                              TileStats& stats, RadianceImage& radiance) {
+    if (placer.frame().ground && placer.frame().ground_step_px > 1 && places_->give(box, radiance)) {
+        stats.covered_px += (box.x1 - box.x0) * (box.y1 - box.y0);
+        return;
+    }
     int n = placer.samples_in(box);
     VisibilityTile* seen = nullptr;
     if (quality().uses_buffer() && n <= quality().pixel_samples().across()) {
@@ -187,11 +188,36 @@ void FrameTracer::trace_tile(const FramePlacer& placer, const PixelBox& box, std
 // Null: nothing of the ground is there.
 const VisibilityTile* FrameTracer::ground_at(const FrameView& frame, const PixelBox& box, std::size_t slot) {
     GroundSeen& seen = ground_seen_[slot];
-    const int x = box.x0 / kGroundTile_px * kVisibilityTile_px,
-              y = box.y0 / kGroundTile_px * kVisibilityTile_px;
+    const int x = box.x0 / kGroundTile * kVisibilityTile_px, y = box.y0 / kGroundTile * kVisibilityTile_px;
     if (seen.x_px != x || seen.y_px != y)
         seen.x_px = x, seen.y_px = y, seen.any = frame.ground->fill(x, y, seen.tile);
     return seen.any ? &seen.tile : nullptr;
+}
+
+// Finds what the frame's buffer of the ground sees, where its places are not the picture's pixels. The first frame makes the room,
+// whatever its level.
+TileStats FrameTracer::trace_places(const FrameView& frame, const RadianceImage& radiance) {
+    if (ground_has_steps_ && !(places_ && places_->has_room_for(radiance))) places_.emplace(radiance);
+    if (!frame.ground || frame.ground_step_px == 1) return {};
+    const TileGrid tiles(places_->light().width(), places_->light().height(), GroundPlaces::kTile);
+    for_each(tiles, [&](int index, const PixelBox& tile, std::size_t slot) {
+        trace_places_of(frame, tile, slot, tile_stats_[static_cast<std::size_t>(index)]);
+    });
+    return sum_of_stats(tiles.size());
+}
+
+void FrameTracer::trace_places_of(const FrameView& frame, const PixelBox& box, std::size_t slot,
+                                  TileStats& stats) {
+    stats = {};
+    const std::span<Spectrum> pixels(tile_pixels_[slot].data(),
+                                     static_cast<std::size_t>((box.x1 - box.x0) * (box.y1 - box.y0)));
+    std::fill(pixels.begin(), pixels.end(), Spectrum{});
+    Tile tile{frame, box, 1, pixels, stats, facets_[slot]};
+    tile.ground = ground_at(frame, box, slot);
+    const bool known = tile.ground && add_ground_light(tile);
+    if (known) write(pixels, 1, box, places_->light());
+    places_->set_known(box, known);
+    stats.covered_px = 0;  // pixels are counted where they are made of it
 }
 
 void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
@@ -202,7 +228,7 @@ void FrameTracer::trace_once(const FrameView& frame, const PixelBox& box, int n,
     Tile tile{frame, box, n, pixels, stats, facets_[slot]};
     tile.seen = seen;
     if (seen) tile.edges = &edges_[slot];
-    if (frame.ground) tile.ground = ground_at(frame, box, slot);
+    if (frame.ground && frame.ground_step_px == 1) tile.ground = ground_at(frame, box, slot);
     if (halves_) {
         tile.half_responses = halves_->responses();
         tile.halves =

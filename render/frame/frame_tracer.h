@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,7 +21,9 @@
 #include "render/frame/frame_placer.h"
 #include "render/frame/render_quality.h"
 #include "render/light/sun_edges.h"
+#include "render/sunlit_ground/ground_places.h"
 #include "render/vocabulary/radiance_image.h"
+#include "render/vocabulary/tile_grid.h"
 
 namespace hilcam {
 
@@ -53,18 +56,14 @@ class FrameTracer {
     // Runs work(tile index, tile, slot of the thread) over all tiles.
     template <class Work>
     void for_each_tile(const Work& work) {
-        const int tiles = levels_[level_].tiles_across * levels_[level_].tiles_down;
-        tbb::parallel_for(tbb::blocked_range<int>(0, tiles), [&](const tbb::blocked_range<int>& range) {
-            const auto slot = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-            for (int i = range.begin(); i < range.end(); ++i) work(i, tile(i), slot);
-        });
+        for_each(levels_[level_].tiles, work);
     }
 
   private:
     struct Level {
         RenderQuality quality;
         std::size_t paths;  // index of its set
-        int tile_px, tiles_across, tiles_down;
+        TileGrid tiles;
     };
     struct PathSet {
         std::string name;
@@ -87,20 +86,32 @@ class FrameTracer {
         int x_px = -1, y_px = -1;
         bool any = false;
     };
-    std::vector<GroundSeen> ground_seen_;                     // one per slot; none where rays see
-    std::vector<VisibilityTile> seen_;                        // likewise
-    std::vector<SunEdges> edges_;                             // likewise
+    std::vector<GroundSeen> ground_seen_;  // one per slot; none where rays see
+    bool ground_has_steps_ = false;        // at some level
+    std::optional<GroundPlaces> places_;   // none before the first frame, and where no level has them
+    std::vector<VisibilityTile> seen_;     // likewise
+    std::vector<SunEdges> edges_;          // likewise
     std::vector<std::unique_ptr<AdaptiveSampler>> samplers_;  // none without a noise budget
     std::vector<TileStats> tile_stats_;                       // by tile
     std::atomic<int> tiles_done_{0}, tiles_all_{0};           // tiles of the present frame
 
     const Paths& paths() const { return path_sets_[levels_[level_].paths].models; }
     std::size_t path_set(const Modules& modules, const std::string& name);
-    PixelBox tile(int index) const;
+    template <class Work>
+    static void for_each(const TileGrid& tiles, const Work& work) {
+        tbb::parallel_for(
+            tbb::blocked_range<int>(0, tiles.size()), [&](const tbb::blocked_range<int>& range) {
+                const auto slot = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+                for (int i = range.begin(); i < range.end(); ++i) work(i, tiles[i], slot);
+            });
+    }
+    TileStats sum_of_stats(int tiles) const;
     void find_halves(const FramePlacer& placer, bool marks, RadianceImage& radiance);
     void trace_tile(const FramePlacer& placer, const PixelBox& box, std::size_t slot, TileStats& stats,
                     RadianceImage& radiance);
     const VisibilityTile* ground_at(const FrameView& frame, const PixelBox& box, std::size_t slot);
+    TileStats trace_places(const FrameView& frame, const RadianceImage& radiance);
+    void trace_places_of(const FrameView& frame, const PixelBox& box, std::size_t slot, TileStats& stats);
     void trace_once(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,
                     VisibilityTile* seen, TileStats& stats, RadianceImage& radiance);
     void trace_to_budget(const FrameView& frame, const PixelBox& box, int n, std::size_t slot,

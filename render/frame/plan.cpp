@@ -146,7 +146,8 @@ std::vector<std::string> explain(const PlannedFrame& planned, const WorldSnapsho
         add(f.bins, " spectral bins; ", q.buffer_samples, " samples per pixel by the visibility buffer");
     else
         add(f.bins, " spectral bins; ", q.samples_per_axis, " x ", q.samples_per_axis, " rays per pixel",
-            q.sees_ground() ? "; ground that is alone is seen once a pixel, sixteen pixels at a time" : "");
+            q.sees_ground() ? "; ground that is alone is seen once a pixel, sixteen pixels at a time" : "",
+            q.sees_ground() && q.ground_step_px > 1 ? ", by every second one each way" : "");
     if (q.noise_budget > 0)
         add("noise budget: pixels are sampled again, ", q.most_passes,
             " times at most, while their error is above ", q.noise_budget, " of their sensor noise");

@@ -16,6 +16,11 @@ Fields fields(RenderQuality& q) {
                           "that is alone in the scene, in the Sun's light (path_model: direct) and by a "
                           "lens without distortion: what one ray a pixel finds, for a third of the time; "
                           "elsewhere it is as visibility: rays")),
+        per_frame(
+            integer("ground_step_px", q.ground_step_px, {1, 2},
+                    "terrain that is alone, with buffer_samples: 1: 1: each pixel is worked out; 2: every "
+                    "second one of every second row, and those between by cubic convolution "
+                    "(docs/ground.md has the error)")),
         per_frame(text("path_model", q.path_model,
                        "path model: kept | direct | hemisphere | path, or a plug-in's")),
         per_frame(integer("max_depth", q.max_depth, {1, 64},

@@ -153,6 +153,10 @@ void Renderer::place_for_truth(const WorldSnapshot& world) {
     implementation_->placer.place_shapes(world, {});
 }
 
+void Renderer::make_ground_ahead(const WorldSnapshot& world) {
+    implementation_->placer.make_ground_ahead(world);
+}
+
 FrameTruth Renderer::make_truth(const TruthWishes& wishes, int width_px, int height_px) const {
     return hilcam::make_truth(implementation_->placer, wishes, width_px, height_px);
 }

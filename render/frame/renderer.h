@@ -106,6 +106,9 @@ class Renderer {
     // Says what a frame of this world needs and why, a line each. Not for the loop.
     std::vector<std::string> explain_plan(const WorldSnapshot& world);
 
+    // Makes what the first frame would wait for, by a world before it: a mesh of terrain. Not for the loop.
+    void make_ground_ahead(const WorldSnapshot& world);
+
     // Throws InputError where the atmosphere does not cover what the camera sees of the Earth: what is
     // missing. For the first instant of a run; what leaves the table later is counted. Not for the loop.
     void require_air(const WorldSnapshot& world);

@@ -37,7 +37,8 @@ struct FrameView {
     const VisibilityBuffer* visibility =
         nullptr;  // visibility_buffer.h; null: rays find what the camera sees
     const VisibilityBuffer* ground =
-        nullptr;           // buffer of ground that alone is seen (ground_light.h); null: likewise
+        nullptr;             // buffer of ground that alone is seen (ground_light.h); null: likewise
+    int ground_step_px = 1;  // pixels between the places that it sees
     PixelSamples samples;  // those of the visibility buffer, or that it would have
     const Background* background = nullptr;
     const RadianceModel* radiance = nullptr;

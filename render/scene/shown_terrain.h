@@ -20,6 +20,8 @@ class ShownTerrain {
 
     // Returns the greatest number of triangles that its mesh is made of, about.
     std::size_t most_triangles() const { return terrain_->most_triangles; }
+    // Frames wait for the mesh that they ask for.
+    bool waits() const { return terrain_->wait; }
     // Returns the body with which it turns.
     std::optional<BodyId> body() const { return terrain_->body; }
     // Takes what the streamer has ready and asks it for what the camera needs; the first call, and every one

@@ -14,8 +14,6 @@ std::uint32_t snorm16(float value) {
     return static_cast<std::uint16_t>(static_cast<std::int16_t>(scaled));
 }
 
-constexpr std::size_t kClusterTriangles = 256;
-
 using Box = std::array<Vec3f, 2>;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr Box kNothing{Vec3f{kFar, kFar, kFar}, Vec3f{-kFar, -kFar, -kFar}};

@@ -28,6 +28,8 @@ static_assert(sizeof(PackedTriangle) == 16);
 using PackedColor = std::array<std::uint16_t, 3>;
 inline constexpr float kColorSteps = 65535.0f / 4;
 
+inline constexpr std::size_t kClusterTriangles = 256;
+
 // An object as rays see it.
 struct ObjectSurfaces {
     // materials: one per surface of the mesh; texture of a material indexes the textures.
@@ -48,7 +50,7 @@ struct ObjectSurfaces {
     std::shared_ptr<const std::vector<MipTexture>> textures;  // shared by an object's levels of detail
     std::shared_ptr<const GroundNormals> ground_normals;      // null: the corners' normals are all
     std::vector<KnownSun> known_sun;                          // per triangle; empty: rays ask the Sun
-    // Least and greatest corner of runs of triangles, body axes: together they cover the object closely.
+    // Least and greatest corner of each kClusterTriangles triangles, body axes: together they cover the object closely.
     std::vector<std::array<Vec3f, 2>> cluster_bounds_m;
     double radius_m = 0;  // radius of a sphere about the body's origin that holds the object
 

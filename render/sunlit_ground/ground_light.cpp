@@ -37,9 +37,10 @@ class GroundTileLight {
         sun_dir_ = to_float(view_.background->sun_world_dir());
         frame_.sun_dir = body_from_world * sun_dir_;
         const LinearRays& rays = *view_.rays->linear();
-        const Vec3d corner = rays.corner + tile.box.x0 * rays.right + tile.box.y0 * rays.down;
-        corner_ = body_from_world * to_float(corner);
-        right_ = body_from_world * to_float(rays.right), down_ = body_from_world * to_float(rays.down);
+        const double step_px = view_.ground_step_px;
+        const Vec3d right = step_px * rays.right, down = step_px * rays.down;
+        corner_ = body_from_world * to_float(rays.corner + tile.box.x0 * right + tile.box.y0 * down);
+        right_ = body_from_world * to_float(right), down_ = body_from_world * to_float(down);
         // By place the law's other parameters differ, too, and slopes are for one place at a time.
         vectors_ =
             hapke_ && hapke_->parameters.roughness_tangent == 0 && frame_.surfaces->corner_hapke.empty();
@@ -150,15 +151,16 @@ class GroundTileLight {
 
 }  // namespace
 
-ImageGeometry ground_geometry(const ImageGeometry& picture) {
-    const auto blocks = [](int px) { return (px + kGroundBlock_px - 1) / kGroundBlock_px; };
+ImageGeometry ground_geometry(const ImageGeometry& picture, int step_px) {
+    const int block_px = kGroundBlock * step_px;
+    const auto blocks = [&](int px) { return (px + block_px - 1) / block_px; };
     ImageGeometry out = picture;
     out.width_px = blocks(picture.padded_width()), out.height_px = blocks(picture.padded_height());
     out.guard_px = 0;
-    out.focal_length_px = picture.focal_length_px / kGroundBlock_px;
+    out.focal_length_px = picture.focal_length_px / block_px;
     const Vec2d center = picture.center_px();
-    out.principal_offset_px = {(center.x + picture.guard_px) / kGroundBlock_px - 0.5 * out.width_px,
-                               (center.y + picture.guard_px) / kGroundBlock_px - 0.5 * out.height_px};
+    out.principal_offset_px = {(center.x + picture.guard_px) / block_px - 0.5 * out.width_px,
+                               (center.y + picture.guard_px) / block_px - 0.5 * out.height_px};
     return out;
 }
 
@@ -170,14 +172,16 @@ bool is_plain_ground(const Material& material) {
 bool add_ground_light(Tile& tile) {
     const PixelBox& box = tile.box;
     const FrameView& frame = tile.frame;
-    if (frame.bodies_may_hide && frame.may_see_body(box)) return false;
-    const int left = box.x0 / kGroundTile_px * kGroundTile_px, top = box.y0 / kGroundTile_px * kGroundTile_px;
+    const int step_px = frame.ground_step_px;
+    const PixelBox box_px{box.x0 * step_px, box.y0 * step_px, box.x1 * step_px, box.y1 * step_px};
+    if (frame.bodies_may_hide && frame.may_see_body(box_px)) return false;
+    const int left = box.x0 / kGroundTile * kGroundTile, top = box.y0 / kGroundTile * kGroundTile;
     const auto ids_at = [&](int x, int y) {
-        return tile.ground->ids((x - left) / kGroundBlock_px, (y - top) / kGroundBlock_px);
+        return tile.ground->ids((x - left) / kGroundBlock, (y - top) / kGroundBlock);
     };
     const auto each_block = [&](const auto& use) {
-        for (int y = box.y0; y < box.y1; y += kGroundBlock_px)
-            for (int x = box.x0; x < box.x1; x += kGroundBlock_px)
+        for (int y = box.y0; y < box.y1; y += kGroundBlock)
+            for (int x = box.x0; x < box.x1; x += kGroundBlock)
                 if (!use(x, y)) return false;
         return true;
     };

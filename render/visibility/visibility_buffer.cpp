@@ -7,10 +7,13 @@
 #include <cmath>
 #include <utility>
 
+#include "render/scene/surface.h"
+
 namespace hilcam {
 namespace {
 
-constexpr std::size_t kRun = 512;             // triangles that are looked at between two visits of the tiles
+constexpr std::size_t kRun =
+    kClusterTriangles;                        // triangles that are looked at between two visits of the tiles
 constexpr std::size_t kVertexRun = 1 << 14;   // vertices that a task projects
 constexpr std::uint32_t kBlocksAtOnce = 32;   // that a group takes for itself
 constexpr std::size_t kBlocksTogether = 256;  // blocks of a tile that are put in order together
@@ -118,8 +121,13 @@ class VisibilityBuffer::Sorter {
             const std::size_t count = object->shown.mesh.triangles.size();
             const std::size_t from = std::max(begin, object->first_triangle) - object->first_triangle;
             const std::size_t to = std::min(end - object->first_triangle, count);
-            for (std::size_t first = from; first < to; first += kRun)
-                if (!sort_run(*object, first, std::min(kRun, to - first))) return false;
+            for (std::size_t first = from, next; first < to; first = next) {
+                const std::size_t cluster = first / kRun;
+                next = std::min(to, (cluster + 1) * kRun);
+                const auto boxes_m = object->shown.cluster_bounds_m;
+                if (!boxes_m.empty() && !my_.may_show(*object, boxes_m[cluster])) continue;
+                if (!sort_run(*object, first, next - first)) return false;
+            }
         }
         return true;
     }
@@ -181,6 +189,25 @@ bool VisibilityBuffer::place(const Pose& camera, std::span<const Shown> shown) {
     });
     // Whether there is room must not depend on chance, as what groups have taken and not used does.
     return room && used_ + kGroups * kBlocksAtOnce <= heads_.size();
+}
+
+// By the planes through the camera and the picture's edges. Terms are good to 1e-15 of themselves, single corners to 1e-7.
+bool VisibilityBuffer::may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const {
+    const Vec3d least = to_double(box_m[0]), most = to_double(box_m[1]);
+    const Mat3d& m = placed.camera_from_body;
+    const Vec3d middle = m * (0.5 * (least + most)) + placed.origin_camera_m;
+    const Vec3d half = 0.5 * (most - least);
+    const double rounding_m = 1e-6 * (std::abs(middle.z) + length(half));
+    // The greatest of a box along a direction of the camera's.
+    const auto reaches = [&](Vec3d along) {
+        const Vec3d in_body = transposed(m) * along;
+        return dot(along, middle) + std::abs(in_body.x) * half.x + std::abs(in_body.y) * half.y +
+                   std::abs(in_body.z) * half.z >=
+               -rounding_m;
+    };
+    const LensTiles::Slopes& s = lens_.slopes();
+    return reaches({0, 0, 1}) && reaches({1, 0, -s.left}) && reaches({-1, 0, s.right}) &&
+           reaches({0, 1, -s.top}) && reaches({0, -1, s.bottom});
 }
 
 std::array<Vec3d, 3> VisibilityBuffer::corners_camera_m(const Placed& placed, std::uint32_t triangle) const {

@@ -11,6 +11,7 @@
 // their size; depth to a few 1e-7 of the distance, or of the object where that is smaller. A triangle through
 // the camera's plane is cut by exact homogeneous edges (Olano & Greer, Graphics Hardware 1997).
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -42,6 +43,8 @@ class VisibilityBuffer {
         Pose pose;
         double radius_m;
         MeshView mesh;  // outlives the frame
+        // Boxes of its clusters (ObjectSurfaces), likewise: those beside the picture are left out. Empty: all triangles are looked at.
+        std::span<const std::array<Vec3f, 2>> cluster_bounds_m{};
     };
     // Sorts the triangles of a frame. False: there is no room for them. Loop.
     bool place(const Pose& camera, std::span<const Shown> shown);
@@ -105,6 +108,7 @@ class VisibilityBuffer {
 
     bool take(const Pose& camera, std::span<const Shown> shown);
     void project();
+    bool may_show(const Placed& placed, const std::array<Vec3f, 2>& box_m) const;
     std::array<Vec3d, 3> corners_camera_m(const Placed& placed, std::uint32_t triangle) const;
     bool bounds_of_cut(const std::array<Vec3d, 3>& corners_m, TileRange& range) const;
     void set_up_cut(const Placed& placed, std::uint32_t triangle, int x_px, int y_px,

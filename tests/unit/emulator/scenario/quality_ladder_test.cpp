@@ -88,6 +88,17 @@ TEST(QualityLadder, TheBuiltInOneGoesDownFromEveryShippedQuality) {
     }
 }
 
+// Nothing else makes ground that is alone faster.
+TEST(QualityLadder, GroundAloneGoesToEverySecondPixel) {
+    RenderQuality ground = shipped("realtime.yaml");
+    ground.buffer_samples = 1, ground.path_model = "direct", ground.max_depth = 1;
+    ASSERT_TRUE(ground.sees_ground());
+    const std::vector<RenderQuality> levels = built_in_levels(ground);
+    ASSERT_EQ(levels.size(), 1u);
+    EXPECT_EQ(difference(ground, levels.front()), "ground_step_px 2");
+    EXPECT_TRUE(built_in_levels(levels.front()).empty());
+}
+
 TEST(QualityLadder, TheSensorIsToldOfEveryRayGrid) {
     ScenarioConfig s;
     s.quality.render.samples_per_axis = 4;

@@ -131,6 +131,42 @@ TEST(GroundLight, IsTheSameWithVectorsOfAnyWidth) {
     });
 }
 
+// By every second pixel, under a high Sun, which throws no shadows: nearly the same light, and the sky where it was.
+TEST(GroundLight, BetweenPlacesItIsNearlyThatOfAllPixels) {
+    for (const double slant_rad : {0.0, 1.3}) {
+        const View view{.slant_rad = slant_rad, .sun_rad = 1.2};
+        Landscape by_rays(regolith(0), view, 0), all(regolith(0), view, 1),
+            every_second(regolith(0), view, 1);
+        every_second.quality.ground_step_px = 2;
+        by_rays.render(), all.render(), every_second.render();
+        const std::vector<float> rays = values_of(by_rays), a = values_of(all), b = values_of(every_second);
+        double sum_a = 0, sum_b = 0, squares = 0, of_a = 0;
+        std::size_t sky = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            const auto x = static_cast<double>(a[i]), y = static_cast<double>(b[i]);
+            sum_a += x, sum_b += y, squares += (x - y) * (x - y), of_a += x * x;
+            sky += rays[i] == 0 && y == 0 ? 1u : 0u;
+        }
+        EXPECT_NEAR(sum_b / sum_a, 1, 1e-3) << slant_rad;
+        EXPECT_LT(squares, 0.0009 * of_a) << slant_rad;  // 3 % rms: what is narrower than two pixels
+        EXPECT_GT(squares, 0) << slant_rad;
+        EXPECT_NEAR(every_second.stats.coverage, all.stats.coverage, 1e-4) << slant_rad;
+        if (slant_rad > 1)
+            EXPECT_GT(sky, a.size() / 10);
+        else
+            EXPECT_EQ(every_second.stats.primary_rays, 0u);
+    }
+}
+
+TEST(GroundLight, BetweenPlacesItIsTheSameWithVectorsOfAnyWidth) {
+    expect_same_by_any_width([] {
+        Landscape stage(regolith(0), {.slant_rad = 1.2}, 1);
+        stage.quality.ground_step_px = 2;
+        stage.render();
+        return values_of(stage);
+    });
+}
+
 // What stands on the ground, or shines on it beside the Sun, is for rays.
 TEST(GroundLight, IsLeftToRaysWhereItIsNotAlone) {
     const auto place = [](Landscape& stage, int what) {

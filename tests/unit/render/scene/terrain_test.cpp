@@ -126,17 +126,25 @@ TEST(Terrain, ThereAreNoGapsBetweenTiles) {
     }
 }
 
+struct OverWaves : Stage {
+    OverWaves() {
+        camera(64, 0.5);
+        quality.path_model = "direct";
+        scene.terrain = std::make_unique<SceneTerrain>();
+        auto map = std::make_unique<Waves>(200'001, 1, 30.0f);
+        waves = map.get();
+        scene.terrain->ground = std::make_unique<TerrainPatch>(std::move(map), 0);
+        scene.terrain->material = make_material(lambert(0.5), grid);
+        scene.terrain->most_triangles = 50'000;
+        scene.terrain->pose = {{0, 0, 500}, from_rotation_vector({kPi, 0, 0})};
+        sun({0.3, 0.2, -1});
+    }
+    const Waves* waves;
+};
+
 // While frames go on, a thread makes what a camera that moves needs; nothing waits for it.
 TEST(Terrain, FollowsTheCameraBesideTheFrames) {
-    Stage s;
-    s.camera(64, 0.5);
-    s.quality.path_model = "direct";
-    s.scene.terrain = std::make_unique<SceneTerrain>();
-    s.scene.terrain->ground = std::make_unique<TerrainPatch>(std::make_unique<Waves>(200'001, 1, 30), 0);
-    s.scene.terrain->material = make_material(lambert(0.5), s.grid);
-    s.scene.terrain->most_triangles = 50'000;
-    s.scene.terrain->pose = {{0, 0, 500}, from_rotation_vector({kPi, 0, 0})};
-    s.sun({0.3, 0.2, -1});
+    OverWaves s;
     s.build();
     s.render_again();
     const auto description = [&] {
@@ -156,6 +164,19 @@ TEST(Terrain, FollowsTheCameraBesideTheFrames) {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     EXPECT_TRUE(changed);
+}
+
+// The first frame does not wait for the mesh, unless it is to be that frame's own.
+TEST(Terrain, TheFirstMeshIsMadeAhead) {
+    for (const bool wait : {false, true}) {
+        OverWaves s;
+        s.scene.terrain->wait = wait;
+        s.build();
+        s.renderer->make_ground_ahead(s.world);
+        EXPECT_EQ(s.waves->reads.load() > 0, !wait);
+        s.render_again();
+        for (const float value : s.radiance.plane(0)) ASSERT_GT(value, 0);
+    }
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
 
 #include "render/brdf/microfacet.h"
+#include "render/scene/surface.h"
 #include "tests/support/vector_widths.h"
 
 namespace hilcam {
@@ -20,6 +22,8 @@ struct Sight {
     Pose camera;
     std::vector<Mesh> meshes;
     std::vector<Pose> poses;
+    std::vector<std::vector<std::array<Vec3f, 2>>> boxes_m;
+    bool with_boxes = false;
     std::unique_ptr<EmbreeScene> embree;
     std::unique_ptr<VisibilityBuffer> buffer;
 
@@ -27,7 +31,11 @@ struct Sight {
         geometry.width_px = width_px, geometry.height_px = height_px, geometry.guard_px = 3;
         geometry.focal_length_px = focal_px;
     }
-    void add(Mesh mesh, const Pose& pose) { meshes.push_back(std::move(mesh)), poses.push_back(pose); }
+    void add(Mesh mesh, const Pose& pose) {
+        boxes_m.push_back(
+            ObjectSurfaces(mesh, std::vector<Material>(mesh.surfaces.size()), nullptr).cluster_bounds_m);
+        meshes.push_back(std::move(mesh)), poses.push_back(pose);
+    }
 
     bool place() {
         std::vector<std::vector<const Mesh*>> levels;
@@ -45,6 +53,7 @@ struct Sight {
             for (const Vec3f& v : meshes[i].vertices_m)
                 radius_m = std::max(radius_m, static_cast<double>(length(v)));
             shown.push_back({static_cast<std::uint32_t>(i), poses[i], radius_m, embree->mesh(i, 0)});
+            if (with_boxes) shown.back().cluster_bounds_m = boxes_m[i];
         }
         return buffer->place(camera, shown);
     }
@@ -289,6 +298,19 @@ TEST(VisibilityBuffer, SeesTheSameOnAnyNumberOfThreads) {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     ASSERT_TRUE(sight.place());
     EXPECT_EQ(ids_of(sight), several);
+}
+
+// Beside the picture, behind the camera, about it, and wherever else.
+TEST(VisibilityBuffer, WhatIsBesideThePictureIsLeftOutAndChangesNothing) {
+    for (const Vec3d& at : {Vec3d{0, 0, 8}, Vec3d{3, 0, 5}, Vec3d{-0.5, 0.2, 0.3}, Vec3d{0, 0, -4}}) {
+        Sight sight(200, 150, 300);
+        sight.add(sphere(2, 60), turned(at)), sight.add(debris(4000, 3, 6), turned(at));
+        ASSERT_TRUE(sight.place());
+        const std::vector<std::uint32_t> all = ids_of(sight);
+        sight.with_boxes = true;
+        ASSERT_TRUE(sight.place());
+        EXPECT_EQ(ids_of(sight), all) << at.x << " " << at.z;
+    }
 }
 
 TEST(VisibilityBuffer, SaysWhenAFrameShowsMoreThanThereIsRoomFor) {
